@@ -1,0 +1,72 @@
+# The few functions by which every folder declares its targets.
+include(GoogleTest)
+
+# Adds those of the given folders that have a CMakeLists.txt; a new one is noticed by the next build.
+macro(rung_add_subdirectories)
+  foreach(rung_folder IN ITEMS ${ARGN})
+    file(GLOB rung_folder_list CONFIGURE_DEPENDS
+      "${CMAKE_CURRENT_SOURCE_DIR}/${rung_folder}/CMakeLists.txt")
+    if(rung_folder_list)
+      add_subdirectory(${rung_folder})
+    endif()
+  endforeach()
+endmacro()
+
+# Includes are written from the root of the repository; the C ABI headers as "rung/NAME.h".
+function(rung_target_defaults target scope)
+  target_include_directories(${target} ${scope} "${CMAKE_SOURCE_DIR}" "${CMAKE_SOURCE_DIR}/rtlib/abi")
+endfunction()
+
+# rung_add_library(NAME SOURCES file... LIBS target...): a static library, or an interface library without SOURCES.
+function(rung_add_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  if(arg_SOURCES)
+    add_library(${name} STATIC ${arg_SOURCES})
+    rung_target_defaults(${name} PUBLIC)
+    target_link_libraries(${name} PUBLIC ${arg_LIBS} PRIVATE rung_warnings)
+  else()
+    add_library(${name} INTERFACE)
+    rung_target_defaults(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ${arg_LIBS})
+  endif()
+endfunction()
+
+# rung_add_program(NAME SOURCES file... LIBS target...): a command in build/bin.
+function(rung_add_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  add_executable(${name} ${arg_SOURCES})
+  rung_target_defaults(${name} PRIVATE)
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
+endfunction()
+
+# rung_add_test(NAME SOURCES file... LIBS target... [LABELS label...] [WHOLE]): GoogleTest program
+# build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
+# short cases). Tests run in the root of the repository, so that files are found by their path in it.
+function(rung_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "TIMEOUT" "SOURCES;LIBS;LABELS")
+  set(target rung_test_${name})
+  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock GTest::gtest_main)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin/tests")
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  set(properties TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+  if(arg_WHOLE)
+    add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+    set_tests_properties(${name} PROPERTIES ${properties})
+  else()
+    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+      WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}" PROPERTIES ${properties})
+  endif()
+endfunction()
+
+# rung_add_fuzzer(NAME SOURCES file... LIBS target...): libFuzzer program build/bin/fuzz/rung_fuzz_NAME.
+function(rung_add_fuzzer name)
+  if(NOT RUNG_FUZZ)
+    return()
+  endif()
+  set(target rung_fuzz_${name})
+  rung_add_program(${target} ${ARGN})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin/fuzz")
+  target_link_options(${target} PRIVATE -fsanitize=fuzzer)
+endfunction()

@@ -14,6 +14,13 @@ add_link_options(-fuse-ld=lld "-B${LLVM_TOOLS_BINARY_DIR}")
 # Same bytes whatever the folder of the clone.
 add_compile_options("-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=")
 
+if(RUNG_SANITIZE)
+  # The function check reads bytes before a callee's entry, which code made by the JIT does not have.
+  add_compile_options("-fsanitize=${RUNG_SANITIZE}" -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:Clang>:-fno-sanitize=function>)
+  add_link_options("-fsanitize=${RUNG_SANITIZE}")
+endif()
+
 find_program(RUNG_CCACHE ccache)
 if(RUNG_CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER

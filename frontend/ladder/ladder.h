@@ -1,0 +1,162 @@
+// Ladder text as data: what stands in a `*.lad` file, whatever the dialect.
+// The drawing is turned into nets and elements; names, operands and mnemonics stay text and are the dialect's business,
+// and so is every rule that needs its instruction table. All texts are views into the SourceManager's buffers.
+//
+// Nets. Everything that wires join is one net. Net 0 of a rung is the left rail. A net has power when one of the elements
+// that drive it passes power. Net ids and element ids are counted per rung.
+// Elements stand in the order of evaluation: an element comes behind all elements that drive its inputs; among those that
+// are ready the upper line goes first, then the left one. There are no loops (power-loop is an error).
+// A rung with an error in its drawing has bad == true, was reported, and has no elements or nets: skip it silently.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/syntax/word_lexer.h"
+#include "ir/support/check.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/ids.h"
+#include "ir/support/source.h"
+
+namespace rung::ladder {
+
+using NetId = Id<struct NetTag>;
+using ElementId = Id<struct ElementTag>;
+
+inline constexpr NetId kRail{0};
+inline constexpr NetId kNoNet{};
+
+enum class ElementKind : uint8_t { Contact, Coil, Box };
+enum class CoilKind : uint8_t { Plain, Negated, Set, Reset };
+
+/// First and count of a run in one of the rung's pools.
+struct Slice {
+  uint32_t first = 0;
+  uint32_t count = 0;
+};
+
+struct Pin {
+  std::string_view name;  ///< empty for the first pin: it is not named in the drawing
+  NetId input;
+  SourceRange range;  ///< the element, or the line of the box that names the pin
+};
+
+struct Element {
+  ElementKind kind = ElementKind::Contact;
+  bool negated = false;               ///< contact: [/x]
+  char edge = 0;                      ///< '@' or '%' in front of the operand of a contact or coil, 0 for none
+  CoilKind coil = CoilKind::Plain;    ///< coils only
+  std::string_view mnemonic;          ///< boxes only
+  SourceRange mnemonicRange;          ///< boxes only
+  Slice operands;                     ///< contact and coil: exactly one; see Rung::operandsOf
+  Slice pins;                         ///< at least one; see Rung::pinsOf
+  NetId output = kNoNet;              ///< kNoNet when nothing is connected on the right
+  SourceRange range;                  ///< with its brackets; a box: its first line
+  uint32_t line = 0;                  ///< of `range`, from 1
+  uint32_t column = 0;                ///< of `range`, from 1, in characters
+  std::string_view remark;            ///< the comment behind the line that this element is the last of
+};
+
+struct Net {
+  SourceRange range;  ///< a place to point at: its first wire, or an element that it touches
+  Slice drivers;      ///< see Rung::driversOf
+  Slice consumers;    ///< see Rung::consumersOf
+};
+
+struct Rung {
+  bool bad = false;
+  bool hasComment = false;
+  std::string_view comment;    ///< the text behind the word `rung`
+  SourceRange statement;       ///< the `rung` statement itself
+  SourceRange range;           ///< from the word `rung` to the end of the last drawing line
+  uint32_t firstLine = 0;      ///< the line of the word `rung`
+  uint32_t lastLine = 0;       ///< the last line of the drawing
+  uint32_t module = UINT32_MAX;  ///< index into LadderFile::modules; UINT32_MAX outside (reported)
+
+  std::vector<Element> elements;  ///< in order of evaluation
+  std::vector<Net> nets;          ///< nets[0] is the left rail, also when nothing touches it
+  std::vector<Word> operandPool;
+  std::vector<Pin> pinPool;
+  std::vector<ElementId> linkPool;  ///< drivers and consumers of all nets
+
+  const Element& element(ElementId id) const { return elements[id.index]; }
+  std::span<const Word> operandsOf(const Element& e) const {
+    return std::span(operandPool).subspan(e.operands.first, e.operands.count);
+  }
+  /// The operand of a contact or coil, without negation and edge.
+  const Word& operandOf(const Element& e) const { return operandPool[e.operands.first]; }
+  std::span<const Pin> pinsOf(const Element& e) const { return std::span(pinPool).subspan(e.pins.first, e.pins.count); }
+  /// The net at the first pin.
+  NetId inputOf(const Element& e) const { return pinPool[e.pins.first].input; }
+  /// The elements whose output is this net, in order of evaluation. The rail has none and always carries power.
+  std::span<const ElementId> driversOf(NetId net) const { return links(nets[net.index].drivers); }
+  /// The elements with an input on this net, in order of evaluation; an element with two such pins stands twice.
+  std::span<const ElementId> consumersOf(NetId net) const { return links(nets[net.index].consumers); }
+
+ private:
+  std::span<const ElementId> links(Slice s) const { return std::span(linkPool).subspan(s.first, s.count); }
+};
+
+/// `module WORDS`, e.g. "MAIN" or "SUB" "P1".
+struct Module {
+  std::vector<Word> name;  ///< at least one word
+  SourceRange range;
+};
+
+enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button };
+
+/// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`.
+struct Declaration {
+  DeclarationKind kind = DeclarationKind::Symbol;
+  Word name;   ///< the number of a message or button
+  Word value;  ///< quoted for messages and buttons, never for the others
+  std::string_view comment;
+  SourceRange range;
+};
+
+struct Section {
+  Word title;
+  SourceRange range;
+};
+
+enum class StatementKind : uint8_t { Module, Declaration, Section, Rung };
+
+/// The statements behind `dialect` in the order of the file; index is the place in the vector of their kind.
+struct Statement {
+  StatementKind kind;
+  uint32_t index;
+};
+
+struct LadderFile {
+  FileId file;
+  std::string_view dialect;  ///< empty when the statement is missing (reported)
+  SourceRange dialectRange;
+  std::vector<Statement> statements;
+  std::vector<Module> modules;
+  std::vector<Declaration> declarations;
+  std::vector<Section> sections;
+  std::vector<Rung> rungs;
+};
+
+/// Names of the pins of a box behind its first one, from top to bottom; empty for a box with one pin; nullopt for a
+/// mnemonic that the dialect does not have. The drawing alone cannot tell `{R }` below `{CNT …}`, a pin, from `{RET}`
+/// below `{MOV …}`, another box.
+using FurtherPins = std::function<std::optional<std::span<const std::string_view>>(std::string_view mnemonic)>;
+
+/// Parses a file. Mistakes are reported, and parsing goes on with the next statement. Without furtherPins (or for a
+/// mnemonic that it does not know) every box of one word that stands exactly below a box is a pin of that box.
+LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
+                       const FurtherPins& furtherPins = {});
+
+/// The name behind `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
+std::string_view peekDialect(const SourceManager& sources, FileId file);
+
+/// One line an element: `e2 [/STOP] n1 -> n2`, pins behind the first as `R=n3`, `.` for no output.
+std::string dumpRung(const Rung& rung);
+
+}  // namespace rung::ladder

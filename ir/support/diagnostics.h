@@ -1,0 +1,146 @@
+// Diagnostics: what the compiler tells the user about his program.
+// Every code is one entry of ir/support/diag/*.def with its severity, its message and its explanation; reports name the
+// code, a place and the arguments of the message:
+//   diags.report(Diag::DuplicateSymbol, range) << name;
+//   diags.report(Diag::DuplicateSymbol, range).note(first, "first declared here") << name;
+// A report is complete at the end of its full expression. The same code at the same place with the same arguments is
+// kept once. Codes are stable names: scenarios and users refer to them.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <unordered_set>
+#include <variant>
+#include <vector>
+
+#include "ir/support/source.h"
+
+namespace rung {
+
+enum class Severity : uint8_t { Warning, Error };
+
+enum class Diag : uint16_t {
+#define DIAG(name, code, severity, message, explanation) name,
+#include "ir/support/diag/all.def"
+#undef DIAG
+};
+
+struct DiagInfo {
+  Diag id;
+  std::string_view code;
+  Severity severity;
+  std::string_view message;      ///< fmt pattern with positional placeholders {0}, {1}, …
+  std::string_view explanation;  ///< what it means and how to mend it
+};
+
+const DiagInfo& diagInfo(Diag id);
+/// The entry of a code such as "unbalanced-stack", or nullptr.
+const DiagInfo* findDiag(std::string_view code);
+/// All entries, in the order of the enumeration.
+std::span<const DiagInfo> allDiags();
+
+using DiagArg = std::variant<int64_t, std::string>;
+
+/// A further place that explains the error. A note stands behind the message; a label marks a part of the source with a
+/// few words. The range of a note may be invalid: a remark without a place.
+struct DiagNote {
+  SourceRange range;
+  std::string text;
+};
+
+/// A change that mends the error: the characters of range become replacement.
+struct DiagFix {
+  SourceRange range;
+  std::string replacement;
+};
+
+struct Diagnostic {
+  Diag id{};
+  Severity severity = Severity::Error;  ///< as reported: strict mode is applied already
+  SourceRange range;                    ///< invalid where there is no place
+  std::vector<DiagArg> args;
+  std::vector<DiagNote> labels;
+  std::vector<DiagNote> notes;
+  std::vector<DiagFix> fixes;
+};
+
+/// The message with its arguments. A missing argument is printed as "?", a surplus one is left out.
+std::string messageOf(const Diagnostic& diagnostic);
+
+class Diagnostics;
+
+/// Collects the parts of one report and hands it to its Diagnostics when it is destroyed.
+class DiagBuilder {
+ public:
+  DiagBuilder(Diagnostics& sink, Diag id, SourceRange range);
+  ~DiagBuilder();
+  DiagBuilder(const DiagBuilder&) = delete;
+  DiagBuilder& operator=(const DiagBuilder&) = delete;
+
+  DiagBuilder& operator<<(std::string_view arg);
+  DiagBuilder& operator<<(const char* arg) { return *this << std::string_view(arg); }
+  DiagBuilder& operator<<(char arg) { return *this << std::string_view(&arg, 1); }
+  template <typename T>
+    requires(std::is_integral_v<T>)
+  DiagBuilder& operator<<(T arg) {
+    return number(static_cast<int64_t>(arg));
+  }
+
+  DiagBuilder& label(SourceRange range, std::string_view text);
+  DiagBuilder& note(SourceRange range, std::string_view text);
+  DiagBuilder& note(std::string_view text) { return note(SourceRange{}, text); }
+  DiagBuilder& fix(SourceRange range, std::string_view replacement);
+  /// For a code that is an error in one dialect and a warning in another. Strict mode still raises it.
+  DiagBuilder& severity(Severity severity);
+
+ private:
+  DiagBuilder& number(int64_t arg);
+
+  Diagnostics& sink_;
+  Diagnostic diagnostic_;
+};
+
+class Diagnostics {
+ public:
+  /// Of each severity at most this many are kept; all are counted. Keeps a file of rubbish from filling the memory.
+  static constexpr size_t kDefaultLimit = 1000;
+
+  DiagBuilder report(Diag id, SourceRange range) { return DiagBuilder(*this, id, range); }
+  DiagBuilder report(Diag id) { return DiagBuilder(*this, id, SourceRange{}); }
+  void add(Diagnostic diagnostic);
+
+  void setErrorLimit(size_t limit) { limit_ = limit; }
+  /// Strict mode: from now on these warnings count as errors.
+  void raiseToError(std::initializer_list<Diag> ids);
+
+  bool hasErrors() const { return errors_ != 0; }
+  size_t errorCount() const { return errors_; }
+  size_t warningCount() const { return warnings_; }
+  /// How many were counted but not kept.
+  size_t droppedCount() const { return dropped_; }
+  bool has(Diag id) const;
+
+  /// In the order of reporting.
+  const std::vector<Diagnostic>& reported() const { return kept_; }
+  /// By position (files in the order they were added), otherwise in the order of reporting.
+  std::vector<const Diagnostic*> sorted() const;
+
+ private:
+  bool isNew(const Diagnostic& diagnostic);
+
+  std::vector<Diagnostic> kept_;
+  std::unordered_set<uint64_t> seen_;
+  std::vector<bool> raised_;
+  size_t limit_ = kDefaultLimit;
+  size_t errors_ = 0;
+  size_t warnings_ = 0;
+  size_t keptErrors_ = 0;
+  size_t keptWarnings_ = 0;
+  size_t dropped_ = 0;
+};
+
+}  // namespace rung

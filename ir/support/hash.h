@@ -1,0 +1,15 @@
+// FNV-1a, for keys that must be the same on every machine: rung keys, layout and code hashes.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace rung {
+
+inline constexpr uint64_t kHashSeed = 0xCBF29CE484222325ull;
+
+constexpr uint64_t hashBytes(std::string_view bytes, uint64_t seed = kHashSeed) {
+  for (char c : bytes) seed = (seed ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
+  return seed;
+}
+
+} // namespace rung

@@ -1,0 +1,93 @@
+// Source texts and positions in them.
+// Every byte of every file has one 32-bit position, so that a position needs no file beside it. A file of n bytes owns
+// n + 1 positions (the last one is its end). Position 0 belongs to no file and means "no position".
+// Texts never move and live as long as their SourceManager: string_views into them are safe to keep.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/support/ids.h"
+#include "ir/support/result.h"
+
+namespace rung {
+
+using FileId = Id<struct FileTag>;
+
+struct SourcePos {
+  uint32_t value = 0;
+
+  constexpr bool valid() const { return value != 0; }
+  constexpr auto operator<=>(const SourcePos&) const = default;
+};
+
+/// Half-open: end is the first position behind it. begin == end marks a place between two characters.
+struct SourceRange {
+  SourcePos begin;
+  SourcePos end;
+
+  constexpr bool valid() const { return begin.valid(); }
+  constexpr bool operator==(const SourceRange&) const = default;
+};
+
+/// From the beginning of a to the end of b; both must lie in one file.
+constexpr SourceRange join(SourceRange a, SourceRange b) { return {a.begin, b.end}; }
+
+/// A position as people write it: line and column count from 1, the column in characters (UTF-8 code points).
+struct LineCol {
+  std::string_view file;
+  uint32_t line = 0;
+  uint32_t column = 0;
+
+  bool operator==(const LineCol&) const = default;
+};
+
+class SourceManager {
+ public:
+  SourceManager();
+  ~SourceManager();
+  SourceManager(SourceManager&&) noexcept;
+  SourceManager& operator=(SourceManager&&) noexcept;
+
+  /// Reads a file. Fails when it cannot be read or when the positions are used up (4 GB of text).
+  Result<FileId> addFile(const std::string& path);
+  FileId addBuffer(std::string name, std::string text);
+
+  size_t fileCount() const { return files_.size(); }
+  std::string_view name(FileId file) const;
+  std::string_view text(FileId file) const;
+  uint32_t lineCount(FileId file) const;
+  /// The text of a line (from 1) without its line end, O(1).
+  std::string_view lineText(FileId file, uint32_t line) const;
+
+  SourcePos position(FileId file, size_t offset) const;
+  SourceRange range(FileId file, size_t begin, size_t end) const;
+
+  /// These take valid positions only; O(log n).
+  FileId fileOf(SourcePos pos) const;
+  size_t offsetOf(SourcePos pos) const;
+  LineCol lineCol(SourcePos pos) const;
+  std::string_view lineText(SourcePos pos) const;
+  /// The line (from 1) and the offset in bytes of its first character.
+  struct LineStart {
+    FileId file;
+    uint32_t line = 0;
+    size_t offset = 0;
+  };
+  LineStart lineStart(SourcePos pos) const;
+  /// The characters of a range that lies in one file.
+  std::string_view text(SourceRange range) const;
+
+ private:
+  struct File;
+  const File& file(FileId id) const;
+
+  std::vector<std::unique_ptr<File>> files_;
+  uint32_t nextBase_ = 1;
+};
+
+}  // namespace rung

@@ -1,0 +1,43 @@
+// What a dialect gives to the rest: its name, its table, and a function from source files to a module. Nothing behind it
+// knows a mnemonic. registry.cpp lists the dialects.
+#pragma once
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "frontend/table/instruction.h"
+#include "ir/core/module.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/source.h"
+
+namespace rung::frontend {
+
+struct CompileOptions {
+  // The dialect's configuration (scenario `config KEY VALUE`), and the key "period_us" when a period was asked for. Keys that the
+  // compiler does not use are none of its business: they may be the NC model's.
+  std::map<std::string, std::string> config;
+  bool strict = false; // warnings that the inventory calls errors in strict mode are errors
+};
+
+struct Dialect {
+  std::string_view name;  // "gsk"
+  std::string_view title; // "GSK25iMc / GSK25iTc PLC"
+  std::span<const std::string_view> extensions; // of source files that need not name the dialect, e.g. ".pmc"
+  std::span<const std::string_view> configKeys; // what compile reads from CompileOptions::config; "tmr.*" names a family
+  // The rows, in the order of the reference.
+  std::span<const InstructionInfo* const> instructions;
+  std::span<const OperandKindInfo> operandKinds;
+  // Null when there were errors; every error of all files has been reported. The module passes the verifier.
+  std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
+                                         Diagnostics& diagnostics);
+};
+
+// All dialects, and one by its name; null when there is none.
+std::span<const Dialect* const> allDialects();
+const Dialect* findDialect(std::string_view name);
+// By the text of a file: `dialect NAME` in a ladder text, else by its extension; null when neither tells.
+const Dialect* dialectOf(const SourceManager& sources, FileId file);
+
+} // namespace rung::frontend

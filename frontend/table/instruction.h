@@ -1,0 +1,87 @@
+// The row of an instruction: everything about it that is data. A dialect's table is a constexpr array of rows, each with
+// its lowering function beside it; parser, checker, reference pages, `rungc explain` and the table tests read the rows.
+// A new instruction is one row, one lowering function (often shared), one scenario.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace rung::frontend {
+
+// A list of at most N entries that a constexpr row can hold.
+template <class T, size_t N> struct FixedList {
+  std::array<T, N> items{};
+  size_t count = 0;
+
+  constexpr FixedList() = default;
+  template <class... Args>
+    requires(sizeof...(Args) > 0 && sizeof...(Args) <= N)
+  constexpr FixedList(Args... args) : items{T(args)...}, count(sizeof...(Args)) {}
+  constexpr std::span<const T> all() const { return {items.data(), count}; }
+  constexpr size_t size() const { return count; }
+  constexpr const T& operator[](size_t i) const { return items[i]; }
+};
+
+enum class Access : uint8_t { Read, Write, ReadWrite, None };
+
+// One operand in the order of the source. `kind` is a class of operands that the dialect names and documents (see
+// OperandKindInfo); min and max bound a constant where min <= max.
+struct OperandInfo {
+  std::string_view name;
+  std::string_view kind;
+  Access access = Access::Read;
+  std::string_view doc{};
+  int64_t min = 1;
+  int64_t max = 0;
+  bool optional = false;
+  bool repeated = false; // last operand only: one or more
+};
+
+// A condition of a box, from top to bottom.
+struct PinInfo {
+  std::string_view name;
+  std::string_view doc{};
+  bool edge = false; // works on the rising edge, not the level
+};
+
+enum class Output : uint8_t {
+  None,     // nothing may follow
+  Always,   // something must follow
+  Optional, // something may follow
+};
+
+enum class Placement : uint8_t {
+  BehindContact, // needs a condition in front
+  AtRail,        // touches the left rail only
+  Anywhere,
+};
+
+struct InstructionInfo {
+  std::string_view mnemonic;
+  std::string_view title;             // a few words
+  std::string_view group;             // category, for the reference
+  int number = -1;                    // GSK's function number
+  FixedList<PinInfo, 6> pins{};
+  FixedList<OperandInfo, 8> operands{};
+  Output output = Output::None;
+  Placement placement = Placement::BehindContact;
+  bool terminating = false;           // TECHNOL: closes the logic equation
+  bool stateful = false;              // keeps something between its runs
+  std::string_view tasks{};           // where it may stand, empty: everywhere
+  std::string_view ref;               // manual: section and line, e.g. "5.7, l.1271"
+  std::string_view doc;               // what it does, in full
+  std::string_view example{};         // source text
+};
+
+// A class of operands, for the reference and for tests generated from the rows.
+struct OperandKindInfo {
+  std::string_view kind;
+  std::string_view doc;      // what may be written
+  std::string_view good{};   // an operand that is right
+  std::string_view bad{};    // one that is wrong
+  std::string_view badCode{};// the diagnostic that `bad` raises
+};
+
+} // namespace rung::frontend

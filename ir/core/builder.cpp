@@ -1,0 +1,247 @@
+// The rung builder (see builder.h).
+#include "ir/core/builder.h"
+
+#include <bit>
+
+#include "ir/support/check.h"
+
+namespace rung::ir {
+namespace {
+
+// Whether a value of type `actual` satisfies `constraint` for an operation of type `own`.
+bool satisfies(Constraint constraint, Type own, Type actual) {
+  switch (constraint) {
+    case Constraint::None: return false;
+    case Constraint::Same: return actual == own;
+    case Constraint::Bit: return actual == Type::Bit;
+    case Constraint::I32: return actual == Type::I32;
+    case Constraint::I64: return actual == Type::I64;
+    case Constraint::F64: return actual == Type::F64;
+    case Constraint::Narrower: return actual != Type::F64 && bitWidth(actual) < bitWidth(own);
+    case Constraint::Wider: return isInt(actual) && bitWidth(actual) > bitWidth(own);
+    case Constraint::AnyInt: return isInt(actual);
+    case Constraint::Any:
+    case Constraint::Variadic: return true;
+  }
+  return false;
+}
+
+Type resultType(Constraint constraint, Type own) {
+  switch (constraint) {
+    case Constraint::Bit: return Type::Bit;
+    case Constraint::I32: return Type::I32;
+    case Constraint::I64: return Type::I64;
+    case Constraint::F64: return Type::F64;
+    case Constraint::Same: return own;
+    case Constraint::None:
+    case Constraint::Narrower:
+    case Constraint::Wider:
+    case Constraint::AnyInt:
+    case Constraint::Any:
+    case Constraint::Variadic: return Type::None;
+  }
+  return Type::None;
+}
+
+} // namespace
+
+Op& RungBuilder::append(OpCode code, Type type, std::span<const ValueId> args) {
+  Op op;
+  op.code = code;
+  op.type = type;
+  op.argCount = static_cast<uint16_t>(args.size());
+  op.firstArg = static_cast<uint32_t>(rung_.args.size());
+  op.line = line_;
+  rung_.args.insert(rung_.args.end(), args.begin(), args.end());
+  checkArgs(op);
+  rung_.ops.push_back(op);
+  return rung_.ops.back();
+}
+
+void RungBuilder::checkArgs(const Op& op) const {
+  const OpInfo& info = opInfo(op.code);
+  RUNG_CHECK(contains(info.types, op.type), "operation of a type it does not have");
+  const int fixed = fixedOperands(info);
+  RUNG_CHECK(isVariadic(info) ? op.argCount >= fixed : op.argCount == fixed, "wrong number of operands");
+  for (int i = 0; i < fixed; ++i)
+    RUNG_CHECK(satisfies(info.operands[static_cast<size_t>(i)], op.type, typeOf(arg(rung_, op, i))), "operand of the wrong type");
+}
+
+ValueId RungBuilder::newResult(Op& op, Type type) {
+  const ValueId id{static_cast<uint32_t>(rung_.values.size())};
+  rung_.values.push_back(type);
+  if (op.resultCount == 0) op.result = id;
+  ++op.resultCount;
+  return id;
+}
+
+ValueId RungBuilder::op(OpCode code, Type type, std::initializer_list<ValueId> args) {
+  Op& added = append(code, type, {args.begin(), args.size()});
+  const Type result = resultType(opInfo(code).result, type);
+  return result == Type::None ? ValueId{} : newResult(added, result);
+}
+
+ValueId RungBuilder::constant(Type type, int64_t value) {
+  Op& added = append(OpCode::Const, type, {});
+  const uint32_t width = bitWidth(type);
+  added.imm = width >= 64 ? value : static_cast<int64_t>(static_cast<uint64_t>(value) & ((1ull << width) - 1));
+  return newResult(added, type);
+}
+
+ValueId RungBuilder::real(double value) { return constant(Type::F64, std::bit_cast<int64_t>(value)); }
+
+ValueId RungBuilder::resize(OpCode widen, Type type, ValueId a) {
+  const uint32_t from = bitWidth(typeOf(a));
+  if (from == bitWidth(type)) return a;
+  return op(from < bitWidth(type) ? widen : OpCode::Trunc, type, {a});
+}
+
+ValueId RungBuilder::load(Type type, Place place) {
+  Op& added = append(OpCode::Load, type, {});
+  added.ref = place.space.index;
+  added.imm = static_cast<int64_t>(place.byte) * 8 + place.bit;
+  return newResult(added, type);
+}
+
+void RungBuilder::store(Place place, ValueId value) {
+  Op& added = append(OpCode::Store, typeOf(value), {&value, 1});
+  added.ref = place.space.index;
+  added.imm = static_cast<int64_t>(place.byte) * 8 + place.bit;
+}
+
+ValueId RungBuilder::loadAt(Type type, Window window, ValueId index) {
+  Op& added = append(OpCode::LoadAt, type, {&index, 1});
+  added.ref = window.space.index;
+  added.imm = static_cast<int64_t>(window.byte) * 8;
+  added.count = window.count;
+  return newResult(added, type);
+}
+
+void RungBuilder::storeAt(Window window, ValueId index, ValueId value) {
+  const ValueId args[] = {index, value};
+  Op& added = append(OpCode::StoreAt, typeOf(value), args);
+  added.ref = window.space.index;
+  added.imm = static_cast<int64_t>(window.byte) * 8;
+  added.count = window.count;
+}
+
+ValueId RungBuilder::loadBitAt(Window window, ValueId index, ValueId bitNumber) {
+  const ValueId args[] = {index, bitNumber};
+  Op& added = append(OpCode::LoadBitAt, Type::Bit, args);
+  added.ref = window.space.index;
+  added.imm = static_cast<int64_t>(window.byte) * 8;
+  added.count = window.count;
+  return newResult(added, Type::Bit);
+}
+
+void RungBuilder::storeBitAt(Window window, ValueId index, ValueId bitNumber, ValueId value) {
+  const ValueId args[] = {index, bitNumber, value};
+  Op& added = append(OpCode::StoreBitAt, Type::Bit, args);
+  added.ref = window.space.index;
+  added.imm = static_cast<int64_t>(window.byte) * 8;
+  added.count = window.count;
+}
+
+ValueId RungBuilder::slotLoad(SlotId slot) {
+  const Type type = module_.at(slot).type;
+  Op& added = append(OpCode::SlotLoad, type, {});
+  added.ref = slot.index;
+  return newResult(added, type);
+}
+
+void RungBuilder::slotStore(SlotId slot, ValueId value) {
+  RUNG_CHECK(module_.at(slot).type == typeOf(value), "slot of another type");
+  append(OpCode::SlotStore, typeOf(value), {&value, 1}).ref = slot.index;
+}
+
+void RungBuilder::if_(ValueId cond) {
+  append(OpCode::If, Type::None, {&cond, 1});
+  yieldTypes_.emplace_back();
+}
+
+void RungBuilder::else_(std::span<const ValueId> yields) {
+  RUNG_CHECK(!yieldTypes_.empty(), "else without if");
+  append(OpCode::Else, Type::None, yields);
+  for (ValueId id : yields) yieldTypes_.back().push_back(typeOf(id));
+}
+
+std::vector<ValueId> RungBuilder::endIf(std::span<const ValueId> yields) {
+  RUNG_CHECK(!yieldTypes_.empty(), "endif without if");
+  const std::vector<Type> types = std::move(yieldTypes_.back());
+  yieldTypes_.pop_back();
+  RUNG_CHECK(types.size() == yields.size(), "both branches of an if yield the same values");
+  Op& added = append(OpCode::EndIf, Type::None, yields);
+  std::vector<ValueId> results;
+  for (size_t i = 0; i < types.size(); ++i) {
+    RUNG_CHECK(typeOf(yields[i]) == types[i], "both branches of an if yield the same types");
+    results.push_back(newResult(added, types[i]));
+  }
+  return results;
+}
+
+std::vector<ValueId> RungBuilder::loop(uint32_t count, std::span<const ValueId> carried) {
+  Op& added = append(OpCode::Loop, Type::None, carried);
+  added.count = count;
+  std::vector<Type> types;
+  for (ValueId id : carried) types.push_back(typeOf(id));
+  std::vector<ValueId> results{newResult(added, Type::I32)};
+  for (Type type : types) results.push_back(newResult(added, type));
+  yieldTypes_.push_back(std::move(types));
+  return results;
+}
+
+std::vector<ValueId> RungBuilder::endLoop(std::span<const ValueId> next) {
+  RUNG_CHECK(!yieldTypes_.empty() && yieldTypes_.back().size() == next.size(), "a loop carries on the values it began with");
+  const std::vector<Type> types = std::move(yieldTypes_.back());
+  yieldTypes_.pop_back();
+  Op& added = append(OpCode::EndLoop, Type::None, next);
+  std::vector<ValueId> results;
+  for (size_t i = 0; i < types.size(); ++i) {
+    RUNG_CHECK(typeOf(next[i]) == types[i], "a carried value keeps its type");
+    results.push_back(newResult(added, types[i]));
+  }
+  return results;
+}
+
+void RungBuilder::message(uint32_t op, ValueId number, ValueId channel, ValueId index, ValueId value) {
+  const ValueId args[] = {number, channel, index, value};
+  append(OpCode::Message, Type::None, args).ref = op;
+}
+
+ValueId RungBuilder::serviceRequest(ServiceId service, std::span<const ValueId> args) {
+  RUNG_CHECK(args.size() <= RUNG_MAX_SERVICE_ARGS, "too many arguments of a service");
+  Op& added = append(OpCode::ServiceRequest, Type::None, args);
+  added.ref = service.index;
+  return newResult(added, Type::I32);
+}
+
+ValueId RungBuilder::servicePoll(ValueId ticket) {
+  return newResult(append(OpCode::ServicePoll, Type::None, {&ticket, 1}), Type::I32);
+}
+
+ValueId RungBuilder::serviceResult(ValueId ticket, uint32_t index) {
+  Op& added = append(OpCode::ServiceResult, Type::None, {&ticket, 1});
+  added.imm = index;
+  return newResult(added, Type::I64);
+}
+
+void RungBuilder::trap(ValueId cond, FaultId fault) { append(OpCode::Trap, Type::None, {&cond, 1}).ref = fault.index; }
+
+void RungBuilder::note(std::string_view text) {
+  append(OpCode::Note, Type::None, {}).ref = static_cast<uint32_t>(rung_.notes.size());
+  rung_.notes.emplace_back(text);
+}
+
+void RungBuilder::gotoRung(uint32_t target, ValueId cond) {
+  rung_.transfer = {.kind = TransferKind::Goto, .cond = cond, .target = target};
+}
+void RungBuilder::call(RoutineId callee, ValueId cond) {
+  rung_.transfer = {.kind = TransferKind::Call, .cond = cond, .callee = callee};
+}
+void RungBuilder::ret(ValueId cond) { rung_.transfer = {.kind = TransferKind::Ret, .cond = cond}; }
+void RungBuilder::end(ValueId cond) { rung_.transfer = {.kind = TransferKind::End, .cond = cond}; }
+void RungBuilder::switchTo(ValueId value, std::vector<uint32_t> targets) {
+  rung_.transfer = {.kind = TransferKind::Switch, .value = value, .targets = std::move(targets)};
+}
+
+} // namespace rung::ir

@@ -1,0 +1,112 @@
+// Builds one rung, operation by operation. It types results by the table of operations and stops the process when an
+// operand has the wrong type: that is an error of the compiler, never of the user's program.
+#pragma once
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+// A fixed place in a space: byte offset and, for a bit, its number 0..7 within that byte.
+struct Place {
+  SpaceId space;
+  uint32_t byte = 0;
+  uint32_t bit = 0;
+};
+
+// Elements of a space that a computed index may reach: element 0 lies at `byte`, one element a unit of the space.
+// `count` elements are legal indices; each must lie wholly in the space at the width of the access.
+struct Window {
+  SpaceId space;
+  uint32_t byte = 0;
+  uint32_t count = 0;
+};
+
+class RungBuilder {
+ public:
+  // `rung` and `module` outlive the builder; the rung starts empty.
+  RungBuilder(const Module& module, Rung& rung) : module_(module), rung_(rung) {}
+
+  Rung& rung() { return rung_; }
+  const Module& module() const { return module_; }
+  Type typeOf(ValueId value) const { return ir::typeOf(rung_, value); }
+  // The source line of the operations that follow; 0: the rung's own.
+  void setLine(uint32_t line) { line_ = line; }
+
+  ValueId constant(Type type, int64_t value);
+  ValueId bit(bool value) { return constant(Type::Bit, value ? 1 : 0); }
+  ValueId i32(int64_t value) { return constant(Type::I32, value); }
+  ValueId real(double value);
+
+  // Operations with value operands and at most one result, by their code. `type` is T of the row.
+  ValueId op(OpCode code, Type type, std::initializer_list<ValueId> args);
+
+  // T is taken from the first operand.
+  ValueId add(ValueId a, ValueId b) { return binary(OpCode::Add, a, b); }
+  ValueId sub(ValueId a, ValueId b) { return binary(OpCode::Sub, a, b); }
+  ValueId mul(ValueId a, ValueId b) { return binary(OpCode::Mul, a, b); }
+  ValueId and_(ValueId a, ValueId b) { return binary(OpCode::And, a, b); }
+  ValueId or_(ValueId a, ValueId b) { return binary(OpCode::Or, a, b); }
+  ValueId xor_(ValueId a, ValueId b) { return binary(OpCode::Xor, a, b); }
+  ValueId not_(ValueId a) { return op(OpCode::Not, typeOf(a), {a}); }
+  ValueId eq(ValueId a, ValueId b) { return binary(OpCode::Eq, a, b); }
+  ValueId ne(ValueId a, ValueId b) { return binary(OpCode::Ne, a, b); }
+  ValueId ltS(ValueId a, ValueId b) { return binary(OpCode::LtS, a, b); }
+  ValueId leS(ValueId a, ValueId b) { return binary(OpCode::LeS, a, b); }
+  ValueId ltU(ValueId a, ValueId b) { return binary(OpCode::LtU, a, b); }
+  ValueId leU(ValueId a, ValueId b) { return binary(OpCode::LeU, a, b); }
+  ValueId binary(OpCode code, ValueId a, ValueId b) { return op(code, typeOf(a), {a, b}); }
+  ValueId select(ValueId cond, ValueId a, ValueId b) { return op(OpCode::Select, typeOf(a), {cond, a, b}); }
+  // To `type` by zext, sext or trunc as the widths say; the value itself when it has the type already.
+  ValueId zextOrTrunc(Type type, ValueId a) { return resize(OpCode::ZExt, type, a); }
+  ValueId sextOrTrunc(Type type, ValueId a) { return resize(OpCode::SExt, type, a); }
+
+  ValueId load(Type type, Place place);
+  void store(Place place, ValueId value);
+  ValueId loadAt(Type type, Window window, ValueId index);
+  void storeAt(Window window, ValueId index, ValueId value);
+  ValueId loadBitAt(Window window, ValueId index, ValueId bitNumber);
+  void storeBitAt(Window window, ValueId index, ValueId bitNumber, ValueId value);
+  ValueId slotLoad(SlotId slot);
+  void slotStore(SlotId slot, ValueId value);
+  ValueId now() { return op(OpCode::Now, Type::I64, {}); }
+
+  // Regions. `yields` of both branches must agree in number and types; endIf gives the results.
+  void if_(ValueId cond);
+  void else_(std::span<const ValueId> yields = {});
+  std::vector<ValueId> endIf(std::span<const ValueId> yields = {});
+  // Gives the pass number (i32) and then the carried values.
+  std::vector<ValueId> loop(uint32_t count, std::span<const ValueId> carried = {});
+  std::vector<ValueId> endLoop(std::span<const ValueId> next = {});
+
+  // `op` is a enum rung_message_op; number, channel and index are i32, value is i64 or f64.
+  void message(uint32_t op, ValueId number, ValueId channel, ValueId index, ValueId value);
+  ValueId serviceRequest(ServiceId service, std::span<const ValueId> args);
+  ValueId servicePoll(ValueId ticket);
+  ValueId serviceResult(ValueId ticket, uint32_t index);
+  void trap(ValueId cond, FaultId fault);
+  void note(std::string_view text);
+
+  void gotoRung(uint32_t target, ValueId cond = {});
+  void call(RoutineId callee, ValueId cond = {});
+  void ret(ValueId cond = {});
+  void end(ValueId cond = {});
+  void switchTo(ValueId value, std::vector<uint32_t> targets);
+
+ private:
+  Op& append(OpCode code, Type type, std::span<const ValueId> args);
+  ValueId newResult(Op& op, Type type);
+  ValueId resize(OpCode widen, Type type, ValueId a);
+  void checkArgs(const Op& op) const;
+
+  const Module& module_;
+  Rung& rung_;
+  uint32_t line_ = 0;
+  std::vector<std::vector<Type>> yieldTypes_; // of open regions: the if's (after its else) or the loop's carried types
+};
+
+} // namespace rung::ir

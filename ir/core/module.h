@@ -1,0 +1,187 @@
+// The module: everything that the engines know of a program. Plain data; built with builder.h, checked by ir/verify.
+//
+// Invariants (ir/verify holds them): ids are in range; a rung's values are defined before use and never cross the rung;
+// regions (if/else/endif, loop/endloop) nest; routines do not call each other in a circle; every operation is total.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ir/core/ids.h"
+#include "ir/core/op_info.h"
+#include "ir/core/type.h"
+#include "rung/program.h"
+
+namespace rung::ir {
+
+// Where a rung or an operation comes from. Line 0: unknown.
+struct Location {
+  FileIndex file;
+  uint32_t line = 0;
+  uint32_t column = 0;
+  bool operator==(const Location&) const = default;
+};
+
+// One operation. `args` and results are ids of the rung's values; see Attr for imm, ref and count.
+struct Op {
+  OpCode code = OpCode::Note;
+  Type type = Type::None; // T of the OpInfo row; None where the row has no types
+  uint16_t argCount = 0;
+  uint16_t resultCount = 0;
+  uint32_t firstArg = 0; // in Rung::args
+  ValueId result;        // the first of `resultCount` consecutive ids
+  uint32_t ref = 0;
+  uint32_t count = 0;
+  int64_t imm = 0;
+  uint32_t line = 0; // in the rung's file; 0: the rung's first line
+};
+
+enum class TransferKind : uint8_t {
+  Next,   // the rung below
+  Goto,   // rung `target` of the same routine, when `cond`
+  Call,   // routine `callee`, when `cond`; then the rung below
+  Ret,    // back to the caller, when `cond`; at the outermost level the task's run ends
+  End,    // the task's run ends, when `cond`
+  Switch, // rung targets[value]; a value outside goes to targets[0]
+};
+
+// How a rung is left. Where `cond` is invalid the transfer is unconditional, else the rung below follows when it is 0.
+// Falling off the last rung of a routine returns.
+struct Transfer {
+  TransferKind kind = TransferKind::Next;
+  ValueId cond{};      // bit
+  ValueId value{};     // Switch: i32, unsigned
+  uint32_t target = 0;
+  RoutineId callee{};
+  std::vector<uint32_t> targets{};
+};
+
+struct Rung {
+  std::string title;      // the rung's comment
+  std::string sourceText; // the lines as written, for readers of generated code; may be empty
+  Location begin;
+  uint32_t lastLine = 0;
+  uint64_t key = 0;    // stable while the rung's text is unchanged
+  uint32_t weight = 1; // steps, as the dialect counts them
+  std::vector<Op> ops;
+  std::vector<ValueId> args;  // operands of all ops
+  std::vector<Type> values;   // type of each value
+  std::vector<std::string> notes;
+  Transfer transfer;
+};
+
+struct Routine {
+  std::string name;
+  std::vector<Rung> rungs; // at least one
+};
+
+struct Space {
+  std::string name;
+  uint32_t unitBytes = 1; // 1, 2, 4, 8
+  uint32_t units = 0;
+  uint32_t flags = 0;      // enum rung_space_flags
+  bool packedOnly = false; // the host or a copy needs the dialect's own packing
+};
+
+// State made by the compiler. `key` is stable over edits elsewhere, for hot reload.
+struct Slot {
+  Type type = Type::Bit;
+  int64_t init = 0;
+  bool retain = false;
+  bool transient = false; // a register between rungs: meaningless before the first store of a run
+  std::string key;
+};
+
+struct Symbol {
+  std::string name;
+  std::string comment;
+  SpaceId space;
+  uint32_t byte = 0;
+  uint32_t bit = 0;
+  uint32_t type = RUNG_TYPE_BIT; // enum rung_type
+  uint32_t count = 1;
+  uint32_t flags = 0; // enum rung_symbol_flags
+  int64_t value = 0;
+};
+
+// A piece of a space, in bytes.
+struct SpaceSpan {
+  SpaceId space;
+  uint32_t byte = 0;
+  uint32_t size = 0;
+};
+
+struct Copy {
+  bool masked = false; // RUNG_COPY_MASKED
+  SpaceSpan from;
+  SpaceId to;
+  uint32_t toByte = 0;
+  SpaceId mask; // masked only
+  uint32_t maskByte = 0;
+};
+
+struct Init {
+  SpaceId space;
+  uint32_t byte = 0;
+  std::vector<uint8_t> data;
+};
+
+struct Task {
+  std::string name;
+  RoutineId entry;
+  uint32_t periodUs = 0;
+  uint32_t budget = 1'000'000; // weight of one run
+  FaultId budgetFault;
+  std::vector<Copy> begin;
+  std::vector<Copy> end;
+  uint32_t parts = 1; // a run is cut into this many parts of nearly equal weight
+};
+
+struct Step {
+  uint32_t op = RUNG_STEP_RUN; // enum rung_step_op
+  TaskId task;
+  uint32_t arg = 1;
+};
+
+struct MessageText {
+  uint32_t number = 0;
+  std::string text;
+};
+
+struct Module {
+  std::string name;
+  std::string dialect; // only to be printed
+  std::vector<std::string> files;
+  std::vector<Space> spaces;
+  std::vector<Slot> slots;
+  std::vector<Symbol> symbols;
+  std::vector<Init> inits;
+  std::vector<SpaceSpan> retains;
+  std::vector<SpaceSpan> safes; // cleared by a fault
+  std::vector<std::string> faults;
+  std::vector<std::string> services;
+  std::vector<MessageText> messages;
+  std::vector<Routine> routines;
+  std::vector<Task> tasks;
+  TaskId mainTask;
+  TaskId fastTask;
+  std::vector<Step> scan;
+  std::vector<Step> fast;
+  bool instrumented = false;
+
+  const Space& at(SpaceId id) const { return spaces[id.index]; }
+  const Slot& at(SlotId id) const { return slots[id.index]; }
+  const Routine& at(RoutineId id) const { return routines[id.index]; }
+};
+
+// Ids by name, invalid when there is none; linear, for front ends and tests.
+SpaceId findSpace(const Module& module, std::string_view name);
+RoutineId findRoutine(const Module& module, std::string_view name);
+TaskId findTask(const Module& module, std::string_view name);
+
+// The operands of an operation.
+inline const ValueId* argsOf(const Rung& rung, const Op& op) { return rung.args.data() + op.firstArg; }
+inline ValueId arg(const Rung& rung, const Op& op, int i) { return rung.args[op.firstArg + static_cast<uint32_t>(i)]; }
+inline Type typeOf(const Rung& rung, ValueId value) { return rung.values[value.index]; }
+
+} // namespace rung::ir

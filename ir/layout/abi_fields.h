@@ -1,0 +1,45 @@
+// The fields of the C ABI's structs as data, so that the C++ emitter, the LLVM emitter and the tests walk one list
+// instead of each writing the structs again. The order is the order in program.h.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "rung/program.h"
+
+namespace rung::ir {
+
+enum class FieldKind : uint8_t {
+  U32,
+  U64,
+  I64,
+  Text,     // const char *
+  Bytes,    // const uint8_t *, `countOffset` gives the number
+  U32s,     // const uint32_t *
+  Texts,    // const char *const *
+  Structs,  // pointer to an array of `element` structs
+  ChunkFns, // the table of chunk functions
+  Null,     // a pointer that compiled programs leave null
+};
+
+struct StructInfo;
+
+struct FieldInfo {
+  std::string_view name;
+  FieldKind kind;
+  size_t offset;                       // in the struct
+  size_t countOffset = 0;              // of the uint32_t in the same struct that counts an array's elements
+  const StructInfo* element = nullptr; // Structs
+};
+
+struct StructInfo {
+  std::string_view name;
+  size_t size;
+  std::span<const FieldInfo> fields;
+};
+
+// rung_program; all other structs hang below it.
+const StructInfo& programInfo();
+
+} // namespace rung::ir

@@ -1,0 +1,96 @@
+// Layout: where every byte of a program's memory lies and how its rungs are cut into chunks. Computed once from a
+// final module and obeyed by every engine and by the host; nothing else decides how a space is represented.
+//
+// Representation. A logical byte of a space is *expanded* (a byte a bit, see RUNG_REPR_BYTE_PER_BIT) when every access to
+// it in the whole program is a fixed bit access, it is not named by a non-bit symbol, and the space is not packedOnly;
+// it is packed otherwise. Bytes that a Copy connects have one representation. Retained and initialised bytes follow the same rule.
+//
+// Chunks. A chunk is a run of at most `maxChunkRungs` rungs of one routine, entered only at its head. A chunk begins at
+// each routine's start, at every target of a Goto or Switch, behind every rung whose transfer is not Next, and where a part
+// of a task begins. Compile time grows linearly with the number of chunks.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+struct LayoutOptions {
+  uint32_t maxChunkRungs = 32;
+  bool expandBits = true; // false: everything is packed
+};
+
+// Where a bit lies: bit `bit` of the byte at `offset`, or the whole byte (0 or 1) when `wholeByte`.
+struct BitLocation {
+  uint32_t offset = 0;
+  uint32_t bit = 0;
+  bool wholeByte = false;
+};
+
+struct Chunk {
+  RoutineId routine;
+  uint32_t firstRung = 0; // in the routine
+  uint32_t rungCount = 0;
+  uint32_t weight = 1;
+};
+
+struct SpaceLayout {
+  std::vector<rung_range> ranges; // sorted, cover the space
+};
+
+class Layout {
+ public:
+  // `module` has passed the verifier in mode Final and outlives the layout.
+  Layout(const Module& module, const LayoutOptions& options);
+
+  const Module& module() const { return *module_; }
+  uint32_t memorySize() const { return memorySize_; }
+
+  BitLocation bit(SpaceId space, uint64_t bitOffset) const;
+  // Offset of a byte that lies in a packed range; `size` bytes from it lie there too.
+  uint32_t byte(SpaceId space, uint32_t byteOffset) const;
+  uint32_t slot(SlotId slot) const { return slotOffsets_[slot.index]; }
+  const SpaceLayout& space(SpaceId space) const { return spaces_[space.index]; }
+
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+  // The chunk that begins with this rung; it exists for every place that control can reach from elsewhere.
+  uint32_t chunkAt(RoutineId routine, uint32_t rung) const;
+  uint32_t entry(RoutineId routine) const { return chunkAt(routine, 0); }
+  // Number of a rung over all routines, as rung_program counts them.
+  uint32_t rungNumber(RoutineId routine, uint32_t rung) const { return firstRung_[routine.index] + rung; }
+  uint32_t rungCount() const { return rungCount_; }
+  // Chunks before which parts of a task end; one entry fewer than its parts.
+  const std::vector<uint32_t>& partEnds(TaskId task) const { return partEnds_[task.index]; }
+
+  // The canonical text: equal texts mean interchangeable memory images. `layoutHash` is its hash.
+  std::string text() const;
+  uint64_t hash() const;
+
+ private:
+  friend class LayoutBuilder;
+  const Module* module_;
+  uint32_t memorySize_ = 0;
+  std::vector<SpaceLayout> spaces_;
+  std::vector<uint32_t> slotOffsets_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::vector<uint32_t>> chunkOfRung_; // per routine and rung: the chunk it is in
+  std::vector<uint32_t> firstRung_;
+  uint32_t rungCount_ = 0;
+  std::vector<std::vector<uint32_t>> partEnds_;
+};
+
+// How a chunk is left after its last rung, in terms of chunks: what a back end has to return.
+// The walk order and these numbers are all that engines need; they decide nothing themselves.
+struct Exit {
+  TransferKind kind = TransferKind::Next;
+  ValueId cond;                 // invalid: always
+  ValueId value;                // Switch
+  uint32_t taken = RUNG_NONE;   // Goto: target chunk; Call: entry of the callee
+  uint32_t otherwise = RUNG_NONE; // where it goes when cond is 0, and the return address of a Call; RUNG_NONE: return to the caller
+  std::vector<uint32_t> targets; // Switch
+};
+Exit exitOf(const Layout& layout, uint32_t chunk);
+
+} // namespace rung::ir

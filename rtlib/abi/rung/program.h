@@ -1,0 +1,291 @@
+/* The contract between a compiled PLC program and the host that runs it. Plain C11, nothing else.
+ *
+ * A program is one constant `rung_program`: tables of plain structs, and one function per *chunk* (a run of rungs that
+ * is entered at its head only). The host owns all memory: one block of `memory_size` bytes per instance, laid out as
+ * the tables say, and one `rung_ctx`. Generated code has no globals, so instances and generations can coexist.
+ *
+ * Rules for changes: fields are added at the end only; `size` tells what is there; every offset is asserted by a test.
+ * A `.so` exports exactly one symbol, the data object `rung_program_v1`.
+ */
+#ifndef RUNG_PROGRAM_H
+#define RUNG_PROGRAM_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RUNG_ABI_VERSION 1u
+#define RUNG_PROGRAM_SYMBOL "rung_program_v1"
+#define RUNG_NONE 0xFFFFFFFFu     /* "not there" in every index field */
+#define RUNG_PC_DONE 0xFFFFFFFFu  /* a chunk returns this when the task's run has ended */
+#define RUNG_PC_FAULT 0xFFFFFFFEu /* a chunk returns this after it filled ctx->fault */
+#define RUNG_STACK_DEPTH 128u     /* return addresses; the compiler proves that it suffices */
+#define RUNG_MAX_SERVICE_ARGS 16u
+
+typedef struct rung_ctx rung_ctx;
+
+/* Runs one chunk on the memory block; returns the next chunk, RUNG_PC_DONE or RUNG_PC_FAULT. */
+typedef uint32_t (*rung_chunk_fn)(uint8_t *mem, rung_ctx *ctx);
+
+/* ---- memory -------------------------------------------------------------------------------------------------- */
+
+enum rung_repr {
+  RUNG_REPR_PACKED = 0,       /* logical byte i lies at offset + i */
+  RUNG_REPR_BYTE_PER_BIT = 1, /* logical bit b of byte i lies, as 0 or 1, in the byte at offset + 8 i + b */
+};
+
+/* A run of logical bytes of one space with one representation. The ranges of a space are sorted and cover it. */
+typedef struct rung_range {
+  uint32_t first_byte; /* logical, within the space */
+  uint32_t byte_count;
+  uint32_t offset; /* in the memory block */
+  uint32_t repr;   /* enum rung_repr */
+} rung_range;
+
+enum rung_space_flags {
+  RUNG_SPACE_INPUT = 1,  /* the machine or the NC writes it */
+  RUNG_SPACE_OUTPUT = 2, /* the program writes it for the machine or the NC */
+  RUNG_SPACE_HIDDEN = 4, /* no name a user would write: latches, registers, masks */
+};
+
+/* An address space of the dialect. Multi-byte values are little-endian in every space. */
+typedef struct rung_space {
+  const char *name;
+  uint32_t unit_bytes; /* 1, 2, 4 or 8: what one address number counts */
+  uint32_t byte_count;
+  uint32_t flags; /* enum rung_space_flags */
+  uint32_t range_count;
+  const rung_range *ranges;
+} rung_space;
+
+enum rung_type {
+  RUNG_TYPE_BIT = 1,
+  RUNG_TYPE_I8 = 2,
+  RUNG_TYPE_I16 = 3,
+  RUNG_TYPE_I32 = 4,
+  RUNG_TYPE_I64 = 5,
+  RUNG_TYPE_F64 = 6,
+  RUNG_TYPE_TEXT = 7, /* `count` bytes, ended by 0 when shorter */
+};
+
+enum rung_symbol_flags {
+  RUNG_SYMBOL_READONLY = 1, /* the program may not write it */
+  RUNG_SYMBOL_HIDDEN = 2,   /* for the host's own use: a register, a mechanism's continuation */
+  RUNG_SYMBOL_CONST = 4,    /* not memory: `byte` is unused, `value` is its value */
+};
+
+/* A name of the program. Sorted by strcmp of `name`; case-insensitive dialects store upper case. */
+typedef struct rung_symbol {
+  const char *name;
+  const char *comment; /* "" when there is none */
+  uint32_t space;
+  uint32_t byte;  /* logical byte within the space */
+  uint32_t bit;   /* 0..7, for RUNG_TYPE_BIT */
+  uint32_t type;  /* enum rung_type */
+  uint32_t count; /* elements of an array, or bytes of a text; 1 otherwise */
+  uint32_t flags; /* enum rung_symbol_flags */
+  int64_t value;  /* of a constant */
+} rung_symbol;
+
+/* Bytes of the memory block. */
+typedef struct rung_span {
+  uint32_t offset;
+  uint32_t size;
+} rung_span;
+
+/* Initial contents; all memory that no entry names starts as 0. */
+typedef struct rung_init {
+  uint32_t offset;
+  uint32_t size;
+  const uint8_t *data;
+} rung_init;
+
+enum rung_copy_kind {
+  RUNG_COPY_ALL = 0,    /* to := from */
+  RUNG_COPY_MASKED = 1, /* to := (to and not mask) or (from and mask); mask := 0 */
+};
+
+/* A transfer that the host does at the border of a task's run: input latches, images, register sets. */
+typedef struct rung_copy {
+  uint32_t kind; /* enum rung_copy_kind */
+  uint32_t from; /* offsets in the memory block */
+  uint32_t to;
+  uint32_t mask; /* RUNG_COPY_MASKED only */
+  uint32_t size;
+} rung_copy;
+
+/* ---- code ---------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_chunk {
+  uint32_t first_rung; /* in `rungs` */
+  uint32_t rung_count;
+  uint32_t weight; /* steps, for budgets and for cutting a task into parts; at least 1 */
+} rung_chunk;
+
+typedef struct rung_rung_info {
+  const char *title; /* the rung's comment, "" when there is none */
+  uint32_t file;     /* in `files` */
+  uint32_t first_line;
+  uint32_t last_line;
+  uint32_t routine; /* in `routines` */
+  uint64_t key;     /* stable while the rung's text is unchanged */
+} rung_rung_info;
+
+/* A part of the program that the host can start: `begin` copies, chunks from `entry` until RUNG_PC_DONE, `end` copies.
+ * A task that is cut into parts runs one part a slot; `begin` belongs to the first part and `end` to every part. */
+typedef struct rung_task {
+  const char *name;
+  uint32_t entry;        /* chunk */
+  uint32_t period_us;    /* 0: only when the schedule or the NC model starts it */
+  uint32_t budget;       /* weight that one run may use up, else the fault `budget_fault` */
+  uint32_t budget_fault; /* in `faults` */
+  uint32_t begin_first;  /* in `copies` */
+  uint32_t begin_count;
+  uint32_t end_first;
+  uint32_t end_count;
+  uint32_t part_first; /* in `part_ends` */
+  uint32_t part_count; /* 1: not cut */
+} rung_task;
+
+enum rung_step_op {
+  RUNG_STEP_ADVANCE = 0, /* the clock moves on by `arg` microseconds */
+  RUNG_STEP_RUN = 1,     /* run `task` `arg` times */
+  RUNG_STEP_PART = 2,    /* run the next part of `task`; begins a new run when none is under way */
+  RUNG_STEP_HOOK = 3,    /* the dialect's NC model does its work number `arg` */
+  RUNG_STEP_SLOT = 4,    /* a slot ends here */
+};
+
+typedef struct rung_step {
+  uint32_t op;   /* enum rung_step_op */
+  uint32_t task; /* RUNG_NONE where `op` has no task */
+  uint32_t arg;
+} rung_step;
+
+/* Counters of one rung; times in ticks of the host's cycle counter. */
+typedef struct rung_prof {
+  uint64_t count;
+  uint64_t total;
+  uint64_t max;
+  uint64_t started; /* scratch of the running measurement */
+} rung_prof;
+
+/* ---- host ---------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_fault {
+  uint32_t code; /* in `faults`; RUNG_NONE: no fault */
+  uint32_t rung; /* in `rungs` */
+  uint32_t line; /* source line of the operation, 0 when only the rung is known */
+  uint32_t task; /* in `tasks` */
+} rung_fault;
+
+enum rung_message_op {
+  RUNG_MESSAGE_CLEAR = 0,
+  RUNG_MESSAGE_SHOW = 1,
+  RUNG_MESSAGE_SHOW_LOG = 2,
+  RUNG_MESSAGE_LOG = 3,
+};
+
+typedef struct rung_message {
+  uint32_t op; /* enum rung_message_op */
+  uint32_t number;
+  int32_t channel;
+  int32_t index;
+  int64_t value; /* integer, or the bits of a double when `real` is 1 */
+  uint32_t real;
+  uint32_t rung;
+} rung_message;
+
+enum rung_service_state {
+  RUNG_SERVICE_NONE = 0, /* unknown ticket, or the queue was full */
+  RUNG_SERVICE_PENDING = 1,
+  RUNG_SERVICE_DONE = 2,
+  RUNG_SERVICE_ERROR = 3,
+};
+
+/* Bounded functions that generated code may call. None allocates, locks or blocks. `size` as in rung_program. */
+typedef struct rung_host_api {
+  uint32_t size;
+  uint32_t reserved;
+  void (*message)(rung_ctx *ctx, const rung_message *message);
+  /* Puts a request into the queue; returns its ticket, or 0 when the queue is full (counted, reported). */
+  uint32_t (*service_request)(rung_ctx *ctx, uint32_t service, const int64_t *args, uint32_t count);
+  uint32_t (*service_poll)(rung_ctx *ctx, uint32_t ticket); /* enum rung_service_state */
+  int64_t (*service_result)(rung_ctx *ctx, uint32_t ticket, uint32_t index);
+} rung_host_api;
+
+struct rung_ctx {
+  int64_t now_us; /* fixed while a task runs */
+  const rung_host_api *host;
+  void *host_data;
+  rung_prof *prof; /* one per rung; only instrumented programs touch it */
+  void *engine;    /* the interpreter's own */
+  rung_fault fault;
+  uint32_t sp; /* used entries of `stack` */
+  uint32_t reserved;
+  uint32_t stack[RUNG_STACK_DEPTH];
+};
+
+/* ---- the program --------------------------------------------------------------------------------------------- */
+
+typedef struct rung_program {
+  uint32_t size; /* of this struct, as the compiler knew it */
+  uint32_t abi_version;
+  const char *name;
+  const char *dialect;
+  const char *compiler;
+  uint64_t layout_hash; /* equal hashes: memory images are interchangeable */
+  uint64_t code_hash;
+  uint32_t memory_size;
+  uint32_t memory_align;
+  uint32_t instrumented; /* 1: counts and times rungs */
+  uint32_t main_task;    /* the task that "a scan" means */
+  uint32_t fast_task;    /* RUNG_NONE: there is none */
+
+  uint32_t space_count;
+  uint32_t symbol_count;
+  uint32_t init_count;
+  uint32_t retain_count;
+  uint32_t safe_count;
+  uint32_t copy_count;
+  uint32_t chunk_count;
+  uint32_t rung_count;
+  uint32_t routine_count;
+  uint32_t file_count;
+  uint32_t task_count;
+  uint32_t part_end_count;
+  uint32_t scan_count;
+  uint32_t fast_count;
+  uint32_t fault_count;
+  uint32_t service_count;
+  uint32_t text_count;
+
+  const rung_space *spaces;
+  const rung_symbol *symbols;
+  const rung_init *inits;
+  const rung_span *retains; /* kept through power-off */
+  const rung_span *safes;   /* cleared when a fault stops the program */
+  const rung_copy *copies;
+  const rung_chunk *chunks;
+  const rung_rung_info *rungs;
+  const char *const *routines;
+  const char *const *files;
+  const rung_task *tasks;
+  const uint32_t *part_ends; /* chunk before which a part ends; the last part of a task ends at RUNG_PC_DONE */
+  const rung_step *scan;     /* one scan of the main task; repeated */
+  const rung_step *fast;     /* one run of the fast task alone */
+  const char *const *faults;
+  const char *const *services;
+  const char *const *texts; /* message texts: pairs of number (decimal) and text */
+
+  const rung_chunk_fn *chunk_fns; /* by chunk; null when `run_chunk` is there */
+  /* How an interpreter runs a chunk; null in compiled programs. */
+  uint32_t (*run_chunk)(uint8_t *mem, rung_ctx *ctx, uint32_t chunk);
+} rung_program;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,153 @@
+// The table of codes, the collection of reports, and the making of messages.
+#include "ir/support/diagnostics.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <unordered_map>
+
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include "ir/support/check.h"
+#include "ir/support/utf8.h"
+
+namespace rung {
+namespace {
+
+constexpr DiagInfo kDiags[] = {
+#define DIAG(name, code, severity, message, explanation) \
+  {Diag::name, code, Severity::severity, message, explanation},
+#include "ir/support/diag/all.def"
+#undef DIAG
+};
+
+/// No message has more placeholders.
+constexpr size_t kMaxArgs = 8;
+/// Longer arguments are cut: a word of a rubbish file may have megabytes.
+constexpr size_t kMaxArgLength = 200;
+
+std::string shorten(std::string_view text) {
+  if (text.size() <= kMaxArgLength) return std::string(text);
+  size_t end = kMaxArgLength;
+  while (end > 0 && isUtf8Continuation(text[end])) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
+std::unordered_map<std::string_view, const DiagInfo*> makeCodeIndex() {
+  std::unordered_map<std::string_view, const DiagInfo*> index;
+  for (const DiagInfo& info : kDiags) index.emplace(info.code, &info);
+  return index;
+}
+
+}  // namespace
+
+const DiagInfo& diagInfo(Diag id) {
+  const auto index = static_cast<size_t>(id);
+  RUNG_CHECK(index < std::size(kDiags), "no such diagnostic");
+  return kDiags[index];
+}
+
+const DiagInfo* findDiag(std::string_view code) {
+  static const auto index = makeCodeIndex();
+  const auto found = index.find(code);
+  return found == index.end() ? nullptr : found->second;
+}
+
+std::span<const DiagInfo> allDiags() { return kDiags; }
+
+std::string messageOf(const Diagnostic& diagnostic) {
+  fmt::dynamic_format_arg_store<fmt::format_context> store;
+  for (const DiagArg& arg : diagnostic.args) std::visit([&store](const auto& value) { store.push_back(value); }, arg);
+  for (size_t i = diagnostic.args.size(); i < kMaxArgs; ++i) store.push_back("?");
+  const std::string_view pattern = diagInfo(diagnostic.id).message;
+  // A pattern that does not format is a defect of a .def file; the user still gets its text.
+  try {
+    return fmt::vformat(pattern, store);
+  } catch (const fmt::format_error&) {
+    return std::string(pattern);
+  }
+}
+
+DiagBuilder::DiagBuilder(Diagnostics& sink, Diag id, SourceRange range) : sink_(sink) {
+  diagnostic_.id = id;
+  diagnostic_.severity = diagInfo(id).severity;
+  diagnostic_.range = range;
+}
+
+DiagBuilder::~DiagBuilder() { sink_.add(std::move(diagnostic_)); }
+
+DiagBuilder& DiagBuilder::operator<<(std::string_view arg) {
+  diagnostic_.args.emplace_back(shorten(arg));
+  return *this;
+}
+
+DiagBuilder& DiagBuilder::number(int64_t arg) {
+  diagnostic_.args.emplace_back(arg);
+  return *this;
+}
+
+DiagBuilder& DiagBuilder::label(SourceRange range, std::string_view text) {
+  diagnostic_.labels.push_back({range, std::string(text)});
+  return *this;
+}
+
+DiagBuilder& DiagBuilder::note(SourceRange range, std::string_view text) {
+  diagnostic_.notes.push_back({range, std::string(text)});
+  return *this;
+}
+
+DiagBuilder& DiagBuilder::fix(SourceRange range, std::string_view replacement) {
+  diagnostic_.fixes.push_back({range, std::string(replacement)});
+  return *this;
+}
+
+DiagBuilder& DiagBuilder::severity(Severity severity) {
+  diagnostic_.severity = severity;
+  return *this;
+}
+
+bool Diagnostics::isNew(const Diagnostic& diagnostic) {
+  std::string key = fmt::format("{} {}", static_cast<unsigned>(diagnostic.id), diagnostic.range.begin.value);
+  for (const DiagArg& arg : diagnostic.args) {
+    std::visit([&key](const auto& value) { fmt::format_to(std::back_inserter(key), "\n{}", value); }, arg);
+  }
+  return seen_.insert(std::hash<std::string>()(key)).second;
+}
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  const bool raised = static_cast<size_t>(diagnostic.id) < raised_.size() && raised_[static_cast<size_t>(diagnostic.id)];
+  if (raised) diagnostic.severity = Severity::Error;
+  const bool isError = diagnostic.severity == Severity::Error;
+  size_t& kept = isError ? keptErrors_ : keptWarnings_;
+  if (kept < limit_ && !isNew(diagnostic)) return;
+  ++(isError ? errors_ : warnings_);
+  if (kept >= limit_) {
+    ++dropped_;
+    return;
+  }
+  ++kept;
+  kept_.push_back(std::move(diagnostic));
+}
+
+void Diagnostics::raiseToError(std::initializer_list<Diag> ids) {
+  raised_.resize(std::size(kDiags));
+  for (const Diag id : ids) raised_[static_cast<size_t>(id)] = true;
+}
+
+bool Diagnostics::has(Diag id) const {
+  return std::any_of(kept_.begin(), kept_.end(), [id](const Diagnostic& d) { return d.id == id; });
+}
+
+std::vector<const Diagnostic*> Diagnostics::sorted() const {
+  std::vector<const Diagnostic*> order;
+  order.reserve(kept_.size());
+  for (const Diagnostic& d : kept_) order.push_back(&d);
+  // Addresses grow in the order of reporting.
+  std::sort(order.begin(), order.end(), [](const Diagnostic* a, const Diagnostic* b) {
+    return a->range.begin != b->range.begin ? a->range.begin < b->range.begin : a < b;
+  });
+  return order;
+}
+
+}  // namespace rung

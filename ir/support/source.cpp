@@ -1,0 +1,169 @@
+// Line tables are computed once when a text is added; every later question is a binary search.
+#include "ir/support/source.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include "ir/support/check.h"
+#include "ir/support/utf8.h"
+
+namespace rung {
+
+struct SourceManager::File {
+  /// Characters in front of every kStep-th byte are counted once, so that the column in a line of megabytes costs no walk
+  /// over the line.
+  static constexpr size_t kStep = 1024;
+
+  std::string name;
+  std::string text;
+  uint32_t base = 0;                       ///< position of the first byte
+  std::vector<uint32_t> lineStarts;        ///< offsets; never empty
+  std::vector<uint32_t> charactersBefore;  ///< per kStep bytes; empty for a text in ASCII
+
+  void index();
+  size_t charactersUpTo(size_t offset) const;
+  std::string_view line(size_t index) const;
+};
+
+void SourceManager::File::index() {
+  lineStarts.push_back(0);
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  for (const char* at = begin; at != end;) {
+    const auto* newline = static_cast<const char*>(std::memchr(at, '\n', static_cast<size_t>(end - at)));
+    if (newline == nullptr) break;
+    at = newline + 1;
+    if (at != end) lineStarts.push_back(static_cast<uint32_t>(at - begin));
+  }
+  const bool ascii = std::none_of(text.begin(), text.end(), [](char c) { return static_cast<signed char>(c) < 0; });
+  if (ascii) return;
+  uint32_t count = 0;
+  for (size_t i = 0; i <= text.size(); i += kStep) {
+    charactersBefore.push_back(count);
+    count += static_cast<uint32_t>(countCodePoints(std::string_view(text).substr(i, kStep)));
+  }
+}
+
+size_t SourceManager::File::charactersUpTo(size_t offset) const {
+  if (charactersBefore.empty()) return offset;
+  const size_t step = offset / kStep;
+  return charactersBefore[step] + countCodePoints(std::string_view(text).substr(step * kStep, offset - step * kStep));
+}
+
+std::string_view SourceManager::File::line(size_t lineIndex) const {
+  const size_t begin = lineStarts[lineIndex];
+  size_t end = lineIndex + 1 < lineStarts.size() ? lineStarts[lineIndex + 1] : text.size();
+  if (end > begin && text[end - 1] == '\n') --end;
+  if (end > begin && text[end - 1] == '\r') --end;
+  return std::string_view(text).substr(begin, end - begin);
+}
+
+namespace {
+
+/// Reads until the end, whatever the size says: pipes have none.
+Result<std::string> readAll(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return failure("is a directory");
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return failure(std::strerror(errno));
+  std::string text;
+  char buffer[1 << 16];
+  while (const size_t count = std::fread(buffer, 1, sizeof buffer, file)) text.append(buffer, count);
+  const bool good = std::ferror(file) == 0;
+  std::fclose(file);
+  if (!good) return failure("read error");
+  return text;
+}
+
+}  // namespace
+
+SourceManager::SourceManager() = default;
+SourceManager::~SourceManager() = default;
+SourceManager::SourceManager(SourceManager&&) noexcept = default;
+SourceManager& SourceManager::operator=(SourceManager&&) noexcept = default;
+
+Result<FileId> SourceManager::addFile(const std::string& path) {
+  Result<std::string> text = readAll(path);
+  if (!text) return text.failure();
+  if (text.value().size() >= std::numeric_limits<uint32_t>::max() - nextBase_) return failure("too much source text");
+  return addBuffer(path, std::move(text).value());
+}
+
+FileId SourceManager::addBuffer(std::string name, std::string text) {
+  RUNG_CHECK(text.size() < std::numeric_limits<uint32_t>::max() - nextBase_, "source positions are used up");
+  auto file = std::make_unique<File>();
+  file->name = std::move(name);
+  file->text = std::move(text);
+  file->base = nextBase_;
+  file->index();
+  nextBase_ += static_cast<uint32_t>(file->text.size()) + 1;
+  files_.push_back(std::move(file));
+  return FileId{static_cast<uint32_t>(files_.size() - 1)};
+}
+
+const SourceManager::File& SourceManager::file(FileId id) const {
+  RUNG_CHECK(id.index < files_.size(), "no such source file");
+  return *files_[id.index];
+}
+
+std::string_view SourceManager::name(FileId id) const { return file(id).name; }
+std::string_view SourceManager::text(FileId id) const { return file(id).text; }
+uint32_t SourceManager::lineCount(FileId id) const { return static_cast<uint32_t>(file(id).lineStarts.size()); }
+
+std::string_view SourceManager::lineText(FileId id, uint32_t line) const {
+  const File& f = file(id);
+  RUNG_CHECK(line >= 1 && line <= f.lineStarts.size(), "no such source line");
+  return f.line(line - 1);
+}
+
+SourcePos SourceManager::position(FileId id, size_t offset) const {
+  const File& f = file(id);
+  RUNG_CHECK(offset <= f.text.size(), "offset behind the end of the source");
+  return {f.base + static_cast<uint32_t>(offset)};
+}
+
+SourceRange SourceManager::range(FileId id, size_t begin, size_t end) const {
+  return {position(id, begin), position(id, end)};
+}
+
+FileId SourceManager::fileOf(SourcePos pos) const {
+  RUNG_CHECK(pos.valid() && pos.value < nextBase_, "position outside all sources");
+  const auto behind = std::upper_bound(files_.begin(), files_.end(), pos.value,
+                                       [](uint32_t value, const auto& f) { return value < f->base; });
+  return FileId{static_cast<uint32_t>(behind - files_.begin() - 1)};
+}
+
+size_t SourceManager::offsetOf(SourcePos pos) const { return pos.value - file(fileOf(pos)).base; }
+
+SourceManager::LineStart SourceManager::lineStart(SourcePos pos) const {
+  const FileId id = fileOf(pos);
+  const File& f = file(id);
+  const auto behind = std::upper_bound(f.lineStarts.begin(), f.lineStarts.end(), pos.value - f.base);
+  const auto line = static_cast<uint32_t>(behind - f.lineStarts.begin());
+  return {id, line, f.lineStarts[line - 1]};
+}
+
+LineCol SourceManager::lineCol(SourcePos pos) const {
+  const LineStart start = lineStart(pos);
+  const File& f = file(start.file);
+  const size_t column = f.charactersUpTo(pos.value - f.base) - f.charactersUpTo(start.offset) + 1;
+  return {f.name, start.line, static_cast<uint32_t>(column)};
+}
+
+std::string_view SourceManager::lineText(SourcePos pos) const {
+  const LineStart start = lineStart(pos);
+  return file(start.file).line(start.line - 1);
+}
+
+std::string_view SourceManager::text(SourceRange range) const {
+  const File& f = file(fileOf(range.begin));
+  RUNG_CHECK(range.begin <= range.end && range.end.value - f.base <= f.text.size(), "range over two sources");
+  return std::string_view(f.text).substr(range.begin.value - f.base, range.end.value - range.begin.value);
+}
+
+}  // namespace rung

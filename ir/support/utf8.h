@@ -1,0 +1,32 @@
+// The little of UTF-8 that sources and their display need.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace rung {
+
+/// Whether the byte continues a character (10xxxxxx).
+constexpr bool isUtf8Continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
+
+/// Number of characters; a stray byte of a damaged text counts with the character before it.
+size_t countCodePoints(std::string_view text);
+
+struct CodePoint {
+  uint32_t value = 0;
+  uint8_t length = 1;  ///< in bytes, at least 1
+  bool valid = false;  ///< false: one byte that begins no character
+};
+
+/// The character at offset, which must be inside the text.
+CodePoint decodeUtf8(std::string_view text, size_t offset);
+
+/// Offset of the first byte that is no UTF-8, npos when all is well.
+size_t findInvalidUtf8(std::string_view text);
+
+/// How many cells a terminal uses for a printable character: 2 for East Asian wide ones, 0 for combining marks, else 1.
+unsigned displayWidth(uint32_t codePoint);
+
+}  // namespace rung

@@ -1,0 +1,23 @@
+// gsk: every signal has its printed address, e.g. "X000" and bit 3.
+#include "rtlib/nc/gen/gen.h"
+
+namespace rung::nc::gen {
+
+std::vector<Row> layoutGsk(const Table& table) {
+  std::vector<Row> rows;
+  for (size_t i = 0; i < table.rowCount(); ++i) {
+    Row row = commonColumns(table, i);
+    row.address = table.at(i, "address");
+    row.group = table.at(i, "mc_or_tc");
+    row.area = row.address.substr(0, 1);
+    if (row.area.find_first_of("XYFG") == std::string::npos || !matchNumber(row.address, row.area, row.byteOffset))
+      table.fail(i, "address is not X, Y, F or G and a number");
+    if (row.type == SignalType::Bit) row.bit = table.number(i, "bit");
+    if (row.bit > 7) table.fail(i, "bit is not 0..7");
+    row.strideBytes = elementBytes(row.type);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+} // namespace rung::nc::gen

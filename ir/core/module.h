@@ -68,6 +68,7 @@ struct Rung {
   std::vector<Type> values;   // type of each value
   std::vector<std::string> notes;
   Transfer transfer;
+  uint32_t transferLine = 0;  // source line of the transfer; 0: the first line of the rung
 };
 
 struct Routine {

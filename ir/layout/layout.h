@@ -2,10 +2,11 @@
 // final module and obeyed by every engine and by the host; nothing else decides how a space is represented.
 //
 // Representation. A logical byte of a space is *expanded* (a byte a bit, see RUNG_REPR_BYTE_PER_BIT) when every access to
-// it in the whole program is a fixed bit access, it is not named by a non-bit symbol, and the space is not packedOnly;
-// it is packed otherwise. Bytes that a Copy connects have one representation. Retained and initialised bytes follow the same rule.
+// it in the whole program is a fixed bit access, no non-bit symbol names it, it has no initial value, and the space is not
+// packedOnly; it is packed otherwise. Bytes that a Copy connects have one representation. Bytes that nothing touches are
+// packed, but for short gaps between expanded ones.
 //
-// Chunks. A chunk is a run of at most `maxChunkRungs` rungs of one routine, entered only at its head. A chunk begins at
+// Chunks. A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only at its head. A chunk begins at
 // each routine's start, at every target of a Goto or Switch, behind every rung whose transfer is not Next, and where a part
 // of a task begins. Compile time grows linearly with the number of chunks.
 #pragma once
@@ -19,6 +20,7 @@ namespace rung::ir {
 
 struct LayoutOptions {
   uint32_t maxChunkRungs = 32;
+  uint32_t maxChunkOps = 1024;
   bool expandBits = true; // false: everything is packed
 };
 

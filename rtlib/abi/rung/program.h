@@ -134,7 +134,9 @@ typedef struct rung_rung_info {
 } rung_rung_info;
 
 /* A part of the program that the host can start: `begin` copies, chunks from `entry` until RUNG_PC_DONE, `end` copies.
- * A task that is cut into parts runs one part a slot; `begin` belongs to the first part and `end` to every part. */
+ * A task that is cut into parts runs one part a RUNG_STEP_PART, and one run always takes `part_count` of them: when the
+ * program reaches its end early, the parts that are left do nothing. Part i runs until control comes to a chunk that is
+ * not below part_ends[part_first + i], outside of calls. `begin` belongs to the first part and `end` to every part. */
 typedef struct rung_task {
   const char *name;
   uint32_t entry;        /* chunk */
@@ -152,7 +154,7 @@ typedef struct rung_task {
 enum rung_step_op {
   RUNG_STEP_ADVANCE = 0, /* the clock moves on by `arg` microseconds */
   RUNG_STEP_RUN = 1,     /* run `task` `arg` times */
-  RUNG_STEP_PART = 2,    /* run the next part of `task`; begins a new run when none is under way */
+  RUNG_STEP_PART = 2,    /* run the next part of `task`; behind the last part of a run a new run begins */
   RUNG_STEP_HOOK = 3,    /* the dialect's NC model does its work number `arg` */
   RUNG_STEP_SLOT = 4,    /* a slot ends here */
 };
@@ -272,7 +274,7 @@ typedef struct rung_program {
   const char *const *routines;
   const char *const *files;
   const rung_task *tasks;
-  const uint32_t *part_ends; /* chunk before which a part ends; the last part of a task ends at RUNG_PC_DONE */
+  const uint32_t *part_ends; /* chunk before which a part ends; RUNG_PC_DONE for the last part of a task */
   const rung_step *scan;     /* one scan of the main task; repeated */
   const rung_step *fast;     /* one run of the fast task alone */
   const char *const *faults;

@@ -1,0 +1,115 @@
+// Runs a C++ compiler on generated text (see cpp_emitter.h).
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <spawn.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <vector>
+
+#include "codegen/cpp/cpp_emitter.h"
+#include "codegen/cpp/embedded_headers.h"
+
+extern char** environ;
+
+namespace rung::codegen {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A directory of its own that goes away with its owner.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "rung-XXXXXX").string();
+    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  bool ok() const { return !path_.empty(); }
+  fs::path operator/(std::string_view name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+bool writeFile(const fs::path& path, std::string_view text) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  std::ofstream out(path, std::ios::binary);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  return out.good();
+}
+
+std::string readFile(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// Runs a program with its output in `log`. Gives its exit code, or a failure when it could not be started.
+Result<int> run(const std::vector<std::string>& words, const fs::path& log) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) return failure(fmt::format("cannot run the C++ compiler '{}': {}", words[0], std::strerror(error)));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return failure(fmt::format("cannot wait for '{}': {}", words[0], std::strerror(errno)));
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void appendWords(std::string_view text, std::vector<std::string>& words) {
+  std::istringstream in{std::string(text)};
+  for (std::string word; in >> word;) words.push_back(word);
+}
+
+} // namespace
+
+Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& options, const std::string& outPath) {
+  TemporaryFolder folder;
+  if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
+  bool written = writeFile(folder / "program.cpp", text);
+  for (const EmbeddedHeader& header : embeddedHeaders()) written = written && writeFile(folder / header.name, header.text);
+  if (!written) return failure("cannot write the generated C++ to a temporary folder");
+
+  // Finished under another name and then renamed: a host that has the old object loaded keeps it intact.
+  const std::string unfinished = outPath + ".tmp";
+  std::vector<std::string> words;
+  appendWords(options.compiler, words);
+  appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off -fno-strict-aliasing -w", words);
+  words.push_back(options.optimisation);
+  if (options.debugInfo) words.push_back("-g");
+  appendWords(options.extraFlags, words);
+  for (std::string word : {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(), std::string("-o"), unfinished})
+    words.push_back(std::move(word));
+  Result<int> code = run(words, folder / "log");
+  if (!code.ok()) return code.failure();
+  if (code.value() != 0) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    return failure(fmt::format("the C++ compiler '{}' failed:\n{}", words[0], readFile(folder / "log")));
+  }
+  std::error_code error;
+  fs::rename(unfinished, outPath, error);
+  if (error) return failure(fmt::format("cannot write {}: {}", outPath, error.message()));
+  return {};
+}
+
+} // namespace rung::codegen

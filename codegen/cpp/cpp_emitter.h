@@ -1,0 +1,33 @@
+// C++ back end: a module as one readable C++ file for g++ or clang++, without std and without globals but constant tables.
+// Above each rung stand its comment and its source text, #line gives debuggers the PLC source, comments name the symbols.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ir/layout/layout.h"
+#include "ir/support/result.h"
+
+namespace rung::codegen {
+
+struct CppOptions {
+  bool lineDirectives = true;
+  // For the tests of the comparison only: this operation is emitted wrongly.
+  std::optional<ir::OpCode> sabotage;
+};
+
+// The text of the file. `codeHash` goes into the program's tables.
+std::string emitCpp(const ir::Layout& layout, uint64_t codeHash, const CppOptions& options);
+
+struct CppBuildOptions {
+  std::string compiler = "c++";  // a driver: clang++-19, g++, aarch64-linux-gnu-g++ …
+  std::string optimisation = "-O2";
+  bool debugInfo = true;
+  std::string extraFlags;        // e.g. "-fsanitize=undefined"; split at blanks
+};
+
+// Compiles the text to a shared object at `outPath`. The headers that the text includes are built into this library. Fails
+// with what the compiler said.
+Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& options, const std::string& outPath);
+
+} // namespace rung::codegen

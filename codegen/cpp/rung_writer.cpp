@@ -1,0 +1,398 @@
+// Operations as C++ text (see rung_writer.h).
+#include "codegen/cpp/rung_writer.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "ir/support/check.h"
+
+namespace rung::codegen {
+
+using namespace ir;
+
+namespace {
+
+uint64_t placeKey(uint32_t space, int64_t bitOffset, bool bit) {
+  return (static_cast<uint64_t>(space) << 40) | (static_cast<uint64_t>(bitOffset) << 1) | (bit ? 1u : 0u);
+}
+
+// The type of a place of the memory block.
+std::string_view memoryType(Type type) {
+  switch (type) {
+    case Type::I8: return "m8";
+    case Type::I16: return "m16";
+    case Type::I32: return "m32";
+    case Type::I64: return "m64";
+    case Type::F64: return "mf64";
+    case Type::None:
+    case Type::Bit: break;
+  }
+  RUNG_CHECK(false, "a bit has no place of its own");
+  return {};
+}
+
+// Text that may stand in a line comment: no line end, and no backslash at the end that would continue it.
+std::string commentText(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c == '\n' || c == '\r' || c == '\\') c = ' ';
+  return out;
+}
+
+} // namespace
+
+std::string_view cppType(Type type) {
+  switch (type) {
+    case Type::Bit: return "bool";
+    case Type::I8: return "u8";
+    case Type::I16: return "u16";
+    case Type::I32: return "u32";
+    case Type::I64: return "u64";
+    case Type::F64: return "double";
+    case Type::None: break;
+  }
+  return "void";
+}
+
+PlaceNames::PlaceNames(const Module& module) {
+  for (const Symbol& symbol : module.symbols)
+    if (symbol.space.valid() && (symbol.flags & RUNG_SYMBOL_CONST) == 0)
+      names_.try_emplace(placeKey(symbol.space.index, int64_t{symbol.byte} * 8 + symbol.bit, symbol.type == RUNG_TYPE_BIT), &symbol.name);
+}
+
+std::string_view PlaceNames::at(uint32_t space, int64_t bitOffset, bool bit) const {
+  auto found = names_.find(placeKey(space, bitOffset, bit));
+  return found == names_.end() ? std::string_view() : *found->second;
+}
+
+// ---- lines -------------------------------------------------------------------------------------------------------
+
+void RungWriter::beginLine(uint32_t line, bool force) {
+  if (open_ && line == line_ && !force) return;
+  endLine();
+  line_ = line;
+  if (options_.lineDirectives && line != 0) fmt::format_to(std::back_inserter(out_), "#line {} \"{}\"\n", line, file_);
+  out_ += "RUNG_LINE(\n";
+  open_ = true;
+}
+
+void RungWriter::endLine() {
+  if (open_) out_ += ")\n";
+  open_ = false;
+}
+
+void RungWriter::statement(std::string_view text, std::string_view comment) {
+  out_.append(static_cast<size_t>(2 + 2 * indent_), ' ');
+  out_ += text;
+  if (!comment.empty()) {
+    out_ += " // ";
+    out_ += commentText(comment);
+  }
+  out_ += '\n';
+}
+
+void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file) {
+  rung_ = &rung;
+  number_ = number;
+  file_ = file;
+  endOf_.assign(rung.ops.size(), 0);
+  std::vector<size_t> openers;
+  for (size_t i = 0; i < rung.ops.size(); ++i) {
+    const OpCode code = rung.ops[i].code;
+    if (code == OpCode::If || code == OpCode::Loop) openers.push_back(i);
+    if (code != OpCode::EndIf && code != OpCode::EndLoop) continue;
+    endOf_[openers.back()] = i;
+    openers.pop_back();
+  }
+  for (const Op& op : rung.ops) writeOp(op);
+  endLine();
+}
+
+// ---- operations --------------------------------------------------------------------------------------------------
+
+std::string RungWriter::spoil(OpCode code, Type type, std::string text) const {
+  if (options_.sabotage != code) return text;
+  if (type == Type::Bit) return fmt::format("!({})", text);
+  if (type == Type::F64) return fmt::format("fromBits(toBits({}) ^ 1)", text);
+  return fmt::format("static_cast<{}>(({}) ^ 1)", cppType(type), text);
+}
+
+void RungWriter::declare(const Op& op, const std::string& expression, std::string_view comment) {
+  const Type type = typeOf(*rung_, op.result);
+  statement(fmt::format("const {} {} = {};", cppType(type), v(op.result), spoil(op.code, type, expression)), comment);
+}
+
+std::string RungWriter::placeComment(const Op& op) const {
+  const Space& space = module_.spaces[op.ref];
+  const std::string_view name = names_.at(op.ref, op.imm, op.type == Type::Bit);
+  const int64_t unitBits = int64_t{space.unitBytes} * 8;
+  std::string place = op.type == Type::Bit ? fmt::format("{}[{}.{}]", space.name, op.imm / unitBits, op.imm % unitBits)
+                                           : fmt::format("{}[{}]", space.name, op.imm / unitBits);
+  return name.empty() ? place : fmt::format("{} {}", name, place);
+}
+
+std::string RungWriter::load(const Op& op) const {
+  if (op.type == Type::Bit) {
+    const BitLocation at = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+    return at.wholeByte ? fmt::format("RUNG_FLAG({})", at.offset) : fmt::format("RUNG_BIT({}, {})", at.offset, at.bit);
+  }
+  return fmt::format("RUNG_MEM({}, {})", memoryType(op.type), layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)));
+}
+
+void RungWriter::store(const Op& op) {
+  const std::string value = spoil(op.code, op.type, a(op, 0));
+  if (op.type == Type::Bit) {
+    const BitLocation at = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+    statement(at.wholeByte ? fmt::format("RUNG_SET_FLAG({}, {});", at.offset, value)
+                           : fmt::format("RUNG_SET_BIT({}, {}, {});", at.offset, at.bit, value),
+              placeComment(op));
+    return;
+  }
+  statement(fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)), value),
+            placeComment(op));
+}
+
+void RungWriter::storeAt(const Op& op) {
+  if (op.count == 0) return;
+  const uint32_t unit = module_.spaces[op.ref].unitBytes;
+  const uint32_t base = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  if (op.code == OpCode::StoreBitAt)
+    statement(fmt::format("RUNG_SET_BIT_AT({}u, {}u, {}u, {}, {}, {});", base, op.count, unit, a(op, 0), a(op, 1), spoil(op.code, op.type, a(op, 2))), placeComment(op));
+  else
+    statement(fmt::format("RUNG_SET_AT({}, {}u, {}u, {}u, {}, {});", memoryType(op.type), base, op.count, unit, a(op, 0), spoil(op.code, op.type, a(op, 1))), placeComment(op));
+}
+
+// The expression of an operation that has a value and no region.
+std::string RungWriter::pure(const Op& op) {
+  const auto infix = [&](std::string_view sign) { return fmt::format("{} {} {}", a(op, 0), sign, a(op, 1)); };
+  const auto call = [&](std::string_view name) {
+    return op.argCount == 1 ? fmt::format("{}({})", name, a(op, 0)) : fmt::format("{}({}, {})", name, a(op, 0), a(op, 1));
+  };
+  const auto cast = [&](const std::string& text) { return fmt::format("static_cast<{}>({})", cppType(op.type), text); };
+  const uint32_t unit = opInfo(op.code).attr == Attr::Window ? module_.spaces[op.ref].unitBytes : 0;
+  const auto window = [&] { return layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)); };
+  const bool bit = op.type == Type::Bit;
+  switch (op.code) {
+    case OpCode::Const:
+      if (bit) return op.imm != 0 ? "true" : "false";
+      if (op.type == Type::F64) return fmt::format("fromBits(0x{:016x}ull)", static_cast<uint64_t>(op.imm));
+      return fmt::format("{}{}", static_cast<uint64_t>(op.imm), op.type == Type::I64 ? "ull" : "u");
+    case OpCode::Add: return call("add");
+    case OpCode::Sub: return call("sub");
+    case OpCode::Mul: return call("mul");
+    case OpCode::DivS: return call("divS");
+    case OpCode::DivU: return call("divU");
+    case OpCode::RemS: return call("remS");
+    case OpCode::RemU: return call("remU");
+    case OpCode::Neg: return call("neg");
+    case OpCode::And: return bit ? infix("&&") : cast(infix("&"));
+    case OpCode::Or: return bit ? infix("||") : cast(infix("|"));
+    case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
+    case OpCode::Not: return bit ? "!" + a(op, 0) : cast("~" + a(op, 0));
+    case OpCode::Shl: return call("shl");
+    case OpCode::ShrU: return call("shrU");
+    case OpCode::ShrS: return call("shrS");
+    case OpCode::PopCount: return call("popCount");
+    case OpCode::BcdEncode: return call("bcdEncode");
+    case OpCode::BcdDecode: return call("bcdDecode");
+    case OpCode::Eq:
+    case OpCode::FEq: return infix("==");
+    case OpCode::Ne: return infix("!=");
+    case OpCode::LtS: return call("ltS");
+    case OpCode::LeS: return call("leS");
+    case OpCode::LtU:
+    case OpCode::FLt: return infix("<");
+    case OpCode::LeU:
+    case OpCode::FLe: return infix("<=");
+    case OpCode::Select: return fmt::format("{} ? {} : {}", a(op, 0), a(op, 1), a(op, 2));
+    case OpCode::ZExt: return cast(a(op, 0));
+    case OpCode::SExt: {
+      const Type from = typeOf(*rung_, arg(*rung_, op, 0));
+      return from == Type::Bit ? cast(fmt::format("0 - static_cast<i64>({})", a(op, 0))) : cast(fmt::format("asSigned({})", a(op, 0)));
+    }
+    case OpCode::Trunc: return bit ? fmt::format("({} & 1) != 0", a(op, 0)) : cast(a(op, 0));
+    case OpCode::FAdd: return call("fadd");
+    case OpCode::FSub: return call("fsub");
+    case OpCode::FMul: return call("fmul");
+    case OpCode::FDiv: return call("fdiv");
+    case OpCode::FNeg: return call("fneg");
+    case OpCode::FAbs: return call("sem::fabs");
+    case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
+    case OpCode::FToIntNearest: return call("fToIntNearest");
+    case OpCode::IntToF: return call("intToF");
+    case OpCode::BitsToF: return call("fromBits");
+    case OpCode::FToBits: return call("toBits");
+    case OpCode::Load: return load(op);
+    case OpCode::LoadAt:
+      if (op.count == 0) return "0";
+      return fmt::format("RUNG_AT({}, {}u, {}u, {}u, {})", memoryType(op.type), window(), op.count, unit, a(op, 0));
+    case OpCode::LoadBitAt:
+      if (op.count == 0) return "false";
+      return fmt::format("RUNG_BIT_AT({}u, {}u, {}u, {}, {})", window(), op.count, unit, a(op, 0), a(op, 1));
+    case OpCode::SlotLoad:
+      return bit ? fmt::format("RUNG_FLAG({})", layout_.slot(SlotId{op.ref}))
+                 : fmt::format("RUNG_MEM({}, {})", memoryType(op.type), layout_.slot(SlotId{op.ref}));
+    case OpCode::Now: return "static_cast<u64>(ctx->now_us)";
+    case OpCode::ServicePoll: return fmt::format("ctx->host->service_poll(ctx, {})", a(op, 0));
+    case OpCode::ServiceResult: return fmt::format("static_cast<u64>(ctx->host->service_result(ctx, {}, {}u))", a(op, 0), op.imm);
+    case OpCode::Store:
+    case OpCode::StoreAt:
+    case OpCode::StoreBitAt:
+    case OpCode::SlotStore:
+    case OpCode::If:
+    case OpCode::Else:
+    case OpCode::EndIf:
+    case OpCode::Loop:
+    case OpCode::EndLoop:
+    case OpCode::Message:
+    case OpCode::ServiceRequest:
+    case OpCode::Trap:
+    case OpCode::Note:
+    case OpCode::ProfEnter:
+    case OpCode::ProfLeave: break;
+  }
+  RUNG_CHECK(false, "not an operation with a value");
+  return {};
+}
+
+void RungWriter::writeOp(const Op& op) {
+  const size_t index = static_cast<size_t>(&op - rung_->ops.data());
+  beginLine(op.line != 0 ? op.line : rung_->begin.line, false);
+  switch (op.code) {
+    case OpCode::Store: return store(op);
+    case OpCode::StoreAt:
+    case OpCode::StoreBitAt: return storeAt(op);
+    case OpCode::SlotStore: {
+      const uint32_t offset = layout_.slot(SlotId{op.ref});
+      const std::string value = spoil(op.code, op.type, a(op, 0));
+      return statement(op.type == Type::Bit ? fmt::format("RUNG_SET_FLAG({}, {});", offset, value)
+                                            : fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), offset, value),
+                       module_.slots[op.ref].key);
+    }
+    case OpCode::If: return openIf(op, index);
+    case OpCode::Else:
+      yield(op, *regions_.back().end);
+      --indent_;
+      statement("} else {");
+      ++indent_;
+      return;
+    case OpCode::EndIf:
+      yield(op, op);
+      regions_.pop_back();
+      --indent_;
+      return statement("}");
+    case OpCode::Loop: return openLoop(op, index);
+    case OpCode::EndLoop: return closeLoop(op);
+    case OpCode::Message:
+    case OpCode::ServiceRequest:
+    case OpCode::ProfEnter:
+    case OpCode::ProfLeave: return host(op);
+    case OpCode::Trap:
+      return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", spoil(op.code, Type::Bit, a(op, 0)), op.ref, number_,
+                                   op.line != 0 ? op.line : rung_->begin.line),
+                       module_.faults[op.ref]);
+    case OpCode::Note: return statement("// " + commentText(rung_->notes[op.ref]));
+    default: break;
+  }
+  const Attr attr = opInfo(op.code).attr;
+  const bool place = attr == Attr::Place || attr == Attr::Window;
+  declare(op, pure(op), place ? placeComment(op) : op.code == OpCode::SlotLoad ? module_.slots[op.ref].key : std::string());
+}
+
+// ---- regions: results of an endif and the carried values of a loop are variables declared in front ---------------
+
+void RungWriter::openIf(const Op& op, size_t index) {
+  const Op& end = rung_->ops[endOf_[index]];
+  for (uint32_t i = 0; i < end.resultCount; ++i) {
+    const ValueId id{end.result.index + i};
+    statement(fmt::format("{} {};", cppType(typeOf(*rung_, id)), v(id)));
+  }
+  regions_.push_back({index, &end});
+  statement(fmt::format("if ({}) {{", spoil(op.code, Type::Bit, a(op, 0))));
+  ++indent_;
+}
+
+void RungWriter::yield(const Op& op, const Op& end) {
+  for (uint32_t i = 0; i < end.resultCount; ++i) {
+    const ValueId id{end.result.index + i};
+    statement(fmt::format("{} = {};", v(id), spoil(op.code, typeOf(*rung_, id), a(op, static_cast<int>(i)))));
+  }
+}
+
+void RungWriter::openLoop(const Op& op, size_t index) {
+  const Op& end = rung_->ops[endOf_[index]];
+  regions_.push_back({index, &end});
+  const std::string pass = v(op.result);
+  for (uint32_t i = 1; i < op.resultCount; ++i) {
+    const ValueId id{op.result.index + i};
+    statement(fmt::format("{} {} = {};", cppType(typeOf(*rung_, id)), v(id), spoil(op.code, typeOf(*rung_, id), a(op, static_cast<int>(i - 1)))));
+  }
+  const bool wrongCount = options_.sabotage == op.code && op.resultCount == 1;
+  statement(fmt::format("for (u32 {0} = 0; {0} < {1}u; ++{0}) {{", pass, wrongCount && op.count > 0 ? op.count - 1 : op.count));
+  ++indent_;
+}
+
+void RungWriter::closeLoop(const Op& op) {
+  const Op& begin = rung_->ops[regions_.back().opener];
+  regions_.pop_back();
+  // All next values are read before the first is carried on.
+  for (uint32_t i = 0; i < op.argCount; ++i)
+    statement(fmt::format("const {} n{} = {};", cppType(typeOf(*rung_, arg(*rung_, op, static_cast<int>(i)))), i, a(op, static_cast<int>(i))));
+  for (uint32_t i = 0; i < op.argCount; ++i) statement(fmt::format("{} = n{};", v(ValueId{begin.result.index + 1 + i}), i));
+  --indent_;
+  statement("}");
+  for (uint32_t i = 0; i < op.resultCount; ++i) {
+    const ValueId id{op.result.index + i};
+    statement(fmt::format("const {} {} = {};", cppType(typeOf(*rung_, id)), v(id), spoil(op.code, typeOf(*rung_, id), v(ValueId{begin.result.index + 1 + i}))));
+  }
+}
+
+// ---- host --------------------------------------------------------------------------------------------------------
+
+void RungWriter::host(const Op& op) {
+  if (op.code == OpCode::ProfEnter) return statement(fmt::format("RUNG_PROF_ENTER({}u);", number_));
+  if (op.code == OpCode::ProfLeave) {
+    const bool wrong = options_.sabotage == op.code;
+    return statement(wrong ? "// not counted" : fmt::format("RUNG_PROF_LEAVE({}u);", number_));
+  }
+  if (op.code == OpCode::Message) {
+    const bool real = typeOf(*rung_, arg(*rung_, op, 3)) == Type::F64;
+    return statement(fmt::format("RUNG_MESSAGE({}u, {}, {}, {}, {}, {}u, {}u)", op.ref, spoil(op.code, Type::I32, a(op, 0)), a(op, 1), a(op, 2),
+                                 real ? fmt::format("toBits({})", a(op, 3)) : a(op, 3), real ? 1 : 0, number_));
+  }
+  const std::string array = fmt::format("a{}", op.result.index);
+  std::string values;
+  for (uint32_t i = 0; i < op.argCount; ++i) values += fmt::format("{}static_cast<i64>({})", i == 0 ? "" : ", ", a(op, static_cast<int>(i)));
+  statement(fmt::format("const i64 {}[{}] = {{{}}};", array, std::max(1u, unsigned{op.argCount}), values));
+  declare(op, fmt::format("ctx->host->service_request(ctx, {}u, {}, {}u)", op.ref, array, op.argCount), module_.services[op.ref]);
+}
+
+// ---- exits -------------------------------------------------------------------------------------------------------
+
+void RungWriter::writeExit(const Exit& exit) {
+  const auto leave = [](uint32_t chunk) { return chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", chunk); };
+  const std::string when = exit.cond.valid() ? fmt::format("if ({}) ", v(exit.cond)) : "";
+  const bool always = !exit.cond.valid();
+  beginLine(rung_->transferLine != 0 ? rung_->transferLine : rung_->begin.line, true);
+  switch (exit.kind) {
+    case TransferKind::Next: statement(leave(exit.otherwise)); break;
+    case TransferKind::Goto: statement(when + leave(exit.taken)); break;
+    case TransferKind::Call:
+      // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
+      statement(exit.otherwise == RUNG_NONE ? when + leave(exit.taken) : fmt::format("{}RUNG_CALL({}u, {}u)", when, exit.otherwise, exit.taken));
+      break;
+    case TransferKind::Ret: statement(when + "RUNG_RETURN;"); break;
+    case TransferKind::End: statement(when + "return RUNG_PC_DONE;"); break;
+    case TransferKind::Switch: {
+      statement(fmt::format("switch ({}) {{", v(exit.value)));
+      for (size_t i = 1; i < exit.targets.size(); ++i) statement(fmt::format("  case {}u: return {}u;", i, exit.targets[i]));
+      statement(fmt::format("  default: return {}u;", exit.targets[0]));
+      statement("}");
+      break;
+    }
+  }
+  if (!always && exit.kind != TransferKind::Next && exit.kind != TransferKind::Switch) statement(leave(exit.otherwise));
+  endLine();
+}
+
+} // namespace rung::codegen

@@ -1,0 +1,75 @@
+// Writes the operations of one rung as C++ statements, one an operation.
+#pragma once
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "codegen/cpp/cpp_emitter.h"
+
+namespace rung::codegen {
+
+// Names of places, for comments: the first symbol that lies exactly there.
+class PlaceNames {
+ public:
+  explicit PlaceNames(const ir::Module& module);
+  // Empty when no symbol lies there. `bitOffset` counts from the beginning of the space.
+  std::string_view at(uint32_t space, int64_t bitOffset, bool bit) const;
+
+ private:
+  std::unordered_map<uint64_t, const std::string*> names_;
+};
+
+class RungWriter {
+ public:
+  RungWriter(const ir::Layout& layout, const PlaceNames& names, const CppOptions& options, std::string& out)
+      : layout_(layout), module_(layout.module()), names_(names), options_(options), out_(out) {}
+
+  // `number` is the rung's number over all routines, `file` its source's name.
+  void write(const ir::Rung& rung, uint32_t number, std::string_view file);
+  // How the chunk is left behind its last rung, which is the one written last.
+  void writeExit(const ir::Exit& exit);
+
+ private:
+  void beginLine(uint32_t line, bool force);
+  void endLine();
+  void statement(std::string_view text, std::string_view comment = {});
+  void writeOp(const ir::Op& op);
+  void declare(const ir::Op& op, const std::string& expression, std::string_view comment = {});
+  std::string pure(const ir::Op& op);
+  std::string load(const ir::Op& op) const;
+  void store(const ir::Op& op);
+  void storeAt(const ir::Op& op);
+  void openIf(const ir::Op& op, size_t index);
+  void yield(const ir::Op& op, const ir::Op& end);
+  void openLoop(const ir::Op& op, size_t index);
+  void closeLoop(const ir::Op& op);
+  void host(const ir::Op& op);
+
+  std::string v(ir::ValueId id) const { return "v" + std::to_string(id.index); }
+  std::string a(const ir::Op& op, int i) const { return v(ir::arg(*rung_, op, i)); }
+  std::string placeComment(const ir::Op& op) const;
+  // The text, or a wrong one when this operation is to be sabotaged.
+  std::string spoil(ir::OpCode code, ir::Type type, std::string text) const;
+
+  const ir::Layout& layout_;
+  const ir::Module& module_;
+  const PlaceNames& names_;
+  const CppOptions& options_;
+  std::string& out_;
+  const ir::Rung* rung_ = nullptr;
+  uint32_t number_ = 0;
+  std::string_view file_;
+  uint32_t line_ = 0; // of the open RUNG_LINE
+  bool open_ = false;
+  int indent_ = 0;
+  struct Region {
+    size_t opener;     // index of the If or Loop
+    const ir::Op* end; // its EndIf or EndLoop
+  };
+  std::vector<Region> regions_;
+  std::vector<size_t> endOf_; // per op: index of the end of the region that it opens
+};
+
+std::string_view cppType(ir::Type type);
+
+} // namespace rung::codegen

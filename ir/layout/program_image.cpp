@@ -1,0 +1,229 @@
+// Fills the tables of a rung_program (see program_image.h).
+#include "ir/layout/program_image.h"
+
+#include <algorithm>
+
+#include "ir/support/check.h"
+
+namespace rung::ir {
+
+inline constexpr char kCompilerName[] = "rungc 0.1";
+
+class ImageBuilder {
+ public:
+  ImageBuilder(ProgramImage& image, const Layout& layout) : image_(image), layout_(layout), module_(layout.module()) {}
+
+  void run(uint64_t codeHash) {
+    rung_program& p = image_.program_;
+    p.size = sizeof(rung_program);
+    p.abi_version = RUNG_ABI_VERSION;
+    p.name = text(module_.name);
+    p.dialect = text(module_.dialect);
+    p.compiler = kCompilerName;
+    p.layout_hash = layout_.hash();
+    p.code_hash = codeHash;
+    p.memory_size = layout_.memorySize();
+    p.memory_align = 64;
+    p.instrumented = module_.instrumented ? 1 : 0;
+    p.main_task = module_.mainTask.index;
+    p.fast_task = module_.fastTask.index;
+    addSpaces();
+    addSymbols();
+    addInits();
+    addSpans(module_.retains, image_.retains_);
+    addRetainedSlots();
+    addSpans(module_.safes, image_.safes_);
+    addTasks();
+    addChunks();
+    addRungs();
+    addSteps(module_.scan, image_.scan_);
+    addSteps(module_.fast, image_.fast_);
+    addTexts();
+    link();
+  }
+
+ private:
+  const char* text(const std::string& s) { return image_.strings_.emplace_back(s).c_str(); }
+
+  // The pieces of a span that lie together in the memory block.
+  template <class Visit> void forPieces(const SpaceSpan& span, Visit visit) {
+    uint32_t done = 0;
+    for (const rung_range& range : layout_.space(span.space).ranges) {
+      const uint32_t first = std::max(range.first_byte, span.byte);
+      const uint32_t end = std::min(range.first_byte + range.byte_count, span.byte + span.size);
+      if (first >= end) continue;
+      const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
+      visit(rung_span{range.offset + (first - range.first_byte) * scale, (end - first) * scale});
+      done += end - first;
+    }
+    RUNG_CHECK(done == span.size, "span outside its space");
+  }
+
+  void addSpaces() {
+    for (uint32_t i = 0; i < module_.spaces.size(); ++i) {
+      const Space& space = module_.spaces[i];
+      const std::vector<rung_range>& ranges = image_.ranges_.emplace_back(layout_.space(SpaceId{i}).ranges);
+      image_.spaces_.push_back({text(space.name), space.unitBytes, space.units * space.unitBytes, space.flags,
+                                static_cast<uint32_t>(ranges.size()), ranges.data()});
+    }
+  }
+
+  void addSymbols() {
+    for (const Symbol& s : module_.symbols)
+      image_.symbols_.push_back({text(s.name), text(s.comment), s.space.index, s.byte, s.bit, s.type, s.count, s.flags, s.value});
+    std::sort(image_.symbols_.begin(), image_.symbols_.end(), [](const rung_symbol& a, const rung_symbol& b) {
+      const int order = std::string_view(a.name).compare(b.name);
+      return order != 0 ? order < 0 : a.byte < b.byte;
+    });
+  }
+
+  void addInits() {
+    for (const Init& init : module_.inits)
+      addInit(layout_.byte(init.space, init.byte), init.data);
+    for (uint32_t i = 0; i < module_.slots.size(); ++i) {
+      const Slot& slot = module_.slots[i];
+      if (slot.init == 0) continue;
+      std::vector<uint8_t> bytes(std::max(1u, byteWidth(slot.type)));
+      for (size_t b = 0; b < bytes.size(); ++b) bytes[b] = static_cast<uint8_t>(static_cast<uint64_t>(slot.init) >> (8 * b));
+      addInit(layout_.slot(SlotId{i}), bytes);
+    }
+  }
+
+  void addInit(uint32_t offset, const std::vector<uint8_t>& bytes) {
+    const std::vector<uint8_t>& kept = image_.initData_.emplace_back(bytes);
+    image_.inits_.push_back({offset, static_cast<uint32_t>(kept.size()), kept.data()});
+  }
+
+  void addSpans(const std::vector<SpaceSpan>& spans, std::vector<rung_span>& out) {
+    for (const SpaceSpan& span : spans) forPieces(span, [&](rung_span piece) { out.push_back(piece); });
+  }
+
+  void addRetainedSlots() {
+    for (uint32_t i = 0; i < module_.slots.size(); ++i)
+      if (module_.slots[i].retain)
+        image_.retains_.push_back({layout_.slot(SlotId{i}), std::max(1u, byteWidth(module_.slots[i].type))});
+  }
+
+  // Connected bytes have one representation, but their ranges may be cut at different places.
+  void addCopy(const Copy& copy) {
+    for (uint32_t done = 0; done < copy.from.size;) {
+      const uint32_t rest = copy.from.size - done;
+      Piece from = piece(copy.from.space, copy.from.byte + done, rest);
+      Piece to = piece(copy.to, copy.toByte + done, from.bytes);
+      Piece mask = copy.masked ? piece(copy.mask, copy.maskByte + done, to.bytes) : to;
+      RUNG_CHECK(from.scale == to.scale && to.scale == mask.scale, "a copy connects bytes of two representations");
+      image_.copies_.push_back({copy.masked ? uint32_t{RUNG_COPY_MASKED} : uint32_t{RUNG_COPY_ALL}, from.offset, to.offset,
+                                copy.masked ? mask.offset : 0, mask.bytes * mask.scale});
+      done += mask.bytes;
+    }
+  }
+
+  // As many logical bytes from `byte`, at most `size`, as lie together.
+  struct Piece {
+    uint32_t offset;
+    uint32_t bytes;
+    uint32_t scale;
+  };
+  Piece piece(SpaceId space, uint32_t byte, uint32_t size) {
+    for (const rung_range& range : layout_.space(space).ranges) {
+      if (byte < range.first_byte || byte - range.first_byte >= range.byte_count) continue;
+      const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
+      const uint32_t into = byte - range.first_byte;
+      return {range.offset + into * scale, std::min(size, range.byte_count - into), scale};
+    }
+    RUNG_CHECK(false, "copy outside its space");
+    return {};
+  }
+
+  void addTasks() {
+    for (uint32_t i = 0; i < module_.tasks.size(); ++i) {
+      const Task& task = module_.tasks[i];
+      rung_task out{};
+      out.name = text(task.name);
+      out.entry = layout_.entry(task.entry);
+      out.period_us = task.periodUs;
+      out.budget = task.budget;
+      out.budget_fault = task.budgetFault.index;
+      out.begin_first = static_cast<uint32_t>(image_.copies_.size());
+      for (const Copy& copy : task.begin) addCopy(copy);
+      out.begin_count = static_cast<uint32_t>(image_.copies_.size()) - out.begin_first;
+      out.end_first = static_cast<uint32_t>(image_.copies_.size());
+      for (const Copy& copy : task.end) addCopy(copy);
+      out.end_count = static_cast<uint32_t>(image_.copies_.size()) - out.end_first;
+      out.part_first = static_cast<uint32_t>(image_.partEnds_.size());
+      const std::vector<uint32_t>& ends = layout_.partEnds(TaskId{i});
+      image_.partEnds_.insert(image_.partEnds_.end(), ends.begin(), ends.end());
+      // A short program gives fewer borders than parts: the parts behind the last border are empty.
+      image_.partEnds_.insert(image_.partEnds_.end(), task.parts - ends.size(), RUNG_PC_DONE);
+      out.part_count = task.parts;
+      image_.tasks_.push_back(out);
+    }
+  }
+
+  void addChunks() {
+    for (const Chunk& chunk : layout_.chunks())
+      image_.chunks_.push_back({layout_.rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
+  }
+
+  void addRungs() {
+    for (uint32_t r = 0; r < module_.routines.size(); ++r) {
+      image_.routines_.push_back(text(module_.routines[r].name));
+      for (const Rung& rung : module_.routines[r].rungs)
+        image_.rungs_.push_back({rung.title.empty() ? "" : text(rung.title), rung.begin.file.index, rung.begin.line,
+                                 std::max(rung.begin.line, rung.lastLine), r, rung.key});
+    }
+  }
+
+  void addSteps(const std::vector<Step>& steps, std::vector<rung_step>& out) {
+    for (const Step& step : steps) out.push_back({step.op, step.task.index, step.arg});
+  }
+
+  void addTexts() {
+    for (const std::string& s : module_.files) image_.files_.push_back(text(s));
+    for (const std::string& s : module_.faults) image_.faults_.push_back(text(s));
+    for (const std::string& s : module_.services) image_.services_.push_back(text(s));
+    for (const MessageText& m : module_.messages) {
+      image_.texts_.push_back(text(std::to_string(m.number)));
+      image_.texts_.push_back(text(m.text));
+    }
+  }
+
+  template <class T> static void point(const std::vector<T>& from, const T*& to, uint32_t& count) {
+    to = from.empty() ? nullptr : from.data();
+    count = static_cast<uint32_t>(from.size());
+  }
+
+  void link() {
+    rung_program& p = image_.program_;
+    point(image_.spaces_, p.spaces, p.space_count);
+    point(image_.symbols_, p.symbols, p.symbol_count);
+    point(image_.inits_, p.inits, p.init_count);
+    point(image_.retains_, p.retains, p.retain_count);
+    point(image_.safes_, p.safes, p.safe_count);
+    point(image_.copies_, p.copies, p.copy_count);
+    point(image_.chunks_, p.chunks, p.chunk_count);
+    point(image_.rungs_, p.rungs, p.rung_count);
+    point(image_.tasks_, p.tasks, p.task_count);
+    point(image_.partEnds_, p.part_ends, p.part_end_count);
+    point(image_.scan_, p.scan, p.scan_count);
+    point(image_.fast_, p.fast, p.fast_count);
+    pointTexts(image_.routines_, p.routines, p.routine_count);
+    pointTexts(image_.files_, p.files, p.file_count);
+    pointTexts(image_.faults_, p.faults, p.fault_count);
+    pointTexts(image_.services_, p.services, p.service_count);
+    pointTexts(image_.texts_, p.texts, p.text_count);
+  }
+
+  static void pointTexts(const std::vector<const char*>& from, const char* const*& to, uint32_t& count) {
+    to = from.empty() ? nullptr : from.data();
+    count = static_cast<uint32_t>(from.size());
+  }
+
+  ProgramImage& image_;
+  const Layout& layout_;
+  const Module& module_;
+};
+
+ProgramImage::ProgramImage(const Layout& layout, uint64_t codeHash) { ImageBuilder(*this, layout).run(codeHash); }
+
+} // namespace rung::ir

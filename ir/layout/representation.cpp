@@ -1,0 +1,120 @@
+// The choice of representation (see representation.h): collect what touches each byte, make copies agree, fill gaps.
+#include "ir/layout/representation.h"
+
+#include <algorithm>
+
+namespace rung::ir {
+namespace {
+
+enum Use : uint8_t { kUntouched = 0, kBits = 1, kWhole = 2 };
+using Uses = std::vector<std::vector<uint8_t>>;
+
+// Gaps up to this many bytes between expanded bytes are expanded too: fewer ranges, so fewer pieces to copy.
+constexpr size_t kGap = 16;
+
+void mark(std::vector<uint8_t>& uses, uint64_t first, uint64_t size, Use use) {
+  const uint64_t end = std::min<uint64_t>(first + size, uses.size());
+  for (uint64_t i = first; i < end; ++i) uses[i] = std::max<uint8_t>(uses[i], use);
+}
+
+void markOp(const Module& module, const Op& op, Uses& uses) {
+  const Attr attr = opInfo(op.code).attr;
+  if (attr != Attr::Place && attr != Attr::Window) return;
+  const uint64_t first = static_cast<uint64_t>(op.imm) / 8;
+  std::vector<uint8_t>& space = uses[op.ref];
+  if (attr == Attr::Place) {
+    mark(space, first, std::max(1u, byteWidth(op.type)), op.type == Type::Bit ? kBits : kWhole);
+    return;
+  }
+  if (op.count == 0) return;
+  const uint64_t unit = module.spaces[op.ref].unitBytes;
+  const uint64_t last = op.type == Type::Bit ? unit : byteWidth(op.type);
+  mark(space, first, (op.count - 1) * unit + last, kWhole);
+}
+
+uint32_t symbolBytes(const Symbol& symbol) {
+  switch (symbol.type) {
+    case RUNG_TYPE_BIT: return 0;
+    case RUNG_TYPE_I16: return 2 * symbol.count;
+    case RUNG_TYPE_I32: return 4 * symbol.count;
+    case RUNG_TYPE_I64:
+    case RUNG_TYPE_F64: return 8 * symbol.count;
+    default: return symbol.count;
+  }
+}
+
+Uses collectUses(const Module& module) {
+  Uses uses;
+  for (const Space& space : module.spaces)
+    uses.emplace_back(static_cast<size_t>(space.units) * space.unitBytes, space.packedOnly ? kWhole : kUntouched);
+  for (const Routine& routine : module.routines)
+    for (const Rung& rung : routine.rungs)
+      for (const Op& op : rung.ops) markOp(module, op, uses);
+  for (const Symbol& symbol : module.symbols)
+    if (symbol.space.valid()) mark(uses[symbol.space.index], symbol.byte, symbolBytes(symbol), kWhole);
+  for (const Init& init : module.inits) mark(uses[init.space.index], init.byte, init.data.size(), kWhole);
+  return uses;
+}
+
+// Calls visit(a, b) for every pair of bytes that a copy connects.
+template <class Visit> void forConnected(const Module& module, Uses& uses, Visit visit) {
+  for (const Task& task : module.tasks)
+    for (const std::vector<Copy>* copies : {&task.begin, &task.end})
+      for (const Copy& copy : *copies)
+        for (uint32_t i = 0; i < copy.from.size; ++i) {
+          uint8_t& from = uses[copy.from.space.index][copy.from.byte + i];
+          visit(from, uses[copy.to.index][copy.toByte + i]);
+          if (copy.masked) visit(from, uses[copy.mask.index][copy.maskByte + i]);
+        }
+}
+
+// Makes connected bytes equal by giving both the greater use; copies may form chains, so until nothing changes.
+void agree(const Module& module, Uses& uses) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    forConnected(module, uses, [&](uint8_t& a, uint8_t& b) {
+      changed |= a != b;
+      a = b = std::max(a, b);
+    });
+  }
+}
+
+void fillGaps(std::vector<uint8_t>& uses) {
+  size_t lastBits = uses.size(); // none yet
+  for (size_t i = 0; i < uses.size(); ++i) {
+    if (uses[i] == kWhole) lastBits = uses.size();
+    if (uses[i] != kBits) continue;
+    if (lastBits < i && i - lastBits - 1 <= kGap) std::fill(uses.begin() + static_cast<ptrdiff_t>(lastBits), uses.begin() + static_cast<ptrdiff_t>(i), kBits);
+    lastBits = i;
+  }
+}
+
+// A gap at the end of a copied piece may have been filled on one side only; nothing touches it, so it goes back.
+void undoOneSidedGaps(const Module& module, Uses& uses) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    forConnected(module, uses, [&](uint8_t& a, uint8_t& b) {
+      if ((a == kBits) == (b == kBits)) return;
+      changed = true;
+      a = b = kUntouched;
+    });
+  }
+}
+
+} // namespace
+
+Representation chooseRepresentation(const Module& module, bool expandBits) {
+  Uses uses = collectUses(module);
+  if (expandBits) {
+    agree(module, uses);
+    for (std::vector<uint8_t>& space : uses) fillGaps(space);
+    undoOneSidedGaps(module, uses);
+  }
+  for (std::vector<uint8_t>& space : uses)
+    for (uint8_t& use : space) use = expandBits && use == kBits ? RUNG_REPR_BYTE_PER_BIT : RUNG_REPR_PACKED;
+  return uses;
+}
+
+} // namespace rung::ir

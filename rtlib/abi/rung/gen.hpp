@@ -1,0 +1,81 @@
+// What generated C++ is written in: accesses to the memory block, faults and profile counters. They are macros and not
+// functions so that debuggers and profilers see nothing but the lines of the PLC source.
+#ifndef RUNG_GEN_HPP
+#define RUNG_GEN_HPP
+
+#include "rung/program.h"
+#include "rung/sem.hpp"
+
+namespace rung::gen {
+using namespace sem;
+// Places in the memory block have no alignment and may overlap.
+typedef u8 __attribute__((aligned(1), may_alias)) m8;
+typedef u16 __attribute__((aligned(1), may_alias)) m16;
+typedef u32 __attribute__((aligned(1), may_alias)) m32;
+typedef u64 __attribute__((aligned(1), may_alias)) m64;
+typedef double __attribute__((aligned(1), may_alias)) mf64;
+} // namespace rung::gen
+
+// All that stands inside belongs to the source line of the #line above it.
+#define RUNG_LINE(...) __VA_ARGS__
+
+// A bit packed in a byte.
+#define RUNG_BIT(offset, bit) ((mem[offset] >> (bit)) & 1)
+#define RUNG_SET_BIT(offset, bit, value) \
+  mem[offset] = static_cast<u8>((mem[offset] & ~(1u << (bit))) | (static_cast<unsigned>(value) << (bit)))
+// A bit with a byte of its own.
+#define RUNG_FLAG(offset) (mem[offset] != 0)
+#define RUNG_SET_FLAG(offset, value) mem[offset] = static_cast<u8>(value)
+// m8 m16 m32 m64 mf64
+#define RUNG_MEM(type, offset) (*reinterpret_cast<type *>(mem + (offset)))
+
+// Element i of a window of `count` elements, `unit` bytes apart; outside of it nothing is read or written.
+#define RUNG_AT(type, offset, count, unit, i) \
+  ((i) < (count) ? RUNG_MEM(type, (offset) + static_cast<u64>(i) * (unit)) : 0)
+#define RUNG_SET_AT(type, offset, count, unit, i, value) \
+  if ((i) < (count)) RUNG_MEM(type, (offset) + static_cast<u64>(i) * (unit)) = (value)
+#define RUNG_BIT_AT(offset, count, unit, i, b) \
+  ((i) < (count) && (b) < (unit)*8u ? RUNG_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8) : 0)
+#define RUNG_SET_BIT_AT(offset, count, unit, i, b, value) \
+  if ((i) < (count) && (b) < (unit)*8u) RUNG_SET_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8, value)
+
+#define RUNG_TRAP(condition, fault_code, rung_number, source_line) \
+  if (condition) {                                                 \
+    ctx->fault.code = (fault_code);                                \
+    ctx->fault.rung = (rung_number);                               \
+    ctx->fault.line = (source_line);                               \
+    return RUNG_PC_FAULT;                                          \
+  }
+#define RUNG_CALL(return_chunk, callee) \
+  {                                     \
+    ctx->stack[ctx->sp++] = (return_chunk); \
+    return (callee);                    \
+  }
+#define RUNG_RETURN return ctx->stack[--ctx->sp]
+
+#define RUNG_MESSAGE(message_op, number, channel, index, value, real, rung_number)                                    \
+  {                                                                                                                  \
+    const rung_message m = {(message_op), (number), static_cast<i32>(channel), static_cast<i32>(index), \
+                            static_cast<i64>(value), (real), (rung_number)};                                         \
+    ctx->host->message(ctx, &m);                                                                                     \
+  }
+
+// Ticks of the machine; the host calibrates them.
+#if defined(__x86_64__) || defined(__i386__)
+#define RUNG_TICKS() __builtin_ia32_rdtsc()
+#elif defined(__clang__)
+#define RUNG_TICKS() __builtin_readcyclecounter()
+#else
+#define RUNG_TICKS() 0
+#endif
+#define RUNG_PROF_ENTER(rung_number) ctx->prof[rung_number].started = RUNG_TICKS()
+#define RUNG_PROF_LEAVE(rung_number)                                          \
+  {                                                                           \
+    rung_prof &p = ctx->prof[rung_number];                                    \
+    const u64 ticks = RUNG_TICKS() - p.started;                               \
+    p.count += 1;                                                             \
+    p.total += ticks;                                                         \
+    p.max = ticks > p.max ? ticks : p.max;                                    \
+  }
+
+#endif

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Checks who may include whom (docs/architecture.md): layering.py [ROOT]; exit 1 and a line for each offence."""
+import re
+import sys
+from pathlib import Path
+
+# Folder -> folders it may include besides itself; the longest matching folder counts. "rtlib/abi" is also "rung/NAME.h".
+FRONTEND = {"ir/support", "ir/core", "ir/idioms", "rtlib/abi", "rtlib/nc"}
+IR = {"ir/support", "ir/core", "rtlib/abi"}
+ALL_IR = IR | {"ir/idioms", "ir/text", "ir/verify", "ir/passes", "ir/layout", "ir/interp"}
+DIALECT = FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
+                      "frontend/mnemonic", "frontend/dialects"}
+DIALECTS = {f"frontend/dialects/{name}" for name in ("gsk", "nct", "technol")}
+MODULES = {
+    "rtlib/abi": set(),
+    "rtlib/core": {"rtlib/abi"},
+    "rtlib/nc": {"rtlib/abi"},
+    "rtlib/host": {"rtlib/abi", "rtlib/core", "rtlib/nc"},
+    "rtlib/profile": {"rtlib/abi", "rtlib/core", "rtlib/nc"},
+    "ir/support": set(),
+    "ir/core": IR,
+    "ir/idioms": IR,
+    "ir/text": IR,
+    "ir/verify": IR | {"ir/text"},
+    "ir/passes": IR | {"ir/idioms", "ir/text", "ir/verify"},
+    "ir/layout": IR,
+    "ir/interp": IR | {"ir/layout", "rtlib/core"},
+    "frontend/syntax": FRONTEND,
+    "frontend/table": FRONTEND | {"frontend/syntax"},
+    "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},
+    "frontend/mnemonic": FRONTEND | {"frontend/syntax", "frontend/table"},
+    "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
+    "frontend/lower": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema"},
+    "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
+    **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
+    "codegen/cpp": ALL_IR,
+    "codegen/llvm": ALL_IR,
+    "codegen/jit": ALL_IR | {"codegen/llvm"},
+    "codegen/clang": ALL_IR | {"codegen/cpp"},
+}
+FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
+
+# Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
+FOREIGN = {
+    "llvm/": ("codegen/llvm", "codegen/jit", "codegen/clang"),
+    "llvm-c/": (),
+    "lld/": ("codegen/llvm", "codegen/jit"),
+    "clang/": ("codegen/clang",),
+    "fmt/": ("ir", "frontend", "codegen"),
+    "nlohmann/": ("ir/support", "codegen"),
+    "CLI/": (),
+    "gtest/": (),
+    "gmock/": (),
+    "benchmark/": (),
+}
+SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".def"}
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+[<"]([^>"]+)[>"]', re.MULTILINE)
+
+
+def within(path, folder):
+    return path == folder or path.startswith(folder + "/")
+
+
+def module_of(path):
+    return max((m for m in MODULES if within(path, m)), key=len, default=None)
+
+
+def offence(root, path, target):
+    """What is wrong with `path` including `target`, or None."""
+    if any(within(path, folder) for folder in FREE):
+        return None
+    for prefix, allowed in FOREIGN.items():
+        if target.startswith(prefix):
+            return None if any(within(path, folder) for folder in allowed) else f"may not include {target}"
+    if target.startswith("rung/"):
+        target = "rtlib/abi/" + target
+    if not (root / target).is_file():
+        beside = "/" not in target and (root / path).parent.joinpath(target).is_file()
+        return f"writes {target} without its folder" if beside else None
+    source, used = module_of(path), module_of(target)
+    if used is None:
+        return f"may not include {target}"
+    if source is None:
+        return "is in no known module"
+    return None if used == source or used in MODULES[source] else f"({source}) may not include {target}"
+
+
+def check(root):
+    found = []
+    for top in ("frontend", "ir", "codegen", "rtlib"):
+        for file in sorted((root / top).rglob("*")):
+            if file.suffix not in SUFFIXES:
+                continue
+            path = file.relative_to(root).as_posix()
+            if module_of(path) is None:
+                found.append(f"{path}: is in no known module")
+                continue
+            text = file.read_text(encoding="utf-8")
+            for match in INCLUDE.finditer(text):
+                if problem := offence(root, path, match.group(1)):
+                    found.append(f"{path}:{text.count(chr(10), 0, match.start(1)) + 1}: {problem}")
+    return found
+
+
+def main():
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    found = check(root)
+    print("\n".join(found) or "include directions are right")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Each rule of layering.py is broken once in a made-up tree and must be reported; a good tree must pass."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).parent))
+import layering
+
+GOOD = {
+    "rtlib/abi/rung/program.h": "",
+    "rtlib/host/loader.h": '#include "rung/program.h"\n',
+    "ir/support/source.h": "#include <vector>\n",
+    "ir/core/module.h": '#include "ir/support/source.h"\n#include "rung/program.h"\n',
+    "frontend/table/instruction.h": '#include "ir/core/module.h"\n',
+    "frontend/dialects/dialect.h": '#include "frontend/table/instruction.h"\n',
+    "frontend/dialects/gsk/rows.h": '#include "frontend/dialects/dialect.h"\n',
+    "frontend/dialects/all.cpp": '#include "frontend/dialects/gsk/rows.h"\n',
+    "codegen/cpp/emit.h": '#include "ir/core/module.h"\n',
+    "codegen/llvm/emit.cpp": "#include <llvm/IR/Module.h>\n",
+    "tools/rungc/main.cpp": '#include "codegen/cpp/emit.h"\n#include <CLI/CLI.hpp>\n',
+}
+BAD = {
+    "frontend includes codegen": ("frontend/table/x.cpp", '#include "codegen/cpp/emit.h"'),
+    "ir includes frontend": ("ir/core/x.cpp", '#include "frontend/table/instruction.h"'),
+    "the base includes ir/core": ("ir/support/x.cpp", '#include "ir/core/module.h"'),
+    "rtlib includes ir": ("rtlib/host/x.cpp", '#include "ir/support/source.h"'),
+    "the ABI includes the host": ("rtlib/abi/rung/x.h", '#include "rtlib/host/loader.h"'),
+    "a dialect includes another": ("frontend/dialects/nct/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
+    "the table includes a dialect": ("frontend/table/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
+    "codegen includes frontend": ("codegen/cpp/x.cpp", '#include "frontend/table/instruction.h"'),
+    "LLVM outside its wall": ("codegen/cpp/x.cpp", "#include <llvm/IR/Module.h>"),
+    "LLVM in quotes": ("ir/core/x.cpp", '# include "llvm/IR/Module.h"'),
+    "clang outside its wall": ("codegen/llvm/x.cpp", "#include <clang/AST/AST.h>"),
+    "fmt in rtlib": ("rtlib/host/x.cpp", "#include <fmt/format.h>"),
+    "gtest in a library": ("ir/core/x.cpp", "#include <gtest/gtest.h>"),
+    "a library includes a tool": ("codegen/cpp/x.cpp", '#include "tools/rungc/main.cpp"'),
+    "an include without its folder": ("ir/core/x.cpp", '#include "module.h"'),
+    "an unknown module": ("ir/extra/x.cpp", "#include <vector>"),
+}
+
+
+class Layering(unittest.TestCase):
+    def found(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                path = Path(folder, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            return layering.check(Path(folder))
+
+    def test_good_tree(self):
+        self.assertEqual(self.found(GOOD), [])
+
+    def test_each_offence(self):
+        for name, (path, text) in BAD.items():
+            with self.subTest(name):
+                found = self.found({**GOOD, path: text})
+                self.assertEqual(len(found), 1, found)
+                self.assertTrue(found[0].startswith(path), found)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,73 @@
+// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring and the order of evaluation.
+// Internal to frontend/ladder.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "frontend/ladder/ladder.h"
+
+namespace rung::ladder {
+
+inline constexpr uint32_t kNone = UINT32_MAX;
+
+enum class TokenKind : uint8_t {
+  Rail,     ///< `|` in column 0
+  Bar,      ///< `|` elsewhere: a vertical wire
+  Wire,     ///< a run of `-` and `+`
+  Element,  ///< from bracket to bracket
+};
+
+struct Token {
+  TokenKind kind;
+  uint32_t begin;    ///< offsets in the line, in bytes
+  uint32_t end;      ///< behind the last byte
+  uint32_t column;   ///< of the first character, from 0; wires meet by columns, not by bytes
+  uint32_t element;  ///< Element: index into Drawing::elements
+};
+
+struct DrawnLine {
+  SourceLine source;
+  Slice tokens;
+};
+
+/// What the scanner finds, in the order of the text. Its vectors are reused from rung to rung.
+struct Drawing {
+  std::vector<DrawnLine> lines;
+  std::vector<Token> tokens;
+  std::vector<Element> elements;  ///< pin lines included; pins and outputs are not filled in yet
+  std::vector<uint32_t> headOf;   ///< per element: the box whose pin line it is, kNone for an element of its own
+  std::vector<uint32_t> nextPin;  ///< per element: the next pin line of the same box, or kNone
+  std::vector<Word> operands;
+  bool bad = false;  ///< an error was reported
+
+  void clear();
+  std::span<const Token> tokensOf(const DrawnLine& line) const {
+    return std::span(tokens).subspan(line.tokens.first, line.tokens.count);
+  }
+  bool isPinLine(uint32_t element) const { return headOf[element] != kNone; }
+};
+
+/// Adds a line to the drawing. Reports at most one error; drawing.bad is set then.
+void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics);
+
+/// Finds the pin lines of boxes: fills headOf and nextPin.
+void groupPins(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics);
+
+/// Joins the wires: fills the rung's elements (in the order of the text), pins and nets.
+void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics);
+
+/// Fills the drivers and consumers of all nets, which must be numbered.
+void linkNets(Rung& rung);
+
+/// Puts the elements into the order of evaluation. The nets must be linked.
+void orderElements(Rung& rung, Diagnostics& diagnostics);
+
+/// Reports a character that is neither printable ASCII nor part of a text or comment.
+void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diagnostics);
+
+/// Offset of the first character in [begin, end) that is not printable ASCII, or end.
+size_t findUnprintable(std::string_view text, size_t begin, size_t end);
+
+}  // namespace rung::ladder

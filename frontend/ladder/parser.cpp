@@ -1,0 +1,258 @@
+// Statements of ladder text; the drawings go to the scanner and the wiring.
+#include "frontend/ladder/ladder.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "frontend/ladder/drawing.h"
+
+namespace rung::ladder {
+namespace {
+
+constexpr WordRules kRules{};
+constexpr std::string_view kKeywords[] = {"dialect", "module", "symbol", "const", "message", "button", "section", "rung"};
+
+/// What a drawing line belongs to.
+enum class Place : uint8_t {
+  Outside,  ///< to nothing: an error
+  Rung,     ///< to the open rung
+  Skipped,  ///< to something that was reported already
+};
+
+class Parser {
+public:
+  Parser(const SourceManager& sources, FileId file, Diagnostics& diagnostics, const FurtherPins& furtherPins)
+      : sources_(sources), diagnostics_(diagnostics), furtherPins_(furtherPins) {
+    result_.file = file;
+  }
+
+  LadderFile run();
+
+private:
+  void line(const SourceLine& line);
+  void drawingLine(const SourceLine& line);
+  void statement(const SourceLine& line);
+  bool checkWords(const SourceLine& line);
+  void dispatch(const SourceLine& line, std::string_view keyword);
+
+  void dialect();
+  void module();
+  void declaration(DeclarationKind kind);
+  void section();
+  void openRung(const SourceLine& line);
+  void closeRung();
+  void finishRung(Rung& rung);
+
+  void malformed(std::string_view form);
+  void add(StatementKind kind, size_t index) { result_.statements.push_back({kind, static_cast<uint32_t>(index)}); }
+  SourceRange statementRange() const { return join(words_.words.front().range, words_.words.back().range); }
+  bool isText(size_t word) const { return words_.words.size() > word && words_.words[word].quoted; }
+
+  const SourceManager& sources_;
+  Diagnostics& diagnostics_;
+  const FurtherPins& furtherPins_;
+  LadderFile result_;
+  LineWords words_;
+  Drawing drawing_;
+  Place place_ = Place::Outside;
+  bool hadStatement_ = false;
+  bool hadOutsideRung_ = false;
+};
+
+LadderFile Parser::run() {
+  if (!checkEncoding(sources_, result_.file, diagnostics_)) return std::move(result_);
+  LineReader lines(sources_, result_.file);
+  for (SourceLine source; lines.next(source);) line(source);
+  closeRung();
+  if (!hadStatement_) diagnostics_.report(Diag::MissingDialect, sources_.range(result_.file, 0, 0));
+  return std::move(result_);
+}
+
+void Parser::line(const SourceLine& source) {
+  const size_t tab = source.text.find('\t');
+  if (tab != std::string_view::npos) diagnostics_.report(Diag::TabCharacter, source.range(tab, tab + 1));
+  const size_t first = source.text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) {
+    closeRung();
+    return;
+  }
+  const char c = source.text[first];
+  if (c == ';') return;  // between drawing lines, too: a comment is no blank line
+  if (std::string_view("|+-[({").find(c) == std::string_view::npos) {
+    closeRung();
+    statement(source);
+  } else if (tab != std::string_view::npos) {
+    drawing_.bad = true;
+  } else {
+    drawingLine(source);
+  }
+}
+
+void Parser::drawingLine(const SourceLine& source) {
+  if (place_ == Place::Rung) {
+    scanDrawingLine(source, drawing_, diagnostics_);
+    Rung& rung = result_.rungs.back();
+    rung.lastLine = source.number;
+    rung.range.end = source.at(source.text.find_last_not_of(' ') + 1);
+  } else if (place_ == Place::Outside) {
+    diagnostics_.report(Diag::StrayDrawing, source.range());
+    place_ = Place::Skipped;
+  }
+}
+
+/// Splits the line; false when its words are not even words.
+bool Parser::checkWords(const SourceLine& source) {
+  splitWords(source, kRules, words_);
+  for (const Word& word : words_.words) {
+    if (word.quoted) continue;
+    const size_t begin = word.range.begin.value - source.begin.value;
+    const size_t bad = findUnprintable(source.text, begin, begin + word.text.size());
+    if (bad == begin + word.text.size()) continue;
+    reportBadCharacter(source, bad, diagnostics_);
+    return false;
+  }
+  if (!words_.unterminatedQuote) return true;
+  diagnostics_.report(Diag::UnterminatedQuote, words_.words.back().range) << '"';
+  return false;
+}
+
+void Parser::statement(const SourceLine& source) {
+  const bool isFirst = !hadStatement_;
+  hadStatement_ = true;
+  if (!checkWords(source)) {
+    // The rung of a broken `rung` line is drawn below it; nothing can be said about it.
+    place_ = Place::Skipped;
+    return;
+  }
+  const Word& keyword = words_.words.front();
+  const bool known = std::find(std::begin(kKeywords), std::end(kKeywords), keyword.text) != std::end(kKeywords);
+  if (!known || keyword.quoted) {
+    diagnostics_.report(Diag::UnknownStatement, keyword.range) << keyword.text;
+    place_ = Place::Skipped;
+    return;
+  }
+  if (isFirst && keyword.text != "dialect") diagnostics_.report(Diag::MissingDialect, keyword.range);
+  dispatch(source, keyword.text);
+}
+
+void Parser::dispatch(const SourceLine& source, std::string_view keyword) {
+  if (keyword == "rung") return openRung(source);
+  if (keyword == "symbol") return declaration(DeclarationKind::Symbol);
+  if (keyword == "const") return declaration(DeclarationKind::Const);
+  if (keyword == "message") return declaration(DeclarationKind::Message);
+  if (keyword == "button") return declaration(DeclarationKind::Button);
+  if (keyword == "section") return section();
+  if (keyword == "module") return module();
+  return dialect();
+}
+
+void Parser::malformed(std::string_view form) {
+  diagnostics_.report(Diag::MalformedStatement, statementRange()) << words_.words.front().text << form;
+}
+
+void Parser::dialect() {
+  if (!result_.dialect.empty() || !result_.statements.empty()) {
+    diagnostics_.report(Diag::MisplacedDialect, statementRange());
+  } else if (words_.words.size() != 2 || words_.words[1].quoted) {
+    malformed("dialect NAME");
+  } else {
+    result_.dialect = words_.words[1].text;
+    result_.dialectRange = words_.words[1].range;
+  }
+}
+
+void Parser::module() {
+  const bool hasText = std::any_of(words_.words.begin(), words_.words.end(), [](const Word& w) { return w.quoted; });
+  if (words_.words.size() < 2 || hasText) {
+    malformed("module NAME");
+    return;
+  }
+  add(StatementKind::Module, result_.modules.size());
+  result_.modules.push_back({{words_.words.begin() + 1, words_.words.end()}, statementRange()});
+}
+
+void Parser::declaration(DeclarationKind kind) {
+  const bool wantsText = kind == DeclarationKind::Message || kind == DeclarationKind::Button;
+  if (words_.words.size() != 3 || isText(1) || isText(2) != wantsText) {
+    switch (kind) {
+    case DeclarationKind::Symbol: return malformed("symbol NAME VALUE");
+    case DeclarationKind::Const: return malformed("const NAME VALUE");
+    case DeclarationKind::Message: return malformed("message NUMBER \"text\"");
+    case DeclarationKind::Button: return malformed("button NUMBER \"text\"");
+    }
+  }
+  add(StatementKind::Declaration, result_.declarations.size());
+  result_.declarations.push_back({kind, words_.words[1], words_.words[2], words_.comment, statementRange()});
+}
+
+void Parser::section() {
+  if (words_.words.size() != 2 || !isText(1)) return malformed("section \"title\"");
+  add(StatementKind::Section, result_.sections.size());
+  result_.sections.push_back({words_.words[1], statementRange()});
+}
+
+void Parser::openRung(const SourceLine& source) {
+  Rung rung;
+  rung.statement = rung.range = statementRange();
+  rung.firstLine = rung.lastLine = source.number;
+  if (words_.words.size() > 2 || (words_.words.size() == 2 && !isText(1))) {
+    malformed("rung or rung \"comment\"");
+  } else if (isText(1)) {
+    rung.hasComment = true;
+    rung.comment = words_.words[1].text;
+  }
+  if (!result_.modules.empty()) {
+    rung.module = static_cast<uint32_t>(result_.modules.size() - 1);
+  } else if (!hadOutsideRung_) {
+    diagnostics_.report(Diag::RungOutsideModule, rung.statement);
+    hadOutsideRung_ = true;
+  }
+  add(StatementKind::Rung, result_.rungs.size());
+  result_.rungs.push_back(std::move(rung));
+  drawing_.clear();
+  place_ = Place::Rung;
+}
+
+void Parser::closeRung() {
+  if (place_ == Place::Rung) finishRung(result_.rungs.back());
+  place_ = Place::Outside;
+}
+
+void Parser::finishRung(Rung& rung) {
+  if (!drawing_.bad && drawing_.elements.empty()) {
+    diagnostics_.report(Diag::EmptyRung, rung.statement);
+    drawing_.bad = true;
+  }
+  if (!drawing_.bad) groupPins(drawing_, furtherPins_, diagnostics_);
+  if (!drawing_.bad) wireUp(drawing_, rung, diagnostics_);
+  rung.bad = drawing_.bad;
+  if (!rung.bad) orderElements(rung, diagnostics_);
+  if (!rung.bad) return;
+  rung.elements.clear();
+  rung.nets.clear();
+  rung.operandPool.clear();
+  rung.pinPool.clear();
+  rung.linkPool.clear();
+}
+
+}  // namespace
+
+LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
+                       const FurtherPins& furtherPins) {
+  return Parser(sources, file, diagnostics, furtherPins).run();
+}
+
+std::string_view peekDialect(const SourceManager& sources, FileId file) {
+  LineReader lines(sources, file);
+  LineWords words;
+  for (SourceLine line; lines.next(line);) {
+    splitWords(line, kRules, words);
+    if (words.words.empty()) continue;
+    const bool found = words.words.size() == 2 && words.words[0].text == "dialect" && !words.words[0].quoted;
+    return found ? words.words[1].text : std::string_view();
+  }
+  return {};
+}
+
+}  // namespace rung::ladder

@@ -1,0 +1,128 @@
+// Which boxes are the pin lines of the box above them.
+#include <algorithm>
+
+#include "frontend/ladder/drawing.h"
+
+namespace rung::ladder {
+namespace {
+
+/// A box and its pin lines so far.
+struct Group {
+  uint32_t head = kNone;
+  uint32_t lastPin = kNone;
+  uint32_t pinLines = 0;
+  std::optional<std::span<const std::string_view>> names;
+
+  bool lacksPins() const { return names && pinLines < names->size(); }
+};
+
+/// A line of a group: where its braces stand.
+struct Row {
+  uint32_t column = 0;
+  uint32_t endColumn = 0;
+  uint32_t group = 0;
+};
+
+bool sameName(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+class PinGrouper {
+public:
+  PinGrouper(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics)
+      : drawing_(drawing), furtherPins_(furtherPins), diagnostics_(diagnostics) {}
+
+  void run() {
+    drawing_.headOf.assign(drawing_.elements.size(), kNone);
+    drawing_.nextPin.assign(drawing_.elements.size(), kNone);
+    for (const DrawnLine& line : drawing_.lines) {
+      for (const Token& token : drawing_.tokensOf(line)) {
+        if (token.kind == TokenKind::Element) box(line, token);
+      }
+      above_.swap(here_);
+      here_.clear();
+    }
+  }
+
+private:
+  void box(const DrawnLine& line, const Token& token);
+  bool isNamed(const Group& group, std::string_view word) const;
+  bool accepts(const Group& group, std::string_view word) const;
+  const Row* misalignedTo(const DrawnLine& line, const Token& token, std::vector<Row>::const_iterator near) const;
+  uint32_t open(uint32_t element);
+
+  Drawing& drawing_;
+  const FurtherPins& furtherPins_;
+  Diagnostics& diagnostics_;
+  std::vector<Group> groups_;
+  std::vector<Row> above_;  ///< by column
+  std::vector<Row> here_;
+};
+
+bool PinGrouper::isNamed(const Group& group, std::string_view word) const {
+  return group.names && std::any_of(group.names->begin(), group.names->end(), [&](auto name) { return sameName(name, word); });
+}
+
+/// Below a box that still lacks pins a wrong name is an unknown pin, not another box.
+bool PinGrouper::accepts(const Group& group, std::string_view word) const {
+  return !group.names || group.lacksPins() || isNamed(group, word);
+}
+
+uint32_t PinGrouper::open(uint32_t element) {
+  Group group;
+  group.head = element;
+  if (furtherPins_) group.names = furtherPins_(drawing_.elements[element].mnemonic);
+  groups_.push_back(group);
+  return static_cast<uint32_t>(groups_.size() - 1);
+}
+
+/// The row above, left or right of this column, that the box was probably meant for: the word names a pin that is still
+/// missing there or, where the names are not known, it is padded like a pin line and stands over the other box.
+const Row* PinGrouper::misalignedTo(const DrawnLine& line, const Token& token,
+                                    std::vector<Row>::const_iterator near) const {
+  const std::string_view word = drawing_.elements[token.element].mnemonic;
+  const bool padded = line.source.text[token.end - 2] == ' ';
+  const uint32_t endColumn = token.column + (token.end - token.begin);
+  const auto meant = [&](const Row& row) {
+    const Group& group = groups_[row.group];
+    if (group.names) return group.lacksPins() && isNamed(group, word);
+    return padded && row.column < endColumn && token.column < row.endColumn;
+  };
+  if (near != above_.end() && near->column != token.column && meant(*near)) return &*near;
+  if (near != above_.begin() && meant(*(near - 1))) return &*(near - 1);
+  return nullptr;
+}
+
+void PinGrouper::box(const DrawnLine& line, const Token& token) {
+  const Element& element = drawing_.elements[token.element];
+  if (element.kind != ElementKind::Box) return;
+  Row row{token.column, token.column + (token.end - token.begin), kNone};
+  if (element.operands.count == 0 && !above_.empty()) {
+    const auto near = std::lower_bound(above_.begin(), above_.end(), token.column,
+                                       [](const Row& r, uint32_t column) { return r.column < column; });
+    const bool aligned = near != above_.end() && near->column == token.column;
+    if (aligned && accepts(groups_[near->group], element.mnemonic)) {
+      Group& group = groups_[near->group];
+      drawing_.headOf[token.element] = group.head;
+      drawing_.nextPin[group.lastPin == kNone ? group.head : group.lastPin] = token.element;
+      group.lastPin = token.element;
+      ++group.pinLines;
+      row.group = near->group;
+    } else if (const Row* meant = misalignedTo(line, token, near)) {
+      diagnostics_.report(Diag::MisalignedBox, element.range).label(drawing_.elements[groups_[meant->group].head].range, "the box")
+          << meant->column + 1;
+      drawing_.bad = true;
+    }
+  }
+  if (row.group == kNone) row.group = open(token.element);
+  here_.push_back(row);
+}
+
+}  // namespace
+
+void groupPins(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics) {
+  PinGrouper(drawing, furtherPins, diagnostics).run();
+}
+
+}  // namespace rung::ladder

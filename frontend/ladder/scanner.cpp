@@ -1,0 +1,278 @@
+// One line of a drawing → tokens and elements.
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "frontend/ladder/drawing.h"
+#include "ir/support/utf8.h"
+
+namespace rung::ladder {
+namespace {
+
+constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' in front of x, which is one operand without blanks";
+constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
+constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
+
+bool isWire(char c) { return c == '-' || c == '+'; }
+bool isPrintable(char c) { return c > ' ' && c < 0x7F; }
+
+class LineScanner {
+public:
+  LineScanner(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics)
+      : line_(line), text_(line.text), drawing_(drawing), diagnostics_(diagnostics) {}
+
+  void run() {
+    DrawnLine drawn{line_, {static_cast<uint32_t>(drawing_.tokens.size()), 0}};
+    while (good_ && at_ < text_.size() && text_[at_] != ';') step();
+    drawn.tokens.count = static_cast<uint32_t>(drawing_.tokens.size()) - drawn.tokens.first;
+    if (!good_) drawing_.bad = true;
+    if (good_ && at_ < text_.size()) remark(drawn);
+    drawing_.lines.push_back(drawn);
+  }
+
+private:
+  void step();
+  void wire();
+  void element();
+  void strayText();
+  void remark(const DrawnLine& drawn);
+  bool contact(Element& element);
+  bool coil(Element& element);
+  bool box(Element& element);
+  bool operand(Element& element, size_t begin, size_t end, std::string_view forms);
+  std::optional<size_t> simpleEnd(char close);
+  size_t boxWordEnd(size_t begin) const;
+
+  size_t skipBlanks(size_t begin, size_t end) const {
+    while (begin < end && text_[begin] == ' ') ++begin;
+    return begin;
+  }
+  size_t dropBlanks(size_t begin, size_t end) const {
+    while (end > begin && text_[end - 1] == ' ') --end;
+    return end;
+  }
+  void push(TokenKind kind, size_t begin, size_t end, uint32_t element) {
+    drawing_.tokens.push_back({kind, static_cast<uint32_t>(begin), static_cast<uint32_t>(end),
+                               static_cast<uint32_t>(begin - continuations_), element});
+  }
+  void pushOperand(size_t begin, size_t end, bool quoted) {
+    const size_t quote = quoted ? 1 : 0;
+    drawing_.operands.push_back(
+        {text_.substr(begin + quote, end - begin - 2 * quote), line_.range(begin, end), quoted});
+  }
+  bool unclosed(size_t end, char close);
+  bool badElement(size_t end, std::string_view forms);
+  bool badCharacter(size_t offset);
+
+  const SourceLine& line_;
+  std::string_view text_;
+  Drawing& drawing_;
+  Diagnostics& diagnostics_;
+  size_t at_ = 0;
+  size_t continuations_ = 0;  ///< bytes so far that begin no character: byte offset − this = column
+  bool good_ = true;
+};
+
+void LineScanner::step() {
+  const char c = text_[at_];
+  if (c == ' ') {
+    at_ = skipBlanks(at_, text_.size());
+  } else if (c == '|') {
+    push(at_ == 0 ? TokenKind::Rail : TokenKind::Bar, at_, at_ + 1, kNone);
+    ++at_;
+  } else if (isWire(c)) {
+    wire();
+  } else if (c == '[' || c == '(' || c == '{') {
+    element();
+  } else {
+    strayText();
+  }
+}
+
+void LineScanner::wire() {
+  size_t end = at_;
+  while (end < text_.size() && isWire(text_[end])) ++end;
+  push(TokenKind::Wire, at_, end, kNone);
+  at_ = end;
+}
+
+void LineScanner::strayText() {
+  good_ = false;
+  size_t end = at_;
+  while (end < text_.size() && isPrintable(text_[end]) && !isWire(text_[end]) && text_[end] != '|') ++end;
+  if (end == at_) {
+    badCharacter(at_);
+    return;
+  }
+  diagnostics_.report(Diag::StrayText, line_.range(at_, end)) << text_.substr(at_, end - at_);
+}
+
+/// The comment behind the line belongs to its last element.
+void LineScanner::remark(const DrawnLine& drawn) {
+  const std::span<const Token> tokens = drawing_.tokensOf(drawn);
+  const auto last = std::find_if(tokens.rbegin(), tokens.rend(), [](const Token& t) { return t.kind == TokenKind::Element; });
+  if (last == tokens.rend()) return;
+  const size_t begin = skipBlanks(at_ + 1, text_.size());
+  drawing_.elements[last->element].remark = text_.substr(begin, dropBlanks(begin, text_.size()) - begin);
+}
+
+void LineScanner::element() {
+  const size_t begin = at_;
+  Element element;
+  element.operands.first = static_cast<uint32_t>(drawing_.operands.size());
+  element.line = line_.number;
+  element.column = static_cast<uint32_t>(begin - continuations_ + 1);
+  switch (text_[begin]) {
+  case '[': good_ = contact(element); break;
+  case '(': good_ = coil(element); break;
+  case '{': good_ = box(element); break;
+  }
+  if (!good_) return;
+  element.range = line_.range(begin, at_);
+  element.operands.count = static_cast<uint32_t>(drawing_.operands.size()) - element.operands.first;
+  push(TokenKind::Element, begin, at_, static_cast<uint32_t>(drawing_.elements.size()));
+  drawing_.elements.push_back(element);
+  const std::string_view drawn = text_.substr(begin, at_ - begin);
+  continuations_ += drawn.size() - countCodePoints(drawn);
+}
+
+bool LineScanner::unclosed(size_t end, char close) {
+  diagnostics_.report(Diag::UnclosedElement, line_.range(at_, dropBlanks(at_ + 1, end))) << close;
+  return false;
+}
+
+bool LineScanner::badElement(size_t end, std::string_view forms) {
+  diagnostics_.report(Diag::BadElement, line_.range(at_, end)) << forms;
+  return false;
+}
+
+bool LineScanner::badCharacter(size_t offset) {
+  reportBadCharacter(line_, offset, diagnostics_);
+  return false;
+}
+
+/// The closing bracket of a contact or coil; no other bracket may stand before it.
+std::optional<size_t> LineScanner::simpleEnd(char close) {
+  const size_t end = text_.find_first_of("[](){}", at_ + 1);
+  if (end != std::string_view::npos && text_[end] == close) return end;
+  unclosed(std::min(end, text_.size()), close);
+  return std::nullopt;
+}
+
+/// The operand of a contact or coil, perhaps with an edge in front.
+bool LineScanner::operand(Element& element, size_t begin, size_t end, std::string_view forms) {
+  if (begin < end && (text_[begin] == '@' || text_[begin] == '%')) {
+    element.edge = text_[begin];
+    begin = skipBlanks(begin + 1, end);
+  }
+  const std::string_view word = text_.substr(begin, end - begin);
+  const size_t bad = findUnprintable(text_, begin, end);
+  if (bad != end && text_[bad] != ' ') return badCharacter(bad);
+  if (word.empty() || word.find(' ') != std::string_view::npos) return badElement(text_.find_first_of("])", end) + 1, forms);
+  pushOperand(begin, end, false);
+  return true;
+}
+
+bool LineScanner::contact(Element& element) {
+  const std::optional<size_t> close = simpleEnd(']');
+  if (!close) return false;
+  size_t begin = skipBlanks(at_ + 1, *close);
+  const size_t end = dropBlanks(begin, *close);
+  element.kind = ElementKind::Contact;
+  if (begin < end && text_[begin] == '/') {
+    element.negated = true;
+    begin = skipBlanks(begin + 1, end);
+  }
+  if (!operand(element, begin, end, kContactForms)) return false;
+  at_ = *close + 1;
+  return true;
+}
+
+/// `(S x)` and `(R x)` are told from a coil on S or R by the second word.
+bool LineScanner::coil(Element& element) {
+  const std::optional<size_t> close = simpleEnd(')');
+  if (!close) return false;
+  size_t begin = skipBlanks(at_ + 1, *close);
+  const size_t end = dropBlanks(begin, *close);
+  element.kind = ElementKind::Coil;
+  const size_t second = skipBlanks(std::min(begin + 1, end), end);
+  if (second > begin + 1 && second < end && (text_[begin] == 'S' || text_[begin] == 'R')) {
+    element.coil = text_[begin] == 'S' ? CoilKind::Set : CoilKind::Reset;
+    begin = second;
+  } else if (begin < end && text_[begin] == '/') {
+    element.coil = CoilKind::Negated;
+    begin = skipBlanks(begin + 1, end);
+  }
+  if (!operand(element, begin, end, kCoilForms)) return false;
+  at_ = *close + 1;
+  return true;
+}
+
+size_t LineScanner::boxWordEnd(size_t begin) const {
+  size_t end = begin;
+  while (end < text_.size() && isPrintable(text_[end]) && text_[end] != '{' && text_[end] != '}' && text_[end] != '"') ++end;
+  return end;
+}
+
+/// The first word is the mnemonic (or, in a pin line, the name of the pin).
+bool LineScanner::box(Element& element) {
+  element.kind = ElementKind::Box;
+  const uint32_t first = element.operands.first;
+  size_t at = at_ + 1;
+  for (;; at = skipBlanks(at, text_.size())) {
+    if (at >= text_.size() || text_[at] == '{') return unclosed(at, '}');
+    if (text_[at] == '}') break;
+    size_t end = boxWordEnd(at);
+    const bool quoted = text_[at] == '"';
+    if (quoted) {
+      const size_t close = text_.find('"', at + 1);
+      if (close == std::string_view::npos) {
+        diagnostics_.report(Diag::UnterminatedQuote, line_.range(at, text_.size())) << '"';
+        return false;
+      }
+      end = close + 1;
+    } else if (end == at && text_[at] != ' ') {
+      return badCharacter(at);
+    }
+    if (end > at) pushOperand(at, end, quoted);
+    at = end;
+  }
+  if (drawing_.operands.size() == first || drawing_.operands[first].quoted) return badElement(at + 1, kBoxForms);
+  element.mnemonic = drawing_.operands[first].text;
+  element.mnemonicRange = drawing_.operands[first].range;
+  ++element.operands.first;
+  at_ = at + 1;
+  return true;
+}
+
+}  // namespace
+
+void Drawing::clear() {
+  lines.clear();
+  tokens.clear();
+  elements.clear();
+  headOf.clear();
+  nextPin.clear();
+  operands.clear();
+  bad = false;
+}
+
+void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics) {
+  LineScanner(line, drawing, diagnostics).run();
+}
+
+void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diagnostics) {
+  const CodePoint character = decodeUtf8(line.text, offset);
+  const SourceRange range = line.range(offset, offset + character.length);
+  std::string name = fmt::format("U+{:04X}", character.value);
+  if (character.value > 0x20) name += fmt::format(" '{}'", line.text.substr(offset, character.length));
+  diagnostics.report(Diag::BadCharacter, range) << name;
+}
+
+size_t findUnprintable(std::string_view text, size_t begin, size_t end) {
+  const auto* const found = std::find_if_not(text.begin() + begin, text.begin() + end, isPrintable);
+  return static_cast<size_t>(found - text.begin());
+}
+
+}  // namespace rung::ladder

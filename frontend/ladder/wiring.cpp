@@ -1,0 +1,342 @@
+// Tokens → nets. Wires, vertical bars and the joints between neighbouring elements are nodes of a union-find structure;
+// a net is one of its classes. Every line yields at most one error: what is wrong on it mostly has one cause.
+#include <numeric>
+
+#include "frontend/ladder/drawing.h"
+
+namespace rung::ladder {
+namespace {
+
+constexpr uint32_t kRailNode = 0;
+
+/// A `+`, a `|` or the rail: what wires of neighbouring lines meet in.
+struct Mark {
+  uint32_t column = 0;
+  uint32_t node = 0;
+  uint32_t line = 0;    ///< index into Drawing::lines
+  uint32_t token = 0;   ///< index into Drawing::tokens
+  uint32_t offset = 0;  ///< in the line, in bytes
+  bool up = false;
+  bool down = false;
+};
+
+class Wiring {
+public:
+  Wiring(Drawing& drawing, Rung& rung, Diagnostics& diagnostics)
+      : drawing_(drawing), rung_(rung), diagnostics_(diagnostics) {}
+
+  void run() {
+    // Node 0 is the rail, node i + 1 belongs to token i.
+    parent_.resize(drawing_.tokens.size() + 1);
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    inputs_.assign(drawing_.elements.size(), kNone);
+    outputs_.assign(drawing_.elements.size(), kNone);
+    reported_.assign(drawing_.lines.size(), false);
+    for (uint32_t i = 0; i < drawing_.lines.size(); ++i) joinLine(i);
+    joinColumns();
+    for (const Mark& mark : marks_) checkMark(mark);
+    if (drawing_.bad) return;
+    makeElements();
+    linkNets(rung_);
+    checkNets();
+  }
+
+private:
+  static uint32_t nodeOf(uint32_t token) { return token + 1; }
+  uint32_t find(uint32_t node);
+  void unite(uint32_t a, uint32_t b);
+  uint32_t newNode();
+
+  void joinLine(uint32_t line);
+  void connect(uint32_t line, uint32_t left, uint32_t right);
+  void leftEnd(uint32_t line, uint32_t token);
+  void rightEnd(uint32_t line, uint32_t token);
+  void addMarks(uint32_t line, uint32_t token);
+  void joinColumns();
+  void checkMark(const Mark& mark);
+
+  NetId netOf(uint32_t node);
+  void makeElements();
+  void addPin(uint32_t drawnElement, std::string_view name);
+  void checkNets();
+  void checkElement(const Element& element);
+  void checkOpenEnds();
+  bool onlyCoilsDrive(NetId net) const;
+
+  void loose(uint32_t line, size_t begin, size_t end, std::string_view what);
+  SourceRange rangeOf(uint32_t line, const Token& token) const {
+    return drawing_.lines[line].source.range(token.begin, token.end);
+  }
+
+  Drawing& drawing_;
+  Rung& rung_;
+  Diagnostics& diagnostics_;
+  std::vector<uint32_t> parent_;
+  std::vector<uint32_t> inputs_;   ///< per drawn element: its node
+  std::vector<uint32_t> outputs_;  ///< per drawn element: its node or kNone
+  std::vector<Mark> marks_;        ///< by line and column
+  std::vector<bool> reported_;     ///< per line
+  std::vector<NetId> netOfRoot_;
+
+  struct OpenEnd {
+    uint32_t line;
+    uint32_t token;
+  };
+  std::vector<OpenEnd> openEnds_;  ///< wires with nothing on their right
+};
+
+uint32_t Wiring::find(uint32_t node) {
+  while (parent_[node] != node) {
+    parent_[node] = parent_[parent_[node]];
+    node = parent_[node];
+  }
+  return node;
+}
+
+/// The smaller root stays, so that the rail is the root of its own class.
+void Wiring::unite(uint32_t a, uint32_t b) {
+  a = find(a);
+  b = find(b);
+  if (a < b) {
+    parent_[b] = a;
+  } else {
+    parent_[a] = b;
+  }
+}
+
+uint32_t Wiring::newNode() {
+  parent_.push_back(static_cast<uint32_t>(parent_.size()));
+  return parent_.back();
+}
+
+void Wiring::loose(uint32_t line, size_t begin, size_t end, std::string_view what) {
+  drawing_.bad = true;
+  if (reported_[line]) return;
+  reported_[line] = true;
+  diagnostics_.report(Diag::DanglingWire, drawing_.lines[line].source.range(begin, end)) << what;
+}
+
+void Wiring::joinLine(uint32_t line) {
+  const Slice slice = drawing_.lines[line].tokens;
+  for (uint32_t i = slice.first; i < slice.first + slice.count; ++i) {
+    const Token& token = drawing_.tokens[i];
+    const bool touchesLeft = i > slice.first && drawing_.tokens[i - 1].end == token.begin;
+    const bool last = i + 1 == slice.first + slice.count;
+    if (touchesLeft) {
+      connect(line, i - 1, i);
+    } else {
+      leftEnd(line, i);
+    }
+    if (last || drawing_.tokens[i + 1].begin != token.end) rightEnd(line, i);
+    addMarks(line, i);
+  }
+}
+
+/// Two tokens without a blank between them. Two wires never are: they would be one token.
+void Wiring::connect(uint32_t line, uint32_t left, uint32_t right) {
+  const Token& a = drawing_.tokens[left];
+  const Token& b = drawing_.tokens[right];
+  if (a.kind == TokenKind::Bar || b.kind == TokenKind::Bar) {
+    const bool barIsRight = b.kind == TokenKind::Bar;
+    loose(line, a.begin, b.end,
+          barIsRight ? "this ends at a vertical wire; write '+' instead of '|' to join it"
+                     : "this begins at a vertical wire; write '+' instead of '|' to join it");
+    return;
+  }
+  if (a.kind == TokenKind::Element && drawing_.isPinLine(a.element)) {
+    loose(line, b.begin, b.end, "the output of a box is on its first line, not behind a pin");
+    return;
+  }
+  uint32_t node = kRailNode;
+  if (a.kind == TokenKind::Wire) {
+    node = nodeOf(left);
+  } else if (a.kind == TokenKind::Element) {
+    node = b.kind == TokenKind::Wire ? nodeOf(right) : newNode();
+    outputs_[a.element] = node;
+  }
+  if (b.kind == TokenKind::Element) {
+    inputs_[b.element] = node;
+  } else if (a.kind == TokenKind::Rail) {
+    unite(kRailNode, nodeOf(right));
+  }
+}
+
+void Wiring::leftEnd(uint32_t line, uint32_t token) {
+  const Token& t = drawing_.tokens[token];
+  const char first = drawing_.lines[line].source.text[t.begin];
+  if (t.kind == TokenKind::Element) loose(line, t.begin, t.end, "nothing is connected on the left of this element");
+  if (t.kind == TokenKind::Wire && first == '-') loose(line, t.begin, t.end, "this wire has nothing on its left");
+}
+
+/// Whether an open end is an error of its own or the end of the whole branch shows when the nets are known.
+void Wiring::rightEnd(uint32_t line, uint32_t token) {
+  const Token& t = drawing_.tokens[token];
+  if (t.kind == TokenKind::Wire && drawing_.lines[line].source.text[t.end - 1] == '-') openEnds_.push_back({line, token});
+}
+
+void Wiring::addMarks(uint32_t line, uint32_t token) {
+  const Token& t = drawing_.tokens[token];
+  const std::string_view text = drawing_.lines[line].source.text;
+  switch (t.kind) {
+  case TokenKind::Element: return;
+  case TokenKind::Rail: marks_.push_back({t.column, kRailNode, line, token, t.begin}); return;
+  case TokenKind::Bar: marks_.push_back({t.column, nodeOf(token), line, token, t.begin}); return;
+  case TokenKind::Wire:
+    for (uint32_t at = t.begin; at < t.end; ++at) {
+      if (text[at] == '+') marks_.push_back({t.column + at - t.begin, nodeOf(token), line, token, at});
+    }
+    return;
+  }
+}
+
+/// Marks in one column of neighbouring lines are joined.
+void Wiring::joinColumns() {
+  size_t above = 0;
+  for (size_t here = 0; here < marks_.size(); ++here) {
+    Mark& mark = marks_[here];
+    while (marks_[above].line + 1 < mark.line ||
+           (marks_[above].line + 1 == mark.line && marks_[above].column < mark.column)) {
+      ++above;
+    }
+    Mark& other = marks_[above];
+    if (other.line + 1 != mark.line || other.column != mark.column) continue;
+    other.down = true;
+    mark.up = true;
+    unite(other.node, mark.node);
+  }
+}
+
+/// A `|` goes on above and below; a `+` joins at least two things.
+void Wiring::checkMark(const Mark& mark) {
+  const Token& token = drawing_.tokens[mark.token];
+  const Slice slice = drawing_.lines[mark.line].tokens;
+  if (token.kind == TokenKind::Rail) return;
+  if (token.kind == TokenKind::Bar) {
+    if (mark.up && mark.down) return;
+    loose(mark.line, mark.offset, mark.offset + 1,
+          mark.up ? "this vertical wire has nothing below it" : "this vertical wire has nothing above it");
+    return;
+  }
+  const bool first = mark.offset == token.begin;
+  const bool last = mark.offset + 1 == token.end;
+  const bool left = !first || (mark.token > slice.first && drawing_.tokens[mark.token - 1].end == token.begin);
+  const bool right = !last || (mark.token + 1 < slice.first + slice.count &&
+                               drawing_.tokens[mark.token + 1].begin == token.end);
+  if (mark.up + mark.down + left + right >= 2) return;
+  if (left) {
+    openEnds_.push_back({mark.line, mark.token});
+  } else {
+    loose(mark.line, mark.offset, mark.offset + 1, "this '+' joins nothing; there is no '+' or '|' in its column on the "
+                                                   "lines above and below");
+  }
+}
+
+NetId Wiring::netOf(uint32_t node) {
+  NetId& net = netOfRoot_[find(node)];
+  if (!net.valid()) {
+    net.index = static_cast<uint32_t>(rung_.nets.size());
+    rung_.nets.emplace_back();
+  }
+  return net;
+}
+
+void Wiring::addPin(uint32_t drawnElement, std::string_view name) {
+  rung_.pinPool.push_back({name, netOf(inputs_[drawnElement]), drawing_.elements[drawnElement].range});
+}
+
+/// Copies the drawn elements, pin lines folded into their boxes.
+void Wiring::makeElements() {
+  netOfRoot_.assign(parent_.size(), kNoNet);
+  netOf(kRailNode);
+  rung_.operandPool = drawing_.operands;
+  rung_.elements.reserve(drawing_.elements.size());
+  for (uint32_t i = 0; i < drawing_.elements.size(); ++i) {
+    if (drawing_.isPinLine(i)) continue;
+    Element element = drawing_.elements[i];
+    element.pins.first = static_cast<uint32_t>(rung_.pinPool.size());
+    addPin(i, {});
+    for (uint32_t pin = drawing_.nextPin[i]; pin != kNone; pin = drawing_.nextPin[pin]) {
+      addPin(pin, drawing_.elements[pin].mnemonic);
+      if (element.remark.empty()) element.remark = drawing_.elements[pin].remark;
+    }
+    element.pins.count = static_cast<uint32_t>(rung_.pinPool.size()) - element.pins.first;
+    if (outputs_[i] != kNone) element.output = netOf(outputs_[i]);
+    rung_.elements.push_back(element);
+  }
+  for (uint32_t line = 0; line < drawing_.lines.size(); ++line) {
+    const Slice slice = drawing_.lines[line].tokens;
+    for (uint32_t i = slice.first; i < slice.first + slice.count; ++i) {
+      if (drawing_.tokens[i].kind != TokenKind::Wire) continue;
+      Net& net = rung_.nets[netOf(nodeOf(i)).index];
+      if (!net.range.valid()) net.range = rangeOf(line, drawing_.tokens[i]);
+    }
+  }
+  for (const Element& element : rung_.elements) {
+    for (const Pin& pin : rung_.pinsOf(element)) {
+      Net& net = rung_.nets[pin.input.index];
+      if (!net.range.valid()) net.range = pin.range;
+    }
+  }
+}
+
+void Wiring::checkElement(const Element& element) {
+  for (const Pin& pin : rung_.pinsOf(element)) {
+    if (!element.output.valid() || pin.input != element.output) continue;
+    diagnostics_.report(Diag::ShortCircuit, element.range);
+    drawing_.bad = true;
+    return;
+  }
+  if (element.output == kRail) {
+    diagnostics_.report(Diag::PowerLoop, element.range);
+    drawing_.bad = true;
+  }
+}
+
+bool Wiring::onlyCoilsDrive(NetId net) const {
+  for (const ElementId id : rung_.driversOf(net)) {
+    if (rung_.element(id).kind != ElementKind::Coil) return false;
+  }
+  return !rung_.driversOf(net).empty();
+}
+
+/// A wire that ends openly: its branch lacks its closing element or, when the net leads on elsewhere, it is too long.
+void Wiring::checkOpenEnds() {
+  for (const OpenEnd& end : openEnds_) {
+    const NetId net = netOf(nodeOf(end.token));
+    const SourceRange range = rangeOf(end.line, drawing_.tokens[end.token]);
+    if (!rung_.consumersOf(net).empty()) {
+      loose(end.line, drawing_.tokens[end.token].begin, drawing_.tokens[end.token].end, "this wire has nothing on its right");
+    } else if (onlyCoilsDrive(net)) {
+      diagnostics_.report(Diag::ElementAfterClosing, range) << "a coil";
+    } else {
+      diagnostics_.report(Diag::MissingClosingElement, range) << "a wire";
+    }
+  }
+}
+
+void Wiring::checkNets() {
+  for (const Element& element : rung_.elements) checkElement(element);
+  if (drawing_.bad) return;
+  for (uint32_t i = 1; i < rung_.nets.size(); ++i) {
+    if (!rung_.driversOf(NetId{i}).empty()) continue;
+    diagnostics_.report(Diag::DanglingWire, rung_.nets[i].range) << "nothing leads to this from the left rail";
+    drawing_.bad = true;
+  }
+  if (drawing_.bad) return;
+  checkOpenEnds();
+  if (!openEnds_.empty()) {
+    drawing_.bad = true;
+    return;
+  }
+  for (uint32_t i = 1; i < rung_.nets.size(); ++i) {
+    if (!rung_.consumersOf(NetId{i}).empty()) continue;
+    diagnostics_.report(Diag::MissingClosingElement, rung_.nets[i].range) << "a wire";
+    drawing_.bad = true;
+  }
+}
+
+}  // namespace
+
+void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics) { Wiring(drawing, rung, diagnostics).run(); }
+
+}  // namespace rung::ladder

@@ -84,6 +84,7 @@ void emit(std::ostream& out, const std::vector<Row>& rows, bool ignoreCase) {
       << ";\nconstexpr std::array<Signal, " << rows.size() << "> kSignals = {{\n";
   for (const Row& row : rows) emitRow(out, row);
   std::vector<std::string> keys;
+  keys.reserve(rows.size());
   for (const Row& row : rows) keys.push_back(sortKey(row.symbol, ignoreCase));
   std::vector<size_t> order(rows.size());
   std::iota(order.begin(), order.end(), size_t{0});

@@ -5,9 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
-using namespace rung::nc;
-using namespace rung::nc::gen;
-
+namespace rung::nc::gen {
 namespace {
 
 struct Dialect {
@@ -33,6 +31,7 @@ int run(const std::string& name, const char* csv, const char* out) {
 }
 
 } // namespace
+} // namespace rung::nc::gen
 
 int main(int argc, char** argv) {
   if (argc != 4) {
@@ -40,8 +39,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return run(argv[1], argv[2], argv[3]);
-  } catch (const TableError& error) {
+    return rung::nc::gen::run(argv[1], argv[2], argv[3]);
+  } catch (const rung::nc::gen::TableError& error) {
     std::fprintf(stderr, "%s\n", error.message.c_str());
     return 1;
   }

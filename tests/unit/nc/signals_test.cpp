@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace rung::nc {
@@ -39,16 +39,19 @@ std::vector<uint32_t> bitsOf(const Signal& s) {
   return bits;
 }
 
-/// Pairs of signals of `type` filter that share a bit of one area.
+/// Pairs of the wanted signals that share a bit of one area.
 template <typename Use>
 std::vector<std::string> overlaps(const SignalTable& table, Use use) {
-  std::map<std::pair<std::string, uint32_t>, const Signal*> owner;
+  std::map<std::string, std::vector<const Signal*>> owners; // of each bit of an area
   std::vector<std::string> found;
   for (const Signal& s : table) {
     if (!use(s)) continue;
+    std::vector<const Signal*>& owner = owners[s.area];
     for (const uint32_t bit : bitsOf(s)) {
-      const auto [it, isNew] = owner.emplace(std::pair(std::string(s.area), bit), &s);
-      if (!isNew && it->second != &s) found.push_back(std::string(s.symbol) + " and " + it->second->symbol);
+      if (bit >= owner.size()) owner.resize(bit + 1);
+      if (owner[bit] != nullptr && owner[bit] != &s)
+        found.push_back(std::string(s.symbol) + " and " + owner[bit]->symbol);
+      owner[bit] = &s;
     }
   }
   return found;
@@ -220,8 +223,10 @@ TEST(TechnolSignals, StructuresHaveMembersAndSizes) {
   EXPECT_STREQ(get(t, "DISPTOC1").structure, "TOC_DISPLS");
   EXPECT_EQ(get(t, "DISPTOC1").strideBytes, 8u);
   EXPECT_EQ(get(t, "INOUTS.RESP").byteOffset, get(t, "INOUTS.SEND").byteOffset + 12);
-  for (const Signal& s : t)
-    if (s.type == SignalType::Struct) EXPECT_EQ(areaBytes(t, s.structure), s.strideBytes) << s.symbol;
+  for (const Signal& s : t) {
+    const uint32_t bytes = s.type == SignalType::Struct ? areaBytes(t, s.structure) : elementBytes(s.type);
+    EXPECT_EQ(s.strideBytes, bytes) << s.symbol;
+  }
 }
 
 TEST(TechnolSignals, SameNameInTwoAreasIsToldApart) {

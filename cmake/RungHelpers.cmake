@@ -39,18 +39,21 @@ function(rung_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
 endfunction()
 
-# rung_add_test(NAME SOURCES file... LIBS target... [LABELS label...] [WHOLE]): GoogleTest program
+# rung_add_test(NAME SOURCES file... LIBS target... [LABEL label] [TIMEOUT seconds] [WHOLE]): GoogleTest program
 # build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
 # short cases). Tests run in the root of the repository, so that files are found by their path in it.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "TIMEOUT" "SOURCES;LIBS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;LIBS")
   set(target rung_test_${name})
   rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock GTest::gtest_main)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin/tests")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
-  set(properties TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+  set(properties TIMEOUT ${arg_TIMEOUT})
+  if(arg_LABEL)
+    list(APPEND properties LABELS ${arg_LABEL})
+  endif()
   if(arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
     set_tests_properties(${name} PROPERTIES ${properties})

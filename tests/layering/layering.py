@@ -24,7 +24,8 @@ MODULES = {
     "ir/verify": IR | {"ir/text"},
     "ir/passes": IR | {"ir/idioms", "ir/text", "ir/verify"},
     "ir/layout": IR,
-    "ir/interp": IR | {"ir/layout", "rtlib/core"},
+    "ir/interp": IR | {"ir/layout", "ir/passes", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
+    "ir/random": IR,
     "frontend/syntax": FRONTEND,
     "frontend/table": FRONTEND | {"frontend/syntax"},
     "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},
@@ -35,7 +36,7 @@ MODULES = {
     **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
     "codegen/cpp": ALL_IR,
     "codegen/llvm": ALL_IR,
-    "codegen/jit": ALL_IR | {"codegen/llvm"},
+    "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
     "codegen/clang": ALL_IR | {"codegen/cpp"},
 }
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
@@ -47,7 +48,7 @@ FOREIGN = {
     "lld/": ("codegen/llvm", "codegen/jit"),
     "clang/": ("codegen/clang",),
     "fmt/": ("ir", "frontend", "codegen"),
-    "nlohmann/": ("ir/support", "codegen"),
+    "nlohmann/": ("ir/support", "codegen", "rtlib/profile"),
     "CLI/": (),
     "gtest/": (),
     "gmock/": (),

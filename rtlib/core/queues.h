@@ -1,0 +1,99 @@
+// What a program says to its host and asks of it. Both directions are bounded; a message or request that does not fit
+// is refused, counted, and reported by the counters.
+//
+// The program's side of both classes belongs to the scan thread, the host's side to one other thread (or the same one).
+// A completed request becomes visible to the program at `deliver`, between two scans; a responder answers at once.
+#pragma once
+#include <cstdint>
+
+#include "rtlib/core/ring.h"
+#include "rung/program.h"
+
+namespace rung::rt {
+
+inline constexpr uint32_t kMessageCapacity = 256;
+using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
+
+struct ServiceRequest {
+  uint32_t ticket = 0;
+  uint32_t service = 0; // in rung_program::services
+  uint32_t argCount = 0;
+  int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
+};
+
+struct ServiceReply {
+  uint32_t ticket = 0;
+  uint32_t state = RUNG_SERVICE_DONE; // or RUNG_SERVICE_ERROR
+  uint32_t resultCount = 0;
+  int64_t results[RUNG_MAX_SERVICE_ARGS] = {};
+};
+
+// Asked before a request is queued; true: the reply is filled in and the request does not enter the queue. It runs
+// inside the task, so it must be bounded and must not run tasks itself.
+struct ServiceResponder {
+  bool (*respond)(void* data, const ServiceRequest& request, ServiceReply& reply) = nullptr;
+  void* data = nullptr;
+};
+
+// What the program knows of one ticket.
+struct ServiceRecord {
+  uint32_t ticket = 0; // 0: never used
+  uint32_t state = RUNG_SERVICE_NONE;
+  uint32_t resultCount = 0;
+  int64_t results[RUNG_MAX_SERVICE_ARGS] = {};
+};
+
+class ServiceQueue {
+public:
+  static constexpr uint32_t kMaxPending = 64;
+  // Records of tickets: a result stays readable for at least kRecords - kMaxPending younger requests.
+  static constexpr uint32_t kRecords = 256;
+
+  void setResponder(ServiceResponder responder) noexcept { responder_ = responder; }
+
+  // Program. `request` gives 0 when kMaxPending requests are unanswered; `poll` and `result` take constant time.
+  uint32_t request(uint32_t service, const int64_t* args, uint32_t count) noexcept;
+  uint32_t poll(uint32_t ticket) const noexcept; // enum rung_service_state
+  int64_t result(uint32_t ticket, uint32_t index) const noexcept;
+  // Scan thread, between scans: makes replies visible.
+  void deliver() noexcept;
+
+  // Host. Requests wait in order; a taken one is pending until `complete`. False: more replies than requests.
+  uint32_t waiting() const noexcept { return requests_.size(); }
+  const ServiceRequest* peek(uint32_t number = 0) const noexcept { return requests_.peek(number); }
+  bool take(ServiceRequest& request) noexcept { return requests_.pop(request); }
+  bool complete(const ServiceReply& reply) noexcept { return replies_.push(reply); }
+
+  // Counters, since the last clear. Refused: no room. Stray: replies to tickets that were not pending.
+  uint32_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
+  uint32_t stray() const noexcept { return stray_.load(std::memory_order_relaxed) + replies_.lost(); }
+  uint32_t pending() const noexcept { return pending_; }
+
+  const ServiceRecord& record(uint32_t number) const noexcept { return records_[number]; } // number < kRecords
+  // Only while neither side is active.
+  void clear() noexcept;
+
+private:
+  const ServiceRecord& recordOf(uint32_t ticket) const noexcept { return records_[ticket % kRecords]; }
+  uint32_t freeTicket() noexcept;
+
+  ServiceRecord records_[kRecords];
+  uint32_t lastTicket_ = 0;
+  uint32_t pending_ = 0;
+  std::atomic<uint32_t> refused_{0};
+  std::atomic<uint32_t> stray_{0};
+  ServiceResponder responder_;
+  FixedRing<ServiceRequest, kMaxPending> requests_;
+  FixedRing<ServiceReply, kMaxPending> replies_;
+};
+
+// The host side of one program instance: what rung_ctx::host_data points to when rung_ctx::host is hostApi().
+struct HostPort {
+  MessageQueue messages;
+  ServiceQueue services;
+};
+
+// The function table for generated code, over a HostPort.
+const rung_host_api& hostApi() noexcept;
+
+} // namespace rung::rt

@@ -1,0 +1,91 @@
+// Runs a program's tasks and walks its schedule on the scan thread. Every loop is bounded: a task by its budget, a scan
+// by its list of steps. Memory, context and part states are the caller's; the runner allocates nothing.
+//
+// Parts. A run of a task that is cut into n parts takes exactly n RUNG_STEP_PART steps: part k stops at the first chunk
+// border at or behind the end of part k outside every subroutine, a jump over that border suspends at its target, and a
+// run that ended early idles until its n steps are over, so that the schedule and the parts stay in phase.
+//
+// A fault stops everything: it is recorded in the context, the `safes` are zeroed, the fault hook is called once (it
+// may run tasks: TECHNOL's MODULE_HALT), and from then on scans and tasks do nothing until `reset`.
+#pragma once
+#include <cstdint>
+
+#include "rung/program.h"
+
+namespace rung::rt {
+
+// rung_fault::code when a chunk reported a fault without naming it, or returned a chunk that does not exist.
+inline constexpr uint32_t kUndescribedFault = 0xFFFFFFFEu;
+
+// Where the run of a cut task stands.
+struct PartState {
+  uint32_t pc = RUNG_PC_DONE;
+  uint32_t part = 0; // the part that the next step runs; 0: a new run begins
+  uint32_t budget = 0;
+};
+
+// The host's part of the schedule. Null functions are skipped.
+struct RunnerHooks {
+  void (*step)(void* data, uint32_t work) = nullptr; // RUNG_STEP_HOOK; may run tasks
+  void (*fault)(void* data) = nullptr;               // after a fault; may run tasks
+  void* data = nullptr;
+};
+
+class Runner {
+public:
+  // `parts` has an entry for each task. All outlive the runner.
+  Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept;
+
+  void setHooks(RunnerHooks hooks) noexcept { hooks_ = hooks; }
+  // Forgets the fault, all runs under way and the place in the schedule; the clock goes on.
+  void reset() noexcept;
+
+  // False: a fault, now or before; or called from within a task.
+  bool runTask(uint32_t task) noexcept;
+  bool runPart(uint32_t task) noexcept;
+
+  // The schedule goes on from where it stands: to the end of the list, or to the end of a slot.
+  void scan() noexcept;
+  void slot() noexcept;
+  // The fast list from its beginning; the scan list stays where it is.
+  void fast() noexcept;
+
+  // For a real clock: how long to wait before the next slice, and the slice: one ADVANCE and what follows it up to the
+  // next ADVANCE or the end of the list. A list without ADVANCE is one slice every period of the main task.
+  uint32_t sliceDelayUs() const noexcept;
+  void slice() noexcept;
+
+  int64_t nowUs() const noexcept { return ctx_->now_us; }
+  void advance(int64_t us) noexcept { ctx_->now_us += us; }
+  bool atListStart() const noexcept { return position_ == 0; }
+
+  bool faulted() const noexcept { return faulted_; }
+  const rung_fault& fault() const noexcept { return ctx_->fault; }
+  // A stopped program (the operator's stop) only lets the clock go on. Tasks can still be run by hand.
+  void setStopped(bool stopped) noexcept { stopped_ = stopped; }
+  bool stopped() const noexcept { return stopped_; }
+
+private:
+  uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
+  bool finish(uint32_t task, uint32_t pc) noexcept;
+  void beginStack() noexcept;
+  void copy(uint32_t first, uint32_t count) noexcept;
+  void doStep(const rung_step& step) noexcept;
+  void stopOnFault(uint32_t task) noexcept;
+  void clearSafes() noexcept;
+  bool mayRun() const noexcept { return !faulted_ && !inTask_; }
+  bool stepOnce() noexcept;
+
+  const rung_program* program_;
+  uint8_t* memory_;
+  rung_ctx* ctx_;
+  PartState* parts_;
+  RunnerHooks hooks_;
+  uint32_t position_ = 0; // in rung_program::scan
+  bool faulted_ = false;
+  bool stopped_ = false;
+  bool inTask_ = false;
+  bool inFaultHook_ = false;
+};
+
+} // namespace rung::rt

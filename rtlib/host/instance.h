@@ -1,0 +1,126 @@
+// One running program: its memory, context, queues, counters and virtual clock. Everything is allocated when it is
+// made; starting, scanning and running tasks allocate nothing (what hooks do is theirs).
+//
+// An instance belongs to one thread, but for the host's side of `messages()` and `services()`.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/core/queues.h"
+#include "rtlib/core/runner.h"
+#include "rtlib/host/names.h"
+#include "rtlib/host/program_info.h"
+#include "rtlib/host/ref.h"
+
+namespace rung::host {
+
+class Instance;
+
+// The NC model's place in the schedule. onHook and onFault may run tasks; respond runs inside one and may not.
+class ScheduleHooks {
+public:
+  virtual ~ScheduleHooks() = default;
+  virtual void onHook(Instance& instance, uint32_t work) { (void)instance, (void)work; }
+  // The fault is recorded and the outputs are safe. Tasks run here a last time; faults of theirs are ignored.
+  virtual void onFault(Instance& instance) { (void)instance; }
+  // True: the reply is filled in and the request does not enter the queue.
+  virtual bool respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+    (void)instance, (void)request, (void)reply;
+    return false;
+  }
+};
+
+class Instance {
+public:
+  // The program (checkProgram finds nothing wrong with it) and the hooks outlive the instance. It starts cold.
+  explicit Instance(const rung_program& program, ScheduleHooks* hooks = nullptr);
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  const rung_program& program() const { return *program_; }
+  void setHooks(ScheduleHooks* hooks) { hooks_ = hooks; }
+
+  // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile go on.
+  void coldStart();
+  // The same, but the retained spans keep their contents.
+  void warmStart();
+
+  // From where the schedule stands: to its end, to the end of a slot; one run of the fast list. Nothing after a fault.
+  void scan();
+  void slot();
+  void fast();
+  // Scans until the clock has advanced by at least `us`; a schedule without time counts the main task's period.
+  void runFor(int64_t us);
+  // One run of a task by itself, outside the schedule. False: fault, unknown task, or called from within a task.
+  bool runTask(uint32_t task);
+  bool runTask(std::string_view name);
+  // For a real clock; see rt::Runner.
+  uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
+  void slice();
+
+  bool atListStart() const { return runner_.atListStart(); }
+  int64_t nowUs() const { return ctx_->now_us; }
+  void advanceClock(int64_t us) { runner_.advance(us); }
+  void setStopped(bool stopped) { runner_.setStopped(stopped); }
+  bool stopped() const { return runner_.stopped(); }
+
+  bool faulted() const { return runner_.faulted(); }
+  const rung_fault& fault() const { return ctx_->fault; }
+  std::string faultText() const { return host::faultText(*program_, ctx_->fault); }
+
+  rt::Memory memory() const { return {*program_, block_.get()}; }
+  std::span<uint8_t> block() { return {block_.get(), program_->memory_size}; }
+  std::span<const uint8_t> block() const { return {block_.get(), program_->memory_size}; }
+  std::optional<Ref> resolve(std::string_view name, const NameFallback& fallback = {}) const {
+    return host::resolve(*program_, name, fallback);
+  }
+  uint64_t read(const Ref& ref) const { return readRaw(memory(), ref); }
+  double readReal(const Ref& ref) const { return host::readReal(memory(), ref); }
+  std::string readText(const Ref& ref) const { return host::readText(memory(), ref); }
+  void write(const Ref& ref, uint64_t value) { writeRaw(memory(), ref, value); }
+  void writeReal(const Ref& ref, double value) { host::writeReal(memory(), ref, value); }
+  void writeText(const Ref& ref, std::string_view text) { host::writeText(memory(), ref, text); }
+
+  rt::MessageQueue& messages() { return port_->messages; }
+  const rt::MessageQueue& messages() const { return port_->messages; }
+  rt::ServiceQueue& services() { return port_->services; }
+  const rt::ServiceQueue& services() const { return port_->services; }
+
+  // One entry a rung; empty when the program is not instrumented.
+  std::span<const rung_prof> profile() const { return profile_; }
+  void clearProfile();
+
+  // The retained spans, one behind the other: what RetainStore keeps. restoreRetained is false when the size is wrong.
+  uint32_t retainedSize() const { return static_cast<uint32_t>(retained_.size()); }
+  void copyRetained(std::span<uint8_t> to) const; // of retainedSize()
+  bool restoreRetained(std::span<const uint8_t> from);
+
+  rung_ctx& context() { return *ctx_; } // for an interpreter: rung_ctx::engine
+
+private:
+  struct FreeBlock {
+    void operator()(uint8_t* block) const;
+  };
+  void resetMemory();
+  void resetRun();
+  static void stepHook(void* self, uint32_t work);
+  static void faultHook(void* self);
+  static bool respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+
+  const rung_program* program_;
+  ScheduleHooks* hooks_;
+  std::unique_ptr<uint8_t, FreeBlock> block_;
+  std::unique_ptr<rung_ctx> ctx_;
+  std::unique_ptr<rt::HostPort> port_;
+  std::vector<rung_prof> profile_;
+  std::vector<rt::PartState> parts_;
+  std::vector<uint8_t> retained_; // room for warmStart
+  rt::Runner runner_;
+};
+
+} // namespace rung::host

@@ -1,0 +1,31 @@
+// Look-ups in the tables of a rung_program, and its check at the gate: a program that passes checkProgram can be run
+// without further checks of its tables.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "rung/program.h"
+
+namespace rung::host {
+
+// What is wrong with the tables (version, sizes, indices); "" when nothing is.
+std::string checkProgram(const rung_program& program);
+
+// Indices by name; RUNG_NONE when there is none.
+uint32_t findSpace(const rung_program& program, std::string_view name);
+uint32_t findTask(const rung_program& program, std::string_view name);
+uint32_t findService(const rung_program& program, std::string_view name);
+
+std::string_view serviceName(const rung_program& program, uint32_t service); // "" when there is none
+std::string_view messageText(const rung_program& program, uint32_t number);  // "" when there is none
+
+// Time of one pass of the scan list: the sum of its ADVANCE steps, else the main task's period.
+uint64_t scanPeriodUs(const rung_program& program);
+
+// `rung 3 "title", main.pmc:12`; line 0 means the rung's first line.
+std::string rungText(const rung_program& program, uint32_t rung, uint32_t line = 0);
+// `dead-loop (rung 3 "title", main.pmc:12)`; "" when there is no fault.
+std::string faultText(const rung_program& program, const rung_fault& fault);
+
+} // namespace rung::host

@@ -1,0 +1,74 @@
+// The retained memory on disk. Two files, BASE.a and BASE.b, are written in turn; each has a generation number, the
+// layout hash and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
+// one.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+
+namespace rung::host {
+
+struct RetainImage {
+  bool found = false; // false: start cold
+  std::vector<uint8_t> bytes;
+  uint64_t generation = 0;
+  std::string report; // what was wrong with the files, "" when nothing was; missing files are not wrong
+};
+
+// Blocks on the disk: not for the scan thread.
+class RetainStore {
+public:
+  // `base` is a path without ending; bytes saved under another layout hash or size are not taken.
+  RetainStore(std::string base, uint64_t layoutHash, uint32_t size);
+
+  RetainImage load();
+  bool save(std::span<const uint8_t> bytes, std::string& error);
+
+private:
+  std::string base_;
+  uint64_t layoutHash_;
+  uint32_t size_;
+  uint64_t generation_ = 0; // of the newest good file
+  bool newestIsB_ = true;
+};
+
+// Takes images from the scan thread and saves them on its own. `offer` copies and returns at once; it takes nothing
+// while the last image is still being written.
+class RetainSaver {
+public:
+  RetainSaver(RetainStore store, uint32_t size, std::chrono::milliseconds poll = std::chrono::milliseconds(20));
+  ~RetainSaver(); // writes what was offered last
+  RetainSaver(const RetainSaver&) = delete;
+  RetainSaver& operator=(const RetainSaver&) = delete;
+
+  bool offer(const Instance& instance) noexcept; // scan thread
+  uint64_t saved() const { return saved_.load(); }
+  uint64_t failed() const { return failed_.load(); }
+  std::string lastError() const;
+
+private:
+  void work();
+  void saveOffered();
+
+  RetainStore store_;
+  std::vector<uint8_t> buffer_;
+  std::atomic<bool> full_{false}; // true: buffer_ belongs to the saver, else to the scan thread
+  std::atomic<uint64_t> saved_{0};
+  std::atomic<uint64_t> failed_{0};
+  std::chrono::milliseconds poll_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;     // under mutex_
+  std::string lastError_; // under mutex_
+  std::thread thread_;
+};
+
+} // namespace rung::host

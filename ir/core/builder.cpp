@@ -6,44 +6,6 @@
 #include "ir/support/check.h"
 
 namespace rung::ir {
-namespace {
-
-// Whether a value of type `actual` satisfies `constraint` for an operation of type `own`.
-bool satisfies(Constraint constraint, Type own, Type actual) {
-  switch (constraint) {
-    case Constraint::None: return false;
-    case Constraint::Same: return actual == own;
-    case Constraint::Bit: return actual == Type::Bit;
-    case Constraint::I32: return actual == Type::I32;
-    case Constraint::I64: return actual == Type::I64;
-    case Constraint::F64: return actual == Type::F64;
-    case Constraint::Narrower: return actual != Type::F64 && bitWidth(actual) < bitWidth(own);
-    case Constraint::Wider: return isInt(actual) && bitWidth(actual) > bitWidth(own);
-    case Constraint::AnyInt: return isInt(actual);
-    case Constraint::Any:
-    case Constraint::Variadic: return true;
-  }
-  return false;
-}
-
-Type resultType(Constraint constraint, Type own) {
-  switch (constraint) {
-    case Constraint::Bit: return Type::Bit;
-    case Constraint::I32: return Type::I32;
-    case Constraint::I64: return Type::I64;
-    case Constraint::F64: return Type::F64;
-    case Constraint::Same: return own;
-    case Constraint::None:
-    case Constraint::Narrower:
-    case Constraint::Wider:
-    case Constraint::AnyInt:
-    case Constraint::Any:
-    case Constraint::Variadic: return Type::None;
-  }
-  return Type::None;
-}
-
-} // namespace
 
 Op& RungBuilder::append(OpCode code, Type type, std::span<const ValueId> args) {
   Op op;

@@ -89,6 +89,10 @@ constexpr bool isVariadic(const OpInfo& info) {
     if (c == Constraint::Variadic) return true;
   return false;
 }
+// Whether a value of type `actual` satisfies `constraint` for an operation of type `own`.
+bool satisfies(Constraint constraint, Type own, Type actual);
+// The type of a result; None where there is none or the row does not fix it.
+Type resultType(Constraint constraint, Type own);
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
 
 } // namespace rung::ir

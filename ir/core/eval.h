@@ -1,0 +1,24 @@
+// The value of an operation without effects, by the functions of sem.hpp. The constant folder and the interpreter both
+// call it, so a folded operation cannot differ from one that ran.
+//
+// A value is the bits of its type in the low end of a uint64_t, zero above: a bit is 0 or 1, a f64 is its IEEE bits.
+#pragma once
+#include <cstdint>
+
+#include "ir/core/op_info.h"
+
+namespace rung::ir {
+
+// The bits that a type holds.
+constexpr uint64_t valueMask(Type type) {
+  const uint32_t width = bitWidth(type);
+  return width >= 64 ? ~0ull : (1ull << width) - 1;
+}
+
+// Whether evalPure knows the operation: pure, and its value depends on nothing but its operands.
+constexpr bool isEvaluable(const OpInfo& info) { return info.effects == kPure && info.code != OpCode::Const; }
+
+// `type` is the operation's T, `first` the type of its first operand; `args` are as many as the row says.
+uint64_t evalPure(OpCode code, Type type, Type first, const uint64_t* args);
+
+} // namespace rung::ir

@@ -1,0 +1,344 @@
+// The printer of the text form (see text.h). It trusts nothing: broken modules print too.
+#include <charconv>
+#include <cmath>
+#include <bit>
+#include <fmt/format.h>
+#include <iterator>
+#include <unordered_map>
+
+#include "ir/text/keywords.h"
+#include "ir/text/text.h"
+
+namespace rung::ir {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') out += '\\', out += c;
+    else if (c == '\n') out += "\\n";
+    else if (c == '\r') out += "\\r";
+    else if (c == '\t') out += "\\t";
+    else if (byte < 0x20 || byte == 0x7F) fmt::format_to(std::back_inserter(out), "\\x{:02X}", byte);
+    else out += c;
+  }
+  out += '"';
+  return out;
+}
+
+bool isWord(std::string_view name) {
+  if (name.empty() || (name[0] >= '0' && name[0] <= '9')) return false;
+  for (char c : name)
+    if (!isNameChar(c)) return false;
+  return true;
+}
+
+std::string nameText(std::string_view name) { return isWord(name) ? std::string(name) : quoted(name); }
+
+// Names of one kind, as a reference writes them: by name when it is unique, else by index.
+class References {
+ public:
+  void add(std::string_view name) {
+    unique_[name] = unique_.count(name) == 0;
+    names_.push_back(name);
+  }
+  std::string text(uint32_t index) const {
+    if (index == RUNG_NONE) return "-";
+    if (index < names_.size() && unique_.at(names_[index])) return nameText(names_[index]);
+    return fmt::format("#{}", index);
+  }
+
+ private:
+  std::vector<std::string_view> names_;
+  std::unordered_map<std::string_view, bool> unique_;
+};
+
+// What names a place, for comments.
+struct PlaceKey {
+  uint32_t space;
+  int64_t bitOffset;
+  bool bit;
+  bool operator==(const PlaceKey&) const = default;
+};
+struct PlaceKeyHash {
+  size_t operator()(const PlaceKey& key) const {
+    return std::hash<uint64_t>()((static_cast<uint64_t>(key.space) << 40) ^ (static_cast<uint64_t>(key.bitOffset) << 1) ^ (key.bit ? 1 : 0));
+  }
+};
+
+class Printer {
+ public:
+  explicit Printer(const Module& module) : module_(module) {
+    for (const std::string& file : module.files) files_.add(file);
+    for (const Space& space : module.spaces) spaces_.add(space.name);
+    for (const std::string& fault : module.faults) faults_.add(fault);
+    for (const std::string& service : module.services) services_.add(service);
+    for (const Routine& routine : module.routines) routines_.add(routine.name);
+    for (const Task& task : module.tasks) tasks_.add(task.name);
+    for (const Symbol& s : module.symbols)
+      if ((s.flags & RUNG_SYMBOL_CONST) == 0)
+        symbols_.try_emplace({s.space.index, int64_t{s.byte} * 8 + s.bit, s.type == RUNG_TYPE_BIT}, s.name);
+  }
+
+  void printModule() {
+    put("module {} dialect {}{}\n", quoted(module_.name), quoted(module_.dialect), module_.instrumented ? " instrumented" : "");
+    for (const std::string& file : module_.files) put("file {}\n", quoted(file));
+    printMemory();
+    for (const std::string& fault : module_.faults) put("fault {}\n", nameText(fault));
+    for (const std::string& service : module_.services) put("service {}\n", nameText(service));
+    for (const MessageText& message : module_.messages) put("message {} {}\n", message.number, quoted(message.text));
+    for (const Routine& routine : module_.routines) {
+      put("\nroutine {} {{\n", nameText(routine.name));
+      for (uint32_t i = 0; i < routine.rungs.size(); ++i) printRung(routine.rungs[i], i, {});
+      put("}}\n");
+    }
+    if (!module_.tasks.empty()) put("\n");
+    for (const Task& task : module_.tasks) printTask(task);
+    put("schedule main {} fast {}\n", tasks_.text(module_.mainTask.index), tasks_.text(module_.fastTask.index));
+    for (const Step& step : module_.scan) printStep("scan", step);
+    for (const Step& step : module_.fast) printStep("fast", step);
+  }
+
+  void printRung(const Rung& rung, uint32_t number, const Remark& remark);
+  std::string take() { return std::move(out_); }
+
+ private:
+  template <class... Args> void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+
+  void printMemory();
+  void printFlags(std::span<const Keyword> list, uint32_t flags);
+  void printTask(const Task& task);
+  void printCopy(std::string_view when, const Copy& copy);
+  void printStep(std::string_view list, const Step& step) {
+    const Keyword* op = findKeyword(kStepOps, step.op);
+    put("step {} {} {} {}\n", list, op != nullptr ? std::string(op->word) : fmt::format("#{}", step.op), tasks_.text(step.task.index), step.arg);
+  }
+
+  uint32_t unitOf(uint32_t space) const {
+    const uint32_t unit = space < module_.spaces.size() ? module_.spaces[space].unitBytes : 1;
+    return unit == 0 ? 1 : unit;
+  }
+  std::string bytePlace(uint32_t space, uint64_t byte, std::string_view more = {}) const {
+    const uint32_t unit = unitOf(space);
+    const uint64_t rest = byte % unit;
+    return fmt::format("{}[{}{}{}]", spaces_.text(space), byte / unit, rest == 0 ? "" : fmt::format("+{}", rest), more);
+  }
+  std::string bitPlace(uint32_t space, uint64_t bitOffset) const {
+    const uint64_t unitBits = uint64_t{unitOf(space)} * 8;
+    return fmt::format("{}[{}.{}]", spaces_.text(space), bitOffset / unitBits, bitOffset % unitBits);
+  }
+  std::string place(const Op& op, bool window) const {
+    const std::string more = window ? fmt::format(" count {}", op.count) : "";
+    const bool bit = op.type == Type::Bit && !window;
+    if (op.imm < 0 || (!bit && op.imm % 8 != 0)) return fmt::format("{}[!{}{}]", spaces_.text(op.ref), op.imm, more);
+    const auto offset = static_cast<uint64_t>(op.imm);
+    return bit ? bitPlace(op.ref, offset) : bytePlace(op.ref, offset / 8, more);
+  }
+  std::string literal(Type type, int64_t bits) const;
+  std::string attribute(const Rung& rung, const Op& op) const;
+  std::string_view comment(const Op& op) const;
+  void printResults(const Rung& rung, const Op& op);
+  void printOp(const Rung& rung, const Op& op);
+  void printTransfer(const Rung& rung);
+  void printRemark(const Remark& remark, size_t index, size_t indent);
+
+  const Module& module_;
+  References files_, spaces_, faults_, services_, routines_, tasks_;
+  std::unordered_map<PlaceKey, std::string_view, PlaceKeyHash> symbols_;
+  std::string out_;
+};
+
+// ---- declarations --------------------------------------------------------------------------------------------------
+
+void Printer::printFlags(std::span<const Keyword> list, uint32_t flags) {
+  for (const Keyword& keyword : list) {
+    if ((flags & keyword.value) != 0) put(" {}", keyword.word);
+    flags &= ~keyword.value;
+  }
+  if (flags != 0) put(" #{}", flags);
+}
+
+void Printer::printMemory() {
+  for (const Space& space : module_.spaces) {
+    put("space {} unit {} units {}", nameText(space.name), space.unitBytes, space.units);
+    printFlags(kSpaceFlags, space.flags);
+    put("{}\n", space.packedOnly ? " packed" : "");
+  }
+  for (size_t i = 0; i < module_.slots.size(); ++i) {
+    const Slot& slot = module_.slots[i];
+    put("slot ${} {} init {}{}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init), slot.retain ? " retain" : "",
+        slot.transient ? " transient" : "", quoted(slot.key));
+  }
+  for (const Symbol& s : module_.symbols) {
+    const Keyword* type = findKeyword(kSymbolTypes, s.type);
+    const bool bit = s.type == RUNG_TYPE_BIT;
+    put("symbol {} {} {} count {}", nameText(s.name), type != nullptr ? std::string(type->word) : fmt::format("#{}", s.type),
+        bit ? bitPlace(s.space.index, uint64_t{s.byte} * 8 + s.bit) : bytePlace(s.space.index, s.byte), s.count);
+    printFlags(kSymbolFlags, s.flags);
+    put(" value {} {}\n", s.value, quoted(s.comment));
+  }
+  for (const Init& init : module_.inits) {
+    put("init {} ", bytePlace(init.space.index, init.byte));
+    for (uint8_t byte : init.data) put("{:02X}", byte);
+    put("\n");
+  }
+  for (const SpaceSpan& span : module_.retains) put("retain {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
+  for (const SpaceSpan& span : module_.safes) put("safe {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
+}
+
+void Printer::printTask(const Task& task) {
+  put("task {} entry {} period {} budget {} fault {} parts {} {{\n", nameText(task.name), routines_.text(task.entry.index),
+      task.periodUs, task.budget, faults_.text(task.budgetFault.index), task.parts);
+  for (const Copy& copy : task.begin) printCopy("begin", copy);
+  for (const Copy& copy : task.end) printCopy("end", copy);
+  put("}}\n");
+}
+
+void Printer::printCopy(std::string_view when, const Copy& copy) {
+  put("  {} {} -> {} size {}", when, bytePlace(copy.from.space.index, copy.from.byte), bytePlace(copy.to.index, copy.toByte), copy.from.size);
+  if (copy.masked) put(" masked {}", bytePlace(copy.mask.index, copy.maskByte));
+  put("\n");
+}
+
+// ---- rungs ---------------------------------------------------------------------------------------------------------
+
+std::string Printer::literal(Type type, int64_t bits) const {
+  const auto raw = static_cast<uint64_t>(bits);
+  if (type == Type::F64) {
+    const double value = std::bit_cast<double>(raw);
+    if (!std::isfinite(value)) return fmt::format("bits(0x{:016X})", raw);
+    char text[40];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+  }
+  const uint32_t width = bitWidth(type);
+  if (width >= 64 || width <= 1) return fmt::format("{}", bits);
+  const uint64_t sign = 1ull << (width - 1);
+  if ((raw >> width) != 0) return fmt::format("bits(0x{:X})", raw); // more than the type holds
+  return fmt::format("{}", static_cast<int64_t>((raw ^ sign) - sign));
+}
+
+std::string Printer::attribute(const Rung& rung, const Op& op) const {
+  switch (opInfo(op.code).attr) {
+    case Attr::None: return {};
+    case Attr::Literal: return literal(op.type, op.imm);
+    case Attr::Place: return place(op, false);
+    case Attr::Window: return place(op, true);
+    case Attr::Slot: return fmt::format("${}", op.ref);
+    case Attr::Count: return fmt::format("{}", op.count);
+    case Attr::MessageOp: {
+      const Keyword* keyword = findKeyword(kMessageOps, op.ref);
+      return keyword != nullptr ? std::string(keyword->word) : fmt::format("#{}", op.ref);
+    }
+    case Attr::Service: return services_.text(op.ref);
+    case Attr::ResultNo: return fmt::format("{}", op.imm);
+    case Attr::Fault: return faults_.text(op.ref);
+    case Attr::Text: return op.ref < rung.notes.size() ? quoted(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
+  }
+  return {};
+}
+
+// The name of what is accessed; empty when there is none.
+std::string_view Printer::comment(const Op& op) const {
+  const Attr attr = opInfo(op.code).attr;
+  if (attr == Attr::Slot) return op.ref < module_.slots.size() ? std::string_view(module_.slots[op.ref].key) : std::string_view();
+  if (attr != Attr::Place && attr != Attr::Window) return {};
+  auto found = symbols_.find({op.ref, op.imm, attr == Attr::Place && op.type == Type::Bit});
+  return found == symbols_.end() ? std::string_view() : found->second;
+}
+
+void Printer::printResults(const Rung& rung, const Op& op) {
+  for (uint32_t i = 0; i < op.resultCount; ++i) {
+    const uint32_t id = op.result.index + i;
+    put("{}%{}:{}", i == 0 ? "" : ", ", id, id < rung.values.size() ? typeName(rung.values[id]) : "none");
+  }
+  if (op.resultCount != 0) put(" = ");
+}
+
+void Printer::printOp(const Rung& rung, const Op& op) {
+  printResults(rung, op);
+  const bool typed = op.resultCount == 1 && op.result.index < rung.values.size() && rung.values[op.result.index] == op.type;
+  put("{}", opInfo(op.code).name);
+  if (op.type != Type::None && !typed) put(".{}", typeName(op.type));
+  std::string_view lead = " ";
+  if (const std::string text = attribute(rung, op); opInfo(op.code).attr != Attr::None) {
+    put(" {}", text);
+    lead = ", ";
+  }
+  for (uint32_t i = 0; i < op.argCount; ++i, lead = ", ") {
+    const uint64_t at = uint64_t{op.firstArg} + i;
+    put("{}%{}", lead, at < rung.args.size() ? fmt::format("{}", rung.args[at].index) : "?");
+  }
+  if (op.line != 0) put(" @{}", op.line);
+  if (const std::string_view name = comment(op); !name.empty()) put(" ; {}", quoted(name));
+  put("\n");
+}
+
+void Printer::printTransfer(const Rung& rung) {
+  const Transfer& transfer = rung.transfer;
+  put("  }}");
+  switch (transfer.kind) {
+    case TransferKind::Next: break;
+    case TransferKind::Goto: put(" goto {}", transfer.target); break;
+    case TransferKind::Call: put(" call {}", routines_.text(transfer.callee.index)); break;
+    case TransferKind::Ret: put(" ret"); break;
+    case TransferKind::End: put(" end"); break;
+    case TransferKind::Switch:
+      put(" switch %{} [{}]", transfer.value.index, fmt::join(transfer.targets, ", "));
+      break;
+  }
+  if (transfer.cond.valid()) put(" if %{}", transfer.cond.index);
+  if (rung.transferLine != 0) put(" @{}", rung.transferLine);
+  put("\n");
+}
+
+void Printer::printRemark(const Remark& remark, size_t index, size_t indent) {
+  if (!remark) return;
+  std::string text = remark(index);
+  if (text.empty()) return;
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  put("{:{}}; ^ {}\n", "", indent, text);
+}
+
+void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark) {
+  put("  rung {} {} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, quoted(rung.title), files_.text(rung.begin.file.index),
+      rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
+  std::string_view source = rung.sourceText;
+  for (bool more = !source.empty(); more;) {
+    const size_t end = source.find('\n');
+    put("    source {}\n", quoted(source.substr(0, end)));
+    more = end != std::string_view::npos;
+    source.remove_prefix(more ? end + 1 : source.size());
+  }
+  size_t indent = 4;
+  for (size_t i = 0; i < rung.ops.size(); ++i) {
+    const OpCode code = rung.ops[i].code;
+    const bool closes = code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop;
+    if (closes && indent > 4) indent -= 2;
+    out_.append(indent, ' ');
+    printOp(rung, rung.ops[i]);
+    printRemark(remark, i, indent);
+    if (code == OpCode::If || code == OpCode::Else || code == OpCode::Loop) indent += 2;
+  }
+  printTransfer(rung);
+  printRemark(remark, rung.ops.size(), 2);
+}
+
+} // namespace
+
+std::string print(const Module& module) {
+  Printer printer(module);
+  printer.printModule();
+  return printer.take();
+}
+
+std::string printRung(const Module& module, RoutineId routine, uint32_t rung, const Remark& remark) {
+  Printer printer(module);
+  printer.printRung(module.at(routine).rungs[rung], rung, remark);
+  return printer.take();
+}
+
+} // namespace rung::ir

@@ -1,0 +1,18 @@
+// From a checked program to a module of the IR: spaces, tasks, schedule, symbols, and the rungs of all bodies.
+#pragma once
+#include <memory>
+
+#include "frontend/dialects/nct/program.h"
+#include "ir/core/module.h"
+
+namespace rung::nct {
+
+// What the source says beside rungs.
+struct Texts {
+  std::vector<ir::MessageText> messages; // and buttons, see nct.h
+};
+
+std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts, const SourceManager& sources,
+                                        std::span<const FileId> files);
+
+} // namespace rung::nct

@@ -1,0 +1,51 @@
+// Checks the rungs of a program one by one: what each element is, where it stands, what its operands are.
+#pragma once
+#include <unordered_map>
+
+#include "frontend/dialects/nct/program.h"
+
+namespace rung::nct {
+
+// "Each output once" (l.233), over all modules.
+class OutputClaims {
+ public:
+  explicit OutputClaims(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  void add(Claim claim, const Operand& operand);
+
+ private:
+  struct Owner {
+    SourceRange once;     // of the coil, timer, …; invalid: none yet
+    SourceRange setReset; // of the first SET or RST
+  };
+  Diagnostics& diagnostics_;
+  std::unordered_map<uint64_t, Owner> owners_; // by bit, or by word
+};
+
+class RungChecker {
+ public:
+  RungChecker(SymbolTable& symbols, OutputClaims& claims, Diagnostics& diagnostics, bool inInt0);
+  TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
+
+ private:
+  const NctInstruction* rowOf(const ladder::Element& element, const Operand* first);
+  void checkElement(TypedRung& typed, const ladder::Element& element);
+  bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
+  bool checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
+  bool checkCount(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
+  bool readOperands(TypedRung& typed, TypedElement& element);
+  bool checkOperand(const NctInstruction& row, size_t index, const Operand& operand);
+  bool checkRegister(const NctInstruction& row, size_t index, const Operand& operand);
+  bool checkConstant(const NctInstruction& row, size_t index, const Operand& operand);
+  bool checkDestination(const frontend::OperandInfo& info, const Operand& operand);
+  bool checkModifiers(const NctInstruction& row, const ladder::Element& element, const Operand& operand);
+  void warnInt0Only(const Operand& operand);
+
+  SymbolTable& symbols_;
+  OutputClaims& claims_;
+  Diagnostics& diagnostics_;
+  bool inInt0_;
+  const nc::Signal* handwheel_; // HWMOVE
+  const nc::Signal* fastClock_; // N_P2MS
+};
+
+} // namespace rung::nct

@@ -1,0 +1,168 @@
+// Lowering rungs (see lower_rungs.h).
+#include "frontend/dialects/nct/lower_rungs.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/nct/lowering.h"
+#include "ir/support/hash.h"
+
+namespace rung::nct {
+namespace {
+
+using ir::ValueId;
+
+// A JMP, SBS or RET that was met in the rung. It takes effect when the whole rung has been evaluated, in the order in
+// which they were executed (chapter 4, 9).
+struct Leave {
+  Flow flow;
+  uint32_t number;
+  ValueId cond;
+};
+
+// A jump whose target is not known before its body is complete.
+struct OpenJump {
+  uint32_t rung;
+  uint32_t number;
+};
+
+class BodyLowering {
+ public:
+  BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines, uint32_t body)
+      : context_(context), source_(module), routines_(routines), body_(module.bodies[body]),
+        routine_(context.module.routines[routines[body].index]), slots_(context.module, routine_.name) {}
+
+  void run() {
+    routine_.rungs.reserve(body_.end - body_.first);
+    for (uint32_t i = body_.first; i < body_.end; ++i) {
+      place_.push_back(static_cast<uint32_t>(routine_.rungs.size()));
+      lowerRung(source_.rungs[i]);
+    }
+    // A module may be empty; a routine is not.
+    if (routine_.rungs.empty()) routine_.rungs.emplace_back().key = hashBytes(routine_.name);
+    for (const OpenJump& jump : jumps_)
+      routine_.rungs[jump.rung].transfer.target = place_[*source_.labels[jump.number] - body_.first];
+  }
+
+ private:
+  void lowerRung(const TypedRung& typed);
+  void describe(ir::Rung& rung, const TypedRung& typed);
+  void lowerElement(ir::RungBuilder& b, Memory& memory, const TypedRung& typed, size_t index);
+  void leave(ir::RungBuilder& b, const Leave& leave);
+  void addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t key);
+
+  LoweringContext& context_;
+  const TypedModule& source_;
+  const std::vector<ir::RoutineId>& routines_; // by body
+  const Body& body_;
+  ir::Routine& routine_;
+  SlotMaker slots_;
+  std::vector<uint32_t> place_; // IR rung of each rung of the body
+  std::vector<OpenJump> jumps_;
+  // Of the rung at hand.
+  std::vector<ValueId> power_; // by net; invalid where nothing has driven it yet, and for the rail
+  std::vector<ValueId> pins_;
+  std::vector<Leave> leaves_;
+};
+
+void BodyLowering::describe(ir::Rung& rung, const TypedRung& typed) {
+  const ladder::Rung& drawing = *typed.rung;
+  rung.title = drawing.comment;
+  rung.sourceText = context_.sources.text(drawing.range);
+  rung.begin = {.file = context_.files.at(typed.file->file.index), .line = drawing.firstLine, .column = 1};
+  rung.lastLine = drawing.lastLine;
+  rung.weight = std::max<uint32_t>(1, static_cast<uint32_t>(typed.elements.size()));
+  const uint64_t text = hashBytes(rung.sourceText, hashBytes(routine_.name));
+  const uint32_t copy = context_.sameText[text]++;
+  rung.key = copy == 0 ? text : hashBytes(fmt::format("{}", copy), text);
+}
+
+void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedRung& typed, size_t index) {
+  const TypedElement& typedElement = typed.elements[index];
+  const ladder::Element& element = *typedElement.element;
+  const NctInstruction& row = *typedElement.row;
+  b.setLine(element.line);
+  pins_.clear();
+  for (const ladder::Pin& pin : typed.rung->pinsOf(element)) pins_.push_back(power_[pin.input.index]);
+  ValueId output;
+  if (row.lower != nullptr) {
+    if (element.kind == ladder::ElementKind::Box) b.note(row.info.mnemonic);
+    slots_.setElement(index);
+    const std::span<const Operand> operands = typed.operandsOf(typedElement);
+    Lowering box{.b = b, .memory = memory, .slots = slots_, .operands = operands, .pins = pins_, .variant = row.variant,
+                 .edge = operands.empty() ? '\0' : operands[0].edge};
+    output = row.lower(box);
+  } else if (row.flow == Flow::Jump || row.flow == Flow::Call || row.flow == Flow::Return) {
+    leaves_.push_back({row.flow, typedElement.label.value_or(0), pins_[0]});
+  }
+  if (!element.output.valid()) return;
+  ValueId& net = power_[element.output.index];
+  net = net.valid() ? b.or_(net, output) : output;
+}
+
+void BodyLowering::lowerRung(const TypedRung& typed) {
+  ir::Rung& rung = routine_.rungs.emplace_back();
+  describe(rung, typed);
+  const uint64_t key = rung.key;
+  slots_.setRung(key);
+  ir::RungBuilder b(context_.module, rung);
+  Memory memory(b, context_.config, context_.spaces, context_.written);
+  power_.assign(typed.rung->nets.size(), ValueId{});
+  leaves_.clear();
+  for (size_t i = 0; i < typed.elements.size(); ++i) lowerElement(b, memory, typed, i);
+  if (leaves_.empty()) return;
+  // The conditions of all but the first wait in registers for the rungs that follow.
+  std::vector<ir::SlotId> conditions;
+  for (size_t i = 1; i < leaves_.size(); ++i) {
+    slots_.setElement(typed.elements.size());
+    conditions.push_back(slots_.make(fmt::format("leave{}", i), ir::Type::Bit, 0, true));
+    b.slotStore(conditions.back(), leaves_[i].cond);
+  }
+  leave(b, leaves_[0]);
+  addHelpers(conditions, typed, key);
+}
+
+void BodyLowering::addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t key) {
+  for (size_t i = 0; i < conditions.size(); ++i) {
+    ir::Rung& helper = routine_.rungs.emplace_back();
+    helper.title = typed.rung->comment;
+    helper.begin = {.file = context_.files.at(typed.file->file.index), .line = typed.rung->firstLine, .column = 1};
+    helper.lastLine = typed.rung->lastLine;
+    helper.key = hashBytes(fmt::format("leave{}", i + 1), key);
+    ir::RungBuilder b(context_.module, helper);
+    Leave then = leaves_[i + 1];
+    then.cond = b.slotLoad(conditions[i]);
+    leave(b, then);
+  }
+}
+
+void BodyLowering::leave(ir::RungBuilder& b, const Leave& leave) {
+  switch (leave.flow) {
+    case Flow::Jump:
+      jumps_.push_back({static_cast<uint32_t>(routine_.rungs.size() - 1), leave.number});
+      return b.gotoRung(0, leave.cond);
+    case Flow::Call: return b.call(routines_[*source_.subroutines[leave.number]], leave.cond);
+    case Flow::Return: return b.ret(leave.cond);
+    case Flow::None:
+    case Flow::End:
+    case Flow::Label:
+    case Flow::Subroutine:
+    case Flow::Section: return;
+  }
+}
+
+} // namespace
+
+ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module) {
+  std::vector<ir::RoutineId> routines;
+  for (const Body& body : module.bodies) {
+    routines.push_back({static_cast<uint32_t>(context.module.routines.size())});
+    ir::Routine& routine = context.module.routines.emplace_back();
+    routine.name = body.number ? fmt::format("{}.SBN{}", module.name, *body.number) : std::string(module.name);
+  }
+  for (uint32_t i = 0; i < module.bodies.size(); ++i) BodyLowering(context, module, routines, i).run();
+  return routines.front();
+}
+
+} // namespace rung::nct

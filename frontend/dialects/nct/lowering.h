@@ -1,0 +1,105 @@
+// What a lowering function works with: the builder, the memory of the dialect, its operands and the power at its pins.
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "frontend/dialects/nct/instructions.h"
+#include "frontend/dialects/nct/memory.h"
+#include "ir/core/builder.h"
+
+namespace rung::nct {
+
+// Makes the state slots of the elements of one rung. Their keys stay the same while the rung's text does.
+class SlotMaker {
+ public:
+  SlotMaker(ir::Module& module, std::string_view routine) : module_(module), routine_(routine) {}
+  void setRung(uint64_t key) { key_ = key; }
+  void setElement(size_t element) { element_ = element; }
+  // `role` tells the slots of one element apart.
+  ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
+
+ private:
+  ir::Module& module_;
+  std::string_view routine_;
+  uint64_t key_ = 0;
+  size_t element_ = 0;
+};
+
+struct Lowering {
+  ir::RungBuilder& b;
+  Memory& memory;
+  SlotMaker& slots;
+  std::span<const Operand> operands;
+  std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
+  int variant = 0;
+  char edge = 0;                     // '@' or '%' of a contact
+
+  // The power at a pin as a value.
+  ir::ValueId power(size_t pin = 0) { return pins[pin].valid() ? pins[pin] : b.bit(true); }
+  // value AND the power at the first pin.
+  ir::ValueId gate(ir::ValueId value) { return pins[0].valid() ? b.and_(pins[0], value) : value; }
+};
+
+// --- boxes ------------------------------------------------------------------------------------------------------------
+// Runs `body` when `valid` (invalid id: always) holds. An operand that is not valid sets FL_ER, leaves everything else
+// alone and makes the output 0 (man. l.729). `body` gives the output, an invalid id for "always 1"; so does guarded.
+template <class Body> ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
+  if (!valid.valid()) return body();
+  ir::RungBuilder& b = box.b;
+  b.if_(valid);
+  ir::ValueId output = body();
+  if (!output.valid()) output = b.bit(true);
+  b.else_(std::span(&output, 1));
+  box.memory.setErrorFlag(true);
+  const ir::ValueId failed = b.bit(false);
+  return b.endIf(std::span(&failed, 1)).front();
+}
+
+// A box that works while its first pin has power: a guarded body that also writes FL_ER. Gives the power at the output.
+template <class Body> ir::ValueId execute(Lowering& box, ir::ValueId valid, Body body) {
+  ir::RungBuilder& b = box.b;
+  const ir::ValueId enable = box.power();
+  b.if_(enable);
+  const ir::ValueId output = guarded(box, valid, body);
+  if (!output.valid()) {
+    b.endIf();
+    return enable;
+  }
+  b.else_(std::span(&output, 1));
+  const ir::ValueId off = b.bit(false);
+  return b.endIf(std::span(&off, 1)).front();
+}
+
+// --- lowering functions, by family ----------------------------------------------------------------------------------
+// Contacts: variant bit 0: closed; bit 1: on a word.
+inline constexpr int kClosed = 1;
+inline constexpr int kOnWord = 2;
+ir::ValueId lowerContact(Lowering& box);
+enum CoilVariant : int { kCoil, kNegatedCoil, kSet, kReset };
+ir::ValueId lowerCoil(Lowering& box);
+enum PulseVariant : int { kRising, kFalling };
+ir::ValueId lowerPulse(Lowering& box); // DIFU, DIFD
+
+enum MoveVariant : int { kMove, kMoveComplement };
+ir::ValueId lowerMove(Lowering& box);
+ir::ValueId lowerMoveDouble(Lowering& box);
+enum LogicVariant : int { kAnd, kOr, kXor };
+ir::ValueId lowerLogic(Lowering& box);
+enum ArithmeticVariant : int { kAdd, kSub };
+ir::ValueId lowerAddSub(Lowering& box);
+ir::ValueId lowerMul(Lowering& box);
+ir::ValueId lowerDiv(Lowering& box);
+
+enum TimerVariant : int { kOnDelay, kOffDelay, kTimedPulse };
+ir::ValueId lowerTimer(Lowering& box);
+enum CounterVariant : int { kStopping, kRing };
+ir::ValueId lowerCounter(Lowering& box);
+
+ir::ValueId lowerCompare(Lowering& box); // CMP
+enum CompareVariant : int { kLess, kLessEqual, kEqual, kNotEqual, kGreaterEqual, kGreater };
+ir::ValueId lowerCompareContact(Lowering& box);
+
+// --- checks -----------------------------------------------------------------------------------------------------------
+void checkTimer(std::span<const Operand> operands, Diagnostics& diagnostics);
+
+} // namespace rung::nct

@@ -1,0 +1,208 @@
+// Accesses to the memory of the dialect (see memory.h).
+#include "frontend/dialects/nct/memory.h"
+
+#include <algorithm>
+
+#include "ir/support/check.h"
+
+namespace rung::nct {
+
+using ir::Type;
+using ir::ValueId;
+
+void WrittenRange::add(uint32_t begin, uint32_t behind) {
+  first = std::min(first, begin);
+  end = std::max(end, behind);
+}
+
+ValueId Memory::both(ValueId a, ValueId b) {
+  if (!a.valid()) return b;
+  return b.valid() ? b_.and_(a, b) : a;
+}
+
+ValueId Memory::loadRegister(uint32_t word) { return b_.load(Type::I32, {.space = spaces_.m, .byte = word * 4, .bit = 0}); }
+
+// An unsigned comparison of the distance from the first word covers both ends: the sum wraps, and no sum that wraps
+// falls into 0000 to 9999 by accident.
+void Memory::compute(Place& place, const Address& address, uint32_t first, uint32_t count) {
+  place.fixed = false;
+  if (address.indexRegister == kNoRegister) { // only the bit's number is computed
+    place.window = {.space = place.space, .byte = address.word * 4, .count = 1};
+    place.index = b_.i32(0);
+    place.wordNo = b_.i32(address.word);
+    return;
+  }
+  const ValueId offset = loadRegister(address.indexRegister);
+  place.window = {.space = place.space, .byte = first * 4, .count = count};
+  place.index = b_.add(offset, b_.i32(static_cast<int64_t>(address.word) - first));
+  place.wordNo = first == 0 ? place.index : b_.add(place.index, b_.i32(first));
+  place.valid = b_.ltU(place.index, b_.i32(count));
+}
+
+Place Memory::place(const Address& address, Reach reach, uint32_t words) {
+  Place place;
+  place.space = address.immediate ? spaces_.ts : spaces_.m;
+  place.word = address.word;
+  place.bit = address.bit;
+  if (address.isFixed()) return place;
+  uint32_t first = 0;
+  uint32_t end = kWords;
+  switch (reach) {
+    case Reach::Read: break;
+    case Reach::Write: first = kFlagsWord + 1; break;
+    case Reach::User: first = config_.plcNvram; break;
+  }
+  if (address.immediate) { // only the NC area has a time-slice copy (l.544)
+    first = kFirstNcWord;
+    end = config_.plcNvram;
+  }
+  compute(place, address, first, end - first - (words - 1));
+  return place;
+}
+
+Place Memory::word(const Address& address, Reach reach) { return place(address, reach, 1); }
+
+Place Memory::bit(const Address& address, Reach reach) {
+  Place p = place(address, reach, 1);
+  if (p.fixed) return p;
+  if (address.bitRegister == kNoRegister) {
+    p.bitNo = b_.i32(address.bit);
+    return p;
+  }
+  p.bitNo = loadRegister(address.bitRegister);
+  p.valid = both(p.valid, b_.ltU(p.bitNo, b_.i32(32)));
+  return p;
+}
+
+Place Memory::twoWords(const Address& address, Reach reach) {
+  Place p = place(address, reach, 2);
+  if (p.fixed) return p;
+  const ValueId odd = b_.zextOrTrunc(Type::Bit, loadRegister(address.indexRegister));
+  p.valid = both(p.valid, b_.not_(odd));
+  return p;
+}
+
+// Word 0001 is reserved; what is written there goes nowhere.
+bool Memory::masked(const Place& place) const {
+  if (place.space != spaces_.m) return false;
+  return !place.fixed || (place.word >= kFirstNcWord && place.word < config_.plcNvram);
+}
+
+// For masks of computed places: the index is the word's own number.
+ir::Window Memory::maskWindow(const Place& place) {
+  if (place.window.count == 1)
+    written_.add(place.word, place.word + 1);
+  else
+    written_.add(kFirstNcWord, config_.plcNvram);
+  return {.space = spaces_.written, .byte = 0, .count = config_.plcNvram};
+}
+
+ValueId Memory::loadWord(const Place& place) {
+  if (place.fixed) return b_.load(Type::I32, {.space = place.space, .byte = place.word * 4, .bit = 0});
+  return b_.loadAt(Type::I32, place.window, place.index);
+}
+
+void Memory::storeWord(const Place& place, ValueId value) {
+  if (place.fixed)
+    b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
+  else
+    b_.storeAt(place.window, place.index, value);
+  if (!masked(place)) return;
+  const ValueId ones = b_.i32(-1);
+  if (place.fixed) {
+    b_.store({.space = spaces_.written, .byte = place.word * 4, .bit = 0}, ones);
+    written_.add(place.word, place.word + 1);
+  } else if (place.window.byte < config_.plcNvram * 4) {
+    b_.storeAt(maskWindow(place), place.wordNo, ones);
+  }
+}
+
+ValueId Memory::loadBit(const Place& place) {
+  if (place.fixed) return b_.load(Type::Bit, {.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8});
+  return b_.loadBitAt(place.window, place.index, place.bitNo);
+}
+
+void Memory::storeBit(const Place& place, ValueId value) {
+  const ir::Place bit{.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8};
+  if (place.fixed)
+    b_.store(bit, value);
+  else
+    b_.storeBitAt(place.window, place.index, place.bitNo, value);
+  if (!masked(place)) return;
+  const ValueId one = b_.bit(true);
+  if (place.fixed) {
+    b_.store({.space = spaces_.written, .byte = bit.byte, .bit = bit.bit}, one);
+    written_.add(place.word, place.word + 1);
+  } else if (place.window.byte < config_.plcNvram * 4) {
+    b_.storeBitAt(maskWindow(place), place.wordNo, place.bitNo, one);
+  }
+}
+
+// A fixed bit takes a load, a logic operation and a store; the mask remembers only a bit that was really written.
+void Memory::forceBit(const Place& place, ValueId cond, bool value) {
+  if (!place.fixed) {
+    b_.if_(cond);
+    storeBit(place, b_.bit(value));
+    b_.endIf();
+    return;
+  }
+  ir::Place bit{.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8};
+  const ValueId old = b_.load(Type::Bit, bit);
+  b_.store(bit, value ? b_.or_(old, cond) : b_.and_(old, b_.not_(cond)));
+  if (!masked(place)) return;
+  bit.space = spaces_.written;
+  b_.store(bit, b_.or_(b_.load(Type::Bit, bit), cond));
+  written_.add(place.word, place.word + 1);
+}
+
+ValueId Memory::loadLong(const Place& place) {
+  if (place.fixed) return b_.load(Type::I64, {.space = place.space, .byte = place.word * 4, .bit = 0});
+  return b_.loadAt(Type::I64, place.window, place.index);
+}
+
+void Memory::storeLong(const Place& place, ValueId value) {
+  RUNG_CHECK(place.space == spaces_.m, "doubles have no immediate form");
+  if (place.fixed) {
+    b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
+    for (uint32_t word = place.word; word < place.word + 2; ++word) {
+      if (word < kFirstNcWord || word >= config_.plcNvram) continue;
+      b_.store({.space = spaces_.written, .byte = word * 4, .bit = 0}, b_.i32(-1));
+      written_.add(word, word + 1);
+    }
+    return;
+  }
+  b_.storeAt(place.window, place.index, value);
+  if (place.window.byte >= config_.plcNvram * 4) return;
+  const ir::Window mask = maskWindow(place);
+  b_.storeAt(mask, place.wordNo, b_.i32(-1));
+  b_.storeAt(mask, b_.add(place.wordNo, b_.i32(1)), b_.i32(-1));
+}
+
+ValueId Memory::integer(const Operand& operand, ValueId& valid) {
+  if (operand.form == Form::Constant) return b_.i32(operand.constant.integer);
+  const Place p = word(operand.address, Reach::Read);
+  valid = both(valid, p.valid);
+  return loadWord(p);
+}
+
+void Memory::setFlags(uint8_t mask, ValueId value) {
+  const ir::Place flags{.space = spaces_.m, .byte = kFlagsWord * 4, .bit = 0};
+  const ValueId others = b_.and_(b_.load(Type::I8, flags), b_.constant(Type::I8, ~mask));
+  b_.store(flags, b_.or_(others, value));
+}
+
+void Memory::setErrorFlag(bool value) {
+  b_.store({.space = spaces_.m, .byte = kFlagsWord * 4, .bit = 0}, b_.bit(value));
+}
+
+void Memory::raiseErrorFlag(ValueId cond) {
+  const ir::Place flag{.space = spaces_.m, .byte = kFlagsWord * 4, .bit = 0};
+  b_.store(flag, b_.or_(b_.load(Type::Bit, flag), cond));
+}
+
+ValueId Memory::bitAddress(const Place& place) {
+  const ValueId word = b_.mul(place.wordNo, b_.i32(32));
+  return place.bitNo.valid() ? b_.add(word, place.bitNo) : word;
+}
+
+} // namespace rung::nct

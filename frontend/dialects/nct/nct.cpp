@@ -1,0 +1,170 @@
+// The dialect's compile function: read the files, check the program, build the module (see nct.h).
+#include "frontend/dialects/nct/nct.h"
+
+#include <charconv>
+#include <unordered_set>
+
+#include "frontend/dialects/nct/build_module.h"
+#include "frontend/dialects/nct/checker.h"
+#include "frontend/dialects/nct/structure.h"
+
+namespace rung::nct {
+namespace {
+
+using frontend::CompileOptions;
+
+// The names of a box's pins behind its first, for the drawing's parser.
+class PinNames {
+ public:
+  PinNames() {
+    for (const NctInstruction& row : allInstructions()) {
+      if (row.shape != Shape::Box) continue;
+      std::vector<std::string_view>& names = names_[row.info.mnemonic];
+      for (const frontend::PinInfo& pin : row.info.pins.all()) names.push_back(pin.name);
+    }
+  }
+  std::optional<std::span<const std::string_view>> operator()(std::string_view mnemonic) const {
+    const auto found = names_.find(mnemonic);
+    if (found == names_.end()) return std::nullopt;
+    return std::span(found->second).subspan(1);
+  }
+
+ private:
+  std::unordered_map<std::string_view, std::vector<std::string_view>> names_;
+};
+
+class Compiler {
+ public:
+  Compiler(SourceManager& sources, const Config& config, Diagnostics& diagnostics)
+      : sources_(sources), diagnostics_(diagnostics), symbols_(config, diagnostics), claims_(diagnostics) {}
+
+  void read(std::span<const FileId> files) {
+    const PinNames pins;
+    files_.reserve(files.size());
+    for (FileId file : files) {
+      ladder::LadderFile& parsed = files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, std::cref(pins)));
+      if (!parsed.dialect.empty() && parsed.dialect != "nct")
+        diagnostics_.report(Diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
+    }
+  }
+
+  void declare() {
+    for (const ladder::LadderFile& file : files_)
+      for (const ladder::Declaration& declaration : file.declarations) switch (declaration.kind) {
+          case ladder::DeclarationKind::Symbol:
+          case ladder::DeclarationKind::Const: symbols_.declare(declaration); break;
+          case ladder::DeclarationKind::Message: addText(declaration, 999, 0); break;
+          case ladder::DeclarationKind::Button: addText(declaration, 32, kButtonTexts); break;
+        }
+    symbols_.resolveAll();
+  }
+
+  void check() {
+    for (const ladder::LadderFile& file : files_) checkFile(file);
+    for (TypedModule* module : {&program_.main, &program_.int0})
+      if (module->exists) checkStructure(*module, diagnostics_);
+    if (!program_.main.exists && !program_.main.range.valid() && !nameless_) {
+      const SourceRange range = files_.empty() ? SourceRange{} : files_[0].dialectRange;
+      diagnostics_.report(Diag::MissingMain, range);
+    }
+  }
+
+  std::unique_ptr<ir::Module> build(std::span<const FileId> files) {
+    return buildModule(program_, symbols_, texts_, sources_, files);
+  }
+
+ private:
+  // `message 20 "text"` and `button 23 "title"`.
+  void addText(const ladder::Declaration& declaration, uint32_t most, uint32_t offset) {
+    const std::string_view digits = declaration.name.text;
+    uint32_t number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
+      diagnostics_.report(Diag::ConstantFormat, declaration.name.range) << digits;
+    } else if (error != std::errc() || number < 1 || number > most) {
+      diagnostics_.report(Diag::ConstantOutOfRange, declaration.name.range) << digits << "1 to " + std::to_string(most);
+    } else if (!numbers_.insert(number + offset).second) {
+      diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range) << digits;
+    } else {
+      texts_.messages.push_back({number + offset, std::string(declaration.value.text)});
+    }
+  }
+
+  // The module that a statement opens; null when it was reported.
+  TypedModule* open(const ladder::Module& statement) {
+    const std::string_view name = statement.name[0].text;
+    TypedModule* module = name == "MAIN" ? &program_.main : name == "INT0" ? &program_.int0 : nullptr;
+    if (module == nullptr || statement.name.size() > 1) {
+      diagnostics_.report(Diag::UnknownModule, join(statement.name.front().range, statement.name.back().range))
+          << sources_.text(join(statement.name.front().range, statement.name.back().range)) << "MAIN or INT0";
+      nameless_ = true;
+      return nullptr;
+    }
+    if (module->exists) {
+      diagnostics_.report(Diag::DuplicateModule, statement.range).note(module->range, "here") << name;
+      return nullptr;
+    }
+    module->exists = true;
+    module->range = statement.range;
+    return module;
+  }
+
+  void checkFile(const ladder::LadderFile& file) {
+    TypedModule* module = nullptr;
+    std::optional<RungChecker> checker;
+    for (const ladder::Statement& statement : file.statements) {
+      switch (statement.kind) {
+        case ladder::StatementKind::Module:
+          module = open(file.modules[statement.index]);
+          checker.emplace(symbols_, claims_, diagnostics_, module == &program_.int0);
+          break;
+        case ladder::StatementKind::Rung:
+          if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
+          if (module != nullptr) module->rungs.push_back(checker->check(file, file.rungs[statement.index]));
+          break;
+        case ladder::StatementKind::Declaration:
+        case ladder::StatementKind::Section: break;
+      }
+    }
+  }
+
+  SourceManager& sources_;
+  Diagnostics& diagnostics_;
+  SymbolTable symbols_;
+  OutputClaims claims_;
+  std::vector<ladder::LadderFile> files_;
+  Program program_;
+  Texts texts_;
+  std::unordered_set<uint32_t> numbers_; // of the texts
+  bool nameless_ = false; // rungs stand in no known module: MAIN may be what was meant
+};
+
+std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
+                                    Diagnostics& diagnostics) {
+  if (options.strict) diagnostics.raiseToError({Diag::SymbolInNcArea});
+  const size_t before = diagnostics.errorCount();
+  const Config config = readConfig(options, diagnostics);
+  Compiler compiler(sources, config, diagnostics);
+  compiler.read(files);
+  compiler.declare();
+  compiler.check();
+  if (diagnostics.errorCount() != before) return nullptr;
+  return compiler.build(files);
+}
+
+constexpr std::string_view kExtensions[] = {".nct"};
+constexpr std::string_view kConfigKeys[] = {"PLCNVRAM", "PLCRAM", "timeslice", "period_us"};
+
+} // namespace
+
+const frontend::Dialect kNct = {
+    .name = "nct",
+    .title = "NCT2xx / NCT3xx PLC",
+    .extensions = kExtensions,
+    .configKeys = kConfigKeys,
+    .instructions = allInfos(),
+    .operandKinds = operandKinds(),
+    .compile = compile,
+};
+
+} // namespace rung::nct

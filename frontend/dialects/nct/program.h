@@ -1,0 +1,58 @@
+// A program after its check: modules, their bodies, and rungs whose elements know their row and their operands.
+#pragma once
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/nct/instructions.h"
+#include "frontend/dialects/nct/symbols.h"
+#include "frontend/ladder/ladder.h"
+
+namespace rung::nct {
+
+struct TypedElement {
+  const ladder::Element* element = nullptr;
+  const NctInstruction* row = nullptr; // null: reported
+  uint32_t firstOperand = 0;           // in TypedRung::operands
+  uint32_t operandCount = 0;
+  std::optional<uint32_t> label;       // of JMP, JME, SBS, SBN
+};
+
+struct TypedRung {
+  const ladder::LadderFile* file = nullptr;
+  const ladder::Rung* rung = nullptr;
+  bool bad = false; // something in it was reported
+  std::vector<TypedElement> elements; // in the order of evaluation
+  std::vector<Operand> operands;
+
+  std::span<const Operand> operandsOf(const TypedElement& e) const {
+    return std::span(operands).subspan(e.firstOperand, e.operandCount);
+  }
+};
+
+// The rungs of a module up to END, or a subroutine.
+struct Body {
+  uint32_t first = 0; // in TypedModule::rungs
+  uint32_t end = 0;
+  std::optional<uint32_t> number; // of the subroutine
+};
+
+inline constexpr uint32_t kLabels = 100; // numbers 0 to 99, l.2942
+
+struct TypedModule {
+  std::string_view name;
+  SourceRange range;
+  bool exists = false;
+  std::vector<TypedRung> rungs;
+  std::vector<Body> bodies;                                  // [0] is the main part
+  std::array<std::optional<uint32_t>, kLabels> labels{};      // JME: its rung
+  std::array<std::optional<uint32_t>, kLabels> subroutines{}; // SBN: its body
+};
+
+struct Program {
+  TypedModule main{.name = "MAIN", .range = {}, .exists = false, .rungs = {}, .bodies = {}};
+  TypedModule int0{.name = "INT0", .range = {}, .exists = false, .rungs = {}, .bodies = {}};
+};
+
+} // namespace rung::nct

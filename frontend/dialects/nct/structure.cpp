@@ -1,0 +1,236 @@
+// The structure of a module (see structure.h).
+#include "frontend/dialects/nct/structure.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace rung::nct {
+namespace {
+
+// A JMP or SBS.
+struct Reference {
+  uint32_t number = 0;
+  uint32_t rung = 0;
+  SourceRange range;
+};
+
+// Something in the rung could not be read that might have been an END, a label or a subroutine's beginning or end.
+bool hidesStructure(const TypedRung& rung) {
+  const auto hides = [](const TypedElement& element) {
+    if (element.row == nullptr) return true;
+    return element.row->info.operands.size() == 1 && element.row->info.operands[0].kind == "label" && !element.label;
+  };
+  return rung.rung->bad || std::ranges::any_of(rung.elements, hides);
+}
+
+class StructureChecker {
+ public:
+  StructureChecker(TypedModule& module, Diagnostics& diagnostics) : module_(module), diagnostics_(diagnostics) {}
+
+  void run() {
+    module_.bodies.push_back({.first = 0, .end = 0, .number = {}});
+    for (uint32_t i = 0; i < module_.rungs.size(); ++i) {
+      incomplete_ |= hidesStructure(module_.rungs[i]);
+      rungBegins(i);
+      for (const TypedElement& element : module_.rungs[i].elements)
+        if (element.row != nullptr) visit(i, element);
+    }
+    closeBody(static_cast<uint32_t>(module_.rungs.size()));
+    // What a broken rung would have defined is not missing.
+    if (!incomplete_) {
+      for (const Reference& jump : jumps_) checkJump(jump);
+      for (const Reference& call : calls_) checkCall(call);
+      warnUnused();
+      checkRecursion();
+    }
+  }
+
+ private:
+
+  void rungBegins(uint32_t rung) {
+    const auto& elements = module_.rungs[rung].elements;
+    const bool startsBody = !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::Subroutine;
+    const bool isEnd = !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::End;
+    if (!ended_ || inSubroutine() || startsBody || isEnd || reportedAfterEnd_) return;
+    reportedAfterEnd_ = true;
+    diagnostics_.report(Diag::CodeAfterEnd, module_.rungs[rung].rung->statement);
+  }
+
+  bool inSubroutine() const { return module_.bodies.size() > 1; }
+
+  void visit(uint32_t rung, const TypedElement& element) {
+    const SourceRange range = element.element->range;
+    switch (element.row->flow) {
+      case Flow::None:
+      case Flow::Section: return;
+      case Flow::End: return end(range);
+      case Flow::Return: return ret(range);
+      case Flow::Label:
+        if (element.label) label(*element.label, rung, range);
+        return;
+      case Flow::Jump:
+        if (element.label) jumps_.push_back({*element.label, rung, range});
+        if (element.label) claim(*element.label, false, range);
+        return;
+      case Flow::Subroutine:
+        if (element.label) subroutine(*element.label, rung, range);
+        return;
+      case Flow::Call:
+        if (element.label) calls_.push_back({*element.label, rung, range});
+        if (element.label) claim(*element.label, true, range);
+        return;
+    }
+  }
+
+  // Jumps and subroutines share one set of numbers (l.2942, l.2996).
+  void claim(uint32_t number, bool forSubroutine, SourceRange range) {
+    Use& use = uses_[number];
+    SourceRange& mine = forSubroutine ? use.subroutine : use.jump;
+    const SourceRange other = forSubroutine ? use.jump : use.subroutine;
+    if (!mine.valid()) mine = range;
+    if (!other.valid() || use.conflict) return;
+    use.conflict = true;
+    diagnostics_.report(Diag::LabelConflict, range).note(other, "the other use") << number;
+  }
+
+  void end(SourceRange range) {
+    if (ended_) {
+      diagnostics_.report(Diag::DuplicateEnd, range).note(endRange_, "the first one");
+      return;
+    }
+    ended_ = true;
+    endRange_ = range;
+  }
+
+  void ret(SourceRange range) {
+    if (inSubroutine())
+      hasRet_ = true;
+    else if (!incomplete_)
+      diagnostics_.report(Diag::RetOutsideSubroutine, range);
+  }
+
+  void label(uint32_t number, uint32_t rung, SourceRange range) {
+    claim(number, false, range);
+    std::optional<uint32_t>& place = module_.labels[number];
+    if (place)
+      diagnostics_.report(Diag::DuplicateLabel, range).note(labelRange_[number], "here") << number;
+    else
+      labelRange_[number] = range;
+    if (!place) place = rung;
+  }
+
+  void subroutine(uint32_t number, uint32_t rung, SourceRange range) {
+    claim(number, true, range);
+    if (!ended_ && !inSubroutine() && !incomplete_) diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
+    closeBody(rung);
+    module_.bodies.push_back({.first = rung, .end = rung, .number = number});
+    bodyRange_ = range;
+    hasRet_ = false;
+    std::optional<uint32_t>& place = module_.subroutines[number];
+    if (place)
+      diagnostics_.report(Diag::DuplicateSubroutine, range).note(subroutineRange_[number], "here") << number;
+    else
+      subroutineRange_[number] = range;
+    if (!place) place = static_cast<uint32_t>(module_.bodies.size() - 1);
+  }
+
+  void closeBody(uint32_t rung) {
+    Body& body = module_.bodies.back();
+    body.end = rung;
+    if (!body.number) return;
+    const auto rungs = std::span(module_.rungs).subspan(body.first, body.end - body.first);
+    if (!hasRet_ && std::ranges::none_of(rungs, hidesStructure)) diagnostics_.report(Diag::MissingRet, bodyRange_) << *body.number;
+  }
+
+  uint32_t bodyOf(uint32_t rung) const {
+    const auto behind = std::ranges::upper_bound(module_.bodies, rung, {}, [](const Body& b) { return b.first; });
+    // The main part begins with rung 0 also where a subroutine does.
+    return behind == module_.bodies.begin() ? 0 : static_cast<uint32_t>(behind - module_.bodies.begin() - 1);
+  }
+
+  void checkJump(const Reference& jump) {
+    if (uses_[jump.number].conflict) return;
+    const std::optional<uint32_t> target = module_.labels[jump.number];
+    if (!target) {
+      diagnostics_.report(Diag::UndefinedLabel, jump.range) << jump.number << "in this module";
+    } else if (bodyOf(*target) != bodyOf(jump.rung)) {
+      diagnostics_.report(Diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target") << jump.number;
+    } else if (*target <= jump.rung) {
+      diagnostics_.report(Diag::BackwardJump, jump.range).note(labelRange_[jump.number], "its target") << jump.number;
+    }
+    uses_[jump.number].referenced = true;
+  }
+
+  void checkCall(const Reference& call) {
+    if (uses_[call.number].conflict) return;
+    if (!module_.subroutines[call.number]) diagnostics_.report(Diag::UndefinedSubroutine, call.range) << call.number;
+    uses_[call.number].referenced = true;
+  }
+
+  void warnUnused() {
+    for (uint32_t n = 0; n < kLabels; ++n) {
+      if (uses_[n].referenced || uses_[n].conflict) continue;
+      if (module_.labels[n]) diagnostics_.report(Diag::LabelUnused, labelRange_[n]) << n;
+      if (module_.subroutines[n]) diagnostics_.report(Diag::SubroutineUnused, subroutineRange_[n]) << n;
+    }
+  }
+
+  // Depth-first over at most 101 bodies; a call to a body that is still open closes a circle.
+  void checkRecursion() {
+    std::vector<std::vector<const Reference*>> callsOf(module_.bodies.size());
+    for (const Reference& call : calls_)
+      if (module_.subroutines[call.number]) callsOf[bodyOf(call.rung)].push_back(&call);
+    enum class State : uint8_t { New, Open, Done };
+    std::vector<State> states(module_.bodies.size(), State::New);
+    std::vector<uint32_t> path;
+    const auto walk = [&](const auto& self, uint32_t body) -> void {
+      states[body] = State::Open;
+      path.push_back(body);
+      for (const Reference* call : callsOf[body]) {
+        const uint32_t callee = *module_.subroutines[call->number];
+        if (states[callee] == State::Open) reportCircle(path, callee, *call);
+        if (states[callee] == State::New) self(self, callee);
+      }
+      path.pop_back();
+      states[body] = State::Done;
+    };
+    for (uint32_t body = 0; body < module_.bodies.size(); ++body)
+      if (states[body] == State::New) walk(walk, body);
+  }
+
+  void reportCircle(const std::vector<uint32_t>& path, uint32_t callee, const Reference& call) {
+    std::string through;
+    for (size_t i = path.size(); i-- > 0 && path[i] != callee;)
+      through = fmt::format("{}{}", *module_.bodies[path[i]].number, through.empty() ? "" : ", ") + through;
+    diagnostics_.report(Diag::RecursiveCall, call.range)
+        << fmt::format("subroutine {}", *module_.bodies[callee].number) << (through.empty() ? "" : " through " + through);
+  }
+
+  struct Use {
+    SourceRange jump;
+    SourceRange subroutine;
+    bool conflict = false;
+    bool referenced = false;
+  };
+
+  TypedModule& module_;
+  Diagnostics& diagnostics_;
+  std::vector<Reference> jumps_;
+  std::vector<Reference> calls_;
+  std::array<Use, kLabels> uses_{};
+  std::array<SourceRange, kLabels> labelRange_{};
+  std::array<SourceRange, kLabels> subroutineRange_{};
+  bool incomplete_ = false;
+  bool ended_ = false;
+  bool reportedAfterEnd_ = false;
+  bool hasRet_ = false;
+  SourceRange endRange_;
+  SourceRange bodyRange_;
+};
+
+} // namespace
+
+void checkStructure(TypedModule& module, Diagnostics& diagnostics) { StructureChecker(module, diagnostics).run(); }
+
+} // namespace rung::nct

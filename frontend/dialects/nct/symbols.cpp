@@ -1,0 +1,172 @@
+// Names of a program (see symbols.h).
+#include "frontend/dialects/nct/symbols.h"
+
+#include "frontend/dialects/nct/operand_parser.h"
+
+namespace rung::nct {
+namespace {
+
+// Declarations that refer to each other, one behind the other; bounds the recursion.
+constexpr int kMaxDepth = 200;
+
+// Bits of FLAGS; the order of the manual's chapter 5 (l.725-777).
+constexpr std::string_view kFlagNames[] = {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"};
+
+struct Alias {
+  std::string_view misprint;
+  std::string_view name;
+};
+// Misprints of the manual that programs may have taken over (l.8220, l.8796).
+constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
+
+bool isName(std::string_view text) {
+  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') && text[0] != '-' && text[0] != '+' &&
+         text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
+}
+
+Symbol word(std::string_view name, uint32_t address) {
+  Symbol symbol;
+  symbol.name = name;
+  symbol.kind = SymbolKind::Word;
+  symbol.word = address;
+  return symbol;
+}
+
+} // namespace
+
+SymbolTable::SymbolTable(const Config& config, Diagnostics& diagnostics) : config_(config), diagnostics_(diagnostics) {
+  enter(word("FLAGS", kFlagsWord));
+  enter(word("PLCNVRAM", config.plcNvram));
+  enter(word("PLCRAM", config.plcRam));
+  uint32_t bit = 0;
+  for (std::string_view name : kFlagNames) {
+    Symbol flag = word(name, kFlagsWord);
+    flag.kind = SymbolKind::Bit;
+    flag.bit = bit++;
+    enter(flag);
+  }
+  direction_.resize(config.plcNvram);
+  for (const nc::Signal& signal : nc::nctSignals()) {
+    if (signal.direction != nc::Direction::In) continue;
+    const uint32_t words = signal.count * signal.strideBytes / 4;
+    for (uint32_t i = 0; i < words; ++i) direction_[signal.byteOffset / 4 + i] = kInput;
+  }
+}
+
+Symbol* SymbolTable::enter(Symbol symbol) {
+  symbols_.push_back(symbol);
+  byName_.emplace(symbol.name, &symbols_.back());
+  return &symbols_.back();
+}
+
+Symbol* SymbolTable::enterSignal(std::string_view name) {
+  std::string_view row = name;
+  for (const Alias& alias : kAliases)
+    if (alias.misprint == name) row = alias.name;
+  const nc::Signal* signal = nc::findSignal(nc::nctSignals(), row);
+  if (signal == nullptr) return nullptr;
+  Symbol symbol = word(name, signal->byteOffset / 4);
+  if (signal->type == nc::SignalType::Bit) {
+    symbol.kind = SymbolKind::Bit;
+    symbol.bit = signal->bit;
+  }
+  symbol.signal = signal;
+  symbol.comment = signal->meaning;
+  return enter(symbol);
+}
+
+const Symbol* SymbolTable::find(std::string_view name) {
+  const auto found = byName_.find(name);
+  if (found == byName_.end()) return enterSignal(name);
+  if (found->second->pending) resolve(*found->second);
+  return found->second;
+}
+
+void SymbolTable::declare(const ladder::Declaration& declaration) {
+  const std::string_view name = declaration.name.text;
+  if (!isName(name)) {
+    diagnostics_.report(Diag::BadOperand, declaration.name.range) << name << "name of a symbol";
+    return;
+  }
+  auto found = byName_.find(name);
+  const Symbol* first = found == byName_.end() ? enterSignal(name) : found->second;
+  if (first != nullptr) {
+    auto report = diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range);
+    if (first->declaration != nullptr)
+      report.note(first->declaration->name.range, "first declared here");
+    else
+      report.note("it is predefined");
+    report << name;
+    return;
+  }
+  Symbol symbol = word(name, 0);
+  symbol.kind = SymbolKind::Bad;
+  symbol.comment = declaration.comment;
+  symbol.declaration = &declaration;
+  symbol.pending = true;
+  enter(symbol);
+}
+
+void SymbolTable::resolveAll() {
+  for (size_t i = 0; i < symbols_.size(); ++i)
+    if (symbols_[i].pending) resolve(symbols_[i]);
+}
+
+void SymbolTable::resolve(Symbol& symbol) {
+  const Word& value = symbol.declaration->value;
+  if (symbol.resolving) {
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a circle";
+    symbol.pending = false;
+    return;
+  }
+  if (depth_ >= kMaxDepth) {
+    diagnostics_.report(Diag::TooDeep, value.range) << "declarations that refer to each other are" << kMaxDepth;
+    symbol.pending = false;
+    return;
+  }
+  symbol.resolving = true;
+  ++depth_;
+  if (symbol.declaration->kind == ladder::DeclarationKind::Const)
+    resolveConstant(symbol);
+  else
+    resolveAddress(symbol);
+  --depth_;
+  symbol.resolving = false;
+  symbol.pending = false;
+}
+
+void SymbolTable::resolveConstant(Symbol& symbol) {
+  const Word& value = symbol.declaration->value;
+  if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
+    diagnostics_.report(Diag::ConstantFormat, value.range) << value.text;
+    return;
+  }
+  const std::optional<Constant> constant = parseConstant(value, value.text, diagnostics_);
+  if (!constant) return;
+  symbol.kind = SymbolKind::Constant;
+  symbol.constant = *constant;
+}
+
+void SymbolTable::resolveAddress(Symbol& symbol) {
+  const Word& value = symbol.declaration->value;
+  if (value.text.empty() || std::string_view("#*@%!/+-").find(value.text[0]) != std::string_view::npos) {
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "address";
+    return;
+  }
+  const std::optional<ParsedAddress> parsed = parseAddress(value, value.text, *this, diagnostics_);
+  // In a circle the inner meeting was reported and has settled the symbol.
+  if (!parsed || !symbol.pending) return;
+  const Address& address = parsed->address;
+  if (!address.isFixed()) {
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address";
+    return;
+  }
+  symbol.kind = address.isBit ? SymbolKind::Bit : SymbolKind::Word;
+  symbol.word = address.word;
+  symbol.bit = address.bit;
+  // NC addresses differ between versions of the control (l.6450).
+  if (parsed->numeric && address.word > kFlagsWord && address.word < config_.plcNvram)
+    diagnostics_.report(Diag::SymbolInNcArea, value.range) << symbol.name << value.text;
+}
+
+} // namespace rung::nct

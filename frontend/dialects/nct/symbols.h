@@ -1,0 +1,67 @@
+// Names of a program: the flags and limits, the symbols of the NC, and what the program declares. Names are common to
+// all modules and files and may be used above their declaration; case matters.
+#pragma once
+#include <deque>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/dialects/nct/config.h"
+#include "frontend/dialects/nct/operand.h"
+#include "frontend/ladder/ladder.h"
+#include "rtlib/nc/nct/signals.h"
+
+namespace rung::nct {
+
+enum class SymbolKind : uint8_t { Bad, Word, Bit, Constant };
+
+struct Symbol {
+  std::string_view name;
+  SymbolKind kind = SymbolKind::Bad; // Bad: its declaration was reported, uses stay silent
+  uint32_t word = 0;
+  uint32_t bit = 0;
+  Constant constant;
+  std::string_view comment;
+  const nc::Signal* signal = nullptr; // of the NC
+  const ladder::Declaration* declaration = nullptr;
+  bool pending = false;   // its value has not been read yet
+  bool resolving = false; // it is being read: meeting it again is a circle
+};
+
+class SymbolTable {
+ public:
+  SymbolTable(const Config& config, Diagnostics& diagnostics);
+
+  // Enters a name; a name that is there already is reported.
+  void declare(const ladder::Declaration& declaration);
+  // Reads the values of all declarations; afterwards `find` gives complete symbols.
+  void resolveAll();
+
+  // Null when there is no such name. Symbols of the NC enter the table when they are looked up first. The result
+  // stays where it is.
+  const Symbol* find(std::string_view name);
+  // All names but those of the NC that nothing mentions, in the order of entering.
+  const std::deque<Symbol>& all() const { return symbols_; }
+
+  const Config& config() const { return config_; }
+  // An input of the NC lives in this word.
+  bool isInputWord(uint32_t word) const { return word < direction_.size() && direction_[word] == kInput; }
+  bool isNcWord(uint32_t word) const { return word >= kFirstNcWord && word < config_.plcNvram; }
+
+ private:
+  Symbol* enter(Symbol symbol);
+  Symbol* enterSignal(std::string_view name);
+  void resolve(Symbol& symbol);
+  void resolveConstant(Symbol& symbol);
+  void resolveAddress(Symbol& symbol);
+
+  static constexpr uint8_t kInput = 1;
+  const Config& config_;
+  Diagnostics& diagnostics_;
+  std::deque<Symbol> symbols_;
+  std::unordered_map<std::string_view, Symbol*> byName_;
+  std::vector<uint8_t> direction_; // by word of the NC area
+  int depth_ = 0;                  // of declarations that refer to each other
+};
+
+} // namespace rung::nct

@@ -19,6 +19,7 @@ struct ServiceRequest {
   uint32_t service = 0; // in rung_program::services
   uint32_t argCount = 0;
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
+  bool operator==(const ServiceRequest&) const = default;
 };
 
 struct ServiceReply {
@@ -41,6 +42,7 @@ struct ServiceRecord {
   uint32_t state = RUNG_SERVICE_NONE;
   uint32_t resultCount = 0;
   int64_t results[RUNG_MAX_SERVICE_ARGS] = {};
+  bool operator==(const ServiceRecord&) const = default;
 };
 
 class ServiceQueue {

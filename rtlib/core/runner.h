@@ -51,7 +51,8 @@ public:
   void fast() noexcept;
 
   // For a real clock: how long to wait before the next slice, and the slice: one ADVANCE and what follows it up to the
-  // next ADVANCE or the end of the list. A list without ADVANCE is one slice every period of the main task.
+  // next ADVANCE or the end of the list. A pass of a list without ADVANCE takes a period of the main task, spent at its
+  // beginning.
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
 
@@ -81,7 +82,8 @@ private:
   rung_ctx* ctx_;
   PartState* parts_;
   RunnerHooks hooks_;
-  uint32_t position_ = 0; // in rung_program::scan
+  uint32_t position_ = 0;        // in rung_program::scan
+  uint32_t untimedPeriodUs_ = 0; // what a pass of a list without ADVANCE takes
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;

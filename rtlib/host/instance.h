@@ -54,7 +54,7 @@ public:
   void scan();
   void slot();
   void fast();
-  // Scans until the clock has advanced by at least `us`; a schedule without time counts the main task's period.
+  // Scans until the clock has advanced by at least `us`, or a fault stops the program.
   void runFor(int64_t us);
   // One run of a task by itself, outside the schedule. False: fault, unknown task, or called from within a task.
   bool runTask(uint32_t task);
@@ -104,6 +104,7 @@ public:
 
 private:
   struct FreeBlock {
+    size_t align;
     void operator()(uint8_t* block) const;
   };
   void resetMemory();

@@ -38,6 +38,7 @@ private:
   uint32_t size_;
   uint64_t generation_ = 0; // of the newest good file
   bool newestIsB_ = true;
+  bool looked_ = false; // generation_ and newestIsB_ are known
 };
 
 // Takes images from the scan thread and saves them on its own. `offer` copies and returns at once; it takes nothing

@@ -1,0 +1,190 @@
+// The chunk loop, the border copies and the schedule.
+#include "rtlib/core/runner.h"
+
+#include <cstring>
+
+namespace rung::rt {
+
+Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept
+    : program_(&program), memory_(memory), ctx_(&ctx), parts_(parts) {
+  bool timed = false;
+  for (uint32_t i = 0; i < program.scan_count; ++i) timed = timed || program.scan[i].op == RUNG_STEP_ADVANCE;
+  if (!timed && program.main_task < program.task_count) untimedPeriodUs_ = program.tasks[program.main_task].period_us;
+  reset();
+}
+
+void Runner::reset() noexcept {
+  for (uint32_t t = 0; t < program_->task_count; ++t) parts_[t] = {};
+  ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
+  position_ = 0;
+  faulted_ = false;
+  stopped_ = false;
+}
+
+// ---- tasks -------------------------------------------------------------------------------------------------------
+
+void Runner::beginStack() noexcept {
+  ctx_->stack[0] = RUNG_PC_DONE;
+  ctx_->sp = 1;
+}
+
+void Runner::copy(uint32_t first, uint32_t count) noexcept {
+  for (uint32_t i = first; i < first + count; ++i) {
+    const rung_copy& c = program_->copies[i];
+    if (c.kind == RUNG_COPY_ALL) {
+      std::memcpy(memory_ + c.to, memory_ + c.from, c.size);
+      continue;
+    }
+    for (uint32_t b = 0; b < c.size; ++b) {
+      uint8_t& to = memory_[c.to + b];
+      uint8_t& mask = memory_[c.mask + b];
+      to = static_cast<uint8_t>((to & ~mask) | (memory_[c.from + b] & mask));
+      mask = 0;
+    }
+  }
+}
+
+// Runs from `pc` to the end of the run, a fault, or a chunk at or behind `limit` outside every subroutine.
+uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
+  const rung_chunk* chunks = program_->chunks;
+  const rung_chunk_fn* functions = program_->chunk_fns;
+  const uint32_t count = program_->chunk_count;
+  while (pc < count) {
+    if (pc >= limit && ctx_->sp == 1) return pc;
+    if (chunks[pc].weight > budget) {
+      ctx_->fault.code = task.budget_fault;
+      ctx_->fault.rung = chunks[pc].first_rung;
+      ctx_->fault.line = 0;
+      return RUNG_PC_FAULT;
+    }
+    budget -= chunks[pc].weight;
+    pc = functions != nullptr ? functions[pc](memory_, ctx_) : program_->run_chunk(memory_, ctx_, pc);
+  }
+  return pc;
+}
+
+// What follows the chunks of a run or a part. A pc that is neither a chunk nor DONE counts as a fault too.
+bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
+  inTask_ = false;
+  if (pc != RUNG_PC_DONE && pc >= program_->chunk_count) {
+    stopOnFault(task);
+    return false;
+  }
+  copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
+  return true;
+}
+
+bool Runner::runTask(uint32_t task) noexcept {
+  if (!mayRun() || task >= program_->task_count) return false;
+  const rung_task& t = program_->tasks[task];
+  inTask_ = true;
+  copy(t.begin_first, t.begin_count);
+  beginStack();
+  uint32_t budget = t.budget;
+  return finish(task, runChunks(t.entry, RUNG_PC_DONE, t, budget));
+}
+
+bool Runner::runPart(uint32_t task) noexcept {
+  if (!mayRun() || task >= program_->task_count) return false;
+  const rung_task& t = program_->tasks[task];
+  PartState& state = parts_[task];
+  inTask_ = true;
+  if (state.part == 0) {
+    copy(t.begin_first, t.begin_count);
+    state.pc = t.entry;
+    state.budget = t.budget;
+  }
+  // A jump may have left parts behind: the run goes on at once, up to the first border that is still ahead.
+  uint32_t limit = RUNG_PC_DONE;
+  for (uint32_t k = state.part; k < t.part_count; ++k) {
+    if (program_->part_ends[t.part_first + k] <= state.pc) continue;
+    limit = program_->part_ends[t.part_first + k];
+    break;
+  }
+  state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
+  if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
+  beginStack();
+  state.pc = runChunks(state.pc, limit, t, state.budget);
+  return finish(task, state.pc);
+}
+
+void Runner::clearSafes() noexcept {
+  for (uint32_t i = 0; i < program_->safe_count; ++i)
+    std::memset(memory_ + program_->safes[i].offset, 0, program_->safes[i].size);
+}
+
+void Runner::stopOnFault(uint32_t task) noexcept {
+  ctx_->fault.task = task;
+  if (ctx_->fault.code == RUNG_NONE) ctx_->fault.code = kUndescribedFault;
+  faulted_ = true;
+  if (inFaultHook_) return; // a fault of the last run; the first one stays on record
+  clearSafes();
+  if (hooks_.fault == nullptr) return;
+  const rung_fault first = ctx_->fault;
+  inFaultHook_ = true;
+  faulted_ = false;
+  hooks_.fault(hooks_.data);
+  faulted_ = true;
+  inFaultHook_ = false;
+  ctx_->fault = first;
+}
+
+// ---- schedule ----------------------------------------------------------------------------------------------------
+
+void Runner::doStep(const rung_step& step) noexcept {
+  switch (static_cast<rung_step_op>(step.op)) {
+  case RUNG_STEP_ADVANCE: advance(step.arg); return;
+  case RUNG_STEP_RUN:
+    for (uint32_t i = 0; i < step.arg && !stopped_ && !faulted_; ++i) runTask(step.task);
+    return;
+  case RUNG_STEP_PART:
+    if (!stopped_) runPart(step.task);
+    return;
+  case RUNG_STEP_HOOK:
+    if (!stopped_ && hooks_.step != nullptr) hooks_.step(hooks_.data, step.arg);
+    return;
+  case RUNG_STEP_SLOT: return;
+  }
+}
+
+// Does the step that comes next; false when it was the last of the list, which then stands at its beginning again.
+bool Runner::stepOnce() noexcept {
+  if (position_ == 0) advance(untimedPeriodUs_);
+  if (position_ < program_->scan_count) doStep(program_->scan[position_]);
+  if (position_ + 1 < program_->scan_count) {
+    ++position_;
+    return true;
+  }
+  position_ = 0;
+  return false;
+}
+
+void Runner::scan() noexcept {
+  bool more = true;
+  while (more && !faulted_) more = stepOnce();
+}
+
+void Runner::slot() noexcept {
+  bool more = true;
+  while (more && !faulted_) {
+    const bool slotEnds = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_SLOT;
+    more = stepOnce() && !slotEnds;
+  }
+}
+
+void Runner::fast() noexcept {
+  for (uint32_t i = 0; i < program_->fast_count && !faulted_; ++i) doStep(program_->fast[i]);
+}
+
+uint32_t Runner::sliceDelayUs() const noexcept {
+  if (position_ == 0 && untimedPeriodUs_ != 0) return untimedPeriodUs_;
+  const bool waits = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_ADVANCE;
+  return waits ? program_->scan[position_].arg : 0;
+}
+
+void Runner::slice() noexcept {
+  bool more = true;
+  while (more && !faulted_) more = stepOnce() && program_->scan[position_].op != RUNG_STEP_ADVANCE;
+}
+
+} // namespace rung::rt

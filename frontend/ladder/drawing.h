@@ -13,18 +13,18 @@ namespace rung::ladder {
 inline constexpr uint32_t kNone = UINT32_MAX;
 
 enum class TokenKind : uint8_t {
-  Rail,     ///< `|` in column 0
-  Bar,      ///< `|` elsewhere: a vertical wire
-  Wire,     ///< a run of `-` and `+`
-  Element,  ///< from bracket to bracket
+  Rail,    ///< `|` in column 0
+  Bar,     ///< `|` elsewhere: a vertical wire
+  Wire,    ///< a run of `-` and `+`
+  Element, ///< from bracket to bracket
 };
 
 struct Token {
   TokenKind kind;
-  uint32_t begin;    ///< offsets in the line, in bytes
-  uint32_t end;      ///< behind the last byte
-  uint32_t column;   ///< of the first character, from 0; wires meet by columns, not by bytes
-  uint32_t element;  ///< Element: index into Drawing::elements
+  uint32_t begin;   ///< offsets in the line, in bytes
+  uint32_t end;     ///< behind the last byte
+  uint32_t column;  ///< of the first character, from 0; wires meet by columns, not by bytes
+  uint32_t element; ///< Element: index into Drawing::elements
 };
 
 struct DrawnLine {
@@ -36,11 +36,11 @@ struct DrawnLine {
 struct Drawing {
   std::vector<DrawnLine> lines;
   std::vector<Token> tokens;
-  std::vector<Element> elements;  ///< pin lines included; pins and outputs are not filled in yet
-  std::vector<uint32_t> headOf;   ///< per element: the box whose pin line it is, kNone for an element of its own
-  std::vector<uint32_t> nextPin;  ///< per element: the next pin line of the same box, or kNone
+  std::vector<Element> elements; ///< pin lines included; pins and outputs are not filled in yet
+  std::vector<uint32_t> headOf;  ///< per element: the box whose pin line it is, kNone for an element of its own
+  std::vector<uint32_t> nextPin; ///< per element: the next pin line of the same box, or kNone
   std::vector<Word> operands;
-  bool bad = false;  ///< an error was reported
+  bool bad = false; ///< an error was reported
 
   void clear();
   std::span<const Token> tokensOf(const DrawnLine& line) const {
@@ -70,4 +70,4 @@ void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diag
 /// Offset of the first character in [begin, end) that is not printable ASCII, or end.
 size_t findUnprintable(std::string_view text, size_t begin, size_t end);
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -36,7 +36,7 @@ void symbol(Out out, const Rung& rung, const Element& element) {
   }
 }
 
-}  // namespace
+} // namespace
 
 std::string dumpRung(const Rung& rung) {
   std::string text;
@@ -57,4 +57,4 @@ std::string dumpRung(const Rung& rung) {
   return text;
 }
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -2,11 +2,11 @@
 // The drawing is turned into nets and elements; names, operands and mnemonics stay text and are the dialect's business,
 // and so is every rule that needs its instruction table. All texts are views into the SourceManager's buffers.
 //
-// Nets. Everything that wires join is one net. Net 0 of a rung is the left rail. A net has power when one of the elements
-// that drive it passes power. Net ids and element ids are counted per rung.
-// Elements stand in the order of evaluation: an element comes behind all elements that drive its inputs; among those that
-// are ready the upper line goes first, then the left one. There are no loops (power-loop is an error).
-// A rung with an error in its drawing has bad == true, was reported, and has no elements or nets: skip it silently.
+// Nets. Everything that wires join is one net. Net 0 of a rung is the left rail. A net has power when one of the
+// elements that drive it passes power. Net ids and element ids are counted per rung. Elements stand in the order of
+// evaluation: an element comes behind all elements that drive its inputs; among those that are ready the upper line
+// goes first, then the left one. There are no loops (power-loop is an error). A rung with an error in its drawing has
+// bad == true, was reported, and has no elements or nets: skip it silently.
 #pragma once
 
 #include <cstdint>
@@ -41,48 +41,48 @@ struct Slice {
 };
 
 struct Pin {
-  std::string_view name;  ///< empty for the first pin: it is not named in the drawing
+  std::string_view name; ///< empty for the first pin: it is not named in the drawing
   NetId input;
-  SourceRange range;  ///< the element, or the line of the box that names the pin
+  SourceRange range; ///< the element, or the line of the box that names the pin
 };
 
 struct Element {
   ElementKind kind = ElementKind::Contact;
-  bool negated = false;               ///< contact: [/x]
-  char edge = 0;                      ///< '@' or '%' in front of the operand of a contact or coil, 0 for none
-  CoilKind coil = CoilKind::Plain;    ///< coils only
-  std::string_view mnemonic;          ///< boxes only
-  SourceRange mnemonicRange;          ///< boxes only
-  Slice operands;                     ///< contact and coil: exactly one; see Rung::operandsOf
-  Slice pins;                         ///< at least one; see Rung::pinsOf
-  NetId output = kNoNet;              ///< kNoNet when nothing is connected on the right
-  SourceRange range;                  ///< with its brackets; a box: its first line
-  uint32_t line = 0;                  ///< of `range`, from 1
-  uint32_t column = 0;                ///< of `range`, from 1, in characters
-  std::string_view remark;            ///< the comment behind the line that this element is the last of
+  bool negated = false;            ///< contact: [/x]
+  char edge = 0;                   ///< '@' or '%' in front of the operand of a contact or coil, 0 for none
+  CoilKind coil = CoilKind::Plain; ///< coils only
+  std::string_view mnemonic;       ///< boxes only
+  SourceRange mnemonicRange;       ///< boxes only
+  Slice operands;                  ///< contact and coil: exactly one; see Rung::operandsOf
+  Slice pins;                      ///< at least one; see Rung::pinsOf
+  NetId output = kNoNet;           ///< kNoNet when nothing is connected on the right
+  SourceRange range;               ///< with its brackets; a box: its first line
+  uint32_t line = 0;               ///< of `range`, from 1
+  uint32_t column = 0;             ///< of `range`, from 1, in characters
+  std::string_view remark;         ///< the comment behind the line that this element is the last of
 };
 
 struct Net {
-  SourceRange range;  ///< a place to point at: its first wire, or an element that it touches
-  Slice drivers;      ///< see Rung::driversOf
-  Slice consumers;    ///< see Rung::consumersOf
+  SourceRange range; ///< a place to point at: its first wire, or an element that it touches
+  Slice drivers;     ///< see Rung::driversOf
+  Slice consumers;   ///< see Rung::consumersOf
 };
 
 struct Rung {
   bool bad = false;
   bool hasComment = false;
-  std::string_view comment;    ///< the text behind the word `rung`
-  SourceRange statement;       ///< the `rung` statement itself
-  SourceRange range;           ///< from the word `rung` to the end of the last drawing line
-  uint32_t firstLine = 0;      ///< the line of the word `rung`
-  uint32_t lastLine = 0;       ///< the last line of the drawing
-  uint32_t module = UINT32_MAX;  ///< index into LadderFile::modules; UINT32_MAX outside (reported)
+  std::string_view comment;     ///< the text behind the word `rung`
+  SourceRange statement;        ///< the `rung` statement itself
+  SourceRange range;            ///< from the word `rung` to the end of the last drawing line
+  uint32_t firstLine = 0;       ///< the line of the word `rung`
+  uint32_t lastLine = 0;        ///< the last line of the drawing
+  uint32_t module = UINT32_MAX; ///< index into LadderFile::modules; UINT32_MAX outside (reported)
 
-  std::vector<Element> elements;  ///< in order of evaluation
-  std::vector<Net> nets;          ///< nets[0] is the left rail, also when nothing touches it
+  std::vector<Element> elements; ///< in order of evaluation
+  std::vector<Net> nets;         ///< nets[0] is the left rail, also when nothing touches it
   std::vector<Word> operandPool;
   std::vector<Pin> pinPool;
-  std::vector<ElementId> linkPool;  ///< drivers and consumers of all nets
+  std::vector<ElementId> linkPool; ///< drivers and consumers of all nets
 
   const Element& element(ElementId id) const { return elements[id.index]; }
   std::span<const Word> operandsOf(const Element& e) const {
@@ -98,13 +98,13 @@ struct Rung {
   /// The elements with an input on this net, in order of evaluation; an element with two such pins stands twice.
   std::span<const ElementId> consumersOf(NetId net) const { return links(nets[net.index].consumers); }
 
- private:
+private:
   std::span<const ElementId> links(Slice s) const { return std::span(linkPool).subspan(s.first, s.count); }
 };
 
 /// `module WORDS`, e.g. "MAIN" or "SUB" "P1".
 struct Module {
-  std::vector<Word> name;  ///< at least one word
+  std::vector<Word> name; ///< at least one word
   SourceRange range;
 };
 
@@ -113,8 +113,8 @@ enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button };
 /// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`.
 struct Declaration {
   DeclarationKind kind = DeclarationKind::Symbol;
-  Word name;   ///< the number of a message or button
-  Word value;  ///< quoted for messages and buttons, never for the others
+  Word name;  ///< the number of a message or button
+  Word value; ///< quoted for messages and buttons, never for the others
   std::string_view comment;
   SourceRange range;
 };
@@ -134,7 +134,7 @@ struct Statement {
 
 struct LadderFile {
   FileId file;
-  std::string_view dialect;  ///< empty when the statement is missing (reported)
+  std::string_view dialect; ///< empty when the statement is missing (reported)
   SourceRange dialectRange;
   std::vector<Statement> statements;
   std::vector<Module> modules;
@@ -159,4 +159,4 @@ std::string_view peekDialect(const SourceManager& sources, FileId file);
 /// One line an element: `e2 [/STOP] n1 -> n2`, pins behind the first as `R=n3`, `.` for no output.
 std::string dumpRung(const Rung& rung);
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -10,10 +10,10 @@ namespace {
 
 using Work = std::priority_queue<uint32_t, std::vector<uint32_t>, std::greater<>>;
 
-/// Kahn's algorithm; among ready elements the one that comes first in the text, that is the upper line, then the left one.
-/// Elements of a loop never become ready and are missing in the result.
+/// Kahn's algorithm; among ready elements the one that comes first in the text, that is the upper line, then the left
+/// one. Elements of a loop never become ready and are missing in the result.
 std::vector<uint32_t> evaluationOrder(const Rung& rung) {
-  std::vector<uint32_t> waiting(rung.elements.size(), 0);  // inputs without power's source known
+  std::vector<uint32_t> waiting(rung.elements.size(), 0); // inputs without power's source known
   std::vector<uint32_t> drivers(rung.nets.size());
   for (uint32_t n = 0; n < rung.nets.size(); ++n) drivers[n] = rung.nets[n].drivers.count;
   Work ready;
@@ -36,7 +36,8 @@ std::vector<uint32_t> evaluationOrder(const Rung& rung) {
   return order;
 }
 
-/// One element of a loop: from any element that was left over, go back to a driver that was left over until one repeats.
+/// One element of a loop: from any element that was left over, go back to a driver that was left over until one
+/// repeats.
 ElementId findLoop(const Rung& rung, const std::vector<uint32_t>& order) {
   std::vector<bool> placed(rung.elements.size(), false);
   for (const uint32_t e : order) placed[e] = true;
@@ -62,7 +63,7 @@ ElementId findLoop(const Rung& rung, const std::vector<uint32_t>& order) {
   return ElementId{rightmost};
 }
 
-}  // namespace
+} // namespace
 
 void linkNets(Rung& rung) {
   const auto forEachLink = [&rung](auto&& driver, auto&& consumer) {
@@ -83,7 +84,8 @@ void linkNets(Rung& rung) {
   }
   rung.linkPool.resize(total);
   const auto put = [&rung](Slice& slice, ElementId id) { rung.linkPool[slice.first + slice.count++] = id; };
-  forEachLink([&](Net& net, ElementId id) { put(net.drivers, id); }, [&](Net& net, ElementId id) { put(net.consumers, id); });
+  forEachLink([&](Net& net, ElementId id) { put(net.drivers, id); },
+              [&](Net& net, ElementId id) { put(net.consumers, id); });
 }
 
 void orderElements(Rung& rung, Diagnostics& diagnostics) {
@@ -101,4 +103,4 @@ void orderElements(Rung& rung, Diagnostics& diagnostics) {
   linkNets(rung);
 }
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

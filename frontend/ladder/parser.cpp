@@ -11,13 +11,14 @@ namespace rung::ladder {
 namespace {
 
 constexpr WordRules kRules{};
-constexpr std::string_view kKeywords[] = {"dialect", "module", "symbol", "const", "message", "button", "section", "rung"};
+constexpr std::string_view kKeywords[] = {"dialect", "module", "symbol",  "const",
+                                          "message", "button", "section", "rung"};
 
 /// What a drawing line belongs to.
 enum class Place : uint8_t {
-  Outside,  ///< to nothing: an error
-  Rung,     ///< to the open rung
-  Skipped,  ///< to something that was reported already
+  Outside, ///< to nothing: an error
+  Rung,    ///< to the open rung
+  Skipped, ///< to something that was reported already
 };
 
 class Parser {
@@ -78,7 +79,7 @@ void Parser::line(const SourceLine& source) {
     return;
   }
   const char c = source.text[first];
-  if (c == ';') return;  // between drawing lines, too: a comment is no blank line
+  if (c == ';') return; // between drawing lines, too: a comment is no blank line
   if (std::string_view("|+-[({").find(c) == std::string_view::npos) {
     closeRung();
     statement(source);
@@ -236,7 +237,7 @@ void Parser::finishRung(Rung& rung) {
   rung.linkPool.clear();
 }
 
-}  // namespace
+} // namespace
 
 LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
                        const FurtherPins& furtherPins) {
@@ -255,4 +256,4 @@ std::string_view peekDialect(const SourceManager& sources, FileId file) {
   return {};
 }
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -51,22 +51,32 @@ private:
   bool accepts(const Group& group, std::string_view word) const;
   const Row* misalignedTo(const DrawnLine& line, const Token& token, std::vector<Row>::const_iterator near) const;
   uint32_t open(uint32_t element);
+  void addPin(uint32_t index, uint32_t element);
 
   Drawing& drawing_;
   const FurtherPins& furtherPins_;
   Diagnostics& diagnostics_;
   std::vector<Group> groups_;
-  std::vector<Row> above_;  ///< by column
+  std::vector<Row> above_; ///< by column
   std::vector<Row> here_;
 };
 
 bool PinGrouper::isNamed(const Group& group, std::string_view word) const {
-  return group.names && std::any_of(group.names->begin(), group.names->end(), [&](auto name) { return sameName(name, word); });
+  return group.names &&
+         std::any_of(group.names->begin(), group.names->end(), [&](auto name) { return sameName(name, word); });
 }
 
 /// Below a box that still lacks pins a wrong name is an unknown pin, not another box.
 bool PinGrouper::accepts(const Group& group, std::string_view word) const {
   return !group.names || group.lacksPins() || isNamed(group, word);
+}
+
+void PinGrouper::addPin(uint32_t index, uint32_t element) {
+  Group& group = groups_[index];
+  drawing_.headOf[element] = group.head;
+  drawing_.nextPin[group.lastPin == kNone ? group.head : group.lastPin] = element;
+  group.lastPin = element;
+  ++group.pinLines;
 }
 
 uint32_t PinGrouper::open(uint32_t element) {
@@ -103,26 +113,25 @@ void PinGrouper::box(const DrawnLine& line, const Token& token) {
                                        [](const Row& r, uint32_t column) { return r.column < column; });
     const bool aligned = near != above_.end() && near->column == token.column;
     if (aligned && accepts(groups_[near->group], element.mnemonic)) {
-      Group& group = groups_[near->group];
-      drawing_.headOf[token.element] = group.head;
-      drawing_.nextPin[group.lastPin == kNone ? group.head : group.lastPin] = token.element;
-      group.lastPin = token.element;
-      ++group.pinLines;
+      addPin(near->group, token.element);
       row.group = near->group;
     } else if (const Row* meant = misalignedTo(line, token, near)) {
-      diagnostics_.report(Diag::MisalignedBox, element.range).label(drawing_.elements[groups_[meant->group].head].range, "the box")
-          << meant->column + 1;
+      const SourceRange box = drawing_.elements[groups_[meant->group].head].range;
+      diagnostics_.report(Diag::MisalignedBox, element.range).label(box, "the box") << meant->column + 1;
       drawing_.bad = true;
+      // Go on as if it stood where it should, so that the lines below are judged by the box.
+      addPin(meant->group, token.element);
+      row = *meant;
     }
   }
   if (row.group == kNone) row.group = open(token.element);
   here_.push_back(row);
 }
 
-}  // namespace
+} // namespace
 
 void groupPins(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics) {
   PinGrouper(drawing, furtherPins, diagnostics).run();
 }
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -10,7 +10,8 @@
 namespace rung::ladder {
 namespace {
 
-constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' in front of x, which is one operand without blanks";
+constexpr std::string_view kContactForms =
+    "[x], with '/', '@' or '%' in front of x, which is one operand without blanks";
 constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
 constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
 
@@ -70,7 +71,7 @@ private:
   Drawing& drawing_;
   Diagnostics& diagnostics_;
   size_t at_ = 0;
-  size_t continuations_ = 0;  ///< bytes so far that begin no character: byte offset − this = column
+  size_t continuations_ = 0; ///< bytes so far that begin no character: byte offset − this = column
   bool good_ = true;
 };
 
@@ -111,7 +112,8 @@ void LineScanner::strayText() {
 /// The comment behind the line belongs to its last element.
 void LineScanner::remark(const DrawnLine& drawn) {
   const std::span<const Token> tokens = drawing_.tokensOf(drawn);
-  const auto last = std::find_if(tokens.rbegin(), tokens.rend(), [](const Token& t) { return t.kind == TokenKind::Element; });
+  const auto last =
+      std::find_if(tokens.rbegin(), tokens.rend(), [](const Token& t) { return t.kind == TokenKind::Element; });
   if (last == tokens.rend()) return;
   const size_t begin = skipBlanks(at_ + 1, text_.size());
   drawing_.elements[last->element].remark = text_.substr(begin, dropBlanks(begin, text_.size()) - begin);
@@ -169,7 +171,8 @@ bool LineScanner::operand(Element& element, size_t begin, size_t end, std::strin
   const std::string_view word = text_.substr(begin, end - begin);
   const size_t bad = findUnprintable(text_, begin, end);
   if (bad != end && text_[bad] != ' ') return badCharacter(bad);
-  if (word.empty() || word.find(' ') != std::string_view::npos) return badElement(text_.find_first_of("])", end) + 1, forms);
+  if (word.empty() || word.find(' ') != std::string_view::npos)
+    return badElement(text_.find_first_of("])", end) + 1, forms);
   pushOperand(begin, end, false);
   return true;
 }
@@ -211,7 +214,8 @@ bool LineScanner::coil(Element& element) {
 
 size_t LineScanner::boxWordEnd(size_t begin) const {
   size_t end = begin;
-  while (end < text_.size() && isPrintable(text_[end]) && text_[end] != '{' && text_[end] != '}' && text_[end] != '"') ++end;
+  while (end < text_.size() && isPrintable(text_[end]) && text_[end] != '{' && text_[end] != '}' && text_[end] != '"')
+    ++end;
   return end;
 }
 
@@ -246,7 +250,7 @@ bool LineScanner::box(Element& element) {
   return true;
 }
 
-}  // namespace
+} // namespace
 
 void Drawing::clear() {
   lines.clear();
@@ -275,4 +279,4 @@ size_t findUnprintable(std::string_view text, size_t begin, size_t end) {
   return static_cast<size_t>(found - text.begin());
 }
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -13,9 +13,9 @@ constexpr uint32_t kRailNode = 0;
 struct Mark {
   uint32_t column = 0;
   uint32_t node = 0;
-  uint32_t line = 0;    ///< index into Drawing::lines
-  uint32_t token = 0;   ///< index into Drawing::tokens
-  uint32_t offset = 0;  ///< in the line, in bytes
+  uint32_t line = 0;   ///< index into Drawing::lines
+  uint32_t token = 0;  ///< index into Drawing::tokens
+  uint32_t offset = 0; ///< in the line, in bytes
   bool up = false;
   bool down = false;
 };
@@ -72,17 +72,17 @@ private:
   Rung& rung_;
   Diagnostics& diagnostics_;
   std::vector<uint32_t> parent_;
-  std::vector<uint32_t> inputs_;   ///< per drawn element: its node
-  std::vector<uint32_t> outputs_;  ///< per drawn element: its node or kNone
-  std::vector<Mark> marks_;        ///< by line and column
-  std::vector<bool> reported_;     ///< per line
+  std::vector<uint32_t> inputs_;  ///< per drawn element: its node
+  std::vector<uint32_t> outputs_; ///< per drawn element: its node or kNone
+  std::vector<Mark> marks_;       ///< by line and column
+  std::vector<bool> reported_;    ///< per line
   std::vector<NetId> netOfRoot_;
 
   struct OpenEnd {
     uint32_t line;
     uint32_t token;
   };
-  std::vector<OpenEnd> openEnds_;  ///< wires with nothing on their right
+  std::vector<OpenEnd> openEnds_; ///< wires with nothing on their right
 };
 
 uint32_t Wiring::find(uint32_t node) {
@@ -171,7 +171,8 @@ void Wiring::leftEnd(uint32_t line, uint32_t token) {
 /// Whether an open end is an error of its own or the end of the whole branch shows when the nets are known.
 void Wiring::rightEnd(uint32_t line, uint32_t token) {
   const Token& t = drawing_.tokens[token];
-  if (t.kind == TokenKind::Wire && drawing_.lines[line].source.text[t.end - 1] == '-') openEnds_.push_back({line, token});
+  if (t.kind == TokenKind::Wire && drawing_.lines[line].source.text[t.end - 1] == '-')
+    openEnds_.push_back({line, token});
 }
 
 void Wiring::addMarks(uint32_t line, uint32_t token) {
@@ -220,14 +221,15 @@ void Wiring::checkMark(const Mark& mark) {
   const bool first = mark.offset == token.begin;
   const bool last = mark.offset + 1 == token.end;
   const bool left = !first || (mark.token > slice.first && drawing_.tokens[mark.token - 1].end == token.begin);
-  const bool right = !last || (mark.token + 1 < slice.first + slice.count &&
-                               drawing_.tokens[mark.token + 1].begin == token.end);
+  const bool right =
+      !last || (mark.token + 1 < slice.first + slice.count && drawing_.tokens[mark.token + 1].begin == token.end);
   if (mark.up + mark.down + left + right >= 2) return;
   if (left) {
     openEnds_.push_back({mark.line, mark.token});
   } else {
-    loose(mark.line, mark.offset, mark.offset + 1, "this '+' joins nothing; there is no '+' or '|' in its column on the "
-                                                   "lines above and below");
+    loose(mark.line, mark.offset, mark.offset + 1,
+          "this '+' joins nothing; there is no '+' or '|' in its column on the "
+          "lines above and below");
   }
 }
 
@@ -305,7 +307,8 @@ void Wiring::checkOpenEnds() {
     const NetId net = netOf(nodeOf(end.token));
     const SourceRange range = rangeOf(end.line, drawing_.tokens[end.token]);
     if (!rung_.consumersOf(net).empty()) {
-      loose(end.line, drawing_.tokens[end.token].begin, drawing_.tokens[end.token].end, "this wire has nothing on its right");
+      loose(end.line, drawing_.tokens[end.token].begin, drawing_.tokens[end.token].end,
+            "this wire has nothing on its right");
     } else if (onlyCoilsDrive(net)) {
       diagnostics_.report(Diag::ElementAfterClosing, range) << "a coil";
     } else {
@@ -335,8 +338,8 @@ void Wiring::checkNets() {
   }
 }
 
-}  // namespace
+} // namespace
 
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics) { Wiring(drawing, rung, diagnostics).run(); }
 
-}  // namespace rung::ladder
+} // namespace rung::ladder

@@ -32,7 +32,7 @@ size_t wordEnd(std::string_view text, size_t begin, const WordRules& rules) {
   return end;
 }
 
-}  // namespace
+} // namespace
 
 LineReader::LineReader(const SourceManager& sources, FileId file)
     : text_(sources.text(file)), begin_(sources.position(file, 0)) {
@@ -94,4 +94,4 @@ bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagn
   return false;
 }
 
-}  // namespace rung
+} // namespace rung

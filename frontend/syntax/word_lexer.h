@@ -13,14 +13,14 @@
 namespace rung {
 
 struct Word {
-  std::string_view text;  ///< without the quotes when quoted
-  SourceRange range;      ///< with the quotes when quoted
+  std::string_view text; ///< without the quotes when quoted
+  SourceRange range;     ///< with the quotes when quoted
   bool quoted = false;
 };
 
 /// One line of a file, without its line end (LF or CR LF).
 struct SourceLine {
-  uint32_t number = 0;  ///< from 1
+  uint32_t number = 0; ///< from 1
   std::string_view text;
   SourcePos begin;
 
@@ -32,11 +32,11 @@ struct SourceLine {
 /// Walks over the lines of a file: `while (lines.next(line))`. A line end at the end of the file opens no further line.
 /// A byte order mark at the beginning of the file is skipped.
 class LineReader {
- public:
+public:
   LineReader(const SourceManager& sources, FileId file);
   bool next(SourceLine& line);
 
- private:
+private:
   std::string_view text_;
   SourcePos begin_;
   size_t offset_ = 0;
@@ -45,15 +45,15 @@ class LineReader {
 
 struct WordRules {
   char comment = ';';
-  std::string_view quotes = "\"";  ///< every character of it opens and closes a text
-  std::string_view separators;     ///< each of these characters is a word of its own, e.g. ",:"
+  std::string_view quotes = "\""; ///< every character of it opens and closes a text
+  std::string_view separators;    ///< each of these characters is a word of its own, e.g. ",:"
 };
 
 struct LineWords {
   std::vector<Word> words;
   bool hasComment = false;
-  std::string_view comment;  ///< behind the comment character, blanks at both ends removed
-  SourceRange commentRange;  ///< with the comment character
+  std::string_view comment; ///< behind the comment character, blanks at both ends removed
+  SourceRange commentRange; ///< with the comment character
   /// Set when a text is not closed on the line; it is then the last word and reaches to the end of the line.
   bool unterminatedQuote = false;
 };
@@ -64,4 +64,4 @@ void splitWords(const SourceLine& line, const WordRules& rules, LineWords& out);
 /// Reports bad-encoding at the first byte that is no UTF-8 (or is NUL: not a text at all) and returns false then.
 bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagnostics);
 
-}  // namespace rung
+} // namespace rung

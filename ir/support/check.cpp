@@ -11,4 +11,4 @@ void checkFailed(const char* condition, const char* message, const char* file, i
   std::abort();
 }
 
-}  // namespace rung
+} // namespace rung

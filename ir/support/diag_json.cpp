@@ -15,8 +15,11 @@ json placeOf(SourceRange range, const SourceManager& sources) {
     begin = sources.lineCol(range.begin);
     end = sources.lineCol(range.end);
   }
-  return json{{"file", std::string(begin.file)}, {"line", begin.line},   {"column", begin.column},
-              {"endLine", end.line},             {"endColumn", end.column}};
+  return json{{"file", std::string(begin.file)},
+              {"line", begin.line},
+              {"column", begin.column},
+              {"endLine", end.line},
+              {"endColumn", end.column}};
 }
 
 json notesOf(const std::vector<DiagNote>& notes, const SourceManager& sources) {
@@ -39,7 +42,7 @@ json fixesOf(const std::vector<DiagFix>& fixes, const SourceManager& sources) {
   return list;
 }
 
-}  // namespace
+} // namespace
 
 std::string renderJson(const Diagnostics& diagnostics, const SourceManager& sources) {
   json list = json::array();
@@ -57,4 +60,4 @@ std::string renderJson(const Diagnostics& diagnostics, const SourceManager& sour
   return list.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace rung
+} // namespace rung

@@ -156,7 +156,7 @@ private:
   std::string out_;
 };
 
-}  // namespace
+} // namespace
 
 std::string renderText(const Diagnostics& diagnostics, const SourceManager& sources, RenderOptions options) {
   TextRenderer renderer(sources, options);
@@ -165,4 +165,4 @@ std::string renderText(const Diagnostics& diagnostics, const SourceManager& sour
   return renderer.take();
 }
 
-}  // namespace rung
+} // namespace rung

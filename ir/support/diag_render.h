@@ -21,4 +21,4 @@ std::string renderText(const Diagnostics& diagnostics, const SourceManager& sour
 /// diagnostic without a place has file "" and zeros.
 std::string renderJson(const Diagnostics& diagnostics, const SourceManager& sources);
 
-}  // namespace rung
+} // namespace rung

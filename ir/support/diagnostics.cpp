@@ -16,8 +16,7 @@ namespace rung {
 namespace {
 
 constexpr DiagInfo kDiags[] = {
-#define DIAG(name, code, severity, message, explanation) \
-  {Diag::name, code, Severity::severity, message, explanation},
+#define DIAG(name, code, severity, message, explanation) {Diag::name, code, Severity::severity, message, explanation},
 #include "ir/support/diag/all.def"
 #undef DIAG
 };
@@ -40,7 +39,7 @@ std::unordered_map<std::string_view, const DiagInfo*> makeCodeIndex() {
   return index;
 }
 
-}  // namespace
+} // namespace
 
 const DiagInfo& diagInfo(Diag id) {
   const auto index = static_cast<size_t>(id);
@@ -116,7 +115,8 @@ bool Diagnostics::isNew(const Diagnostic& diagnostic) {
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {
-  const bool raised = static_cast<size_t>(diagnostic.id) < raised_.size() && raised_[static_cast<size_t>(diagnostic.id)];
+  const bool raised =
+      static_cast<size_t>(diagnostic.id) < raised_.size() && raised_[static_cast<size_t>(diagnostic.id)];
   if (raised) diagnostic.severity = Severity::Error;
   const bool isError = diagnostic.severity == Severity::Error;
   size_t& kept = isError ? keptErrors_ : keptWarnings_;
@@ -150,4 +150,4 @@ std::vector<const Diagnostic*> Diagnostics::sorted() const {
   return order;
 }
 
-}  // namespace rung
+} // namespace rung

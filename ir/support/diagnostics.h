@@ -33,8 +33,8 @@ struct DiagInfo {
   Diag id;
   std::string_view code;
   Severity severity;
-  std::string_view message;      ///< fmt pattern with positional placeholders {0}, {1}, …
-  std::string_view explanation;  ///< what it means and how to mend it
+  std::string_view message;     ///< fmt pattern with positional placeholders {0}, {1}, …
+  std::string_view explanation; ///< what it means and how to mend it
 };
 
 const DiagInfo& diagInfo(Diag id);
@@ -60,8 +60,8 @@ struct DiagFix {
 
 struct Diagnostic {
   Diag id{};
-  Severity severity = Severity::Error;  ///< as reported: strict mode is applied already
-  SourceRange range;                    ///< invalid where there is no place
+  Severity severity = Severity::Error; ///< as reported: strict mode is applied already
+  SourceRange range;                   ///< invalid where there is no place
   std::vector<DiagArg> args;
   std::vector<DiagNote> labels;
   std::vector<DiagNote> notes;
@@ -75,7 +75,7 @@ class Diagnostics;
 
 /// Collects the parts of one report and hands it to its Diagnostics when it is destroyed.
 class DiagBuilder {
- public:
+public:
   DiagBuilder(Diagnostics& sink, Diag id, SourceRange range);
   ~DiagBuilder();
   DiagBuilder(const DiagBuilder&) = delete;
@@ -97,7 +97,7 @@ class DiagBuilder {
   /// For a code that is an error in one dialect and a warning in another. Strict mode still raises it.
   DiagBuilder& severity(Severity severity);
 
- private:
+private:
   DiagBuilder& number(int64_t arg);
 
   Diagnostics& sink_;
@@ -105,7 +105,7 @@ class DiagBuilder {
 };
 
 class Diagnostics {
- public:
+public:
   /// Of each severity at most this many are kept; all are counted. Keeps a file of rubbish from filling the memory.
   static constexpr size_t kDefaultLimit = 1000;
 
@@ -129,7 +129,7 @@ class Diagnostics {
   /// By position (files in the order they were added), otherwise in the order of reporting.
   std::vector<const Diagnostic*> sorted() const;
 
- private:
+private:
   bool isNew(const Diagnostic& diagnostic);
 
   std::vector<Diagnostic> kept_;
@@ -143,4 +143,4 @@ class Diagnostics {
   size_t dropped_ = 0;
 };
 
-}  // namespace rung
+} // namespace rung

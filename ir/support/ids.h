@@ -18,7 +18,7 @@ struct Id {
   constexpr auto operator<=>(const Id&) const = default;
 };
 
-}  // namespace rung
+} // namespace rung
 
 template <typename Tag>
 struct std::hash<rung::Id<Tag>> {

@@ -19,7 +19,7 @@ inline Failure failure(std::string message) { return Failure{std::move(message)}
 
 template <typename T>
 class [[nodiscard]] Result {
- public:
+public:
   Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
   Result(Failure error) : state_(std::in_place_index<1>, std::move(error)) {}
 
@@ -45,14 +45,14 @@ class [[nodiscard]] Result {
   /// The error in the form that another Result takes: `if (!r) return r.failure();`
   Failure failure() const { return Failure{error()}; }
 
- private:
+private:
   std::variant<T, Failure> state_;
 };
 
 /// Success without a value: `return {};`, or a failure.
 template <>
 class [[nodiscard]] Result<void> {
- public:
+public:
   Result() = default;
   Result(Failure error) : state_(std::in_place_index<1>, std::move(error)) {}
 
@@ -64,8 +64,8 @@ class [[nodiscard]] Result<void> {
   }
   Failure failure() const { return Failure{error()}; }
 
- private:
+private:
   std::variant<std::monostate, Failure> state_;
 };
 
-}  // namespace rung
+} // namespace rung

@@ -15,15 +15,15 @@
 namespace rung {
 
 struct SourceManager::File {
-  /// Characters in front of every kStep-th byte are counted once, so that the column in a line of megabytes costs no walk
-  /// over the line.
+  /// Characters in front of every kStep-th byte are counted once, so that the column in a line of megabytes costs no
+  /// walk over the line.
   static constexpr size_t kStep = 1024;
 
   std::string name;
   std::string text;
-  uint32_t base = 0;                       ///< position of the first byte
-  std::vector<uint32_t> lineStarts;        ///< offsets; never empty
-  std::vector<uint32_t> charactersBefore;  ///< per kStep bytes; empty for a text in ASCII
+  uint32_t base = 0;                      ///< position of the first byte
+  std::vector<uint32_t> lineStarts;       ///< offsets; never empty
+  std::vector<uint32_t> charactersBefore; ///< per kStep bytes; empty for a text in ASCII
 
   void index();
   size_t charactersUpTo(size_t offset) const;
@@ -80,7 +80,7 @@ Result<std::string> readAll(const std::string& path) {
   return text;
 }
 
-}  // namespace
+} // namespace
 
 SourceManager::SourceManager() = default;
 SourceManager::~SourceManager() = default;
@@ -166,4 +166,4 @@ std::string_view SourceManager::text(SourceRange range) const {
   return std::string_view(f.text).substr(range.begin.value - f.base, range.end.value - range.begin.value);
 }
 
-}  // namespace rung
+} // namespace rung

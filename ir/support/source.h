@@ -47,7 +47,7 @@ struct LineCol {
 };
 
 class SourceManager {
- public:
+public:
   SourceManager();
   ~SourceManager();
   SourceManager(SourceManager&&) noexcept;
@@ -82,7 +82,7 @@ class SourceManager {
   /// The characters of a range that lies in one file.
   std::string_view text(SourceRange range) const;
 
- private:
+private:
   struct File;
   const File& file(FileId id) const;
 
@@ -90,4 +90,4 @@ class SourceManager {
   uint32_t nextBase_ = 1;
 };
 
-}  // namespace rung
+} // namespace rung

@@ -26,15 +26,15 @@ struct CharacterRange {
 };
 
 constexpr CharacterRange kCombining[] = {{0x0300, 0x036F}, {0x200B, 0x200F}, {0xFE00, 0xFE0F}, {0xFEFF, 0xFEFF}};
-constexpr CharacterRange kWide[] = {{0x1100, 0x115F},   {0x2E80, 0x303E},   {0x3041, 0xA4CF},   {0xAC00, 0xD7A3},
-                                    {0xF900, 0xFAFF},   {0xFE30, 0xFE6F},   {0xFF00, 0xFF60},   {0xFFE0, 0xFFE6},
+constexpr CharacterRange kWide[] = {{0x1100, 0x115F},   {0x2E80, 0x303E},  {0x3041, 0xA4CF}, {0xAC00, 0xD7A3},
+                                    {0xF900, 0xFAFF},   {0xFE30, 0xFE6F},  {0xFF00, 0xFF60}, {0xFFE0, 0xFFE6},
                                     {0x1F300, 0x1FAFF}, {0x20000, 0x3FFFD}};
 
 bool isIn(uint32_t value, const CharacterRange* begin, const CharacterRange* end) {
   return std::any_of(begin, end, [value](CharacterRange r) { return value >= r.first && value <= r.last; });
 }
 
-}  // namespace
+} // namespace
 
 size_t countCodePoints(std::string_view text) {
   return text.size() - static_cast<size_t>(std::count_if(text.begin(), text.end(), isUtf8Continuation));
@@ -79,4 +79,4 @@ unsigned displayWidth(uint32_t codePoint) {
   return isIn(codePoint, std::begin(kWide), std::end(kWide)) ? 2 : 1;
 }
 
-}  // namespace rung
+} // namespace rung

@@ -16,8 +16,8 @@ size_t countCodePoints(std::string_view text);
 
 struct CodePoint {
   uint32_t value = 0;
-  uint8_t length = 1;  ///< in bytes, at least 1
-  bool valid = false;  ///< false: one byte that begins no character
+  uint8_t length = 1; ///< in bytes, at least 1
+  bool valid = false; ///< false: one byte that begins no character
 };
 
 /// The character at offset, which must be inside the text.
@@ -29,4 +29,4 @@ size_t findInvalidUtf8(std::string_view text);
 /// How many cells a terminal uses for a printable character: 2 for East Asian wide ones, 0 for combining marks, else 1.
 unsigned displayWidth(uint32_t codePoint);
 
-}  // namespace rung
+} // namespace rung

@@ -125,7 +125,9 @@ TEST(RenderText, SortedByPositionAndSaysWhatIsLeftOut) {
 
 TEST(RenderJson, HasPlaceMessageNotesAndFixes) {
   Fixture f("symbol A 0056\nsymbol A 57\n");
-  f.diags.report(Diag::DuplicateSymbol, f.range(21, 22)).note(f.range(7, 8), "first declared here").fix(f.range(21, 22), "B")
+  f.diags.report(Diag::DuplicateSymbol, f.range(21, 22))
+          .note(f.range(7, 8), "first declared here")
+          .fix(f.range(21, 22), "B")
       << "A";
   const auto list = nlohmann::json::parse(renderJson(f.diags, f.sources));
   ASSERT_EQ(list.size(), 1u);
@@ -158,9 +160,10 @@ TEST(Render, AllCodes) {
   Fixture f("text");
   for (const DiagInfo& info : allDiags()) f.diags.report(info.id, f.range(0, 4)) << "first" << 2;
   const std::string text = f.text();
-  for (const DiagInfo& info : allDiags()) EXPECT_NE(text.find(" [" + std::string(info.code) + "]\n"), std::string::npos);
+  for (const DiagInfo& info : allDiags())
+    EXPECT_NE(text.find(" [" + std::string(info.code) + "]\n"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(renderJson(f.diags, f.sources)).size(), allDiags().size());
 }
 
-}  // namespace
-}  // namespace rung
+} // namespace
+} // namespace rung

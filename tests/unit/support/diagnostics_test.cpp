@@ -34,7 +34,8 @@ TEST(DiagTable, CodesAreUniqueKebabCaseAndMatchTheirNames) {
   std::set<std::string_view> seen;
   for (const DiagInfo& info : allDiags()) {
     EXPECT_TRUE(seen.insert(info.code).second) << info.code << " stands twice";
-    EXPECT_EQ(info.code.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"), std::string_view::npos) << info.code;
+    EXPECT_EQ(info.code.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"), std::string_view::npos)
+        << info.code;
     EXPECT_EQ(nameOf(info.code), kNames[static_cast<size_t>(info.id)]);
   }
 }
@@ -76,8 +77,8 @@ TEST(DiagTable, MessagesFormatWithAnyNumberOfArguments) {
 
 /// Every code of the three dialects' inventories that a scenario may name; a sample of each family.
 TEST(DiagTable, HasTheInventoriesCodesWithTheirSeverity) {
-  for (const char* code : {"missing-end1", "multi-level-output", "dangling-wire", "bit-out-of-range", "unbalanced-stack",
-                           "mech-loop-without-ex", "write-to-input", "tab-character"}) {
+  for (const char* code : {"missing-end1", "multi-level-output", "dangling-wire", "bit-out-of-range",
+                           "unbalanced-stack", "mech-loop-without-ex", "write-to-input", "tab-character"}) {
     ASSERT_NE(findDiag(code), nullptr) << code;
     EXPECT_EQ(findDiag(code)->severity, Severity::Error) << code;
   }
@@ -170,8 +171,8 @@ TEST(Diagnostics, KeepsOnlyAsManyAsTheLimitButCountsAll) {
   diags.report(Diag::LabelUnused, rangeAt(9));
   EXPECT_EQ(diags.errorCount(), 5u);
   EXPECT_EQ(diags.droppedCount(), 3u);
-  EXPECT_EQ(diags.reported().size(), 3u);  // the warning has a limit of its own
+  EXPECT_EQ(diags.reported().size(), 3u); // the warning has a limit of its own
 }
 
-}  // namespace
-}  // namespace rung
+} // namespace
+} // namespace rung

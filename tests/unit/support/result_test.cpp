@@ -65,5 +65,5 @@ TEST(Id, IsInvalidUntilItGetsAnIndex) {
   EXPECT_LT(ThingId{1}, ThingId{2});
 }
 
-}  // namespace
-}  // namespace rung
+} // namespace
+} // namespace rung

@@ -18,10 +18,10 @@ TEST(Source, LinesAndColumnsCountFromOne) {
   SourceManager sources;
   const FileId file = sources.addBuffer("a.lad", "one\ntwo\n\nfour");
   EXPECT_EQ(at(sources, file, 0), "a.lad:1:1");
-  EXPECT_EQ(at(sources, file, 3), "a.lad:1:4");  // the line end belongs to its line
+  EXPECT_EQ(at(sources, file, 3), "a.lad:1:4"); // the line end belongs to its line
   EXPECT_EQ(at(sources, file, 4), "a.lad:2:1");
   EXPECT_EQ(at(sources, file, 8), "a.lad:3:1");
-  EXPECT_EQ(at(sources, file, 13), "a.lad:4:5");  // the end of the file
+  EXPECT_EQ(at(sources, file, 13), "a.lad:4:5"); // the end of the file
   EXPECT_EQ(sources.lineCount(file), 4u);
 }
 
@@ -62,7 +62,8 @@ TEST(Source, ColumnsInALongLineOfManyAlphabets) {
   for (int i = 0; i < 5000; ++i) text += "a\u00E9";
   SourceManager sources;
   const FileId file = sources.addBuffer("f", text);
-  for (const size_t i : {0u, 1u, 340u, 341u, 342u, 4999u}) EXPECT_EQ(at(sources, file, 6 + 3 * i), "f:2:" + std::to_string(2 * i + 1));
+  for (const size_t i : {0u, 1u, 340u, 341u, 342u, 4999u})
+    EXPECT_EQ(at(sources, file, 6 + 3 * i), "f:2:" + std::to_string(2 * i + 1));
 }
 
 TEST(Source, PositionsOfSeveralFilesAreDistinct) {
@@ -111,5 +112,5 @@ TEST(Source, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(sources.addFile(testing::TempDir()).error(), "is a directory");
 }
 
-}  // namespace
-}  // namespace rung
+} // namespace
+} // namespace rung

@@ -23,12 +23,12 @@ TEST(Utf8, FindsTheFirstBadByte) {
   EXPECT_EQ(findInvalidUtf8(""), kNone);
   EXPECT_EQ(findInvalidUtf8("plain text that is longer than a machine word"), kNone);
   EXPECT_EQ(findInvalidUtf8("caf\u00E9 \u4E2D\u6587 \U0001F600 and on and on"), kNone);
-  EXPECT_EQ(findInvalidUtf8("0123456789\xE9zz"), 10u);        // Latin-1
-  EXPECT_EQ(findInvalidUtf8("a\xC0\x80"), 1u);                // overlong
-  EXPECT_EQ(findInvalidUtf8("a\xE0\x80\x80"), 1u);            // overlong
-  EXPECT_EQ(findInvalidUtf8("a\xED\xA0\x80"), 1u);            // surrogate
-  EXPECT_EQ(findInvalidUtf8("a\xF4\x90\x80\x80"), 1u);        // above U+10FFFF
-  EXPECT_EQ(findInvalidUtf8("ab\xE4\xB8"), 2u);               // cut off
+  EXPECT_EQ(findInvalidUtf8("0123456789\xE9zz"), 10u); // Latin-1
+  EXPECT_EQ(findInvalidUtf8("a\xC0\x80"), 1u);         // overlong
+  EXPECT_EQ(findInvalidUtf8("a\xE0\x80\x80"), 1u);     // overlong
+  EXPECT_EQ(findInvalidUtf8("a\xED\xA0\x80"), 1u);     // surrogate
+  EXPECT_EQ(findInvalidUtf8("a\xF4\x90\x80\x80"), 1u); // above U+10FFFF
+  EXPECT_EQ(findInvalidUtf8("ab\xE4\xB8"), 2u);        // cut off
   EXPECT_EQ(findInvalidUtf8(std::string(20, 'x') + "\x80"), 20u);
 }
 
@@ -39,5 +39,5 @@ TEST(Utf8, KnowsTheCellsOfATerminal) {
   EXPECT_EQ(displayWidth(0x0301), 0u);
 }
 
-}  // namespace
-}  // namespace rung
+} // namespace
+} // namespace rung

@@ -1,0 +1,51 @@
+// libFuzzer target: any bytes through the ladder parser. Beside not crashing, what it returns must be consistent.
+#include <cstddef>
+#include <cstdint>
+
+#include "frontend/ladder/ladder.h"
+#include "ir/support/diag_render.h"
+
+namespace {
+
+using namespace rung;
+using namespace rung::ladder;
+
+/// Pins of a box, so that fuzzing reaches the grouping by names as well.
+std::optional<std::span<const std::string_view>> pinsOf(std::string_view mnemonic) {
+  static constexpr std::string_view kCounter[] = {"U/D", "R"};
+  if (mnemonic == "CNT") return kCounter;
+  if (mnemonic == "MOV" || mnemonic == "RET") return std::span<const std::string_view>();
+  return std::nullopt;
+}
+
+void checkRung(const Rung& rung) {
+  RUNG_CHECK(rung.bad == rung.elements.empty(), "a good rung has elements, a bad one has none");
+  for (uint32_t i = 0; i < rung.elements.size(); ++i) {
+    const Element& element = rung.elements[i];
+    RUNG_CHECK(element.pins.count >= 1, "an element has a pin");
+    for (const Pin& pin : rung.pinsOf(element)) {
+      for (const ElementId driver : rung.driversOf(pin.input)) RUNG_CHECK(driver.index < i, "drivers come first");
+      RUNG_CHECK(pin.input == kRail || !rung.driversOf(pin.input).empty(), "a net has a driver");
+    }
+    if (element.output.valid()) RUNG_CHECK(!rung.consumersOf(element.output).empty(), "a net has a consumer");
+  }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  SourceManager sources;
+  Diagnostics diags;
+  const FileId file = sources.addBuffer("fuzz", std::string(reinterpret_cast<const char*>(data), size));
+  const LadderFile ladder = parseLadder(sources, file, diags, pinsOf);
+  bool anyBad = ladder.dialect.empty();
+  for (const Rung& rung : ladder.rungs) {
+    anyBad |= rung.bad;
+    checkRung(rung);
+    dumpRung(rung);
+  }
+  RUNG_CHECK(!anyBad || diags.hasErrors(), "whatever is bad was reported");
+  renderText(diags, sources);
+  renderJson(diags, sources);
+  return 0;
+}

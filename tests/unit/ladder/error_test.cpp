@@ -1,0 +1,131 @@
+// Mistakes in drawings: their code and place. The drawing begins in line 4.
+#include <gtest/gtest.h>
+
+#include "ladder_testing.h"
+
+namespace rung::ladder {
+namespace {
+
+std::string errorsOf(const std::string& drawing) { return parseDrawing(drawing).errors(); }
+
+TEST(DrawingErrors, EmptyRung) {
+  EXPECT_EQ(errorsOf(""), "3:1 empty-rung\n");
+  EXPECT_EQ(errorsOf("|\n"), "3:1 empty-rung\n");
+  EXPECT_EQ(errorsOf("|--------\n|\n"), "3:1 empty-rung\n");
+}
+
+TEST(DrawingErrors, UnclosedElement) {
+  EXPECT_EQ(errorsOf("|--[A--(X)\n"), "4:4 unclosed-element\n");
+  EXPECT_EQ(errorsOf("|--[A)--(X)\n"), "4:4 unclosed-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X\n"), "4:9 unclosed-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--{MOV A B--(X)\n"), "4:9 unclosed-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--{MOV A B--{MOV C D}\n"), "4:9 unclosed-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--{"), "4:9 unclosed-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--["), "4:9 unclosed-element\n");
+}
+
+TEST(DrawingErrors, BadElement) {
+  for (const char* element : {"[]", "[ ]", "[/]", "[@]", "[/%]", "[A B]", "()", "(/)", "(A B)", "(S A B)", "{}", "{ }",
+                              "{\"MSG\" 1}", "(X ; no comment)"}) {
+    EXPECT_EQ(errorsOf(std::string("|--[A]--") + element + "\n"), "4:9 bad-element\n") << element;
+  }
+}
+
+TEST(DrawingErrors, UnterminatedQuote) {
+  EXPECT_EQ(errorsOf("|--[A]--{MSG #1 \"text}--(X)\n"), "4:17 unterminated-quote\n");
+}
+
+TEST(DrawingErrors, StrayTextAndCharacters) {
+  EXPECT_EQ(errorsOf("|--A--(X)\n"), "4:4 stray-text\n");
+  EXPECT_EQ(errorsOf("|--[A]]--(X)\n"), "4:7 stray-text\n");
+  EXPECT_EQ(errorsOf("|--[A]\u2013(X)\n"), "4:7 bad-character\n");
+  EXPECT_EQ(errorsOf("|--[\u0410]--(X)\n"), "4:5 bad-character\n");
+  EXPECT_EQ(errorsOf("|--[A]--{MOV \u0410 B}\n"), "4:14 bad-character\n");
+  EXPECT_EQ(errorsOf("|--[A\x01]--(X)\n"), "4:6 bad-character\n");
+}
+
+TEST(DrawingErrors, Tab) {
+  EXPECT_EQ(errorsOf("|--[A]\t--(X)\n"), "4:7 tab-character\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X)\t; c\n\t+--[B]--(Y)\n"), "4:12 tab-character\n5:1 tab-character\n");
+}
+
+TEST(DrawingErrors, GapInAWire) {
+  EXPECT_EQ(errorsOf("|--[A]-- --(X)\n"), "4:10 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--  (X)\n"), "4:11 dangling-wire\n");
+  EXPECT_EQ(errorsOf("| --[A]--(X)\n"), "4:3 dangling-wire\n");
+  EXPECT_EQ(errorsOf(" --[A]--(X)\n"), "4:2 dangling-wire\n");
+  EXPECT_EQ(errorsOf("[A]--(X)\n"), "4:1 dangling-wire\n");
+}
+
+TEST(DrawingErrors, WireThatEndsNowhere) {
+  EXPECT_EQ(errorsOf("|--[A]--+--(X)\n        +--\n"), "5:9 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X)\n|--\n"), "5:2 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--+--(X)\n        +\n"), "5:9 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--+--(X)\n       +--(Y)\n"), "5:8 dangling-wire\n");
+}
+
+TEST(DrawingErrors, BranchThatEndsInAWire) {
+  EXPECT_EQ(errorsOf("|--[A]--\n"), "4:7 missing-closing-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--+\n"), "4:7 missing-closing-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--+--(X)\n        +--[B]--\n"), "5:15 missing-closing-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--+--+\n        +--+\n"), "4:7 missing-closing-element\n");
+}
+
+TEST(DrawingErrors, WireBehindACoil) { EXPECT_EQ(errorsOf("|--[A]--(X)--\n"), "4:12 element-after-closing\n"); }
+
+TEST(DrawingErrors, VerticalWires) {
+  EXPECT_EQ(errorsOf("|--[A]--+--(X)\n        |\n"), "5:9 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X)\n        |\n        +--(Y)\n"), "5:9 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--|--(X)\n"), "4:7 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--+--[B]--+--(X)\n        |--[C]--|\n"), "5:9 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--+--[B]--+--(X)\n        +--[C]--|\n        +--[D]--+\n"), "5:15 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X)--|\n"), "4:12 dangling-wire\n");
+  EXPECT_EQ(errorsOf(" |--[A]--(X)\n"), "4:2 dangling-wire\n");
+}
+
+TEST(DrawingErrors, NothingLeadsFromTheRail) {
+  EXPECT_EQ(errorsOf("|--[A]--(X)\n   +--[B]--(Y)\n   +--[C]--(Z)\n"), "5:4 dangling-wire\n");
+}
+
+TEST(DrawingErrors, ShortCircuit) {
+  EXPECT_EQ(errorsOf("|--+--[A]--+--(X)\n   +-------+\n"), "4:7 short-circuit\n");
+  EXPECT_EQ(
+      errorsOf("|--[A]--+--{CNT C}--+--(X)\n        +--{U/D  }  |\n        +--{R    }  |\n        +-----------+\n"),
+      "4:12 short-circuit\n");
+}
+
+TEST(DrawingErrors, PowerLoop) {
+  EXPECT_EQ(errorsOf("|--[A]--+--[B]--+---(X)\n"
+                     "        |       +--[C]--+\n"
+                     "        +---------------+\n"),
+            "5:20 power-loop\n");
+  EXPECT_EQ(errorsOf("|--+--[A]--+----------(X)\n"
+                     "   |       +--[B]--+\n"
+                     "   +---------------+\n"),
+            "5:15 power-loop\n");
+}
+
+TEST(DrawingErrors, MisalignedBox) {
+  EXPECT_EQ(errorsOf("|--[A]--{CNT C}--(F)\n|--[B]---{U/D }\n|--[C]--{R    }\n"), "5:10 misaligned-box\n");
+  EXPECT_EQ(errorsOf("|--[A]--{CNT C}--(F)\n|--[B]--{U/D  }\n|--[C]-{R}\n"), "6:8 misaligned-box\n");
+  // Without a table the padding tells.
+  EXPECT_EQ(parseDrawing("|--[A]--{CNT C}--(F)\n|--[B]---{U/D }\n", {}).errors(), "5:10 misaligned-box\n");
+}
+
+TEST(DrawingErrors, PinLineHasNoOutput) {
+  EXPECT_EQ(errorsOf("|--[A]--{CNT C}\n|--[B]--{U/D  }--(F)\n|--[C]--{R    }\n"), "5:16 dangling-wire\n");
+}
+
+TEST(DrawingErrors, OneErrorALineAndGoOnWithTheNextRung) {
+  const Parsed parsed(
+      "dialect t\nmodule M\nrung\n|--[A-[B--[C\n|--(--[D\n\nrung\n|--[A]-- --  (X)\n\nrung\n|--[A]--(X)\n");
+  EXPECT_EQ(parsed.errors(), "4:4 unclosed-element\n5:4 unclosed-element\n8:10 dangling-wire\n");
+  EXPECT_TRUE(parsed.ladder.rungs.at(0).bad);
+  EXPECT_TRUE(parsed.ladder.rungs.at(0).elements.empty());
+  EXPECT_TRUE(parsed.ladder.rungs.at(1).bad);
+  EXPECT_FALSE(parsed.ladder.rungs.at(2).bad);
+  EXPECT_EQ(parsed.ladder.rungs.at(2).elements.size(), 2u);
+}
+
+} // namespace
+} // namespace rung::ladder

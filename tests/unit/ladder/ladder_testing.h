@@ -1,0 +1,57 @@
+// What the tests of ladder text share: parse a text, look at rungs and diagnostics.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "frontend/ladder/ladder.h"
+
+namespace rung::ladder {
+
+/// The pins of a few boxes, in the manner of a dialect's table.
+inline std::optional<std::span<const std::string_view>> testPins(std::string_view mnemonic) {
+  static constexpr std::string_view kCounter[] = {"U/D", "R"};
+  if (mnemonic == "CNT") return kCounter;
+  if (mnemonic == "MOV" || mnemonic == "RET" || mnemonic == "END" || mnemonic == "TOND") {
+    return std::span<const std::string_view>();
+  }
+  return std::nullopt;
+}
+
+/// A parsed text; the views in `ladder` look into `sources`.
+struct Parsed {
+  SourceManager sources;
+  Diagnostics diags;
+  LadderFile ladder;
+
+  explicit Parsed(std::string text, const FurtherPins& pins = testPins) {
+    const FileId file = sources.addBuffer("t.lad", std::move(text));
+    ladder = parseLadder(sources, file, diags, pins);
+  }
+
+  /// One diagnostic a line: "3:5 unclosed-element".
+  std::string errors() const {
+    std::string text;
+    for (const Diagnostic* d : diags.sorted()) {
+      const LineCol at = sources.lineCol(d->range.begin);
+      text +=
+          std::to_string(at.line) + ":" + std::to_string(at.column) + " " + std::string(diagInfo(d->id).code) + "\n";
+    }
+    return text;
+  }
+};
+
+/// The drawing as the only rung of a file; it begins in line 4.
+inline Parsed parseDrawing(const std::string& drawing, const FurtherPins& pins = testPins) {
+  return Parsed("dialect test\nmodule MAIN\nrung\n" + drawing, pins);
+}
+
+/// Elements and nets of a drawing, without the heading; the diagnostics when it is bad.
+inline std::string elementsOf(const std::string& drawing, const FurtherPins& pins = testPins) {
+  const Parsed parsed = parseDrawing(drawing, pins);
+  if (!parsed.errors().empty()) return parsed.errors();
+  const std::string dump = dumpRung(parsed.ladder.rungs.at(0));
+  return dump.substr(dump.find('\n') + 1);
+}
+
+} // namespace rung::ladder

@@ -1,0 +1,74 @@
+// The configuration, read and checked.
+#include "frontend/dialects/gsk/config.h"
+
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace rung::gsk {
+namespace {
+
+constexpr uint64_t kSlotUs = 8000;
+constexpr uint64_t kMaxParts = 1000; // 8 s
+constexpr uint64_t kNumbers = 100;   // of timers and counters
+constexpr uint64_t kMaxWord = 65535;
+
+// The number behind `prefix`, 1-100; nullopt when the key is another one.
+std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) {
+  if (!key.starts_with(prefix)) return std::nullopt;
+  return parseDigits(key.substr(prefix.size())).value_or(0);
+}
+
+struct Entry {
+  std::string_view family;
+  uint64_t number;
+  uint64_t value; // saturated
+  uint64_t max;
+};
+
+std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
+  const uint64_t value = parseDigits(text).value_or(UINT64_MAX);
+  if (const auto timer = numberOf(key, "tmr.")) return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
+  if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};
+  return std::nullopt;
+}
+
+bool isSound(const Entry& entry) { return entry.number >= 1 && entry.number <= kNumbers && entry.value <= entry.max; }
+
+std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
+  const auto at = options.config.find("period_us");
+  if (at == options.config.end()) return std::nullopt;
+  return parseDigits(at->second).value_or(0);
+}
+
+} // namespace
+
+void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  if (const auto period = periodOf(options); period && (*period == 0 || *period % kSlotUs != 0 || *period / kSlotUs > kMaxParts))
+    diagnostics.report(Diag::ConstantOutOfRange) << fmt::format("period_us {}", options.config.at("period_us"))
+                                                 << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
+  for (const auto& [key, text] : options.config) {
+    const auto entry = entryOf(key, text);
+    if (!entry || isSound(*entry)) continue;
+    diagnostics.report(Diag::ConstantOutOfRange)
+        << fmt::format("{} {}", key, text) << fmt::format("{}.1 to {}.{} with 0 to {}", entry->family, entry->family, kNumbers, entry->max);
+  }
+}
+
+uint32_t partsOf(const frontend::CompileOptions& options) { return static_cast<uint32_t>(periodOf(options).value_or(kSlotUs) / kSlotUs); }
+
+std::vector<Preset> presetsOf(const frontend::CompileOptions& options) {
+  std::vector<Preset> result;
+  for (const auto& [key, text] : options.config) {
+    const auto entry = entryOf(key, text);
+    if (!entry) continue;
+    const auto number = static_cast<int64_t>(entry->number);
+    const bool timer = entry->family == "tmr";
+    result.push_back({timer ? timerPreset(number) : counterPreset(number),
+                      static_cast<uint32_t>(timer ? entry->value / timerUnitMs(number) : entry->value)});
+  }
+  return result;
+}
+
+} // namespace rung::gsk

@@ -1,0 +1,30 @@
+// The configuration that the compiler reads: the period (P3) and the presets of the timer and counter pages (§18).
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "frontend/dialects/dialect.h"
+#include "frontend/dialects/gsk/address.h"
+
+namespace rung::gsk {
+
+// What the operator typed, as the control stores it.
+struct Preset {
+  Address address;
+  uint32_t value = 0; // 16 bits
+};
+
+// Reports values that the control would not take. The other functions take a checked configuration.
+void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics);
+// n of P3.
+uint32_t partsOf(const frontend::CompileOptions& options);
+std::vector<Preset> presetsOf(const frontend::CompileOptions& options);
+
+// Timers 1-20 count in 48 ms, the others in 8 ms (man. l.1114).
+constexpr uint32_t timerUnitMs(int64_t number) { return number <= 20 ? 48 : 8; }
+// Where a timer's preset and a counter's preset and value lie (P8, P9).
+constexpr Address timerPreset(int64_t number) { return {Area::T, static_cast<uint32_t>(2 * (number - 1))}; }
+constexpr Address counterPreset(int64_t number) { return {Area::C, static_cast<uint32_t>(4 * (number - 1))}; }
+constexpr Address counterValue(int64_t number) { return {Area::C, static_cast<uint32_t>(4 * (number - 1) + 2)}; }
+
+} // namespace rung::gsk

@@ -1,0 +1,64 @@
+// What all readers of one compilation share: sources, diagnostics, names, and the count of steps.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/gsk/address.h"
+#include "frontend/syntax/word_lexer.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/source.h"
+
+namespace rung::gsk {
+
+struct UserSymbol {
+  std::string name;
+  std::string comment;
+  Address address;
+  bool bad = false; // its declaration was reported: uses stay silent
+  SourceRange range;
+};
+
+struct UserConstant {
+  int64_t value = 0;
+  bool bad = false;
+};
+
+class Names {
+ public:
+  void addSymbol(Diagnostics& diagnostics, const Word& name, const Word& value, std::string_view comment);
+  void addConstant(Diagnostics& diagnostics, const Word& name, const Word& value);
+
+  const UserSymbol* findSymbol(std::string_view name) const;
+  const UserConstant* findConstant(std::string_view name) const;
+  const std::vector<UserSymbol>& symbols() const { return symbols_; }
+
+ private:
+  bool declare(Diagnostics& diagnostics, const Word& name);
+
+  std::vector<UserSymbol> symbols_;
+  std::map<std::string, uint32_t, std::less<>> symbolByName_;
+  std::map<std::string, UserConstant, std::less<>> constants_;
+  std::map<std::string, SourceRange, std::less<>> declared_;
+};
+
+// The manual's program memory (man. l.354).
+inline constexpr uint32_t kMaxSteps = 12000;
+
+struct Context {
+  SourceManager& sources;
+  Diagnostics& diagnostics;
+  Names names;
+  uint32_t steps = 0;
+};
+
+// Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong gives nullopt silently.
+std::optional<Address> bitOperand(Context& context, const Word& word);
+std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t length);
+// False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.
+bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range);
+
+} // namespace rung::gsk

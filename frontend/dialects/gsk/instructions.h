@@ -1,0 +1,61 @@
+// The instruction table of the dialect: one row an instruction, with its lowering. Everything that is data about an
+// instruction stands here only; README.md tells how to add one.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "frontend/table/instruction.h"
+
+namespace rung::gsk {
+
+class FunctionLowering;
+
+// Classes of operands; the rows name them by kindName().
+enum class Kind : uint8_t {
+  Bit,            // bit to be read
+  Coil,           // bit to be written
+  Format,         // 1, 2 or 4: length in bytes
+  FormatA,        // a00n: 0 constant or 1 address, length
+  Byte,           // address of 1 byte
+  Word,           // address of 2 bytes
+  Dword,          // address of 4 bytes
+  Data,           // address of as many bytes as the format says
+  Block,          // address of as many bytes as the first operand says (MOVN)
+  Constant,       // constant that fits the format
+  ConstantOrData, // as the format's `a` says
+  Number,         // number in the range of the row
+  Mask,           // four binary digits
+  Label,          // L1-L9999
+  Subprogram,     // P1-P512
+  DataTable,      // address in D
+  WorkArea,       // address of 4 bytes in R
+};
+inline constexpr int kKindCount = 17;
+std::string_view kindName(Kind kind);
+Kind kindOf(const frontend::OperandInfo& operand);
+
+// Instructions that shape the program; everything else is Plain.
+enum class Control : uint8_t { Plain, End1, End2, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
+
+struct Row {
+  frontend::InstructionInfo info;
+  Control control = Control::Plain;
+  // Numbers of this class that stand twice in a program give a warning.
+  enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
+  bool hasTable = false;
+  void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
+  int variant = 0;                              // for `lower`
+};
+
+std::span<const Row> allRows();
+// The rows of FUNC; null when there is none.
+const Row* findFunction(uint64_t number);
+const Row* findFunction(std::string_view mnemonic);
+// Pins of a box behind its first, for the ladder parser; empty names where the box has one pin or none.
+std::span<const std::string_view> furtherPinsOf(const Row& row);
+
+std::span<const frontend::InstructionInfo* const> instructionInfos();
+std::span<const frontend::OperandKindInfo> operandKindInfos();
+
+} // namespace rung::gsk

@@ -1,0 +1,360 @@
+// Drawings to calls of the network builder.
+#include "frontend/dialects/gsk/ladder_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/network_builder.h"
+#include "frontend/dialects/gsk/series_parallel.h"
+
+namespace rung::gsk {
+namespace {
+
+using ladder::Element;
+using ladder::ElementId;
+using ladder::ElementKind;
+using ladder::NetId;
+
+Coil coilOf(ladder::CoilKind kind) {
+  switch (kind) {
+    case ladder::CoilKind::Plain: return Coil::Out;
+    case ladder::CoilKind::Negated: return Coil::OutInverted;
+    case ladder::CoilKind::Set: return Coil::Set;
+    case ladder::CoilKind::Reset: return Coil::Reset;
+  }
+  return Coil::Out;
+}
+
+Place placeOf(const Element& element) { return {element.range, element.line}; }
+
+// The shape of one rung: which box, which coils, and whether a command list can say it.
+class RungReader {
+ public:
+  RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung)
+      : diagnostics_(context.diagnostics), builder_(builder), rung_(rung) {}
+
+  // False when the drawing was rejected; it was reported, and nothing has reached the builder.
+  bool read();
+
+ private:
+  bool sort();
+  bool checkKind(const Element& element);
+  bool checkLeft(const Element& element);
+  bool checkBox();
+  bool checkPins();
+  bool checkCoils();
+  bool decomposeInputs();
+  std::string nameOf(const Element& element) const;
+  void emit(const SpTree& tree);
+  void emitBox();
+
+  Diagnostics& diagnostics_;
+  NetworkBuilder& builder_;
+  const ladder::Rung& rung_;
+  const Element* box_ = nullptr;
+  const Row* row_ = nullptr;
+  std::vector<const Element*> coils_; // from top to bottom
+  std::vector<SpTree> inputs_;
+};
+
+std::string RungReader::nameOf(const Element& element) const {
+  return element.kind == ElementKind::Box ? std::string(element.mnemonic) : element.kind == ElementKind::Coil ? "the coil" : "the contact";
+}
+
+bool RungReader::checkKind(const Element& element) {
+  if (element.edge != 0) {
+    diagnostics_.report(Diag::UnsupportedElement, element.range)
+        << (element.kind == ElementKind::Coil ? "a coil for an edge" : "an edge contact") << "use DIFU or DIFD";
+    return false;
+  }
+  if (element.kind == ElementKind::Contact && !element.output.valid()) {
+    diagnostics_.report(Diag::MissingClosingElement, element.range) << "a contact";
+    return false;
+  }
+  return true;
+}
+
+// What stands on the left of an element. Contacts may follow contacts only; coils may follow a box (l.3562).
+bool RungReader::checkLeft(const Element& element) {
+  for (const ladder::Pin& pin : rung_.pinsOf(element)) {
+    for (ElementId id : rung_.driversOf(pin.input)) {
+      const ElementKind left = rung_.element(id).kind;
+      if (left == ElementKind::Contact || (left == ElementKind::Box && element.kind == ElementKind::Coil)) continue;
+      const Row* row = left == ElementKind::Box ? findFunction(rung_.element(id).mnemonic) : nullptr;
+      if (row != nullptr && row->info.output == frontend::Output::None)
+        diagnostics_.report(Diag::ElementAfterClosing, element.range) << row->info.mnemonic;
+      else
+        diagnostics_.report(Diag::MultiLevelOutput, element.range);
+      return false;
+    }
+  }
+  return true;
+}
+
+// Finds the box and the coils; a network has one function at most.
+bool RungReader::sort() {
+  bool good = true;
+  for (const Element& element : rung_.elements) {
+    if (!checkKind(element) || !checkLeft(element)) {
+      good = false;
+    } else if (element.kind == ElementKind::Coil) {
+      coils_.push_back(&element);
+    } else if (element.kind == ElementKind::Box) {
+      if (box_ != nullptr) diagnostics_.report(Diag::MultiLevelOutput, element.range);
+      good = good && box_ == nullptr;
+      if (box_ == nullptr) box_ = &element;
+    }
+  }
+  std::sort(coils_.begin(), coils_.end(),
+            [](const Element* a, const Element* b) { return std::pair(a->line, a->column) < std::pair(b->line, b->column); });
+  return good;
+}
+
+bool RungReader::checkBox() {
+  if (box_ == nullptr) return true;
+  row_ = findFunction(box_->mnemonic);
+  if (row_ == nullptr) {
+    diagnostics_.report(Diag::UnknownFunction, box_->mnemonicRange) << box_->mnemonic;
+    return false;
+  }
+  switch (row_->control) {
+    case Control::End1:
+    case Control::End2:
+    case Control::Sp:
+    case Control::Spe:
+      diagnostics_.report(Diag::UnsupportedElement, box_->range) << fmt::format("a box {}", row_->info.mnemonic) << "the `module` statements stand for it";
+      return false;
+    case Control::Plain:
+    case Control::Jmp:
+    case Control::Jmpe:
+    case Control::Jmpb:
+    case Control::Jmpc:
+    case Control::Lbl:
+    case Control::Call:
+    case Control::CallU:
+    case Control::Com:
+    case Control::Come: break;
+  }
+  if (row_->info.output == frontend::Output::None && box_->output.valid()) {
+    const auto after = rung_.consumersOf(box_->output);
+    diagnostics_.report(Diag::ElementAfterClosing, after.empty() ? box_->range : rung_.element(after[0]).range) << row_->info.mnemonic;
+    return false;
+  }
+  return checkPins();
+}
+
+bool RungReader::checkPins() {
+  const auto pins = rung_.pinsOf(*box_);
+  const auto wanted = row_->info.pins.all();
+  const auto further = furtherPinsOf(*row_);
+  for (size_t i = 1; i < std::max(pins.size(), further.size() + 1); ++i) {
+    if (i >= pins.size()) {
+      diagnostics_.report(Diag::MissingPin, box_->range) << row_->info.mnemonic << further[i - 1];
+      return false;
+    }
+    if (i > further.size() || !equalNoCase(pins[i].name, further[i - 1])) {
+      const std::string expected = i > further.size() ? "none" : std::string(further[i - 1]);
+      diagnostics_.report(Diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
+      return false;
+    }
+  }
+  if (wanted.empty() && pins[0].input != ladder::kRail && row_->control != Control::Lbl) {
+    diagnostics_.report(Diag::FirstColumnRequired, box_->range) << row_->info.mnemonic;
+    return false;
+  }
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    if (pins[i].input != ladder::kRail) continue;
+    diagnostics_.report(Diag::MissingCondition, pins[i].range) << row_->info.mnemonic << fmt::format("pin {}", wanted[i].name);
+    return false;
+  }
+  return true;
+}
+
+// All coils on one net: that of the contacts, or the box's output and nothing else.
+bool RungReader::checkCoils() {
+  if (coils_.empty()) {
+    if (row_ != nullptr && row_->info.output == frontend::Output::Always)
+      diagnostics_.report(Diag::MissingOutput, box_->range) << row_->info.mnemonic;
+    return row_ != nullptr && row_->info.output != frontend::Output::Always;
+  }
+  const NetId net = box_ != nullptr ? box_->output : rung_.inputOf(*coils_[0]);
+  for (const Element* coil : coils_) {
+    if (net.valid() && rung_.inputOf(*coil) == net) continue;
+    diagnostics_.report(Diag::MultiLevelOutput, coil->range);
+    return false;
+  }
+  if (net == ladder::kRail) {
+    diagnostics_.report(Diag::MissingCondition, coils_[0]->range) << "the coil" << "its left";
+    return false;
+  }
+  if (box_ != nullptr && rung_.driversOf(net).size() > 1) {
+    diagnostics_.report(Diag::NotSeriesParallel, box_->range) << "the coils";
+    return false;
+  }
+  return true;
+}
+
+bool RungReader::decomposeInputs() {
+  std::vector<NetId> nets;
+  if (box_ == nullptr)
+    nets.push_back(rung_.inputOf(*coils_[0]));
+  else
+    for (const ladder::Pin& pin : rung_.pinsOf(*box_))
+      if (pin.input != ladder::kRail) nets.push_back(pin.input);
+  for (NetId net : nets) {
+    auto tree = decompose(rung_, net);
+    if (!tree) {
+      const Element& target = box_ != nullptr ? *box_ : *coils_[0];
+      diagnostics_.report(Diag::NotSeriesParallel, target.range) << nameOf(target);
+      return false;
+    }
+    inputs_.push_back(std::move(*tree));
+  }
+  return true;
+}
+
+// §5: the first branch of a parallel group begins with LD, a further branch of one contact is OR, any other one a block
+// of its own and ORB; a parallel group in series behind something is a block of its own and ANB.
+void RungReader::emit(const SpTree& tree) {
+  struct Work {
+    uint32_t node = kNone; // kNone: `how` is a block command
+    Logic how = Logic::Load;
+  };
+  std::vector<Work> stack{{tree.root, Logic::Load}};
+  Place last;
+  while (!stack.empty()) {
+    const Work work = stack.back();
+    stack.pop_back();
+    if (work.node == kNone) {
+      builder_.block(work.how, last);
+      continue;
+    }
+    const SpTree::Node& node = tree.nodes[work.node];
+    if (node.kind == SpTree::Kind::Contact) {
+      const Element& contact = rung_.element(node.contact);
+      last = placeOf(contact);
+      builder_.contact(work.how, contact.negated, rung_.operandOf(contact), last);
+      continue;
+    }
+    if (work.how == Logic::Or) stack.push_back({kNone, Logic::OrBlock});
+    if (work.how == Logic::And) stack.push_back({kNone, Logic::AndBlock});
+    const Logic further = node.kind == SpTree::Kind::Series ? Logic::And : Logic::Or;
+    for (size_t i = node.children.size(); i-- > 1;) stack.push_back({node.children[i], further});
+    stack.push_back({node.children[0], Logic::Load});
+  }
+}
+
+void RungReader::emitBox() {
+  builder_.function(row_, placeOf(*box_));
+  bool table = false;
+  for (const Word& operand : rung_.operandsOf(*box_)) {
+    const Place at{operand.range, box_->line};
+    if (row_->hasTable && !table && equalNoCase(operand.text, "TABLE"))
+      table = true;
+    else if (table)
+      builder_.tableRow(operand, at);
+    else
+      builder_.parameter(operand, at);
+  }
+}
+
+bool RungReader::read() {
+  if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs()) return false;
+  builder_.title(rung_.comment);
+  for (const SpTree& input : inputs_) emit(input);
+  if (box_ != nullptr) emitBox();
+  for (const Element* coil : coils_) builder_.coil(coilOf(coil->coil), rung_.operandOf(*coil), placeOf(*coil));
+  builder_.finish();
+  return true;
+}
+
+class LadderReader {
+ public:
+  LadderReader(Context& context, const ladder::LadderFile& file, UnitAssembler& units)
+      : context_(context), file_(file), units_(units), builder_(context, file.file, [this](Network&& n) { take(std::move(n)); }) {}
+
+  void read() {
+    for (const ladder::Statement& statement : file_.statements) {
+      if (statement.kind == ladder::StatementKind::Module) module(file_.modules[statement.index]);
+      if (statement.kind == ladder::StatementKind::Rung) readRung(file_.rungs[statement.index]);
+    }
+  }
+
+ private:
+  void module(const ladder::Module& module);
+  void readRung(const ladder::Rung& rung);
+  void take(Network&& network) {
+    network.firstLine = rung_->firstLine;
+    network.lastLine = rung_->lastLine;
+    network.range = rung_->range;
+    units_.addTo(unit_, std::move(network));
+  }
+
+  Context& context_;
+  const ladder::LadderFile& file_;
+  UnitAssembler& units_;
+  NetworkBuilder builder_;
+  const ladder::Rung* rung_ = nullptr;
+  uint32_t unit_ = kNone;
+};
+
+void LadderReader::module(const ladder::Module& module) {
+  unit_ = kNone;
+  const std::string_view name = module.name[0].text;
+  if (module.name.size() == 1 && equalNoCase(name, "LEVEL1")) {
+    unit_ = units_.openModule(UnitKind::Level1, 0, module.range, module.range);
+  } else if (module.name.size() == 1 && equalNoCase(name, "LEVEL2")) {
+    unit_ = units_.openModule(UnitKind::Level2, 0, module.range, module.range);
+  } else if (module.name.size() == 2 && equalNoCase(name, "SUB")) {
+    // The operand of SP, checked like one.
+    Function sp{.row = findFunction("SP"), .range = module.range};
+    if (checkFunction(context_, {module.name[1]}, {}, sp))
+      unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range, module.name[1].range);
+  } else {
+    context_.diagnostics.report(Diag::MalformedStatement, module.range) << "module" << "module LEVEL1, module LEVEL2 or module SUB Pn";
+  }
+  if (unit_ == kNone) units_.setGarbled();
+}
+
+void LadderReader::readRung(const ladder::Rung& rung) {
+  rung_ = &rung;
+  if (unit_ == kNone) return; // reported with the module
+  if (rung.bad || !RungReader(context_, builder_, rung).read()) units_.setGarbled();
+}
+
+} // namespace
+
+ladder::LadderFile parseLadderFile(Context& context, FileId file) {
+  return ladder::parseLadder(context.sources, file, context.diagnostics,
+                             [](std::string_view mnemonic) -> std::optional<std::span<const std::string_view>> {
+                               const Row* row = findFunction(mnemonic);
+                               if (row == nullptr) return std::nullopt;
+                               return furtherPinsOf(*row);
+                             });
+}
+
+void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
+  Diagnostics& diagnostics = context.diagnostics;
+  if (!file.dialect.empty() && !equalNoCase(file.dialect, "gsk"))
+    diagnostics.report(Diag::DialectConflict, file.dialectRange) << file.dialect << "gsk";
+  for (const ladder::Declaration& declaration : file.declarations) {
+    switch (declaration.kind) {
+      case ladder::DeclarationKind::Symbol:
+        context.names.addSymbol(diagnostics, declaration.name, declaration.value, declaration.comment);
+        break;
+      case ladder::DeclarationKind::Const:
+        context.names.addConstant(diagnostics, declaration.name, declaration.value);
+        break;
+      case ladder::DeclarationKind::Message:
+      case ladder::DeclarationKind::Button:
+        diagnostics.report(Diag::UnsupportedElement, declaration.range) << "a statement for texts" << "the control shows the texts of area A itself";
+        break;
+    }
+  }
+}
+
+void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler& units) { LadderReader(context, file, units).read(); }
+
+} // namespace rung::gsk

@@ -1,0 +1,219 @@
+// Lines of a command list to calls of the network builder.
+#include "frontend/dialects/gsk/list_reader.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/network_builder.h"
+
+namespace rung::gsk {
+namespace {
+
+// ';' comments; no quoted texts.
+constexpr WordRules kRules = {.comment = ';', .quotes = "", .separators = ""};
+
+enum class Command : uint8_t { Ld, Ldi, And, Ani, Or, Ori, Orb, Anb, Out, Outi, Set, Rst, Func, Prm, Table, Dialect, Symbol };
+constexpr std::array<std::string_view, 17> kCommands = {"LD",  "LDI",  "AND", "ANI", "OR",   "ORI", "ORB",   "ANB",    "OUT",
+                                                        "OUTI", "SET", "RST", "FUNC", "PRM", "TABLE", "DIALECT", "SYMBOL"};
+
+std::optional<Command> commandOf(std::string_view text) {
+  const auto at = std::find_if(kCommands.begin(), kCommands.end(), [&](std::string_view c) { return equalNoCase(c, text); });
+  if (at == kCommands.end()) return std::nullopt;
+  return static_cast<Command>(at - kCommands.begin());
+}
+
+std::string_view wantedOperand(Command command) {
+  switch (command) {
+    case Command::Func: return "the number or name of a function";
+    case Command::Prm: return "a parameter";
+    case Command::Table: return "a constant";
+    case Command::Dialect: return "the name of the dialect";
+    case Command::Symbol: return "a name and an address";
+    case Command::Orb:
+    case Command::Anb: return "";
+    case Command::Ld:
+    case Command::Ldi:
+    case Command::And:
+    case Command::Ani:
+    case Command::Or:
+    case Command::Ori:
+    case Command::Out:
+    case Command::Outi:
+    case Command::Set:
+    case Command::Rst: return "a bit";
+  }
+  return "";
+}
+
+size_t operandCount(Command command) {
+  return command == Command::Orb || command == Command::Anb ? 0 : command == Command::Symbol ? 2 : 1;
+}
+
+// The words behind the step number (the S/N column).
+std::span<const Word> statementOf(const LineWords& line) {
+  std::span<const Word> words(line.words);
+  if (!words.empty() && parseDigits(words[0].text)) words = words.subspan(1);
+  return words;
+}
+
+bool isDecoration(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (upper(c) >= 'A' && upper(c) <= 'Z') || static_cast<signed char>(c) < 0;
+  });
+}
+
+class ListReader {
+ public:
+  ListReader(Context& context, FileId file, UnitAssembler& units)
+      : context_(context), file_(file), builder_(context, file, [&units](Network&& network) { units.add(std::move(network)); }) {}
+
+  void read() {
+    LineReader lines(context_.sources, file_);
+    while (lines.next(line_)) {
+      splitWords(line_, kRules, words_);
+      const auto statement = statementOf(words_);
+      if (statement.empty())
+        comment();
+      else
+        readStatement(statement);
+    }
+    builder_.finish();
+  }
+
+ private:
+  void comment();
+  void readStatement(std::span<const Word> words);
+  bool checkCharacters(std::span<const Word> words);
+  bool checkOperands(Command command, std::span<const Word> words);
+  void dispatch(Command command, std::span<const Word> words, Place at);
+  const Row* functionOf(const Word& word);
+  void checkDialect(const Word& word);
+
+  Context& context_;
+  FileId file_;
+  NetworkBuilder builder_;
+  SourceLine line_;
+  LineWords words_;
+  bool inComment_ = false; // the line above was a comment with words
+};
+
+// The first line of a block of comment lines is the title of the network below it.
+void ListReader::comment() {
+  if (!words_.hasComment) {
+    inComment_ = false;
+  } else if (!isDecoration(words_.comment)) {
+    if (!inComment_) builder_.title(words_.comment);
+    inComment_ = true;
+  }
+}
+
+// Outside comments only printable ASCII may stand: the manual's scan has look-alikes of other alphabets.
+bool ListReader::checkCharacters(std::span<const Word> words) {
+  for (const Word& word : words) {
+    const auto bad = std::find_if(word.text.begin(), word.text.end(), [](char c) { return c < 0x21 || c > 0x7E; });
+    if (bad == word.text.end()) continue;
+    const auto offset = static_cast<uint32_t>(bad - word.text.begin());
+    size_t length = 1;
+    while (offset + length < word.text.size() && (static_cast<unsigned char>(word.text[offset + length]) & 0xC0) == 0x80) ++length;
+    const SourcePos begin{word.range.begin.value + offset};
+    const SourceRange range{begin, {begin.value + static_cast<uint32_t>(length)}};
+    if (static_cast<unsigned char>(*bad) < 0x80)
+      context_.diagnostics.report(Diag::BadCharacter, range) << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
+    else
+      context_.diagnostics.report(Diag::BadCharacter, range) << fmt::format("'{}'", word.text.substr(offset, length));
+    return false;
+  }
+  return true;
+}
+
+bool ListReader::checkOperands(Command command, std::span<const Word> words) {
+  const size_t wanted = operandCount(command);
+  if (words.size() - 1 == wanted) return true;
+  if (words.size() - 1 < wanted)
+    context_.diagnostics.report(Diag::BadOperand, words[0].range)
+        << words[0].text << fmt::format("complete statement: {} is missing", wantedOperand(command));
+  else
+    context_.diagnostics.report(Diag::BadOperand, words[wanted + 1].range)
+        << words[wanted + 1].text << fmt::format("part of this statement: {} takes {}", words[0].text, wanted == 0 ? "nothing" : wantedOperand(command));
+  return false;
+}
+
+void ListReader::readStatement(std::span<const Word> words) {
+  inComment_ = false;
+  const Place at{join(words.front().range, words.back().range), line_.number};
+  if (!checkCharacters(words)) return builder_.garbage(at);
+  const auto command = commandOf(words[0].text);
+  if (!command) {
+    context_.diagnostics.report(Diag::UnknownCommand, words[0].range) << words[0].text;
+    return builder_.garbage(at);
+  }
+  if (*command == Command::Symbol) return; // readListSymbols
+  if (!checkOperands(*command, words)) return builder_.garbage(at);
+  if (*command == Command::Dialect) return checkDialect(words[1]);
+  dispatch(*command, words, at);
+}
+
+void ListReader::checkDialect(const Word& word) {
+  if (!equalNoCase(word.text, "gsk")) context_.diagnostics.report(Diag::DialectConflict, word.range) << word.text << "gsk";
+}
+
+const Row* ListReader::functionOf(const Word& word) {
+  const auto number = parseDigits(word.text);
+  const Row* row = number ? findFunction(*number) : findFunction(word.text);
+  if (row == nullptr) context_.diagnostics.report(Diag::UnknownFunction, word.range) << word.text;
+  return row;
+}
+
+void ListReader::dispatch(Command command, std::span<const Word> words, Place at) {
+  switch (command) {
+    case Command::Ld: return builder_.contact(Logic::Load, false, words[1], at);
+    case Command::Ldi: return builder_.contact(Logic::Load, true, words[1], at);
+    case Command::And: return builder_.contact(Logic::And, false, words[1], at);
+    case Command::Ani: return builder_.contact(Logic::And, true, words[1], at);
+    case Command::Or: return builder_.contact(Logic::Or, false, words[1], at);
+    case Command::Ori: return builder_.contact(Logic::Or, true, words[1], at);
+    case Command::Orb: return builder_.block(Logic::OrBlock, at);
+    case Command::Anb: return builder_.block(Logic::AndBlock, at);
+    case Command::Out: return builder_.coil(Coil::Out, words[1], at);
+    case Command::Outi: return builder_.coil(Coil::OutInverted, words[1], at);
+    case Command::Set: return builder_.coil(Coil::Set, words[1], at);
+    case Command::Rst: return builder_.coil(Coil::Reset, words[1], at);
+    case Command::Func: return builder_.function(functionOf(words[1]), at);
+    case Command::Prm: return builder_.parameter(words[1], at);
+    case Command::Table: return builder_.tableRow(words[1], at);
+    case Command::Dialect:
+    case Command::Symbol: return;
+  }
+}
+
+} // namespace
+
+void readListSymbols(Context& context, FileId file) {
+  LineReader lines(context.sources, file);
+  SourceLine line;
+  LineWords words;
+  while (lines.next(line)) {
+    splitWords(line, kRules, words);
+    const auto statement = statementOf(words);
+    if (statement.empty() || !equalNoCase(statement[0].text, "symbol")) continue;
+    if (statement.size() == 3)
+      context.names.addSymbol(context.diagnostics, statement[1], statement[2], words.comment);
+    else
+      context.diagnostics.report(Diag::BadOperand, statement[0].range)
+          << statement[0].text << "complete statement: `symbol NAME ADDRESS`";
+  }
+}
+
+void readList(Context& context, FileId file, UnitAssembler& units) { ListReader(context, file, units).read(); }
+
+SourceRange lastLineOf(const SourceManager& sources, FileId file) {
+  const std::string_view text = sources.text(file);
+  const size_t last = text.find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return sources.range(file, 0, 0);
+  const size_t begin = text.rfind('\n', last);
+  return sources.range(file, begin == std::string_view::npos ? 0 : begin + 1, last + 1);
+}
+
+} // namespace rung::gsk

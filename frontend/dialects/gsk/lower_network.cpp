@@ -1,0 +1,173 @@
+// One network to one rung, and what lowering functions may use.
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/lower_module.h"
+#include "ir/support/check.h"
+
+namespace rung::gsk {
+namespace {
+
+ir::SpaceId spaceOf(const LevelState& level, const Address& address) { return level.spaces[static_cast<size_t>(address.area)]; }
+
+ir::Place placeOf(const LevelState& level, const Address& address) {
+  return {spaceOf(level, address), address.byte, address.isBit ? address.bit : 0u};
+}
+
+// The lines of a network as written.
+std::string linesOf(const SourceManager& sources, const Network& network) {
+  std::string text;
+  for (uint32_t line = network.firstLine; line <= network.lastLine; ++line) {
+    if (line != network.firstLine) text += '\n';
+    text += sources.lineText(network.file, line);
+  }
+  return text;
+}
+
+} // namespace
+
+void ModuleLowering::describe(ir::Rung& rung, const Network& network, uint64_t key) const {
+  rung.title = network.title;
+  rung.sourceText = linesOf(context_.sources, network);
+  rung.begin = {fileIndex_.at(network.file.index), network.firstLine, context_.sources.lineCol(network.range.begin).column};
+  rung.lastLine = network.lastLine;
+  rung.key = key;
+  rung.weight = std::max(network.steps, 1u);
+}
+
+std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network) {
+  std::vector<ir::ValueId> stack;
+  for (const LogicStep& step : network.logic) {
+    b.setLine(step.line);
+    if (step.kind == Logic::OrBlock || step.kind == Logic::AndBlock) {
+      const ir::ValueId top = stack.back();
+      stack.pop_back();
+      stack.back() = step.kind == Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
+      continue;
+    }
+    use(level, step.bit, 1);
+    ir::ValueId value = b.load(ir::Type::Bit, placeOf(level, step.bit));
+    if (step.negated) value = b.not_(value);
+    if (step.kind == Logic::Load)
+      stack.push_back(value);
+    else
+      stack.back() = step.kind == Logic::And ? b.and_(stack.back(), value) : b.or_(stack.back(), value);
+  }
+  return stack;
+}
+
+// Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0.
+void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value) {
+  if (network.com != kNone) value = b.and_(value, b.slotLoad(slot(slotPrefix(routine.unit, network.com) + "com", ir::Type::Bit, 0, true)));
+  for (const CoilStep& coil : network.coils) {
+    b.setLine(coil.line);
+    use(*routine.level, coil.bit, 1);
+    const ir::Place place = placeOf(*routine.level, coil.bit);
+    switch (coil.kind) {
+      case Coil::Out: b.store(place, value); break;
+      case Coil::OutInverted: b.store(place, b.not_(value)); break;
+      case Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
+      case Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
+    }
+  }
+}
+
+void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t index) {
+  const Network& network = program_.units[routine.unit].networks[index];
+  describe(rung, network, keys_[routine.unit][index]);
+  ir::RungBuilder b(*module_, rung);
+  const std::vector<ir::ValueId> conditions = lowerLogic(*routine.level, b, network);
+  ir::ValueId value = conditions.empty() ? ir::ValueId{} : conditions[0];
+  if (network.function.row != nullptr) {
+    const std::string prefix = slotPrefix(routine.unit, index);
+    FunctionLowering f(*this, routine, b, network, conditions, prefix);
+    b.setLine(network.function.line);
+    if (network.function.row->control == Control::Plain) b.note(network.function.row->info.mnemonic);
+    network.function.row->lower(f);
+    value = f.output();
+  }
+  if (!network.coils.empty()) lowerCoils(routine, b, network, value);
+}
+
+// Behind a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 goes on at the label.
+void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next) {
+  const ir::Rung& call = *(&rung - 1);
+  rung.title = "return of the call above";
+  rung.begin = call.begin;
+  rung.lastLine = call.lastLine;
+  rung.key = ~call.key;
+  ir::RungBuilder b(*module_, rung);
+  const ir::ValueId target = b.slotLoad(leaveTarget());
+  if (routine.unit != kLevel2) return b.ret(b.ne(target, b.i32(0)));
+  b.slotStore(leaveTarget(), b.i32(0));
+  std::vector<uint32_t> targets{next};
+  for (uint32_t network : program_.jumpTargets) targets.push_back(routine.rungOf[network]);
+  b.switchTo(target, std::move(targets));
+}
+
+// ---- FunctionLowering ----------------------------------------------------------------------------------------------
+
+FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& net,
+                                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix)
+    : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions), slotPrefix_(slotPrefix) {}
+
+ir::ValueId FunctionLowering::load(ir::Type type, const Address& address) {
+  module_.use(*routine_.level, address, std::max(ir::byteWidth(type), 1u));
+  return b.load(type, placeOf(*routine_.level, address));
+}
+
+void FunctionLowering::store(const Address& address, ir::ValueId value) {
+  module_.use(*routine_.level, address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
+  b.store(placeOf(*routine_.level, address), value);
+}
+
+ir::Window FunctionLowering::window(const Address& address, uint32_t bytes, uint32_t legal) const {
+  module_.use(*routine_.level, address, bytes);
+  return {spaceOf(*routine_.level, address), address.byte, legal};
+}
+
+ir::ValueId FunctionLowering::operand(size_t i, ir::Type type) {
+  return param(i).isAddress ? load(type, param(i).address) : b.constant(type, param(i).value);
+}
+
+ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t init) {
+  return module_.slot(fmt::format("{}{}", slotPrefix_, role), type, init, false);
+}
+
+ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
+
+ir::Window FunctionLowering::constants(const std::vector<uint8_t>& bytes, uint32_t legal) {
+  return {module_.constantSpace(bytes), 0, legal};
+}
+
+ir::ValueId FunctionLowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
+
+void FunctionLowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
+  ir::ValueId keep = oldOutput();
+  if (reset.valid()) {
+    const ir::ValueId free = b.not_(reset);
+    keep = b.and_(keep, free);
+    execute = b.and_(execute, free);
+  }
+  b.if_(execute);
+  const ir::ValueId result = body();
+  b.else_({&result, 1});
+  output_ = b.endIf({&keep, 1})[0];
+  b.slotStore(slot("W", ir::Type::Bit), output_);
+}
+
+void FunctionLowering::resettable(const std::function<ir::ValueId()>& body) {
+  latchedOutput(act(), conditions_[conditions_.size() - 2], body);
+}
+
+void FunctionLowering::when(ir::ValueId condition, const std::function<void()>& body) {
+  b.if_(condition);
+  body();
+  b.endIf();
+}
+
+uint32_t FunctionLowering::targetRung() const { return routine_.rungOf[network.target]; }
+ir::RoutineId FunctionLowering::callee() const { return routine_.level->routines[network.callee]; }
+ir::SlotId FunctionLowering::commonLine() { return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true); }
+ir::SlotId FunctionLowering::leaveTarget() { return module_.leaveTarget(); }
+
+} // namespace rung::gsk

@@ -1,0 +1,98 @@
+// The program between reading and lowering: units of networks. Both source forms end here; a network is what a command
+// list can say (P11): contacts in postfix order, then a function or nothing, then coils.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/gsk/address.h"
+#include "frontend/dialects/gsk/instructions.h"
+#include "ir/support/source.h"
+
+namespace rung::gsk {
+
+inline constexpr uint32_t kNone = UINT32_MAX;
+
+enum class Logic : uint8_t { Load, And, Or, OrBlock, AndBlock };
+
+struct LogicStep {
+  Logic kind = Logic::Load;
+  bool negated = false;
+  Address bit;
+  uint32_t line = 0;
+};
+
+enum class Coil : uint8_t { Out, OutInverted, Set, Reset };
+
+struct CoilStep {
+  Coil kind = Coil::Out;
+  Address bit;
+  uint32_t line = 0;
+};
+
+struct Param {
+  Kind kind = Kind::Byte;
+  bool isAddress = false;
+  Address address;
+  int64_t value = 0; // constant, number, mask, label, subprogram, format as a00n
+  SourceRange range;
+};
+
+// A function command with checked parameters.
+struct Function {
+  const Row* row = nullptr; // null: the network has none
+  std::vector<Param> params;
+  std::vector<int64_t> table;
+  uint32_t length = 1; // bytes, from the format
+  SourceRange range;
+  uint32_t line = 0;
+};
+
+struct Network {
+  FileId file;
+  uint32_t firstLine = 0;
+  uint32_t lastLine = 0;
+  SourceRange range; // its first command or its drawing
+  std::string_view title;
+  std::vector<LogicStep> logic;
+  Function function;
+  std::vector<CoilStep> coils;
+  uint32_t steps = 0;
+  bool bad = false;      // reported; never lowered
+  bool garbled = false;  // bad in a way that may hide a function command
+
+  // Filled in by analyse(): indices of networks in the unit, of a unit in the program.
+  uint32_t target = kNone;
+  uint32_t callee = kNone;
+  uint32_t com = kNone; // the COM network whose region this one is in
+};
+
+enum class UnitKind : uint8_t { Level1, Level2, Subprogram };
+
+struct Unit {
+  UnitKind kind = UnitKind::Level1;
+  uint32_t number = 0;    // subprograms
+  SourceRange range;      // what opens the unit
+  SourceRange nameRange;  // subprograms: the operand of SP
+  std::vector<Network> networks; // the last one is the unit's end: END1, END2 or SPE
+  // Filled in by analyse().
+  bool fromLevel1 = false;
+  bool fromLevel2 = false;
+  bool leaves = false; // a JMPC can leave it for Level 2
+};
+// "LEVEL1", "LEVEL2", "P5".
+std::string nameOf(const Unit& unit);
+
+inline constexpr uint32_t kLevel1 = 0;
+inline constexpr uint32_t kLevel2 = 1;
+
+struct Program {
+  std::vector<Unit> units{Unit{.kind = UnitKind::Level1}, Unit{.kind = UnitKind::Level2}};
+  std::vector<uint32_t> jumpTargets; // networks of Level 2 that a JMPC leads to; Network::target of a JMPC counts here
+};
+
+// The network as a command list, one command a line, operands without leading zeros: the text that keys are made of.
+std::string commandText(const Network& network);
+
+} // namespace rung::gsk

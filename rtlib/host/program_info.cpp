@@ -80,7 +80,7 @@ private:
     for (uint32_t i = 0; i < p_.copy_count; ++i) checkCopy(i);
     for (uint32_t i = 0; i < p_.chunk_count; ++i) checkChunk(i);
     for (uint32_t i = 0; i < p_.rung_count; ++i) {
-      index("the file of rung", i, p_.rungs[i].file, p_.file_count);
+      if (p_.rungs[i].file != RUNG_NONE) index("the file of rung", i, p_.rungs[i].file, p_.file_count);
       index("the routine of rung", i, p_.rungs[i].routine, p_.routine_count);
     }
     for (uint32_t i = 0; i < p_.task_count; ++i) checkTask(i);

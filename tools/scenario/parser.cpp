@@ -55,21 +55,6 @@ Value valueOf(const ScenarioWord& word) {
   return value;
 }
 
-// 250ms, 2s, 500us, 1.5s; nothing else.
-std::optional<int64_t> durationOf(std::string_view text) {
-  struct Unit {
-    std::string_view name;
-    double us;
-  };
-  for (const Unit unit : {Unit{"ms", 1e3}, Unit{"us", 1.0}, Unit{"s", 1e6}}) {
-    if (!text.ends_with(unit.name)) continue;
-    const auto number = parseReal(text.substr(0, text.size() - unit.name.size()));
-    if (!number || !(*number >= 0) || *number * unit.us > 9e15) return std::nullopt;
-    return static_cast<int64_t>(*number * unit.us + 0.5);
-  }
-  return std::nullopt;
-}
-
 class LineParser {
  public:
   LineParser(Statement& statement, std::vector<ScenarioWord> words) : s_(statement), words_(std::move(words)) {}
@@ -107,7 +92,7 @@ class LineParser {
   }
   bool takeDuration() {
     if (done()) return fail("expected a duration such as 250ms");
-    const auto us = durationOf(words_[next_].text);
+    const auto us = parseDuration(words_[next_].text);
     if (!us) return fail(fmt::format("'{}' is no duration: expected a number with us, ms or s", words_[next_].text));
     s_.microseconds = *us;
     ++next_;
@@ -268,6 +253,20 @@ std::string split(std::string_view line, std::vector<ScenarioWord>& words) {
 }
 
 } // namespace
+
+std::optional<int64_t> parseDuration(std::string_view text) {
+  struct Unit {
+    std::string_view name;
+    double us;
+  };
+  for (const Unit unit : {Unit{"ms", 1e3}, Unit{"us", 1.0}, Unit{"s", 1e6}}) {
+    if (!text.ends_with(unit.name)) continue;
+    const auto number = parseReal(text.substr(0, text.size() - unit.name.size()));
+    if (!number || !(*number >= 0) || *number * unit.us > 9e15) return std::nullopt;
+    return static_cast<int64_t>(*number * unit.us + 0.5);
+  }
+  return std::nullopt;
+}
 
 Scenario parse(std::string path, std::string_view text) {
   Scenario scenario;

@@ -2,6 +2,7 @@
 // each statement; what a name or a key means is the dialect's business and is decided when the scenario runs.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -58,5 +59,8 @@ struct Scenario {
 };
 
 Scenario parse(std::string path, std::string_view text);
+
+// 250ms, 2s, 500us, 1.5s in microseconds; nothing for anything else.
+std::optional<int64_t> parseDuration(std::string_view text);
 
 } // namespace rung::scenario

@@ -126,7 +126,7 @@ typedef struct rung_chunk {
 
 typedef struct rung_rung_info {
   const char *title; /* the rung's comment, "" when there is none */
-  uint32_t file;     /* in `files` */
+  uint32_t file;     /* in `files`; RUNG_NONE: made by the compiler */
   uint32_t first_line;
   uint32_t last_line;
   uint32_t routine; /* in `routines` */

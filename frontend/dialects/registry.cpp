@@ -1,0 +1,35 @@
+// The list of dialects. A new dialect is a folder beside this file and a line here.
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "frontend/dialects/dialect.h"
+#include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/nct/nct.h"
+#include "frontend/dialects/technol/technol.h"
+#include "frontend/ladder/ladder.h"
+
+namespace rung::frontend {
+
+std::span<const Dialect* const> allDialects() {
+  static constexpr std::array<const Dialect*, 3> kAll = {&gsk::kGsk, &nct::kNct, &kTechnol};
+  return kAll;
+}
+
+const Dialect* findDialect(std::string_view name) {
+  for (const Dialect* dialect : allDialects())
+    if (dialect->name == name) return dialect;
+  return nullptr;
+}
+
+const Dialect* dialectOf(const SourceManager& sources, FileId file) {
+  if (const Dialect* named = findDialect(ladder::peekDialect(sources, file))) return named;
+  std::string name(sources.name(file));
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Dialect* dialect : allDialects())
+    for (std::string_view extension : dialect->extensions)
+      if (name.ends_with(extension)) return dialect;
+  return nullptr;
+}
+
+} // namespace rung::frontend

@@ -1,0 +1,93 @@
+// The CNC beside a GSK25i PLC: timer and counter presets as typed on their pages, messages of the A area.
+#include <charconv>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/model/nc_model.h"
+
+namespace rung::nc {
+namespace {
+
+constexpr uint32_t kTimers = 100;
+constexpr uint32_t kCounters = 100;
+constexpr uint32_t kSlowTimers = 20; // in units of 48 ms, the others of 8 ms (manual 5.3, l.1114)
+
+std::optional<uint32_t> number(std::string_view text) {
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// "tmr.3" with prefix "tmr." gives 3.
+std::optional<uint32_t> numberBehind(std::string_view key, std::string_view prefix) {
+  if (!key.starts_with(prefix)) return std::nullopt;
+  return number(key.substr(prefix.size()));
+}
+
+class GskModel final : public NcModel {
+public:
+  std::string config(std::string_view key, std::string_view value) override {
+    const auto amount = number(value);
+    if (!amount) return "expected a number, found '" + std::string(value) + "'";
+    if (const auto timer = numberBehind(key, "tmr."); timer && *timer >= 1 && *timer <= kTimers) {
+      const uint32_t unit = *timer <= kSlowTimers ? 48 : 8;
+      return preset("T", 2 * (*timer - 1), *amount / unit);
+    }
+    if (const auto counter = numberBehind(key, "ctr."); counter && *counter >= 1 && *counter <= kCounters)
+      return preset("C", 4 * (*counter - 1), *amount);
+    if (numberBehind(key, "param.")) return setQuantity(key, *amount);
+    return NcModel::config(key, value);
+  }
+
+  void powerOn(host::Instance& instance, PowerOn kind) override {
+    NcModel::powerOn(instance, kind);
+    for (const Preset& p : presets_)
+      instance.write(host::intRef(host::findSpace(instance.program(), p.area), p.byte, 16), p.value);
+  }
+
+  // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
+  std::vector<ShownMessage> messages(const host::Instance& instance) const override {
+    std::vector<ShownMessage> shown = board_.shown();
+    const uint32_t area = host::findSpace(instance.program(), "A");
+    if (area == RUNG_NONE) return shown;
+    for (uint32_t bit = 0; bit < instance.program().spaces[area].byte_count * 8; ++bit) {
+      if (instance.read(host::bitRef(area, bit / 8, bit % 8)) == 0) continue;
+      const uint32_t message = bit + 1;
+      shown.push_back({message, 0, 0, 0, false, std::string(host::messageText(instance.program(), message))});
+    }
+    return shown;
+  }
+
+protected:
+  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override {
+    const Signal* found = findSignal(gskSignals(), name);
+    if (found == nullptr) return std::nullopt;
+    const uint32_t space = host::findSpace(instance.program(), found->area);
+    if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
+    const uint32_t bytes = elementBytes(found->type);
+    if (bytes == 0) return std::nullopt;
+    return host::intRef(space, found->byteOffset, bytes * 8);
+  }
+
+private:
+  struct Preset {
+    const char* area;
+    uint32_t byte;
+    uint32_t value;
+  };
+
+  std::string preset(const char* area, uint32_t byte, uint32_t value) {
+    if (value > 0xFFFF) return "the preset is too large";
+    presets_.push_back({area, byte, value});
+    return {};
+  }
+
+  std::vector<Preset> presets_;
+};
+
+} // namespace
+
+std::unique_ptr<NcModel> makeGskModel() { return std::make_unique<GskModel>(); }
+
+} // namespace rung::nc

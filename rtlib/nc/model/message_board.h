@@ -1,0 +1,46 @@
+// What a simulated NC shows to its operator: the messages on the screen and the log. It takes what programs put into
+// their message queue.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+
+namespace rung::nc {
+
+struct ShownMessage {
+  uint32_t number = 0;
+  int32_t channel = 0;
+  int32_t index = 0;
+  int64_t value = 0; // the bits of a double when `real`
+  bool real = false;
+  std::string text;
+  bool operator==(const ShownMessage&) const = default;
+};
+
+class MessageBoard {
+public:
+  // Empties the instance's queue.
+  void take(host::Instance& instance);
+  void show(ShownMessage message);
+  // All messages of this number, or the one that has been shown longest.
+  void remove(uint32_t number);
+  void confirmOldest();
+  void log(std::string line) { log_.push_back(std::move(line)); }
+  void clear();
+
+  const std::vector<ShownMessage>& shown() const { return shown_; }
+  // Entries written since the last call.
+  std::vector<std::string> takeLog();
+  // Messages that the program's queue had no room for.
+  uint32_t lost() const { return lost_; }
+
+private:
+  std::vector<ShownMessage> shown_; // oldest first
+  std::vector<std::string> log_;
+  uint32_t lost_ = 0;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,77 @@
+// The simulated NC beside a running program: what the control's own software does around the PLC. One class a dialect; a scenario
+// or `rungc run` drives it. It knows the program only through its tables.
+//
+// Errors of the caller (an unknown key, a name that does not exist) come back as a text; "" means done.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/model/message_board.h"
+
+namespace rung::nc {
+
+enum class PowerOn : uint8_t { Cold, Warm };
+
+// The NC's part of a statement such as `event NAME KEY=VALUE`. Numbers and texts as the scenario gives them.
+struct NcArgument {
+  std::string key;
+  bool isText = false;
+  bool isReal = false;
+  int64_t integer = 0;
+  double real = 0;
+  std::string text;
+};
+
+class NcModel : public host::ScheduleHooks {
+public:
+  // Before the first power-on.
+  virtual std::string config(std::string_view key, std::string_view value);
+  virtual std::string connect(std::string_view source, std::string_view destination);
+
+  // Switches the program on: memory, presets, what the control runs before the first scan. Warm keeps what the dialect keeps.
+  virtual void powerOn(host::Instance& instance, PowerOn kind);
+  // What the control runs before a regular power-off.
+  virtual void powerOff(host::Instance& instance);
+
+  virtual void scan(host::Instance& instance);
+  virtual void slot(host::Instance& instance);
+  virtual void fast(host::Instance& instance);
+
+  // The place that `expect` reads and the one that `set` writes.
+  virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
+  virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const;
+
+  // Quantities of the NC itself, "NC.MPOS.1".
+  virtual std::string setQuantity(std::string_view name, double value);
+  virtual std::optional<double> quantity(std::string_view name) const;
+
+  virtual std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys);
+  virtual std::string blockDone(host::Instance& instance);
+  virtual std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
+  virtual std::string plcCommand(host::Instance& instance, std::string_view command);
+
+  // Messages on the screen now.
+  virtual std::vector<ShownMessage> messages(const host::Instance& instance) const;
+  MessageBoard& board() { return board_; }
+
+protected:
+  // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
+  virtual std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const;
+
+  MessageBoard board_;
+  std::map<std::string, double, std::less<>> quantities_;
+};
+
+// By rung_program::dialect; a plain model for a dialect that has none of its own.
+std::unique_ptr<NcModel> makeNcModel(std::string_view dialect);
+
+std::unique_ptr<NcModel> makeGskModel();
+std::unique_ptr<NcModel> makeNctModel();
+std::unique_ptr<NcModel> makeTechnolModel();
+
+} // namespace rung::nc

@@ -1,0 +1,133 @@
+// Generated C++: a small program built by hand goes through g++ and clang++ into a shared object and runs.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "codegen/cpp/cpp_emitter.h"
+#include "codegen/cpp/table_writer.h"
+#include "ir/core/builder.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/host/so_engine.h"
+
+namespace rung::codegen {
+namespace {
+
+using namespace ir;
+
+// MAIN: Y0.0 := X0.0 and not X0.1; a counter word counts passes while Y0.0 is on, by a call; a trap when it reaches 3.
+Module sampleModule() {
+  Module m;
+  m.name = "sample";
+  m.dialect = "gsk";
+  m.files = {"sample.pmc"};
+  m.faults = {"limit reached", "dead-loop"};
+  m.spaces = {{.name = "X", .unitBytes = 1, .units = 4, .flags = RUNG_SPACE_INPUT, .packedOnly = false},
+              {.name = "Y", .unitBytes = 1, .units = 4, .flags = RUNG_SPACE_OUTPUT, .packedOnly = false},
+              {.name = "D", .unitBytes = 1, .units = 16, .flags = 0, .packedOnly = false}};
+  m.symbols.push_back({.name = "LAMP", .comment = "", .space = SpaceId{1}, .byte = 0, .bit = 0});
+  m.safes.push_back({SpaceId{1}, 0, 4});
+  m.routines.resize(2);
+  m.routines[0].name = "MAIN";
+  m.routines[0].rungs.resize(2);
+  m.routines[1].name = "COUNT";
+  m.routines[1].rungs.resize(1);
+  const Place lamp{SpaceId{1}, 0, 0};
+  const Place count{SpaceId{2}, 4, 0};
+  Rung& first = m.routines[0].rungs[0];
+  first.title = "lamp \"one\"";
+  first.sourceText = "LD X0.0\nANI X0.1\nOUT Y0.0";
+  first.begin = {FileIndex{0}, 3, 1};
+  {
+    RungBuilder b(m, first);
+    b.store(lamp, b.and_(b.load(Type::Bit, {SpaceId{0}, 0, 0}), b.not_(b.load(Type::Bit, {SpaceId{0}, 0, 1}))));
+  }
+  {
+    RungBuilder b(m, m.routines[0].rungs[1]);
+    b.call(RoutineId{1}, b.load(Type::Bit, lamp));
+  }
+  {
+    RungBuilder b(m, m.routines[1].rungs[0]);
+    b.setLine(9);
+    const ValueId next = b.add(b.load(Type::I16, count), b.constant(Type::I16, 1));
+    b.trap(b.eq(next, b.constant(Type::I16, 3)), FaultId{0});
+    b.store(count, next);
+  }
+  m.tasks.push_back({.name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1000, .budgetFault = FaultId{1}, .begin = {}, .end = {}});
+  m.mainTask = TaskId{0};
+  m.scan = {{RUNG_STEP_ADVANCE, {}, 8000}, {RUNG_STEP_RUN, TaskId{0}, 1}, {RUNG_STEP_SLOT, {}, 0}};
+  return m;
+}
+
+std::string temporaryFile(const char* name) { return (std::filesystem::path(testing::TempDir()) / name).string(); }
+
+class BuiltWith : public testing::TestWithParam<const char*> {};
+
+TEST_P(BuiltWith, RunsCallsAndTraps) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const std::string path = temporaryFile("rung_cpp_test.so");
+  CppBuildOptions options;
+  options.compiler = GetParam();
+  const Result<void> built = buildCppSharedObject(emitCpp(layout, 42, {}), options, path);
+  ASSERT_TRUE(built.ok()) << built.error();
+  std::string error;
+  const auto engine = host::SoEngine::open(path, error);
+  ASSERT_NE(engine, nullptr) << error;
+  EXPECT_EQ(engine->program().code_hash, 42u);
+  EXPECT_EQ(engine->program().layout_hash, layout.hash());
+  host::Instance instance(engine->program());
+  instance.scan();
+  EXPECT_EQ(instance.read(*instance.resolve("Y0.0")), 0u);
+  instance.write(*instance.resolve("X0.0"), 1);
+  instance.scan();
+  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
+  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 1u);
+  instance.scan();
+  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u);
+  instance.scan();
+  EXPECT_TRUE(instance.faulted());
+  EXPECT_EQ(instance.fault().line, 9u);
+  EXPECT_NE(instance.faultText().find("limit reached"), std::string::npos);
+  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u) << "the trap comes before the store";
+  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 0u) << "outputs go to their safe state";
+}
+
+INSTANTIATE_TEST_SUITE_P(Compilers, BuiltWith, testing::Values("g++", "clang++-19"), [](const auto& info) {
+  return std::string(info.param).substr(0, 1) == "g" ? "Gcc" : "Clang";
+});
+
+TEST(CppEmitter, TextIsReadable) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const std::string text = emitCpp(layout, 42, {});
+  EXPECT_NE(text.find(R"(
+// MAIN.0 "lamp \"one\""
+//   LD X0.0
+//   ANI X0.1
+//   OUT Y0.0
+{
+#line 3 "sample.pmc"
+RUNG_LINE(
+  const bool v0 = RUNG_FLAG()"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("// LAMP Y[0.0]"), std::string::npos);
+}
+
+TEST(CppEmitter, AMissingCompilerIsAnErrorOfTheEnvironment) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  CppBuildOptions options;
+  options.compiler = "no-such-compiler";
+  const Result<void> built = buildCppSharedObject(emitCpp(layout, 0, {}), options, temporaryFile("none.so"));
+  ASSERT_FALSE(built.ok());
+  EXPECT_NE(built.error().find("no-such-compiler"), std::string::npos);
+}
+
+TEST(CppString, EscapesWhatALiteralCannotHold) {
+  EXPECT_EQ(cppString("a\"b\\c\n\x01?"), R"("a\"b\\c\012\001\?")");
+  EXPECT_EQ(cppString("\xC3\xA9" "1"), R"("\303\2511")");
+}
+
+} // namespace
+} // namespace rung::codegen

@@ -1,0 +1,70 @@
+// The benchmark's program (see workload.h).
+#include "tools/bench/workload.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <random>
+
+namespace rung::bench {
+namespace {
+
+constexpr uint32_t kFirstWord = 5100; // in the volatile user memory
+constexpr uint32_t kBitsAWord = 32;
+// Functions of the hand-written form; one function for everything takes a compiler minutes.
+constexpr size_t kRungsAFunction = 100;
+
+std::string address(uint32_t bit) { return fmt::format("{:04}.{:02}", wordOf(bit), bit % kBitsAWord); }
+std::string contact(const Contact& c) { return fmt::format("[{}{}]", c.negated ? "/" : "", address(c.bit)); }
+std::string term(const Contact& c) { return fmt::format("{}m[{}]", c.negated ? "!" : "", c.bit); }
+
+} // namespace
+
+uint32_t wordOf(uint32_t bit) { return kFirstWord + bit / kBitsAWord; }
+
+std::vector<WorkRung> drawRungs(uint32_t count, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto draw = [&] { return Contact{static_cast<uint32_t>(random() % (kInputs + count)), random() % 3 == 0}; };
+  std::vector<WorkRung> rungs(count);
+  for (WorkRung& rung : rungs) {
+    rung.first = draw();
+    rung.second = draw();
+    rung.parallel = random() % 2 == 0;
+    rung.third = draw();
+  }
+  return rungs;
+}
+
+std::string ladderText(const std::vector<WorkRung>& rungs) {
+  std::string out = "dialect nct\nmodule MAIN\n";
+  auto put = std::back_inserter(out);
+  for (uint32_t i = 0; i < rungs.size(); ++i) {
+    const WorkRung& r = rungs[i];
+    const std::string a = contact(r.first);
+    const std::string b = contact(r.second);
+    out += "\nrung\n";
+    if (!r.parallel) {
+      fmt::format_to(put, "|--{}--{}--{}--({})\n", a, b, contact(r.third), address(kInputs + i));
+      continue;
+    }
+    const size_t width = std::max(a.size(), b.size());
+    fmt::format_to(put, "|--{:-<{}}--+--{}--({})\n|--{:-<{}}--+\n", a, width, contact(r.third), address(kInputs + i), b, width);
+  }
+  return out;
+}
+
+std::string handWritten(const std::vector<WorkRung>& rungs) {
+  std::string out;
+  auto put = std::back_inserter(out);
+  size_t functions = 0;
+  for (size_t first = 0; first < rungs.size(); first += kRungsAFunction, ++functions) {
+    fmt::format_to(put, "static void part{}(bool *m) {{\n", functions);
+    for (size_t i = first; i < std::min(rungs.size(), first + kRungsAFunction); ++i)
+      fmt::format_to(put, "  m[{}] = ({} {} {}) & {};\n", kInputs + i, term(rungs[i].first), rungs[i].parallel ? "|" : "&", term(rungs[i].second), term(rungs[i].third));
+    out += "}\n";
+  }
+  out += "extern \"C\" __attribute__((visibility(\"default\"))) void scan(bool *m) {\n";
+  for (size_t i = 0; i < functions; ++i) fmt::format_to(put, "  part{}(m);\n", i);
+  return out + "}\n";
+}
+
+} // namespace rung::bench

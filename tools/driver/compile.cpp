@@ -1,0 +1,68 @@
+// Files to a laid-out program (see compile.h).
+#include "tools/driver/compile.h"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <iterator>
+
+#include "ir/passes/pipeline.h"
+#include "ir/support/check.h"
+#include "ir/support/hash.h"
+#include "ir/text/text.h"
+#include "ir/verify/verifier.h"
+
+namespace rung::driver {
+namespace {
+
+// An invalid module is an error of the compiler, never of the user's program.
+void checkModule(const ir::Module& module, ir::VerifyMode mode) {
+  const std::vector<ir::VerifyError> errors = ir::verify(module, mode);
+  RUNG_CHECK(errors.empty(), errors.empty() ? std::string() : ir::renderErrors(module, errors));
+}
+
+const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics) {
+  const SourceRange start = sources.range(files[0], 0, 0);
+  if (!request.dialect.empty()) {
+    const frontend::Dialect* named = frontend::findDialect(request.dialect);
+    if (named == nullptr) diagnostics.report(Diag::UnknownDialect, start) << request.dialect;
+    return named;
+  }
+  const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
+  if (found == nullptr) diagnostics.report(Diag::MissingDialect, start);
+  return found;
+}
+
+} // namespace
+
+Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names) {
+  std::vector<FileId> files;
+  for (const std::string& name : names) {
+    if (name == "-") {
+      files.push_back(sources.addBuffer("<stdin>", std::string(std::istreambuf_iterator<char>(std::cin), {})));
+      continue;
+    }
+    Result<FileId> file = sources.addFile(name);
+    if (!file.ok()) return file.failure();
+    files.push_back(file.value());
+  }
+  return files;
+}
+
+std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics) {
+  Compiled out;
+  out.dialect = chooseDialect(sources, files, request, diagnostics);
+  if (out.dialect == nullptr) return std::nullopt;
+  out.module = out.dialect->compile(sources, files, request.options, diagnostics);
+  if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
+  checkModule(*out.module, ir::VerifyMode::Built);
+  ir::PassOptions passes;
+  passes.optimise = request.optimise;
+  passes.instrument = request.instrument;
+  ir::runPasses(*out.module, passes);
+  checkModule(*out.module, ir::VerifyMode::Final);
+  out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
+  out.codeHash = hashBytes(ir::print(*out.module));
+  return out;
+}
+
+} // namespace rung::driver

@@ -1,0 +1,37 @@
+// From files to a laid-out program: read, choose the dialect, compile to the IR, verify, optimise, lay out.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frontend/dialects/dialect.h"
+#include "ir/layout/layout.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/source.h"
+
+namespace rung::driver {
+
+struct CompileRequest {
+  std::string dialect;              // empty: the files tell
+  frontend::CompileOptions options; // configuration and strictness
+  bool instrument = false;          // count and time rungs
+  bool optimise = true;
+  ir::LayoutOptions layout;
+};
+
+struct Compiled {
+  const frontend::Dialect* dialect = nullptr;
+  std::unique_ptr<ir::Module> module; // final, optimised
+  std::unique_ptr<ir::Layout> layout;
+  uint64_t codeHash = 0;              // of the IR's text
+};
+
+// Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
+Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
+
+// Nothing when the program has errors; they stand in `diagnostics`.
+std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics);
+
+} // namespace rung::driver

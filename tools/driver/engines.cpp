@@ -1,0 +1,127 @@
+// The engines (see engines.h).
+#include "tools/driver/engines.h"
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "codegen/cpp/cpp_emitter.h"
+#include "codegen/jit/jit_engine.h"
+#include "codegen/llvm/llvm_emitter.h"
+#include "ir/interp/interp_engine.h"
+#include "rtlib/host/so_engine.h"
+
+namespace rung::driver {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedEngine {
+  EngineKind kind;
+  std::string_view name;
+};
+constexpr std::array<NamedEngine, 4> kEngines = {{{EngineKind::Interp, "interp"}, {EngineKind::Cpp, "cpp"}, {EngineKind::Llvm, "llvm"}, {EngineKind::Jit, "jit"}}};
+
+// A loaded shared object under the name of the engine that made it; the file is needed no longer once it is loaded.
+class BuiltEngine final : public host::Engine {
+ public:
+  BuiltEngine(std::unique_ptr<host::SoEngine> loaded, std::string_view name) : loaded_(std::move(loaded)), name_(name) {}
+  const rung_program& program() const override { return loaded_->program(); }
+  std::string_view name() const override { return name_; }
+
+ private:
+  std::unique_ptr<host::SoEngine> loaded_;
+  std::string_view name_;
+};
+
+template <class Build> Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build build) {
+  std::string folder = (fs::temp_directory_path() / "rung-so-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) return failure("cannot make a temporary folder");
+  const std::string path = folder + "/program.so";
+  const Result<void> built = build(path);
+  std::string error;
+  std::unique_ptr<host::SoEngine> loaded = built.ok() ? host::SoEngine::open(path, error) : nullptr;
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  if (!built.ok()) return built.failure();
+  if (loaded == nullptr) return failure(error);
+  return std::unique_ptr<host::Engine>(new BuiltEngine(std::move(loaded), name));
+}
+
+codegen::LlvmOptions llvmOptions(const EngineOptions& options) {
+  codegen::LlvmOptions llvm;
+  llvm.level = options.optimise ? codegen::LlvmLevel::Opt : codegen::LlvmLevel::Fast;
+  llvm.sabotage = options.sabotage;
+  return llvm;
+}
+
+bool isInstalled(std::string_view program) {
+  const char* path = std::getenv("PATH");
+  std::string_view folders = path == nullptr ? "/usr/bin:/bin" : path;
+  while (!folders.empty()) {
+    const size_t end = std::min(folders.find(':'), folders.size());
+    std::error_code ignored;
+    if (end > 0 && fs::exists(fs::path(folders.substr(0, end)) / program, ignored)) return true;
+    folders.remove_prefix(std::min(end + 1, folders.size()));
+  }
+  return false;
+}
+
+} // namespace
+
+std::string_view engineName(EngineKind kind) { return kEngines[static_cast<size_t>(kind)].name; }
+
+std::optional<EngineKind> engineFromName(std::string_view name) {
+  for (const NamedEngine& engine : kEngines)
+    if (engine.name == name) return engine.kind;
+  return std::nullopt;
+}
+
+std::span<const EngineKind> allEngines() {
+  static constexpr std::array<EngineKind, 4> kAll = {EngineKind::Interp, EngineKind::Cpp, EngineKind::Llvm, EngineKind::Jit};
+  return kAll;
+}
+
+std::string defaultCppCompiler() {
+  if (const char* named = std::getenv("CXX"); named != nullptr && *named != 0) return named;
+  for (const char* candidate : {"clang++-19", "g++"})
+    if (isInstalled(candidate)) return candidate;
+  return "c++";
+}
+
+Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled, const EngineOptions& options) {
+  const ir::Layout& layout = *compiled.layout;
+  switch (kind) {
+    case EngineKind::Interp: return std::unique_ptr<host::Engine>(new ir::InterpEngine(layout, compiled.codeHash));
+    case EngineKind::Cpp:
+      return buildAndLoad(engineName(kind), [&](const std::string& path) {
+        codegen::CppOptions emit;
+        emit.sabotage = options.sabotage;
+        codegen::CppBuildOptions build;
+        build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
+        build.optimisation = options.optimise ? "-O2" : "-O0";
+        build.debugInfo = false;
+        return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build, path);
+      });
+    case EngineKind::Llvm:
+      return buildAndLoad(engineName(kind), [&](const std::string& path) { return codegen::buildLlvmSharedObject(layout, compiled.codeHash, llvmOptions(options), path); });
+    case EngineKind::Jit: {
+      codegen::JitOptions jit;
+      jit.code = llvmOptions(options);
+      jit.gdb = options.debugger;
+      Result<std::unique_ptr<codegen::JitEngine>> engine = codegen::compileJit(layout, compiled.codeHash, jit);
+      if (!engine.ok()) return engine.failure();
+      return std::unique_ptr<host::Engine>(std::move(engine).value());
+    }
+  }
+  return failure("unknown engine");
+}
+
+std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks) {
+  auto instance = std::make_unique<host::Instance>(engine.program(), hooks);
+  if (auto* interpreter = dynamic_cast<ir::InterpEngine*>(&engine)) instance->context().engine = interpreter->context();
+  return instance;
+}
+
+} // namespace rung::driver

@@ -1,0 +1,43 @@
+// The engines by name, and one of each kind for a compiled program.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "ir/support/result.h"
+#include "rtlib/host/engine.h"
+#include "rtlib/host/instance.h"
+#include "tools/driver/compile.h"
+
+namespace rung::driver {
+
+enum class EngineKind : uint8_t {
+  Interp, // the reference interpreter
+  Cpp,    // generated C++, built to a shared object and loaded
+  Llvm,   // LLVM object file, linked to a shared object and loaded
+  Jit,    // LLVM, compiled in the process
+};
+
+std::string_view engineName(EngineKind kind);
+std::optional<EngineKind> engineFromName(std::string_view name);
+std::span<const EngineKind> allEngines();
+
+struct EngineOptions {
+  bool optimise = true;                     // false: fastest compilation
+  bool debugger = false;                    // JIT: tell gdb about the code
+  std::string cppCompiler;                  // empty: the first of clang++-19, g++, c++ that is installed
+  std::optional<ir::OpCode> sabotage;       // for the tests of the comparison
+};
+
+// `compiled` outlives the engine.
+Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled, const EngineOptions& options);
+
+// An instance of the engine's program, with what an interpreter needs in its context.
+std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks);
+
+// The C++ compiler to use when none is named: $CXX, else the first installed of clang++-19, g++, c++.
+std::string defaultCppCompiler();
+
+} // namespace rung::driver

@@ -1,0 +1,101 @@
+// rungc build and rungc emit: a shared object, or any text on the way to it.
+#include <fmt/format.h>
+#include <iostream>
+
+#include "codegen/cpp/cpp_emitter.h"
+#include "codegen/llvm/llvm_emitter.h"
+#include "ir/text/text.h"
+#include "tools/driver/engines.h"
+#include "tools/rungc/commands.h"
+
+namespace rung::rungc {
+namespace {
+
+struct BuildOptions {
+  SourceOptions source;
+  std::string out;
+  std::string via = "llvm";
+  std::string target;
+  std::string cxx;
+  std::string what; // emit only
+  std::string level = "2";
+  bool debugInfo = false;
+  bool profile = false;
+};
+
+void addCodeOptions(CLI::App& command, BuildOptions& options) {
+  addSourceOptions(command, options.source);
+  addLevelOption(command, options.level);
+  command.add_flag("-g", options.debugInfo, "With debug information for the PLC source");
+  command.add_flag("--profile", options.profile, "Count and time every rung");
+  command.add_option("--target", options.target, "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
+}
+
+driver::CompileRequest requestOf(const BuildOptions& options) {
+  driver::CompileRequest request;
+  request.instrument = options.profile;
+  request.optimise = options.level != "0";
+  return request;
+}
+
+codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
+  codegen::LlvmOptions llvm;
+  llvm.level = options.level == "0" ? codegen::LlvmLevel::Fast : codegen::LlvmLevel::Opt;
+  llvm.debugInfo = options.debugInfo;
+  llvm.target = options.target;
+  return llvm;
+}
+
+int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
+  if (options.via == "llvm") {
+    const Result<void> built = codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options), options.out);
+    return built.ok() ? kOk : environmentError(built.error());
+  }
+  codegen::CppBuildOptions cpp;
+  cpp.compiler = !options.cxx.empty() ? options.cxx : options.target.empty() ? driver::defaultCppCompiler() : options.target + "-g++";
+  cpp.optimisation = options.level == "0" ? "-O0" : "-O2";
+  cpp.debugInfo = options.debugInfo;
+  const std::string text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
+  const Result<void> built = codegen::buildCppSharedObject(text, cpp, options.out);
+  return built.ok() ? kOk : environmentError(built.error());
+}
+
+int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
+  Result<std::string> text = failure("");
+  if (options.what == "cpp") text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
+  else if (options.what == "ir") text = ir::print(*compiled.module);
+  else if (options.what == "layout") text = compiled.layout->text();
+  else if (options.what == "llvm") text = codegen::emitLlvmIr(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
+  else text = codegen::emitAssembly(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
+  if (!text.ok()) return environmentError(text.error());
+  std::cout << text.value();
+  return kOk;
+}
+
+} // namespace
+
+void addBuild(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("build", "Compile a program to a shared object");
+  auto options = std::make_shared<BuildOptions>();
+  addCodeOptions(*command, *options);
+  command->add_option("-o,--output", options->out, "The shared object to write")->required();
+  command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")->check(CLI::IsMember({"llvm", "cpp"}));
+  command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
+  command->callback([options, &status] {
+    SourceManager sources;
+    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status)) status = buildObject(*compiled, *options);
+  });
+}
+
+void addEmit(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("emit", "Print a form of the program: C++, IR, layout, LLVM IR or assembly");
+  auto options = std::make_shared<BuildOptions>();
+  command->add_option("WHAT", options->what, "cpp, ir, layout, llvm or asm")->required()->check(CLI::IsMember({"cpp", "ir", "layout", "llvm", "asm"}));
+  addCodeOptions(*command, *options);
+  command->callback([options, &status] {
+    SourceManager sources;
+    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status)) status = emitText(*compiled, *options);
+  });
+}
+
+} // namespace rung::rungc

@@ -1,0 +1,41 @@
+// The subcommands of rungc. Each adds itself to the application and returns nothing; when the user names it, it stores
+// its exit status in `status`: 0 ok, 1 the program or scenario is wrong, 2 usage, 3 environment.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/driver/compile.h"
+
+namespace rung::rungc {
+
+enum ExitStatus { kOk = 0, kWrong = 1, kUsage = 2, kEnvironment = 3 };
+
+// What every command that compiles takes.
+struct SourceOptions {
+  std::vector<std::string> files;
+  std::string dialect;
+  std::vector<std::string> config; // KEY=VALUE
+  bool strict = false;
+  bool json = false;
+  std::string color = "auto";
+};
+
+void addSourceOptions(CLI::App& command, SourceOptions& options);
+// -O0 compiles fast, -O2 runs fast.
+void addLevelOption(CLI::App& command, std::string& level);
+// Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
+std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options, driver::CompileRequest request, int& status);
+// Prints "rungc: MESSAGE" and gives kEnvironment.
+int environmentError(const std::string& message);
+
+void addCheck(CLI::App& app, int& status);
+void addBuild(CLI::App& app, int& status);
+void addEmit(CLI::App& app, int& status);
+void addRun(CLI::App& app, int& status);
+void addTest(CLI::App& app, int& status);
+void addProfile(CLI::App& app, int& status);
+void addExplain(CLI::App& app, int& status);
+void addDoc(CLI::App& app, int& status);
+
+} // namespace rung::rungc

@@ -1,0 +1,67 @@
+// Options and steps that all compiling commands share.
+#include <fmt/format.h>
+#include <iostream>
+#include <unistd.h>
+
+#include "ir/support/diag_render.h"
+#include "tools/rungc/commands.h"
+
+namespace rung::rungc {
+
+void addSourceOptions(CLI::App& command, SourceOptions& options) {
+  command.add_option("FILE", options.files, "Source files in order (.lad, .pmc, .plc); - reads standard input")->required();
+  command.add_option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not tell");
+  command.add_option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated")->allow_extra_args(false);
+  command.add_flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
+  command.add_flag("--json", options.json, "Diagnostics as JSON on standard output");
+  command.add_option("--color", options.color, "Colours in diagnostics")->check(CLI::IsMember({"auto", "always", "never"}));
+}
+
+void addLevelOption(CLI::App& command, std::string& level) {
+  command.add_option("-O", level, "0: compile fast, 2: run fast")->check(CLI::IsMember({"0", "2"}))->capture_default_str();
+}
+
+int environmentError(const std::string& message) {
+  fmt::print(stderr, "rungc: {}\n", message);
+  return kEnvironment;
+}
+
+namespace {
+
+void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options) {
+  if (options.json) {
+    std::cout << renderJson(diagnostics, sources) << '\n';
+    return;
+  }
+  RenderOptions render;
+  render.color = options.color == "always" || (options.color == "auto" && isatty(STDERR_FILENO) != 0);
+  std::cerr << renderText(diagnostics, sources, render);
+}
+
+} // namespace
+
+std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options, driver::CompileRequest request, int& status) {
+  request.dialect = options.dialect;
+  request.options.strict = options.strict;
+  for (const std::string& pair : options.config) {
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      fmt::print(stderr, "rungc: --config takes KEY=VALUE, found '{}'\n", pair);
+      status = kUsage;
+      return std::nullopt;
+    }
+    request.options.config[pair.substr(0, equals)] = pair.substr(equals + 1);
+  }
+  Result<std::vector<FileId>> files = driver::addFiles(sources, options.files);
+  if (!files.ok()) {
+    status = environmentError(files.error());
+    return std::nullopt;
+  }
+  Diagnostics diagnostics;
+  std::optional<driver::Compiled> compiled = driver::compile(sources, files.value(), request, diagnostics);
+  printDiagnostics(diagnostics, sources, options);
+  status = compiled ? kOk : kWrong;
+  return compiled;
+}
+
+} // namespace rung::rungc

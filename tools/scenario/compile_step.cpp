@@ -1,0 +1,92 @@
+// The compiling part of a scenario (see compile_step.h).
+#include "tools/scenario/compile_step.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "ir/support/diag_render.h"
+
+namespace rung::scenario {
+namespace {
+
+struct Reported {
+  const Diagnostic* diagnostic;
+  uint32_t line; // 0: no place
+  bool expected = false;
+};
+
+std::vector<Reported> reportedOf(const Diagnostics& diagnostics, const SourceManager& sources) {
+  std::vector<Reported> out;
+  for (const Diagnostic* d : diagnostics.sorted()) out.push_back({d, d->range.valid() ? sources.lineCol(d->range.begin).line : 0});
+  return out;
+}
+
+std::string listOf(const std::vector<Reported>& reported, Severity severity) {
+  std::string text;
+  for (const Reported& r : reported)
+    if (r.diagnostic->severity == severity) text += fmt::format("{}{} (line {})", text.empty() ? "" : ", ", diagInfo(r.diagnostic->id).code, r.line);
+  return text.empty() ? "none" : text;
+}
+
+// Every expected diagnostic must be there.
+void checkExpected(const Scenario& scenario, std::vector<Reported>& reported, std::vector<Problem>& problems) {
+  for (const Statement& s : scenario.statements) {
+    if (s.kind != Kind::ExpectError && s.kind != Kind::ExpectWarning) continue;
+    const Severity severity = s.kind == Kind::ExpectError ? Severity::Error : Severity::Warning;
+    if (findDiag(s.name) == nullptr) {
+      problems.push_back({s.line, fmt::format("there is no diagnostic '{}'", s.name)});
+      continue;
+    }
+    bool found = false;
+    for (Reported& r : reported) {
+      if (r.diagnostic->severity != severity || diagInfo(r.diagnostic->id).code != s.name) continue;
+      if (s.number != 0 && s.number != r.line) continue;
+      found = r.expected = true;
+    }
+    if (!found)
+      problems.push_back({s.line, fmt::format("expected {} {}{}; reported: {}", severity == Severity::Error ? "error" : "warning", s.name,
+                                              s.number == 0 ? "" : fmt::format(" at line {}", s.number), listOf(reported, severity))});
+  }
+}
+
+} // namespace
+
+bool readsKey(const frontend::Dialect& dialect, std::string_view key) {
+  for (std::string_view known : dialect.configKeys)
+    if (known == key || (known.ends_with('*') && key.starts_with(known.substr(0, known.size() - 1)))) return true;
+  return false;
+}
+
+CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict, bool instrument) {
+  CompileStep step;
+  driver::CompileRequest request;
+  request.options.strict = strict;
+  request.instrument = instrument;
+  std::vector<std::string> names = programs;
+  bool errorExpected = false;
+  const std::filesystem::path folder = std::filesystem::path(scenario.path).parent_path();
+  for (const Statement& s : scenario.statements) {
+    if (s.kind == Kind::Program && programs.empty())
+      for (const std::string& file : s.words) names.push_back((folder / file).lexically_normal().string());
+    if (s.kind == Kind::Dialect) request.dialect = s.name;
+    if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
+    if (s.kind == Kind::Config) request.options.config[s.name] = s.value.text;
+    errorExpected |= s.kind == Kind::ExpectError;
+  }
+  SourceManager sources;
+  Result<std::vector<FileId>> files = driver::addFiles(sources, names);
+  if (!files.ok()) {
+    step.environment = files.error();
+    return step;
+  }
+  Diagnostics diagnostics;
+  step.program = driver::compile(sources, files.value(), request, diagnostics);
+  std::vector<Reported> reported = reportedOf(diagnostics, sources);
+  checkExpected(scenario, reported, step.problems);
+  if (!errorExpected && !step.program)
+    step.problems.push_back({scenario.statements[0].line, "the program has errors:\n" + renderText(diagnostics, sources)});
+  if (errorExpected) step.program.reset();
+  return step;
+}
+
+} // namespace rung::scenario

@@ -1,0 +1,24 @@
+// Compiles the program of a scenario with its configuration and checks its expect_error and expect_warning statements.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/driver/compile.h"
+#include "tools/scenario/scenario.h"
+
+namespace rung::scenario {
+
+struct CompileStep {
+  std::optional<driver::Compiled> program; // nothing when there is nothing to run: errors, expected or not
+  std::vector<Problem> problems;
+  std::string environment; // a file that cannot be read
+};
+
+// `programs`: instead of the files that the scenario names, when not empty.
+CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict, bool instrument);
+
+// Whether the compiler itself reads this configuration key; the rest is for the NC model.
+bool readsKey(const frontend::Dialect& dialect, std::string_view key);
+
+} // namespace rung::scenario

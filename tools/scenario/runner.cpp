@@ -1,0 +1,311 @@
+// The scenario runner (see runner.h).
+#include "tools/scenario/runner.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+
+#include "rtlib/host/compare.h"
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/model/nc_model.h"
+#include "tools/scenario/compile_step.h"
+#include "tools/scenario/values.h"
+
+namespace rung::scenario {
+namespace {
+
+using host::Instance;
+using host::Ref;
+
+// One engine's run of the scenario.
+struct Lane {
+  std::unique_ptr<host::Engine> engine;
+  std::unique_ptr<nc::NcModel> nc;
+  std::unique_ptr<Instance> instance;
+  std::vector<std::string> unreadLog;   // since the last expect_log
+  std::vector<rt::ServiceRequest> taken; // requests that expect_call consumed, oldest first
+  std::vector<Prepared> prepared;       // answers that wait for their request
+};
+
+// Lends the NC model's hooks and adds the scenario's prepared answers.
+class LaneHooks final : public host::ScheduleHooks {
+ public:
+  explicit LaneHooks(Lane& lane) : lane_(lane) {}
+  void onHook(Instance& instance, uint32_t work) override { lane_.nc->onHook(instance, work); }
+  void onFault(Instance& instance) override { lane_.nc->onFault(instance); }
+  bool respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    const ServiceSignature signature(host::serviceName(instance.program(), request.service));
+    for (size_t i = 0; i < lane_.prepared.size(); ++i) {
+      if (!matches(signature, request, lane_.prepared[i].service, lane_.prepared[i].keys)) continue;
+      reply = replyOf(signature, request.ticket, lane_.prepared[i].results);
+      lane_.prepared.erase(lane_.prepared.begin() + static_cast<std::ptrdiff_t>(i));
+      return true;
+    }
+    return lane_.nc->respond(instance, request, reply);
+  }
+
+ private:
+  Lane& lane_;
+};
+
+class Runner {
+ public:
+  Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {}
+
+  RunResult run() {
+    CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
+    result_.environment = step.environment;
+    result_.problems = step.problems;
+    if (step.program && result_.environment.empty() && result_.problems.empty() && startLanes(*step.program)) runStatements();
+    if (!lanes_.empty() && options_.instrument) result_.profile = profile::makeReport(lanes_[0].instance->program(), lanes_[0].instance->profile(), profile::nsPerTick());
+    result_.passed = result_.problems.empty() && result_.environment.empty();
+    return std::move(result_);
+  }
+
+ private:
+  void fail(const Statement& statement, std::string message) { result_.problems.push_back({statement.line, std::move(message)}); }
+
+  bool startLanes(const driver::Compiled& program) {
+    lanes_.reserve(options_.engines.size());
+    hooks_.reserve(options_.engines.size());
+    for (driver::EngineKind kind : options_.engines) {
+      Lane& lane = lanes_.emplace_back();
+      Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(kind, program, options_.engine);
+      if (!engine.ok()) {
+        result_.environment = engine.error();
+        return false;
+      }
+      lane.engine = std::move(engine).value();
+      lane.nc = nc::makeNcModel(lane.engine->program().dialect);
+      hooks_.push_back(std::make_unique<LaneHooks>(lane));
+      lane.instance = driver::makeInstance(*lane.engine, hooks_.back().get());
+      if (!configure(lane, *program.dialect)) return false;
+      lane.nc->powerOn(*lane.instance, nc::PowerOn::Cold);
+    }
+    return compare(scenario_.statements[0]);
+  }
+
+  bool configure(Lane& lane, const frontend::Dialect& dialect) {
+    for (const Statement& s : scenario_.statements) {
+      std::string problem;
+      if (s.kind == Kind::Config && !readsKey(dialect, s.name)) problem = lane.nc->config(s.name, s.value.text);
+      if (s.kind == Kind::Connect) problem = lane.nc->connect(s.words[0], s.words[1]);
+      if (problem.empty()) continue;
+      fail(s, problem);
+      return false;
+    }
+    return true;
+  }
+
+  void runStatements() {
+    for (const Statement& s : scenario_.statements) {
+      execute(s);
+      if (!result_.problems.empty()) return; // what follows would only repeat it
+    }
+    for (const Lane& lane : lanes_)
+      if (lane.instance->faulted() && !faultExpected_)
+        return fail(scenario_.statements.back(), fmt::format("[{}] the program stopped with a fault: {}", lane.engine->name(), lane.instance->faultText()));
+  }
+
+  // The engines must agree after every scan.
+  bool compare(const Statement& s) {
+    for (size_t i = 1; i < lanes_.size(); ++i)
+      if (const auto difference = host::firstDifference(*lanes_[0].instance, *lanes_[i].instance)) {
+        fail(s, fmt::format("engines disagree after scan {}: {} against {}: {}", result_.scans, lanes_[0].engine->name(), lanes_[i].engine->name(), *difference));
+        return false;
+      }
+    return true;
+  }
+
+  using Advance = void (nc::NcModel::*)(Instance&);
+  bool advanceOnce(const Statement& s, Advance advance) {
+    for (Lane& lane : lanes_) {
+      (lane.nc.get()->*advance)(*lane.instance);
+      for (std::string& line : lane.nc->board().takeLog()) lane.unreadLog.push_back(std::move(line));
+    }
+    ++result_.scans;
+    return compare(s);
+  }
+
+  void advance(const Statement& s, Advance how) {
+    for (uint64_t i = 0; i < s.count; ++i)
+      if (!advanceOnce(s, how)) return;
+  }
+
+  void runFor(const Statement& s) {
+    const int64_t end = lanes_[0].instance->nowUs() + s.microseconds;
+    while (lanes_[0].instance->nowUs() < end) {
+      const int64_t before = lanes_[0].instance->nowUs();
+      if (!advanceOnce(s, &nc::NcModel::scan)) return;
+      // A stopped or faulted program may leave the clock alone; its time goes on all the same.
+      if (lanes_[0].instance->nowUs() != before) continue;
+      for (Lane& lane : lanes_) lane.instance->advanceClock(end - before);
+    }
+  }
+
+  void restart(nc::PowerOn kind) {
+    for (Lane& lane : lanes_) {
+      if (kind == nc::PowerOn::Warm) lane.nc->powerOff(*lane.instance);
+      lane.nc->powerOn(*lane.instance, kind);
+      lane.unreadLog.clear();
+      lane.taken.clear();
+      lane.prepared.clear();
+    }
+    faultExpected_ = false;
+  }
+
+  // Calls act(lane) for every lane; a text it gives is a problem of this statement.
+  template <class Act> void forLanes(const Statement& s, Act act) {
+    for (Lane& lane : lanes_) {
+      const std::string problem = act(lane);
+      if (!problem.empty()) return fail(s, lanes_.size() > 1 ? fmt::format("[{}] {}", lane.engine->name(), problem) : problem);
+    }
+  }
+
+  void execute(const Statement& s);
+  std::string setValue(Lane& lane, const Statement& s);
+  std::string expectValue(Lane& lane, const Statement& s);
+  std::string expectMessage(Lane& lane, const Statement& s);
+  std::string expectLog(Lane& lane, const Statement& s);
+  std::string expectCall(Lane& lane, const Statement& s);
+  std::string expectNoCall(Lane& lane, const Statement& s);
+  std::string replyTo(Lane& lane, const Statement& s);
+  std::string expectFault(Lane& lane, const Statement& s);
+
+  const Scenario& scenario_;
+  const RunOptions& options_;
+  RunResult result_;
+  std::vector<Lane> lanes_;
+  std::vector<std::unique_ptr<LaneHooks>> hooks_;
+  bool faultExpected_ = false;
+};
+
+void Runner::execute(const Statement& s) {
+  switch (s.kind) {
+    case Kind::Program:
+    case Kind::Dialect:
+    case Kind::Config:
+    case Kind::Connect:
+    case Kind::Period:
+    case Kind::ExpectError:
+    case Kind::ExpectWarning: return; // done before the first scan
+    case Kind::Set: return forLanes(s, [&](Lane& lane) { return setValue(lane, s); });
+    case Kind::Scan: return advance(s, &nc::NcModel::scan);
+    case Kind::Fast: return advance(s, &nc::NcModel::fast);
+    case Kind::Slot: return advance(s, &nc::NcModel::slot);
+    case Kind::Run: return runFor(s);
+    case Kind::Expect:
+    case Kind::ExpectRange: return forLanes(s, [&](Lane& lane) { return expectValue(lane, s); });
+    case Kind::ExpectMessage: return forLanes(s, [&](Lane& lane) { return expectMessage(lane, s); });
+    case Kind::ExpectLog: return forLanes(s, [&](Lane& lane) { return expectLog(lane, s); });
+    case Kind::ExpectCall: return forLanes(s, [&](Lane& lane) { return expectCall(lane, s); });
+    case Kind::ExpectNoCall: return forLanes(s, [&](Lane& lane) { return expectNoCall(lane, s); });
+    case Kind::Reply: return forLanes(s, [&](Lane& lane) { return replyTo(lane, s); });
+    case Kind::Prepare:
+      return forLanes(s, [&](Lane& lane) {
+        lane.prepared.push_back({s.name, s.keys, s.results});
+        return std::string();
+      });
+    case Kind::BlockStart: return forLanes(s, [&](Lane& lane) { return lane.nc->blockStart(*lane.instance, arguments(s.keys)); });
+    case Kind::BlockDone: return forLanes(s, [&](Lane& lane) { return lane.nc->blockDone(*lane.instance); });
+    case Kind::Event: return forLanes(s, [&](Lane& lane) { return lane.nc->event(*lane.instance, s.name, arguments(s.keys)); });
+    case Kind::Plc: return forLanes(s, [&](Lane& lane) { return lane.nc->plcCommand(*lane.instance, s.name); });
+    case Kind::ColdStart: return restart(nc::PowerOn::Cold);
+    case Kind::WarmStart: return restart(nc::PowerOn::Warm);
+    case Kind::ExpectFault:
+      faultExpected_ = true;
+      return forLanes(s, [&](Lane& lane) { return expectFault(lane, s); });
+  }
+}
+
+std::string Runner::setValue(Lane& lane, const Statement& s) {
+  if (s.name.starts_with("NC.")) return lane.nc->setQuantity(std::string_view(s.name).substr(3), s.value.real);
+  const std::optional<Ref> place = lane.nc->writePlace(*lane.instance, s.name);
+  if (!place) return fmt::format("'{}' is no name of this program", s.name);
+  return writeValue(*lane.instance, *place, s.value);
+}
+
+std::string Runner::expectValue(Lane& lane, const Statement& s) {
+  Reading reading;
+  if (s.name.starts_with("NC.")) {
+    const auto quantity = lane.nc->quantity(std::string_view(s.name).substr(3));
+    if (!quantity) return fmt::format("the simulated NC has no quantity '{}'", s.name);
+    reading = realReading(*quantity);
+  } else {
+    const std::optional<Ref> place = lane.nc->readPlace(*lane.instance, s.name);
+    if (!place) return fmt::format("'{}' is no name of this program", s.name);
+    reading = readValue(*lane.instance, *place, s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real);
+  }
+  return s.kind == Kind::ExpectRange ? checkRange(reading, s) : checkValue(reading, s);
+}
+
+std::string Runner::expectMessage(Lane& lane, const Statement& s) {
+  std::string seen;
+  for (const nc::ShownMessage& message : lane.nc->messages(*lane.instance)) {
+    seen += fmt::format("{}{}", seen.empty() ? "" : ", ", message.number);
+    if (message.number != s.number) continue;
+    const std::string difference = s.on ? messageDifference(message, s.keys) : std::string();
+    if (!difference.empty()) return difference;
+    return s.on ? std::string() : fmt::format("message {} is displayed", s.number);
+  }
+  return s.on ? fmt::format("message {} is not displayed; there is {}", s.number, seen.empty() ? "none" : seen) : std::string();
+}
+
+std::string Runner::expectLog(Lane& lane, const Statement& s) {
+  for (size_t i = 0; i < lane.unreadLog.size(); ++i)
+    if (lane.unreadLog[i].find(s.value.text) != std::string::npos) {
+      lane.unreadLog.clear();
+      return {};
+    }
+  std::string seen;
+  for (const std::string& line : lane.unreadLog) seen += "\n  " + line;
+  return fmt::format("no log entry contains \"{}\"{}{}", s.value.text, seen.empty() ? "" : "; there are:", seen);
+}
+
+std::string Runner::expectCall(Lane& lane, const Statement& s) {
+  rt::ServiceRequest request;
+  const rt::ServiceRequest* next = lane.instance->services().peek();
+  if (next == nullptr) return fmt::format("no request waits; expected {}", s.name);
+  const ServiceSignature signature(host::serviceName(lane.instance->program(), next->service));
+  const std::string difference = requestDifference(signature, *next, s.name, s.keys);
+  if (!difference.empty()) return difference;
+  lane.instance->services().take(request);
+  lane.taken.push_back(request);
+  return {};
+}
+
+std::string Runner::expectNoCall(Lane& lane, const Statement& s) {
+  for (uint32_t i = 0; const rt::ServiceRequest* waiting = lane.instance->services().peek(i); ++i) {
+    const ServiceSignature signature(host::serviceName(lane.instance->program(), waiting->service));
+    if (s.name.empty() || signature.isNamed(s.name)) return fmt::format("a request {} waits", signature.name());
+  }
+  return {};
+}
+
+std::string Runner::replyTo(Lane& lane, const Statement& s) {
+  rt::ServiceRequest request;
+  if (!lane.taken.empty()) {
+    request = lane.taken.front();
+    lane.taken.erase(lane.taken.begin());
+  } else if (!lane.instance->services().take(request)) {
+    return "no request is pending";
+  }
+  const ServiceSignature signature(host::serviceName(lane.instance->program(), request.service));
+  for (const KeyValue& key : s.results)
+    if (key.key != "error" && signature.result(key.key) < 0) return fmt::format("{} has no result '{}'", signature.name(), key.key);
+  lane.instance->services().complete(replyOf(signature, request.ticket, s.results));
+  return {};
+}
+
+std::string Runner::expectFault(Lane& lane, const Statement& s) {
+  if (!lane.instance->faulted()) return fmt::format("the program runs; expected the fault \"{}\"", s.value.text);
+  const std::string text = lane.instance->faultText();
+  return text.find(s.value.text) != std::string::npos ? std::string() : fmt::format("the fault is \"{}\", expected \"{}\"", text, s.value.text);
+}
+
+} // namespace
+
+RunResult run(const Scenario& scenario, const RunOptions& options) { return Runner(scenario, options).run(); }
+
+} // namespace rung::scenario

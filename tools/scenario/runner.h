@@ -1,0 +1,31 @@
+// Runs a scenario on one or several engines in step. With several, all memory, messages, services and the fault of each are
+// compared with the first engine's after every scan, whatever the scenario expects.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rtlib/profile/profile.h"
+#include "tools/driver/engines.h"
+#include "tools/scenario/scenario.h"
+
+namespace rung::scenario {
+
+struct RunOptions {
+  std::vector<driver::EngineKind> engines; // at least one
+  driver::EngineOptions engine;
+  bool instrument = false;                 // profile counters are in the result
+  bool strict = false;
+  std::vector<std::string> programs;       // instead of the scenario's own program statement, when not empty
+};
+
+struct RunResult {
+  bool passed = false;
+  uint64_t scans = 0;
+  std::vector<Problem> problems; // why it failed, with the scenario's lines
+  std::string environment;       // not empty: it could not be run (no compiler, unreadable file)
+  profile::Report profile;       // of the first engine, when instrumented
+};
+
+RunResult run(const Scenario& scenario, const RunOptions& options);
+
+} // namespace rung::scenario

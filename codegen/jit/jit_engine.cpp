@@ -1,0 +1,163 @@
+// Compiles pieces of a program to objects and links them into the process (see jit_engine.h).
+#include "codegen/jit/jit_engine.h"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <llvm/ExecutionEngine/JITEventListener.h>
+#include <llvm/ExecutionEngine/Orc/Debugging/DebuggerSupport.h>
+#include <llvm/ExecutionEngine/Orc/LLJIT.h>
+#include <llvm/ExecutionEngine/Orc/RTDyldObjectLinkingLayer.h>
+#include <llvm/ExecutionEngine/SectionMemoryManager.h>
+#include <llvm/IR/LegacyPassManager.h>
+
+#include "codegen/jit/object_cache.h"
+#include "codegen/llvm/llvm_module.h"
+#include "ir/layout/program_image.h"
+
+namespace rung::codegen {
+
+using namespace ir;
+
+struct JitEngine::State {
+  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash) {}
+
+  ProgramImage image;
+  std::unique_ptr<llvm::orc::LLJIT> jit;
+  std::vector<rung_chunk_fn> functions; // by chunk
+  JitReport report;
+};
+
+namespace {
+
+// Small enough that two threads share the work and that memory stays flat, large enough that a piece's own cost vanishes.
+constexpr uint32_t kRungsPerPiece = 2048;
+
+std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
+
+std::vector<ModulePart> cutPieces(const Layout& layout) {
+  std::vector<ModulePart> pieces;
+  uint32_t rungs = kRungsPerPiece;
+  for (uint32_t i = 0; i < layout.chunks().size(); ++i) {
+    if (rungs >= kRungsPerPiece) {
+      pieces.push_back({.firstChunk = i, .tableName = fmt::format("rung_chunks_{}", pieces.size())});
+      rungs = 0;
+    }
+    ++pieces.back().chunkCount;
+    rungs += layout.chunks()[i].rungCount;
+  }
+  return pieces;
+}
+
+Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options, const ModulePart& piece) {
+  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options, MachineUse::Jit);
+  if (!machine.ok()) return machine.failure();
+  llvm::LLVMContext context;
+  Result<std::unique_ptr<llvm::Module>> module = buildModule(context, *machine.value(), layout, codeHash, options, piece);
+  if (!module.ok()) return module.failure();
+  runPasses(*module.value(), *machine.value(), options.level);
+  return generateCode(*module.value(), *machine.value(), llvm::CodeGenFileType::ObjectFile);
+}
+
+// Compiles or finds all pieces; `report` tells how many of each.
+class Compiler {
+ public:
+  Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine, JitReport& report)
+      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout)), objects_(pieces_.size()),
+        cache_(options.cacheFolder, options.cacheFolder.empty() ? 0 : cacheKey(layout, codeHash, options.code, machine)), report_(report) {}
+
+  Result<void> run() {
+    report_.modules = static_cast<uint32_t>(pieces_.size());
+    std::vector<std::thread> helpers;
+    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i) helpers.emplace_back([this] { work(); });
+    work();
+    for (std::thread& helper : helpers) helper.join();
+    if (!trouble_.empty()) return failure(trouble_);
+    return {};
+  }
+
+  const std::vector<ModulePart>& pieces() const { return pieces_; }
+  std::string& object(size_t piece) { return objects_[piece]; }
+
+ private:
+  void work() {
+    for (uint32_t i = next_++; i < pieces_.size(); i = next_++) {
+      if (std::optional<std::string> found = cache_.find(i)) {
+        objects_[i] = std::move(*found);
+        const std::lock_guard lock(mutex_);
+        ++report_.fromCache;
+        continue;
+      }
+      Result<std::string> made = compilePiece(layout_, codeHash_, options_.code, pieces_[i]);
+      Result<void> kept = made.ok() ? cache_.keep(i, made.value()) : Result<void>();
+      const std::lock_guard lock(mutex_);
+      if (!made.ok()) trouble_ = made.error();
+      else objects_[i] = std::move(made).value();
+      if (!kept.ok()) report_.cacheTrouble = kept.error();
+    }
+  }
+
+  const Layout& layout_;
+  uint64_t codeHash_;
+  const JitOptions& options_;
+  std::vector<ModulePart> pieces_;
+  std::vector<std::string> objects_;
+  ObjectCache cache_;
+  std::atomic<uint32_t> next_{0};
+  std::mutex mutex_; // of what follows
+  JitReport& report_;
+  std::string trouble_;
+};
+
+// JITLink is LLVM's newer linker, but only the older one gives perf the lines of functions that are not exported.
+Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
+  llvm::orc::LLJITBuilder builder;
+  builder.setPlatformSetUp(llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
+  if (options.perf)
+    builder.setObjectLinkingLayerCreator([&](llvm::orc::ExecutionSession& session, const llvm::Triple&) {
+      auto layer = std::make_unique<llvm::orc::RTDyldObjectLinkingLayer>(session, [] { return std::make_unique<llvm::SectionMemoryManager>(); });
+      if (llvm::JITEventListener* listener = llvm::JITEventListener::createPerfJITEventListener()) layer->registerJITEventListener(*listener);
+      if (options.gdb) layer->registerJITEventListener(*llvm::JITEventListener::createGDBRegistrationListener());
+      return layer;
+    });
+  llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> jit = builder.create();
+  if (!jit) return failure(textOf(jit.takeError()));
+  if (options.gdb && !options.perf)
+    if (llvm::Error error = llvm::orc::enableDebuggerSupport(**jit)) return failure(textOf(std::move(error)));
+  return std::move(*jit);
+}
+
+} // namespace
+
+JitEngine::JitEngine(std::unique_ptr<State> state) : state_(std::move(state)) {}
+JitEngine::~JitEngine() = default;
+const rung_program& JitEngine::program() const { return state_->image.program(); }
+const JitReport& JitEngine::report() const { return state_->report; }
+
+Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t codeHash, const JitOptions& options) {
+  if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
+  auto state = std::make_unique<JitEngine::State>(layout, codeHash);
+  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
+  if (!machine.ok()) return machine.failure();
+  Compiler compiler(layout, codeHash, options, describeMachine(*machine.value()), state->report);
+  if (Result<void> compiled = compiler.run(); !compiled.ok()) return compiled.failure();
+
+  Result<std::unique_ptr<llvm::orc::LLJIT>> linker = makeLinker(options);
+  if (!linker.ok()) return linker.failure();
+  state->jit = std::move(linker).value();
+  for (size_t i = 0; i < compiler.pieces().size(); ++i) {
+    const ModulePart& piece = compiler.pieces()[i];
+    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(compiler.object(i), piece.tableName);
+    if (llvm::Error error = state->jit->addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
+    llvm::Expected<llvm::orc::ExecutorAddr> table = state->jit->lookup(piece.tableName);
+    if (!table) return failure(textOf(table.takeError()));
+    const auto* functions = table->toPtr<const rung_chunk_fn*>();
+    state->functions.insert(state->functions.end(), functions, functions + piece.chunkCount);
+  }
+  state->image.program().chunk_fns = state->functions.data();
+  return std::unique_ptr<JitEngine>(new JitEngine(std::move(state)));
+}
+
+} // namespace rung::codegen

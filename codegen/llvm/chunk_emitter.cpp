@@ -1,0 +1,309 @@
+// Chunks, regions, exits and the host's functions (see chunk_emitter.h); operations with values stand in value_emitter.cpp.
+#include "codegen/llvm/chunk_emitter.h"
+
+#include <fmt/format.h>
+
+#include "ir/support/check.h"
+
+namespace rung::codegen {
+
+using namespace ir;
+
+ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugLines* lines)
+    : target_(target), layout_(layout), module_(layout.module()), options_(options), lines_(lines), abi_(target.getContext()),
+      builder_(target.getContext()), extendsWords_(llvm::Triple(target.getTargetTriple()).isRISCV64()) {
+  abi_.check(target.getDataLayout());
+}
+
+llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
+  const Chunk& place = layout_.chunks()[chunk];
+  const Routine& routine = module_.at(place.routine);
+  const Rung& first = routine.rungs[place.firstRung];
+  const std::string name = fmt::format("{}.{}", routine.name, place.firstRung);
+  auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(), {builder_.getPtrTy(), builder_.getPtrTy()}, false);
+  function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
+  function_->setDoesNotThrow();
+  function_->addFnAttr("frame-pointer", "all");
+  function_->addParamAttr(0, llvm::Attribute::NoAlias);
+  if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
+  mem_ = function_->getArg(0);
+  mem_->setName("mem");
+  ctx_ = function_->getArg(1);
+  ctx_->setName("ctx");
+  messageSpace_ = argsSpace_ = nullptr;
+  if (lines_ != nullptr) lines_->beginFunction(*function_, name, first.begin.file, first.begin.line);
+  builder_.SetInsertPoint(block("entry"));
+  for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i)
+    emitRung(routine.rungs[i], layout_.rungNumber(place.routine, i));
+  emitExit(exitOf(layout_, chunk));
+  return function_;
+}
+
+void ChunkEmitter::setLine(uint32_t line) {
+  if (lines_ != nullptr) builder_.SetCurrentDebugLocation(lines_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
+}
+
+void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
+  rung_ = &rung;
+  number_ = number;
+  values_.assign(rung.values.size(), nullptr);
+  for (const Op& op : rung.ops) {
+    setLine(op.line);
+    emitOp(op);
+  }
+  RUNG_CHECK(regions_.empty(), "regions are closed within their rung");
+}
+
+ChunkEmitter::Value* ChunkEmitter::spoil(OpCode code, Value* value) {
+  if (!sabotaged(code)) return value;
+  if (value->getType()->isDoubleTy())
+    return builder_.CreateBitCast(builder_.CreateXor(builder_.CreateBitCast(value, builder_.getInt64Ty()), 1), value->getType());
+  return builder_.CreateXor(value, llvm::ConstantInt::get(value->getType(), 1));
+}
+
+void ChunkEmitter::emitOp(const Op& op) {
+  switch (op.code) {
+    case OpCode::Store: return store(op);
+    case OpCode::StoreAt:
+    case OpCode::StoreBitAt: return storeAt(op);
+    case OpCode::SlotStore: return slotStore(op);
+    case OpCode::If: return openIf(op);
+    case OpCode::Else: return turnElse(op);
+    case OpCode::EndIf: return closeIf(op);
+    case OpCode::Loop: return openLoop(op);
+    case OpCode::EndLoop: return closeLoop(op);
+    case OpCode::Message: return message(op);
+    case OpCode::Trap: return trap(op);
+    case OpCode::Note: return;
+    case OpCode::ProfEnter: return profEnter(op);
+    case OpCode::ProfLeave: return profLeave(op);
+    default: break; // one result each; result() lists them
+  }
+  values_[op.result.index] = spoil(op.code, result(op));
+}
+
+// ---- regions -----------------------------------------------------------------------------------------------------
+
+void ChunkEmitter::openIf(const Op& op) {
+  llvm::BasicBlock* then = block("then");
+  llvm::BasicBlock* other = block("else");
+  builder_.CreateCondBr(spoil(op.code, arg(op, 0)), then, other);
+  regions_.push_back({.opener = &op, .head = builder_.GetInsertBlock(), .other = other, .end = other});
+  builder_.SetInsertPoint(then);
+}
+
+void ChunkEmitter::turnElse(const Op& op) {
+  Region& region = regions_.back();
+  for (int i = 0; i < op.argCount; ++i) region.yields.push_back(spoil(op.code, arg(op, i)));
+  // Without values a wrong else has to show in what runs: it falls into the second region.
+  const bool wrong = sabotaged(op.code) && op.argCount == 0;
+  region.end = block("endif");
+  builder_.CreateBr(wrong ? region.other : region.end);
+  region.firstExit = builder_.GetInsertBlock();
+  builder_.SetInsertPoint(region.other);
+}
+
+void ChunkEmitter::closeIf(const Op& op) {
+  const Region region = std::move(regions_.back());
+  regions_.pop_back();
+  std::vector<Value*> yields;
+  for (int i = 0; i < op.argCount; ++i) yields.push_back(spoil(op.code, arg(op, i)));
+  builder_.CreateBr(region.end);
+  llvm::BasicBlock* secondExit = builder_.GetInsertBlock();
+  builder_.SetInsertPoint(region.end);
+  for (size_t i = 0; i < op.resultCount; ++i) {
+    llvm::PHINode* phi = builder_.CreatePHI(yields[i]->getType(), 2);
+    phi->addIncoming(region.yields[i], region.firstExit);
+    phi->addIncoming(yields[i], secondExit);
+    values_[op.result.index + i] = phi;
+  }
+}
+
+void ChunkEmitter::openLoop(const Op& op) {
+  // A wrong loop makes one pass too few; one that has none, one too many.
+  const uint32_t count = !sabotaged(op.code) ? op.count : op.count > 0 ? op.count - 1 : 1;
+  std::vector<Value*> first{num(0)};
+  for (int i = 0; i < op.argCount; ++i) first.push_back(arg(op, i));
+  llvm::BasicBlock* before = builder_.GetInsertBlock();
+  Region region{.opener = &op, .head = block("loop"), .other = block("endloop"), .end = nullptr};
+  llvm::BasicBlock* body = block("pass");
+  builder_.CreateBr(region.head);
+  builder_.SetInsertPoint(region.head);
+  for (size_t i = 0; i < first.size(); ++i) {
+    region.phis.push_back(builder_.CreatePHI(first[i]->getType(), 2));
+    region.phis.back()->addIncoming(first[i], before);
+    values_[op.result.index + i] = region.phis.back();
+  }
+  builder_.CreateCondBr(builder_.CreateICmpULT(region.phis[0], num(count)), body, region.other);
+  builder_.SetInsertPoint(body);
+  regions_.push_back(std::move(region));
+}
+
+void ChunkEmitter::closeLoop(const Op& op) {
+  const Region region = std::move(regions_.back());
+  regions_.pop_back();
+  // Without values a wrong end has to show in what runs: it leaves after the first pass.
+  const bool wrong = sabotaged(op.code) && op.resultCount == 0;
+  llvm::BasicBlock* latch = builder_.GetInsertBlock();
+  if (!wrong) region.phis[0]->addIncoming(builder_.CreateAdd(region.phis[0], num(1)), latch);
+  for (size_t i = 1; i < region.phis.size(); ++i) region.phis[i]->addIncoming(arg(op, static_cast<int>(i) - 1), latch);
+  builder_.CreateBr(wrong ? region.other : region.head);
+  builder_.SetInsertPoint(region.other);
+  for (size_t i = 0; i < op.resultCount; ++i) values_[op.result.index + i] = spoil(op.code, region.phis[i + 1]);
+}
+
+// ---- host --------------------------------------------------------------------------------------------------------
+
+ChunkEmitter::Value* ChunkEmitter::scratch(Value*& kept, llvm::Type* type) {
+  if (kept == nullptr) {
+    llvm::IRBuilder<>::InsertPointGuard guard(builder_);
+    builder_.SetInsertPoint(&function_->getEntryBlock(), function_->getEntryBlock().begin());
+    kept = builder_.CreateAlloca(type);
+  }
+  return kept;
+}
+
+ChunkEmitter::Value* ChunkEmitter::callHost(AbiTypes::HostField function, llvm::Type* result, std::vector<Value*> args) {
+  args.insert(args.begin(), ctx_);
+  std::vector<llvm::Type*> types;
+  for (Value* value : args) types.push_back(value->getType());
+  Value* host = builder_.CreateLoad(builder_.getPtrTy(), ctxField(AbiTypes::kHost));
+  Value* pointer = builder_.CreateLoad(builder_.getPtrTy(), builder_.CreateStructGEP(abi_.hostApi, host, function));
+  llvm::CallInst* call = builder_.CreateCall(llvm::FunctionType::get(result, types, false), pointer, args);
+  call->setDoesNotThrow();
+  if (!extendsWords_) return call;
+  for (unsigned i = 0; i < types.size(); ++i)
+    if (types[i]->isIntegerTy(32)) call->addParamAttr(i, llvm::Attribute::SExt);
+  if (result->isIntegerTy(32)) call->addRetAttr(llvm::Attribute::SExt);
+  return call;
+}
+
+void ChunkEmitter::message(const Op& op) {
+  Value* space = scratch(messageSpace_, abi_.message);
+  const auto set = [&](AbiTypes::MessageField field, Value* value) { builder_.CreateStore(value, builder_.CreateStructGEP(abi_.message, space, field)); };
+  Value* value = arg(op, 3);
+  const bool real = value->getType()->isDoubleTy();
+  set(AbiTypes::kMessageOp, num(op.ref));
+  set(AbiTypes::kNumber, spoil(op.code, arg(op, 0)));
+  set(AbiTypes::kChannel, arg(op, 1));
+  set(AbiTypes::kIndex, arg(op, 2));
+  set(AbiTypes::kValue, real ? builder_.CreateBitCast(value, builder_.getInt64Ty()) : value);
+  set(AbiTypes::kReal, num(real ? 1 : 0));
+  set(AbiTypes::kRung, num(number_));
+  callHost(AbiTypes::kMessage, builder_.getVoidTy(), {space});
+}
+
+ChunkEmitter::Value* ChunkEmitter::serviceRequest(const Op& op) {
+  auto* array = llvm::ArrayType::get(builder_.getInt64Ty(), RUNG_MAX_SERVICE_ARGS);
+  Value* space = scratch(argsSpace_, array);
+  for (int i = 0; i < op.argCount; ++i)
+    builder_.CreateStore(arg(op, i), builder_.CreateConstInBoundsGEP2_32(array, space, 0, static_cast<unsigned>(i)));
+  return callHost(AbiTypes::kServiceRequest, builder_.getInt32Ty(), {num(op.ref), space, num(op.argCount)});
+}
+
+void ChunkEmitter::trap(const Op& op) {
+  llvm::BasicBlock* fault = block("fault");
+  llvm::BasicBlock* go = block("go");
+  builder_.CreateCondBr(spoil(op.code, arg(op, 0)), fault, go);
+  builder_.SetInsertPoint(fault);
+  Value* record = ctxField(AbiTypes::kFault);
+  const auto set = [&](AbiTypes::FaultField field, uint32_t value) { builder_.CreateStore(num(value), builder_.CreateStructGEP(abi_.fault, record, field)); };
+  set(AbiTypes::kFaultCode, op.ref);
+  set(AbiTypes::kFaultRung, number_);
+  set(AbiTypes::kFaultLine, op.line != 0 ? op.line : rung_->begin.line);
+  builder_.CreateRet(num(RUNG_PC_FAULT));
+  builder_.SetInsertPoint(go);
+}
+
+ChunkEmitter::Value* ChunkEmitter::profOfRung() {
+  Value* counters = builder_.CreateLoad(builder_.getPtrTy(), ctxField(AbiTypes::kProf));
+  return builder_.CreateConstInBoundsGEP1_64(abi_.prof, counters, number_);
+}
+
+// What programs may read without the help of the kernel: the cycle counter of x86, the steady counter of ARM64 and RISC-V.
+ChunkEmitter::Value* ChunkEmitter::ticks() {
+  const llvm::Triple triple(target_.getTargetTriple());
+  if (triple.isX86()) return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readcyclecounter, {});
+  if (triple.isAArch64() || triple.isRISCV()) return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readsteadycounter, {});
+  return builder_.getInt64(0);
+}
+
+void ChunkEmitter::profEnter(const Op& op) {
+  Value* prof = profOfRung();
+  builder_.CreateStore(ticks(), profField(prof, AbiTypes::kStarted));
+  if (!sabotaged(op.code)) return;
+  Value* count = profField(prof, AbiTypes::kCount);
+  builder_.CreateStore(builder_.CreateAdd(builder_.CreateLoad(builder_.getInt64Ty(), count), builder_.getInt64(1)), count);
+}
+
+void ChunkEmitter::profLeave(const Op& op) {
+  Value* prof = profOfRung();
+  llvm::Type* i64 = builder_.getInt64Ty();
+  const auto load = [&](AbiTypes::ProfField field) { return builder_.CreateLoad(i64, profField(prof, field)); };
+  const auto store = [&](AbiTypes::ProfField field, Value* value) { builder_.CreateStore(value, profField(prof, field)); };
+  Value* used = builder_.CreateSub(ticks(), load(AbiTypes::kStarted));
+  store(AbiTypes::kCount, builder_.CreateAdd(load(AbiTypes::kCount), builder_.getInt64(sabotaged(op.code) ? 2 : 1)));
+  store(AbiTypes::kTotal, builder_.CreateAdd(load(AbiTypes::kTotal), used));
+  Value* max = load(AbiTypes::kMax);
+  store(AbiTypes::kMax, builder_.CreateSelect(builder_.CreateICmpUGT(used, max), used, max));
+}
+
+// ---- exits -------------------------------------------------------------------------------------------------------
+
+void ChunkEmitter::returnToCaller() {
+  Value* spField = ctxField(AbiTypes::kSp);
+  Value* sp = builder_.CreateSub(builder_.CreateLoad(builder_.getInt32Ty(), spField), num(1));
+  builder_.CreateStore(sp, spField);
+  Value* index = builder_.CreateZExt(sp, builder_.getInt64Ty());
+  Value* entry = builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index);
+  builder_.CreateRet(builder_.CreateLoad(builder_.getInt32Ty(), entry));
+}
+
+void ChunkEmitter::returnTo(uint32_t chunk) {
+  if (chunk == RUNG_NONE) returnToCaller();
+  else builder_.CreateRet(num(chunk));
+}
+
+void ChunkEmitter::pushReturn(uint32_t chunk) {
+  Value* spField = ctxField(AbiTypes::kSp);
+  Value* sp = builder_.CreateLoad(builder_.getInt32Ty(), spField);
+  Value* index = builder_.CreateZExt(sp, builder_.getInt64Ty());
+  builder_.CreateStore(num(chunk), builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index));
+  builder_.CreateStore(builder_.CreateAdd(sp, num(1)), spField);
+}
+
+void ChunkEmitter::returnSwitch(const Exit& exit) {
+  llvm::Constant* table = llvm::ConstantDataArray::get(target_.getContext(), exit.targets);
+  auto* variable = new llvm::GlobalVariable(target_, table->getType(), true, llvm::GlobalValue::PrivateLinkage, table, "targets");
+  Value* value = values_[exit.value.index];
+  Value* index = builder_.CreateSelect(builder_.CreateICmpULT(value, num(exit.targets.size())), value, num(0));
+  Value* entry = builder_.CreateInBoundsGEP(builder_.getInt32Ty(), variable, builder_.CreateZExt(index, builder_.getInt64Ty()));
+  builder_.CreateRet(builder_.CreateLoad(builder_.getInt32Ty(), entry));
+}
+
+void ChunkEmitter::emitExit(const Exit& exit) {
+  setLine(rung_->transferLine);
+  if (exit.kind == TransferKind::Next) return returnTo(exit.otherwise);
+  if (exit.kind == TransferKind::Switch) return returnSwitch(exit);
+  if (exit.cond.valid()) {
+    llvm::BasicBlock* leave = block("leave");
+    llvm::BasicBlock* stay = block("stay");
+    builder_.CreateCondBr(values_[exit.cond.index], leave, stay);
+    builder_.SetInsertPoint(stay);
+    returnTo(exit.otherwise);
+    builder_.SetInsertPoint(leave);
+  }
+  switch (exit.kind) {
+    case TransferKind::Next:
+    case TransferKind::Switch:
+    case TransferKind::Goto: return returnTo(exit.taken);
+    case TransferKind::Call:
+      // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
+      if (exit.otherwise != RUNG_NONE) pushReturn(exit.otherwise);
+      return returnTo(exit.taken);
+    case TransferKind::Ret: return returnToCaller();
+    case TransferKind::End: builder_.CreateRet(num(RUNG_PC_DONE)); return;
+  }
+}
+
+} // namespace rung::codegen

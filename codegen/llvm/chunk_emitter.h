@@ -1,0 +1,115 @@
+// Writes chunks as LLVM functions, operation by operation: each value of a rung is one LLVM value, regions are blocks with
+// phis. Plain instructions stand only where LLVM's rule is the IR's rule (never one that may give poison); all other
+// arithmetic is a call of the functions of sem.hpp.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "codegen/llvm/abi_types.h"
+#include "codegen/llvm/debug_lines.h"
+#include "codegen/llvm/llvm_module.h"
+
+namespace rung::codegen {
+
+class ChunkEmitter {
+ public:
+  // `lines` may be null: no debug information.
+  ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugLines* lines);
+
+  llvm::Function* emit(uint32_t chunk);
+
+ private:
+  using Value = llvm::Value;
+
+  // An open if or loop.
+  struct Region {
+    const ir::Op* opener;
+    llvm::BasicBlock* head;  // if: the block that branches; loop: the block with the phis
+    llvm::BasicBlock* other; // if: begins the second region, or what follows; loop: what follows
+    llvm::BasicBlock* end;   // if: what follows
+    llvm::BasicBlock* firstExit = nullptr; // if: the end of the first region, once it is reached
+    std::vector<Value*> yields{};          // of the first region
+    std::vector<llvm::PHINode*> phis{};    // loop: number of the pass, carried values
+  };
+
+  void emitRung(const ir::Rung& rung, uint32_t number);
+  void emitOp(const ir::Op& op);
+  void emitExit(const ir::Exit& exit);
+  void setLine(uint32_t line);
+
+  // Operations with one result.
+  Value* result(const ir::Op& op);
+  Value* arithmetic(const ir::Op& op);
+  Value* shift(const ir::Op& op);
+  Value* divide(const ir::Op& op);
+  Value* callSem(const ir::Op& op);
+  Value* load(const ir::Op& op);
+  Value* loadAt(const ir::Op& op);
+  Value* loadBitAt(const ir::Op& op);
+
+  void store(const ir::Op& op);
+  void storeAt(const ir::Op& op);
+  void slotStore(const ir::Op& op);
+  struct Element;
+  Element element(const ir::Op& op, bool isBit);
+  Value* readFlag(Value* address);
+  Value* readBit(Value* address, Value* bit);
+  void writeBit(Value* address, Value* bit, Value* value);
+
+  void openIf(const ir::Op& op);
+  void turnElse(const ir::Op& op);
+  void closeIf(const ir::Op& op);
+  void openLoop(const ir::Op& op);
+  void closeLoop(const ir::Op& op);
+
+  void message(const ir::Op& op);
+  Value* serviceRequest(const ir::Op& op);
+  Value* callHost(AbiTypes::HostField function, llvm::Type* result, std::vector<Value*> args);
+  void trap(const ir::Op& op);
+  void profEnter(const ir::Op& op);
+  void profLeave(const ir::Op& op);
+  Value* ticks();
+
+  void returnTo(uint32_t chunk);
+  void returnToCaller();
+  void returnSwitch(const ir::Exit& exit);
+  void pushReturn(uint32_t chunk);
+
+  // The value, or a wrong one when this operation is to be sabotaged.
+  Value* spoil(ir::OpCode code, Value* value);
+  bool sabotaged(ir::OpCode code) const { return options_.sabotage == code; }
+
+  Value* arg(const ir::Op& op, int i) const { return values_[ir::arg(*rung_, op, i).index]; }
+  llvm::Type* type(ir::Type type) const;
+  Value* num(uint64_t value) { return builder_.getInt32(static_cast<uint32_t>(value)); }
+  // In the memory block.
+  Value* at(uint64_t offset) { return builder_.CreateConstInBoundsGEP1_64(builder_.getInt8Ty(), mem_, offset); }
+  Value* ctxField(unsigned field) { return builder_.CreateStructGEP(abi_.ctx, ctx_, field); }
+  Value* profField(Value* base, unsigned field) { return builder_.CreateStructGEP(abi_.prof, base, field); }
+  Value* profOfRung();
+  // Space for what is handed to the host; one a function.
+  Value* scratch(llvm::Value*& kept, llvm::Type* type);
+  llvm::BasicBlock* block(const char* name) { return llvm::BasicBlock::Create(target_.getContext(), name, function_); }
+
+  llvm::Module& target_;
+  const ir::Layout& layout_;
+  const ir::Module& module_;
+  const LlvmOptions& options_;
+  DebugLines* lines_;
+  AbiTypes abi_;
+  llvm::IRBuilder<> builder_;
+  bool extendsWords_; // the ABI wants 32-bit arguments and results sign-extended
+
+  // Of the chunk and the rung in hand.
+  llvm::Function* function_ = nullptr;
+  Value* mem_ = nullptr;
+  Value* ctx_ = nullptr;
+  Value* messageSpace_ = nullptr;
+  Value* argsSpace_ = nullptr;
+  const ir::Rung* rung_ = nullptr;
+  uint32_t number_ = 0;
+  std::vector<Value*> values_;
+  std::vector<Region> regions_;
+};
+
+} // namespace rung::codegen

@@ -1,0 +1,9 @@
+# cmake -DOUT=file -DFILES=file,... -P embed_version.cmake: a hash of the back end's own sources, for cached code.
+string(REPLACE "," ";" files "${FILES}")
+set(all "")
+foreach(file IN LISTS files)
+  file(SHA256 "${file}" one)
+  string(APPEND all "${one}")
+endforeach()
+string(SHA256 hash "${all}")
+file(WRITE "${OUT}" "// Made from the sources of codegen/llvm.\n#include \"codegen/llvm/embedded.h\"\n\nnamespace rung::codegen {\n\nstd::string_view llvmBackEndVersion() { return \"${hash}\"; }\n\n} // namespace rung::codegen\n")

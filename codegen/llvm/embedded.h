@@ -1,0 +1,13 @@
+// What the build makes for the LLVM back end.
+#pragma once
+#include <string_view>
+
+namespace rung::codegen {
+
+// LLVM bitcode of sem_bitcode.cpp.
+std::string_view semBitcode();
+
+// Changes whenever a source of the back end changes: code made by another version must not be taken from a cache.
+std::string_view llvmBackEndVersion();
+
+} // namespace rung::codegen

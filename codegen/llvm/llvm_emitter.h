@@ -1,0 +1,40 @@
+// LLVM back end: a module as LLVM IR, assembly, object file or shared object, for this machine or another. No compiler and
+// no linker is called: both work inside the process. This header is free of LLVM.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/layout/layout.h"
+#include "ir/support/result.h"
+
+namespace rung::codegen {
+
+enum class LlvmLevel : uint8_t {
+  Fast, // no passes, quickest code generation: to try a change at once
+  Opt,  // a few cheap passes and good code generation: to run
+};
+
+struct LlvmOptions {
+  LlvmLevel level = LlvmLevel::Opt;
+  bool debugInfo = true; // lines of the PLC source
+  std::string target;    // one of llvmTargets(); empty: this machine
+  // For the tests of the comparison only: this operation is emitted wrongly.
+  std::optional<ir::OpCode> sabotage;
+};
+
+// The triples that `target` may name.
+std::vector<std::string_view> llvmTargets();
+
+// `codeHash` goes into the program's tables. The text of emitLlvmIr is what the passes of the level leave.
+Result<std::string> emitLlvmIr(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
+Result<std::string> emitAssembly(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
+Result<std::string> emitObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
+
+// A `.so` that exports rung_program_v1 and needs no library (armv7: the helpers of libgcc for 64-bit division). Finished
+// under another name and then renamed: a host that has the old object loaded keeps it intact.
+Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, const std::string& outPath);
+
+} // namespace rung::codegen

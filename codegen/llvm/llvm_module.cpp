@@ -1,0 +1,120 @@
+// From a layout to an optimised llvm::Module (see llvm_module.h).
+#include "codegen/llvm/llvm_module.h"
+
+#include <unordered_set>
+
+#include <fmt/format.h>
+#include <llvm/Bitcode/BitcodeReader.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/Verifier.h>
+#include <llvm/Linker/Linker.h>
+#include <llvm/Passes/PassBuilder.h>
+#include <llvm/Support/MemoryBuffer.h>
+#include <llvm/Transforms/IPO/AlwaysInliner.h>
+#include <llvm/Transforms/InstCombine/InstCombine.h>
+#include <llvm/Transforms/Scalar/EarlyCSE.h>
+#include <llvm/Transforms/Scalar/SROA.h>
+#include <llvm/Transforms/Scalar/SimplifyCFG.h>
+
+#include "codegen/llvm/chunk_emitter.h"
+#include "codegen/llvm/embedded.h"
+#include "codegen/llvm/table_constants.h"
+#include "ir/layout/program_image.h"
+
+namespace rung::codegen {
+namespace {
+
+// The bitcode was made for another machine and with other options: nothing of that may stand in the way of inlining.
+void adopt(llvm::Function& function) {
+  function.setComdat(nullptr);
+  function.setLinkage(llvm::GlobalValue::InternalLinkage);
+  function.setAttributes({});
+  function.addFnAttr(llvm::Attribute::AlwaysInline);
+  function.addFnAttr("frame-pointer", "all");
+  function.setDoesNotThrow();
+  for (llvm::Instruction& instruction : llvm::instructions(function))
+    if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction)) call->setAttributes({});
+}
+
+// Adds the functions of sem.hpp that the module calls.
+Result<void> linkSem(llvm::Module& module) {
+  const llvm::MemoryBufferRef buffer(semBitcode(), "sem");
+  llvm::Expected<std::unique_ptr<llvm::Module>> sem = llvm::getLazyBitcodeModule(buffer, module.getContext());
+  if (!sem) return failure(fmt::format("LLVM cannot read its own bitcode: {}", llvm::toString(sem.takeError())));
+  std::unordered_set<const llvm::Function*> own;
+  for (const llvm::Function& function : module)
+    if (!function.isDeclaration()) own.insert(&function);
+  (*sem)->setTargetTriple(module.getTargetTriple());
+  (*sem)->setDataLayout(module.getDataLayout());
+  // Its notes on the machine it was made for would contradict ours.
+  for (const char* name : {"llvm.module.flags", "llvm.ident"})
+    if (llvm::NamedMDNode* node = (*sem)->getNamedMetadata(name)) node->eraseFromParent();
+  if (llvm::Linker::linkModules(module, std::move(*sem), llvm::Linker::LinkOnlyNeeded)) return failure("LLVM cannot link its own bitcode");
+  for (llvm::Function& function : module)
+    if (!function.isDeclaration() && !own.contains(&function)) adopt(function);
+  return {};
+}
+
+void addFlags(llvm::Module& module, const llvm::TargetMachine& machine) {
+  module.setTargetTriple(machine.getTargetTriple().str());
+  module.setDataLayout(machine.createDataLayout());
+  module.setPICLevel(llvm::PICLevel::BigPIC);
+  module.setFramePointer(llvm::FramePointerKind::All);
+  const std::string& abi = machine.Options.MCOptions.ABIName;
+  if (!abi.empty()) module.addModuleFlag(llvm::Module::Error, "target-abi", llvm::MDString::get(module.getContext(), abi));
+}
+
+llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions, const std::string& exported) {
+  auto* type = llvm::ArrayType::get(llvm::PointerType::getUnqual(module.getContext()), functions.size());
+  const auto linkage = exported.empty() ? llvm::GlobalValue::PrivateLinkage : llvm::GlobalValue::ExternalLinkage;
+  return new llvm::GlobalVariable(module, type, true, linkage, llvm::ConstantArray::get(type, functions), exported.empty() ? "chunks" : exported);
+}
+
+} // namespace
+
+Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine, const ir::Layout& layout,
+                                                  uint64_t codeHash, const LlvmOptions& options, const ModulePart& part) {
+  auto module = std::make_unique<llvm::Module>(layout.module().name, context);
+  addFlags(*module, machine);
+  std::optional<DebugLines> lines;
+  if (options.debugInfo) lines.emplace(*module, layout.module(), options.level == LlvmLevel::Opt);
+  ChunkEmitter emitter(*module, layout, options, lines ? &*lines : nullptr);
+  std::vector<llvm::Constant*> functions;
+  for (uint32_t i = 0; i < part.chunkCount; ++i) functions.push_back(emitter.emit(part.firstChunk + i));
+  if (lines) lines->finish();
+  llvm::GlobalVariable* table = addChunkTable(*module, functions, part.tableName);
+  if (part.tableName.empty()) {
+    const ir::ProgramImage image(layout, codeHash);
+    addProgramTables(*module, image.program(), table);
+  }
+  if (Result<void> linked = linkSem(*module); !linked.ok()) return linked.failure();
+  std::string text;
+  llvm::raw_string_ostream report(text);
+  if (llvm::verifyModule(*module, &report)) return failure(fmt::format("LLVM refuses the generated code: {}", text));
+  return module;
+}
+
+void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel level) {
+  if (level == LlvmLevel::Fast) return;
+  llvm::LoopAnalysisManager loops;
+  llvm::FunctionAnalysisManager functions;
+  llvm::CGSCCAnalysisManager components;
+  llvm::ModuleAnalysisManager modules;
+  llvm::PassBuilder builder(&machine);
+  builder.registerModuleAnalyses(modules);
+  builder.registerCGSCCAnalyses(components);
+  builder.registerFunctionAnalyses(functions);
+  builder.registerLoopAnalyses(loops);
+  builder.crossRegisterProxies(loops, functions, components, modules);
+  llvm::FunctionPassManager perFunction;
+  perFunction.addPass(llvm::SROAPass(llvm::SROAOptions::ModifyCFG));
+  perFunction.addPass(llvm::EarlyCSEPass(true));
+  perFunction.addPass(llvm::InstCombinePass());
+  perFunction.addPass(llvm::SimplifyCFGPass());
+  llvm::ModulePassManager passes;
+  passes.addPass(llvm::AlwaysInlinerPass(false));
+  passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(perFunction)));
+  passes.run(module, modules);
+}
+
+} // namespace rung::codegen

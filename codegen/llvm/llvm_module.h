@@ -1,0 +1,47 @@
+// Inside of the LLVM back end, shared with the JIT: from chunks to an optimised llvm::Module. The only header that
+// includes LLVM's; see llvm_emitter.h for what others use.
+#pragma once
+#include <memory>
+#include <string>
+
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/Module.h>
+#include <llvm/Target/TargetMachine.h>
+
+#include "codegen/llvm/llvm_emitter.h"
+
+namespace rung::codegen {
+
+enum class MachineUse : uint8_t {
+  File, // for any machine of the triple
+  Jit,  // for exactly this one
+};
+
+// Optimisation of the code generator follows the level.
+Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions& options, MachineUse use);
+
+// What goes into one module.
+struct ModulePart {
+  uint32_t firstChunk = 0;
+  uint32_t chunkCount = 0;
+  // Not empty: the module exports a table of its chunks' functions under this name. Empty: it is the whole program and
+  // exports rung_program_v1.
+  std::string tableName{};
+};
+
+// Verified; functions of sem.hpp are linked in. Fails only where LLVM refuses what we made.
+Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
+                                                  const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options,
+                                                  const ModulePart& part);
+
+// The passes of a level, before code generation.
+void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel level);
+
+// Assembly or an object file; the module is used up.
+Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type);
+
+// Target, processor, its features and the version of LLVM: what code depends on besides its source and options.
+std::string describeMachine(const llvm::TargetMachine& machine);
+
+} // namespace rung::codegen

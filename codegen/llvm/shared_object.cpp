@@ -1,0 +1,82 @@
+// Links an object file to a shared object inside the process (see llvm_emitter.h).
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <lld/Common/Driver.h>
+#include <llvm/Support/raw_ostream.h>
+
+#include "codegen/llvm/llvm_emitter.h"
+
+LLD_HAS_DRIVER(elf)
+
+namespace rung::codegen {
+namespace {
+
+// Bytes under a name that the linker can open; they are never on a disk.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view bytes) : file_(memfd_create("rung-object", MFD_CLOEXEC)) {
+    while (file_ >= 0 && !bytes.empty()) {
+      const ssize_t done = write(file_, bytes.data(), bytes.size());
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) {
+        close(file_);
+        file_ = -1;
+        return;
+      }
+      bytes.remove_prefix(static_cast<size_t>(done));
+    }
+  }
+  ~MemoryFile() {
+    if (file_ >= 0) close(file_);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  bool ok() const { return file_ >= 0; }
+  std::string path() const { return fmt::format("/proc/self/fd/{}", file_); }
+
+ private:
+  int file_;
+};
+
+Result<void> link(const std::string& object, const std::string& out, bool mayNeedHelpers) {
+  std::vector<const char*> args{"ld.lld", "-shared", "--hash-style=gnu", "--build-id=sha1", "-znow", "-zrelro"};
+  if (!mayNeedHelpers) args.push_back("-zdefs");
+  args.insert(args.end(), {"-o", out.c_str(), object.c_str()});
+  std::string text;
+  llvm::raw_string_ostream report(text);
+  // The linker keeps its state in globals.
+  static std::mutex one;
+  static bool usable = true;
+  const std::lock_guard lock(one);
+  if (!usable) return failure("the linker failed before and cannot run again in this process");
+  const lld::Result result = lld::lldMain(args, llvm::nulls(), report, {{lld::Gnu, &lld::elf::link}});
+  usable = result.canRunAgain;
+  if (result.retCode != 0) return failure(fmt::format("the linker failed: {}", text));
+  return {};
+}
+
+} // namespace
+
+Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, const std::string& outPath) {
+  Result<std::string> object = emitObject(layout, codeHash, options);
+  if (!object.ok()) return object.failure();
+  const MemoryFile file(object.value());
+  if (!file.ok()) return failure(fmt::format("cannot hold the object file in memory: {}", std::strerror(errno)));
+  const std::string unfinished = fmt::format("{}.{}.tmp", outPath, getpid());
+  std::error_code error;
+  if (Result<void> linked = link(file.path(), unfinished, options.target.starts_with("arm")); !linked.ok()) {
+    std::filesystem::remove(unfinished, error);
+    return linked.failure();
+  }
+  std::filesystem::rename(unfinished, outPath, error);
+  if (error) return failure(fmt::format("cannot write {}: {}", outPath, error.message()));
+  return {};
+}
+
+} // namespace rung::codegen

@@ -1,0 +1,104 @@
+// The machines that code is made for (see llvm_module.h).
+#include <mutex>
+
+#include <fmt/format.h>
+#include <llvm/Config/llvm-config.h>
+#include <llvm/IR/LegacyPassManager.h>
+#include <llvm/MC/TargetRegistry.h>
+#include <llvm/Support/TargetSelect.h>
+#include <llvm/TargetParser/Host.h>
+#include <llvm/TargetParser/SubtargetFeature.h>
+
+#include "codegen/llvm/llvm_module.h"
+
+namespace rung::codegen {
+namespace {
+
+// What Debian's ports take for granted.
+struct TargetRow {
+  std::string_view triple;
+  const char* cpu;
+  const char* features;
+  const char* abi;
+  bool hardFloat;
+};
+constexpr TargetRow kTargets[] = {
+    {"x86_64-linux-gnu", "x86-64", "", "", false},
+    {"aarch64-linux-gnu", "generic", "", "", false},
+    {"armv7-linux-gnueabihf", "generic", "+vfp3d16,-neon", "", true},
+    {"riscv64-linux-gnu", "generic-rv64", "+m,+a,+f,+d,+c", "lp64d", false},
+};
+
+void initialiseLlvm() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    llvm::InitializeAllTargetInfos();
+    llvm::InitializeAllTargets();
+    llvm::InitializeAllTargetMCs();
+    llvm::InitializeAllAsmPrinters();
+  });
+}
+
+// The row of this machine; for others than those of the table only the triple is known.
+TargetRow hostRow(const std::string& triple) {
+  for (const TargetRow& row : kTargets)
+    if (llvm::Triple(llvm::Triple::normalize(row.triple)).getArch() == llvm::Triple(triple).getArch()) return row;
+  return {triple, "", "", "", false};
+}
+
+std::string hostFeatures() {
+  llvm::SubtargetFeatures features;
+  for (const auto& feature : llvm::sys::getHostCPUFeatures()) features.AddFeature(feature.first(), feature.second);
+  return features.getString();
+}
+
+} // namespace
+
+std::vector<std::string_view> llvmTargets() {
+  std::vector<std::string_view> names;
+  for (const TargetRow& row : kTargets) names.push_back(row.triple);
+  return names;
+}
+
+Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions& options, MachineUse use) {
+  initialiseLlvm();
+  const std::string host = llvm::sys::getProcessTriple();
+  TargetRow row = hostRow(host);
+  if (!options.target.empty()) {
+    const auto* found = std::find_if(std::begin(kTargets), std::end(kTargets), [&](const TargetRow& r) { return r.triple == options.target; });
+    if (found == std::end(kTargets))
+      return failure(fmt::format("unknown target '{}'; known are {}", options.target, fmt::join(llvmTargets(), ", ")));
+    row = *found;
+  }
+  const std::string triple = llvm::Triple::normalize(row.triple);
+  std::string error;
+  const llvm::Target* target = llvm::TargetRegistry::lookupTarget(triple, error);
+  if (target == nullptr) return failure(error);
+
+  llvm::TargetOptions machineOptions;
+  machineOptions.AllowFPOpFusion = llvm::FPOpFusion::Strict;
+  machineOptions.MCOptions.ABIName = row.abi;
+  if (row.hardFloat) machineOptions.FloatABIType = llvm::FloatABI::Hard;
+  const llvm::CodeGenOptLevel level = options.level == LlvmLevel::Fast ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Less;
+  const bool jit = use == MachineUse::Jit;
+  std::unique_ptr<llvm::TargetMachine> machine(
+      target->createTargetMachine(jit ? host : triple, jit ? llvm::sys::getHostCPUName() : row.cpu, jit ? hostFeatures() : row.features,
+                                  machineOptions, llvm::Reloc::PIC_, std::nullopt, level, jit));
+  if (machine == nullptr) return failure(fmt::format("no code generator for '{}'", triple));
+  return machine;
+}
+
+Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type) {
+  llvm::SmallVector<char, 0> bytes;
+  llvm::raw_svector_ostream out(bytes);
+  llvm::legacy::PassManager passes;
+  if (machine.addPassesToEmitFile(passes, out, nullptr, type)) return failure("LLVM has no such output for this target");
+  passes.run(module);
+  return std::string(bytes.begin(), bytes.end());
+}
+
+std::string describeMachine(const llvm::TargetMachine& machine) {
+  return fmt::format("{} {} {} {}", machine.getTargetTriple().str(), machine.getTargetCPU().str(), machine.getTargetFeatureString().str(), LLVM_VERSION_STRING);
+}
+
+} // namespace rung::codegen

@@ -1,0 +1,255 @@
+// Operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
+#include "codegen/llvm/chunk_emitter.h"
+
+#include <fmt/format.h>
+
+#include "ir/support/check.h"
+
+namespace rung::codegen {
+
+using namespace ir;
+
+llvm::Type* ChunkEmitter::type(Type type) const {
+  llvm::LLVMContext& context = target_.getContext();
+  return type == Type::F64 ? llvm::Type::getDoubleTy(context) : llvm::Type::getIntNTy(context, bitWidth(type));
+}
+
+ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
+  switch (op.code) {
+    case OpCode::Const:
+      if (op.type == Type::F64) return builder_.CreateBitCast(builder_.getInt64(static_cast<uint64_t>(op.imm)), type(op.type));
+      return llvm::ConstantInt::get(type(op.type), static_cast<uint64_t>(op.imm));
+    case OpCode::Select: return builder_.CreateSelect(arg(op, 0), arg(op, 1), arg(op, 2));
+    case OpCode::ZExt: return builder_.CreateZExt(arg(op, 0), type(op.type));
+    case OpCode::SExt: return builder_.CreateSExt(arg(op, 0), type(op.type));
+    case OpCode::Trunc: return builder_.CreateTrunc(arg(op, 0), type(op.type));
+    case OpCode::FNeg: return builder_.CreateFNeg(arg(op, 0));
+    case OpCode::FAbs: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, arg(op, 0));
+    case OpCode::IntToF: return builder_.CreateSIToFP(arg(op, 0), type(op.type));
+    case OpCode::BitsToF:
+    case OpCode::FToBits: return builder_.CreateBitCast(arg(op, 0), type(op.type));
+    case OpCode::PopCount: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::ctpop, arg(op, 0));
+    case OpCode::Add:
+    case OpCode::Sub:
+    case OpCode::Mul:
+    case OpCode::Neg:
+    case OpCode::And:
+    case OpCode::Or:
+    case OpCode::Xor:
+    case OpCode::Not:
+    case OpCode::Eq:
+    case OpCode::Ne:
+    case OpCode::LtS:
+    case OpCode::LeS:
+    case OpCode::LtU:
+    case OpCode::LeU:
+    case OpCode::FEq:
+    case OpCode::FLt:
+    case OpCode::FLe: return arithmetic(op);
+    case OpCode::DivS:
+    case OpCode::DivU:
+    case OpCode::RemS:
+    case OpCode::RemU: return divide(op);
+    case OpCode::Shl:
+    case OpCode::ShrU:
+    case OpCode::ShrS: return shift(op);
+    case OpCode::BcdEncode:
+    case OpCode::BcdDecode:
+    case OpCode::FAdd:
+    case OpCode::FSub:
+    case OpCode::FMul:
+    case OpCode::FDiv:
+    case OpCode::FToInt:
+    case OpCode::FToIntNearest: return callSem(op);
+    case OpCode::Load: return load(op);
+    case OpCode::LoadAt: return loadAt(op);
+    case OpCode::LoadBitAt: return loadBitAt(op);
+    case OpCode::SlotLoad: {
+      Value* place = at(layout_.slot(SlotId{op.ref}));
+      if (op.type == Type::Bit) return readFlag(place);
+      return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
+    }
+    case OpCode::Now: return builder_.CreateLoad(builder_.getInt64Ty(), ctxField(AbiTypes::kNow));
+    case OpCode::ServiceRequest: return serviceRequest(op);
+    case OpCode::ServicePoll: return callHost(AbiTypes::kServicePoll, builder_.getInt32Ty(), {arg(op, 0)});
+    case OpCode::ServiceResult:
+      return callHost(AbiTypes::kServiceResult, builder_.getInt64Ty(), {arg(op, 0), num(static_cast<uint64_t>(op.imm))});
+    case OpCode::Store:
+    case OpCode::StoreAt:
+    case OpCode::StoreBitAt:
+    case OpCode::SlotStore:
+    case OpCode::If:
+    case OpCode::Else:
+    case OpCode::EndIf:
+    case OpCode::Loop:
+    case OpCode::EndLoop:
+    case OpCode::Message:
+    case OpCode::Trap:
+    case OpCode::Note:
+    case OpCode::ProfEnter:
+    case OpCode::ProfLeave: break;
+  }
+  RUNG_CHECK(false, "not an operation with one result");
+  return nullptr;
+}
+
+// ---- arithmetic --------------------------------------------------------------------------------------------------
+
+ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
+  Value* a = arg(op, 0);
+  if (op.code == OpCode::Neg) return builder_.CreateNeg(a);
+  if (op.code == OpCode::Not) return builder_.CreateNot(a);
+  Value* b = arg(op, 1);
+  if (op.code == OpCode::Add) return builder_.CreateAdd(a, b);
+  if (op.code == OpCode::Sub) return builder_.CreateSub(a, b);
+  if (op.code == OpCode::Mul) return builder_.CreateMul(a, b);
+  if (op.code == OpCode::And) return builder_.CreateAnd(a, b);
+  if (op.code == OpCode::Or) return builder_.CreateOr(a, b);
+  if (op.code == OpCode::Xor) return builder_.CreateXor(a, b);
+  if (op.code == OpCode::Eq) return builder_.CreateICmpEQ(a, b);
+  if (op.code == OpCode::Ne) return builder_.CreateICmpNE(a, b);
+  if (op.code == OpCode::LtS) return builder_.CreateICmpSLT(a, b);
+  if (op.code == OpCode::LeS) return builder_.CreateICmpSLE(a, b);
+  if (op.code == OpCode::LtU) return builder_.CreateICmpULT(a, b);
+  if (op.code == OpCode::LeU) return builder_.CreateICmpULE(a, b);
+  if (op.code == OpCode::FEq) return builder_.CreateFCmpOEQ(a, b);
+  if (op.code == OpCode::FLt) return builder_.CreateFCmpOLT(a, b);
+  RUNG_CHECK(op.code == OpCode::FLe, "an operation of LLVM's own");
+  return builder_.CreateFCmpOLE(a, b);
+}
+
+// By a number below the width LLVM's shifts are ours.
+ChunkEmitter::Value* ChunkEmitter::shift(const Op& op) {
+  const auto* count = llvm::dyn_cast<llvm::ConstantInt>(arg(op, 1));
+  if (count == nullptr || count->getZExtValue() >= bitWidth(op.type)) return callSem(op);
+  Value* a = arg(op, 0);
+  if (op.code == OpCode::Shl) return builder_.CreateShl(a, count->getZExtValue());
+  if (op.code == OpCode::ShrU) return builder_.CreateLShr(a, count->getZExtValue());
+  return builder_.CreateAShr(a, count->getZExtValue());
+}
+
+// By a number that is neither 0 nor -1 LLVM's divisions are ours.
+ChunkEmitter::Value* ChunkEmitter::divide(const Op& op) {
+  auto* divisor = llvm::dyn_cast<llvm::ConstantInt>(arg(op, 1));
+  if (divisor == nullptr || divisor->isZero() || divisor->isMinusOne()) return callSem(op);
+  Value* a = arg(op, 0);
+  if (op.code == OpCode::DivS) return builder_.CreateSDiv(a, divisor);
+  if (op.code == OpCode::DivU) return builder_.CreateUDiv(a, divisor);
+  if (op.code == OpCode::RemS) return builder_.CreateSRem(a, divisor);
+  return builder_.CreateURem(a, divisor);
+}
+
+ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
+  std::vector<Value*> args;
+  std::vector<llvm::Type*> types;
+  for (int i = 0; i < op.argCount; ++i) {
+    args.push_back(arg(op, i));
+    types.push_back(args.back()->getType());
+  }
+  const std::string name = fmt::format("rung_sem_{}_{}", opInfo(op.code).name, typeName(op.type));
+  llvm::CallInst* call = builder_.CreateCall(target_.getOrInsertFunction(name, llvm::FunctionType::get(type(op.type), types, false)), args);
+  call->setDoesNotThrow();
+  return call;
+}
+
+// ---- memory ------------------------------------------------------------------------------------------------------
+
+// A bit with a byte of its own is 0 or 1; to take its low bit is less work than to compare.
+ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
+  return builder_.CreateTrunc(builder_.CreateLoad(builder_.getInt8Ty(), address), builder_.getInt1Ty());
+}
+
+ChunkEmitter::Value* ChunkEmitter::readBit(Value* address, Value* bit) {
+  Value* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
+  return builder_.CreateIsNotNull(builder_.CreateAnd(byte, builder_.CreateShl(builder_.getInt8(1), bit)));
+}
+
+void ChunkEmitter::writeBit(Value* address, Value* bit, Value* value) {
+  Value* mask = builder_.CreateShl(builder_.getInt8(1), bit);
+  Value* others = builder_.CreateAnd(builder_.CreateLoad(builder_.getInt8Ty(), address), builder_.CreateNot(mask));
+  Value* own = builder_.CreateShl(builder_.CreateZExt(value, builder_.getInt8Ty()), bit);
+  builder_.CreateStore(builder_.CreateOr(others, own), address);
+}
+
+ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
+  if (op.type == Type::Bit) {
+    const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+    if (!place.wholeByte) return readBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)));
+    return readFlag(at(place.offset));
+  }
+  const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  return builder_.CreateAlignedLoad(type(op.type), at(offset), llvm::Align(1));
+}
+
+void ChunkEmitter::store(const Op& op) {
+  Value* value = spoil(op.code, arg(op, 0));
+  if (op.type == Type::Bit) {
+    const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+    if (!place.wholeByte) return writeBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)), value);
+    builder_.CreateStore(builder_.CreateZExt(value, builder_.getInt8Ty()), at(place.offset));
+    return;
+  }
+  const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  builder_.CreateAlignedStore(value, at(offset), llvm::Align(1));
+}
+
+void ChunkEmitter::slotStore(const Op& op) {
+  Value* value = spoil(op.code, arg(op, 0));
+  if (op.type == Type::Bit) value = builder_.CreateZExt(value, builder_.getInt8Ty());
+  builder_.CreateAlignedStore(value, at(layout_.slot(SlotId{op.ref})), llvm::Align(1));
+}
+
+// A place of a window that a computed index may miss.
+struct ChunkEmitter::Element {
+  Value* inside;  // whether the access is legal
+  Value* address; // legal in any case: of element 0 when the index misses
+  Value* bit;     // i8, where the access is one to a bit
+};
+
+ChunkEmitter::Element ChunkEmitter::element(const Op& op, bool isBit) {
+  const uint32_t unit = module_.spaces[op.ref].unitBytes;
+  const uint32_t base = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  Value* inside = builder_.CreateICmpULT(arg(op, 0), num(op.count));
+  if (isBit) inside = builder_.CreateAnd(inside, builder_.CreateICmpULT(arg(op, 1), num(unit * 8)));
+  const auto legal = [&](Value* index) {
+    return builder_.CreateZExt(builder_.CreateSelect(inside, index, num(0)), builder_.getInt64Ty());
+  };
+  Value* offset = builder_.CreateMul(legal(arg(op, 0)), builder_.getInt64(unit));
+  Value* bit = nullptr;
+  if (isBit) {
+    Value* number = legal(arg(op, 1));
+    offset = builder_.CreateAdd(offset, builder_.CreateLShr(number, 3));
+    bit = builder_.CreateTrunc(builder_.CreateAnd(number, 7), builder_.getInt8Ty());
+  }
+  return {inside, builder_.CreateInBoundsGEP(builder_.getInt8Ty(), at(base), offset), bit};
+}
+
+ChunkEmitter::Value* ChunkEmitter::loadAt(const Op& op) {
+  llvm::Constant* none = llvm::Constant::getNullValue(type(op.type));
+  if (op.count == 0) return none;
+  const Element place = element(op, false);
+  return builder_.CreateSelect(place.inside, builder_.CreateAlignedLoad(type(op.type), place.address, llvm::Align(1)), none);
+}
+
+ChunkEmitter::Value* ChunkEmitter::loadBitAt(const Op& op) {
+  if (op.count == 0) return builder_.getFalse();
+  const Element place = element(op, true);
+  return builder_.CreateAnd(place.inside, readBit(place.address, place.bit));
+}
+
+void ChunkEmitter::storeAt(const Op& op) {
+  if (op.count == 0) return;
+  const bool isBit = op.code == OpCode::StoreBitAt;
+  const Element place = element(op, isBit);
+  Value* value = spoil(op.code, arg(op, isBit ? 2 : 1));
+  llvm::BasicBlock* write = block("write");
+  llvm::BasicBlock* done = block("done");
+  builder_.CreateCondBr(place.inside, write, done);
+  builder_.SetInsertPoint(write);
+  if (isBit) writeBit(place.address, place.bit, value);
+  else builder_.CreateAlignedStore(value, place.address, llvm::Align(1));
+  builder_.CreateBr(done);
+  builder_.SetInsertPoint(done);
+}
+
+} // namespace rung::codegen

@@ -9,15 +9,15 @@
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 #include "ir/text/text.h"
-#include "ir/verify/verifier.h"
+#include "ir/verify/verify.h"
 
 namespace rung::driver {
 namespace {
 
 // An invalid module is an error of the compiler, never of the user's program.
-void checkModule(const ir::Module& module, ir::VerifyMode mode) {
+void checkModule(const ir::Module& module, ir::Mode mode) {
   const std::vector<ir::VerifyError> errors = ir::verify(module, mode);
-  RUNG_CHECK(errors.empty(), errors.empty() ? std::string() : ir::renderErrors(module, errors));
+  RUNG_CHECK(errors.empty(), ir::render(module, errors).c_str());
 }
 
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics) {
@@ -54,12 +54,12 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (out.dialect == nullptr) return std::nullopt;
   out.module = out.dialect->compile(sources, files, request.options, diagnostics);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
-  checkModule(*out.module, ir::VerifyMode::Built);
+  checkModule(*out.module, ir::Mode::Built);
   ir::PassOptions passes;
   passes.optimise = request.optimise;
   passes.instrument = request.instrument;
   ir::runPasses(*out.module, passes);
-  checkModule(*out.module, ir::VerifyMode::Final);
+  checkModule(*out.module, ir::Mode::Final);
   out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
   out.codeHash = hashBytes(ir::print(*out.module));
   return out;

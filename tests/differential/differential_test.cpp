@@ -1,0 +1,101 @@
+// The engines against the interpreter, which is the definition: every operation with boundary values, random modules, and
+// proof that the comparison would notice: an emitter that is wrong for one operation is caught, operation by operation.
+#include <gtest/gtest.h>
+
+#include "ir/passes/pipeline.h"
+#include "ir/random/random.h"
+#include "tests/support/differential.h"
+
+namespace rung {
+namespace {
+
+using driver::EngineKind;
+using driver::EngineOptions;
+using ir::OpCode;
+
+constexpr int kScans = 4;
+
+struct Variant {
+  EngineKind kind;
+  bool optimise;
+  const char* compiler;
+  const char* name;
+};
+constexpr Variant kVariants[] = {
+    {EngineKind::Cpp, false, "clang++-19 -fsanitize=undefined -fno-sanitize=alignment -fsanitize-trap=all", "CppO0Ubsan"},
+    {EngineKind::Cpp, true, "g++", "CppGcc"},
+    {EngineKind::Jit, false, "", "JitFast"},
+    {EngineKind::Jit, true, "", "JitOpt"},
+    {EngineKind::Llvm, true, "", "LlvmSo"},
+};
+
+std::optional<std::string> disagreement(const driver::Compiled& compiled, const Variant& variant, std::optional<OpCode> sabotage = {}) {
+  EngineOptions options;
+  options.optimise = variant.optimise;
+  options.cppCompiler = variant.compiler;
+  options.sabotage = sabotage;
+  auto reference = driver::makeEngine(EngineKind::Interp, compiled, {});
+  auto engine = driver::makeEngine(variant.kind, compiled, options);
+  if (!reference.ok()) return reference.error();
+  if (!engine.ok()) return engine.error();
+  return testing::firstDisagreement(*reference.value(), *engine.value(), kScans);
+}
+
+std::string opName(OpCode code) { return std::string(ir::opInfo(code).name); }
+
+class EveryOp : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(EveryOp, AgreesWithTheInterpreter) {
+  for (const ir::OpInfo& info : ir::allOps()) {
+    const auto difference = disagreement(testing::compiledFrom(ir::moduleForOp(info.code)), GetParam());
+    EXPECT_FALSE(difference) << info.name << ": " << *difference;
+  }
+}
+
+// What the tests above are worth: a wrong emitter does not pass them.
+TEST_P(EveryOp, AWrongEmitterIsCaught) {
+  for (const ir::OpInfo& info : ir::allOps()) {
+    if (info.code == OpCode::Note) continue; // a remark for readers does nothing that could be wrong
+    const auto difference = disagreement(testing::compiledFrom(ir::moduleForOp(info.code)), GetParam(), info.code);
+    EXPECT_TRUE(difference) << info.name << " is emitted wrongly, and nothing was noticed";
+  }
+}
+
+class RandomModules : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(RandomModules, AgreeWithTheInterpreter) {
+  const uint64_t seeds = GetParam().kind == EngineKind::Jit ? 150 : 12;
+  for (uint64_t seed = 1; seed <= seeds; ++seed) {
+    ir::Module module = ir::randomModule(seed);
+    if (seed % 2 == 0) ir::runPasses(module, {});
+    ir::LayoutOptions layout;
+    layout.expandBits = seed % 3 != 0;
+    layout.maxChunkRungs = seed % 5 == 0 ? 1 : 32;
+    const auto difference = disagreement(testing::compiledFrom(std::move(module), layout), GetParam());
+    EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
+  }
+}
+
+const auto kVariantName = [](const ::testing::TestParamInfo<Variant>& info) { return std::string(info.param.name); };
+INSTANTIATE_TEST_SUITE_P(Engines, EveryOp, ::testing::ValuesIn(kVariants), kVariantName);
+INSTANTIATE_TEST_SUITE_P(Engines, RandomModules, ::testing::ValuesIn(kVariants), kVariantName);
+
+// Optimised code means the same as the module it was made from.
+TEST(Passes, KeepTheMeaningOfRandomModules) {
+  for (uint64_t seed = 1000; seed < 1200; ++seed) {
+    ir::Module plain = ir::randomModule(seed);
+    ir::Module optimised = plain;
+    ir::runPasses(optimised, {});
+    ir::LayoutOptions packed;
+    packed.expandBits = false; // the passes may remove the only whole-byte access, and then the layouts differ
+    const driver::Compiled a = testing::compiledFrom(std::move(plain), packed);
+    const driver::Compiled b = testing::compiledFrom(std::move(optimised), packed);
+    auto first = driver::makeEngine(EngineKind::Interp, a, {});
+    auto second = driver::makeEngine(EngineKind::Interp, b, {});
+    const auto difference = testing::firstDisagreement(*first.value(), *second.value(), kScans);
+    EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
+  }
+}
+
+} // namespace
+} // namespace rung

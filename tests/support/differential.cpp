@@ -1,0 +1,57 @@
+// Two engines in step (see differential.h).
+#include "tests/support/differential.h"
+
+#include <fmt/format.h>
+
+#include "ir/support/hash.h"
+#include "ir/text/text.h"
+#include "rtlib/host/compare.h"
+
+namespace rung::testing {
+namespace {
+
+// Answers every second request in the same scan, so that programs see both kinds.
+class Responder final : public host::ScheduleHooks {
+ public:
+  bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    if (request.ticket % 2 == 0) return false;
+    reply.ticket = request.ticket;
+    reply.state = request.argCount % 3 == 0 ? uint32_t{RUNG_SERVICE_ERROR} : uint32_t{RUNG_SERVICE_DONE};
+    reply.resultCount = 4;
+    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = static_cast<int64_t>(i) * 1000 + (request.argCount > 0 ? request.args[0] : 7);
+    return true;
+  }
+};
+
+std::optional<std::string> firstCountDifference(const host::Instance& a, const host::Instance& b) {
+  for (size_t i = 0; i < a.profile().size(); ++i)
+    if (a.profile()[i].count != b.profile()[i].count)
+      return fmt::format("rung {} was counted {} times here, {} times there", i, a.profile()[i].count, b.profile()[i].count);
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& second, int scans) {
+  Responder answers;
+  const auto a = driver::makeInstance(first, &answers);
+  const auto b = driver::makeInstance(second, &answers);
+  for (int scan = 1; scan <= scans; ++scan) {
+    a->scan();
+    b->scan();
+    auto difference = host::firstDifference(*a, *b);
+    if (!difference) difference = firstCountDifference(*a, *b);
+    if (difference) return fmt::format("scan {}: {} against {}: {}", scan, first.name(), second.name(), *difference);
+  }
+  return std::nullopt;
+}
+
+driver::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options) {
+  driver::Compiled out;
+  out.module = std::make_unique<ir::Module>(std::move(module));
+  out.layout = std::make_unique<ir::Layout>(*out.module, options);
+  out.codeHash = hashBytes(ir::print(*out.module));
+  return out;
+}
+
+} // namespace rung::testing

@@ -1,0 +1,17 @@
+// Runs one program on two engines in step and tells the first difference, in anything that a user could see.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "rtlib/host/engine.h"
+#include "tools/driver/engines.h"
+
+namespace rung::testing {
+
+// Nothing when memory, messages, requests, faults and execution counts agree after each of `scans` scans.
+std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& second, int scans);
+
+// A module with its layout in the form that makeEngine takes.
+driver::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options = {});
+
+} // namespace rung::testing

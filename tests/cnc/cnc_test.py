@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""Tests of the LinuxCNC component in LinuxCNC itself: cnc_test.py CASE --module rung_hal.so --rungc RUNGC.
+
+Every case has its own namespaces: several run at once, nothing of the machine is touched and nothing is left behind.
+Exit status 77: cannot be tried here, and why.
+"""
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+MODULES = Path("/usr/lib/linuxcnc/modules")  # LinuxCNC loads from nowhere else
+SKIPPED = 77
+TIMEOUT = 90
+
+# LinuxCNC refuses root. Its lock file lies in /tmp, HAL's shared memory is System V's, its servers have fixed ports.
+INSIDE = """
+ip link set lo up
+mount --bind "$D/tmp" /tmp
+mount --bind {modules} "$D/original"
+mount --bind "$D/modules" {modules}
+cd "$D/home"
+exec runuser -u nobody -- env -i PATH=/usr/bin:/bin HOME="$D/home" LANG=C.UTF-8 "$@"
+"""
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(SKIPPED)
+
+
+def check_machine(module):
+    if not shutil.which("linuxcnc") or not MODULES.is_dir():
+        skip("LinuxCNC is not installed")
+    if not module:
+        skip("the component was not built: LinuxCNC's headers were missing, or a sanitizer is on")
+    if os.geteuid() != 0:
+        skip("needs root, to give each test its own namespaces")
+    for tool in ("unshare", "ip", "runuser", "mount"):
+        if not shutil.which(tool):
+            skip(f"{tool} is not installed")
+    if subprocess.run(unshare(["mount", "--bind", "/tmp", "/tmp"]), capture_output=True, check=False).returncode != 0:
+        skip("this system does not allow namespaces")
+
+
+def unshare(command):
+    return ["unshare", "--mount", "--ipc", "--pid", "--net", "--fork", "--kill-child", "--mount-proc", *command]
+
+
+class Bench:
+    """A folder with all that a session needs, readable by an ordinary user."""
+
+    def __init__(self, options, folder):
+        self.folder = Path(folder)
+        self.home = self.folder / "home"
+        for name in ("home", "tmp", "modules", "original"):
+            (self.folder / name).mkdir()
+        self.folder.chmod(0o755)
+        (self.folder / "tmp").chmod(0o1777)
+        for original in MODULES.iterdir():
+            (self.folder / "modules" / original.name).symlink_to(self.folder / "original" / original.name)
+        link = self.folder / "modules" / "rung_hal.so"
+        link.unlink(missing_ok=True)
+        shutil.copy(options.module, link)
+        self.rungc = options.rungc
+
+    def program(self, source):
+        subprocess.run([self.rungc, "build", source, "-o", self.home / "program.so"], check=True)
+
+    def file(self, name, text):
+        path = self.home / name
+        path.write_text(text.replace("@DIR@", str(self.home)), encoding="utf-8")
+        return path
+
+    def copy(self, source, name=None):
+        text = Path(source).read_text(encoding="utf-8")
+        path = self.file(name or Path(source).name, text)
+        shutil.copymode(source, path)
+
+    def run(self, *command):
+        for path in [self.home, *self.home.rglob("*")]:
+            shutil.chown(path, "nobody")
+        shell = ["sh", "-ec", INSIDE.format(modules=MODULES), "sh", *command]
+        done = subprocess.run(unshare(shell), env={**os.environ, "D": str(self.folder)}, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                              timeout=TIMEOUT, check=False)
+        print(done.stdout)
+        return done
+
+    def halrun(self, commands):
+        self.file("test.hal", commands)
+        return self.run("halrun", "test.hal")
+
+
+def expect(condition, what):
+    if not condition:
+        raise AssertionError(what)
+
+
+def session(bench, options):
+    """A whole LinuxCNC: spindle, coolant, tool change, a part program, emergency stop."""
+    bench.program(options.program)
+    bench.copy(options.map, "program.map")
+    for name in ("machine.ini", "machine.hal", "tool.tbl", "drive.py"):
+        bench.copy(HERE / name)
+    bench.run("linuxcnc", "-r", str(bench.home / "machine.ini"))
+    result = bench.home / "result.txt"
+    expect(result.exists(), "LinuxCNC did not start the driver")
+    expect(result.read_text(encoding="utf-8") == "passed", result.read_text(encoding="utf-8"))
+
+
+LOAD = """
+loadrt threads name1=servo period1=1000000
+loadrt rung_hal so=@DIR@/program.so map=@DIR@/program.map {options}
+addf {prefix}.scan servo
+start
+"""
+
+
+def shown(output, pin):
+    """Values of a pin in the outputs of `show pin`, in order."""
+    rows = [line.split() for line in output.splitlines()]
+    return [row[3] for row in rows if len(row) >= 5 and row[4] == pin]
+
+
+def fault(bench, _options):
+    """A program that loops for ever: the watchdog stops it, outputs go to 0, pins and a message tell."""
+    bench.program(HERE / "stuck.pmc")
+    bench.copy(HERE / "stuck.map", "program.map")
+    show = "loadusr -w sleep 0.2\nshow pin box\n"
+    done = bench.halrun(LOAD.format(options="name=box", prefix="box") + "setp box.number 77\nsetp box.run 1\n" + show +
+                        "setp box.stick 1\n" + show + "setp box.stick 0\n" + show + "show funct\n")
+    values = {pin: shown(done.stdout, "box." + pin) for pin in ("lamp", "value", "fault", "fault-line", "scans")}
+    expect(values["lamp"] == ["TRUE", "FALSE", "FALSE"], values)
+    expect([float(value) for value in values["value"]] == [77, 0, 0], values)
+    expect(values["fault"] == ["FALSE", "TRUE", "TRUE"], values)
+    lines = (HERE / "stuck.pmc").read_text(encoding="utf-8").splitlines()
+    loop = range(lines.index("FUNC LBL") + 1, lines.index("PRM  L1", lines.index("FUNC JMPB")) + 2)
+    expect(int(values["fault-line"][1], 0) in loop, values)
+    expect(int(values["scans"][0], 0) > 0, values)
+    expect("box: the program has stopped: dead-loop at " in done.stdout, "no message")
+    expect("stuck.pmc:" in done.stdout, "no source file in the message")
+
+
+def mistakes(bench, _options):
+    """What is wrong with the files is said when they are loaded, and nothing is loaded then."""
+    bench.program(HERE / "stuck.pmc")
+
+    def load(text, options="", prefix="rung"):
+        bench.file("program.map", text)
+        done = bench.halrun(LOAD.format(options=options, prefix=prefix))
+        expect(done.returncode != 0, "loaded in spite of the mistake")
+        return done.stdout
+
+    output = load("in bit a X0.0\nin bit b Y0.0\nsend a rise M 3\nout bit c NOWHERE\n")
+    expect("program.map:2: Y0.0 is an output of the program; it cannot be written" in output, "line 2")
+    expect("program.map:3: there is no channel 'M' above this line" in output, "line 3")
+    expect("program.map:4: NOWHERE: the program has no such name or address" in output, "line 4")
+    expect("cannot make pin rung.fault" in load("out bit fault Y0.0\n"), "a reserved name")
+    expect("rung_hal: cannot load /nowhere.so: " in load("", "so=/nowhere.so"), "a missing program")
+    expect("is no compiled PLC program" in load("", "so=/usr/lib/linuxcnc/modules/and2.so"), "not a program")
+    expect("rung_hal: cannot read /nowhere.map" in load("", "map=/nowhere.map"), "a missing map")
+
+
+def main():
+    cases = {case.__name__: case for case in (session, fault, mistakes)}
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("case", choices=cases)
+    parser.add_argument("--module", default="", help="the component; empty when it was not built")
+    parser.add_argument("--rungc", required=True)
+    parser.add_argument("--program", default=HERE / "handshake.pmc", help="source of the PLC program of `session`")
+    parser.add_argument("--map", default=HERE / "handshake.map", help="its mapping file")
+    options = parser.parse_args()
+    check_machine(options.module)
+    with tempfile.TemporaryDirectory(dir="/var/tmp", prefix="rung-cnc-") as folder:
+        cases[options.case](Bench(options, folder), options)
+    print("passed")
+
+
+if __name__ == "__main__":
+    main()

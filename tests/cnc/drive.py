@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""Runs inside LinuxCNC in place of its display: commands functions and looks at the pins of the PLC program."""
+import sys
+import time
+import traceback
+
+import hal
+import linuxcnc
+
+PATIENCE = 10.0  # seconds until something counts as never happening
+
+command = linuxcnc.command()
+status = linuxcnc.stat()
+errors = linuxcnc.error_channel()
+
+
+def pin(name):
+    return hal.get_value("rung." + name)
+
+
+def wait(what, condition):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"never came: {what}; LinuxCNC says {errors.poll()}")
+        time.sleep(0.005)
+
+
+def pins(**expected):
+    """Waits for all the pins to have these values."""
+    for name, value in expected.items():
+        name = name.replace("_", "-")
+        wait(f"{name} = {value}", lambda: pin(name) == value)
+
+
+def check(condition, what):
+    if not condition:
+        raise AssertionError(what)
+
+
+def done(what):
+    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, f"{what} was not done: {errors.poll()}")
+
+
+def mdi(line):
+    """Seconds that the line took."""
+    begin = time.monotonic()
+    command.mdi(line)
+    done(line)
+    status.poll()
+    return time.monotonic() - begin
+
+
+def switch_on():
+    command.state(linuxcnc.STATE_ESTOP_RESET)
+    done("e-stop reset")
+    pins(enable=True)
+    wait("e-stop is reset", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP_RESET)[1])
+    command.state(linuxcnc.STATE_ON)
+    done("machine on")
+    command.mode(linuxcnc.MODE_MANUAL)
+    done("manual mode")
+    command.home(-1)
+    wait("homed", lambda: (status.poll(), status.homed[:3] == (1, 1, 1))[1])
+
+
+def set_mode(mode):
+    command.mode(mode)
+    done("mode")
+
+
+def spindle():
+    pins(spindle_cw=False, up_to_speed=False)
+    begin = time.monotonic()
+    mdi("M3 S1000")
+    mdi("G1 X5 F6000")  # 50 ms of motion, after the spindle's 400 ms
+    took = time.monotonic() - begin
+    check(took >= 0.4, f"the feed did not wait for the spindle: {took:.3f} s")
+    check(pin("up-to-speed"), "feed without speed")
+    pins(spindle_cw=True, spindle_ccw=False)
+    mdi("M4 S1000")
+    pins(spindle_cw=False, spindle_ccw=True)
+    mdi("M5")
+    pins(spindle_cw=False, spindle_ccw=False, up_to_speed=False)
+    mdi("G1 X0 F6000")  # a spindle that is off holds nothing up
+
+
+def coolant():
+    pins(coolant_pump=False, coolant_lamp=False)
+    mdi("M8")
+    pins(coolant_pump=True, coolant_lamp=True)
+    mdi("M9")
+    pins(coolant_pump=False, coolant_lamp=False)
+
+
+def tools():
+    check(pin("tool") == 0, "a tool too early")
+    took = mdi("T2 M6")
+    check(took >= 0.36, f"the magazine and the arm were not waited for: {took:.3f} s")
+    check(status.tool_in_spindle == 2, f"tool {status.tool_in_spindle} in the spindle")
+    pins(tool=2, tool_changed=False, tool_prepared=False)
+
+
+def program():
+    with open("part.ngc", "w", encoding="ascii") as file:
+        file.write("G21 G90 T1 M6\nM3 S500\nM8\nG1 X10 F6000\nM9\nM5\nG0 X0\nM2\n")
+    set_mode(linuxcnc.MODE_AUTO)
+    command.program_open("part.ngc")
+    done("program open")
+    command.auto(linuxcnc.AUTO_RUN, 0)
+    seen = set()
+
+    def finished():
+        status.poll()
+        seen.update(name for name in ("spindle-cw", "coolant-lamp") if pin(name))
+        return status.interp_state == linuxcnc.INTERP_IDLE and pin("tool") == 1 and not pin("spindle-cw")
+
+    wait("part program", finished)
+    check(seen == {"spindle-cw", "coolant-lamp"}, f"during the part program only {seen} came on")
+    check(status.tool_in_spindle == 1, f"tool {status.tool_in_spindle} in the spindle")
+    pins(coolant_lamp=False, coolant_pump=False)
+
+
+def counters():
+    check(not pin("fault"), "a fault")
+    check(pin("functions-lost") == 0, "functions were lost")
+    before = pin("scans")
+    check(before > 100, f"only {before} scans")
+    time.sleep(0.4)
+    more = pin("scans") - before  # 50, every 8 ms; the clock of a busy machine is coarse
+    check(20 <= more <= 150, f"{more} scans in 400 ms")
+    check(0 < pin("scan-time") <= pin("scan-time-max"), "scan times")
+
+
+def emergency_stop():
+    mdi("M3 S1000")
+    pins(spindle_cw=True)
+    command.state(linuxcnc.STATE_ESTOP)
+    done("e-stop")
+    pins(enable=False, spindle_cw=False)
+
+
+def main():
+    component = hal.component("driver")  # get_value needs one
+    component.ready()
+    switch_on()
+    set_mode(linuxcnc.MODE_MDI)
+    for step in (spindle, coolant, tools, program, counters):
+        step()
+        print("driver:", step.__name__, "ok", flush=True)
+    set_mode(linuxcnc.MODE_MDI)
+    emergency_stop()
+
+
+try:
+    main()
+    result = "passed"
+except BaseException:
+    result = traceback.format_exc()
+with open("result.txt", "w", encoding="utf-8") as out:
+    out.write(result)
+sys.exit(0 if result == "passed" else 1)

@@ -1,0 +1,93 @@
+// Names of mapping files in programs of the three dialects.
+#include "tools/rung-hal/binding.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rtlib/host/program_info.h"
+#include "tests/unit/rung_hal/test_program.h"
+
+namespace rung::hal {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+struct Bound {
+  Binding binding;
+  std::vector<std::string> errors;
+};
+
+Bound boundTo(const rung_program& program, std::string_view text) {
+  EXPECT_EQ(host::checkProgram(program), "");
+  Bound bound;
+  const MapFile map = parseMap(text, "m.map", bound.errors);
+  host::Instance instance(program);
+  const std::unique_ptr<nc::NcModel> nc = nc::makeNcModel(program.dialect);
+  bound.binding = bindMap(map, instance, *nc, bound.errors);
+  return bound;
+}
+
+std::vector<std::string> gskErrors(std::string_view text) { return boundTo(testing::gskProgram(), text).errors; }
+
+TEST(Binding, AddressesSymbolsAndSignalsOfGsk) {
+  const Bound bound =
+      boundTo(testing::gskProgram(), "in bit a X000.3\nout bit b SYM\nin s32 c F10:4\nout bit fin FIN\n");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  ASSERT_EQ(bound.binding.inputs.size(), 2u);
+  EXPECT_EQ(bound.binding.inputs[0].place, host::bitRef(0, 0, 3));
+  EXPECT_EQ(bound.binding.inputs[1].place, host::intRef(2, 10, 32));
+  ASSERT_EQ(bound.binding.outputs.size(), 2u);
+  EXPECT_EQ(bound.binding.outputs[0].place, host::bitRef(1, 1, 2));
+  EXPECT_EQ(bound.binding.outputs[1].place, host::bitRef(3, 4, 3)); // FIN of the NC interface is G4.3
+}
+
+TEST(Binding, NctNamesAreTheHardwaresSide) {
+  const Bound bound = boundTo(testing::nctProgram(), "in bit a 0056.17\nout s32 w 0400\nout float d 0400\n");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  const uint32_t slice = host::findSpace(testing::nctProgram(), "TS");
+  ASSERT_EQ(bound.binding.inputs.size(), 1u);
+  EXPECT_EQ(bound.binding.inputs[0].place, host::bitRef(slice, 56 * 4, 17));
+  ASSERT_EQ(bound.binding.outputs.size(), 2u);
+  EXPECT_EQ(bound.binding.outputs[0].place, host::intRef(slice, 1600, 32));
+  EXPECT_EQ(bound.binding.outputs[1].place, host::realRef(slice, 1600)); // a double in two words
+}
+
+TEST(Binding, TechnolCells) {
+  const Bound bound = boundTo(testing::technolProgram(), "out float r realcell\nout s32 c COUNT\nout bit b COUNT.3\n");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  const uint32_t data = host::findSpace(testing::technolProgram(), "DATA");
+  ASSERT_EQ(bound.binding.outputs.size(), 3u);
+  EXPECT_EQ(bound.binding.outputs[0].place, host::realRef(data, 0));
+  EXPECT_EQ(bound.binding.outputs[1].place, host::intRef(data, 8, 16));
+  EXPECT_EQ(bound.binding.outputs[2].place, host::bitRef(data, 8, 3));
+}
+
+TEST(Binding, FloatPinsConvertOtherIntegers) {
+  const Bound bound = boundTo(testing::technolProgram(), "out float c COUNT\n");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  ASSERT_EQ(bound.binding.outputs.size(), 1u);
+  EXPECT_EQ(bound.binding.outputs[0].place.kind, host::RefKind::Int);
+}
+
+TEST(Binding, NamesThatDoNotFit) {
+  EXPECT_THAT(gskErrors("# x\nin bit a NOWHERE"),
+              ElementsAre("m.map:2: NOWHERE: the program has no such name or address"));
+  EXPECT_THAT(gskErrors("in bit a X99.0"), ElementsAre("m.map:1: X99.0: the program has no such name or address"));
+  EXPECT_THAT(gskErrors("in bit a Y0.0"),
+              ElementsAre("m.map:1: Y0.0 is an output of the program; it cannot be written"));
+  EXPECT_THAT(gskErrors("const bit Y0.0 1"),
+              ElementsAre("m.map:1: Y0.0 is an output of the program; it cannot be written"));
+  EXPECT_THAT(gskErrors("out bit a D0"),
+              ElementsAre("m.map:1: D0 is no bit; s32, u32, float or a bit of it is possible"));
+  EXPECT_THAT(gskErrors("out u32 a SYM"), ElementsAre("m.map:1: SYM is a bit, not u32"));
+  EXPECT_THAT(gskErrors("out s32 a LIMIT"), ElementsAre("m.map:1: LIMIT is a constant of the program"));
+  EXPECT_THAT(boundTo(testing::technolProgram(), "out s32 a NAME").errors,
+              ElementsAre("m.map:1: NAME is a text; HAL has no pins for texts"));
+  EXPECT_THAT(gskErrors("channel M Q0.0 F10 SYM\nchannel N F7.0 F10:4 D0\n"),
+              ElementsAre("m.map:1: Q0.0: the program has no such name or address",
+                          "m.map:2: D0 is no bit; s32, u32, float or a bit of it is possible"));
+}
+
+} // namespace
+} // namespace rung::hal

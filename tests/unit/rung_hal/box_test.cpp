@@ -1,0 +1,305 @@
+// The scan of the component: pins, time, faults, auxiliary functions, and that a step allocates nothing.
+#include "tools/rung-hal/box.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/unit/rung_hal/test_program.h"
+
+namespace {
+bool counting = false;
+int allocations = 0;
+} // namespace
+
+void* operator new(size_t size) {
+  if (counting) ++allocations;
+  void* block = std::malloc(size != 0 ? size : 1);
+  if (block == nullptr) std::abort();
+  return block;
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, size_t) noexcept { std::free(block); }
+
+namespace rung::hal {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr int64_t kMs = 1'000'000;
+
+union PinValue {
+  bool bit;
+  int32_t s32;
+  uint32_t u32;
+  double real = 0;
+};
+
+// A box and its pins, as HAL would have them.
+class Bench {
+public:
+  Bench(const rung_program& program, std::string_view text) {
+    MapFile map = parseMap(text, "m.map", errors);
+    values.resize(map.pins.size());
+    for (PinValue& value : values) cells.push_back({.any = &value});
+    box = Box::make(program, std::move(map), errors);
+    if (box) box->connect(cells.data());
+  }
+
+  PinValue& operator[](std::string_view name) {
+    for (size_t i = 0; i < values.size(); ++i)
+      if (box->pins()[i].name == name) return values[i];
+    ADD_FAILURE() << "no pin " << name;
+    return values[0];
+  }
+  // Scans of an 8 ms program.
+  void scans(int count) {
+    for (int i = 0; i < count; ++i) EXPECT_EQ(box->step(8 * kMs), StepResult::Ran);
+  }
+
+  std::vector<std::string> errors;
+  std::vector<PinValue> values;
+  std::vector<PinCell> cells;
+  std::unique_ptr<Box> box;
+};
+
+TEST(Box, PinsOfAllTypes) {
+  Bench b(testing::gskProgram(), "in bit i X0.0\nout bit o Y0.0\n"
+                                 "in s32 si F10:4\nout s32 so D4:4\nout s32 byte D4\nout float fo D4:4\n"
+                                 "in u32 ui F14:4\nout u32 uo D8:4\nin float fi F20:2\nout float back F20:2\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  b["i"].bit = true;
+  b["si"].s32 = -2;
+  b["ui"].u32 = 0x80000001;
+  b["fi"].real = -3.6;
+  b.scans(1);
+  EXPECT_TRUE(b["o"].bit);
+  EXPECT_EQ(b["so"].s32, -2);
+  EXPECT_EQ(b["byte"].s32, -2); // the low byte with its sign
+  EXPECT_EQ(b["fo"].real, -2.0);
+  EXPECT_EQ(b["uo"].u32, 0x80000001u);
+  EXPECT_EQ(b["back"].real, -4.0); // rounded
+  b["i"].bit = false;
+  b["fi"].real = 1e9;
+  b.scans(1);
+  EXPECT_FALSE(b["o"].bit);
+  EXPECT_EQ(b["back"].real, 32767.0); // saturated
+}
+
+TEST(Box, ASliceRunsWhenItsTimeHasCome) {
+  Bench b(testing::gskProgram(), "out u32 count D0:2\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  for (int ms = 1; ms <= 80; ++ms) {
+    EXPECT_EQ(b.box->step(kMs), ms % 8 == 0 ? StepResult::Ran : StepResult::Waiting) << ms;
+    EXPECT_EQ(b["count"].u32, static_cast<uint32_t>(ms / 8));
+  }
+  EXPECT_EQ(b.box->scans(), 10u);
+  for (int i = 0; i < 8; ++i) b.box->step(3 * kMs); // 24 ms in steps that do not divide the period
+  EXPECT_EQ(b["count"].u32, 13u);
+  b.box->step(20 * kMs); // two at once, and 4 ms are owed
+  EXPECT_EQ(b["count"].u32, 15u);
+  b.box->step(4 * kMs);
+  EXPECT_EQ(b["count"].u32, 16u);
+}
+
+TEST(Box, SlicesInAStepAreBoundedAndNoneIsLost) {
+  Bench b(testing::gskProgram(), "out u32 count D0:2\n");
+  b.box->step(800 * kMs);
+  EXPECT_EQ(b["count"].u32, 64u);
+  b.box->step(0);
+  EXPECT_EQ(b["count"].u32, 100u);
+}
+
+TEST(Box, ASlottedScheduleCountsWholePasses) {
+  Bench b(testing::nctProgram(), "in bit i 0056.17\nout bit o 0400.00\nout bit on N_ON\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  b["i"].bit = true;
+  b.box->step(5 * kMs);
+  EXPECT_EQ(b.box->scans(), 0u);
+  EXPECT_FALSE(b["o"].bit);
+  b.box->step(5 * kMs);
+  EXPECT_EQ(b.box->scans(), 1u);
+  EXPECT_TRUE(b["o"].bit);
+  EXPECT_TRUE(b["on"].bit); // the NC's constant signal, without a line in the map
+}
+
+TEST(Box, ConstantsHold) {
+  Bench b(testing::gskProgram(), "const bit X0.0 1\nout bit o Y0.0\nconst s32 D0:2 100\nout u32 count D0:2\n"
+                                 "const float F20:2 7.0\nout u32 f F20:2\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  b.scans(3);
+  EXPECT_TRUE(b["o"].bit);
+  EXPECT_EQ(b["count"].u32, 101u); // written anew in front of every slice
+  EXPECT_EQ(b["f"].u32, 7u);
+}
+
+TEST(Box, AFaultClearsTheOutputsForGood) {
+  Bench b(testing::gskProgram(),
+          "in bit i X0.0\nin bit bad X1.0\nout bit o Y0.0\nout u32 count D0:2\nout float fc D0:2\n");
+  b["i"].bit = true;
+  b.scans(2);
+  EXPECT_TRUE(b["o"].bit);
+  EXPECT_EQ(b["fc"].real, 2.0);
+  b["bad"].bit = true;
+  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+  EXPECT_EQ(b.box->fault().line, 42u);
+  EXPECT_FALSE(b["o"].bit);
+  EXPECT_EQ(b["count"].u32, 0u);
+  EXPECT_EQ(b["fc"].real, 0.0);
+  EXPECT_TRUE(b["i"].bit); // inputs are HAL's
+  b["bad"].bit = false;
+  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Waiting);
+  EXPECT_FALSE(b["o"].bit);
+  EXPECT_EQ(b.box->scans(), 2u);
+}
+
+TEST(Box, ServicesAreRefusedAtOnce) {
+  Bench b(testing::gskProgram(), "in bit ask X1.1\nout u32 state D12\n");
+  b["ask"].bit = true;
+  b.scans(300); // more than may be pending
+  EXPECT_EQ(b["state"].u32, static_cast<uint32_t>(RUNG_SERVICE_ERROR));
+}
+
+std::vector<uint32_t> shown;
+
+TEST(Box, MessagesAreHandedOn) {
+  Bench b(testing::gskProgram(), "in bit show X1.2\n");
+  b.box->setMessageSink([](const rung_program&, const rung_message& message) { shown.push_back(message.number); });
+  b["show"].bit = true;
+  b.scans(2);
+  EXPECT_THAT(shown, ElementsAre(7u, 7u));
+}
+
+TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
+  EXPECT_THAT(Bench(testing::gskProgram(), "in bit a Y0.0\nin bit").errors,
+              ElementsAre("m.map:2: the form is: in TYPE PIN NAME",
+                          "m.map:1: Y0.0 is an output of the program; it cannot be written"));
+  Bench timeless(testing::timelessProgram(), "");
+  EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));
+  EXPECT_EQ(timeless.box, nullptr);
+}
+
+// ---- auxiliary functions -------------------------------------------------------------------------------------------
+
+constexpr std::string_view kFunctions = "channel M F7.0 F10:4 G4.3\nchannel T F7.0 F14:4 G4.3 keep\n"
+                                        "send cw rise M 3\nsend cw fall M 5\nsend change rise M 6 changed\n"
+                                        "send prepare rise T number prepared\n"
+                                        "out bit strobe F7.0\nout bit done G4.3\nout s32 m F10:4\nout s32 t F14:4\n";
+
+TEST(AuxFunctions, OneHandshake) {
+  Bench b(testing::gskProgram(), kFunctions);
+  ASSERT_THAT(b.errors, IsEmpty());
+  b.scans(1);
+  EXPECT_FALSE(b["strobe"].bit); // a pin that is 0 from the beginning has not fallen
+  b["change"].bit = true;
+  b.scans(1); // code and strobe; the program answers in the same scan
+  EXPECT_EQ(b["m"].s32, 6);
+  EXPECT_TRUE(b["strobe"].bit);
+  EXPECT_TRUE(b["done"].bit);
+  EXPECT_FALSE(b["changed"].bit);
+  b.scans(1);
+  EXPECT_FALSE(b["strobe"].bit);
+  EXPECT_FALSE(b["done"].bit);
+  EXPECT_EQ(b["m"].s32, 6);
+  EXPECT_FALSE(b["changed"].bit);
+  b.scans(1);
+  EXPECT_EQ(b["m"].s32, 0);
+  EXPECT_TRUE(b["changed"].bit);
+  b.scans(5); // it is done once
+  EXPECT_FALSE(b["strobe"].bit);
+  EXPECT_TRUE(b["changed"].bit);
+  b["change"].bit = false;
+  EXPECT_EQ(b.box->step(kMs), StepResult::Waiting); // the acknowledge does not wait for a slice
+  EXPECT_FALSE(b["changed"].bit);
+}
+
+TEST(AuxFunctions, CodesFromPinsAndCodesThatStay) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["number"].s32 = 12;
+  b["prepare"].bit = true;
+  b.scans(3);
+  EXPECT_TRUE(b["prepared"].bit);
+  EXPECT_EQ(b["t"].s32, 12);
+  EXPECT_EQ(b["m"].s32, 0);
+}
+
+TEST(AuxFunctions, WaitInTheirOrder) {
+  Bench b(testing::gskProgram(), kFunctions);
+  std::vector<int32_t> codes;
+  const auto oneMs = [&] {
+    b.box->step(kMs);
+    if (b["strobe"].bit && (codes.empty() || codes.back() != b["m"].s32)) codes.push_back(b["m"].s32);
+  };
+  b["cw"].bit = true; // all of this between two slices
+  oneMs();
+  b["cw"].bit = false;
+  oneMs();
+  b["change"].bit = true;
+  oneMs();
+  for (int i = 0; i < 200; ++i) oneMs();
+  EXPECT_THAT(codes, ElementsAre(3, 5, 6));
+  EXPECT_TRUE(b["changed"].bit);
+}
+
+TEST(AuxFunctions, NoAcknowledgeWhenTheCauseHasGone) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["change"].bit = true;
+  b.scans(1);
+  b["change"].bit = false;
+  b.scans(5);
+  EXPECT_FALSE(b["changed"].bit);
+}
+
+TEST(AuxFunctions, WhatFindsTheQueueFullIsCounted) {
+  Bench b(testing::gskProgram(), "channel M F7.0 F10:4 Y5.5\nsend a rise M 3\n"); // the program never finishes it
+  for (uint32_t i = 0; i < AuxFunctions::kQueue + 3; ++i) {
+    b["a"].bit = true;
+    b.box->step(kMs / 1000);
+    b["a"].bit = false;
+    b.box->step(kMs / 1000);
+  }
+  EXPECT_EQ(b.box->lostFunctions(), 3u);
+}
+
+// ---- real time -----------------------------------------------------------------------------------------------------
+
+int allocationsOf(Bench& b, int64_t ms) {
+  allocations = 0;
+  counting = true;
+  for (int64_t i = 0; i < ms; ++i) b.box->step(kMs);
+  counting = false;
+  return allocations;
+}
+
+TEST(Box, AStepAllocatesNothing) {
+  Bench gsk(testing::gskProgram(), kFunctions);
+  gsk["change"].bit = gsk["cw"].bit = true;
+  EXPECT_EQ(allocationsOf(gsk, 200), 0);
+  EXPECT_TRUE(gsk["changed"].bit);
+
+  Bench busy(testing::gskProgram(), "in bit ask X1.1\nin bit show X1.2\nin bit bad X1.0\nout bit o Y0.0\n");
+  busy["ask"].bit = busy["show"].bit = true;
+  EXPECT_EQ(allocationsOf(busy, 100), 0);
+  busy["bad"].bit = true;
+  EXPECT_EQ(allocationsOf(busy, 8), 0);
+  EXPECT_EQ(busy.box->fault().code, 0u);
+
+  Bench nct(testing::nctProgram(), "in bit i 0056.17\nout bit o 0400.00\n");
+  EXPECT_EQ(allocationsOf(nct, 2000), 0);
+  EXPECT_EQ(nct.box->scans(), 200u);
+
+  Bench technol(testing::technolProgram(), "out float r realcell\n");
+  EXPECT_EQ(allocationsOf(technol, 200), 0);
+  EXPECT_EQ(technol.box->scans(), 10u);
+
+  counting = true; // the counter works
+  ::operator delete(::operator new(1));
+  counting = false;
+  EXPECT_EQ(allocations, 1);
+}
+
+} // namespace
+} // namespace rung::hal

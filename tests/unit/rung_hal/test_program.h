@@ -1,0 +1,21 @@
+// Programs written by hand as a compiler would lay them out, for tests of the component without a compiler.
+#pragma once
+#include "rung/program.h"
+
+namespace rung::hal::testing {
+
+// GSK, 8 ms, spaces X Y F G R D. Each scan: Y0.0 := X0.0, D0 counts scans (2 bytes), D4 := F10 (4 bytes), D8 := F14
+// (4 bytes), the strobe F7.0 is answered by G4.3, SYM is Y1.2; X1.0 makes the fault "dead-loop" at line 42 of main.pmc,
+// X1.1 requests a service and puts its state into D12, X1.2 shows message 7.
+const rung_program& gskProgram();
+
+// NCT, 10 ms, spaces M and TS (words 0 to 2047); main copies the time slice both ways, M0400.00 := M0056.17.
+const rung_program& nctProgram();
+
+// TECHNOL, 20 ms, spaces NCI and DATA with the cells REALCELL (8 bytes), COUNT (2 bytes), NAME (a text).
+const rung_program& technolProgram();
+
+// No schedule and no period.
+const rung_program& timelessProgram();
+
+} // namespace rung::hal::testing

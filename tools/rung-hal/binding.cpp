@@ -1,0 +1,84 @@
+// Look-up and checks of the names in a mapping file.
+#include "tools/rung-hal/binding.h"
+
+namespace rung::hal {
+namespace {
+
+enum class Access : uint8_t { Read, Write }; // by HAL
+
+class Binder {
+public:
+  Binder(const MapFile& map, const host::Instance& instance, const nc::NcModel& nc, std::vector<std::string>& errors)
+      : map_(map), instance_(instance), nc_(nc), errors_(errors) {}
+
+  Binding run() {
+    Binding binding;
+    for (const MapLink& link : map_.inputs) addLink(binding.inputs, link, Access::Write);
+    for (const MapLink& link : map_.outputs) addLink(binding.outputs, link, Access::Read);
+    for (const MapConst& constant : map_.constants)
+      if (auto place = find(constant.name, constant.type, Access::Write, constant.line))
+        binding.constants.push_back({constant.type, *place, constant.value});
+    for (const MapChannel& channel : map_.channels) {
+      const auto strobe = find(channel.strobe, PinType::Bit, Access::Write, channel.line);
+      const auto code = find(channel.code, PinType::S32, Access::Write, channel.line);
+      const auto done = find(channel.done, PinType::Bit, Access::Read, channel.line);
+      if (strobe && code && done) binding.channels.push_back({*strobe, *code, *done, channel.keepCode});
+    }
+    return binding;
+  }
+
+private:
+  void addLink(std::vector<PinLink>& links, const MapLink& link, Access access) {
+    const PinType type = map_.pins[link.pin].type;
+    if (auto place = find(link.name, type, access, link.line)) links.push_back({link.pin, type, *place});
+  }
+
+  std::optional<host::Ref> find(const std::string& name, PinType type, Access access, uint32_t line) {
+    // What the NC and the machine write is also what they see: for NCT both are the time-slice copy.
+    std::optional<host::Ref> place = nc_.writePlace(instance_, name);
+    if (!place) return fail(line, name + ": the program has no such name or address");
+    if (place->kind == host::RefKind::Constant) return fail(line, name + " is a constant of the program");
+    if (place->kind == host::RefKind::Text) return fail(line, name + " is a text; HAL has no pins for texts");
+    if (access == Access::Write && isOutputOnly(*place))
+      return fail(line, name + " is an output of the program; it cannot be written");
+    if (type == PinType::Float) place = floatPlace(*place);
+    const bool isBit = place->kind == host::RefKind::Bit;
+    if (type == PinType::Bit && !isBit)
+      return fail(line, name + " is no bit; s32, u32, float or a bit of it is possible");
+    if (type != PinType::Bit && isBit) return fail(line, name + " is a bit, not " + std::string(pinTypeName(type)));
+    if (type != PinType::Float && place->kind == host::RefKind::Real)
+      return fail(line, name + " is a real number; its type is float");
+    return place;
+  }
+
+  // NCT keeps a double in two words, TECHNOL in a cell of 8 bytes; every other integer is converted.
+  host::Ref floatPlace(const host::Ref& place) const {
+    const bool holdsReal = place.width == 64 || std::string_view(instance_.program().dialect) == "nct";
+    if (place.kind != host::RefKind::Int || !holdsReal) return place;
+    return host::asReal(instance_.memory(), place).value_or(place);
+  }
+
+  bool isOutputOnly(const host::Ref& place) const {
+    const uint32_t flags = instance_.program().spaces[place.space].flags;
+    return (flags & RUNG_SPACE_OUTPUT) != 0 && (flags & RUNG_SPACE_INPUT) == 0;
+  }
+
+  std::nullopt_t fail(uint32_t line, const std::string& what) {
+    errors_.push_back(map_.path + ":" + std::to_string(line) + ": " + what);
+    return std::nullopt;
+  }
+
+  const MapFile& map_;
+  const host::Instance& instance_;
+  const nc::NcModel& nc_;
+  std::vector<std::string>& errors_;
+};
+
+} // namespace
+
+Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::NcModel& nc,
+                std::vector<std::string>& errors) {
+  return Binder(map, instance, nc, errors).run();
+}
+
+} // namespace rung::hal

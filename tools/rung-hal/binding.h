@@ -1,0 +1,43 @@
+// The lines of a mapping file with their names looked up in a program: plain places, ready for the scan.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/model/nc_model.h"
+#include "tools/rung-hal/map_file.h"
+
+namespace rung::hal {
+
+struct PinLink {
+  uint32_t pin = 0; // in MapFile::pins
+  PinType type = PinType::Bit;
+  host::Ref place;
+};
+
+struct ConstLink {
+  PinType type = PinType::Bit;
+  host::Ref place;
+  double value = 0;
+};
+
+struct Channel {
+  host::Ref strobe;
+  host::Ref code;
+  host::Ref done;
+  bool keepCode = false;
+};
+
+struct Binding {
+  std::vector<PinLink> inputs;
+  std::vector<PinLink> outputs;
+  std::vector<ConstLink> constants;
+  std::vector<Channel> channels; // as MapFile::channels
+};
+
+// Every name that does not exist or does not suit its line is one entry of `errors`, "PATH:LINE: what is wrong".
+Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::NcModel& nc,
+                std::vector<std::string>& errors);
+
+} // namespace rung::hal

@@ -1,0 +1,117 @@
+// The scan: pins in, due slices of the schedule, pins out.
+#include "tools/rung-hal/box.h"
+
+#include "rtlib/host/program_info.h"
+
+namespace rung::hal {
+namespace {
+
+constexpr uint32_t kMaxSlices = 64; // in one step; what is left is owed to the next
+
+void writePlace(const rt::Memory& memory, const host::Ref& place, PinType type, const PinCell& cell) noexcept {
+  switch (type) {
+  case PinType::Bit: host::writeRaw(memory, place, *cell.bit ? 1 : 0); return;
+  case PinType::S32: host::writeRaw(memory, place, static_cast<uint64_t>(int64_t{*cell.s32})); return;
+  case PinType::U32: host::writeRaw(memory, place, *cell.u32); return;
+  case PinType::Float: host::writeReal(memory, place, *cell.real); return;
+  }
+}
+
+void readPlace(const rt::Memory& memory, const host::Ref& place, PinType type, const PinCell& cell) noexcept {
+  switch (type) {
+  case PinType::Bit: *cell.bit = host::readRaw(memory, place) != 0; return;
+  case PinType::S32: *cell.s32 = static_cast<int32_t>(host::readSigned(memory, place)); return;
+  case PinType::U32: *cell.u32 = static_cast<uint32_t>(host::readRaw(memory, place)); return;
+  case PinType::Float: *cell.real = host::readReal(memory, place); return;
+  }
+}
+
+void clearPin(PinType type, const PinCell& cell) noexcept {
+  switch (type) {
+  case PinType::Bit: *cell.bit = false; return;
+  case PinType::S32: *cell.s32 = 0; return;
+  case PinType::U32: *cell.u32 = 0; return;
+  case PinType::Float: *cell.real = 0; return;
+  }
+}
+
+} // namespace
+
+Box::Box(const rung_program& program, MapFile map)
+    : map_(std::move(map)), nc_(nc::makeNcModel(program.dialect)), instance_(program, this) {}
+
+std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors) {
+  if (host::scanPeriodUs(program) == 0) {
+    errors.push_back(std::string(program.name) + ": the program's schedule has no period");
+    return nullptr;
+  }
+  std::unique_ptr<Box> box(new Box(program, std::move(map)));
+  box->binding_ = bindMap(box->map_, box->instance_, *box->nc_, errors);
+  if (!errors.empty()) return nullptr;
+  box->functions_ = std::make_unique<AuxFunctions>(box->map_.sends, box->binding_.channels);
+  box->nc_->powerOn(box->instance_, nc::PowerOn::Cold);
+  return box;
+}
+
+bool Box::respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  reply = {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  return true;
+}
+
+StepResult Box::step(int64_t ns) noexcept {
+  if (failed_) return StepResult::Waiting;
+  functions_->sample(cells_);
+  owedNs_ += ns;
+  StepResult result = StepResult::Waiting;
+  for (uint32_t i = 0; i < kMaxSlices && !instance_.faulted(); ++i) {
+    const int64_t delayNs = int64_t{instance_.sliceDelayUs()} * 1000;
+    if (owedNs_ < delayNs) break;
+    owedNs_ -= delayNs;
+    slice();
+    result = StepResult::Ran;
+  }
+  if (!instance_.faulted()) return result;
+  failed_ = true;
+  clearPins();
+  return StepResult::Failed;
+}
+
+void Box::slice() noexcept {
+  functions_->advance(instance_.memory(), cells_);
+  readPins();
+  instance_.slice();
+  passMessages();
+  if (instance_.faulted()) return;
+  if (instance_.atListStart()) ++scans_;
+  writePins();
+}
+
+void Box::readPins() noexcept {
+  const rt::Memory memory = instance_.memory();
+  for (const PinLink& link : binding_.inputs) writePlace(memory, link.place, link.type, cells_[link.pin]);
+  // Constants too in every slice: no restart and no model of the NC can undo them.
+  for (const ConstLink& constant : binding_.constants) {
+    if (constant.type == PinType::Float)
+      host::writeReal(memory, constant.place, constant.value);
+    else
+      host::writeRaw(memory, constant.place, static_cast<uint64_t>(static_cast<int64_t>(constant.value)));
+  }
+}
+
+void Box::writePins() noexcept {
+  const rt::Memory memory = instance_.memory();
+  for (const PinLink& link : binding_.outputs) readPlace(memory, link.place, link.type, cells_[link.pin]);
+}
+
+void Box::clearPins() noexcept {
+  for (size_t i = 0; i < map_.pins.size(); ++i)
+    if (map_.pins[i].output) clearPin(map_.pins[i].type, cells_[i]);
+}
+
+void Box::passMessages() noexcept {
+  rung_message message;
+  for (uint32_t i = 0; i < rt::kMessageCapacity && instance_.messages().pop(message); ++i)
+    if (sink_ != nullptr) sink_(instance_.program(), message);
+}
+
+} // namespace rung::hal

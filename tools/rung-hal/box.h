@@ -1,0 +1,72 @@
+// A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the box is
+// made; `step` allocates nothing, takes no lock and makes no system call.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/model/nc_model.h"
+#include "tools/rung-hal/aux_functions.h"
+#include "tools/rung-hal/binding.h"
+#include "tools/rung-hal/map_file.h"
+#include "tools/rung-hal/pin_cell.h"
+
+namespace rung::hal {
+
+enum class StepResult : uint8_t {
+  Waiting, // no part of the schedule was due, or the program has stopped
+  Ran,
+  Failed, // a fault has stopped the program in this step
+};
+
+// Takes a message of the program in the scan.
+using MessageSink = void (*)(const rung_program& program, const rung_message& message);
+
+class Box : private host::ScheduleHooks {
+public:
+  // Cold start. Null, and `errors` say why, when the map does not fit the program, which outlives the box.
+  static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors);
+
+  const std::vector<MapPin>& pins() const { return map_.pins; }
+  // As many cells as there are pins, in their order; they outlive the box.
+  void connect(const PinCell* cells) { cells_ = cells; }
+  void setMessageSink(MessageSink sink) { sink_ = sink; }
+
+  // The clock of the thread goes on by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
+  // runs nothing only watches for edges. After a fault all output pins are 0 for good.
+  StepResult step(int64_t ns) noexcept;
+
+  const rung_program& program() const { return instance_.program(); }
+  const rung_fault& fault() const { return instance_.fault(); }
+  uint32_t scans() const { return scans_; } // passes of the schedule
+  uint32_t lostFunctions() const { return functions_ ? functions_->lost() : 0; }
+
+private:
+  Box(const rung_program& program, MapFile map);
+
+  void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
+  void onFault(host::Instance& instance) override { nc_->onFault(instance); }
+  // No CNC here can answer: the program learns it at once.
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
+
+  void slice() noexcept;
+  void readPins() noexcept;
+  void writePins() noexcept;
+  void clearPins() noexcept;
+  void passMessages() noexcept;
+
+  MapFile map_;
+  std::unique_ptr<nc::NcModel> nc_;
+  host::Instance instance_;
+  Binding binding_;
+  std::unique_ptr<AuxFunctions> functions_; // once the map is bound
+  const PinCell* cells_ = nullptr;
+  MessageSink sink_ = nullptr;
+  int64_t owedNs_ = 0; // time that the program's clock is behind
+  uint32_t scans_ = 0;
+  bool failed_ = false;
+};
+
+} // namespace rung::hal

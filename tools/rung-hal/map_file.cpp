@@ -1,0 +1,228 @@
+// Parser of the mapping file: a line is a keyword and blank-separated words.
+#include "tools/rung-hal/map_file.h"
+
+#include <charconv>
+#include <limits>
+
+namespace rung::hal {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+constexpr std::string_view kBlanks = " \t\r";
+
+// '#' opens a comment only at the start of a word: NCT has names such as AN_PLCA,#1.
+Words splitLine(std::string_view line) {
+  Words words;
+  size_t at = line.find_first_not_of(kBlanks);
+  while (at != std::string_view::npos && line[at] != '#') {
+    const size_t end = line.find_first_of(kBlanks, at);
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(kBlanks, end);
+  }
+  return words;
+}
+
+std::optional<PinType> pinTypeOf(std::string_view word) {
+  for (const PinType type : {PinType::Bit, PinType::S32, PinType::U32, PinType::Float})
+    if (word == pinTypeName(type)) return type;
+  return std::nullopt;
+}
+
+bool isPinName(std::string_view word) {
+  if (word.empty()) return false;
+  for (const char c : word) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (!letter && !(c >= '0' && c <= '9') && c != '-' && c != '_' && c != '.') return false;
+  }
+  return true;
+}
+
+std::optional<double> realOf(std::string_view word) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<int64_t> integerOf(std::string_view word) {
+  const bool negative = word.starts_with('-');
+  if (negative) word.remove_prefix(1);
+  const bool hex = word.starts_with("0x") || word.starts_with("0X");
+  if (hex) word.remove_prefix(2);
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, hex ? 16 : 10);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return negative ? -static_cast<int64_t>(value) : static_cast<int64_t>(value);
+}
+
+std::optional<double> valueOf(PinType type, std::string_view word) {
+  if (type == PinType::Float) return realOf(word);
+  const std::optional<int64_t> value = integerOf(word);
+  if (!value) return std::nullopt;
+  switch (type) {
+  case PinType::Bit: return *value == 0 || *value == 1 ? std::optional<double>(*value) : std::nullopt;
+  case PinType::S32:
+    if (*value < std::numeric_limits<int32_t>::min() || *value > std::numeric_limits<int32_t>::max()) break;
+    return static_cast<double>(*value);
+  case PinType::U32:
+    if (*value < 0) break;
+    return static_cast<double>(*value);
+  case PinType::Float: break;
+  }
+  return std::nullopt;
+}
+
+class Parser {
+public:
+  Parser(MapFile& map, std::vector<std::string>& errors) : map_(map), errors_(errors) {}
+
+  void line(std::string_view text, uint32_t number) {
+    line_ = number;
+    const Words words = splitLine(text);
+    if (words.empty()) return;
+    const std::string_view keyword = words[0];
+    if (keyword == "in" || keyword == "out")
+      link(words);
+    else if (keyword == "const")
+      constant(words);
+    else if (keyword == "channel")
+      channel(words);
+    else if (keyword == "send")
+      send(words);
+    else
+      error("unknown keyword '" + std::string(keyword) + "': in, out, const, channel or send is expected");
+  }
+
+private:
+  void error(const std::string& what) { errors_.push_back(map_.path + ":" + std::to_string(line_) + ": " + what); }
+
+  bool hasForm(const Words& words, size_t least, size_t most, const char* form) {
+    if (words.size() >= least && words.size() <= most) return true;
+    error(std::string("the form is: ") + form);
+    return false;
+  }
+
+  std::optional<PinType> type(std::string_view word) {
+    const std::optional<PinType> found = pinTypeOf(word);
+    if (!found) error("unknown type '" + std::string(word) + "': bit, s32, u32 or float is expected");
+    return found;
+  }
+
+  // The pin of that name, made when it is new.
+  std::optional<uint32_t> pin(std::string_view name, PinType wanted, bool output) {
+    if (!isPinName(name)) {
+      error("'" + std::string(name) + "' is no pin name: letters, digits, '-', '_' and '.' are allowed");
+      return std::nullopt;
+    }
+    for (uint32_t i = 0; i < map_.pins.size(); ++i) {
+      const MapPin& old = map_.pins[i];
+      if (old.name != name) continue;
+      // One input may feed several names, but an output has one source.
+      if (output && old.output) {
+        error("output pin '" + old.name + "' is already mapped");
+        return std::nullopt;
+      }
+      if (old.type == wanted && old.output == output) return i;
+      error("pin '" + old.name + "' is already there as " + (old.output ? "out " : "in ") +
+            std::string(pinTypeName(old.type)));
+      return std::nullopt;
+    }
+    map_.pins.push_back({std::string(name), wanted, output});
+    return static_cast<uint32_t>(map_.pins.size() - 1);
+  }
+
+  void link(const Words& words) {
+    const bool output = words[0] == "out";
+    if (!hasForm(words, 4, 4, output ? "out TYPE PIN NAME" : "in TYPE PIN NAME")) return;
+    const std::optional<PinType> pinType = type(words[1]);
+    if (!pinType) return;
+    const std::optional<uint32_t> index = pin(words[2], *pinType, output);
+    if (!index) return;
+    (output ? map_.outputs : map_.inputs).push_back({*index, std::string(words[3]), line_});
+  }
+
+  void constant(const Words& words) {
+    if (!hasForm(words, 4, 4, "const TYPE NAME VALUE")) return;
+    const std::optional<PinType> constType = type(words[1]);
+    if (!constType) return;
+    const std::optional<double> value = valueOf(*constType, words[3]);
+    if (!value) return error("'" + std::string(words[3]) + "' is no value of type " + std::string(words[1]));
+    map_.constants.push_back({*constType, std::string(words[2]), *value, line_});
+  }
+
+  void channel(const Words& words) {
+    if (!hasForm(words, 5, 6, "channel CHANNEL STROBE CODE DONE [keep]")) return;
+    if (words.size() == 6 && words[5] != "keep")
+      return error("'" + std::string(words[5]) + "' stands where only keep may");
+    if (findChannel(words[1])) return error("channel '" + std::string(words[1]) + "' is already there");
+    map_.channels.push_back({std::string(words[1]), std::string(words[2]), std::string(words[3]), std::string(words[4]),
+                             words.size() == 6, line_});
+  }
+
+  std::optional<uint32_t> findChannel(std::string_view name) const {
+    for (uint32_t i = 0; i < map_.channels.size(); ++i)
+      if (map_.channels[i].channel == name) return i;
+    return std::nullopt;
+  }
+
+  void send(const Words& words) {
+    if (!hasForm(words, 5, 6, "send PIN rise|fall CHANNEL CODE|CODEPIN [DONEPIN]")) return;
+    if (words[2] != "rise" && words[2] != "fall")
+      return error("'" + std::string(words[2]) + "': rise or fall is expected");
+    const std::optional<uint32_t> to = findChannel(words[3]);
+    if (!to) return error("there is no channel '" + std::string(words[3]) + "' above this line");
+    MapSend sent;
+    sent.rising = words[2] == "rise";
+    sent.channel = *to;
+    sent.line = line_;
+    const std::optional<uint32_t> trigger = pin(words[1], PinType::Bit, false);
+    if (!trigger || !sendCode(words[4], sent)) return;
+    sent.pin = *trigger;
+    if (words.size() == 6) {
+      sent.donePin = pin(words[5], PinType::Bit, true);
+      if (!sent.donePin) return;
+    }
+    map_.sends.push_back(sent);
+  }
+
+  bool sendCode(std::string_view word, MapSend& sent) {
+    if (const std::optional<double> number = valueOf(PinType::S32, word)) {
+      sent.code = static_cast<int32_t>(*number);
+      return true;
+    }
+    sent.codePin = pin(word, PinType::S32, false);
+    return sent.codePin.has_value();
+  }
+
+  MapFile& map_;
+  std::vector<std::string>& errors_;
+  uint32_t line_ = 0;
+};
+
+} // namespace
+
+std::string_view pinTypeName(PinType type) {
+  switch (type) {
+  case PinType::Bit: return "bit";
+  case PinType::S32: return "s32";
+  case PinType::U32: return "u32";
+  case PinType::Float: return "float";
+  }
+  return "?";
+}
+
+MapFile parseMap(std::string_view text, std::string path, std::vector<std::string>& errors) {
+  MapFile map;
+  map.path = std::move(path);
+  Parser parser(map, errors);
+  uint32_t number = 0;
+  while (!text.empty()) {
+    const size_t end = text.find('\n');
+    parser.line(text.substr(0, end), ++number);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return map;
+}
+
+} // namespace rung::hal

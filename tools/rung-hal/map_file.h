@@ -1,0 +1,71 @@
+// The mapping file: which HAL pins there are, and which names of the PLC program they stand for. docs/linuxcnc.md
+// describes the lines. This is the text alone; bind.h looks the names up in a program.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rung::hal {
+
+enum class PinType : uint8_t { Bit, S32, U32, Float };
+
+// A HAL pin to make. A pin that several lines mention is made once.
+struct MapPin {
+  std::string name;
+  PinType type = PinType::Bit;
+  bool output = false; // PLC -> HAL
+};
+
+// in, out: the pin and the name are the same quantity.
+struct MapLink {
+  uint32_t pin = 0; // in MapFile::pins
+  std::string name;
+  uint32_t line = 0;
+};
+
+struct MapConst {
+  PinType type = PinType::Bit;
+  std::string name;
+  double value = 0; // holds every 32-bit integer exactly
+  uint32_t line = 0;
+};
+
+// channel: how the CNC hands an auxiliary function to the program: a code, its strobe, and the program's "finished".
+struct MapChannel {
+  std::string channel;
+  std::string strobe;
+  std::string code;
+  std::string done;
+  bool keepCode = false; // the code stays until the next one
+  uint32_t line = 0;
+};
+
+// send: an edge of a pin makes an auxiliary function.
+struct MapSend {
+  uint32_t pin = 0;
+  bool rising = true;
+  uint32_t channel = 0; // in MapFile::channels
+  int32_t code = 0;
+  std::optional<uint32_t> codePin; // instead of `code`
+  std::optional<uint32_t> donePin;
+  uint32_t line = 0;
+};
+
+struct MapFile {
+  std::string path; // for messages
+  std::vector<MapPin> pins;
+  std::vector<MapLink> inputs;
+  std::vector<MapLink> outputs;
+  std::vector<MapConst> constants;
+  std::vector<MapChannel> channels;
+  std::vector<MapSend> sends;
+};
+
+// Every mistake is one entry of `errors`, "PATH:LINE: what is wrong"; the lines without mistakes are in the result.
+MapFile parseMap(std::string_view text, std::string path, std::vector<std::string>& errors);
+
+std::string_view pinTypeName(PinType type);
+
+} // namespace rung::hal

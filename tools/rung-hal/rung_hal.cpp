@@ -1,0 +1,198 @@
+// The LinuxCNC real-time component: loads a compiled PLC program and a mapping file, makes their HAL pins, and scans in
+// the thread that its function is added to. docs/linuxcnc.md is the user's description.
+#include <hal.h>
+#include <rtapi.h>
+#include <rtapi_app.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/host/so_engine.h"
+#include "tools/rung-hal/box.h"
+
+extern "C" {
+int rtapi_app_main();
+void rtapi_app_exit();
+
+MODULE_LICENSE("Apache-2.0");
+MODULE_DESCRIPTION("Runs a PLC program compiled by rungc");
+static char* so = nullptr;
+RTAPI_MP_STRING(so, "compiled program, absolute path");
+static char* map = nullptr;
+RTAPI_MP_STRING(map, "mapping file, absolute path");
+static char* name = nullptr;
+RTAPI_MP_STRING(name, "prefix of the pins and the function");
+}
+
+namespace {
+
+using namespace rung;
+
+constexpr const char* kModule = "rung_hal"; // LinuxCNC wants the file's name here
+constexpr const char* kDefaultPrefix = "rung";
+
+struct StatusPins {
+  hal::PinCell fault;
+  hal::PinCell faultLine;
+  hal::PinCell scans;
+  hal::PinCell scanTime; // ns
+  hal::PinCell scanTimeMax;
+  hal::PinCell functionsLost;
+};
+
+struct Component {
+  std::string prefix;
+  std::unique_ptr<host::SoEngine> engine;
+  std::unique_ptr<hal::Box> box;
+  StatusPins* status = nullptr;  // in HAL's memory
+  hal::PinCell* cells = nullptr; // in HAL's memory
+};
+
+Component* component = nullptr; // RTAPI gives rtapi_app_exit no argument
+int componentId = -1;
+
+template <class... T>
+void complain(const char* format, T... values) {
+  rtapi_print_msg(RTAPI_MSG_ERR, format, values...);
+}
+
+std::optional<std::string> readFile(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+bool loadProgram(Component& c) {
+  if (so == nullptr || map == nullptr) {
+    complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed\n", kModule);
+    return false;
+  }
+  std::string error;
+  c.engine = host::SoEngine::open(so, error);
+  if (!c.engine) {
+    complain("%s: %s\n", kModule, error.c_str());
+    return false;
+  }
+  const std::optional<std::string> text = readFile(map);
+  if (!text) {
+    complain("%s: cannot read %s\n", kModule, map);
+    return false;
+  }
+  std::vector<std::string> errors;
+  hal::MapFile mapping = hal::parseMap(*text, map, errors);
+  // Both kinds of mistakes at once; a box is only made for a faultless map.
+  c.box = hal::Box::make(c.engine->program(), std::move(mapping), errors);
+  for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
+  return errors.empty();
+}
+
+hal_type_t halType(hal::PinType type) {
+  switch (type) {
+  case hal::PinType::Bit: return HAL_BIT;
+  case hal::PinType::S32: return HAL_S32;
+  case hal::PinType::U32: return HAL_U32;
+  case hal::PinType::Float: return HAL_FLOAT;
+  }
+  return HAL_BIT;
+}
+
+bool makePin(const Component& c, const char* pin, hal_type_t type, hal_pin_dir_t direction, void** cell) {
+  const std::string full = c.prefix + "." + pin;
+  const int result = hal_pin_new(full.c_str(), type, direction, cell, componentId);
+  if (result != 0)
+    complain("%s: cannot make pin %s (%d): is the name too long or taken?\n", kModule, full.c_str(), result);
+  return result == 0;
+}
+
+bool makePins(Component& c) {
+  const std::vector<hal::MapPin>& pins = c.box->pins();
+  c.status = static_cast<StatusPins*>(hal_malloc(sizeof(StatusPins)));
+  c.cells = static_cast<hal::PinCell*>(hal_malloc(static_cast<long>((pins.size() + 1) * sizeof(hal::PinCell))));
+  if (c.status == nullptr || c.cells == nullptr) {
+    complain("%s: HAL has no memory for the pins\n", kModule);
+    return false;
+  }
+  const auto status = [&c](const char* pin, hal_type_t type, hal::PinCell& cell) {
+    return makePin(c, pin, type, HAL_OUT, &cell.any);
+  };
+  StatusPins& s = *c.status;
+  bool ok = status("fault", HAL_BIT, s.fault) && status("fault-line", HAL_U32, s.faultLine) &&
+            status("scans", HAL_U32, s.scans) && status("scan-time", HAL_U32, s.scanTime) &&
+            status("scan-time-max", HAL_U32, s.scanTimeMax) && status("functions-lost", HAL_U32, s.functionsLost);
+  for (size_t i = 0; i < pins.size() && ok; ++i)
+    ok = makePin(c, pins[i].name.c_str(), halType(pins[i].type), pins[i].output ? HAL_OUT : HAL_IN, &c.cells[i].any);
+  c.box->connect(c.cells);
+  return ok;
+}
+
+void printMessage(const rung_program& program, const rung_message& message) {
+  if (message.op == RUNG_MESSAGE_CLEAR) return;
+  // The text of a number ends with 0: it stands in the program's table.
+  rtapi_print_msg(RTAPI_MSG_INFO, "%s: message %u %s\n", kModule, message.number,
+                  host::messageText(program, message.number).data());
+}
+
+// The fault in one line, from the program's tables alone: this runs in the scan and must not allocate.
+void reportFault(const Component& c) {
+  const rung_program& program = c.box->program();
+  const rung_fault& fault = c.box->fault();
+  const char* reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
+  const bool known = fault.rung < program.rung_count;
+  const rung_rung_info none = {"", RUNG_NONE, 0, 0, 0, 0};
+  const rung_rung_info& rung = known ? program.rungs[fault.rung] : none;
+  const char* file = rung.file < program.file_count ? program.files[rung.file] : "?";
+  const uint32_t line = fault.line != 0 ? fault.line : rung.first_line;
+  *c.status->fault.bit = true;
+  *c.status->faultLine.u32 = line;
+  complain("%s: the program has stopped: %s at %s:%u (rung %u \"%s\"); all output pins are 0\n", c.prefix.c_str(),
+           reason, file, line, fault.rung, rung.title);
+}
+
+void scan(void* argument, long periodNs) {
+  const Component& c = *static_cast<const Component*>(argument);
+  const long long begin = rtapi_get_time();
+  const hal::StepResult result = c.box->step(periodNs);
+  switch (result) {
+  case hal::StepResult::Waiting: return;
+  case hal::StepResult::Ran: break;
+  case hal::StepResult::Failed: reportFault(c); break;
+  }
+  const auto time = static_cast<uint32_t>(rtapi_get_time() - begin);
+  *c.status->scanTime.u32 = time;
+  if (time > *c.status->scanTimeMax.u32) *c.status->scanTimeMax.u32 = time;
+  *c.status->scans.u32 = c.box->scans();
+  *c.status->functionsLost.u32 = c.box->lostFunctions();
+}
+
+int start() {
+  component = new Component;
+  component->prefix = name != nullptr ? name : kDefaultPrefix;
+  if (!loadProgram(*component) || !makePins(*component)) return -EINVAL;
+  component->box->setMessageSink(printMessage);
+  const std::string function = component->prefix + ".scan";
+  const int result = hal_export_funct(function.c_str(), scan, component, 1, 0, componentId);
+  if (result != 0) complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
+  return result;
+}
+
+} // namespace
+
+int rtapi_app_main() {
+  componentId = hal_init(kModule);
+  if (componentId < 0) return componentId;
+  const int result = start();
+  if (result != 0) {
+    rtapi_app_exit();
+    return result;
+  }
+  return hal_ready(componentId);
+}
+
+void rtapi_app_exit() {
+  hal_exit(componentId); // takes the function out of its thread first
+  delete component;
+  component = nullptr;
+}

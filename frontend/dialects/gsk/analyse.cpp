@@ -20,7 +20,7 @@ Control controlOf(const Network& network) {
 
 // The number of a label or subprogram, when it was right.
 std::optional<uint32_t> numberOf(const Network& network) {
-  if (network.function.params.size() != 1 || network.function.params[0].value > UINT16_MAX) return std::nullopt;
+  if (network.function.params.size() != 1 || network.function.params[0].bad) return std::nullopt;
   return static_cast<uint32_t>(network.function.params[0].value);
 }
 
@@ -330,7 +330,7 @@ void Analysis::checkNumbers() {
   std::map<std::pair<int, int64_t>, SourceRange> seen;
   eachNetwork([&](uint32_t, uint32_t, Network& network) {
     const Row* row = network.function.row;
-    if (row == nullptr || row->numbers == Row::Numbers::Free || network.function.params.empty()) return;
+    if (row == nullptr || row->numbers == Row::Numbers::Free || network.function.params.empty() || network.function.params[0].bad) return;
     const Diag code = row->numbers == Row::Numbers::Timer     ? Diag::DuplicateTimer
                       : row->numbers == Row::Numbers::Counter ? Diag::DuplicateCounter
                                                               : Diag::DuplicateEdgeNumber;

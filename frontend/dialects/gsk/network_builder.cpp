@@ -53,6 +53,7 @@ void NetworkBuilder::contactOutOfPlace(Place at) {
     network_.bad = true;
     if (!silent_) context_.diagnostics.report(Diag::MultiLevelOutput, at.range);
     silent_ = true;
+    state_ = State::Outputs; // an output that is missing is part of this error
   } else {
     begin(at);
     stackError(at, "a network begins with LD or LDI; there is no value to combine with");
@@ -120,7 +121,6 @@ void NetworkBuilder::checkConditions(const Row& row, Place at) {
   }
   context_.diagnostics.report(Diag::WrongConditionCount, at.range) << row.info.mnemonic << wanted << depth_;
   network_.bad = true;
-  silent_ = true;
 }
 
 void NetworkBuilder::function(const Row* row, Place at) {
@@ -170,7 +170,7 @@ void NetworkBuilder::garbage(Place at) {
 void NetworkBuilder::completeFunction() {
   const Row* row = network_.function.row;
   if (row == nullptr) return;
-  if (row->info.output == frontend::Output::Always && state_ == State::Function && !silent_) {
+  if (row->info.output == frontend::Output::Always && state_ == State::Function && !network_.garbled) {
     context_.diagnostics.report(Diag::MissingOutput, network_.function.range) << row->info.mnemonic;
     network_.bad = true;
   }

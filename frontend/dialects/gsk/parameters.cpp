@@ -200,7 +200,8 @@ bool ParameterCheck::check(const std::vector<Word>& words) {
   bool good = true;
   for (size_t i = 0; i < words.size(); ++i) {
     Param param{.kind = kindOf(operands[i]), .range = words[i].range};
-    good = checkOne(operands[i], words[i], param) && good;
+    param.bad = !checkOne(operands[i], words[i], param);
+    good = good && !param.bad;
     function_.params.push_back(param);
   }
   return good;

@@ -34,6 +34,7 @@ struct CoilStep {
 struct Param {
   Kind kind = Kind::Byte;
   bool isAddress = false;
+  bool bad = false; // reported
   Address address;
   int64_t value = 0; // constant, number, mask, label, subprogram, format as a00n
   SourceRange range;

@@ -94,7 +94,7 @@ void UnitAssembler::beginSubprogram(const Network& network) {
     misplaced_ = true;
     resume_ = current_;
   }
-  if (network.function.params.empty() || network.bad) { // reported; its number is not known
+  if (network.function.params.empty() || network.function.params[0].bad) { // reported; its number is not known
     program_.units.push_back(Unit{.kind = UnitKind::Subprogram, .number = kNone, .range = range, .nameRange = range});
     current_ = static_cast<uint32_t>(program_.units.size()) - 1;
     garbled_ = true;

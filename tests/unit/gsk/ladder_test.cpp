@@ -1,0 +1,198 @@
+// Ladder text: what list a drawing becomes, that both forms give one program, and the errors of drawings.
+#include <gtest/gtest.h>
+
+#include "frontend/dialects/gsk/ladder_reader.h"
+#include "tests/unit/gsk/compile.h"
+
+namespace rung::gsk::test {
+namespace {
+
+// The command list of a rung, on one line; the errors where it has any.
+std::string listOf(const std::string& drawing) {
+  SourceManager sources;
+  Diagnostics diagnostics;
+  const FileId file = sources.addBuffer("test.lad", "dialect gsk\nmodule LEVEL2\nrung\n" + drawing);
+  Context context{sources, diagnostics, {}, 0};
+  Program program;
+  UnitAssembler units(context, program);
+  const ladder::LadderFile parsed = parseLadderFile(context, file);
+  readLadder(context, parsed, units);
+  if (diagnostics.hasErrors()) return renderText(diagnostics, sources);
+  std::string text;
+  for (const Network& network : program.units[kLevel2].networks) text += commandText(network);
+  for (char& c : text)
+    if (c == '\n') c = ';';
+  return text;
+}
+
+TEST(GskLadder, Contacts) {
+  EXPECT_EQ(listOf("|--[X2.1]--[/X002.2]--(Y0.0)\n"), "LD X2.1;ANI X2.2;OUT Y0.0;");
+  EXPECT_EQ(listOf("|--[/X2.1]--(/Y0.0)\n"), "LDI X2.1;OUTI Y0.0;");
+  EXPECT_EQ(listOf("|--[X0.0]--+--(S Y0.0)\n           +--(R Y0.1)\n"), "LD X0.0;SET Y0.0;RST Y0.1;");
+  EXPECT_EQ(listOf("|--[X0.0]--(R10.0)\n"), "LD X0.0;OUT R10.0;") << "no blank: a coil on R10.0";
+}
+
+TEST(GskLadder, ParallelOfSingleContactsIsOr) {
+  EXPECT_EQ(listOf("|--[X0.0]--+--[/X0.1]--(Y0.0)\n"
+                   "|--[/Y0.0]-+\n"),
+            "LD X0.0;ORI Y0.0;ANI X0.1;OUT Y0.0;");
+}
+
+TEST(GskLadder, ParallelOfSeriesIsOrb) {
+  EXPECT_EQ(listOf("|--[X0.0]--[X0.1]--+--(Y0.0)\n"
+                   "|--[X0.2]--[X0.3]--+\n"
+                   "|--[X0.4]----------+\n"),
+            "LD X0.0;AND X0.1;LD X0.2;AND X0.3;ORB;OR X0.4;OUT Y0.0;");
+}
+
+TEST(GskLadder, ParallelBlockInSeriesIsAnb) {
+  EXPECT_EQ(listOf("|--[X0.0]--+--[X0.1]--+--[X0.3]--(Y0.0)\n"
+                   "           +--[X0.2]--+\n"),
+            "LD X0.0;LD X0.1;OR X0.2;ANB;AND X0.3;OUT Y0.0;");
+}
+
+TEST(GskLadder, NestedBlocks) {
+  EXPECT_EQ(listOf("|--[X0.0]--+--[X0.1]--+--[X0.2]--+--+--(Y0.0)\n"
+                   "           |          +--[X0.3]--+  |\n"
+                   "           +--[X0.4]----------------+\n"
+                   "|--[X0.5]---------------------------+\n"),
+            "LD X0.0;LD X0.1;LD X0.2;OR X0.3;ANB;OR X0.4;ANB;OR X0.5;OUT Y0.0;");
+}
+
+TEST(GskLadder, Boxes) {
+  EXPECT_EQ(listOf("|--[X0.0]--{TMR 1}--(Y0.0)\n"), "LD X0.0;FUNC 2;PRM 1;OUT Y0.0;");
+  EXPECT_EQ(listOf("|--[R0.1]--{ADDB 0002 D10 1000 D20}--(R10.0)\n"
+                   "|--[R0.0]--{ACT                  }\n"),
+            "LD R0.1;LD R0.0;FUNC 21;PRM 0002;PRM D10;PRM 1000;PRM D20;OUT R10.0;");
+  EXPECT_EQ(listOf("|--[R0.0]--{CTR 1 }--(Y0.0)\n"
+                   "|--[R0.1]--{UPDOWN}\n"
+                   "|--[R0.2]--{RST   }\n"
+                   "|--[X0.3]--{ACT   }\n"),
+            "LD R0.0;LD R0.1;LD R0.2;LD X0.3;FUNC 6;PRM 1;OUT Y0.0;");
+  EXPECT_EQ(listOf("|--[R0.0]--{CODB 1 2 D10 D11 TABLE 10 -1}--(R10.0)\n"
+                   "|--[R0.1]--{ACT                         }\n"),
+            "LD R0.0;LD R0.1;FUNC 9;PRM 1;PRM 2;PRM D10;PRM D11;TABLE 10;TABLE -1;OUT R10.0;");
+  EXPECT_EQ(listOf("|--{JMPE}\n"), "FUNC 36;");
+  EXPECT_EQ(listOf("|--[X0.0]--[X0.1]--{JMP 0}\n"), "LD X0.0;AND X0.1;FUNC 35;PRM 0;");
+  EXPECT_EQ(listOf("|--{LBL L001}\n"), "FUNC 41;PRM L1;");
+}
+
+TEST(GskLadder, OnePartOfTheDrawingForTwoPins) {
+  EXPECT_EQ(listOf("|--[R0.0]--+--[R0.1]--{ADDB 1 D10 1 D10}--(R10.0)\n"
+                   "           +----------{ACT             }\n"),
+            "LD R0.0;AND R0.1;LD R0.0;FUNC 21;PRM 0001;PRM D10;PRM 1;PRM D10;OUT R10.0;");
+}
+
+// ---- one program in two forms --------------------------------------------------------------------------------------
+
+TEST(GskLadder, BothFormsGiveOneProgram) {
+  const auto ladder = compileLadder(R"(dialect gsk
+symbol START X10.0
+module LEVEL1
+rung
+|--[X8.4]--(Y8.0)
+module LEVEL2
+rung "start"
+|--[START]--+--(Y10.0)
+|--[Y10.0]--+
+rung
+|--[X10.1]--{CALL P1}
+module SUB P1
+rung
+|--[X10.2]--(S Y10.1)
+)");
+  const auto list = compileList(R"(symbol START X10.0
+LD X8.4
+OUT Y8.0
+FUNC END1
+LD START
+OR Y10.0
+OUT Y10.0
+LD X10.1
+FUNC CALL
+PRM P1
+FUNC END2
+FUNC SP
+PRM P1
+LD X10.2
+SET Y10.1
+FUNC SPE
+)");
+  ASSERT_NE(ladder->module, nullptr) << ladder->text();
+  ASSERT_NE(list->module, nullptr) << list->text();
+  ASSERT_EQ(ladder->module->routines.size(), list->module->routines.size());
+  for (size_t r = 0; r < list->module->routines.size(); ++r) {
+    const auto& a = ladder->module->routines[r];
+    const auto& b = list->module->routines[r];
+    EXPECT_EQ(a.name, b.name);
+    ASSERT_EQ(a.rungs.size(), b.rungs.size()) << a.name;
+    for (size_t i = 0; i < a.rungs.size(); ++i) {
+      EXPECT_EQ(a.rungs[i].key, b.rungs[i].key) << a.name << " " << i;
+      EXPECT_EQ(a.rungs[i].ops.size(), b.rungs[i].ops.size()) << a.name << " " << i;
+    }
+  }
+  EXPECT_EQ(ladder->module->routines[1].rungs[0].title, "start");
+}
+
+// ---- errors --------------------------------------------------------------------------------------------------------
+
+// Of a rung of Level 2; the drawing begins in line 4.
+Codes errorsOf(const std::string& drawing) { return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n" + drawing)->codes(); }
+
+TEST(GskLadderErrors, Shapes) {
+  EXPECT_EQ(errorsOf("|--[@X0.0]--(Y0.0)\n"), (Codes{"4 unsupported-element"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--(Y0.0)--[X0.1]--(Y0.1)\n"), (Codes{"4 multi-level-output"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}--[X0.1]--(Y0.1)\n"), (Codes{"4 multi-level-output"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--+--(Y0.0)\n           +--[X0.1]--(Y0.1)\n"), (Codes{"5 multi-level-output"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{MOVB D0 D1}--(Y0.1)\n"), (Codes{"4 element-after-closing"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}\n"), (Codes{"4 missing-output"}));
+  EXPECT_EQ(errorsOf("|--(Y0.0)\n"), (Codes{"4 missing-condition"}));
+  EXPECT_EQ(errorsOf("|--{MOVB D0 D1}\n"), (Codes{"4 missing-condition"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|----------{ACT             }\n"), (Codes{"5 missing-condition"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--[X0.1]\n"), (Codes{"4 missing-closing-element"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{END1}\n"), (Codes{"4 unsupported-element"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}\n"), (Codes{"4 unknown-function"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{COME}\n"), (Codes{"4 first-column-required"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{LBL L1}\nrung\n|--[X0.0]--{JMPB L1}\n"), (Codes{"4 condition-ignored"}));
+}
+
+TEST(GskLadderErrors, Bridge) {
+  EXPECT_EQ(errorsOf("|--[X0.0]--+--[X0.1]------------+--(Y0.0)\n"
+                     "           +--[X0.2]--+         |\n"
+                     "|--[X0.3]-------------+--[X0.4]-+\n"),
+            (Codes{"4 not-series-parallel"}));
+}
+
+TEST(GskLadderErrors, Pins) {
+  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n"), (Codes{"4 missing-pin"}));
+  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|--[R0.1]--{RST             }\n"), (Codes{"5 unknown-pin"}));
+}
+
+TEST(GskLadderErrors, Operands) {
+  EXPECT_EQ(errorsOf("|--[X128.0]--[X0.9]--(X0.0)\n"), (Codes{"4 address-out-of-range", "4 bad-bit-number", "4 write-to-input"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}--(Y0.0)\n"), (Codes{"4 parameter-out-of-range"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR}--(Y0.0)\n"), (Codes{"4 wrong-parameter-count"}));
+}
+
+TEST(GskLadderErrors, Modules) {
+  const auto codes = [](const std::string& text) { return compileLadder("dialect gsk\n" + text)->codes(); };
+  const std::string rung = "rung\n|--[X0.0]--(Y0.0)\n";
+  EXPECT_EQ(codes("module LEVEL1\n" + rung + "module LEVEL2\n" + rung), Codes{});
+  EXPECT_EQ(codes("module LEVEL2\n" + rung), Codes{}) << "Level 1 may be missing";
+  EXPECT_EQ(codes("module LEVEL2\n" + rung + "module LEVEL2\n" + rung), (Codes{"5 duplicate-module"}));
+  EXPECT_EQ(codes("module MAIN\n" + rung), (Codes{"2 malformed-statement"}));
+  EXPECT_EQ(codes("module SUB P513\n" + rung), (Codes{"2 parameter-out-of-range"}));
+  EXPECT_EQ(codes("module SUB 5\n" + rung), (Codes{"2 bad-operand"}));
+  EXPECT_EQ(codes("module LEVEL2\n" + rung + "module SUB P5\n" + rung), (Codes{"5 subprogram-unused"}));
+  EXPECT_EQ(codes("module LEVEL2\nrung\n|--{CALLU P5}\nmodule SUB P5\n" + rung + "module SUB P5\n" + rung), (Codes{"8 duplicate-subprogram"}));
+  EXPECT_EQ(codes("const LIMIT 50\nmodule LEVEL2\nrung\n|--[X0.0]--{NUMEB 1 LIMIT D0}\n"), Codes{});
+  EXPECT_EQ(codes("message 1 \"x\"\nmodule LEVEL2\n" + rung), (Codes{"2 unsupported-element"}));
+  EXPECT_EQ(compileLadder("dialect nct\nmodule LEVEL2\n" + rung)->codes(), (Codes{"1 dialect-conflict"}));
+}
+
+TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {
+  EXPECT_EQ(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes(), (Codes{"4 unclosed-element"}));
+}
+
+} // namespace
+} // namespace rung::gsk::test

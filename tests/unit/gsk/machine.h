@@ -1,0 +1,50 @@
+// A compiled program that runs in a test: names as in the program, time in slots of 8 ms.
+#pragma once
+#include <gtest/gtest.h>
+
+#include "codegen/jit/jit_engine.h"
+#include "ir/layout/layout.h"
+#include "ir/verify/verify.h"
+#include "rtlib/host/instance.h"
+#include "tests/unit/gsk/compile.h"
+
+namespace rung::gsk::test {
+
+class Machine {
+ public:
+  explicit Machine(std::unique_ptr<Compiled> program) : program_(std::move(program)) {
+    if (program_->module == nullptr) {
+      ADD_FAILURE() << program_->text();
+      std::abort();
+    }
+    const auto errors = ir::verify(*program_->module, ir::Mode::Built);
+    EXPECT_TRUE(errors.empty()) << ir::render(*program_->module, errors);
+    layout_ = std::make_unique<ir::Layout>(*program_->module, ir::LayoutOptions{});
+    auto engine = codegen::compileJit(*layout_, 0, {});
+    if (!engine.ok()) ADD_FAILURE() << engine.error();
+    engine_ = std::move(engine.value());
+    instance_ = std::make_unique<host::Instance>(engine_->program());
+  }
+
+  uint64_t get(const std::string& name) const { return instance_->read(ref(name)); }
+  void set(const std::string& name, uint64_t value) { instance_->write(ref(name), value); }
+  void scan(int count = 1) {
+    for (int i = 0; i < count; ++i) instance_->scan();
+  }
+  host::Instance& instance() { return *instance_; }
+  const ir::Module& module() const { return *program_->module; }
+
+ private:
+  host::Ref ref(const std::string& name) const {
+    const auto found = instance_->resolve(name);
+    if (!found) ADD_FAILURE() << name;
+    return found.value_or(host::Ref{});
+  }
+
+  std::unique_ptr<Compiled> program_;
+  std::unique_ptr<ir::Layout> layout_;
+  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<host::Instance> instance_;
+};
+
+} // namespace rung::gsk::test

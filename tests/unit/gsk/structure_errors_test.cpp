@@ -1,0 +1,129 @@
+// Diagnostics of the program's structure: ends, subprograms, regions, labels, calls, numbers.
+#include <gtest/gtest.h>
+
+#include "tests/unit/gsk/compile.h"
+
+namespace rung::gsk::test {
+namespace {
+
+Codes codes(const std::string& text) { return compileList(text)->codes(); }
+// In Level 2; the text begins in line 2.
+Codes level2(const std::string& text) { return codes("FUNC 0\n" + text + "FUNC 1\n"); }
+
+TEST(GskEnds, MissingAndDouble) {
+  EXPECT_EQ(codes("FUNC 0\nFUNC 1\n"), Codes{});
+  EXPECT_EQ(codes("LD X0.0\nOUT Y0.0\nFUNC 1\n; the end\n"), (Codes{"3 missing-end1"}));
+  EXPECT_EQ(codes("FUNC 0\nLD X0.0\nOUT Y0.0\n; the end\n\n"), (Codes{"4 missing-end2"}));
+  EXPECT_EQ(codes("LD X0.0\nOUT Y0.0"), (Codes{"2 missing-end1", "2 missing-end2"}));
+  EXPECT_EQ(codes(""), (Codes{"1 missing-end1", "1 missing-end2"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC 0\nFUNC 1\n"), (Codes{"2 duplicate-end1"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC 1\nFUNC 1\n"), (Codes{"3 duplicate-end2"}));
+  EXPECT_EQ(codes("FUNC 1\nFUNC 0\n"), (Codes{"2 end-order"}));
+}
+
+TEST(GskEnds, CodeBehindEnd2) {
+  EXPECT_EQ(codes("FUNC 0\nFUNC 1\nLD X0.0\nOUT Y0.0\nLD X0.1\nOUT Y0.1\n"), (Codes{"3 code-after-end2"}));
+  EXPECT_EQ(codes("FUNC 0\nLD X0.0\nFUNC CALL\nPRM P1\nFUNC 1\nLD X0.0\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"6 condition-ignored"}));
+}
+
+TEST(GskSubprograms, Text) {
+  const std::string call = "FUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n"; // four lines
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\n"), Codes{});
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\n"), (Codes{"5 missing-spe"}));
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\nFUNC SPE\n"), (Codes{"8 stray-spe"}));
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SP\nPRM P2\nFUNC SPE\nFUNC SPE\n"), (Codes{"7 nested-subprogram"}));
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SP\nPRM P2\nFUNC SPE\n"), (Codes{"7 nested-subprogram"}));
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"9 duplicate-subprogram"}));
+  EXPECT_EQ(codes(call), (Codes{"3 undefined-subprogram"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC 1\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"4 subprogram-unused"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P1\nFUNC SP\nPRM P1\nFUNC SPE\nLD X0.0\nOUT Y0.0\nFUNC 1\n"), (Codes{"4 subprogram-misplaced"}));
+  EXPECT_EQ(codes(call + "FUNC SP\nPRM P513\nFUNC SPE\n"), (Codes{"6 parameter-out-of-range"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P0\nFUNC 1\nFUNC SP\nPRM P0\nFUNC SPE\n"), (Codes{"3 label-zero", "6 label-zero"}));
+}
+
+std::string chain(int length, const std::string& last) {
+  std::string text = "FUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n"; // Pn begins in line 5 n
+  for (int i = 1; i <= length; ++i) {
+    text += "FUNC SP\nPRM P" + std::to_string(i) + "\n";
+    text += i < length ? "FUNC CALLU\nPRM P" + std::to_string(i + 1) + "\n" : last;
+    text += "FUNC SPE\n";
+  }
+  return text;
+}
+
+TEST(GskSubprograms, Calls) {
+  EXPECT_EQ(codes(chain(8, "")), Codes{});
+  EXPECT_EQ(codes(chain(9, "")), (Codes{"42 nesting-too-deep"})) << "the call in P8";
+  EXPECT_EQ(codes(chain(11, "")), (Codes{"42 nesting-too-deep"})) << "once";
+  EXPECT_EQ(codes(chain(3, "FUNC CALLU\nPRM P1\n")), (Codes{"17 recursive-call"}));
+  EXPECT_EQ(codes(chain(1, "FUNC CALLU\nPRM P1\n")), (Codes{"7 recursive-call"}));
+}
+
+TEST(GskRegions, Jmp) {
+  const std::string jmp = "LD X0.0\nFUNC JMP\nPRM 0\n"; // three lines
+  EXPECT_EQ(level2(jmp + "FUNC JMPE\n"), Codes{});
+  EXPECT_EQ(level2(jmp), (Codes{"3 missing-jmpe"}));
+  EXPECT_EQ(level2("FUNC JMPE\n"), (Codes{"2 stray-jmpe"}));
+  EXPECT_EQ(level2(jmp + jmp + "FUNC JMPE\nFUNC JMPE\n"), (Codes{"6 nested-jmp"}));
+  EXPECT_EQ(level2(jmp + jmp + "FUNC JMPE\n"), (Codes{"6 nested-jmp"}));
+  EXPECT_EQ(codes(jmp + "FUNC 0\nFUNC JMPE\nFUNC 1\n"), (Codes{"2 missing-jmpe", "5 stray-jmpe"})) << "not over END1";
+}
+
+TEST(GskRegions, Com) {
+  const std::string com = "LD X0.0\nFUNC COM\n"; // two lines
+  const std::string jmp = "LD X0.0\nFUNC JMP\nPRM 0\n";
+  EXPECT_EQ(level2(com + "FUNC COME\n"), Codes{});
+  EXPECT_EQ(level2(com), (Codes{"3 missing-come"}));
+  EXPECT_EQ(level2("FUNC COME\n"), (Codes{"2 stray-come"}));
+  EXPECT_EQ(level2(com + com + "FUNC COME\nFUNC COME\n"), (Codes{"5 nested-com"}));
+  EXPECT_EQ(level2(com + jmp + "FUNC JMPE\nFUNC COME\n"), Codes{});
+  EXPECT_EQ(level2(jmp + com + "FUNC COME\nFUNC JMPE\n"), Codes{});
+  EXPECT_EQ(level2(jmp + com + "FUNC JMPE\nFUNC COME\n"), (Codes{"3 jump-out-of-com"})) << "JMP reaches in";
+  EXPECT_EQ(level2(com + jmp + "FUNC COME\nFUNC JMPE\n"), (Codes{"7 jump-out-of-com"})) << "COME closes first";
+}
+
+TEST(GskLabels, Jmpb) {
+  const std::string jump = "LD X0.0\nFUNC JMPB\nPRM L1\n"; // three lines
+  const std::string label = "FUNC LBL\nPRM L1\n";
+  EXPECT_EQ(level2(jump + label), Codes{});
+  EXPECT_EQ(level2(label + jump), Codes{});
+  EXPECT_EQ(level2(jump), (Codes{"4 undefined-label"}));
+  EXPECT_EQ(level2(label), (Codes{"3 label-unused"}));
+  EXPECT_EQ(level2(jump + label + label), (Codes{"8 duplicate-label"}));
+  EXPECT_EQ(level2(jump + "LD X0.0\n" + label), (Codes{"5 condition-ignored"}));
+  EXPECT_EQ(level2("LD X0.0\nFUNC JMPB\nPRM L10000\n"), (Codes{"4 parameter-out-of-range"}));
+  EXPECT_EQ(level2("LD X0.0\nFUNC JMPB\nPRM 1\n"), (Codes{"4 bad-operand"}));
+  EXPECT_EQ(codes(jump + "FUNC 0\n" + label + "FUNC 1\n"), (Codes{"3 jump-across-end"}));
+  EXPECT_EQ(level2(jump + "LD X0.1\nFUNC COM\n" + label + "FUNC COME\n"), (Codes{"4 jump-out-of-com"}));
+  EXPECT_EQ(level2("LD X0.1\nFUNC COM\n" + jump + "FUNC COME\n" + label), (Codes{"6 jump-out-of-com"}));
+  EXPECT_EQ(level2("LD X0.1\nFUNC COM\n" + jump + label + "FUNC COME\n"), Codes{});
+}
+
+TEST(GskLabels, Jmpc) {
+  const std::string jump = "LD X0.0\nFUNC JMPC\nPRM L1\n";
+  const std::string sub = "FUNC SP\nPRM P1\n" + jump + "FUNC SPE\n"; // JMPC's FUNC in its line 4, PRM in 5
+  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P1\nFUNC LBL\nPRM L1\nFUNC 1\n" + sub), Codes{});
+  EXPECT_EQ(level2(jump + "FUNC LBL\nPRM L1\n"), (Codes{"3 jmpc-outside-subprogram"}));
+  EXPECT_EQ(codes("FUNC CALLU\nPRM P1\nFUNC 0\nFUNC LBL\nPRM L1\nFUNC 1\n" + sub), (Codes{"11 jump-across-end"})) << "Level 1 calls it";
+  EXPECT_EQ(codes("FUNC LBL\nPRM L1\nFUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n" + sub), (Codes{"11 jump-across-end"})) << "a label of Level 1";
+}
+
+TEST(GskNumbers, TwiceIsAWarning) {
+  const std::string tmr = "LD X0.0\nFUNC TMR\nPRM 5\nOUT Y0.0\n"; // four lines
+  const std::string tmrb = "LD X0.0\nFUNC TMRB\nPRM 5\nPRM 80\nOUT Y0.0\n";
+  EXPECT_EQ(level2(tmr + tmrb), Codes{});
+  EXPECT_EQ(level2(tmr + tmr), (Codes{"8 duplicate-timer"}));
+  EXPECT_EQ(level2("LD X0.0\nFUNC DIFU\nPRM 5\nOUT R0.0\nLD X0.0\nFUNC DIFD\nPRM 5\nOUT R0.1\n"), (Codes{"8 duplicate-edge-number"}));
+  const std::string ctr = "LD R0.0\nLD R0.1\nLD R0.2\nLD X0.0\nFUNC CTR\nPRM 7\nOUT Y0.0\n"; // seven lines
+  EXPECT_EQ(level2(ctr + ctr), (Codes{"14 duplicate-counter"}));
+  EXPECT_NE(compileList("FUNC 0\n" + ctr + ctr + "FUNC 1\n")->module, nullptr);
+  EXPECT_EQ(compileList("FUNC 0\n" + ctr + ctr + "FUNC 1\n", {.strict = true})->module, nullptr);
+}
+
+TEST(GskRecovery, ALostFunctionCausesNoFurtherErrors) {
+  EXPECT_EQ(level2("LD X0.0\nFUNC JMQ\nPRM 0\nFUNC JMPE\n"), (Codes{"3 unknown-function"}));
+  EXPECT_EQ(level2("FUMC 33\nFUNC COME\nLD X0.0\nFUNC JMPB\nPRM L1\n"), (Codes{"2 unknown-command"}));
+}
+
+} // namespace
+} // namespace rung::gsk::test

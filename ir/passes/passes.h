@@ -1,0 +1,13 @@
+// The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does stands in its file.
+#pragma once
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+void foldConstants(Module& module);         // constants, algebra, branches that are known
+void reuseValues(Module& module);           // an equal operation, load or stored value above is used again
+void removeDeadOps(Module& module);         // results that nothing uses, regions without effect
+void removeTransientStores(Module& module); // values of registers between rungs that nothing reads
+void instrumentRungs(Module& module);       // measures each rung
+
+} // namespace rung::ir

@@ -1,0 +1,35 @@
+// The order of the passes (see pipeline.h).
+#include "ir/passes/pipeline.h"
+
+#include "ir/passes/passes.h"
+#include "ir/support/check.h"
+#include "ir/verify/verify.h"
+
+namespace rung::ir {
+namespace {
+
+class Pipeline {
+ public:
+  Pipeline(Module& module, bool verifyEach) : module_(module), verifyEach_(verifyEach) {}
+
+  void run(void (*pass)(Module&)) {
+    pass(module_);
+    if (!verifyEach_) return;
+    const std::vector<VerifyError> errors = verify(module_, module_.instrumented ? Mode::Final : Mode::Built);
+    const std::string text = errors.empty() ? std::string() : render(module_, errors);
+    RUNG_CHECK(errors.empty(), text.c_str());
+  }
+
+ private:
+  Module& module_;
+  bool verifyEach_;
+};
+
+} // namespace
+
+void runPasses(Module& module, const PassOptions& options) {
+  Pipeline pipeline(module, options.verifyEach);
+  if (options.instrument) pipeline.run(instrumentRungs);
+}
+
+} // namespace rung::ir

@@ -1,0 +1,19 @@
+// The passes that a module goes through between front end and layout, in one fixed order (pipeline.cpp). They keep
+// everything that a program shows: memory after every run of a task, messages, services and faults in their order, and
+// rungs, keys and source lines. Slots that are `transient` show nowhere and may differ. Time and space are nearly linear
+// in the size of the module.
+#pragma once
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+struct PassOptions {
+  bool optimise = true;
+  bool instrument = false; // count and time rungs
+  bool verifyEach = false; // run the verifier after each pass; an error stops the process
+};
+
+// `module` has passed the verifier (mode Built).
+void runPasses(Module& module, const PassOptions& options);
+
+} // namespace rung::ir

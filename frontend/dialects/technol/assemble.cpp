@@ -1,0 +1,197 @@
+// Spaces, symbols, tasks (see assemble.h).
+#include "frontend/dialects/technol/assemble.h"
+
+#include <algorithm>
+
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+
+namespace {
+
+constexpr uint32_t kFastPeriodUs = 1000; // man. l.2660
+constexpr uint32_t kScanBudget = 1'000'000;
+constexpr uint32_t kFastBudget = 100'000;
+
+uint32_t abiType(Type type) {
+  switch (type) {
+  case Type::None:
+  case Type::I8: return RUNG_TYPE_I8;
+  case Type::Bit: return RUNG_TYPE_BIT;
+  case Type::I16: return RUNG_TYPE_I16;
+  case Type::I32: return RUNG_TYPE_I32;
+  case Type::I64: return RUNG_TYPE_I64;
+  case Type::F64: return RUNG_TYPE_F64;
+  }
+  return RUNG_TYPE_I8;
+}
+
+std::string upperCase(std::string_view name) {
+  std::string text(name);
+  for (char& c : text) c = upper(c);
+  return text;
+}
+
+// DS 8 holds a QWORD or a REAL, DS n is bytes; a text has room for its terminator.
+ir::Symbol madeSymbol(const Symbol& symbol) {
+  ir::Symbol made;
+  made.name = upperCase(symbol.name);
+  made.space = symbol.space;
+  made.byte = symbol.byte;
+  made.bit = symbol.bit;
+  made.type = abiType(symbol.type);
+  switch (symbol.kind) {
+  case SymbolKind::Text:
+    made.type = RUNG_TYPE_TEXT;
+    made.count = symbol.size;
+    break;
+  case SymbolKind::Cell:
+    if (symbol.type == Type::None && symbol.size == 8) made.type = RUNG_TYPE_I64;
+    else made.count = std::max(1u, symbol.size / std::max(1u, ir::byteWidth(symbol.type)));
+    break;
+  case SymbolKind::Constant:
+    made.flags = RUNG_SYMBOL_CONST;
+    made.type = RUNG_TYPE_I64;
+    made.value = symbol.value;
+    break;
+  default: break;
+  }
+  if (symbol.protection != Protection::None) made.flags |= RUNG_SYMBOL_READONLY;
+  return made;
+}
+
+bool isVisible(const Symbol& symbol) {
+  if (symbol.broken) return false;
+  switch (symbol.kind) {
+  case SymbolKind::Bit:
+  case SymbolKind::Cell:
+  case SymbolKind::Text:
+  case SymbolKind::Mechanism: return symbol.space.valid();
+  case SymbolKind::Constant: return !symbol.predeclared;
+  case SymbolKind::Label:
+  case SymbolKind::Procedure:
+  case SymbolKind::Macro:
+  case SymbolKind::Structure: return false;
+  }
+  return false;
+}
+
+} // namespace
+
+void addSpaces(const Program& program, ir::Module& module) {
+  const nc::SignalTable& signals = nc::technolSignals();
+  const auto add = [&](std::string name, uint32_t bytes, uint32_t flags) {
+    module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = std::max(1u, bytes), .flags = flags});
+  };
+  add("NCI", nc::areaBytes(signals, "I"), 0);
+  add("DATA", program.dataBytes, 0);
+  add("MECH", static_cast<uint32_t>(program.mechanisms.size()) * kMechanismBytes, 0);
+  add("@REG", kRegisterBytes, RUNG_SPACE_HIDDEN);
+  add("BLK", nc::areaBytes(signals, "BLK") * kQueuedBlocks, RUNG_SPACE_INPUT);
+  module.inits = program.inits;
+  // Saved at a regular shutdown, loaded at the start (man. l.7549).
+  if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
+    module.retains.push_back({.space = kInterfaceSpace, .byte = backup->byteOffset, .size = backup->count});
+}
+
+void addSymbols(const Program& program, ir::Module& module) {
+  std::unordered_map<std::string, uint32_t> count;
+  for (const Symbol& symbol : program.symbols.all())
+    if (isVisible(symbol)) {
+      ir::Symbol made = madeSymbol(symbol);
+      ++count[made.name];
+      module.symbols.push_back(std::move(made));
+      // A cell that shares its name with a mechanism is the cell; the mechanism is found in the control's own view.
+    }
+  // A local name is public where no other file has it.
+  std::erase_if(module.symbols, [&](const ir::Symbol& symbol) { return count[symbol.name] > 1; });
+  uint64_t initFiles = 0, doneFiles = 0;
+  for (size_t i = 0; i < program.files.size(); ++i) {
+    if (program.files[i].finishesInit) initFiles |= uint64_t{1} << i;
+    if (program.files[i].finishesDone) doneFiles |= uint64_t{1} << i;
+  }
+  for (int i = 0; i < kHostCells; ++i) {
+    const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
+    module.symbols.push_back({.name = std::string(cell.name), .space = kRegisterSpace, .byte = cell.byte, .type = abiType(cell.type), .flags = RUNG_SYMBOL_HIDDEN});
+  }
+  const auto constant = [&](std::string name, uint64_t value) {
+    module.symbols.push_back({.name = std::move(name), .type = RUNG_TYPE_I64,
+                              .flags = RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST, .value = static_cast<int64_t>(value)});
+  };
+  constant("@INIT.NEEDED", initFiles);
+  constant("@DONE.NEEDED", doneFiles);
+  std::sort(module.symbols.begin(), module.symbols.end(), [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+}
+
+namespace {
+
+class TaskMaker {
+public:
+  TaskMaker(Lowering& lowering, ir::Module& module, uint32_t periodUs) : lowering_(lowering), module_(module), periodUs_(periodUs) {}
+  void make();
+
+private:
+  ir::TaskId add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast);
+  ir::TaskId of(ModuleKind kind) const { return ids_[static_cast<size_t>(kind)]; }
+  void run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t times = 1) const;
+  void fastSteps(std::vector<ir::Step>& steps, uint32_t times) const;
+
+  Lowering& lowering_;
+  ir::Module& module_;
+  uint32_t periodUs_;
+  std::array<ir::TaskId, kModuleKinds> ids_{};
+};
+
+// A long program without a loop must not run into the watchdog.
+ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast) {
+  const uint64_t budget = std::max<uint64_t>(fast ? kFastBudget : kScanBudget, weight * 4);
+  const std::string fault = fast ? "halt-status 10: fast raster overrun" : "watchdog: endless loop in " + module_.at(routine).name;
+  module_.tasks.push_back({.name = std::move(name), .entry = routine, .periodUs = period,
+                           .budget = static_cast<uint32_t>(std::min<uint64_t>(budget, UINT32_MAX)), .budgetFault = lowering_.fault(fault)});
+  return {static_cast<uint32_t>(module_.tasks.size()) - 1};
+}
+
+void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t times) const {
+  if (of(kind).valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = of(kind), .arg = times});
+}
+
+void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
+  if (!of(ModuleKind::Cyclic).valid() && !of(ModuleKind::Fastest).valid()) return run(steps, ModuleKind::Fast, times);
+  for (uint32_t i = 0; i < times; ++i) {
+    run(steps, ModuleKind::Cyclic);
+    run(steps, ModuleKind::Fastest);
+    run(steps, ModuleKind::Fast);
+  }
+}
+
+void TaskMaker::make() {
+  for (const LoweredModule& lowered : lowering_.modules()) {
+    const bool fast = lowered.kind == ModuleKind::Fast || lowered.kind == ModuleKind::Fastest || lowered.kind == ModuleKind::Cyclic;
+    const bool cyclic = lowered.kind == ModuleKind::Input || lowered.kind == ModuleKind::Main || lowered.kind == ModuleKind::Cont;
+    const std::string_view name = moduleName(lowered.kind).substr(std::string_view("MODULE_").size());
+    ids_[static_cast<size_t>(lowered.kind)] = add(std::string(name), lowered.routine, lowered.weight, fast ? kFastPeriodUs : cyclic ? periodUs_ : 0, fast);
+  }
+  for (size_t i = 0; i < lowering_.events().size(); ++i)
+    add(lowering_.eventNames()[i], lowering_.events()[i].routine, 1, 0, false);
+  module_.mainTask = of(ModuleKind::Main);
+  module_.fastTask = of(ModuleKind::Fast);
+  const ir::TaskId none{RUNG_NONE};
+  const auto step = [&](uint32_t op, uint32_t arg) { module_.scan.push_back({.op = op, .task = none, .arg = arg}); };
+  // §12.2: the host's hook 1 runs the block modules, hook 2 does what follows MAIN.
+  step(RUNG_STEP_ADVANCE, periodUs_);
+  run(module_.scan, ModuleKind::Input);
+  fastSteps(module_.scan, std::max(1u, periodUs_ / kFastPeriodUs));
+  step(RUNG_STEP_HOOK, 1);
+  run(module_.scan, ModuleKind::Main);
+  step(RUNG_STEP_HOOK, 2);
+  run(module_.scan, ModuleKind::Cont);
+  fastSteps(module_.fast, 1);
+}
+
+} // namespace
+
+void addTasks(Lowering& lowering, ir::Module& module, uint32_t periodUs) { TaskMaker(lowering, module, periodUs).make(); }
+
+} // namespace rung::frontend::technol

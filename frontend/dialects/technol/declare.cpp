@@ -1,0 +1,246 @@
+// Declarations (see declare.h).
+#include "frontend/dialects/technol/declare.h"
+
+#include "frontend/dialects/technol/reader.h"
+
+#include <algorithm>
+
+namespace rung::frontend::technol {
+namespace {
+
+constexpr int64_t kMaxData = 16 << 20; // bytes; the control has far less, an offset must only stay small
+
+} // namespace
+
+Symbol Declarations::made(const Token& name, SymbolKind kind) const {
+  Symbol symbol;
+  symbol.name = name.text;
+  symbol.kind = kind;
+  symbol.local = structure_.isLocal();
+  symbol.file = file_;
+  symbol.declared = name.range();
+  return symbol;
+}
+
+void Declarations::data(const Statement& statement, const Token* name, uint32_t index) {
+  if (statement.row->role != Role::Str) structure_.allowsData(statement);
+  DataItem item{.role = statement.row->role, .statement = index};
+  const bool needsName = item.role == Role::Str || item.role == Role::Ds;
+  if (needsName && name == nullptr)
+    program_.diagnostics.report(Diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
+  if (name != nullptr) {
+    Symbol symbol = made(*name, item.role == Role::Str ? SymbolKind::Text : SymbolKind::Cell);
+    if (item.role == Role::Str) symbol.local = false; // texts are global in all files (man. l.1680)
+    if (item.role == Role::Dfm) symbol.type = ir::Type::I8, symbol.size = 1;
+    symbol.space = kDataSpace;
+    item.cell = program_.symbols.declare(symbol);
+  }
+  if (item.role == Role::Dfm) bits(statement, item);
+  program_.items.push_back(item);
+}
+
+void Declarations::bits(const Statement& statement, DataItem& item) {
+  item.firstBit = static_cast<uint32_t>(program_.itemBits.size());
+  program_.itemBits.resize(program_.itemBits.size() + 8, kNone);
+  uint32_t number = 0;
+  for (const std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
+    if (number == 8) {
+      program_.diagnostics.report(Diag::TooManyBits, rangeOf(operand, statement.range()));
+      return;
+    }
+    if (operand.size() > 1 || (operand.size() == 1 && operand[0].kind == TokenKind::Text)) {
+      program_.diagnostics.report(Diag::SyntaxError, rangeOf(operand, statement.range())) << "the name of a bit" << "something else";
+    } else if (operand.size() == 1 && operand[0].kind == TokenKind::Number) {
+      program_.diagnostics.report(Diag::BadIdentifier, operand[0].range()) << operand[0].text;
+    } else if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {
+      Symbol symbol = made(operand[0], SymbolKind::Bit);
+      symbol.type = ir::Type::Bit;
+      symbol.space = kDataSpace;
+      symbol.bit = number;
+      program_.itemBits[item.firstBit + number] = program_.symbols.declare(symbol);
+    } else if (operand.size() == 1 && !operand[0].is('-')) {
+      program_.diagnostics.report(Diag::SyntaxError, operand[0].range()) << "the name of a bit" << operand[0].text;
+    }
+    ++number;
+  }
+}
+
+void Declarations::constant(const Statement& statement) {
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  if (operands.size() != 2) {
+    program_.diagnostics.report(Diag::OperandCount, statement.range()) << "EQUI" << "2 operands" << operands.size();
+    return;
+  }
+  const std::span<const Token> name = operands[0];
+  if (name.size() != 1 || name[0].kind != TokenKind::Name) {
+    const bool number = name.size() == 1 && name[0].kind == TokenKind::Number;
+    if (number) program_.diagnostics.report(Diag::BadIdentifier, name[0].range()) << name[0].text;
+    else program_.diagnostics.report(Diag::SyntaxError, rangeOf(name, statement.range())) << "the name of a constant" << "something else";
+    return;
+  }
+  const std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
+  Symbol symbol = made(name[0], SymbolKind::Constant);
+  symbol.value = value.value_or(0);
+  symbol.broken = !value;
+  program_.symbols.declare(symbol);
+}
+
+void Declarations::beginStructure(const Token& name, const Token& keyword) {
+  // Outside every module they are accepted: include files hold them.
+  if (structure_.inModule() && !structure_.inData() && !structure_.localOpen())
+    program_.diagnostics.report(Diag::DeclarationOutsideData, keyword.range()) << "struc";
+  structureOpen_ = true;
+  structureName_ = name.text;
+  structureBytes_ = 0;
+  program_.symbols.declare(made(name, SymbolKind::Structure));
+}
+
+void Declarations::endStructure(const Token& name) {
+  if (!structureOpen_ || symbolKey(name.text) != symbolKey(structureName_))
+    program_.diagnostics.report(Diag::SyntaxError, name.range())
+        << (structureOpen_ ? std::string(structureName_) + " ends" : std::string("a statement")) << std::string(name.text) + " ends";
+  structureOpen_ = false;
+}
+
+// value | ? | n DUP(value)
+void Declarations::member(const Token* name, const Token& size, uint32_t bytes, std::span<const Token> value) {
+  int64_t count = 1;
+  if (value.size() > 1 && value[1].kind == TokenKind::Name && equalsNoCase(value[1].text, "DUP"))
+    count = constantValue(program_, file_, value.first(1), size.range()).value_or(1);
+  if (value.empty()) program_.diagnostics.report(Diag::SyntaxError, size.range()) << "a value or ?" << "the end of the line";
+  if (name != nullptr) {
+    Symbol symbol = made(*name, SymbolKind::Constant);
+    symbol.value = structureBytes_;
+    program_.symbols.declare(symbol);
+  }
+  structureBytes_ += bytes * static_cast<uint32_t>(std::clamp<int64_t>(count, 0, kMaxData));
+}
+
+namespace {
+
+class Placer {
+public:
+  explicit Placer(Program& program) : program_(program) {}
+  void place(const DataItem& item);
+
+private:
+  void placeBits(const DataItem& item);
+  void placeArray(const DataItem& item, const Statement& statement);
+  void placeText(const DataItem& item, const Statement& statement);
+  void fillText(const Symbol& text, const Token& token);
+  bool overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement);
+  std::optional<int64_t> size(std::span<const Token> tokens, const Statement& statement);
+  uint32_t take(int64_t bytes, const Statement& statement);
+
+  Program& program_;
+  bool full_ = false;
+};
+
+uint32_t Placer::take(int64_t bytes, const Statement& statement) {
+  const uint32_t at = program_.dataBytes;
+  if (at + bytes > kMaxData) {
+    if (!full_) program_.diagnostics.report(Diag::TooLarge, statement.range()) << "bytes of data" << kMaxData;
+    full_ = true;
+    return 0;
+  }
+  program_.dataBytes += static_cast<uint32_t>(bytes);
+  return at;
+}
+
+std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Statement& statement) {
+  const std::optional<int64_t> n = constantValue(program_, statement.file, tokens, statement.range());
+  if (n && (*n < 1 || *n > kMaxData)) {
+    program_.diagnostics.report(Diag::OperandRange, rangeOf(tokens, statement.range())) << *n << "1 to " + std::to_string(kMaxData);
+    return std::nullopt;
+  }
+  return n;
+}
+
+void Placer::placeBits(const DataItem& item) {
+  const uint32_t at = take(1, program_.statements[item.statement]);
+  if (item.cell != kNone) program_.symbols[item.cell].byte = at;
+  for (uint32_t i = 0; i < 8; ++i)
+    if (const uint32_t bit = program_.itemBits[item.firstBit + i]; bit != kNone) program_.symbols[bit].byte = at;
+}
+
+void Placer::placeArray(const DataItem& item, const Statement& statement) {
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  if (operands.size() != 1) {
+    program_.diagnostics.report(Diag::OperandCount, statement.range()) << "DS" << "1 operand" << operands.size();
+    return;
+  }
+  const int64_t bytes = size(operands[0], statement).value_or(1);
+  const uint32_t at = take(bytes, statement);
+  if (item.cell == kNone) return;
+  Symbol& cell = program_.symbols[item.cell];
+  cell.byte = at;
+  cell.size = static_cast<uint32_t>(bytes);
+  cell.type = bytes == 8 ? ir::Type::None : ir::intOfBytes(cell.size);
+}
+
+// STR n, var+xy: the text lies on that memory and reserves nothing (man. l.1690).
+bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement) {
+  const uint32_t index = program_.symbols.require(tokens[0], statement.file);
+  if (index == kNone) return false;
+  const Symbol base = program_.symbols[index];
+  if (base.kind != SymbolKind::Cell) {
+    program_.diagnostics.report(Diag::WrongOperandKind, tokens[0].range()) << tokens[0].text << "no variable" << "a variable";
+    return false;
+  }
+  int64_t offset = 0;
+  if (tokens.size() > 1)
+    offset = constantValue(program_, statement.file, tokens.subspan(tokens[1].is('+') ? 2 : 1), statement.range()).value_or(0);
+  text.space = base.space;
+  text.byte = base.byte + static_cast<uint32_t>(offset);
+  return true;
+}
+
+void Placer::fillText(const Symbol& text, const Token& token) {
+  std::string_view value = token.text;
+  if (value.size() > text.size - 1) {
+    program_.diagnostics.report(Diag::StringTooLong, token.range()) << value.size() << text.size - 1;
+    value = value.substr(0, text.size - 1);
+  }
+  if (!value.empty())
+    program_.inits.push_back({.space = text.space, .byte = text.byte, .data = {value.begin(), value.end()}});
+}
+
+void Placer::placeText(const DataItem& item, const Statement& statement) {
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  if (operands.empty() || operands.size() > 2) {
+    program_.diagnostics.report(Diag::OperandCount, statement.range()) << "STR" << "1 or 2 operands" << operands.size();
+    return;
+  }
+  const int64_t characters = size(operands[0], statement).value_or(1);
+  if (item.cell == kNone) return;
+  Symbol& text = program_.symbols[item.cell];
+  text.size = static_cast<uint32_t>(characters) + 1;
+  const bool onMemory = operands.size() == 2 && !operands[1].empty() && operands[1][0].kind == TokenKind::Name;
+  if (onMemory) {
+    if (!overlay(text, operands[1], statement)) text.broken = true;
+    return;
+  }
+  text.byte = take(text.size, statement);
+  if (operands.size() == 1) return;
+  if (operands[1].size() == 1 && operands[1][0].kind == TokenKind::Text) fillText(text, operands[1][0]);
+  else program_.diagnostics.report(Diag::SyntaxError, rangeOf(operands[1], statement.range())) << "a text or an address" << "something else";
+}
+
+void Placer::place(const DataItem& item) {
+  const Statement statement = program_.statements[item.statement];
+  switch (item.role) {
+  case Role::Dfm: placeBits(item); break;
+  case Role::Ds: placeArray(item, statement); break;
+  case Role::Str: placeText(item, statement); break;
+  default: break;
+  }
+}
+
+} // namespace
+
+void placeData(Program& program) {
+  Placer placer(program);
+  for (const DataItem& item : program.items) placer.place(item);
+}
+
+} // namespace rung::frontend::technol

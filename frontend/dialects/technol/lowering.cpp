@@ -1,0 +1,366 @@
+// The walk over a program's modules (see lowering.h).
+#include "frontend/dialects/technol/lowering.h"
+
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+// A rung of data instructions is cut at the next load when it has grown to this many statements.
+constexpr uint32_t kLongRung = 12;
+constexpr uint32_t kLongestRung = 48;
+
+constexpr HostCellInfo kHostCellInfos[kHostCells] = {
+    {"@DR", Type::I64, 0},
+    {"@RLO", Type::Bit, 8},
+    {"@BLOCK_INIT.CONT", Type::I32, 12},
+    {"@BLOCK_INIT.DONE", Type::Bit, 16},
+    {"@BLOCK_DONE.CONT", Type::I32, 20},
+    {"@BLOCK_DONE.DONE", Type::Bit, 24},
+    {"@INIT.FINISHED", Type::I64, 32},
+    {"@DONE.FINISHED", Type::I64, 40},
+    {"@ESET.PAR2", Type::I64, 48},
+    {"@ESET.PAR3", Type::I64, 56},
+};
+
+// What the control presets when MODULE_INIT starts (man. l.6186, l.6316).
+constexpr std::string_view kPresets[] = {"MPXPI", "MPYPI", "MPZPI", "VAZBA_X", "VAZBA_Y", "VAZBA_Z"};
+constexpr std::string_view kNumberedPresets[] = {"MP#PI", "VAZBA_#"};
+
+std::vector<uint32_t> bytesOfSpaces(const ir::Module& module) {
+  std::vector<uint32_t> bytes;
+  for (const ir::Space& space : module.spaces) bytes.push_back(space.units * space.unitBytes);
+  return bytes;
+}
+
+} // namespace
+
+const HostCellInfo& hostCell(HostCell cell) { return kHostCellInfos[static_cast<size_t>(cell)]; }
+
+Lowering::Lowering(Program& program, ir::Module& module, uint32_t periodUs)
+    : program_(program), module_(module), periodUs_(periodUs), slots_(makeRegisterSlots(module)),
+      spaceBytes_(bytesOfSpaces(module)), parser_(program, spaceBytes_) {
+  codeLabels_.assign(program.labels.size(), kNone);
+  for (const Mechanism& mechanism : program.mechanisms) {
+    const uint32_t index = static_cast<uint32_t>(module.slots.size());
+    module.slots.push_back({.type = Type::I32, .key = "MECH." + symbolKey(mechanism.name) + ".CONT"});
+    contSlots_.push_back({index});
+  }
+  resets_.resize(program.mechanisms.size());
+  resetCells_.resize(program.mechanisms.size());
+  for (const Procedure& procedure : program.procedures) procedureRoutines_.push_back(newRoutine("PROC " + symbolKey(procedure.name)));
+}
+
+ir::RoutineId Lowering::newRoutine(std::string name) {
+  module_.routines.push_back({.name = std::move(name)});
+  return {static_cast<uint32_t>(module_.routines.size()) - 1};
+}
+
+std::unique_ptr<RoutineBuilder> Lowering::newBuilder(ir::RoutineId routine) {
+  return std::make_unique<RoutineBuilder>(module_, routine, slots_);
+}
+
+ir::FaultId Lowering::fault(std::string_view text) {
+  const auto [entry, isNew] = faults_.emplace(text, ir::FaultId{static_cast<uint32_t>(module_.faults.size())});
+  if (isNew) module_.faults.emplace_back(text);
+  return entry->second;
+}
+
+RungSource Lowering::sourceOf(const Statement& statement) const {
+  const FileId file = program_.sources.fileOf(statement.pos);
+  return {.sources = &program_.sources, .file = program_.files[statement.file].id,
+          .index = {statement.file}, .line = statement.line,
+          .column = file == program_.files[statement.file].id ? program_.sources.lineCol(statement.pos).column : 1};
+}
+
+bool Lowering::inFastTask() const { return kind_ == ModuleKind::Fast || kind_ == ModuleKind::Fastest || kind_ == ModuleKind::Cyclic; }
+
+// ---- modules --------------------------------------------------------------------------------------------------------
+
+void Lowering::run() {
+  start_ = newRoutine("@START");
+  onMessage_ = procedureNamed("_ON_ESET");
+  for (int i = 1; i < kModuleKinds; ++i) lowerModule(static_cast<ModuleKind>(i));
+  checkRecursion();
+  finishProcedures();
+  makeResets();
+  makeStart();
+  makeEvents();
+}
+
+void Lowering::lowerModule(ModuleKind kind) {
+  kind_ = kind;
+  bool present = false;
+  for (const ModulePart& part : program_.parts) present = present || part.kind == kind;
+  if (!present) return;
+  const ir::RoutineId routine = newRoutine(std::string(moduleName(kind)));
+  out_ = newBuilder(routine);
+  prologue(kind);
+  for (const ModulePart& part : program_.parts)
+    if (part.kind == kind) lowerPart(part, kind);
+  out_->finish();
+  modules_.push_back({kind, routine, out_->weight()});
+  out_.reset();
+}
+
+// What the compiler adds in front of a module.
+void Lowering::prologue(ModuleKind kind) {
+  if (kind == ModuleKind::Init) out_->call(start_);
+  if (kind == ModuleKind::Input || kind == ModuleKind::Fast) advanceClock(kind);
+}
+
+// Counters of the timed blocks: all blocks of one kind run in the same cycle, first one period after the start (man. l.857).
+void Lowering::advanceClock(ModuleKind kind) {
+  constexpr int64_t kPeriodsUs[] = {100'000, 1'000'000, 10'000'000, 100'000'000};
+  bool used[4] = {};
+  const bool fast = kind == ModuleKind::Fast;
+  for (const Unit& unit : program_.units) {
+    if (unit.kind != UnitKind::Timed) continue;
+    const Row* row = findRow(unit.name);
+    if (row) used[row->variant] = true;
+  }
+  for (int i = 0; i < 4; ++i) {
+    if (!used[i]) continue;
+    const int64_t cycleUs = fast ? 1000 : periodUs_;
+    const int64_t cycles = std::max<int64_t>(1, (kPeriodsUs[i] + cycleUs / 2) / cycleUs);
+    const auto timed = static_cast<TimedKind>(i);
+    const auto index = static_cast<uint32_t>(module_.slots.size());
+    module_.slots.push_back({.type = Type::I32, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(i)});
+    const ir::SlotId counter{index};
+    ir::RungBuilder& b = out_->b();
+    const ValueId next = b.add(b.slotLoad(counter), b.i32(1));
+    const ValueId due = b.leU(b.i32(cycles), next);
+    b.slotStore(counter, b.select(due, b.i32(0), next));
+    b.slotStore(dueSlot(timed), due);
+  }
+  out_->cut();
+}
+
+ir::SlotId Lowering::dueSlot(TimedKind kind) {
+  const bool fast = inFastTask();
+  const auto [entry, isNew] = due_.emplace(std::pair(fast, kind), ir::SlotId{static_cast<uint32_t>(module_.slots.size())});
+  if (isNew)
+    module_.slots.push_back({.type = Type::Bit, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(static_cast<int>(kind)) + ".DUE"});
+  return entry->second;
+}
+
+void Lowering::enterPart(const ModulePart& part, ModuleKind kind) {
+  const Unit& unit = program_.units[part.unit];
+  Statement begin{.pos = unit.begin.begin, .file = part.file};
+  begin.line = program_.sources.lineCol(begin.pos).line;
+  out_->cut();
+  out_->statement(sourceOf(begin));
+  // RLO and DR are 0 where the manual leaves them open; INIT and DONE learn in DR why they run (man. l.2567, l.2613).
+  ir::RungBuilder& builder = b();
+  const bool given = kind == ModuleKind::Init || kind == ModuleKind::Done;
+  r().setRlo(builder.bit(false));
+  r().setReal(builder.real(0));
+  r().setDr(given ? builder.load(Type::I64, place(HostCell::Dr)) : builder.constant(Type::I64, 0));
+  r().setBx(builder.i32(0));
+}
+
+void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
+  enterPart(part, kind);
+  const bool sequential = kind == ModuleKind::BlockInit || kind == ModuleKind::BlockDone;
+  if (sequential) beginSequence(kNone, part.unit);
+  equationOpen_ = rloLost_ = drLost_ = false;
+  mixed_ = Mixed::No;
+  depth_ = 0;
+  for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
+    lowerStatement(program_.statements[i], i);
+  while (procedure_ != kNone) endProcedure(); // not closed: an error
+  checkBalance(part.end, std::string(moduleName(kind)));
+  if (sequential) endSequence();
+  sequences_.clear();
+}
+
+// ---- statements -----------------------------------------------------------------------------------------------------
+
+void Lowering::bindLabels(const Statement& statement, uint32_t index) {
+  for (uint32_t i = statement.label; i < program_.labels.size() && program_.labels[i].statement == index; ++i) {
+    if (codeLabels_[i] == kNone) codeLabels_[i] = out_->newLabel();
+    out_->bind(codeLabels_[i]);
+  }
+  rloLost_ = drLost_ = false;
+  mixed_ = Mixed::No;
+}
+
+void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
+  statement_ = &statement;
+  if (statement.label != kNone) bindLabels(statement, index);
+  if (statement.row == nullptr) return;
+  switch (statement.row->role) {
+  case Role::Code: lowerCode(); return;
+  case Role::MechBegin: beginMechanism(); return;
+  case Role::MechEnd: endMechanism(); return;
+  case Role::ProcBegin: beginProcedure(); return;
+  case Role::ProcEnd: endProcedure(); return;
+  case Role::Timed: beginTimed(); return;
+  case Role::NoCode:
+  case Role::NotBuilt:
+  case Role::NotBuiltService:
+  case Role::Module:
+  case Role::ModuleEnd:
+  case Role::Local:
+  case Role::LocalEnd:
+  case Role::Stop:
+  case Role::Dfm:
+  case Role::Ds:
+  case Role::Str:
+  case Role::Equi:
+  case Role::MemberSize: return;
+  }
+}
+
+void Lowering::lowerCode() {
+  const Row& row = *statement_->row;
+  const bool parsed = parser_.parse(*statement_, operands_);
+  checkPreserved(row);
+  beginRungFor(row);
+  out_->statement(sourceOf(*statement_));
+  applyStack(row);
+  if (parsed && row.lower != nullptr) row.lower(*this, operands_, row.variant);
+  settle(row);
+}
+
+// An equation begins its own rung; long runs of data instructions are cut where a value is loaded.
+void Lowering::beginRungFor(const Row& row) {
+  const bool loads = (row.effects & kPushes) != 0 || row.info.mnemonic == "LOD";
+  const bool begins = (row.effects & kPushes) != 0 && !equationOpen_ && out_->length() > 0;
+  if (begins || (loads && out_->length() >= kLongRung) || out_->length() >= kLongestRung) out_->cut();
+}
+
+// Pushing and popping are decided in the order of the source (man. l.225-275).
+void Lowering::applyStack(const Row& row) {
+  popped_ = {};
+  if (row.effects & kPushes) {
+    if (equationOpen_) {
+      if (depth_ == kStackDepth) program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
+      else r().setStack(depth_++, r().rlo());
+    } else {
+      equation_ = statement_->range();
+    }
+    equationOpen_ = true;
+  }
+  if ((row.effects & kJoins) && statement_->tokenCount == 0) {
+    if (depth_ == 0) {
+      program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << row.info.mnemonic;
+      popped_ = r().rlo();
+    } else {
+      popped_ = r().stack(--depth_);
+    }
+  }
+}
+
+void Lowering::checkPreserved(const Row& row) {
+  const auto report = [&](bool& lost, std::string_view name) {
+    program_.diagnostics.report(Diag::ValueNotPreserved, statement_->range()) << name;
+    lost = false;
+  };
+  const bool joins = (row.effects & kJoins) != 0;
+  if (rloLost_ && (row.effects & kReadsRlo)) report(rloLost_, "RLO");
+  else if (rloLost_ && joins) report(rloLost_, "RLO");
+  if (drLost_ && (row.effects & kReadsDr)) report(drLost_, "DR");
+}
+
+void Lowering::settle(const Row& row) {
+  if (row.info.terminating) equationOpen_ = false;
+  if (row.effects & kSetsRlo) rloLost_ = false;
+  if (row.effects & kSetsDr) drLost_ = false;
+  if (row.effects & kWaits) {
+    rloLost_ = true;
+    drLost_ = (row.effects & kKeepsDr) == 0;
+  }
+}
+
+void Lowering::checkBalance(SourceRange at, std::string_view where) {
+  if (depth_ != 0)
+    program_.diagnostics.report(Diag::UnbalancedStack, at)
+        << std::to_string(depth_) + (depth_ == 1 ? " value is" : " values are") + " left on the stack at " + std::string(where);
+  else if (equationOpen_)
+    program_.diagnostics.report(Diag::UnterminatedEquation, equation_).note(at, "it is still open here");
+  depth_ = 0;
+  equationOpen_ = false;
+}
+
+void Lowering::note(Arithmetic kind) {
+  switch (kind) {
+  case Arithmetic::LoadInteger: mixed_ = Mixed::No; return;
+  case Arithmetic::LoadReal: mixed_ = Mixed::Real; return;
+  case Arithmetic::Integer:
+    if (mixed_ != Mixed::Real) return;
+    mixed_ = Mixed::IntegerOnReal;
+    mixedAt_ = statement_->range();
+    mixedBy_ = statement_->row->info.mnemonic;
+    return;
+  case Arithmetic::Real:
+    if (mixed_ == Mixed::IntegerOnReal)
+      program_.diagnostics.report(Diag::MixedRealInteger, mixedAt_).note(statement_->range(), "this works on the real value again") << mixedBy_;
+    mixed_ = Mixed::Real;
+    return;
+  }
+}
+
+// ---- the compiler's own routines -------------------------------------------------------------------------------------
+
+void Lowering::finishProcedures() {
+  for (const ir::RoutineId routine : procedureRoutines_)
+    if (module_.routines[routine.index].rungs.empty()) module_.routines[routine.index].rungs.push_back({});
+}
+
+// Clears the counts of a mechanism, for MECH_INIT.
+void Lowering::makeResets() {
+  for (size_t i = 0; i < resets_.size(); ++i) {
+    if (!resets_[i].valid()) continue;
+    out_ = newBuilder(resets_[i]);
+    for (const CountCell& cell : resetCells_[i]) storeCount(cell, b().constant(cell.type, 0));
+    out_->finish();
+  }
+}
+
+// Runs in front of MODULE_INIT: edges are taken over anew (man. l.300), presets of the interface.
+void Lowering::makeStart() {
+  constexpr size_t kStoresPerRung = 64;
+  out_ = newBuilder(start_);
+  b().store(place(HostCell::InitFinished), b().constant(Type::I64, 0));
+  b().store(place(HostCell::DoneFinished), b().constant(Type::I64, 0));
+  const auto preset = [&](std::string_view name) {
+    const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I");
+    if (signal) b().store({.space = kInterfaceSpace, .byte = signal->byteOffset, .bit = signal->bit}, b().bit(true));
+  };
+  for (std::string_view name : kPresets) preset(name);
+  for (std::string_view pattern : kNumberedPresets)
+    for (int axis = 4; axis <= 16; ++axis) {
+      std::string name(pattern);
+      preset(name.replace(name.find('#'), 1, std::to_string(axis)));
+    }
+  for (size_t i = 0; i < forgotten_.size(); ++i) {
+    if (i % kStoresPerRung == 0) out_->cut();
+    b().slotStore(forgotten_[i], b().constant(Type::I8, 0));
+  }
+  out_->finish();
+}
+
+// Tasks for the procedures that the control calls (man. l.1614-1644): RLO and DR come from the host.
+void Lowering::makeEvents() {
+  for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"}) {
+    const uint32_t procedure = procedureNamed(name);
+    if (procedure == kNone) continue;
+    const ir::RoutineId routine = newRoutine("@" + std::string(name));
+    out_ = newBuilder(routine);
+    r().setRlo(b().load(Type::Bit, place(HostCell::Rlo)));
+    r().setReal(b().real(0));
+    r().setDr(b().load(Type::I64, place(HostCell::Dr)));
+    r().setBx(b().i32(0));
+    out_->call(procedureRoutines_[procedure]);
+    out_->finish();
+    events_.push_back({ModuleKind::Main, routine, 1});
+    eventNames_.emplace_back(name);
+  }
+}
+
+} // namespace rung::frontend::technol

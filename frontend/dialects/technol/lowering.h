@@ -1,0 +1,205 @@
+// Statements to IR. Lowering walks the modules in the order of the source and keeps what the language decides statically:
+// the depth of the stack, whether an equation is open, which registers are lost behind a wait. The lowering functions of
+// the rows (lower_*.cpp) use its public part only.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/dialects/technol/operand.h"
+#include "frontend/dialects/technol/program.h"
+#include "frontend/dialects/technol/routine_builder.h"
+
+namespace rung::frontend::technol {
+
+// A place in memory as an operation reaches it: fixed, or by a checked index.
+struct Access {
+  ir::Place place;
+  bool indexed = false;
+  ir::Window window;
+  ir::ValueId index;
+};
+
+// A memory cell that an instruction counts in: written by the program, or made by the compiler.
+struct CountCell {
+  bool automatic = false;
+  ir::SlotId slot;
+  Access access;
+  ir::Type type = ir::Type::I16;
+};
+
+// A sequential unit while it is lowered: a mechanism, MODULE_BLOCK_INIT or MODULE_BLOCK_DONE (§11.2 of the inventory).
+struct Sequence {
+  uint32_t unit = kNone;
+  ir::RoutineId routine;
+  uint32_t mechanism = kNone; // kNone: a module
+  ir::Place moduleCont;       // of a module: i32 for the host
+  uint32_t leave = kNone;     // label behind its end
+  uint32_t dispatch = kNone;  // handle of the switch at its beginning
+  std::vector<uint32_t> states; // labels by number; 0 is the beginning
+  std::unordered_map<uint32_t, uint32_t> stateOfLabel;
+  std::vector<CountCell> cells; // cleared when the unit ends or is initialised
+};
+
+// Symbols in the space @REG that host and program share; see README.md.
+enum class HostCell : uint8_t {
+  Dr, Rlo, BlockInitCont, BlockInitDone, BlockDoneCont, BlockDoneDone, InitFinished, DoneFinished, MessagePar2, MessagePar3,
+};
+struct HostCellInfo {
+  std::string_view name;
+  ir::Type type;
+  uint32_t byte;
+};
+const HostCellInfo& hostCell(HostCell cell);
+inline constexpr uint32_t kRegisterBytes = 64;
+inline constexpr int kHostCells = 10;
+
+struct LoweredModule {
+  ModuleKind kind;
+  ir::RoutineId routine;
+  uint64_t weight = 0;
+};
+
+class Lowering {
+public:
+  // The spaces of `module` exist; `periodUs` is the main task's period.
+  Lowering(Program& program, ir::Module& module, uint32_t periodUs);
+  void run();
+  const std::vector<LoweredModule>& modules() const { return modules_; }
+  // Procedures that the control calls by their reserved names (man. l.1609).
+  const std::vector<LoweredModule>& events() const { return events_; }
+  const std::vector<std::string>& eventNames() const { return eventNames_; }
+  ir::FaultId fault(std::string_view text);
+
+  // ---- for the lowering functions --------------------------------------------------------------------------------
+  Program& program() { return program_; }
+  ir::RungBuilder& b() { return out_->b(); }
+  Registers& r() { return out_->registers(); }
+  RoutineBuilder& out() { return *out_; }
+  const Statement& statement() const { return *statement_; }
+  // What LA, LO, LX without operand took off the stack.
+  ir::ValueId popped() const { return popped_; }
+
+  // Where a cell or bit lies; an index outside its space stops the program (where `guard` is 1, if there is one).
+  Access reach(const Operand& operand, ir::ValueId guard = {});
+  ir::ValueId load(const Access& access, ir::Type type);
+  void store(const Access& access, ir::ValueId value);
+  // A bit with its sign.
+  ir::ValueId bit(const Operand& operand);
+  // A constant or a cell; `guard` as for reach.
+  ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
+
+  // State of this statement alone, e.g. the former value of an edge.
+  ir::SlotId newSlot(ir::Type type, std::string_view what);
+  // EDGE: forgotten at every start.
+  void forgetAtStart(ir::SlotId slot) { forgotten_.push_back(slot); }
+  CountCell countCell(const Operand& operand);
+  ir::ValueId loadCount(const CountCell& cell);
+  void storeCount(const CountCell& cell, ir::ValueId value);
+
+  // Code label of a program's label after the check that the jump may go there; kNone after a report.
+  uint32_t jumpTarget(const Operand& label);
+  // The unit that waits where the statement waits; null where it may not wait (reported while reading).
+  Sequence* sequence();
+  uint32_t newState(Sequence& sequence);
+  uint32_t stateOf(Sequence& sequence, uint32_t label);
+  void storeCont(const Sequence& sequence, ir::ValueId state);
+  ir::ValueId loadCont(const Sequence& sequence);
+  // The line number of the state in which a mechanism waits.
+  void storeLine(const Sequence& sequence, uint32_t line);
+  void initMechanism(uint32_t mechanism);
+  void callProcedure(uint32_t procedure, SourceRange at, ir::ValueId cond = {});
+  // _ON_ESET, or kNone.
+  uint32_t onMessage() const { return onMessage_; }
+  // The procedure that is being lowered, or kNone.
+  uint32_t currentProcedure() const { return procedure_; }
+  ir::Place place(HostCell cell) const;
+  void saveRegisters();
+  void restoreRegisters();
+
+  // The rules on mixing real and integer arithmetic (man. l.1551).
+  enum class Arithmetic : uint8_t { LoadInteger, LoadReal, Integer, Real };
+  void note(Arithmetic kind);
+  void checkBalance(SourceRange at, std::string_view where);
+
+private:
+  void lowerModule(ModuleKind kind);
+  void lowerPart(const ModulePart& part, ModuleKind kind);
+  void enterPart(const ModulePart& part, ModuleKind kind);
+  void prologue(ModuleKind kind);
+  void advanceClock(ModuleKind kind);
+  void lowerStatement(const Statement& statement, uint32_t index);
+  void bindLabels(const Statement& statement, uint32_t index);
+  void lowerCode();
+  void beginRungFor(const Row& row);
+  void applyStack(const Row& row);
+  void checkPreserved(const Row& row);
+  void settle(const Row& row);
+  void beginSequence(uint32_t mechanism, uint32_t unit);
+  void endSequence();
+  void beginMechanism();
+  void endMechanism();
+  void beginProcedure();
+  void endProcedure();
+  void beginTimed();
+  ir::SlotId dueSlot(TimedKind kind);
+  void finishProcedures();
+  void makeResets();
+  void makeStart();
+  void makeEvents();
+  void checkRecursion();
+  uint32_t procedureNamed(std::string_view name) const;
+  ir::RoutineId newRoutine(std::string name);
+  std::unique_ptr<RoutineBuilder> newBuilder(ir::RoutineId routine);
+  RungSource sourceOf(const Statement& statement) const;
+  bool inFastTask() const;
+
+  Program& program_;
+  ir::Module& module_;
+  uint32_t periodUs_;
+  RegisterSlots slots_;
+  std::vector<uint32_t> spaceBytes_;
+  OperandParser parser_;
+  std::vector<Operand> operands_;
+
+  std::unique_ptr<RoutineBuilder> out_;
+  std::vector<std::unique_ptr<RoutineBuilder>> outer_; // interrupted by procedures
+  std::vector<uint32_t> outerProcedures_;
+  const Statement* statement_ = nullptr;
+  ModuleKind kind_ = ModuleKind::Main;
+  uint32_t procedure_ = kNone;
+  uint32_t onMessage_ = kNone;
+  std::vector<Sequence> sequences_;
+  std::vector<uint32_t> codeLabels_; // by program label
+
+  // The static state of the equation (man. l.225-238).
+  bool equationOpen_ = false;
+  SourceRange equation_;
+  uint32_t depth_ = 0;
+  ir::ValueId popped_;
+  bool rloLost_ = false;
+  bool drLost_ = false;
+  enum class Mixed : uint8_t { No, Real, IntegerOnReal } mixed_ = Mixed::No;
+  SourceRange mixedAt_;
+  std::string_view mixedBy_;
+
+  std::vector<LoweredModule> modules_;
+  std::vector<LoweredModule> events_;
+  std::vector<std::string> eventNames_;
+  std::vector<ir::RoutineId> procedureRoutines_;
+  std::vector<ir::SlotId> contSlots_; // of mechanisms
+  std::vector<ir::RoutineId> resets_;
+  std::vector<std::vector<CountCell>> resetCells_;
+  std::vector<ir::SlotId> forgotten_;
+  std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
+  std::unordered_map<std::string, uint32_t> slotNames_;
+  std::unordered_map<std::string, ir::FaultId> faults_;
+  ir::RoutineId start_;
+  std::vector<ir::SlotId> saved_;
+};
+
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,114 @@
+// Operands of executable statements: what a row may ask for (a kind) and what a program wrote.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "frontend/dialects/technol/program.h"
+
+namespace rung::frontend::technol {
+
+struct Operand {
+  enum class Form : uint8_t { NotGiven, Bit, Cell, Text, Integer, Real, Label, Mechanism, Procedure, Width, Register };
+
+  Form form = Form::NotGiven;
+  bool negated = false;  // a bit or a value with `-`
+  bool indexed = false;  // register BX is added to the address
+  bool prefixed = false; // the type was written
+  uint32_t scale = 1;    // bytes that BX counts
+  ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
+  ir::Place place;
+  uint32_t size = 0; // of a text or an array, bytes to its end; 0: unknown
+  int64_t value = 0;     // of a constant; where indexed, the offset in bytes that BX is added to
+  double real = 0;
+  uint32_t index = kNone; // label, mechanism, procedure
+  std::string_view text;  // of a quoted text
+  std::string_view spelling;
+  SourceRange range;
+
+  bool given() const { return form != Form::NotGiven; }
+  bool isConstant() const { return form == Form::Integer || form == Form::Real; }
+  bool isReal() const { return type == ir::Type::F64; }
+};
+
+// Which type prefixes a kind takes.
+enum Prefix : uint8_t { kByte = 1, kWord = 2, kDword = 4, kQword = 8, kHigh = 16, kReal = 32, kCnst = 64 };
+
+enum class OperandClass : uint8_t { Bit, Value, Label, Name, Keyword, Text };
+
+struct OperandKind {
+  OperandKindInfo info;
+  OperandClass parse = OperandClass::Value;
+  uint8_t prefixes = 0;
+  bool sign = false;      // `-` in front
+  bool cell = true;       // a cell may stand there
+  bool constant = false;  // a constant may
+  bool notGiven = false;  // `-` or NIL may
+  bool text = false;      // a text may
+  uint8_t types = 0xFF;   // ir::TypeSet of cells
+  SymbolKind name = SymbolKind::Label; // class Name
+};
+
+std::span<const OperandKind> operandKinds();
+std::span<const OperandKindInfo> operandKindInfos();
+// By its name; null when there is none.
+const OperandKind* findOperandKind(std::string_view kind);
+
+// Parses the operands of one statement; reports everything that is wrong with them.
+class OperandParser {
+public:
+  // `spaceBytes` are the sizes of the module's spaces, for constant addresses.
+  OperandParser(Program& program, std::span<const uint32_t> spaceBytes) : program_(program), spaceBytes_(spaceBytes) {}
+
+  // False after a report. The operands stand in `out`, one an operand of the source and NotGiven where the row allows more.
+  bool parse(const Statement& statement, std::vector<Operand>& out);
+
+private:
+  // What an address expression comes to: a place in a space, or a constant.
+  struct Address {
+    bool hasBase = false;
+    bool isBit = false; // the base is the name of a bit: its byte
+    bool isText = false;
+    bool indexed = false;
+    bool isReal = false;
+    ir::SpaceId space;
+    int64_t byte = 0; // with a base: in its space; else the value
+    double real = 0;
+    ir::Type type = ir::Type::None;
+    int64_t end = 0; // of the base object
+    Protection protection = Protection::None;
+    std::string_view name; // of the base
+    const char* structure = "";
+  };
+
+  bool countFits(const Statement& statement, size_t found);
+  bool one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool waitOperands(std::span<Operand> operands);
+  bool bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool bareBit(const OperandInfo& info, const Token& name, Operand& out);
+  bool bitAt(const OperandInfo& info, std::span<const Token> where, const Token& name, Operand& out);
+  uint32_t bitSymbol(const Token& name);
+  bool value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out);
+  bool cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out);
+  uint8_t takePrefix(std::span<const Token>& tokens);
+  bool named(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out);
+  bool address(std::span<const Token> tokens, Address& out);
+  bool term(std::span<const Token> tokens, int sign, Address& out);
+  bool addSymbol(const Token& name, int sign, Address& out);
+  bool addMember(const Token& member, Address& out);
+  bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
+  bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
+  bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted);
+  bool syntax(std::string_view expected, std::span<const Token> tokens);
+
+  Program& program_;
+  std::span<const uint32_t> spaceBytes_;
+  uint32_t file_ = 0;
+  const Statement* statement_ = nullptr;
+};
+
+} // namespace rung::frontend::technol

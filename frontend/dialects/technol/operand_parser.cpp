@@ -1,0 +1,274 @@
+// Operands other than addresses (see operand.h).
+#include "frontend/dialects/technol/operand.h"
+#include "frontend/dialects/technol/reader.h"
+#include "ir/support/check.h"
+
+#include <algorithm>
+
+namespace rung::frontend::technol {
+namespace {
+
+struct PrefixName {
+  std::string_view name;
+  uint8_t prefix;
+  ir::Type type;
+};
+constexpr PrefixName kPrefixes[] = {
+    {"BYTE", kByte, ir::Type::I8},   {"WORD", kWord, ir::Type::I16}, {"DWRD", kDword, ir::Type::I32}, {"QWRD", kQword, ir::Type::I64},
+    {"HIGH", kHigh, ir::Type::I8},   {"REAL", kReal, ir::Type::F64}, {"CNST", kCnst, ir::Type::I32},
+};
+
+const PrefixName* prefixNamed(std::string_view name) {
+  for (const PrefixName& p : kPrefixes)
+    if (equalsNoCase(name, p.name)) return &p;
+  return nullptr;
+}
+
+const PrefixName& prefixOf(uint8_t prefix) {
+  for (const PrefixName& p : kPrefixes)
+    if (p.prefix == prefix) return p;
+  return kPrefixes[0];
+}
+
+uint8_t naturalPrefix(ir::Type type) {
+  for (const PrefixName& p : kPrefixes)
+    if (p.type == type) return p.prefix;
+  return 0;
+}
+
+std::string operandsText(size_t least, size_t most, bool repeated) {
+  if (most == 0) return "no operands";
+  if (repeated) return std::to_string(least) + " or more operands";
+  std::string text = least == most ? std::to_string(least) : (least == 0 ? "no" : std::to_string(least)) + (most == least + 1 ? " or " : " to ") + std::to_string(most);
+  return text + (most == 1 ? " operand" : " operands");
+}
+
+bool isNotGiven(std::span<const Token> tokens) {
+  return tokens.size() == 1 && (tokens[0].is('-') || (tokens[0].kind == TokenKind::Name && equalsNoCase(tokens[0].text, "NIL")));
+}
+
+} // namespace
+
+bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens) {
+  const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
+  program_.diagnostics.report(Diag::SyntaxError, rangeOf(tokens, statement_->range())) << expected << found;
+  return false;
+}
+
+bool OperandParser::wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) {
+  program_.diagnostics.report(Diag::WrongOperandKind, operand.range) << operand.spelling << is << wanted;
+  return false;
+}
+
+bool OperandParser::countFits(const Statement& statement, size_t found) {
+  const InstructionInfo& info = statement.row->info;
+  size_t least = 0;
+  for (const OperandInfo& operand : info.operands.all()) least += operand.optional ? 0 : 1;
+  const size_t most = info.operands.size();
+  const bool repeated = most > 0 && info.operands[most - 1].repeated;
+  if (found >= least && (found <= most || repeated)) return true;
+  program_.diagnostics.report(Diag::OperandCount, statement.range()) << info.mnemonic << operandsText(least, most, repeated) << found;
+  return false;
+}
+
+bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out) {
+  out.clear();
+  statement_ = &statement;
+  file_ = statement.file;
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  if (!countFits(statement, operands.size())) return false;
+  const auto infos = statement.row->info.operands.all();
+  bool ok = true;
+  for (size_t i = 0; i < operands.size(); ++i) {
+    const OperandInfo& info = infos[std::min(i, infos.size() - 1)];
+    const OperandKind* kind = findOperandKind(info.kind);
+    RUNG_CHECK(kind != nullptr, "a row names an unknown class of operands");
+    Operand& operand = out.emplace_back();
+    operand.range = rangeOf(operands[i], statement.range());
+    if (!operands[i].empty()) operand.spelling = program_.sources.text(operand.range);
+    ok = one(info, *kind, operands[i], operand) && ok;
+  }
+  while (out.size() < infos.size()) out.emplace_back().range = statement.range();
+  if (ok && (statement.row->effects & kWaits) && out.size() >= 2) ok = waitOperands(out);
+  return ok;
+}
+
+bool OperandParser::one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (tokens.empty()) return (info.optional && kind.notGiven) || syntax("an operand", tokens);
+  if (kind.notGiven && isNotGiven(tokens)) return true;
+  switch (kind.parse) {
+  case OperandClass::Bit: return bit(info, kind, tokens, out);
+  case OperandClass::Value: return value(info, kind, tokens, out);
+  case OperandClass::Label:
+  case OperandClass::Name: return named(kind, tokens, out);
+  case OperandClass::Keyword: return keyword(info, kind, tokens, out);
+  case OperandClass::Text: return text(info, kind, tokens, out);
+  }
+  return false;
+}
+
+// TIM and TEX: a written type holds for count and time, so the time is a cell then (man. l.2133); a constant time fits the count.
+bool OperandParser::waitOperands(std::span<Operand> operands) {
+  const Operand& count = operands[0];
+  Operand& time = operands[1];
+  if (count.prefixed && time.isConstant()) {
+    const std::string prefix = std::string(prefixOf(naturalPrefix(count.type)).name) + ".";
+    program_.diagnostics.report(Diag::InvalidTypePrefix, count.range) << prefix << "a constant time";
+    return false;
+  }
+  if (count.prefixed && !time.prefixed) time.type = count.type;
+  const int64_t most = count.type == ir::Type::I8 ? 0xFF : 0xFFFF;
+  if (time.isConstant() && (time.value < 0 || time.value > most)) {
+    program_.diagnostics.report(Diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
+    return false;
+  }
+  return true;
+}
+
+bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range) {
+  const bool writes = info.access == Access::Write || info.access == Access::ReadWrite;
+  if (!writes || protection == Protection::None) return true;
+  const bool error = protection == Protection::Error;
+  program_.diagnostics.report(Diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning) << name;
+  return !error;
+}
+
+uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
+  if (tokens.size() < 2 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return 0;
+  if (equalsNoCase(tokens[0].text, "CNTS")) {
+    program_.diagnostics.report(Diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
+    tokens = tokens.subspan(2);
+    return kCnst;
+  }
+  const PrefixName* prefix = prefixNamed(tokens[0].text);
+  if (prefix == nullptr) return 0;
+  tokens = tokens.subspan(2);
+  return prefix->prefix;
+}
+
+bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (kind.sign && tokens[0].is('-')) {
+    out.negated = true;
+    tokens = tokens.subspan(1);
+  }
+  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('[')) return block(info, tokens, false, out);
+  const uint8_t prefix = takePrefix(tokens);
+  if (prefix != 0 && (kind.prefixes & prefix) == 0) {
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range) << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
+    return false;
+  }
+  Address address;
+  if (tokens.empty()) return syntax("a value", tokens);
+  if (!this->address(tokens, address)) return false;
+  if (prefix == kCnst && address.hasBase) return wrongKind(out, "no constant", "a constant");
+  return address.hasBase ? cell(info, kind, address, prefix, out) : constant(info, kind, address, prefix, out);
+}
+
+bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out) {
+  if (!kind.constant) return wrongKind(out, "a constant", "a variable");
+  if (prefix == kQword || prefix == kReal || prefix == kHigh) {
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range) << std::string(prefixOf(prefix).name) + "." << "a constant";
+    return false;
+  }
+  if (address.isReal) {
+    if ((kind.prefixes & kReal) == 0 || (prefix != 0 && prefix != kCnst)) return wrongKind(out, "a real", "an integer");
+    out.form = Operand::Form::Real;
+    out.type = ir::Type::F64;
+    out.real = out.negated ? -address.real : address.real;
+    out.negated = false;
+    return true;
+  }
+  out.form = Operand::Form::Integer;
+  out.prefixed = prefix != 0 && prefix != kCnst;
+  out.type = prefix == 0 ? ir::Type::I32 : prefixOf(prefix).type;
+  out.value = out.negated ? -address.byte : address.byte;
+  out.negated = false;
+  const uint32_t width = ir::bitWidth(out.type);
+  const bool ranged = info.min <= info.max;
+  const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));
+  const int64_t most = ranged ? info.max : (int64_t{1} << width) - 1;
+  if (out.value >= least && out.value <= most) return true;
+  program_.diagnostics.report(Diag::OperandRange, out.range) << out.value << std::to_string(least) + " to " + std::to_string(most);
+  return false;
+}
+
+bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out) {
+  if (address.isBit) return wrongKind(out, "a bit", "a variable");
+  if (!kind.cell) return wrongKind(out, "a variable", "a constant");
+  out.form = Operand::Form::Cell;
+  out.prefixed = prefix != 0;
+  out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
+  if (out.type == ir::Type::None) {
+    program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
+    return false;
+  }
+  if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of 8 or 16 bits");
+  const uint8_t natural = naturalPrefix(out.type);
+  if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) {
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range) << std::string(prefixOf(natural).name) + "." << statement_->row->info.mnemonic;
+    return false;
+  }
+  const int64_t byte = address.byte + (prefix == kHigh ? 1 : 0);
+  return setPlace(address, byte, ir::byteWidth(out.type), out) && checkWrite(info, address.protection, address.name, out.range);
+}
+
+bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) {
+    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) return wrongKind(out, "a number", kind.info.kind);
+    return syntax("the name of a " + std::string(kind.info.kind), tokens);
+  }
+  const uint32_t index = program_.symbols.require(tokens[0], file_);
+  if (index == kNone) return false;
+  const Symbol& symbol = program_.symbols[index];
+  if (symbol.broken) return false;
+  const bool shared = kind.name == SymbolKind::Mechanism && symbol.mechanism != kNone;
+  if (symbol.kind != kind.name && !shared) return wrongKind(out, "none", "a " + std::string(kind.info.kind));
+  out.index = shared ? symbol.mechanism : symbol.index;
+  out.form = kind.name == SymbolKind::Label ? Operand::Form::Label : kind.name == SymbolKind::Mechanism ? Operand::Form::Mechanism : Operand::Form::Procedure;
+  return true;
+}
+
+bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (kind.info.kind == "register") {
+    if (tokens.size() == 1 && equalsNoCase(tokens[0].text, info.name)) return out.form = Operand::Form::Register, true;
+    program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()) << statement_->row->info.mnemonic;
+    return false;
+  }
+  const PrefixName* width = tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
+  if (width && (kind.prefixes & width->prefix)) {
+    out.form = Operand::Form::Width;
+    out.type = width->type;
+    return true;
+  }
+  if (!kind.constant || width) return syntax(kind.info.doc, tokens);
+  const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range());
+  if (!number) return false;
+  out.form = Operand::Form::Integer;
+  out.value = *number;
+  if (*number >= info.min && *number <= info.max) return true;
+  program_.diagnostics.report(Diag::OperandRange, out.range) << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
+  return false;
+}
+
+bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
+    if (!kind.text) return wrongKind(out, "a text", "a variable");
+    out.form = Operand::Form::Text;
+    out.text = tokens[0].text;
+    return true;
+  }
+  // TEXT+BX
+  const bool indexed = tokens.size() > 2 && equalsNoCase(tokens.back().text, "BX") && tokens[tokens.size() - 2].is('+');
+  if (indexed) tokens = tokens.first(tokens.size() - 2);
+  Address address;
+  if (!this->address(tokens, address)) return false;
+  if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
+  const bool wantsText = kind.info.kind != "address";
+  if (address.isBit || (wantsText && !address.isText)) return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
+  address.indexed = address.indexed || indexed;
+  out.form = Operand::Form::Cell;
+  out.size = address.end > address.byte ? static_cast<uint32_t>(address.end - address.byte) : 0;
+  return setPlace(address, address.byte, 1, out) && checkWrite(info, address.protection, address.name, out.range);
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,69 @@
+// A program as it has been read. The reader fills it, the lowering reads it.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "frontend/dialects/technol/symbols.h"
+
+namespace rung::frontend::technol {
+
+// A declaration that takes memory. Addresses are given when all constants are known, in the order of the source over all
+// files, without gaps (man. l.105).
+struct DataItem {
+  Role role = Role::Ds;
+  uint32_t statement = 0;
+  uint32_t cell = kNone;       // symbol
+  uint32_t firstBit = kNone;   // in Program::itemBits, eight of them; Dfm
+};
+
+struct Program {
+  Program(SourceManager& sourceManager, Diagnostics& sink) : sources(sourceManager), diagnostics(sink), symbols(sink) {}
+
+  SourceManager& sources;
+  Diagnostics& diagnostics;
+  SymbolTable symbols;
+  std::vector<SourceFile> files;
+  std::vector<Token> tokens;
+  std::deque<std::string> madeTexts; // of tokens that no source holds
+  std::vector<Statement> statements;
+  std::vector<Label> labels;
+  std::vector<Unit> units;
+  std::vector<Mechanism> mechanisms;
+  std::vector<Procedure> procedures;
+  std::vector<ModulePart> parts; // in the order of the sources
+  std::vector<DataItem> items;
+  std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
+  uint32_t dataBytes = 0;
+  std::vector<ir::Init> inits;
+
+  std::span<const Token> operandTokens(const Statement& statement) const {
+    return std::span(tokens).subspan(statement.firstToken, statement.tokenCount);
+  }
+  // The nearest unit that is not a timed block.
+  uint32_t owner(uint32_t unit) const {
+    while (unit != kNone && units[unit].kind == UnitKind::Timed) unit = units[unit].parent;
+    return unit;
+  }
+  bool inMechanism(uint32_t unit) const {
+    const uint32_t at = owner(unit);
+    return at != kNone && units[at].kind == UnitKind::Mechanism;
+  }
+  // Whether statements that wait may stand in this unit (man. l.2166-2171).
+  bool mayWait(uint32_t unit) const {
+    const uint32_t at = owner(unit);
+    if (at == kNone) return false;
+    const Unit& u = units[at];
+    if (u.kind == UnitKind::Module) return u.module == ModuleKind::BlockInit || u.module == ModuleKind::BlockDone;
+    return u.kind == UnitKind::Mechanism;
+  }
+};
+
+// Splits at the commas that stand outside brackets; an operand may be empty. No tokens: no operands.
+std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
+
+// The source range of tokens; of `otherwise` when there are none.
+SourceRange rangeOf(std::span<const Token> tokens, SourceRange otherwise);
+
+} // namespace rung::frontend::technol

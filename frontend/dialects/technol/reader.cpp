@@ -1,0 +1,405 @@
+// Reads files into statements (see reader.h).
+#include "frontend/dialects/technol/reader.h"
+
+#include "frontend/dialects/technol/declare.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+constexpr size_t kMaxFiles = 64; // man. l.2721
+
+std::string describe(std::span<const Token> tokens) {
+  if (tokens.empty()) return "the end of the line";
+  return "'" + std::string(tokens[0].text) + "'";
+}
+
+class FileReader {
+public:
+  FileReader(Program& program, uint32_t file) : program_(program), file_(file), structure_(program, file), declarations_(program, structure_, file) {}
+  void read();
+
+private:
+  void logicalLine(uint32_t first, uint32_t count, uint32_t line);
+  uint32_t readLabel(uint32_t& first, uint32_t& count);
+  bool readStructure(std::span<const Token> tokens);
+  const Row* instruction(const Token& token);
+  void statement(const Row* row, uint32_t first, uint32_t count, uint32_t line);
+  void structural(Statement& statement, uint32_t index);
+  void code(Statement& statement);
+  void notBuilt(const Statement& statement, Diag code);
+  void checkWait(const Statement& statement);
+  void checkLoop(const Statement& statement);
+  void attachLabels(Statement& statement, uint32_t index);
+  const Token* oneName(const Statement& statement);
+  void declareUnit(const Token& name, SymbolKind kind, uint32_t index);
+
+  Program& program_;
+  uint32_t file_;
+  Structure structure_;
+  Declarations declarations_;
+  std::vector<uint32_t> pendingLabels_; // tokens; they belong to the next statement
+  uint32_t passed_ = 0;                 // EX-kind statements and jumps so far
+  bool textAfterStop_ = false;
+};
+
+void FileReader::read() {
+  SourceFile& file = program_.files[file_];
+  LineReader lines(program_.sources, file.id);
+  SourceLine line;
+  uint32_t first = 0, lineNumber = 0;
+  bool open = false, clean = true; // a statement that a comma continues
+  while (lines.next(line)) {
+    file.lineCount = line.number;
+    file.lastLine = line.range();
+    if (!open) {
+      first = static_cast<uint32_t>(program_.tokens.size());
+      lineNumber = line.number;
+      clean = true;
+    }
+    const size_t before = program_.tokens.size();
+    if (!structure_.stopped()) clean = tokenize(line, program_.tokens, program_.diagnostics) && clean;
+    else if (line.text.find_first_not_of(" \t") < commentOf(line.text) && !textAfterStop_) {
+      textAfterStop_ = true;
+      program_.diagnostics.report(Diag::TextAfterStop, line.range());
+    }
+    if (open && clean && program_.tokens.size() == before) continue; // a blank line or a comment inside
+    open = clean && program_.tokens.size() > before && program_.tokens.back().is(',');
+    if (open && program_.tokens.size() - first < 4096) continue;
+    open = false;
+    if (clean && program_.tokens.size() > first) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
+  }
+  if (open) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
+  if (!pendingLabels_.empty()) {
+    Statement end{.line = file.lineCount, .unit = structure_.unit(), .file = file_};
+    end.pos = program_.tokens[pendingLabels_[0]].pos;
+    attachLabels(end, static_cast<uint32_t>(program_.statements.size()));
+    program_.statements.push_back(end);
+  }
+  structure_.finish(static_cast<uint32_t>(program_.statements.size()));
+}
+
+// Takes `name :` off the front; the token of the name, or kNone.
+uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
+  if (count < 2 || !program_.tokens[first + 1].is(':')) return kNone;
+  const Token name = program_.tokens[first];
+  uint32_t label = first;
+  if (name.kind == TokenKind::Number) {
+    program_.diagnostics.report(Diag::BadIdentifier, name.range()) << name.text;
+    label = kNone;
+  } else if (name.kind != TokenKind::Name) {
+    return kNone;
+  }
+  first += 2;
+  count -= 2;
+  return label;
+}
+
+// `NAME struc`, `NAME ends` and the members between them.
+bool FileReader::readStructure(std::span<const Token> tokens) {
+  if (tokens.size() >= 2 && tokens[0].kind == TokenKind::Name && tokens[1].kind == TokenKind::Name) {
+    if (equalsNoCase(tokens[1].text, "STRUC")) return declarations_.beginStructure(tokens[0], tokens[1]), true;
+    if (equalsNoCase(tokens[1].text, "ENDS")) return declarations_.endStructure(tokens[0]), true;
+  }
+  if (!declarations_.inStructure()) return false;
+  const auto sizeOf = [](const Token& token) -> uint32_t {
+    const Row* row = token.kind == TokenKind::Name ? findRow(token.text) : nullptr;
+    return row && row->role == Role::MemberSize ? static_cast<uint32_t>(row->variant) : 0;
+  };
+  if (const uint32_t bytes = sizeOf(tokens[0])) return declarations_.member(nullptr, tokens[0], bytes, tokens.subspan(1)), true;
+  const bool named = tokens.size() > 1 && tokens[0].kind == TokenKind::Name;
+  if (const uint32_t bytes = named ? sizeOf(tokens[1]) : 0) {
+    declarations_.member(&tokens[0], tokens[1], bytes, tokens.subspan(2));
+    return true;
+  }
+  program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a member or ends" << describe(tokens);
+  return true;
+}
+
+const Row* FileReader::instruction(const Token& token) {
+  if (token.kind != TokenKind::Name) {
+    program_.diagnostics.report(Diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
+    return nullptr;
+  }
+  const Row* row = findRow(token.text);
+  if (row == nullptr) {
+    const Diag code = isAssembler(token.text) ? Diag::UnsupportedAssembler : Diag::UnknownInstruction;
+    program_.diagnostics.report(code, token.range()) << token.text;
+    return nullptr;
+  }
+  if (row->info.mnemonic == "JL0" && equalsNoCase(token.text, "JLO"))
+    program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), "JL0");
+  return row;
+}
+
+void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
+  if (readStructure(std::span(program_.tokens).subspan(first, count))) return;
+  if (const uint32_t label = readLabel(first, count); label != kNone) pendingLabels_.push_back(label);
+  if (count == 0) return;
+  if (program_.tokens[first].is(':')) {
+    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range()) << "a name in front of ':'" << "none";
+    return;
+  }
+  statement(instruction(program_.tokens[first]), first, count, line);
+}
+
+void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint32_t line) {
+  const Token& mnemonic = program_.tokens[first];
+  Statement made{.row = row, .pos = mnemonic.pos, .length = static_cast<uint32_t>(mnemonic.text.size()), .line = line,
+                 .firstToken = first + 1, .tokenCount = count - 1, .unit = structure_.unit(), .file = file_};
+  const auto index = static_cast<uint32_t>(program_.statements.size());
+  const bool isData = row && (row->role == Role::Dfm || row->role == Role::Ds || row->role == Role::Str);
+  if (isData) {
+    const Token* name = pendingLabels_.empty() ? nullptr : &program_.tokens[pendingLabels_.back()];
+    declarations_.data(made, name, index);
+    if (name) pendingLabels_.pop_back();
+    program_.statements.push_back(made);
+    return;
+  }
+  const bool keepsLabels = row && (row->role == Role::Equi || row->role == Role::Module || row->role == Role::Local);
+  if (!keepsLabels) attachLabels(made, index);
+  if (row != nullptr) structural(made, index);
+  program_.statements.push_back(made);
+}
+
+// Labels are this file's alone; they stand in the unit that is open here.
+void FileReader::attachLabels(Statement& statement, uint32_t index) {
+  for (const uint32_t token : pendingLabels_) {
+    const Token& name = program_.tokens[token];
+    structure_.passLabel(name.text);
+    const auto label = static_cast<uint32_t>(program_.labels.size());
+    if (statement.label == kNone) statement.label = label;
+    program_.labels.push_back({.name = name.text, .unit = structure_.unit(), .statement = index, .passed = passed_});
+    Symbol symbol;
+    symbol.name = name.text;
+    symbol.kind = SymbolKind::Label;
+    symbol.local = true;
+    symbol.index = label;
+    symbol.file = file_;
+    symbol.declared = name.range();
+    program_.symbols.declare(symbol);
+  }
+  pendingLabels_.clear();
+  statement.unit = structure_.unit();
+}
+
+const Token* FileReader::oneName(const Statement& statement) {
+  const std::span<const Token> tokens = program_.operandTokens(statement);
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return &tokens[0];
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) {
+    program_.diagnostics.report(Diag::BadIdentifier, tokens[0].range()) << tokens[0].text;
+  } else {
+    const size_t found = splitOperands(tokens).size();
+    if (found == 1) program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
+    else program_.diagnostics.report(Diag::OperandCount, statement.range()) << statement.row->info.mnemonic << "1 operand" << found;
+  }
+  return nullptr;
+}
+
+void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index) {
+  Symbol symbol;
+  symbol.name = name.text;
+  symbol.kind = kind;
+  symbol.index = index;
+  symbol.file = file_;
+  symbol.declared = name.range();
+  if (kind == SymbolKind::Mechanism) {
+    symbol.space = kMechanismSpace;
+    symbol.byte = index * kMechanismBytes;
+    symbol.type = ir::Type::Bit;
+  }
+  program_.symbols.declare(symbol);
+  if (kind != SymbolKind::Mechanism) return;
+  // name_LINE, a WORD (man. l.2210)
+  program_.madeTexts.push_back(std::string(name.text) + "_LINE");
+  symbol.name = program_.madeTexts.back();
+  symbol.kind = SymbolKind::Cell;
+  symbol.type = ir::Type::I16;
+  symbol.byte += 1;
+  symbol.size = 2;
+  symbol.index = kNone;
+  program_.symbols.declare(symbol);
+}
+
+void FileReader::structural(Statement& statement, uint32_t index) {
+  const auto kind = static_cast<ModuleKind>(statement.row->variant);
+  switch (statement.row->role) {
+  case Role::Module:
+    structure_.beginModule(statement, kind, index + 1);
+    attachLabels(statement, index);
+    return;
+  case Role::ModuleEnd: structure_.endModule(statement, kind, index + 1); return;
+  case Role::Local: structure_.beginLocal(statement); return;
+  case Role::LocalEnd: structure_.endLocal(statement); return;
+  case Role::Stop: structure_.stop(statement, index); return;
+  case Role::Equi: declarations_.constant(statement); return;
+  case Role::NotBuilt: notBuilt(statement, Diag::NotBuiltYet); return;
+  case Role::NotBuiltService: notBuilt(statement, Diag::ServiceNotBuilt); return;
+  case Role::MemberSize:
+    program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+    return;
+  case Role::NoCode: return;
+  case Role::Dfm:
+  case Role::Ds:
+  case Role::Str: return;
+  case Role::Code:
+  case Role::MechBegin:
+  case Role::MechEnd:
+  case Role::ProcBegin:
+  case Role::ProcEnd:
+  case Role::Timed: code(statement); return;
+  }
+}
+
+// What stands in the wrong place is told first: it would stay wrong.
+void FileReader::notBuilt(const Statement& statement, Diag code) {
+  const uint16_t effects = statement.row->effects;
+  const uint32_t owner = program_.owner(statement.unit);
+  const bool init = owner != kNone && (program_.units[owner].kind == UnitKind::Procedure || program_.units[owner].module == ModuleKind::Init);
+  if ((effects & kInitOnly) && owner != kNone && !init) code = Diag::InitOnlyInstruction;
+  if ((effects & kWaits) && !program_.mayWait(statement.unit)) code = Diag::ExOutsideMechanism;
+  program_.diagnostics.report(code, statement.range()) << statement.row->info.mnemonic;
+}
+
+void FileReader::code(Statement& statement) {
+  if (!structure_.allowsCode(statement)) {
+    statement.row = nullptr;
+    return;
+  }
+  const Role role = statement.row->role;
+  const uint16_t effects = statement.row->effects;
+  if (role == Role::Code) {
+    if (effects & kWaits) checkWait(statement);
+    if (effects & kJumps) checkLoop(statement);
+    if (effects & (kWaits | kJumps)) ++passed_;
+    return;
+  }
+  const Token* name = oneName(statement);
+  if (name == nullptr) {
+    statement.row = nullptr;
+    return;
+  }
+  bool ok = true;
+  if (role == Role::MechBegin) {
+    structure_.beginMechanism(statement, *name);
+    declareUnit(*name, SymbolKind::Mechanism, static_cast<uint32_t>(program_.mechanisms.size()) - 1);
+  } else if (role == Role::MechEnd) {
+    ok = structure_.endMechanism(statement, *name);
+  } else if (role == Role::ProcBegin) {
+    structure_.beginProcedure(statement, *name);
+    declareUnit(*name, SymbolKind::Procedure, static_cast<uint32_t>(program_.procedures.size()) - 1);
+  } else if (role == Role::ProcEnd) {
+    ok = structure_.endProcedure(statement, *name);
+  } else {
+    structure_.beginTimed(statement, *name);
+  }
+  if (!ok) statement.row = nullptr;
+  // What opens or closes a unit knows it: the unit of the statement is the one it is about.
+  if (role == Role::MechBegin || role == Role::ProcBegin || role == Role::Timed) statement.unit = structure_.unit();
+}
+
+void FileReader::checkWait(const Statement& statement) {
+  if (!program_.mayWait(statement.unit))
+    program_.diagnostics.report(Diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
+  else if (program_.inMechanism(statement.unit) && statement.tokenCount > 0)
+    program_.mechanisms[program_.units[program_.owner(statement.unit)].index].hasTimers = true;
+}
+
+// A loop back without anything that waits or may leave it would run for ever (man. l.2207).
+void FileReader::checkLoop(const Statement& statement) {
+  if (statement.row->info.mnemonic != "JUM" || !program_.inMechanism(statement.unit) || statement.tokenCount != 1) return;
+  const uint32_t symbol = program_.symbols.find(program_.tokens[statement.firstToken].text, file_);
+  if (symbol == kNone || program_.symbols[symbol].kind != SymbolKind::Label) return;
+  const Label& label = program_.labels[program_.symbols[symbol].index];
+  if (label.unit == statement.unit && label.passed == passed_)
+    program_.diagnostics.report(Diag::MechLoopWithoutEx, statement.range()).note(program_.symbols[symbol].declared, "the loop begins here");
+}
+
+} // namespace
+
+void readProgram(Program& program, std::span<const FileId> files) {
+  if (files.size() > kMaxFiles) {
+    program.diagnostics.report(Diag::TooManyFiles) << kMaxFiles;
+    return;
+  }
+  for (uint32_t i = 0; i < files.size(); ++i) {
+    program.files.push_back({.id = files[i], .main = i == 0});
+    program.symbols.addFile();
+  }
+  for (uint32_t i = 0; i < files.size(); ++i)
+    if (checkEncoding(program.sources, files[i], program.diagnostics)) FileReader(program, i).read();
+  placeData(program);
+}
+
+std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens) {
+  std::vector<std::span<const Token>> operands;
+  if (tokens.empty()) return operands;
+  int depth = 0;
+  size_t first = 0;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].is('(') || tokens[i].is('[')) ++depth;
+    if (tokens[i].is(')') || tokens[i].is(']')) --depth;
+    if (!tokens[i].is(',') || depth > 0) continue;
+    operands.push_back(tokens.subspan(first, i - first));
+    first = i + 1;
+  }
+  operands.push_back(tokens.subspan(first));
+  return operands;
+}
+
+SourceRange rangeOf(std::span<const Token> tokens, SourceRange otherwise) {
+  if (tokens.empty()) return otherwise;
+  const SourceRange range = join(tokens.front().range(), tokens.back().range());
+  return range.end < range.begin ? tokens.front().range() : range;
+}
+
+std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens, SourceRange otherwise) {
+  const auto fail = [&](Diag code, const Token& token) -> std::optional<int64_t> {
+    program.diagnostics.report(code, token.range()) << token.text;
+    return std::nullopt;
+  };
+  if (tokens.empty()) {
+    program.diagnostics.report(Diag::SyntaxError, otherwise) << "a constant" << "nothing";
+    return std::nullopt;
+  }
+  int64_t sum = 0;
+  int sign = 1;
+  bool wantsTerm = true;
+  for (const Token& token : tokens) {
+    if (token.is('+') || token.is('-')) {
+      sign = token.is('-') ? (wantsTerm ? -sign : -1) : (wantsTerm ? sign : 1);
+      wantsTerm = true;
+      continue;
+    }
+    if (!wantsTerm || token.kind == TokenKind::Punct) {
+      program.diagnostics.report(Diag::SyntaxError, token.range()) << "a constant" << "'" + std::string(token.text) + "'";
+      return std::nullopt;
+    }
+    int64_t term = 0;
+    if (token.kind == TokenKind::Number) {
+      const std::optional<Number> number = parseNumber(token.text);
+      if (!number || number->isReal) return fail(Diag::BadNumber, token);
+      term = number->value;
+    } else if (token.kind == TokenKind::Text) {
+      if (token.text.size() != 1) return fail(Diag::BadNumber, token);
+      term = static_cast<unsigned char>(token.text[0]);
+    } else {
+      const uint32_t symbol = program.symbols.require(token, file);
+      if (symbol == kNone || program.symbols[symbol].broken) return std::nullopt;
+      if (program.symbols[symbol].kind != SymbolKind::Constant) {
+        program.diagnostics.report(Diag::WrongOperandKind, token.range()) << token.text << "no constant" << "a constant";
+        return std::nullopt;
+      }
+      term = program.symbols[symbol].value;
+    }
+    sum = static_cast<int64_t>(static_cast<uint64_t>(sum) + static_cast<uint64_t>(sign) * static_cast<uint64_t>(term));
+    sign = 1;
+    wantsTerm = false;
+  }
+  if (wantsTerm) {
+    program.diagnostics.report(Diag::SyntaxError, tokens.back().range()) << "a constant" << "the end of the operand";
+    return std::nullopt;
+  }
+  return sum;
+}
+
+} // namespace rung::frontend::technol

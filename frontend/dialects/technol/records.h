@@ -1,0 +1,116 @@
+// The records of a program as it has been read: statements, units, symbols. Plain data with indices into the vectors of
+// Program (program.h).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/technol/instructions.h"
+#include "frontend/dialects/technol/lexer.h"
+#include "ir/core/builder.h"
+#include "ir/core/module.h"
+
+namespace rung::frontend::technol {
+
+inline constexpr uint32_t kNone = UINT32_MAX;
+
+struct Statement {
+  const Row* row = nullptr; // null: the line holds a label only, or is in error
+  SourcePos pos;            // of the mnemonic, else of the label
+  uint32_t length = 0;      // of the mnemonic
+  uint32_t line = 0;
+  uint32_t firstToken = 0;  // operands
+  uint32_t tokenCount = 0;
+  uint32_t label = kNone;   // in Program::labels
+  uint32_t unit = kNone;    // innermost, in Program::units
+  uint32_t file = 0;        // in Program::files
+
+  SourceRange range() const { return {pos, {pos.value + length}}; }
+};
+
+// What control may not enter or leave but by its own rules.
+enum class UnitKind : uint8_t { Module, Mechanism, Procedure, Timed };
+
+struct Unit {
+  UnitKind kind = UnitKind::Module;
+  ModuleKind module = ModuleKind::Main;
+  uint32_t parent = kNone;
+  uint32_t index = kNone;  // in mechanisms or procedures
+  std::string_view name;   // as written
+  uint32_t endLabel = kNone; // Timed
+  SourceRange begin;       // of the statement that opens it
+};
+
+struct Label {
+  std::string_view name;
+  uint32_t unit = kNone;
+  uint32_t statement = 0;
+  uint32_t passed = 0;   // EX-kind statements and jumps in front of it
+};
+
+struct Mechanism {
+  std::string_view name;
+  uint32_t unit = kNone;
+  uint32_t byte = 0;   // of its bit in the space of the mechanisms; the line number follows
+  bool hasTimers = false; // TIM or TEX: initialising it clears more than the continuation
+  bool open = false;
+};
+
+struct Call {
+  uint32_t callee = kNone; // in procedures
+  SourceRange range;
+};
+
+struct Procedure {
+  std::string_view name;
+  uint32_t unit = kNone;
+  std::vector<Call> calls;
+};
+
+// A module's text in one file.
+struct ModulePart {
+  ModuleKind kind = ModuleKind::Main;
+  uint32_t file = 0;
+  uint32_t unit = kNone;
+  uint32_t firstStatement = 0;
+  uint32_t endStatement = 0;
+  SourceRange end; // of the statement that closes it
+  uint32_t endLine = 0;
+};
+
+enum class SymbolKind : uint8_t { Bit, Cell, Text, Constant, Label, Procedure, Mechanism, Macro, Structure };
+// Protection of interface cells, see §4.1 of the inventory.
+enum class Protection : uint8_t { None, Warn, Error };
+
+struct Symbol {
+  std::string_view name; // as written at its declaration
+  SymbolKind kind = SymbolKind::Cell;
+  Protection protection = Protection::None;
+  bool predeclared = false;
+  bool local = false;
+  bool broken = false;      // declared in error: uses are silent
+  ir::Type type = ir::Type::None; // of a cell; None: needs a prefix
+  ir::SpaceId space;
+  uint32_t byte = 0;
+  uint32_t bit = 0;
+  uint32_t size = 0;        // bytes of a cell or a text
+  int64_t value = 0;        // of a constant
+  uint32_t index = kNone;   // label, procedure, mechanism
+  uint32_t mechanism = kNone; // of a cell: the mechanism of the same name
+  const char* structure = ""; // of an interface cell: where its members are
+  uint32_t file = 0;
+  SourceRange declared;
+};
+
+struct SourceFile {
+  FileId id;
+  bool main = false;
+  uint32_t lineCount = 0;
+  SourceRange lastLine; // its text, for what is missing at the end
+  bool finishesInit = false;
+  bool finishesDone = false;
+};
+
+} // namespace rung::frontend::technol

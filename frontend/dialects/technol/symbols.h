@@ -1,0 +1,66 @@
+// Names of a program. Symbols of any case are one name, compared on 31 characters (man. l.75). Each file sees its own local
+// names first (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC interface and
+// the predefined constants, which are entered at their first use.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/dialects/technol/records.h"
+#include "ir/support/diagnostics.h"
+
+namespace rung::frontend::technol {
+
+// The module's spaces, always in this order.
+inline constexpr ir::SpaceId kInterfaceSpace{0}; // "NCI"
+inline constexpr ir::SpaceId kDataSpace{1};      // "DATA"
+inline constexpr ir::SpaceId kMechanismSpace{2}; // "MECH": a byte with the activation bit, a word with the line
+inline constexpr ir::SpaceId kRegisterSpace{3};  // "@REG": what the host gives and takes
+inline constexpr ir::SpaceId kBlockSpace{4};     // "BLK": the queue of command blocks
+inline constexpr uint32_t kQueuedBlocks = 16;
+inline constexpr uint32_t kMechanismBytes = 3;
+inline constexpr size_t kSignificant = 31;
+
+// Upper case, cut to what counts.
+std::string symbolKey(std::string_view name);
+
+class SymbolTable {
+public:
+  explicit SymbolTable(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void addFile() { locals_.emplace_back(); }
+  // Enters a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and
+  // name-too-long; a duplicate gets a symbol of its own that no name leads to.
+  uint32_t declare(Symbol symbol);
+  // kNone where there is none.
+  uint32_t find(std::string_view name, uint32_t file);
+  // As find; where there is none, reports undefined-symbol once a name and file.
+  uint32_t require(const Token& name, uint32_t file);
+  // A bit name that may stand behind an address only.
+  uint32_t findWeight(std::string_view name, uint32_t file);
+  // Where a member of an interface structure lies; null when it has none of this name.
+  const Symbol* findMember(const char* structure, std::string_view member);
+
+  Symbol& operator[](uint32_t index) { return symbols_[index]; }
+  const Symbol& operator[](uint32_t index) const { return symbols_[index]; }
+  const std::vector<Symbol>& all() const { return symbols_; }
+
+private:
+  using Scope = std::unordered_map<std::string, uint32_t>;
+
+  uint32_t* inOwnFile(const std::string& key, const Symbol& symbol);
+  bool merge(uint32_t earlier, Symbol& symbol);
+  void checkName(const Symbol& symbol);
+  uint32_t predeclared(std::string_view name, const std::string& key);
+
+  Diagnostics& diagnostics_;
+  std::vector<Symbol> symbols_;
+  Scope globals_;
+  Scope predeclared_; // interface and constants in use, and names known to be none of these
+  Scope members_;
+  std::vector<Scope> locals_;
+  std::vector<Scope> undefined_; // reported, by file
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,60 @@
+// The dialect's entry: source files to a module.
+#include "frontend/dialects/technol/technol.h"
+
+#include <charconv>
+
+#include "frontend/dialects/technol/assemble.h"
+#include "frontend/dialects/technol/reader.h"
+
+namespace rung::frontend {
+namespace {
+
+constexpr std::string_view kExtensions[] = {".plc"};
+constexpr std::string_view kConfigKeys[] = {"period_us"};
+
+uint32_t periodOf(const CompileOptions& options) {
+  const auto found = options.config.find("period_us");
+  if (found == options.config.end()) return technol::kDefaultPeriodUs;
+  uint32_t period = 0;
+  const char* end = found->second.data() + found->second.size();
+  const auto [at, error] = std::from_chars(found->second.data(), end, period);
+  return error == std::errc() && at == end && period > 0 ? period : technol::kDefaultPeriodUs;
+}
+
+std::string baseName(std::string_view path) {
+  const size_t slash = path.find_last_of("/\\");
+  if (slash != std::string_view::npos) path = path.substr(slash + 1);
+  return std::string(path.substr(0, path.rfind('.')));
+}
+
+std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options, Diagnostics& diagnostics) {
+  technol::Program program(sources, diagnostics);
+  technol::readProgram(program, files);
+  if (program.files.empty()) return nullptr;
+  auto module = std::make_unique<ir::Module>();
+  module->name = baseName(sources.name(files[0]));
+  module->dialect = "technol";
+  for (const FileId file : files) module->files.emplace_back(sources.name(file));
+  technol::addSpaces(program, *module);
+  const uint32_t period = periodOf(options);
+  technol::Lowering lowering(program, *module, period);
+  lowering.run();
+  if (diagnostics.hasErrors()) return nullptr;
+  technol::addTasks(lowering, *module, period);
+  technol::addSymbols(program, *module);
+  return module;
+}
+
+} // namespace
+
+const Dialect kTechnol = {
+    .name = "technol",
+    .title = "TECHNOL, PLC836 of the MEFI CNC8x9",
+    .extensions = kExtensions,
+    .configKeys = kConfigKeys,
+    .instructions = technol::instructionInfos(),
+    .operandKinds = technol::operandKindInfos(),
+    .compile = compile,
+};
+
+} // namespace rung::frontend

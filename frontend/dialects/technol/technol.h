@@ -1,0 +1,10 @@
+// The dialect TECHNOL (PLC836), the mnemonic language of the MEFI CNC8x9 controls; README.md tells how its parts fit.
+#pragma once
+
+#include "frontend/dialects/dialect.h"
+
+namespace rung::frontend {
+
+extern const Dialect kTechnol;
+
+} // namespace rung::frontend

@@ -135,9 +135,9 @@ def counters():
 def emergency_stop():
     mdi("M3 S1000")
     pins(spindle_cw=True)
-    command.state(linuxcnc.STATE_ESTOP)
-    done("e-stop")
+    hal.set_p("rung.estop-button", "1")
     pins(enable=False, spindle_cw=False)
+    wait("e-stop", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP)[1])
 
 
 def main():

@@ -11,7 +11,6 @@
 #include <llvm/ExecutionEngine/Orc/LLJIT.h>
 #include <llvm/ExecutionEngine/Orc/RTDyldObjectLinkingLayer.h>
 #include <llvm/ExecutionEngine/SectionMemoryManager.h>
-#include <llvm/IR/LegacyPassManager.h>
 
 #include "codegen/jit/object_cache.h"
 #include "codegen/llvm/llvm_module.h"
@@ -55,6 +54,7 @@ Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const 
   Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options, MachineUse::Jit);
   if (!machine.ok()) return machine.failure();
   llvm::LLVMContext context;
+  context.setDiscardValueNames(true);
   Result<std::unique_ptr<llvm::Module>> module = buildModule(context, *machine.value(), layout, codeHash, options, piece);
   if (!module.ok()) return module.failure();
   runPasses(*module.value(), *machine.value(), options.level);

@@ -1,0 +1,158 @@
+// The JIT as an engine, its pieces and threads, and its cache of object files. That it computes what the interpreter
+// computes is the differential tests' matter.
+#include "codegen/jit/jit_engine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "ir/core/builder.h"
+#include "rtlib/host/instance.h"
+#include "tests/unit/llvm/sample_module.h"
+
+namespace rung::codegen {
+namespace {
+
+using namespace ir;
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::unique_ptr<JitEngine> compiled(const Layout& layout, const JitOptions& options, uint64_t codeHash = 1) {
+  Result<std::unique_ptr<JitEngine>> engine = compileJit(layout, codeHash, options);
+  if (engine.ok()) return std::move(engine).value();
+  ADD_FAILURE() << engine.error();
+  return nullptr;
+}
+
+// Rung i copies bit i of A to bit i of B, inverted in every other rung.
+Module copyModule(uint32_t rungs) {
+  Module m = sampleModule();
+  m.spaces.push_back({.name = "A", .unitBytes = 1, .units = rungs / 8 + 1});
+  m.spaces.push_back({.name = "B", .unitBytes = 1, .units = rungs / 8 + 1});
+  m.routines[0].rungs.assign(rungs, {});
+  for (uint32_t i = 0; i < rungs; ++i) {
+    m.routines[0].rungs[i].begin = {FileIndex{0}, i + 1, 1};
+    RungBuilder b(m, m.routines[0].rungs[i]);
+    const ValueId bit = b.load(Type::Bit, {SpaceId{3}, i / 8, i % 8});
+    b.store({SpaceId{4}, i / 8, i % 8}, i % 2 == 0 ? bit : b.not_(bit));
+  }
+  m.tasks[0].budget = 10 * rungs;
+  return m;
+}
+
+class JitLevels : public testing::TestWithParam<LlvmLevel> {};
+
+TEST_P(JitLevels, RunsCallsAndTraps) {
+  std::unique_ptr<JitEngine> engine;
+  {
+    const Module module = sampleModule();
+    const Layout layout(module, {});
+    engine = compiled(layout, {.code = {.level = GetParam(), .target = {}}});
+    ASSERT_NE(engine, nullptr);
+    EXPECT_EQ(engine->program().layout_hash, layout.hash());
+  } // the engine needs neither
+  EXPECT_EQ(engine->name(), "jit");
+  host::Instance instance(engine->program());
+  instance.write(*instance.resolve("X0.0"), 1);
+  instance.scan();
+  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
+  instance.scan();
+  instance.scan();
+  EXPECT_TRUE(instance.faulted());
+  EXPECT_EQ(instance.fault().line, 11u);
+  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, JitLevels, testing::Values(LlvmLevel::Fast, LlvmLevel::Opt),
+                         [](const auto& info) { return info.param == LlvmLevel::Fast ? "Fast" : "Opt"; });
+
+TEST(Jit, ManyPiecesOnTwoThreads) {
+  constexpr uint32_t kRungs = 10'000;
+  const Module module = copyModule(kRungs);
+  const Layout layout(module, {});
+  const auto engine = compiled(layout, {.code = {.level = LlvmLevel::Fast, .target = {}}, .threads = 2});
+  ASSERT_NE(engine, nullptr);
+  EXPECT_GT(engine->report().modules, 2u);
+  host::Instance instance(engine->program());
+  for (uint32_t i = 0; i < kRungs; i += 3) instance.memory().writeBit(3, i / 8, i % 8, true);
+  instance.scan();
+  ASSERT_FALSE(instance.faulted()) << instance.faultText();
+  for (uint32_t i = 0; i < kRungs; ++i) ASSERT_EQ(instance.memory().readBit(4, i / 8, i % 8), (i % 3 == 0) != (i % 2 != 0)) << i;
+}
+
+TEST(Jit, OnlyThisMachine) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const auto engine = compileJit(layout, 1, {.code = {.target = "aarch64-linux-gnu"}});
+  ASSERT_FALSE(engine.ok());
+  EXPECT_THAT(engine.error(), HasSubstr("this machine"));
+}
+
+TEST(Jit, TellsADebugger) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  EXPECT_NE(compiled(layout, {.code = {}, .gdb = true}), nullptr);
+}
+
+class JitCache : public testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  uint32_t taken(const LlvmOptions& code, uint64_t codeHash = 1) {
+    const auto engine = compiled(layout_, {.code = code, .cacheFolder = folder_.string()}, codeHash);
+    if (engine == nullptr) return 1000;
+    EXPECT_EQ(engine->report().cacheTrouble, "");
+    host::Instance instance(engine->program());
+    instance.write(*instance.resolve("X0.0"), 1);
+    instance.scan();
+    EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 1u);
+    return engine->report().fromCache;
+  }
+  std::vector<fs::path> files() const { return {fs::directory_iterator(folder_), fs::directory_iterator()}; }
+
+  Module module_ = sampleModule();
+  Layout layout_{module_, {}};
+  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("rung-cache-{}", getpid());
+};
+
+TEST_F(JitCache, TakesWhatIsTheSame) {
+  EXPECT_EQ(taken({}), 0u);
+  EXPECT_EQ(taken({}), 1u);
+  EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(JitCache, LeavesWhatDiffers) {
+  EXPECT_EQ(taken({}), 0u);
+  EXPECT_EQ(taken({}, 2), 0u) << "another program";
+  EXPECT_EQ(taken({.level = LlvmLevel::Fast}), 0u);
+  EXPECT_EQ(taken({.debugInfo = false}), 0u);
+  EXPECT_EQ(taken({.target = {}, .sabotage = OpCode::FAdd}), 0u);
+  layout_ = Layout(module_, {.maxChunkRungs = 1});
+  EXPECT_EQ(taken({}), 0u) << "other chunks";
+  EXPECT_EQ(files().size(), 6u);
+}
+
+TEST_F(JitCache, LeavesWhatIsDamaged) {
+  EXPECT_EQ(taken({}), 0u);
+  const fs::path file = files().at(0);
+  fs::resize_file(file, fs::file_size(file) / 2);
+  EXPECT_EQ(taken({}), 0u) << "cut";
+  std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('!');
+  EXPECT_EQ(taken({}), 0u) << "changed";
+  EXPECT_EQ(taken({}), 1u) << "written anew";
+}
+
+TEST_F(JitCache, RunsWithoutIt) {
+  std::ofstream(folder_) << "a file where the folder should be";
+  const auto engine = compiled(layout_, {.code = {}, .cacheFolder = folder_.string()});
+  ASSERT_NE(engine, nullptr);
+  EXPECT_NE(engine->report().cacheTrouble, "");
+}
+
+} // namespace
+} // namespace rung::codegen

@@ -1,0 +1,196 @@
+// The LLVM back end's outputs: the text of a small program, objects for every target, and a shared object that runs.
+#include "codegen/llvm/llvm_emitter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <elf.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "ir/random/random.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/host/so_engine.h"
+#include "tests/unit/llvm/sample_module.h"
+
+namespace rung::codegen {
+namespace {
+
+using namespace ir;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string temporaryFile(const std::string& name) { return (std::filesystem::path(testing::TempDir()) / name).string(); }
+
+std::string fileText(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// The definition of a function, without notes on attributes and debug information.
+std::string functionText(const std::string& ir, const std::string& name) {
+  const size_t begin = ir.find("define internal i32 @" + name + "(");
+  if (begin == std::string::npos) return "no function " + name;
+  return ir.substr(begin, ir.find("\n}\n", begin) + 3 - begin);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  return text;
+}
+
+TEST(LlvmEmitter, FastTextIsTheRungsAsTheyStand) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast, .debugInfo = false, .target = "x86_64-linux-gnu"});
+  ASSERT_TRUE(ir.ok()) << ir.error();
+  const std::string place = "i64 " + std::to_string(layout.byte(SpaceId{2}, 4));
+  EXPECT_EQ(replaced(functionText(ir.value(), "COUNT.0"), place, "i64 COUNT_PLACE"), R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx) #0 {
+entry:
+  %0 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
+  %1 = load i16, ptr %0, align 1
+  %2 = add i16 %1, 1
+  %3 = icmp eq i16 %2, 3
+  br i1 %3, label %fault, label %go
+
+fault:                                            ; preds = %entry
+  %4 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 5
+  %5 = getelementptr inbounds %rung_fault, ptr %4, i32 0, i32 0
+  store i32 0, ptr %5, align 4
+  %6 = getelementptr inbounds %rung_fault, ptr %4, i32 0, i32 1
+  store i32 2, ptr %6, align 4
+  %7 = getelementptr inbounds %rung_fault, ptr %4, i32 0, i32 2
+  store i32 11, ptr %7, align 4
+  ret i32 -2
+
+go:                                               ; preds = %entry
+  %8 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
+  store i16 %2, ptr %8, align 1
+  %9 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 6
+  %10 = load i32, ptr %9, align 4
+  %11 = sub i32 %10, 1
+  store i32 %11, ptr %9, align 4
+  %12 = zext i32 %11 to i64
+  %13 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 8
+  %14 = getelementptr inbounds i32, ptr %13, i64 %12
+  %15 = load i32, ptr %14, align 4
+  ret i32 %15
+}
+)");
+}
+
+TEST(LlvmEmitter, OnlyTheProgramIsExported) {
+  const Module module = moduleForOp(OpCode::FDiv);
+  const Layout layout(module, {});
+  const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast});
+  ASSERT_TRUE(ir.ok()) << ir.error();
+  EXPECT_THAT(ir.value(), HasSubstr("\n@rung_program_v1 = constant %rung_program"));
+  EXPECT_THAT(ir.value(), HasSubstr("define internal double @rung_sem_fdiv_f64("));
+  EXPECT_THAT(ir.value(), HasSubstr("call double @rung_sem_fdiv_f64("));
+  EXPECT_THAT(ir.value(), Not(HasSubstr("\ndefine i32")));
+  EXPECT_THAT(ir.value(), Not(HasSubstr("\ndeclare double")));
+}
+
+TEST(LlvmEmitter, OptInlinesTheSemantics) {
+  const Module module = moduleForOp(OpCode::FDiv);
+  const Layout layout(module, {});
+  for (const std::string_view target : llvmTargets()) {
+    const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .target = std::string(target)});
+    ASSERT_TRUE(ir.ok()) << ir.error();
+    EXPECT_THAT(ir.value(), Not(HasSubstr("@rung_sem_"))) << target;
+  }
+}
+
+TEST(LlvmEmitter, LinesOfTheSource) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const Result<std::string> with = emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast});
+  ASSERT_TRUE(with.ok()) << with.error();
+  EXPECT_THAT(with.value(), HasSubstr("DIFile(filename: \"sample.lad\""));
+  EXPECT_THAT(with.value(), HasSubstr("distinct !DISubprogram(name: \"MAIN.0\""));
+  EXPECT_THAT(with.value(), HasSubstr("!DILocation(line: 11,"));
+  const Result<std::string> without = emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast, .debugInfo = false});
+  ASSERT_TRUE(without.ok()) << without.error();
+  EXPECT_THAT(without.value(), Not(HasSubstr("DILocation")));
+}
+
+TEST(LlvmEmitter, TheSameInputGivesTheSameBytes) {
+  const Module module = randomModule(3);
+  const Layout layout(module, {});
+  EXPECT_EQ(emitObject(layout, 42, {}).value(), emitObject(layout, 42, {}).value());
+  EXPECT_EQ(emitAssembly(layout, 42, {}).value(), emitAssembly(layout, 42, {}).value());
+}
+
+TEST(LlvmEmitter, AnUnknownTargetIsAnError) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const Result<std::string> object = emitObject(layout, 42, {.target = "pdp11"});
+  ASSERT_FALSE(object.ok());
+  EXPECT_THAT(object.error(), HasSubstr("pdp11"));
+  EXPECT_THAT(object.error(), HasSubstr("aarch64-linux-gnu"));
+}
+
+TEST(LlvmSharedObject, RunsCallsAndTraps) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const std::string path = temporaryFile("rung_llvm_test.so");
+  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, path);
+  ASSERT_TRUE(built.ok()) << built.error();
+  std::string error;
+  const auto engine = host::SoEngine::open(path, error);
+  ASSERT_NE(engine, nullptr) << error;
+  EXPECT_EQ(engine->program().code_hash, 42u);
+  EXPECT_EQ(engine->program().layout_hash, layout.hash());
+  host::Instance instance(engine->program());
+  EXPECT_EQ(instance.read(*instance.resolve("D6")), 7u) << "an initial value";
+  instance.write(*instance.resolve("X0.0"), 1);
+  instance.scan();
+  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
+  instance.scan();
+  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u);
+  instance.scan();
+  EXPECT_TRUE(instance.faulted());
+  EXPECT_EQ(instance.fault().line, 11u);
+  EXPECT_THAT(instance.faultText(), HasSubstr("limit reached"));
+  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u) << "the trap comes before the store";
+  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 0u) << "outputs go to their safe state";
+}
+
+TEST(LlvmSharedObject, AFolderThatIsNotThereIsAnErrorOfTheEnvironment) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, temporaryFile("no-such-folder/x.so"));
+  ASSERT_FALSE(built.ok());
+  EXPECT_THAT(built.error(), HasSubstr("no-such-folder"));
+  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}, temporaryFile("rung_llvm_after.so")).ok()) << "the linker can run again";
+}
+
+struct Machine {
+  std::string_view target;
+  uint16_t elfMachine;
+};
+constexpr Machine kMachines[] = {
+    {"x86_64-linux-gnu", EM_X86_64}, {"aarch64-linux-gnu", EM_AARCH64}, {"armv7-linux-gnueabihf", EM_ARM}, {"riscv64-linux-gnu", EM_RISCV}};
+
+TEST(LlvmSharedObject, ForEveryTarget) {
+  const Module module = randomModule(5);
+  const Layout layout(module, {});
+  EXPECT_EQ(llvmTargets().size(), std::size(kMachines));
+  for (const Machine& machine : kMachines)
+    for (const LlvmLevel level : {LlvmLevel::Fast, LlvmLevel::Opt}) {
+      const std::string path = temporaryFile(std::string(machine.target) + ".so");
+      const Result<void> built = buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)}, path);
+      ASSERT_TRUE(built.ok()) << machine.target << ": " << built.error();
+      const std::string bytes = fileText(path);
+      ASSERT_EQ(bytes.substr(0, SELFMAG), ELFMAG);
+      uint16_t kind = 0;
+      std::memcpy(&kind, bytes.data() + offsetof(Elf64_Ehdr, e_machine), sizeof kind); // at the same place in 32-bit files
+      EXPECT_EQ(kind, machine.elfMachine);
+      EXPECT_THAT(bytes, HasSubstr(RUNG_PROGRAM_SYMBOL));
+    }
+}
+
+} // namespace
+} // namespace rung::codegen

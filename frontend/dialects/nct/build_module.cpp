@@ -106,20 +106,27 @@ class ModuleBuilder {
     return copy;
   }
 
+  // TS <- M, but only the bits that were written.
+  std::vector<ir::Copy> writtenToTimeSlice() {
+    if (written_.first >= written_.end) return {};
+    const uint32_t first = written_.first * 4;
+    ir::Copy transfer = copy(spaces_.m, first, spaces_.ts, first, written_.end * 4 - first);
+    transfer.masked = true;
+    transfer.mask = spaces_.written;
+    transfer.maskByte = first;
+    return {transfer};
+  }
+
   void addTasks(ir::RoutineId main, ir::RoutineId int0) {
     const ir::FaultId timeout{0};
     ir::Task task{.name = "MAIN", .entry = main, .periodUs = config_.periodUs, .budget = kMainBudget, .budgetFault = timeout, .begin = {}, .end = {}};
+    const std::vector<ir::Copy> transfer = writtenToTimeSlice();
+    // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; nobody reads the time-slice
+    // memory between here and the end of the run.
+    if (int0.valid()) task.begin = transfer;
     // All but FLAGS; word 0001 of the time-slice memory is always 0, so what was written there is gone.
-    const uint32_t area = config_.plcNvram * 4;
-    task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, area - 4));
-    if (written_.first < written_.end) {
-      const uint32_t first = written_.first * 4;
-      ir::Copy transfer = copy(spaces_.m, first, spaces_.ts, first, written_.end * 4 - first);
-      transfer.masked = true;
-      transfer.mask = spaces_.written;
-      transfer.maskByte = first;
-      task.end.push_back(transfer);
-    }
+    task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, config_.plcNvram * 4 - 4));
+    task.end = transfer;
     module_.mainTask = {0};
     module_.tasks.push_back(std::move(task));
     if (!int0.valid()) return;
@@ -136,15 +143,19 @@ class ModuleBuilder {
     const auto run = [&](ir::TaskId task) { return ir::Step{.op = RUNG_STEP_RUN, .task = task, .arg = 1}; };
     const uint32_t slices = config_.slices();
     const uint32_t slice = slices == 1 ? config_.periodUs : config_.timesliceUs;
+    // A time slice: its time passes, the NC writes its inputs and clocks, INT0 runs.
+    const auto addSlice = [&](std::vector<ir::Step>& steps, uint32_t us) {
+      steps.push_back(advance(us));
+      steps.push_back({.op = RUNG_STEP_HOOK, .task = {}, .arg = 0});
+      if (module_.fastTask.valid()) steps.push_back(run(module_.fastTask));
+    };
     for (uint32_t i = 0; i < slices; ++i) {
       const bool last = i + 1 == slices;
-      module_.scan.push_back(advance(last ? config_.periodUs - (slices - 1) * slice : slice));
-      if (module_.fastTask.valid()) module_.scan.push_back(run(module_.fastTask));
+      addSlice(module_.scan, last ? config_.periodUs - (slices - 1) * slice : slice);
     }
     module_.scan.push_back(run(module_.mainTask));
     module_.scan.push_back({.op = RUNG_STEP_SLOT, .task = {}, .arg = 0});
-    module_.fast.push_back(advance(config_.timesliceUs));
-    if (module_.fastTask.valid()) module_.fast.push_back(run(module_.fastTask));
+    addSlice(module_.fast, config_.timesliceUs);
   }
 
   ir::Module& module_;

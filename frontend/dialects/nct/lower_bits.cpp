@@ -29,16 +29,18 @@ ValueId pulse(RungBuilder& b, SlotId slot, ValueId value, bool rising) {
   return rising ? b.and_(value, b.not_(before)) : b.and_(before, b.not_(value));
 }
 
+constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
+
 // The edge of a contact whose address is computed. Its memory belongs to the address it was taken from: when that moved,
-// the memory starts anew without an edge. Before the first evaluation the address is -1, the value 0.
+// the memory starts anew without an edge. Before the first evaluation there is no address and the value is 0.
 ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
   RungBuilder& b = box.b;
-  const SlotId addressSlot = box.slots.make("address", Type::I32, -1);
+  const SlotId addressSlot = box.slots.make("address", Type::I32, kNoAddress);
   const SlotId valueSlot = box.slots.make("value", Type::Bit);
   const ValueId address = box.memory.bitAddress(place);
   const ValueId lastAddress = b.slotLoad(addressSlot);
   const ValueId lastValue = b.slotLoad(valueSlot);
-  const ValueId same = b.or_(b.eq(address, lastAddress), b.eq(lastAddress, b.i32(-1)));
+  const ValueId same = b.or_(b.eq(address, lastAddress), b.eq(lastAddress, b.i32(kNoAddress)));
   const ValueId edge = box.edge == '@' ? b.and_(value, b.not_(lastValue)) : b.and_(lastValue, b.not_(value));
   const bool guard = place.valid.valid();
   b.slotStore(addressSlot, guard ? b.select(place.valid, address, lastAddress) : address);

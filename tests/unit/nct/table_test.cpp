@@ -1,0 +1,191 @@
+// The instruction table against the inventory, and every row's own example through the compiler.
+#include <fmt/format.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <set>
+#include <sstream>
+
+#include "frontend/dialects/nct/instructions.h"
+#include "frontend/dialects/nct/nct.h"
+#include "ir/verify/verify.h"
+#include "tests/unit/nct/support.h"
+
+namespace rung::nct::test {
+namespace {
+
+using frontend::OperandInfo;
+using frontend::OperandKindInfo;
+using frontend::Output;
+using frontend::Placement;
+
+// First eight columns of a line of the inventory; quotes hold commas.
+std::vector<std::string> columns(const std::string& line) {
+  std::vector<std::string> result(1);
+  bool quoted = false;
+  for (char c : line) {
+    if (c == '"') quoted = !quoted;
+    else if (c == ',' && !quoted) result.emplace_back();
+    else result.back() += c;
+  }
+  return result;
+}
+
+// Operands are separated by semicolons; what stands in parentheses is their range.
+size_t operandsIn(const std::string& column) {
+  if (column == "-") return 0;
+  size_t count = 1;
+  int depth = 0;
+  for (char c : column) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    count += c == ';' && depth == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(NctTable, HoldsTheWholeInventory) {
+  std::ifstream file("frontend/dialects/nct/instructions.csv");
+  ASSERT_TRUE(file) << "run in the root of the repository";
+  std::string line;
+  std::getline(file, line);
+  size_t i = 0;
+  const auto rows = allInstructions();
+  for (; std::getline(file, line); ++i) {
+    const std::vector<std::string> csv = columns(line);
+    ASSERT_LT(i, rows.size());
+    const frontend::InstructionInfo& info = rows[i].info;
+    EXPECT_EQ(info.mnemonic, csv[0]);
+    EXPECT_TRUE(info.ref.starts_with(csv[1] + ", l.")) << info.mnemonic << ' ' << info.ref;
+    const Output output = csv[5] == "configurable" ? Output::Optional : csv[5] == "no" ? Output::Always : Output::None;
+    EXPECT_EQ(info.output, output) << info.mnemonic;
+    EXPECT_EQ(info.placement != Placement::BehindContact, csv[6] == "yes") << info.mnemonic;
+    const auto pins = std::count(csv[3].begin(), csv[3].end(), ',') + 1;
+    EXPECT_EQ(info.pins.size(), static_cast<size_t>(pins)) << info.mnemonic;
+    EXPECT_EQ(info.operands.size(), operandsIn(csv[4])) << info.mnemonic;
+  }
+  EXPECT_EQ(i, rows.size());
+}
+
+constexpr std::string_view kSymbols =
+    "symbol START 7900.00\nsymbol STOP 7900.01\nsymbol MOTOR 7901.00\nsymbol T_WARM 7902\nsymbol WARMING 7901.01\nsymbol WARM 7901.02\n"
+    "symbol RUNNING 7900.02\nsymbol IDLE 7901.03\nsymbol LATCH 7901.04\nsymbol START_P 7901.05\nsymbol START_N 7901.06\nsymbol STARTED 7901.07\n"
+    "symbol RUN 7900.03\nsymbol FAN 7901.08\nsymbol LUBE 7900.04\nsymbol PUMP 7901.09\nsymbol PART 7900.05\nsymbol FULL 7901.10\nsymbol STEP 7900.06\n"
+    "symbol HOME 7901.11\nsymbol M6 7900.07\nsymbol TOGO 7903\nsymbol POS 7904\nsymbol GOAL 7905\nsymbol NEGATIVE 7901.12\nsymbol OUT 7901.13\n"
+    "symbol PARTS 7906\nsymbol LEFT 7907\nsymbol FAULT 7900.08\nsymbol SKIP 7900.09\nsymbol GO 7900.10\nconst TEN #10\n";
+
+// The row's example with what belongs around it: pins, labels, subroutines.
+std::string exampleProgram(const NctInstruction& row) {
+  const frontend::InstructionInfo& info = row.info;
+  std::string text(kSymbols);
+  const std::string example(info.example);
+  if (row.flow == Flow::Section) return text + example + "\n";
+  const auto rung = [](const std::string& drawing) { return "rung\n" + drawing + "\n\n"; };
+  std::string drawing = example;
+  const size_t column = example.find('{');
+  for (size_t i = 1; i < info.pins.size(); ++i) {
+    drawing += fmt::format("\n|--[START]{:->{}}{{{}}}", "", column - 10, info.pins[i].name);
+  }
+  switch (row.flow) {
+    case Flow::Jump: return text + rung(drawing) + rung("|--{JME #5}");
+    case Flow::Label: return text + rung("|--[SKIP]--{JMP #5}") + rung(drawing);
+    case Flow::Call: return text + rung(drawing) + rung("|--{END}") + rung("|--{SBN #10}") + rung("|--[N_ON]--{RET}");
+    case Flow::Subroutine: return text + rung("|--[N_ON]--{SBS #10}") + rung("|--{END}") + rung(drawing) + rung("|--[N_ON]--{RET}");
+    case Flow::Return: return text + rung("|--[N_ON]--{SBS #10}") + rung("|--{END}") + rung("|--{SBN #10}") + rung(drawing);
+    case Flow::None:
+    case Flow::End:
+    case Flow::Section: break;
+  }
+  return text + rung(drawing);
+}
+
+TEST(NctTable, ExamplesCompile) {
+  for (const NctInstruction& row : allInstructions()) {
+    const Compiled c = compileMain(exampleProgram(row));
+    if (!row.isBuilt()) {
+      ASSERT_EQ(c.codes().size(), 1u) << row.info.mnemonic << '\n' << c.rendered();
+      EXPECT_NE(c.codes()[0].find("not-built-yet"), std::string::npos) << c.rendered();
+      continue;
+    }
+    EXPECT_TRUE(c.codes().empty()) << row.info.mnemonic << '\n' << exampleProgram(row) << c.rendered();
+    ASSERT_NE(c.module, nullptr);
+    const auto errors = ir::verify(*c.module, ir::Mode::Built);
+    EXPECT_TRUE(errors.empty()) << row.info.mnemonic << '\n' << ir::render(*c.module, errors);
+  }
+}
+
+const OperandKindInfo& kindOf(std::string_view name) {
+  for (const OperandKindInfo& kind : operandKinds())
+    if (kind.kind == name) return kind;
+  ADD_FAILURE() << "undocumented kind " << name;
+  return operandKinds()[0];
+}
+
+// A program with one box whose operands are `operands`.
+Compiled withOperands(const NctInstruction& row, const std::vector<std::string>& operands) {
+  std::string box = std::string("{") + std::string(row.info.mnemonic);
+  for (const std::string& operand : operands) box += ' ' + operand;
+  box += '}';
+  const bool rail = row.info.placement == Placement::AtRail;
+  const std::string front = rail ? "|--" : "|--[7900.00]--";
+  std::string drawing = front + box + (row.info.output == Output::Always ? "--(7901.00)" : "");
+  for (size_t i = 1; i < row.info.pins.size(); ++i) drawing += "\n" + front + "{" + std::string(row.info.pins[i].name) + "}";
+  return compileMain("rung\n" + drawing + "\n");
+}
+
+bool has(const Compiled& c, std::string_view code) {
+  for (const std::string& found : c.codes())
+    if (found.ends_with(" " + std::string(code))) return true;
+  return false;
+}
+
+std::vector<std::string> goodOperands(const NctInstruction& row) {
+  std::vector<std::string> good;
+  for (const OperandInfo& info : row.info.operands.all()) {
+    const std::string_view kind = info.kind;
+    good.push_back(info.min <= info.max ? "#" + std::to_string(info.min) : kind == "scope" ? "AXPOS" : std::string(kindOf(kind).good));
+  }
+  return good;
+}
+
+// Operands made from the rows: wrong kinds, constants just outside their range, too few and too many.
+TEST(NctTable, GeneratedOperandErrors) {
+  for (const NctInstruction& row : allInstructions()) {
+    if (row.shape != Shape::Box || row.flow == Flow::Section) continue;
+    const std::vector<std::string> good = goodOperands(row);
+    const std::string name(row.info.mnemonic);
+    EXPECT_FALSE(has(withOperands(row, good), "operand-count")) << name;
+    std::vector<std::string> surplus = good;
+    surplus.push_back("7000");
+    EXPECT_TRUE(has(withOperands(row, surplus), "operand-count")) << name;
+    for (size_t i = 0; i < good.size(); ++i) {
+      const OperandInfo& info = row.info.operands[i];
+      std::vector<std::string> changed = good;
+      if (!info.optional) {
+        changed.resize(i);
+        EXPECT_TRUE(has(withOperands(row, changed), "operand-count")) << name << ' ' << i;
+      }
+      changed = good;
+      const OperandKindInfo& kind = kindOf(info.kind);
+      changed[i] = kind.bad;
+      if (!kind.bad.empty()) EXPECT_TRUE(has(withOperands(row, changed), kind.badCode)) << name << ' ' << info.name;
+      if (info.min > info.max) continue;
+      for (int64_t value : {info.min - 1, info.max + 1}) {
+        changed[i] = "#" + std::to_string(value);
+        EXPECT_TRUE(has(withOperands(row, changed), "constant-out-of-range")) << name << ' ' << changed[i];
+      }
+    }
+  }
+}
+
+TEST(NctTable, FindsBoxesOnly) {
+  EXPECT_EQ(findBox("TOND")->info.mnemonic, "TOND");
+  EXPECT_EQ(findBox("/F")->info.mnemonic, "/F");
+  EXPECT_EQ(findBox("coil"), nullptr);
+  EXPECT_EQ(findBox("SET"), nullptr);
+  EXPECT_EQ(findBox("tond"), nullptr);
+  EXPECT_EQ(findBox(""), nullptr);
+  EXPECT_EQ(findBox("ZZZ"), nullptr);
+  EXPECT_EQ(kNct.instructions.size(), 85u);
+}
+
+} // namespace
+} // namespace rung::nct::test

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -78,14 +79,16 @@ bool writeAll(int fd, std::span<const uint8_t> bytes) {
   return true;
 }
 
-// Nothing when the file cannot be opened. Longer files than `limit` are cut; they cannot be ours.
-std::optional<std::vector<uint8_t>> readFile(const std::string& path, size_t limit) {
+// Nothing, with errno, when the file cannot be read; cut when it is longer than any image.
+std::optional<std::vector<uint8_t>> readFile(const std::string& path) {
+  constexpr off_t kMostBytes = 64 << 20;
   const File file(path, O_RDONLY);
-  if (file.fd() < 0) return std::nullopt;
-  std::vector<uint8_t> bytes(limit);
+  struct stat status{};
+  if (file.fd() < 0 || ::fstat(file.fd(), &status) != 0) return std::nullopt;
+  std::vector<uint8_t> bytes(static_cast<size_t>(std::min(status.st_size, kMostBytes)));
   size_t have = 0;
-  while (have < limit) {
-    const ssize_t n = ::read(file.fd(), bytes.data() + have, limit - have);
+  while (have < bytes.size()) {
+    const ssize_t n = ::read(file.fd(), bytes.data() + have, bytes.size() - have);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;
     have += static_cast<size_t>(n);
@@ -125,9 +128,8 @@ struct Found {
 };
 
 Found look(const std::string& path) {
-  constexpr size_t kLimit = 64u << 20;
   Found found;
-  const std::optional<std::vector<uint8_t>> bytes = readFile(path, kLimit);
+  const std::optional<std::vector<uint8_t>> bytes = readFile(path);
   if (!bytes) {
     if (errno != ENOENT) found.wrong = path + ": " + std::strerror(errno);
     return found;
@@ -162,7 +164,7 @@ RetainImage RetainStore::load() {
   RetainImage image;
   image.report = a.wrong + (a.wrong.empty() || b.wrong.empty() ? "" : "; ") + b.wrong;
   looked_ = true;
-  newestIsB_ = b.good && (!a.good || b.generation > a.generation);
+  newestIsB_ = !a.good || (b.good && b.generation > a.generation);
   Found& newest = newestIsB_ ? b : a;
   if (!newest.good) {
     if (!image.report.empty()) image.report += "; starting cold";

@@ -1,0 +1,125 @@
+// Every kind of difference between two instances is found and named.
+#include "rtlib/host/compare.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/rtlib/test_program.h"
+
+namespace {
+
+using namespace rung::host;
+using namespace rung::rt;
+using rung::test::TestProgram;
+
+class CompareTest : public testing::Test {
+protected:
+  CompareTest() { make(test); }
+  static void make(TestProgram& program) {
+    program.dialect = "gsk";
+    program.addSpace("R", 1, {{0, 8, 0, RUNG_REPR_PACKED}, {8, 4, 64, RUNG_REPR_BYTE_PER_BIT}});
+    program.addSymbol("LAMP", 0, 9, RUNG_TYPE_BIT, 2);
+    program.addSymbol("COUNT", 0, 4, RUNG_TYPE_I8);
+    program.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_FAULT; });
+    program.addTask("MAIN", 0);
+    program.link();
+  }
+  std::string difference() { return firstDifference(a, b).value_or("none"); }
+  TestProgram test;
+  Instance a{(test.link())};
+  Instance b{test.program};
+};
+
+TEST_F(CompareTest, EqualInstances) { EXPECT_EQ(difference(), "none"); }
+
+TEST_F(CompareTest, PackedByte) {
+  a.write(intRef(0, 4, 8), 3);
+  b.write(intRef(0, 4, 8), 4);
+  EXPECT_EQ(difference(), "R4 (COUNT): 3 here, 4 there");
+}
+
+TEST_F(CompareTest, PackedBit) {
+  b.write(bitRef(0, 5, 7), 1);
+  EXPECT_EQ(difference(), "R5.7: 0 here, 1 there");
+}
+
+TEST_F(CompareTest, ExpandedBit) {
+  a.write(bitRef(0, 9, 2), 1);
+  EXPECT_EQ(difference(), "R9.2 (LAMP): 1 here, 0 there");
+}
+
+TEST_F(CompareTest, SlotsOfTheCompiler) {
+  b.block()[200] = 5;
+  EXPECT_EQ(difference(), "memory at offset 200: 0 here, 5 there");
+}
+
+TEST_F(CompareTest, ExpandedBitThatIsNoBit) {
+  a.block()[66] = 1;
+  b.block()[66] = 3;
+  EXPECT_EQ(difference(), "memory at offset 66: 1 here, 3 there");
+}
+
+TEST_F(CompareTest, LayoutsThatDiffer) {
+  TestProgram other;
+  other.dialect = "gsk";
+  other.addPacked("R", 1, 12, 32);
+  other.link();
+  other.program.layout_hash = 1;
+  Instance c(other.program);
+  a.write(bitRef(0, 9, 2), 1);
+  EXPECT_EQ(firstDifference(a, c).value_or("none"), "R9.2 (LAMP): 1 here, 0 there");
+  c.write(bitRef(0, 9, 2), 1);
+  EXPECT_EQ(firstDifference(a, c).value_or("none"), "none");
+}
+
+TEST_F(CompareTest, Clock) {
+  b.advanceClock(7);
+  EXPECT_EQ(difference(), "clock: 0 us here, 7 us there");
+}
+
+TEST_F(CompareTest, Faults) {
+  b.runTask("MAIN");
+  EXPECT_EQ(difference(), "fault: no fault here, undescribed fault (unknown rung) there");
+}
+
+TEST_F(CompareTest, Messages) {
+  rung_message message{};
+  message.number = 5;
+  a.messages().push(message);
+  EXPECT_EQ(difference(), "waiting messages: 1 here, 0 there");
+  message.index = 2;
+  b.messages().push(message);
+  EXPECT_EQ(difference(), "message 5: contents differ");
+  rung_message out;
+  a.messages().pop(out);
+  message.number = 6;
+  a.messages().push(message);
+  EXPECT_EQ(difference(), "number of message 0: 6 here, 5 there");
+}
+
+TEST_F(CompareTest, Services) {
+  int64_t arg = 1;
+  a.services().request(0, &arg, 1);
+  EXPECT_EQ(difference(), "waiting service requests: 1 here, 0 there");
+  arg = 2;
+  b.services().request(0, &arg, 1);
+  EXPECT_EQ(difference(), "service request 0 (WINDR): contents differ");
+  ServiceRequest request;
+  a.services().take(request);
+  b.services().take(request);
+  EXPECT_EQ(difference(), "none");
+  ServiceReply reply;
+  reply.ticket = request.ticket;
+  b.services().complete(reply);
+  b.services().deliver();
+  EXPECT_EQ(difference(), "service ticket 1: state or results differ");
+}
+
+TEST_F(CompareTest, ProfileDoesNotCount) {
+  test.program.instrumented = 1;
+  Instance c(test.program);
+  Instance d(test.program);
+  c.context().prof[0].count = 1;
+  EXPECT_FALSE(firstDifference(c, d));
+}
+
+} // namespace

@@ -1,0 +1,256 @@
+// Names as each dialect writes them.
+#include "rtlib/host/names.h"
+
+#include <gtest/gtest.h>
+
+#include "rtlib/host/program_info.h"
+#include "tests/unit/rtlib/test_program.h"
+
+namespace {
+
+using namespace rung::host;
+using rung::test::TestProgram;
+
+class GskNames : public testing::Test {
+protected:
+  GskNames() {
+    test.dialect = "gsk";
+    test.memorySize = 512;
+    x = test.addSpace("X", 1, {{0, 16, 0, RUNG_REPR_BYTE_PER_BIT}});
+    d = test.addPacked("D", 1, 32, 128);
+    test.addSymbol("START", x, 2, RUNG_TYPE_BIT, 1);
+    test.addSymbol("COUNT", d, 10, RUNG_TYPE_I8);
+    test.addSymbol("D5", d, 20, RUNG_TYPE_I8); // a symbol goes before an address
+    test.addSymbol("@NEXT", d, 30, RUNG_TYPE_I16);
+    test.link();
+  }
+  std::optional<Ref> at(std::string_view name) const { return resolve(test.program, name); }
+  TestProgram test;
+  uint32_t x, d;
+};
+
+TEST_F(GskNames, Addresses) {
+  EXPECT_EQ(at("X002.1"), bitRef(x, 2, 1));
+  EXPECT_EQ(at("X2.1"), bitRef(x, 2, 1));
+  EXPECT_EQ(at("D10"), intRef(d, 10, 8));
+  EXPECT_EQ(at("D10:2"), intRef(d, 10, 16));
+  EXPECT_EQ(at("D10:4"), intRef(d, 10, 32));
+  EXPECT_EQ(at("D28:4"), intRef(d, 28, 32));
+}
+
+TEST_F(GskNames, Symbols) {
+  EXPECT_EQ(at("START"), bitRef(x, 2, 1));
+  EXPECT_EQ(at("COUNT"), intRef(d, 10, 8));
+  EXPECT_EQ(at("COUNT.3"), bitRef(d, 10, 3));
+  EXPECT_EQ(at("COUNT:2"), intRef(d, 10, 16));
+  EXPECT_EQ(at("D5"), intRef(d, 20, 8));
+  EXPECT_EQ(at("@NEXT"), intRef(d, 30, 16));
+}
+
+TEST_F(GskNames, WhatIsNoPlace) {
+  for (const char* name :
+       {"",        "X",   "X16", "X2.8",  "X2.1.1", "D10:3", "D10:8", "D29:4", "D32",          "Q1",
+        "START.1", "D-1", "D 1", "start", "D10:",   "D10.",  ".1",    ":2",    "D99999999999", "D4294967297"})
+    EXPECT_FALSE(at(name)) << name;
+}
+
+TEST_F(GskNames, FallbackServesWhatTheProgramDoesNotKnow) {
+  const NameFallback signals = [&](std::string_view name) -> std::optional<Ref> {
+    if (name == "SIGNAL" || name == "START") return intRef(d, 4, 8);
+    return std::nullopt;
+  };
+  EXPECT_EQ(resolve(test.program, "SIGNAL", signals), intRef(d, 4, 8));
+  EXPECT_EQ(resolve(test.program, "SIGNAL.2", signals), bitRef(d, 4, 2));
+  EXPECT_EQ(resolve(test.program, "START", signals), bitRef(x, 2, 1)); // the program's own goes before
+}
+
+TEST_F(GskNames, Descriptions) {
+  EXPECT_EQ(describeBit(test.program, x, 2, 1), "X2.1 (START)");
+  EXPECT_EQ(describeBit(test.program, x, 2, 2), "X2.2");
+  EXPECT_EQ(describeByte(test.program, d, 10), "D10 (COUNT)");
+  EXPECT_EQ(describeByte(test.program, d, 11), "D11");
+  EXPECT_EQ(describeByte(test.program, d, 31), "D31 (@NEXT)");
+}
+
+class NctNames : public testing::Test {
+protected:
+  NctNames() {
+    test.dialect = "nct";
+    test.memorySize = 50000;
+    m = test.addPacked("M", 4, 40000, 0);
+    ts = test.addPacked("TS", 4, 400, 40000);
+    test.addSymbol("APPLE", m, 4 * 56, RUNG_TYPE_I32);
+    test.addSymbol("READY", m, 4 * 60 + 2, RUNG_TYPE_BIT, 1); // bit 17
+    test.addSymbol("FAR", m, 4 * 6000, RUNG_TYPE_I32);
+    test.addConstant("THREE", 3);
+    test.addConstant("BACK", -2);
+    test.link();
+  }
+  std::optional<Ref> at(std::string_view name) const { return resolve(test.program, name); }
+  TestProgram test;
+  uint32_t m, ts;
+};
+
+TEST_F(NctNames, WordsAndBits) {
+  EXPECT_EQ(at("0056"), intRef(m, 224, 32));
+  EXPECT_EQ(at("9999"), intRef(m, 39996, 32));
+  EXPECT_EQ(at("0056.17"), bitRef(m, 226, 1));
+  EXPECT_EQ(at("0056.00"), bitRef(m, 224, 0));
+  EXPECT_EQ(at("APPLE"), intRef(m, 224, 32));
+  EXPECT_EQ(at("APPLE.05"), bitRef(m, 224, 5));
+  EXPECT_EQ(at("READY"), bitRef(m, 242, 1));
+}
+
+TEST_F(NctNames, Offsets) {
+  EXPECT_EQ(at("7100,#3"), intRef(m, 4 * 7103, 32));
+  EXPECT_EQ(at("APPLE,#3"), intRef(m, 4 * 59, 32));
+  EXPECT_EQ(at("APPLE,THREE"), intRef(m, 4 * 59, 32));
+  EXPECT_EQ(at("APPLE,BACK"), intRef(m, 4 * 54, 32));
+  EXPECT_EQ(at("0056.17,#3"), bitRef(m, 4 * 59 + 2, 1));
+  EXPECT_EQ(at("READY,#1"), bitRef(m, 246, 1));
+}
+
+TEST_F(NctNames, TimeSliceCopy) {
+  EXPECT_EQ(at("!APPLE.05"), bitRef(ts, 224, 5));
+  EXPECT_EQ(at("!READY"), bitRef(ts, 242, 1));
+  EXPECT_EQ(at("!0056,#3"), intRef(ts, 236, 32));
+  EXPECT_FALSE(at("!FAR")); // user memory exists once
+  EXPECT_FALSE(at("!THREE"));
+}
+
+TEST_F(NctNames, Constants) {
+  ASSERT_TRUE(at("BACK"));
+  EXPECT_EQ(at("BACK")->kind, RefKind::Constant);
+  EXPECT_EQ(at("BACK")->constant, -2);
+}
+
+TEST_F(NctNames, WhatIsNoPlace) {
+  for (const char* name : {"56", "00056", "0056.5", "0056.32", "0056.017", "9999,#1", "APPLE,APPLE", "APPLE,#", "apple",
+                           "READY.01", "0056:0058", "!", ",#1", "0000,BACK", "APPLE,#99999999999999999999", "0056.1x"})
+    EXPECT_FALSE(at(name)) << name;
+}
+
+TEST_F(NctNames, FallbackGetsTheNameWithoutModifierAndBit) {
+  const NameFallback signals = [&](std::string_view name) -> std::optional<Ref> {
+    return name == "OUT000" ? std::optional<Ref>(intRef(m, 40, 32)) : std::nullopt;
+  };
+  EXPECT_EQ(resolve(test.program, "!OUT000.03", signals), bitRef(ts, 40, 3));
+  EXPECT_EQ(resolve(test.program, "OUT000,#2", signals), intRef(m, 48, 32));
+}
+
+TEST_F(NctNames, Descriptions) {
+  EXPECT_EQ(describeBit(test.program, m, 242, 1), "0060.17 (READY)");
+  EXPECT_EQ(describeBit(test.program, ts, 224, 5), "!0056.05");
+  EXPECT_EQ(describeByte(test.program, m, 224), "0056 (APPLE)");
+  EXPECT_EQ(describeByte(test.program, m, 227), "0056 byte 3 (APPLE)");
+}
+
+constexpr char kLong31[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ01234";
+
+class TechnolNames : public testing::Test {
+protected:
+  TechnolNames() {
+    test.dialect = "technol";
+    test.memorySize = 512;
+    data = test.addPacked("DATA", 1, 128, 0);
+    nci = test.addPacked("NCI", 1, 64, 128);
+    test.addSymbol("CELL", data, 4, RUNG_TYPE_I16);
+    test.addSymbol("OTHER", data, 6, RUNG_TYPE_I8);
+    test.addSymbol("WEIGHT", data, 9, RUNG_TYPE_BIT, 5);
+    test.addSymbol("TABLE", data, 16, RUNG_TYPE_I32, 0, 4);
+    test.addSymbol("TEXT", data, 40, RUNG_TYPE_TEXT, 0, 10);
+    test.addSymbol("SPEED", nci, 8, RUNG_TYPE_F64);
+    test.addSymbol("BLK[0].M3", nci, 3, RUNG_TYPE_BIT, 3);
+    test.addSymbol("@DR", data, 100, RUNG_TYPE_I32);
+    test.addSymbol(kLong31, data, 60, RUNG_TYPE_I8);
+    test.addSymbol("B234567890123456789012345678901_TAIL", data, 61, RUNG_TYPE_I8);
+    test.link();
+  }
+  std::optional<Ref> at(std::string_view name) const { return resolve(test.program, name); }
+  TestProgram test;
+  uint32_t data, nci;
+};
+
+TEST_F(TechnolNames, SymbolsIgnoreCase) {
+  EXPECT_EQ(at("CELL"), intRef(data, 4, 16));
+  EXPECT_EQ(at("Cell"), intRef(data, 4, 16));
+  EXPECT_EQ(at("speed"), realRef(nci, 8));
+  EXPECT_EQ(at("@dr"), intRef(data, 100, 32));
+  EXPECT_EQ(at("blk[0].m3"), bitRef(nci, 3, 3));
+}
+
+TEST_F(TechnolNames, BitsOfCells) {
+  EXPECT_EQ(at("CELL.0"), bitRef(data, 4, 0));
+  EXPECT_EQ(at("CELL.15"), bitRef(data, 5, 7));
+  EXPECT_EQ(at("CELL.WEIGHT"), bitRef(data, 4, 5));
+  EXPECT_EQ(at("WEIGHT.WEIGHT"), bitRef(data, 9, 5));
+}
+
+TEST_F(TechnolNames, Arrays) {
+  EXPECT_EQ(at("TABLE[0]"), intRef(data, 16, 32));
+  EXPECT_EQ(at("Table[3]"), intRef(data, 28, 32));
+  EXPECT_EQ(at("TABLE[3].31"), bitRef(data, 31, 7));
+  EXPECT_EQ(at("TABLE")->count, 4u);
+  EXPECT_EQ(at("TEXT")->kind, RefKind::Text);
+  EXPECT_EQ(at("TEXT[2]"), intRef(data, 42, 8));
+}
+
+TEST_F(TechnolNames, ThirtyOneCharactersCount) {
+  const std::string longer = std::string(kLong31) + "XYZ";
+  EXPECT_EQ(at(longer), intRef(data, 60, 8));
+  EXPECT_EQ(at(longer + ".3"), bitRef(data, 60, 3));
+  EXPECT_EQ(at(std::string(kLong31) + ".3"), bitRef(data, 60, 3));
+  EXPECT_EQ(at("B234567890123456789012345678901"), intRef(data, 61, 8));
+  EXPECT_EQ(at("B234567890123456789012345678901_HEAD"), intRef(data, 61, 8));
+  EXPECT_FALSE(at("B23456789012345678901234567890")); // 30: another name
+}
+
+TEST_F(TechnolNames, WhatIsNoPlace) {
+  for (const char* name : {"CELL.16", "CELL.OTHER", "CELL.NONE", "TABLE[4]", "TABLE[]", "TABLE[-1]", "TABLE]",
+                           "NONE[0]", "CELL.", ".3", "WEIGHT.0", "A.B.C.D.E.F.G.H.I.J.K", "]", "["})
+    EXPECT_FALSE(at(name)) << name;
+}
+
+TEST_F(TechnolNames, FallbackSeesUpperCaseAndTheWholeNameFirst) {
+  std::vector<std::string> asked;
+  const NameFallback signals = [&](std::string_view name) -> std::optional<Ref> {
+    asked.emplace_back(name);
+    return name == "P1OUT" ? std::optional<Ref>(intRef(nci, 0, 8)) : std::nullopt;
+  };
+  EXPECT_EQ(resolve(test.program, "p1out.0", signals), bitRef(nci, 0, 0));
+  EXPECT_EQ(asked, (std::vector<std::string>{"P1OUT.0", "P1OUT"}));
+}
+
+TEST_F(TechnolNames, Descriptions) {
+  EXPECT_EQ(describeByte(test.program, data, 5), "DATA+5 (CELL)");
+  EXPECT_EQ(describeBit(test.program, data, 9, 5), "DATA+9.5 (WEIGHT)");
+}
+
+TEST(ProgramInfo, LookUps) {
+  TestProgram test;
+  test.addPacked("D", 1, 4, 0);
+  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.addTask("MAIN", 0);
+  test.link();
+  EXPECT_EQ(findSpace(test.program, "D"), 0u);
+  EXPECT_EQ(findSpace(test.program, "E"), RUNG_NONE);
+  EXPECT_EQ(findTask(test.program, "MAIN"), 0u);
+  EXPECT_EQ(findService(test.program, "WINDW"), 1u);
+  EXPECT_EQ(serviceName(test.program, 0), "WINDR");
+  EXPECT_EQ(serviceName(test.program, 9), "");
+  EXPECT_EQ(messageText(test.program, 23), "LUBRICATION");
+  EXPECT_EQ(messageText(test.program, 2), "");
+  EXPECT_EQ(scanPeriodUs(test.program), 8000u);
+}
+
+TEST(ProgramInfo, FaultTexts) {
+  TestProgram test;
+  for (int i = 0; i < 4; ++i) test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.link();
+  EXPECT_EQ(faultText(test.program, {0, 3, 12, 0}), "dead-loop (rung 3 \"title\", main.pmc:12)");
+  EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (rung 0, main.pmc:10)");
+  EXPECT_EQ(faultText(test.program, {7, 99, 0, 0}), "undescribed fault (unknown rung)");
+  EXPECT_EQ(faultText(test.program, {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE}), "");
+}
+
+} // namespace

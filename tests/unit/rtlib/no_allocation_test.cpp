@@ -1,0 +1,144 @@
+// Starting, scanning and running tasks allocate nothing. Every allocation of the thread is counted: through the
+// sanitizer's hooks where one owns the allocator, else by standing in front of the C library's malloc.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "rtlib/host/instance.h"
+#include "tests/unit/rtlib/test_program.h"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define RUNG_TEST_SANITIZED 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define RUNG_TEST_SANITIZED 1
+#endif
+
+namespace {
+
+thread_local bool counting = false;
+thread_local int allocations = 0;
+
+void countOne() {
+  if (counting) ++allocations;
+}
+
+} // namespace
+
+#ifdef RUNG_TEST_SANITIZED
+#include <sanitizer/allocator_interface.h>
+
+namespace {
+const int hooksInstalled = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, size_t) { countOne(); },
+                                                                     [](const volatile void*) {});
+} // namespace
+#else
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* old, size_t size);
+void* malloc(size_t size) {
+  countOne();
+  return __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) {
+  countOne();
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, size_t size) {
+  countOne();
+  return __libc_realloc(old, size);
+}
+}
+#endif
+
+namespace {
+
+using namespace rung::host;
+using namespace rung::rt;
+using rung::test::TestProgram;
+
+template <class F>
+int allocationsOf(F&& work) {
+  allocations = 0;
+  counting = true;
+  work();
+  counting = false;
+  return allocations;
+}
+
+class Model : public ScheduleHooks {
+  void onHook(Instance& instance, uint32_t) override { instance.runTask(1); }
+  bool respond(Instance&, const ServiceRequest& request, ServiceReply&) override { return request.service == 0; }
+};
+
+// A program that uses all there is: copies, parts, messages, services of both kinds, and in the end a fault.
+void build(TestProgram& test) {
+  test.addPacked("R", 1, 64, 0);
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) {
+    rung_message message{};
+    ctx->host->message(ctx, &message);
+    int64_t arg = 0;
+    ctx->host->service_poll(ctx, ctx->host->service_request(ctx, mem[0] & 1u, &arg, 1));
+    return ++mem[0] == 200 ? RUNG_PC_FAULT : 1u;
+  });
+  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  const uint32_t main = test.addTask("MAIN", 0, 1000, {1, RUNG_PC_DONE});
+  test.addTask("EXTRA", 1);
+  test.addBeginCopy(main, {RUNG_COPY_ALL, 8, 16, 0, 4});
+  test.addEndCopy(main, {RUNG_COPY_MASKED, 8, 16, 24, 4});
+  test.retains = {{4, 4}};
+  test.safes = {{0, 2}};
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000},
+               {RUNG_STEP_HOOK, RUNG_NONE, 1},
+               {RUNG_STEP_PART, main, 0},
+               {RUNG_STEP_SLOT, RUNG_NONE, 0},
+               {RUNG_STEP_PART, main, 0}};
+  test.fast = {{RUNG_STEP_RUN, 1, 2}};
+  test.link();
+}
+
+TEST(NoAllocation, CounterCounts) {
+  void* volatile kept = nullptr; // else the compiler leaves allocation and release out
+  EXPECT_EQ(allocationsOf([&] {
+              kept = std::malloc(10);
+              std::free(kept);
+            }),
+            1);
+  EXPECT_EQ(allocationsOf([&] {
+              kept = ::operator new(10);
+              ::operator delete(kept);
+            }),
+            1);
+}
+
+TEST(NoAllocation, NeitherStartNorScan) {
+  TestProgram test;
+  build(test);
+  Model model;
+  Instance instance(test.program, &model);
+  const int count = allocationsOf([&] {
+    for (int i = 0; i < 150; ++i) {
+      instance.scan();
+      instance.slot();
+      instance.fast();
+      instance.slice();
+      ServiceRequest request;
+      ServiceReply reply;
+      if (instance.services().take(request)) {
+        reply.ticket = request.ticket;
+        instance.services().complete(reply);
+      }
+    }
+    instance.warmStart();
+    instance.coldStart();
+    instance.runFor(100'000'000); // ends in the fault
+  });
+  EXPECT_EQ(count, 0);
+  EXPECT_TRUE(instance.faulted());
+  EXPECT_GT(instance.messages().lost() + instance.services().refused(), 0u); // overflow allocates nothing either
+}
+
+} // namespace

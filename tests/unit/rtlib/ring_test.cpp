@@ -1,0 +1,75 @@
+// The queue between two threads.
+#include "rtlib/core/ring.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace {
+
+using rung::rt::FixedRing;
+
+TEST(Ring, KeepsOrderAcrossTheEnd) {
+  FixedRing<int, 4> ring;
+  int next = 0;
+  int expected = 0;
+  for (int round = 0; round < 10; ++round) {
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(ring.push(next++));
+    for (int i = 0; i < 3; ++i) {
+      int value = -1;
+      ASSERT_TRUE(ring.pop(value));
+      EXPECT_EQ(value, expected++);
+    }
+  }
+  int value = -1;
+  EXPECT_FALSE(ring.pop(value));
+  EXPECT_EQ(ring.lost(), 0u);
+}
+
+TEST(Ring, RefusesAndCountsWhatDoesNotFit) {
+  FixedRing<int, 4> ring;
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(ring.push(i), i < 4);
+  EXPECT_EQ(ring.size(), 4u);
+  EXPECT_EQ(ring.lost(), 3u);
+  EXPECT_EQ(*ring.peek(), 0);
+  EXPECT_EQ(*ring.peek(3), 3);
+  EXPECT_EQ(ring.peek(4), nullptr);
+  ring.clear();
+  EXPECT_EQ(ring.size(), 0u);
+  EXPECT_EQ(ring.lost(), 0u);
+}
+
+TEST(Ring, UsesStorageOfTheCaller) {
+  int storage[2] = {};
+  rung::rt::Ring<int> ring(storage, 2);
+  EXPECT_TRUE(ring.push(7));
+  EXPECT_TRUE(ring.push(8));
+  EXPECT_FALSE(ring.push(9));
+  EXPECT_EQ(storage[0], 7);
+  EXPECT_EQ(storage[1], 8);
+}
+
+struct Wide {
+  uint64_t number;
+  uint64_t inverse; // torn elements would show
+};
+
+TEST(Ring, TwoThreadsLoseNothingAndTearNothing) {
+  constexpr uint64_t kCount = 300'000;
+  FixedRing<Wide, 64> ring;
+  std::thread producer([&ring] {
+    for (uint64_t i = 0; i < kCount; ++i)
+      while (!ring.push({i, ~i})) std::this_thread::yield();
+  });
+  uint64_t wrong = 0;
+  for (uint64_t i = 0; i < kCount; ++i) {
+    Wide wide{};
+    while (!ring.pop(wide)) std::this_thread::yield();
+    if (wide.number != i || wide.inverse != ~i) ++wrong;
+  }
+  producer.join();
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(ring.size(), 0u);
+}
+
+} // namespace

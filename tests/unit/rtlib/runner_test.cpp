@@ -1,0 +1,391 @@
+// The chunk loop: calls, parts, budget, border copies, faults; and the walk over the schedule.
+#include "rtlib/core/runner.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/unit/rtlib/test_program.h"
+
+namespace {
+
+using namespace rung::rt;
+using rung::test::callChunk;
+using rung::test::popChunk;
+using rung::test::TestProgram;
+
+// Chunks write their number into a trace at the end of the memory: mem[200] is its length.
+void trace(uint8_t* mem, uint8_t number) { mem[201 + mem[200]++] = number; }
+
+class RunnerTest : public testing::Test {
+protected:
+  Runner& start() {
+    parts.resize(test.tasks.size());
+    memory.assign(test.memorySize, 0);
+    runner = std::make_unique<Runner>(test.link(), memory.data(), context, parts.data());
+    return *runner;
+  }
+  std::vector<int> takeTrace() {
+    std::vector<int> numbers(memory.begin() + 201, memory.begin() + 201 + memory[200]);
+    memory[200] = 0;
+    return numbers;
+  }
+  using Trace = std::vector<int>;
+
+  TestProgram test;
+  rung_ctx context{};
+  std::vector<PartState> parts;
+  std::vector<uint8_t> memory;
+  std::unique_ptr<Runner> runner;
+};
+
+template <uint8_t N, uint32_t Next>
+uint32_t step(uint8_t* mem, rung_ctx*) {
+  trace(mem, N);
+  return Next;
+}
+
+TEST_F(RunnerTest, RunsCallsAndReturns) {
+  // 0 calls 3, 3 calls 2, both return; 1 ends the run.
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 0), callChunk(ctx, 3, 1); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 1), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 2), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 3), callChunk(ctx, 2, 4); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 4), popChunk(ctx); });
+  const uint32_t task = test.addTask("MAIN", 0);
+  EXPECT_TRUE(start().runTask(task));
+  EXPECT_EQ(takeTrace(), (Trace{0, 3, 2, 4, 1}));
+  EXPECT_TRUE(runner->runTask(task)); // the stack starts anew
+  EXPECT_EQ(takeTrace(), (Trace{0, 3, 2, 4, 1}));
+}
+
+TEST_F(RunnerTest, RunsChunksOfAnInterpreter) {
+  test.addChunk(nullptr);
+  test.addChunk(nullptr);
+  const uint32_t task = test.addTask("MAIN", 0);
+  start();
+  test.program.chunk_fns = nullptr;
+  test.program.run_chunk = [](uint8_t* mem, rung_ctx*, uint32_t chunk) {
+    trace(mem, static_cast<uint8_t>(chunk));
+    return chunk == 0 ? 1u : RUNG_PC_DONE;
+  };
+  EXPECT_TRUE(runner->runTask(task));
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+}
+
+TEST_F(RunnerTest, BudgetStopsAnEndlessLoopAndNamesItsRung) {
+  test.addChunk(step<0, 1>);
+  test.addChunk([](uint8_t* mem, rung_ctx*) { return ++mem[0], 1u; }, 10);
+  test.safes = {{16, 4}};
+  const uint32_t task = test.addTask("MAIN", 0, 100);
+  start();
+  memory[15] = memory[16] = memory[19] = memory[20] = 1;
+  EXPECT_FALSE(runner->runTask(task));
+  EXPECT_EQ(memory[0], 9); // 1 + 9 * 10 <= 100
+  EXPECT_TRUE(runner->faulted());
+  EXPECT_EQ(runner->fault().code, 0u);
+  EXPECT_EQ(runner->fault().rung, 1u);
+  EXPECT_EQ(runner->fault().line, 0u);
+  EXPECT_EQ(runner->fault().task, task);
+  EXPECT_EQ(memory[16] + memory[19], 0);
+  EXPECT_EQ(memory[15] + memory[20], 2);
+  EXPECT_FALSE(runner->runTask(task)); // stopped
+  EXPECT_EQ(memory[0], 9);
+  runner->reset();
+  EXPECT_FALSE(runner->faulted());
+  EXPECT_FALSE(runner->runTask(task));
+  EXPECT_EQ(memory[0], 18);
+}
+
+TEST_F(RunnerTest, BudgetThatIsExactlyUsedUpIsEnough) {
+  test.addChunk(step<0, 1>, 3);
+  test.addChunk(step<1, RUNG_PC_DONE>, 4);
+  const uint32_t enough = test.addTask("A", 0, 7);
+  const uint32_t less = test.addTask("B", 0, 6);
+  EXPECT_TRUE(start().runTask(enough));
+  EXPECT_FALSE(runner->runTask(less));
+}
+
+TEST_F(RunnerTest, FaultOfAChunkIsKept) {
+  test.addChunk([](uint8_t*, rung_ctx* ctx) {
+    ctx->fault = {1, 0, 12, RUNG_NONE};
+    return RUNG_PC_FAULT;
+  });
+  const uint32_t task = test.addTask("MAIN", 0);
+  EXPECT_FALSE(start().runTask(task));
+  EXPECT_EQ(runner->fault().code, 1u);
+  EXPECT_EQ(runner->fault().line, 12u);
+  EXPECT_EQ(runner->fault().task, task);
+}
+
+TEST_F(RunnerTest, ChunkThatDoesNotExistIsAFault) {
+  test.addChunk(step<0, 55>);
+  EXPECT_FALSE(start().runTask(test.addTask("LATE", 0))); // added behind start: no such task
+  EXPECT_FALSE(runner->faulted());
+  test.addTask("MAIN", 0);
+  EXPECT_FALSE(start().runTask(0));
+  EXPECT_EQ(runner->fault().code, kUndescribedFault);
+}
+
+TEST_F(RunnerTest, CopiesAtTheBorders) {
+  test.addChunk([](uint8_t* mem, rung_ctx*) {
+    mem[8] = static_cast<uint8_t>(mem[4] + 1); // from the latch
+    mem[16] = 0x0F;                            // a masked store of the low half
+    mem[20] = 0x0F;
+    return RUNG_PC_DONE;
+  });
+  const uint32_t task = test.addTask("MAIN", 0);
+  test.addBeginCopy(task, {RUNG_COPY_ALL, 0, 4, 0, 2});
+  test.addEndCopy(task, {RUNG_COPY_ALL, 8, 12, 0, 1});
+  test.addEndCopy(task, {RUNG_COPY_MASKED, 16, 24, 20, 2});
+  start();
+  memory[0] = 41;
+  memory[1] = 7;
+  memory[24] = 0xA5;
+  memory[25] = 0x5A;
+  EXPECT_TRUE(runner->runTask(task));
+  EXPECT_EQ(memory[4], 41);
+  EXPECT_EQ(memory[5], 7);
+  EXPECT_EQ(memory[12], 42);
+  EXPECT_EQ(memory[24], 0xAF);
+  EXPECT_EQ(memory[25], 0x5A); // mask 0: untouched
+  EXPECT_EQ(memory[20], 0);    // the mask is used up
+}
+
+TEST_F(RunnerTest, FaultLeavesTheEndCopiesOut) {
+  test.addChunk([](uint8_t* mem, rung_ctx*) { return mem[8] = 1, RUNG_PC_FAULT; });
+  const uint32_t task = test.addTask("MAIN", 0);
+  test.addEndCopy(task, {RUNG_COPY_ALL, 8, 12, 0, 1});
+  EXPECT_FALSE(start().runTask(task));
+  EXPECT_EQ(memory[8], 1);
+  EXPECT_EQ(memory[12], 0);
+  EXPECT_EQ(runner->fault().code, kUndescribedFault);
+}
+
+TEST_F(RunnerTest, PartsRunOneAStepWithBeginOnceAndEndAlways) {
+  test.addChunk(step<0, 1>);
+  test.addChunk(step<1, 2>);
+  test.addChunk(step<2, RUNG_PC_DONE>);
+  const uint32_t task = test.addTask("L2", 0, 1000, {1, 2, RUNG_PC_DONE});
+  test.addBeginCopy(task, {RUNG_COPY_ALL, 0, 4, 0, 1});
+  test.addEndCopy(task, {RUNG_COPY_ALL, 200, 8, 0, 1});
+  start();
+  for (int run = 0; run < 2; ++run) {
+    memory[0] = static_cast<uint8_t>(run + 1);
+    for (int part = 0; part < 3; ++part) {
+      EXPECT_TRUE(runner->runPart(task));
+      EXPECT_EQ(memory[4], run + 1);
+      EXPECT_EQ(memory[8], 1) << "end copies after part " << part;
+      EXPECT_EQ(takeTrace(), Trace{part});
+      memory[0] = 99; // seen by the next run only
+    }
+  }
+}
+
+TEST_F(RunnerTest, PartNeverEndsInsideASubroutine) {
+  // The subroutine's chunk 3 lies behind the border 1, and is run inside part 0.
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 0), callChunk(ctx, 3, 1); });
+  test.addChunk(step<1, 2>);
+  test.addChunk(step<2, RUNG_PC_DONE>);
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 3), popChunk(ctx); });
+  const uint32_t task = test.addTask("L2", 0, 1000, {1, RUNG_PC_DONE});
+  start().runPart(task);
+  EXPECT_EQ(takeTrace(), (Trace{0, 3}));
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), (Trace{1, 2}));
+}
+
+TEST_F(RunnerTest, JumpOverABorderSuspendsAtItsTarget) {
+  // 0 jumps to 2, over the borders 1 and 2: the next step goes on there, the third idles.
+  test.addChunk(step<0, 2>);
+  test.addChunk(step<1, 2>);
+  test.addChunk(step<2, RUNG_PC_DONE>);
+  const uint32_t task = test.addTask("L2", 0, 1000, {1, 2, RUNG_PC_DONE});
+  start().runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{0});
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{2});
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{});
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{0});
+}
+
+TEST_F(RunnerTest, RunThatEndsEarlyIdlesThroughItsParts) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addChunk(step<1, RUNG_PC_DONE>);
+  const uint32_t task = test.addTask("L2", 0, 1000, {1, RUNG_PC_DONE});
+  start().runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{0});
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{});
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{0});
+}
+
+TEST_F(RunnerTest, BackwardJumpOverABorderStaysInItsPart) {
+  // 1 jumps back to 0 once: the rest of the part runs on to its own border.
+  test.addChunk(step<0, 1>);
+  test.addChunk([](uint8_t* mem, rung_ctx*) { return trace(mem, 1), mem[0]++ == 0 ? 0u : 2u; });
+  test.addChunk(step<2, RUNG_PC_DONE>);
+  const uint32_t task = test.addTask("L2", 0, 1000, {1, 2, RUNG_PC_DONE});
+  start().runPart(task);
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), (Trace{0, 1, 0, 1}));
+  runner->runPart(task);
+  EXPECT_EQ(takeTrace(), Trace{2});
+}
+
+TEST_F(RunnerTest, BudgetIsOneRunsOverAllItsParts) {
+  test.addChunk(step<0, 1>, 6);
+  test.addChunk(step<1, RUNG_PC_DONE>, 6);
+  const uint32_t task = test.addTask("L2", 0, 11, {1, RUNG_PC_DONE});
+  EXPECT_TRUE(start().runPart(task));
+  EXPECT_FALSE(runner->runPart(task));
+  EXPECT_EQ(runner->fault().rung, 1u);
+}
+
+TEST_F(RunnerTest, AnotherTaskRunsBetweenParts) {
+  test.addChunk(step<0, 1>);
+  test.addChunk(step<1, RUNG_PC_DONE>);
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 2), callChunk(ctx, 3, 4); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 3), popChunk(ctx); });
+  test.addChunk(step<4, RUNG_PC_DONE>);
+  const uint32_t slow = test.addTask("L2", 0, 1000, {1, RUNG_PC_DONE});
+  const uint32_t fast = test.addTask("L1", 2);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000},
+               {RUNG_STEP_RUN, fast, 1},
+               {RUNG_STEP_PART, slow, 0},
+               {RUNG_STEP_SLOT, RUNG_NONE, 0},
+               {RUNG_STEP_ADVANCE, RUNG_NONE, 8000},
+               {RUNG_STEP_RUN, fast, 1},
+               {RUNG_STEP_PART, slow, 0},
+               {RUNG_STEP_SLOT, RUNG_NONE, 0}};
+  test.fast = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, fast, 1}};
+  start().scan();
+  EXPECT_EQ(takeTrace(), (Trace{2, 3, 4, 0, 2, 3, 4, 1}));
+  EXPECT_EQ(runner->nowUs(), 16000);
+  runner->slot();
+  EXPECT_EQ(takeTrace(), (Trace{2, 3, 4, 0}));
+  EXPECT_FALSE(runner->atListStart());
+  runner->fast(); // the scan list stays where it is
+  EXPECT_EQ(takeTrace(), (Trace{2, 3, 4}));
+  runner->scan(); // the rest of the cycle
+  EXPECT_EQ(takeTrace(), (Trace{2, 3, 4, 1}));
+  EXPECT_TRUE(runner->atListStart());
+  EXPECT_EQ(runner->nowUs(), 40000);
+}
+
+TEST_F(RunnerTest, SlotsOfASlotlessListAreScans) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.scan = {{RUNG_STEP_RUN, test.addTask("MAIN", 0), 3}};
+  start().slot();
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
+  EXPECT_EQ(runner->nowUs(), 8000); // a list without ADVANCE takes the main task's period
+  EXPECT_EQ(runner->sliceDelayUs(), 8000u);
+  runner->slice();
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
+  EXPECT_EQ(runner->nowUs(), 16000);
+}
+
+TEST_F(RunnerTest, SlicesEndBeforeTheClockMovesOn) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addChunk(step<1, RUNG_PC_DONE>);
+  const uint32_t a = test.addTask("INT0", 0);
+  const uint32_t b = test.addTask("MAIN", 1);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000},
+               {RUNG_STEP_RUN, a, 1},
+               {RUNG_STEP_ADVANCE, RUNG_NONE, 3000},
+               {RUNG_STEP_RUN, a, 1},
+               {RUNG_STEP_RUN, b, 1}};
+  EXPECT_EQ(start().sliceDelayUs(), 2000u);
+  runner->slice();
+  EXPECT_EQ(takeTrace(), Trace{0});
+  EXPECT_EQ(runner->nowUs(), 2000);
+  EXPECT_EQ(runner->sliceDelayUs(), 3000u);
+  runner->slice();
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+  EXPECT_EQ(runner->nowUs(), 5000);
+  EXPECT_TRUE(runner->atListStart());
+}
+
+TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { // misbehaves: a task that starts a task
+    trace(mem, 1);
+    EXPECT_FALSE(static_cast<Runner*>(ctx->host_data)->runTask(0));
+    return RUNG_PC_DONE;
+  });
+  test.addTask("A", 0);
+  const uint32_t b = test.addTask("B", 1);
+  test.scan = {{RUNG_STEP_HOOK, RUNG_NONE, 7}, {RUNG_STEP_RUN, b, 1}};
+  start();
+  context.host_data = runner.get();
+  runner->setHooks({[](void* data, uint32_t work) {
+                      EXPECT_EQ(work, 7u);
+                      EXPECT_TRUE(static_cast<Runner*>(data)->runTask(0));
+                    },
+                    nullptr, runner.get()});
+  runner->scan();
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+}
+
+TEST_F(RunnerTest, FaultHookRunsOnceBehindTheSafeState) {
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) {
+    trace(mem, 0);
+    mem[16] = 1;
+    ctx->fault = {1, 0, 5, RUNG_NONE};
+    return RUNG_PC_FAULT;
+  });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { // MODULE_HALT with a fault of its own
+    trace(mem, 1);
+    EXPECT_EQ(mem[16], 0);
+    mem[17] = 1;
+    ctx->fault = {0, 1, 6, RUNG_NONE};
+    return RUNG_PC_FAULT;
+  });
+  test.addTask("MAIN", 0);
+  test.addTask("HALT", 1);
+  test.safes = {{16, 2}};
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, 0, 3}, {RUNG_STEP_RUN, 0, 1}};
+  start();
+  runner->setHooks({nullptr, [](void* data) { EXPECT_FALSE(static_cast<Runner*>(data)->runTask(1)); }, runner.get()});
+  runner->scan();
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+  EXPECT_EQ(memory[17], 1); // what the halt task sets stays
+  EXPECT_EQ(runner->fault().code, 1u);
+  EXPECT_EQ(runner->fault().line, 5u);
+  EXPECT_EQ(runner->fault().task, 0u);
+  runner->scan();
+  runner->slot();
+  runner->fast();
+  EXPECT_EQ(takeTrace(), Trace{});
+  EXPECT_EQ(runner->nowUs(), 10);
+}
+
+TEST_F(RunnerTest, StoppedProgramOnlyLetsTheClockGoOn) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addTask("MAIN", 0);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_PART, 0, 0}};
+  start().setStopped(true);
+  runner->scan();
+  EXPECT_EQ(takeTrace(), Trace{});
+  EXPECT_EQ(runner->nowUs(), 10);
+  EXPECT_TRUE(runner->runTask(0)); // by hand
+  EXPECT_EQ(takeTrace(), Trace{0});
+  runner->setStopped(false);
+  runner->scan();
+  EXPECT_EQ(takeTrace(), (Trace{0, 0}));
+}
+
+TEST_F(RunnerTest, ClockIsFixedInsideATask) {
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return mem[0] = static_cast<uint8_t>(ctx->now_us), RUNG_PC_DONE; });
+  test.addTask("MAIN", 0);
+  test.scan = {{RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_ADVANCE, RUNG_NONE, 20}};
+  start().scan();
+  EXPECT_EQ(memory[0], 0);
+  runner->scan();
+  EXPECT_EQ(memory[0], 20);
+}
+
+} // namespace

@@ -1,0 +1,3 @@
+/* A shared object without a program. */
+int rung_test_nothing(void);
+int rung_test_nothing(void) { return 0; }

@@ -63,7 +63,7 @@ constexpr OpInfo kOps[] = {
      .doc = "Widens with zeros."},
     {.code = OpCode::SExt, .name = "sext", .types = kInts, .operands = {C::Narrower}, .result = C::Same, .attr = Attr::None, .effects = kPure,
      .doc = "Widens with the sign; a bit 1 gives all ones."},
-    {.code = OpCode::Trunc, .name = "trunc", .types = kBitsAndInts, .operands = {C::Wider}, .result = C::Same, .attr = Attr::None, .effects = kPure,
+    {.code = OpCode::Trunc, .name = "trunc", .types = kBit | setOf(Type::I8) | setOf(Type::I16) | setOf(Type::I32), .operands = {C::Wider}, .result = C::Same, .attr = Attr::None, .effects = kPure,
      .doc = "The low bits; to a bit: bit 0."},
     {.code = OpCode::FAdd, .name = "fadd", .types = kFloat, .operands = {C::Same, C::Same}, .result = C::Same, .attr = Attr::None, .effects = kPure,
      .doc = "IEEE sum, nearest even; every NaN result is 7FF8000000000000."},

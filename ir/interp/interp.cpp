@@ -1,0 +1,77 @@
+// Chunks and exits of the reference interpreter (see interp.h); operations stand in rung_run.cpp.
+#include "ir/interp/interp.h"
+
+#include "ir/interp/rung_run.h"
+#include "ir/support/check.h"
+
+namespace rung::ir {
+namespace {
+
+std::vector<uint32_t> partnersOf(const Rung& rung) {
+  std::vector<uint32_t> partners;
+  std::vector<uint32_t> open;
+  for (uint32_t i = 0; i < rung.ops.size(); ++i) {
+    const OpCode code = rung.ops[i].code;
+    if (code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop) {
+      partners.resize(rung.ops.size());
+      partners[open.back()] = i;
+      partners[i] = open.back();
+      open.pop_back();
+    }
+    if (code == OpCode::If || code == OpCode::Else || code == OpCode::Loop) open.push_back(i);
+  }
+  return partners;
+}
+
+uint32_t doReturn(rung_ctx& ctx) { return ctx.stack[--ctx.sp]; }
+
+// The chunk below, or the caller's when there is none.
+uint32_t fallThrough(const Exit& exit, rung_ctx& ctx) { return exit.otherwise == RUNG_NONE ? doReturn(ctx) : exit.otherwise; }
+
+uint32_t leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ctx& ctx) {
+  if (exit.cond.valid() && values[exit.cond.index] == 0) return fallThrough(exit, ctx);
+  switch (exit.kind) {
+    case TransferKind::Next: return fallThrough(exit, ctx);
+    case TransferKind::Goto: return exit.taken;
+    case TransferKind::Call:
+      // Behind a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
+      if (exit.otherwise != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise;
+      return exit.taken;
+    case TransferKind::Ret: return doReturn(ctx);
+    case TransferKind::End: return RUNG_PC_DONE;
+    case TransferKind::Switch: {
+      const uint64_t value = values[exit.value.index];
+      return exit.targets[value < exit.targets.size() ? value : 0];
+    }
+  }
+  return RUNG_PC_DONE;
+}
+
+} // namespace
+
+InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash) : layout_(layout), image_(layout, codeHash) {
+  image_.program().run_chunk = runChunk;
+  for (uint32_t i = 0; i < layout.chunks().size(); ++i) exits_.push_back(exitOf(layout, i));
+  for (const Routine& routine : layout.module().routines)
+    for (const Rung& rung : routine.rungs) partners_.push_back(partnersOf(rung));
+}
+
+uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
+  RUNG_CHECK(ctx->engine != nullptr, "rung_ctx::engine is not set to the interpreter");
+  return static_cast<const InterpEngine*>(ctx->engine)->run(mem, *ctx, chunk);
+}
+
+uint32_t InterpEngine::run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
+  const Chunk& place = layout_.chunks()[chunk];
+  std::vector<uint64_t> values;
+  for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
+    const Rung& rung = layout_.module().at(place.routine).rungs[i];
+    const uint32_t number = layout_.rungNumber(place.routine, i);
+    values.assign(rung.values.size(), 0);
+    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values);
+    if (!run.run()) return RUNG_PC_FAULT;
+  }
+  return leave(exits_[chunk], values, ctx);
+}
+
+} // namespace rung::ir

@@ -1,0 +1,37 @@
+// The reference interpreter: what an operation means, written as plainly as possible. It runs on the same memory block,
+// tables and chunks as compiled code, so every other engine can be compared with it byte for byte.
+//
+// The host sets rung_ctx::engine of each instance to `context()` before its first run.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ir/layout/layout.h"
+#include "ir/layout/program_image.h"
+#include "rtlib/host/engine.h"
+
+namespace rung::ir {
+
+class InterpEngine final : public host::Engine {
+ public:
+  // The layout and its module outlive the engine.
+  InterpEngine(const Layout& layout, uint64_t codeHash);
+
+  const rung_program& program() const override { return image_.program(); }
+  std::string_view name() const override { return "interp"; }
+  // What its chunks find in rung_ctx::engine.
+  void* context() { return this; }
+
+ private:
+  static uint32_t runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
+  uint32_t run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const;
+
+  const Layout& layout_;
+  ProgramImage image_;
+  std::vector<Exit> exits_; // by chunk
+  // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:
+  // each other). Empty for a rung without regions.
+  std::vector<std::vector<uint32_t>> partners_;
+};
+
+} // namespace rung::ir

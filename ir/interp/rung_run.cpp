@@ -1,0 +1,244 @@
+// The meaning of each operation (see rung_run.h).
+#include "ir/interp/rung_run.h"
+
+#include <algorithm>
+
+#include "ir/core/eval.h"
+#include "rtlib/core/ticks.h"
+
+namespace rung::ir {
+namespace {
+
+constexpr size_t kFaulted = SIZE_MAX;
+
+} // namespace
+
+bool RungRun::run() {
+  size_t i = 0;
+  while (i < rung_.ops.size()) {
+    i = step(rung_.ops[i], i);
+    if (i == kFaulted) return false;
+  }
+  return true;
+}
+
+// ---- memory --------------------------------------------------------------------------------------------------------
+
+uint64_t RungRun::readBytes(uint32_t offset, Type type) const {
+  uint64_t value = 0;
+  for (uint32_t i = 0; i < byteWidth(type); ++i) value |= static_cast<uint64_t>(mem_[offset + i]) << (8 * i);
+  return value;
+}
+
+void RungRun::writeBytes(uint32_t offset, Type type, uint64_t value) {
+  for (uint32_t i = 0; i < byteWidth(type); ++i) mem_[offset + i] = static_cast<uint8_t>(value >> (8 * i));
+}
+
+uint64_t RungRun::readBit(BitLocation at) const {
+  return at.wholeByte ? (mem_[at.offset] != 0 ? 1 : 0) : (mem_[at.offset] >> at.bit) & 1;
+}
+
+void RungRun::writeBit(BitLocation at, bool value) {
+  const auto mask = static_cast<uint8_t>(1u << at.bit);
+  if (at.wholeByte) mem_[at.offset] = value ? 1 : 0;
+  else mem_[at.offset] = static_cast<uint8_t>(value ? mem_[at.offset] | mask : mem_[at.offset] & ~mask);
+}
+
+void RungRun::load(const Op& op) {
+  const auto place = static_cast<uint64_t>(op.imm);
+  const SpaceId space{op.ref};
+  give(op, op.type == Type::Bit ? readBit(layout_.bit(space, place)) : readBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type));
+}
+
+void RungRun::store(const Op& op) {
+  const auto place = static_cast<uint64_t>(op.imm);
+  const SpaceId space{op.ref};
+  if (op.type == Type::Bit) writeBit(layout_.bit(space, place), in(op, 0) != 0);
+  else writeBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type, in(op, 0));
+}
+
+void RungRun::loadAt(const Op& op) {
+  const auto index = static_cast<uint32_t>(in(op, 0));
+  if (index >= op.count) return give(op, 0);
+  give(op, readBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type));
+}
+
+void RungRun::storeAt(const Op& op) {
+  const auto index = static_cast<uint32_t>(in(op, 0));
+  if (index >= op.count) return;
+  writeBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type, in(op, 1));
+}
+
+void RungRun::loadBitAt(const Op& op) {
+  const auto index = static_cast<uint32_t>(in(op, 0));
+  const auto bit = static_cast<uint32_t>(in(op, 1));
+  const uint32_t unitBits = unitBytes(op) * 8;
+  if (index >= op.count || bit >= unitBits) return give(op, 0);
+  give(op, readBit(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit)));
+}
+
+void RungRun::storeBitAt(const Op& op) {
+  const auto index = static_cast<uint32_t>(in(op, 0));
+  const auto bit = static_cast<uint32_t>(in(op, 1));
+  const uint32_t unitBits = unitBytes(op) * 8;
+  if (index >= op.count || bit >= unitBits) return;
+  writeBit(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit), in(op, 2) != 0);
+}
+
+// ---- regions -------------------------------------------------------------------------------------------------------
+
+// The operands of `from` become the results of `to`, behind the first `skip`. Results may be operands too, when carried
+// values change places, so all are read first.
+void RungRun::giveArgs(const Op& from, const Op& to, uint32_t skip) {
+  if (from.argCount == 0) return;
+  std::vector<uint64_t> carried;
+  for (int i = 0; i < from.argCount; ++i) carried.push_back(in(from, i));
+  std::copy(carried.begin(), carried.end(), values_.begin() + to.result.index + skip);
+}
+
+size_t RungRun::endLoop(const Op& op, size_t index) {
+  const size_t begin = partners_[index];
+  const Op& loop = rung_.ops[begin];
+  const uint64_t pass = values_[loop.result.index] + 1;
+  if (pass < loop.count) {
+    giveArgs(op, loop, 1);
+    give(loop, pass);
+    return begin + 1;
+  }
+  giveArgs(op, op, 0);
+  return index + 1;
+}
+
+// ---- host ----------------------------------------------------------------------------------------------------------
+
+void RungRun::message(const Op& op) {
+  rung_message message{};
+  message.op = op.ref;
+  message.number = static_cast<uint32_t>(in(op, 0));
+  message.channel = static_cast<int32_t>(in(op, 1));
+  message.index = static_cast<int32_t>(in(op, 2));
+  message.value = static_cast<int64_t>(in(op, 3));
+  message.real = typeOf(rung_, arg(rung_, op, 3)) == Type::F64 ? 1 : 0;
+  message.rung = number_;
+  ctx_.host->message(&ctx_, &message);
+}
+
+void RungRun::request(const Op& op) {
+  int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
+  for (int i = 0; i < op.argCount; ++i) args[i] = static_cast<int64_t>(in(op, i));
+  give(op, ctx_.host->service_request(&ctx_, op.ref, args, op.argCount));
+}
+
+void RungRun::setFault(const Op& op) {
+  ctx_.fault.code = op.ref;
+  ctx_.fault.rung = number_;
+  ctx_.fault.line = op.line != 0 ? op.line : rung_.begin.line;
+}
+
+void RungRun::countRung() {
+  rung_prof& prof = ctx_.prof[number_];
+  const uint64_t time = rt::readTicks() - prof.started;
+  prof.count += 1;
+  prof.total += time;
+  prof.max = std::max<uint64_t>(prof.max, time);
+}
+
+void RungRun::evaluate(const Op& op) {
+  uint64_t args[4] = {};
+  for (int i = 0; i < op.argCount; ++i) args[i] = in(op, i);
+  give(op, evalPure(op.code, op.type, typeOf(rung_, arg(rung_, op, 0)), args));
+}
+
+// The number of the operation that comes next.
+size_t RungRun::step(const Op& op, size_t index) {
+  switch (op.code) {
+    case OpCode::Const: give(op, static_cast<uint64_t>(op.imm)); break;
+    case OpCode::Add:
+    case OpCode::Sub:
+    case OpCode::Mul:
+    case OpCode::DivS:
+    case OpCode::DivU:
+    case OpCode::RemS:
+    case OpCode::RemU:
+    case OpCode::Neg:
+    case OpCode::And:
+    case OpCode::Or:
+    case OpCode::Xor:
+    case OpCode::Not:
+    case OpCode::Shl:
+    case OpCode::ShrU:
+    case OpCode::ShrS:
+    case OpCode::PopCount:
+    case OpCode::BcdEncode:
+    case OpCode::BcdDecode:
+    case OpCode::Eq:
+    case OpCode::Ne:
+    case OpCode::LtS:
+    case OpCode::LeS:
+    case OpCode::LtU:
+    case OpCode::LeU:
+    case OpCode::Select:
+    case OpCode::ZExt:
+    case OpCode::SExt:
+    case OpCode::Trunc:
+    case OpCode::FAdd:
+    case OpCode::FSub:
+    case OpCode::FMul:
+    case OpCode::FDiv:
+    case OpCode::FNeg:
+    case OpCode::FAbs:
+    case OpCode::FEq:
+    case OpCode::FLt:
+    case OpCode::FLe:
+    case OpCode::FToInt:
+    case OpCode::FToIntNearest:
+    case OpCode::IntToF:
+    case OpCode::BitsToF:
+    case OpCode::FToBits: evaluate(op); break;
+    case OpCode::Load: load(op); break;
+    case OpCode::Store: store(op); break;
+    case OpCode::LoadAt: loadAt(op); break;
+    case OpCode::StoreAt: storeAt(op); break;
+    case OpCode::LoadBitAt: loadBitAt(op); break;
+    case OpCode::StoreBitAt: storeBitAt(op); break;
+    case OpCode::SlotLoad:
+      give(op, op.type == Type::Bit ? readBit({slotOffset(op), 0, true}) : readBytes(slotOffset(op), op.type));
+      break;
+    case OpCode::SlotStore:
+      if (op.type == Type::Bit) writeBit({slotOffset(op), 0, true}, in(op, 0) != 0);
+      else writeBytes(slotOffset(op), op.type, in(op, 0));
+      break;
+    case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
+    // When the branch above an else has run, its yields become the results of the endif.
+    case OpCode::If:
+      if (in(op, 0) == 0) return partners_[index] + (rung_.ops[partners_[index]].code == OpCode::Else ? 1u : 0u);
+      break;
+    case OpCode::Else: giveArgs(op, rung_.ops[partners_[index]], 0); return partners_[index] + 1;
+    case OpCode::EndIf: giveArgs(op, op, 0); break;
+    case OpCode::Loop:
+      if (op.count == 0) {
+        giveArgs(op, rung_.ops[partners_[index]], 0);
+        return partners_[index] + 1;
+      }
+      giveArgs(op, op, 1);
+      give(op, 0);
+      break;
+    case OpCode::EndLoop: return endLoop(op, index);
+    case OpCode::Message: message(op); break;
+    case OpCode::ServiceRequest: request(op); break;
+    case OpCode::ServicePoll: give(op, ctx_.host->service_poll(&ctx_, static_cast<uint32_t>(in(op, 0)))); break;
+    case OpCode::ServiceResult:
+      give(op, static_cast<uint64_t>(ctx_.host->service_result(&ctx_, static_cast<uint32_t>(in(op, 0)), static_cast<uint32_t>(op.imm))));
+      break;
+    case OpCode::Trap:
+      if (in(op, 0) == 0) break;
+      setFault(op);
+      return kFaulted;
+    case OpCode::Note: break;
+    case OpCode::ProfEnter: ctx_.prof[number_].started = rt::readTicks(); break;
+    case OpCode::ProfLeave: countRung(); break;
+  }
+  return index + 1;
+}
+
+} // namespace rung::ir

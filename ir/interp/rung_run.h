@@ -1,0 +1,56 @@
+// One run of one rung by the interpreter.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ir/layout/layout.h"
+
+namespace rung::ir {
+
+class RungRun {
+ public:
+  // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); all outlive the run.
+  RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem, rung_ctx& ctx,
+          std::vector<uint64_t>& values)
+      : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values) {}
+
+  // False: a fault, which stands in the context.
+  bool run();
+
+ private:
+  size_t step(const Op& op, size_t index);
+  uint64_t in(const Op& op, int i) const { return values_[arg(rung_, op, i).index]; }
+  void give(const Op& op, uint64_t value) { values_[op.result.index] = value; }
+  void giveArgs(const Op& from, const Op& to, uint32_t skip);
+
+  uint64_t readBytes(uint32_t offset, Type type) const;
+  void writeBytes(uint32_t offset, Type type, uint64_t value);
+  uint64_t readBit(BitLocation at) const;
+  void writeBit(BitLocation at, bool value);
+  uint32_t slotOffset(const Op& op) const { return layout_.slot(SlotId{op.ref}); }
+  uint32_t unitBytes(const Op& op) const { return layout_.module().spaces[op.ref].unitBytes; }
+
+  void load(const Op& op);
+  void store(const Op& op);
+  void loadAt(const Op& op);
+  void storeAt(const Op& op);
+  void loadBitAt(const Op& op);
+  void storeBitAt(const Op& op);
+
+  size_t endLoop(const Op& op, size_t index);
+  void evaluate(const Op& op);
+  void message(const Op& op);
+  void request(const Op& op);
+  void setFault(const Op& op);
+  void countRung();
+
+  const Layout& layout_;
+  const Rung& rung_;
+  const uint32_t number_;
+  const std::vector<uint32_t>& partners_;
+  uint8_t* const mem_;
+  rung_ctx& ctx_;
+  std::vector<uint64_t>& values_;
+};
+
+} // namespace rung::ir

@@ -1,0 +1,224 @@
+// The rules on declarations, routines and calls (see verify.h).
+#include <algorithm>
+#include <fmt/format.h>
+#include <unordered_set>
+
+#include "ir/core/eval.h"
+#include "ir/verify/rules.h"
+
+namespace rung::ir {
+
+uint64_t byteCount(const Space& space) { return uint64_t{space.units} * space.unitBytes; }
+
+bool ModuleCheck::inside(SpaceId space, uint64_t byte, uint64_t size) const {
+  if (space.index >= module.spaces.size()) return false;
+  const uint64_t all = byteCount(module.at(space));
+  return byte <= all && size <= all - byte;
+}
+
+namespace {
+
+constexpr uint64_t kMaxSpaceBytes = 1ull << 30;
+constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
+constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
+
+template <class Items, class NameOf> void checkUnique(ModuleCheck& check, std::string_view kind, const Items& items, NameOf nameOf) {
+  std::unordered_set<std::string_view> seen;
+  for (const auto& item : items) {
+    const std::string_view name = nameOf(item);
+    if (name.empty()) check.fail(Rule::Names, fmt::format("a {} without a name", kind));
+    else if (!seen.insert(name).second) check.fail(Rule::Names, fmt::format("two {}s are named '{}'", kind, name));
+  }
+}
+
+void checkNames(ModuleCheck& check) {
+  const Module& m = check.module;
+  const auto itself = [](const std::string& name) { return std::string_view(name); };
+  const auto named = [](const auto& item) { return std::string_view(item.name); };
+  checkUnique(check, "file", m.files, itself);
+  checkUnique(check, "space", m.spaces, named);
+  checkUnique(check, "slot", m.slots, [](const Slot& slot) { return std::string_view(slot.key); });
+  checkUnique(check, "routine", m.routines, named);
+  checkUnique(check, "task", m.tasks, named);
+  checkUnique(check, "fault", m.faults, itself);
+  checkUnique(check, "service", m.services, itself);
+  std::unordered_set<uint32_t> numbers;
+  for (const MessageText& message : m.messages)
+    if (!numbers.insert(message.number).second) check.fail(Rule::Names, fmt::format("two messages have number {}", message.number));
+  for (const Symbol& symbol : m.symbols)
+    if (symbol.name.empty()) check.fail(Rule::Names, "a symbol without a name");
+}
+
+void checkSpaces(ModuleCheck& check) {
+  for (const Space& space : check.module.spaces) {
+    const uint32_t unit = space.unitBytes;
+    if (unit != 1 && unit != 2 && unit != 4 && unit != 8) check.fail(Rule::Spaces, fmt::format("space {} has units of {} bytes", space.name, unit));
+    if (byteCount(space) > kMaxSpaceBytes) check.fail(Rule::Spaces, fmt::format("space {} is larger than 1 GB", space.name));
+    if ((space.flags & ~kSpaceFlagMask) != 0) check.fail(Rule::Spaces, fmt::format("space {} has unknown flags", space.name));
+  }
+}
+
+void checkSlots(ModuleCheck& check) {
+  for (const Slot& slot : check.module.slots) {
+    if (slot.type == Type::None) check.fail(Rule::Slots, fmt::format("slot \"{}\" has no type", slot.key));
+    else if ((static_cast<uint64_t>(slot.init) & ~valueMask(slot.type)) != 0)
+      check.fail(Rule::Slots, fmt::format("slot \"{}\" cannot hold its initial value", slot.key));
+  }
+}
+
+// Bits of one element; 0 for an unknown type.
+uint64_t elementBits(uint32_t symbolType) {
+  switch (symbolType) {
+    case RUNG_TYPE_BIT: return 1;
+    case RUNG_TYPE_I8:
+    case RUNG_TYPE_TEXT: return 8;
+    case RUNG_TYPE_I16: return 16;
+    case RUNG_TYPE_I32: return 32;
+    case RUNG_TYPE_I64:
+    case RUNG_TYPE_F64: return 64;
+    default: return 0;
+  }
+}
+
+void checkSymbols(ModuleCheck& check) {
+  for (const Symbol& s : check.module.symbols) {
+    const auto fail = [&](std::string_view what) { check.fail(Rule::Symbols, fmt::format("symbol {} {}", s.name, what)); };
+    const uint64_t bits = elementBits(s.type);
+    if (bits == 0) fail("has an unknown type");
+    if ((s.flags & ~kSymbolFlagMask) != 0) fail("has unknown flags");
+    if (s.bit > 7 || (s.type != RUNG_TYPE_BIT && s.bit != 0)) fail("begins within a byte");
+    if (s.count == 0) fail("has no elements");
+    if ((s.flags & RUNG_SYMBOL_CONST) != 0 && !s.space.valid()) continue;
+    if (!check.inside(s.space, s.byte, (s.bit + bits * s.count + 7) / 8)) fail("lies outside its space");
+  }
+}
+
+void checkSpans(ModuleCheck& check) {
+  for (const Init& init : check.module.inits)
+    if (!check.inside(init.space, init.byte, init.data.size())) check.fail(Rule::Spans, fmt::format("an initial value at byte {} lies outside its space", init.byte));
+  for (const SpaceSpan& span : check.module.retains)
+    if (!check.inside(span.space, span.byte, span.size)) check.fail(Rule::Spans, fmt::format("a retained piece at byte {} lies outside its space", span.byte));
+  for (const SpaceSpan& span : check.module.safes)
+    if (!check.inside(span.space, span.byte, span.size)) check.fail(Rule::Spans, fmt::format("a safe piece at byte {} lies outside its space", span.byte));
+}
+
+void checkCopy(ModuleCheck& check, const Task& task, const Copy& copy) {
+  const auto fail = [&](std::string_view what) { check.fail(Rule::Copies, fmt::format("a copy of task {} {}", task.name, what)); };
+  const uint64_t size = copy.from.size;
+  if (size == 0) fail("copies nothing");
+  if (!check.inside(copy.from.space, copy.from.byte, size)) fail("reads outside its space");
+  if (!check.inside(copy.to, copy.toByte, size)) fail("writes outside its space");
+  if (copy.masked ? !check.inside(copy.mask, copy.maskByte, size) : copy.mask.valid() || copy.maskByte != 0)
+    fail(copy.masked ? "has a mask outside its space" : "has a mask that it does not use");
+  if (copy.from.space == copy.to && copy.from.byte < copy.toByte + size && copy.toByte < copy.from.byte + size) fail("overlaps itself");
+}
+
+void checkCopies(ModuleCheck& check) {
+  for (const Task& task : check.module.tasks) {
+    for (const Copy& copy : task.begin) checkCopy(check, task, copy);
+    for (const Copy& copy : task.end) checkCopy(check, task, copy);
+  }
+}
+
+void checkTasks(ModuleCheck& check) {
+  for (const Task& task : check.module.tasks) {
+    const auto fail = [&](std::string_view what) { check.fail(Rule::Tasks, fmt::format("task {} {}", task.name, what)); };
+    if (task.entry.index >= check.module.routines.size()) fail("has no entry");
+    if (task.budgetFault.index >= check.module.faults.size()) fail("has no fault for its budget");
+    if (task.parts == 0) fail("has no parts");
+    if (task.budget == 0) fail("has no budget");
+  }
+}
+
+void checkSchedule(ModuleCheck& check) {
+  const Module& m = check.module;
+  const auto exists = [&](TaskId task) { return task.index < m.tasks.size(); };
+  if (!exists(m.mainTask) && (check.mode == Mode::Final || m.mainTask.valid())) check.fail(Rule::Schedule, "there is no main task");
+  if (!exists(m.fastTask) && m.fastTask.valid()) check.fail(Rule::Schedule, "the fast task does not exist");
+  for (const std::vector<Step>* steps : {&m.scan, &m.fast})
+    for (const Step& step : *steps) {
+      const bool needsTask = step.op == RUNG_STEP_RUN || step.op == RUNG_STEP_PART;
+      if (step.op > RUNG_STEP_SLOT) check.fail(Rule::Schedule, fmt::format("there is no step {}", step.op));
+      else if (needsTask != exists(step.task) || needsTask != step.task.valid())
+        check.fail(Rule::Schedule, needsTask ? "a step without its task" : "a step with a task that it does not use");
+    }
+}
+
+void checkRoutines(ModuleCheck& check) {
+  for (uint32_t i = 0; i < check.module.routines.size(); ++i)
+    if (check.module.routines[i].rungs.empty()) check.fail(Rule::Routines, "there is no rung", RoutineId{i});
+}
+
+// Depth-first over the calls, without recursion: a circle of 100,000 routines must not overflow our own stack.
+class CallWalk {
+ public:
+  explicit CallWalk(ModuleCheck& check) : check_(check), depth_(check.module.routines.size(), kUnseen) {}
+
+  void run() {
+    for (uint32_t i = 0; i < depth_.size(); ++i)
+      if (depth_[i] == kUnseen) visit(i);
+  }
+
+ private:
+  static constexpr uint32_t kUnseen = UINT32_MAX;
+  static constexpr uint32_t kOpen = UINT32_MAX - 1;
+  struct Frame {
+    uint32_t routine;
+    uint32_t rung;
+    uint32_t depth; // of calls below this routine, so far
+  };
+
+  void visit(uint32_t root) {
+    std::vector<Frame> frames;
+    open(frames, root);
+    while (!frames.empty()) {
+      Frame& top = frames.back();
+      const std::vector<Rung>& rungs = check_.module.routines[top.routine].rungs;
+      if (top.rung == rungs.size()) {
+        depth_[top.routine] = top.depth;
+        frames.pop_back();
+        continue;
+      }
+      const Transfer& transfer = rungs[top.rung].transfer;
+      const uint32_t callee = transfer.callee.index;
+      if (transfer.kind != TransferKind::Call) ++top.rung;
+      else if (depth_[callee] == kUnseen) open(frames, callee); // and look at this rung again
+      else {
+        follow(top, callee);
+        ++top.rung;
+      }
+    }
+  }
+
+  void open(std::vector<Frame>& frames, uint32_t routine) {
+    depth_[routine] = kOpen;
+    frames.push_back({routine, 0, 0});
+  }
+
+  void follow(Frame& top, uint32_t callee) {
+    const auto op = static_cast<uint32_t>(check_.module.routines[top.routine].rungs[top.rung].ops.size());
+    if (depth_[callee] == kOpen) return check_.fail(Rule::Calls, "routines call each other in a circle", RoutineId{top.routine}, top.rung, op);
+    top.depth = std::max(top.depth, depth_[callee] + 1);
+    // Reported where it is first exceeded; callers above see the limit again, and not the error.
+    if (top.depth <= kLimit) return;
+    check_.fail(Rule::Calls, fmt::format("calls are nested more than {} deep", kLimit), RoutineId{top.routine}, top.rung, op);
+    top.depth = kLimit;
+  }
+
+  // One entry of the stack belongs to the host.
+  static constexpr uint32_t kLimit = RUNG_STACK_DEPTH - 1;
+
+  ModuleCheck& check_;
+  std::vector<uint32_t> depth_; // of the calls below each routine
+};
+
+} // namespace
+
+bool checkModule(ModuleCheck& check) {
+  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkSymbols, checkSpans, checkCopies, checkTasks, checkSchedule, checkRoutines}) rule(check);
+  return check.errorCount() == 0;
+}
+
+void checkCalls(ModuleCheck& check) { CallWalk(check).run(); }
+
+} // namespace rung::ir

@@ -1,0 +1,58 @@
+// Runs the rules, and renders what they found (see verify.h).
+#include "ir/verify/verify.h"
+
+#include <fmt/format.h>
+
+#include "ir/text/text.h"
+#include "ir/verify/rules.h"
+
+namespace rung::ir {
+
+std::string_view ruleName(Rule rule) {
+  constexpr std::string_view kNames[kRuleCount] = {"names",    "spaces", "slots",   "symbols", "spans", "copies",
+                                                   "tasks",    "schedule", "routines", "calls",  "header", "form",
+                                                   "regions",  "scope",  "types",   "yields",  "places", "windows",
+                                                   "slot use", "host",   "loops",   "profile", "transfer"};
+  return kNames[static_cast<int>(rule)];
+}
+
+std::vector<VerifyError> verify(const Module& module, Mode mode) {
+  std::vector<VerifyError> errors;
+  ModuleCheck check(module, mode, errors);
+  if (!checkModule(check)) return errors;
+  for (uint32_t r = 0; r < module.routines.size(); ++r)
+    for (uint32_t i = 0; i < module.routines[r].rungs.size(); ++i) checkRung(check, RoutineId{r}, i);
+  if (errors.empty()) checkCalls(check);
+  return errors;
+}
+
+std::string render(const Module& module, const std::vector<VerifyError>& errors) {
+  std::string out;
+  for (size_t i = 0; i < errors.size();) {
+    const VerifyError& error = errors[i];
+    const bool inRung = error.routine.valid() && error.rung != RUNG_NONE;
+    if (error.routine.valid()) fmt::format_to(std::back_inserter(out), "routine {}: ", module.at(error.routine).name);
+    if (!inRung || error.op == RUNG_NONE) {
+      if (inRung) fmt::format_to(std::back_inserter(out), "rung {}: ", error.rung);
+      fmt::format_to(std::back_inserter(out), "[{}] {}\n", ruleName(error.rule), error.message);
+      ++i;
+      if (!inRung) continue;
+      out += printRung(module, error.routine, error.rung);
+      continue;
+    }
+    // All errors at operations of this rung, which stand one behind the other.
+    size_t end = i;
+    while (end < errors.size() && errors[end].routine == error.routine && errors[end].rung == error.rung && errors[end].op != RUNG_NONE) ++end;
+    fmt::format_to(std::back_inserter(out), "rung {}:\n", error.rung);
+    out += printRung(module, error.routine, error.rung, [&](size_t op) {
+      std::string text;
+      for (size_t k = i; k < end; ++k)
+        if (errors[k].op == op) text += fmt::format("{}[{}] {}", text.empty() ? "" : "; ", ruleName(errors[k].rule), errors[k].message);
+      return text;
+    });
+    i = end;
+  }
+  return out;
+}
+
+} // namespace rung::ir

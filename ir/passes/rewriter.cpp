@@ -1,0 +1,124 @@
+// Writing a rung anew (see rewriter.h).
+#include "ir/passes/rewriter.h"
+
+#include <utility>
+
+namespace rung::ir {
+
+void findRegions(const Rung& rung, std::vector<Region>& regions) {
+  regions.resize(rung.ops.size());
+  std::vector<uint32_t> open; // the operation that began the region: if, else or loop
+  for (uint32_t i = 0; i < rung.ops.size(); ++i) {
+    const OpCode code = rung.ops[i].code;
+    regions[i] = {i, i};
+    if (code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop) {
+      regions[open.back()].end = i;
+      regions[i].begin = regions[open.back()].begin;
+      open.pop_back();
+    }
+    if (code == OpCode::If || code == OpCode::Else || code == OpCode::Loop) open.push_back(i);
+  }
+}
+
+void RungRewriter::start(const Rung& rung) {
+  rung_ = &rung;
+  now_.assign(rung.values.size(), ValueId{});
+  ops_.clear();
+  args_.clear();
+  values_.clear();
+  definedBy_.clear();
+  notes_.clear();
+}
+
+ValueId RungRewriter::newValue(Type type) {
+  values_.push_back(type);
+  definedBy_.push_back(static_cast<uint32_t>(ops_.size()) - 1);
+  return {static_cast<uint32_t>(values_.size()) - 1};
+}
+
+// The operation without operands and results.
+Op& RungRewriter::append(const Op& op) {
+  Op& added = ops_.emplace_back(op);
+  added.firstArg = static_cast<uint32_t>(args_.size());
+  added.argCount = 0;
+  added.resultCount = 0;
+  added.result = {};
+  return added;
+}
+
+Op& RungRewriter::copy(const Op& op) {
+  Op& added = append(op);
+  added.argCount = op.argCount;
+  for (uint32_t i = 0; i < op.argCount; ++i) args_.push_back(nowArg(op, i));
+  for (uint32_t i = 0; i < op.resultCount; ++i) {
+    const ValueId old{op.result.index + i};
+    const ValueId id = newValue(rung_->values[old.index]);
+    replace(old, id);
+    if (i == 0) added.result = id;
+  }
+  added.resultCount = op.resultCount;
+  if (op.code == OpCode::Note) {
+    added.ref = static_cast<uint32_t>(notes_.size());
+    notes_.push_back(op.ref);
+  }
+  return added;
+}
+
+Op& RungRewriter::copySome(const Op& op, std::span<const uint8_t> keep) {
+  Op& added = append(op);
+  for (uint32_t i = 0; i < op.argCount; ++i) {
+    if (keep[i] == 0) continue;
+    args_.push_back(nowArg(op, i));
+    ++added.argCount;
+    if (op.resultCount == 0) continue;
+    const ValueId old{op.result.index + i};
+    const ValueId id = newValue(rung_->values[old.index]);
+    replace(old, id);
+    if (added.resultCount++ == 0) added.result = id;
+  }
+  return added;
+}
+
+Op& RungRewriter::put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args) {
+  Op& added = append(op);
+  added.code = code;
+  added.type = type;
+  added.ref = 0;
+  added.count = 0;
+  added.imm = 0;
+  added.argCount = static_cast<uint16_t>(args.size());
+  args_.insert(args_.end(), args);
+  if (op.resultCount == 0) return added;
+  added.result = newValue(rung_->values[op.result.index]);
+  added.resultCount = 1;
+  replace(op.result, added.result);
+  return added;
+}
+
+ValueId RungRewriter::putConstant(const Op& op, Type type, uint64_t bits) {
+  Op& added = append(op);
+  added.code = OpCode::Const;
+  added.type = type;
+  added.ref = 0;
+  added.count = 0;
+  added.imm = static_cast<int64_t>(bits);
+  added.result = newValue(type);
+  added.resultCount = 1;
+  return added.result;
+}
+
+void RungRewriter::finish(Rung& rung) {
+  Transfer& transfer = rung.transfer;
+  if (transfer.cond.valid()) transfer.cond = now(transfer.cond);
+  if (transfer.value.valid()) transfer.value = now(transfer.value);
+  // Copied, not swapped: storage that a large rung needed must not stay with a small one.
+  rung.ops.assign(ops_.begin(), ops_.end());
+  rung.args.assign(args_.begin(), args_.end());
+  rung.values.assign(values_.begin(), values_.end());
+  // Notes keep their order, so each moves down or stays.
+  for (uint32_t i = 0; i < notes_.size(); ++i)
+    if (notes_[i] != i) rung.notes[i] = std::move(rung.notes[notes_[i]]);
+  rung.notes.resize(notes_.size());
+}
+
+} // namespace rung::ir

@@ -1,0 +1,58 @@
+// Writes a rung anew, operation by operation, in order: a pass copies what it keeps, replaces what it knows better and
+// leaves out the rest, and operands, values and notes come out dense. One rewriter serves all rungs of a pass.
+#pragma once
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+// For the operation that opens, divides or closes a region: the one that ends it (if: its else or endif; else: its
+// endif; loop: its endloop) and the one that opened it (else, endif: the if; endloop: the loop). Own index for others.
+struct Region {
+  uint32_t end;
+  uint32_t begin;
+};
+void findRegions(const Rung& rung, std::vector<Region>& regions);
+
+class RungRewriter {
+ public:
+  void start(const Rung& rung);
+
+  // What stands for an old value in the new rung; invalid while it has no value there.
+  ValueId now(ValueId old) const { return now_[old.index]; }
+  ValueId nowArg(const Op& op, uint32_t i) const { return now(rung_->args[op.firstArg + i]); }
+  void replace(ValueId old, ValueId by) { now_[old.index] = by; }
+
+  // The operation as it is, with today's operands.
+  Op& copy(const Op& op);
+  // The same for an endif or else of which only some yields are kept; keep[i] belongs to operand and result i.
+  Op& copySome(const Op& op, std::span<const uint8_t> keep);
+  // Another operation in the place of `op`, with new operands and one result or none, which `op`'s result then stands for.
+  Op& put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args);
+  ValueId putConstant(const Op& op, Type type, uint64_t bits);
+
+  // The new operation that gives a value, with its new operands. Valid until the next one is written.
+  const Op& definition(ValueId now) const { return ops_[definedBy_[now.index]]; }
+  ValueId arg(const Op& written, uint32_t i) const { return args_[written.firstArg + i]; }
+  Type type(ValueId now) const { return values_[now.index]; }
+
+  // Puts the new operations into the rung, also as conditions of its transfer.
+  void finish(Rung& rung);
+
+ private:
+  Op& append(const Op& op);
+  ValueId newValue(Type type);
+
+  const Rung* rung_ = nullptr;
+  std::vector<ValueId> now_; // by old value
+  std::vector<Op> ops_;
+  std::vector<ValueId> args_;
+  std::vector<Type> values_;
+  std::vector<uint32_t> definedBy_; // by new value
+  std::vector<uint32_t> notes_;     // the old numbers of the notes that are kept
+};
+
+} // namespace rung::ir

@@ -1,0 +1,56 @@
+// When a rung last wrote to which memory, and so whether a value that a place held at some time is still there. Times
+// are numbers of operations, counted from 1. Fixed places are followed bit by bit, windows as one range a space.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+class WriteTimes {
+ public:
+  explicit WriteTimes(size_t spaces) : spaces_(spaces) {}
+
+  void start(const Rung& rung);
+  // `op` writes: a store of any kind.
+  void write(const Op& op, uint32_t time);
+  // Something may be written anywhere.
+  void writeAll(uint32_t time) { all_ = time; }
+  // Whether nothing has written since `time` to what `op` (a load or store of any kind) reads or writes.
+  bool unchanged(const Op& op, uint32_t time) const;
+
+ private:
+  struct Place {
+    uint64_t firstByte; // with the space; slots have one of their own
+    uint32_t bytes;
+    int bit; // -1: whole bytes
+  };
+  struct Byte {
+    uint64_t key;
+    uint32_t whole;
+    uint32_t anyBit;
+    uint32_t bit[8];
+  };
+  // Writes through windows; forgotten when `rung` is not the current one.
+  struct SpaceWrites {
+    uint32_t rung = 0;
+    uint32_t any = 0;    // of any kind
+    uint32_t window = 0; // the last through a window, and all bytes that windows may have written
+    uint64_t begin = 0;
+    uint64_t end = 0;
+  };
+
+  static Place placeOf(const Op& op);
+  Byte* findByte(uint64_t key);
+  const Byte* findByte(uint64_t key) const { return const_cast<WriteTimes*>(this)->findByte(key); }
+  SpaceWrites& writesTo(uint32_t space);
+  void writeWindow(const Op& op, uint32_t time);
+
+  std::vector<Byte> bytes_; // open addressing, a power of two, at most half full
+  std::vector<SpaceWrites> spaces_;
+  uint32_t rung_ = 0;
+  uint32_t all_ = 0;
+};
+
+} // namespace rung::ir

@@ -20,6 +20,7 @@ public:
 
 private:
   void logicalLine(uint32_t first, uint32_t count, uint32_t line);
+  bool beginsStatement(uint32_t first) const;
   uint32_t readLabel(uint32_t& first, uint32_t& count);
   bool readStructure(std::span<const Token> tokens);
   const Row* instruction(const Token& token);
@@ -56,13 +57,18 @@ void FileReader::read() {
       lineNumber = line.number;
       clean = true;
     }
-    const size_t before = program_.tokens.size();
+    const auto before = static_cast<uint32_t>(program_.tokens.size());
     if (!structure_.stopped()) clean = tokenize(line, program_.tokens, program_.diagnostics) && clean;
     else if (line.text.find_first_not_of(" \t") < commentOf(line.text) && !textAfterStop_) {
       textAfterStop_ = true;
       program_.diagnostics.report(Diag::TextAfterStop, line.range());
     }
     if (open && clean && program_.tokens.size() == before) continue; // a blank line or a comment inside
+    if (open && clean && beginsStatement(before)) { // the comma was one too many
+      logicalLine(first, before - first, lineNumber);
+      first = before;
+      lineNumber = line.number;
+    }
     open = clean && program_.tokens.size() > before && program_.tokens.back().is(',');
     if (open && program_.tokens.size() - first < 4096) continue;
     open = false;
@@ -76,6 +82,13 @@ void FileReader::read() {
     program_.statements.push_back(end);
   }
   structure_.finish(static_cast<uint32_t>(program_.statements.size()));
+}
+
+// Whether the tokens from `first` cannot be operands of the statement above: a label, or a word that names no symbol.
+bool FileReader::beginsStatement(uint32_t first) const {
+  const std::span<const Token> tokens = std::span(program_.tokens).subspan(first);
+  if (tokens[0].kind != TokenKind::Name) return false;
+  return (tokens.size() > 1 && tokens[1].is(':')) || (findRow(tokens[0].text) != nullptr && reservedWord(tokens[0].text) == Reserved::Yes);
 }
 
 // Takes `name :` off the front; the token of the name, or kNone.

@@ -16,7 +16,7 @@ namespace rung::technol_test {
 struct Parts {
   std::string data, input, main, init, fast, blockInit, blockDone, clear, halt, done, cont;
 };
-// The main file of a program with these parts. `main` begins in line 8 + the lines of data and input.
+// The main file of a program with these parts. `main` begins in line 6 + the lines of data and input.
 std::string programText(const Parts& parts);
 
 struct Compilation {

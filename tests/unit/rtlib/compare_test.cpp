@@ -96,6 +96,15 @@ TEST_F(CompareTest, Messages) {
   EXPECT_EQ(difference(), "number of message 0: 6 here, 5 there");
 }
 
+TEST_F(CompareTest, LostMessages) {
+  for (uint32_t i = 0; i < kMessageCapacity; ++i) {
+    a.messages().push({});
+    b.messages().push({});
+  }
+  a.messages().push({});
+  EXPECT_EQ(difference(), "lost messages: 1 here, 0 there");
+}
+
 TEST_F(CompareTest, Services) {
   int64_t arg = 1;
   a.services().request(0, &arg, 1);

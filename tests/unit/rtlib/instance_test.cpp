@@ -60,6 +60,7 @@ TEST_F(InstanceTest, ColdStartForgetsWarmStartKeeps) {
     for (uint32_t i : {0u, 1u, 2u, 40u, 41u}) instance.write(intRef(0, i, 8), 50 + i);
     instance.runTask("ASK");
     EXPECT_EQ(instance.services().waiting(), 1u);
+    instance.messages().push({});
     warm ? instance.warmStart() : instance.coldStart();
     EXPECT_EQ(byte(instance, 0), 0u);
     EXPECT_EQ(byte(instance, 1), warm ? 51u : 0u);
@@ -68,6 +69,7 @@ TEST_F(InstanceTest, ColdStartForgetsWarmStartKeeps) {
     EXPECT_EQ(byte(instance, 41), warm ? 91u : 0u);
     EXPECT_EQ(instance.services().waiting(), 0u);
     EXPECT_EQ(instance.services().pending(), 0u);
+    EXPECT_EQ(instance.messages().size(), 0u);
   }
 }
 

@@ -276,6 +276,21 @@ TEST_F(RunnerTest, AnotherTaskRunsBetweenParts) {
   EXPECT_EQ(runner->nowUs(), 40000);
 }
 
+TEST_F(RunnerTest, ResetForgetsTheRunUnderWayAndThePlaceInTheSchedule) {
+  test.addChunk(step<0, 1>);
+  test.addChunk(step<1, RUNG_PC_DONE>);
+  const uint32_t task = test.addTask("L2", 0, 1000, {1, RUNG_PC_DONE});
+  test.scan = {{RUNG_STEP_PART, task, 0}, {RUNG_STEP_SLOT, RUNG_NONE, 0}, {RUNG_STEP_PART, task, 0}};
+  start().slot();
+  EXPECT_FALSE(runner->atListStart());
+  runner->setStopped(true);
+  runner->reset();
+  EXPECT_TRUE(runner->atListStart());
+  EXPECT_FALSE(runner->stopped());
+  runner->scan();
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 1}));
+}
+
 TEST_F(RunnerTest, SlotsOfASlotlessListAreScans) {
   test.addChunk(step<0, RUNG_PC_DONE>);
   test.scan = {{RUNG_STEP_RUN, test.addTask("MAIN", 0), 3}};

@@ -95,6 +95,19 @@ TEST_F(Services, PendingTicketsOutliveManyYoungerOnes) {
   EXPECT_EQ(queue->result(old, 0), 42);
 }
 
+TEST_F(Services, NewTicketDoesNotShowResultsOfAnOldOne) {
+  for (uint32_t i = 0; i < ServiceQueue::kRecords; ++i) {
+    ServiceRequest request;
+    queue->request(0, nullptr, 0);
+    ASSERT_TRUE(queue->take(request));
+    queue->complete(reply(request.ticket, 7));
+    queue->deliver();
+  }
+  const uint32_t ticket = queue->request(0, nullptr, 0);
+  EXPECT_EQ(queue->poll(ticket), RUNG_SERVICE_PENDING);
+  EXPECT_EQ(queue->result(ticket, 0), 0);
+}
+
 TEST_F(Services, RepliesToNothingAreCounted) {
   const uint32_t ticket = queue->request(0, nullptr, 0);
   queue->complete(reply(ticket + 1, 1));

@@ -46,8 +46,17 @@ class ModuleBuilder {
     spaces_.ts = addSpace({.name = "TS", .unitBytes = 4, .units = config_.plcNvram, .flags = both, .packedOnly = true});
     spaces_.written = addSpace({.name = "@W", .unitBytes = 4, .units = config_.plcNvram, .flags = RUNG_SPACE_HIDDEN});
     if (program_.int0.exists) flags_ = addSpace({.name = "@F", .unitBytes = 4, .units = 2, .flags = RUNG_SPACE_HIDDEN});
+    if (usesScratch(program_.main) || usesScratch(program_.int0))
+      spaces_.scratch = addSpace({.name = "@S", .unitBytes = 4, .units = kWords, .flags = RUNG_SPACE_HIDDEN});
     module_.retains.push_back({spaces_.m, config_.plcNvram * 4, (config_.plcRam - config_.plcNvram) * 4});
     addSafes();
+  }
+
+  static bool usesScratch(const TypedModule& module) {
+    for (const TypedRung& rung : module.rungs)
+      for (const TypedElement& element : rung.elements)
+        if (element.row->usesScratch) return true;
+    return false;
   }
 
   // The outputs of the NC: the words from the first output signal to the last (they follow the inputs).

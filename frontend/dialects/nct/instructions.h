@@ -34,6 +34,7 @@ struct NctInstruction {
   Claim claim = Claim::None;
   Flow flow = Flow::None;
   Shape shape = Shape::Box;
+  bool usesScratch = false; // works on the space @S
   bool isBuilt() const { return lower != nullptr || flow != Flow::None; }
 };
 

@@ -10,13 +10,6 @@ using ir::ValueId;
 
 namespace {
 
-// Result and two operands, evaluated.
-struct Operands {
-  Place result;
-  ValueId a;
-  ValueId b;
-};
-
 // `compute` gives the result's value and sets the flags.
 template <class Compute> ValueId binary(Lowering& box, Compute compute) {
   ValueId valid;
@@ -60,10 +53,10 @@ ValueId lowerMoveDouble(Lowering& box) {
   } else {
     const Place from = box.memory.twoWords(box.operands[1].address, Reach::Read);
     valid = box.memory.both(valid, from.valid);
-    source = box.memory.loadLong(from);
+    source = box.memory.loadDouble(from, Type::I64);
   }
   return execute(box, valid, [&] {
-    box.memory.storeLong(result, source);
+    box.memory.storeDouble(result, source);
     box.memory.setErrorFlag(false);
     return ValueId{};
   });

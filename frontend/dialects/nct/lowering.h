@@ -95,9 +95,25 @@ ir::ValueId lowerTimer(Lowering& box);
 enum CounterVariant : int { kStopping, kRing };
 ir::ValueId lowerCounter(Lowering& box);
 
+enum FloatVariant : int { kFloatAdd, kFloatSub, kFloatMul, kFloatDiv };
+ir::ValueId lowerFloatArithmetic(Lowering& box);
+ir::ValueId lowerBin(Lowering& box);
+ir::ValueId lowerBcd(Lowering& box);
+ir::ValueId lowerFlt(Lowering& box);
+ir::ValueId lowerFix(Lowering& box);
+enum AngleVariant : int { kToDegrees, kToRadians };
+ir::ValueId lowerAngle(Lowering& box);
+
+ir::ValueId lowerRotation(Lowering& box); // ROT
+ir::ValueId lowerShiftRegister(Lowering& box);
+enum ArrayVariant : int { kShiftLeft, kShiftRight, kRotateLeft, kRotateRight };
+ir::ValueId lowerArray(Lowering& box);
+
 ir::ValueId lowerCompare(Lowering& box); // CMP
+ir::ValueId lowerFloatCompare(Lowering& box); // FCMP
 enum CompareVariant : int { kLess, kLessEqual, kEqual, kNotEqual, kGreaterEqual, kGreater };
 ir::ValueId lowerCompareContact(Lowering& box);
+ir::ValueId lowerFloatContact(Lowering& box);
 
 // --- checks -----------------------------------------------------------------------------------------------------------
 void checkTimer(std::span<const Operand> operands, Diagnostics& diagnostics);

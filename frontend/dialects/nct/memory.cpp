@@ -155,12 +155,12 @@ void Memory::forceBit(const Place& place, ValueId cond, bool value) {
   written_.add(place.word, place.word + 1);
 }
 
-ValueId Memory::loadLong(const Place& place) {
-  if (place.fixed) return b_.load(Type::I64, {.space = place.space, .byte = place.word * 4, .bit = 0});
-  return b_.loadAt(Type::I64, place.window, place.index);
+ValueId Memory::loadDouble(const Place& place, Type type) {
+  if (place.fixed) return b_.load(type, {.space = place.space, .byte = place.word * 4, .bit = 0});
+  return b_.loadAt(type, place.window, place.index);
 }
 
-void Memory::storeLong(const Place& place, ValueId value) {
+void Memory::storeDouble(const Place& place, ValueId value) {
   RUNG_CHECK(place.space == spaces_.m, "doubles have no immediate form");
   if (place.fixed) {
     b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
@@ -183,6 +183,51 @@ ValueId Memory::integer(const Operand& operand, ValueId& valid) {
   const Place p = word(operand.address, Reach::Read);
   valid = both(valid, p.valid);
   return loadWord(p);
+}
+
+ValueId Memory::real(const Operand& operand, ValueId& valid) {
+  if (operand.form == Form::Constant) return b_.real(operand.constant.real);
+  const Place p = twoWords(operand.address, Reach::Read);
+  valid = both(valid, p.valid);
+  return loadDouble(p, Type::F64);
+}
+
+// With two fixed ends the window is the run itself; otherwise it is all of the memory.
+WordRange Memory::range(const Place& first, const Place& last) {
+  WordRange range;
+  const auto number = [&](const Place& p) { return p.fixed ? b_.i32(p.word) : p.wordNo; };
+  if (first.fixed && last.fixed && first.word <= last.word) {
+    range.mostWords = last.word - first.word + 1;
+    range.window = {.space = spaces_.m, .byte = first.word * 4, .count = range.mostWords};
+    range.length = b_.i32(range.mostWords);
+    return range;
+  }
+  range.mostWords = first.fixed && last.fixed ? 0 : kWords;
+  range.window = {.space = spaces_.m, .byte = 0, .count = kWords};
+  range.first = number(first);
+  range.length = b_.add(b_.sub(number(last), range.first), b_.i32(1));
+  return range;
+}
+
+ValueId Memory::loadIn(const WordRange& range, ValueId i) {
+  return b_.loadAt(Type::I32, range.window, range.first.valid() ? b_.add(range.first, i) : i);
+}
+
+// The mask's window begins where the range's does and ends with the NC area.
+void Memory::storeIn(const WordRange& range, ValueId i, ValueId value) {
+  const ValueId index = range.first.valid() ? b_.add(range.first, i) : i;
+  b_.storeAt(range.window, index, value);
+  const uint32_t begin = range.window.byte / 4;
+  if (begin >= config_.plcNvram) return;
+  const uint32_t count = std::min(range.window.count, config_.plcNvram - begin);
+  b_.storeAt({.space = spaces_.written, .byte = begin * 4, .count = count}, index, b_.i32(-1));
+  written_.add(std::max(begin, kFirstNcWord), std::max(begin + count, kFirstNcWord));
+}
+
+ValueId Memory::loadScratch(ValueId index) { return b_.loadAt(Type::I32, {.space = spaces_.scratch, .byte = 0, .count = kWords}, index); }
+
+void Memory::storeScratch(ValueId index, ValueId value) {
+  b_.storeAt({.space = spaces_.scratch, .byte = 0, .count = kWords}, index, value);
 }
 
 void Memory::setFlags(uint8_t mask, ValueId value) {

@@ -25,6 +25,7 @@ struct MemorySpaces {
   ir::SpaceId m;
   ir::SpaceId ts;
   ir::SpaceId written; // @W
+  ir::SpaceId scratch; // @S: words that mean nothing between two instructions; made when something needs it
 };
 
 // The words of the NC area whose mask some instruction may set: [first, end).
@@ -54,6 +55,14 @@ struct Place {
   ir::ValueId valid;   // computed: bit; invalid id: always
 };
 
+// A run of words from one place to another.
+struct WordRange {
+  ir::Window window;
+  ir::ValueId first;  // in the window; invalid id: 0
+  ir::ValueId length; // i32; meaningless unless both places are valid and in order
+  uint32_t mostWords = 0;
+};
+
 class Memory {
  public:
   Memory(ir::RungBuilder& builder, const Config& config, const MemorySpaces& spaces, WrittenRange& written)
@@ -70,11 +79,21 @@ class Memory {
   void storeBit(const Place& place, ir::ValueId value);
   // Sets or resets the bit when `cond` is 1.
   void forceBit(const Place& place, ir::ValueId cond, bool value);
-  ir::ValueId loadLong(const Place& place);             // i64, the low word first (l.715)
-  void storeLong(const Place& place, ir::ValueId value);
+  // Two words as i64 or f64, the low word first (l.715).
+  ir::ValueId loadDouble(const Place& place, ir::Type type);
+  void storeDouble(const Place& place, ir::ValueId value);
 
   // A constant or a word, and its place's `valid` (joined into `valid`).
   ir::ValueId integer(const Operand& operand, ir::ValueId& valid);
+  // The same of doubles: f64.
+  ir::ValueId real(const Operand& operand, ir::ValueId& valid);
+
+  // For instructions that walk over words; `i` counts from the first one and is inside.
+  WordRange range(const Place& first, const Place& last);
+  ir::ValueId loadIn(const WordRange& range, ir::ValueId i);
+  void storeIn(const WordRange& range, ir::ValueId i, ir::ValueId value);
+  ir::ValueId loadScratch(ir::ValueId index);
+  void storeScratch(ir::ValueId index, ir::ValueId value);
 
   // FLAGS: `mask` says which flags the i8 `value` replaces.
   void setFlags(uint8_t mask, ir::ValueId value);

@@ -4,11 +4,12 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction floatBinaryRow(RowText text, std::string_view first, std::string_view second) {
+constexpr NctInstruction floatBinaryRow(RowText text, std::string_view first, std::string_view second, Lower lower = nullptr, int variant = 0) {
   return {.info = {.mnemonic = text.mnemonic, .title = text.title, .group = "float", .pins = {kEnable},
                    .operands = {O{"Result", "double", Access::Write, "where the result goes"}, O{first, "float", Access::Read, "constant or register"},
                                 O{second, "float", Access::Read, "constant or register"}},
-                   .output = Output::Optional, .ref = text.ref, .doc = text.doc, .example = text.example}};
+                   .output = Output::Optional, .ref = text.ref, .doc = text.doc, .example = text.example},
+          .lower = lower, .variant = variant};
 }
 
 constexpr NctInstruction floatRow(RowText text) { return convertRow(text, "float", "double", "float", nullptr, 0); }
@@ -30,14 +31,14 @@ constexpr NctInstruction intContact(RowText text, int variant) {
   return compareContactRow(text, "word", "int", lowerCompareContact, variant);
 }
 constexpr NctInstruction floatContact(RowText text, int variant) {
-  return compareContactRow(text, "double", "float", nullptr, variant);
+  return compareContactRow(text, "double", "float", lowerFloatContact, variant);
 }
 
 inline constexpr NctInstruction kFloatRows[] = {
-    floatBinaryRow({"+F", "floating-point addition", "6.10.1, l.2161", "Result := 1st + 2nd.", "|--[N_ON]--{+F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand"),
-    floatBinaryRow({"-F", "floating-point subtraction", "6.10.2, l.2179", "Result := 1st - 2nd.", "|--[N_ON]--{-F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand"),
-    floatBinaryRow({"*F", "floating-point multiplication", "6.10.3, l.2197", "Result := 1st * 2nd.", "|--[N_ON]--{*F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand"),
-    floatBinaryRow({"/F", "floating-point division", "6.10.4, l.2215", "Result := 1st / 2nd. By 0: FL_ER, not executed.", "|--[N_ON]--{/F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand"),
+    floatBinaryRow({"+F", "floating-point addition", "6.10.1, l.2161", "Result := 1st + 2nd.", "|--[N_ON]--{+F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand", lowerFloatArithmetic, kFloatAdd),
+    floatBinaryRow({"-F", "floating-point subtraction", "6.10.2, l.2179", "Result := 1st - 2nd.", "|--[N_ON]--{-F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand", lowerFloatArithmetic, kFloatSub),
+    floatBinaryRow({"*F", "floating-point multiplication", "6.10.3, l.2197", "Result := 1st * 2nd.", "|--[N_ON]--{*F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand", lowerFloatArithmetic, kFloatMul),
+    floatBinaryRow({"/F", "floating-point division", "6.10.4, l.2215", "Result := 1st / 2nd. By 0: FL_ER, not executed.", "|--[N_ON]--{/F 7000 7002 *1.5}"}, "1st Operand", "2nd Operand", lowerFloatArithmetic, kFloatDiv),
     floatBinaryRow({"PWR", "power", "6.10.5, l.2233", "Result := Base to the power of Exponent. A negative base: FL_ER, not executed.", "|--[N_ON]--{PWR 7000 7002 *2.0}"}, "Base", "Exponent"),
     floatRow({"SQRT", "square root", "6.10.6, l.2257", "Result := square root. Negative: FL_ER, not executed.", "|--[N_ON]--{SQRT 7000 7002}"}),
     floatRow({"SIN", "sine", "6.10.7, l.2273", "Result := sine of the operand in radians.", "|--[N_ON]--{SIN 7000 7002}"}),
@@ -50,23 +51,23 @@ inline constexpr NctInstruction kFloatRows[] = {
     floatRow({"LOG", "natural logarithm", "6.10.14, l.2385", "Result := natural logarithm. Of 0 or less: FL_ER, not executed.", "|--[N_ON]--{LOG 7000 7002}"}),
 
     convertRow({"BIN", "BCD to binary", "6.11.1, l.2449", "Eight BCD digits become an integer. A digit above 9: FL_ER, not executed.",
-                "|--[N_ON]--{BIN 7000 #$1234}"}, "conversion", "word", "hex", nullptr, 0),
+                "|--[N_ON]--{BIN 7000 #$1234}"}, "conversion", "word", "hex", lowerBin, 0),
     convertRow({"BCD", "binary to BCD", "6.11.2, l.2464", "An integer of 0 to 99999999 becomes eight BCD digits. Others: FL_ER, not executed.",
-                "|--[N_ON]--{BCD 7000 7001}"}, "conversion", "word", "int", nullptr, 0),
+                "|--[N_ON]--{BCD 7000 7001}"}, "conversion", "word", "int", lowerBcd, 0),
     convertRow({"FLT", "integer to double", "6.11.3, l.2475", "Result := the signed integer as a double.", "|--[N_ON]--{FLT 7000 7002}"},
-               "conversion", "double", "int", nullptr, 0),
+               "conversion", "double", "int", lowerFlt, 0),
     convertRow({"FIX", "double to integer", "6.11.4, l.2494", "Result := the double, rounded toward zero. Outside 32 bits: FL_ER, not executed.",
-                "|--[N_ON]--{FIX 7000 7002}"}, "conversion", "word", "float", nullptr, 0),
+                "|--[N_ON]--{FIX 7000 7002}"}, "conversion", "word", "float", lowerFix, 0),
     convertRow({"DEG", "radians to degrees", "6.11.5, l.2519", "Result := operand * 180 / pi.", "|--[N_ON]--{DEG 7000 7002}"}, "conversion",
-               "double", "float", nullptr, 0),
+               "double", "float", lowerAngle, kToDegrees),
     convertRow({"RAD", "degrees to radians", "6.11.6, l.2534", "Result := operand * pi / 180.", "|--[N_ON]--{RAD 7000 7002}"}, "conversion",
-               "double", "float", nullptr, 0),
+               "double", "float", lowerAngle, kToRadians),
 
     compareRow({"CMP", "compare two integers", "6.12.1, l.2553",
                 "Sets exactly one of FL_GT, FL_EQ and FL_LT; they keep their values until the next CMP or FCMP.", "|--[N_ON]--{CMP 7000 #5}"},
                "word", "int", lowerCompare),
     compareRow({"FCMP", "compare two doubles", "6.12.1, l.2553", "Sets exactly one of FL_GT, FL_EQ and FL_LT. With a NaN: none of them, and FL_ER.",
-                "|--[N_ON]--{FCMP 7000 *5.0}"}, "double", "float", nullptr),
+                "|--[N_ON]--{FCMP 7000 *5.0}"}, "double", "float", lowerFloatCompare),
 
     intContact({"CLT", "contact a < b", "6.12.2, l.2613", "Power passes when Value < Data, signed.", "|--{CLT 7000 #5}--(7001.00)"}, kLess),
     intContact({"CLE", "contact a <= b", "6.12.2, l.2614", "Power passes when Value <= Data, signed.", "|--{CLE 7000 #5}--(7001.00)"}, kLessEqual),

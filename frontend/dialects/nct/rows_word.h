@@ -54,12 +54,13 @@ constexpr NctInstruction counterRow(RowText text, int variant) {
           .lower = lowerCounter, .variant = variant, .claim = Claim::Once};
 }
 
-constexpr NctInstruction arrayRow(RowText text, std::string_view count) {
+constexpr NctInstruction arrayRow(RowText text, std::string_view count, int variant) {
   return {.info = {.mnemonic = text.mnemonic, .title = text.title, .group = "shift", .pins = {kEnable},
                    .operands = {O{"Starting Address", "word", Access::ReadWrite, "word with the lowest bits"},
                                 O{"Ending Address", "word", Access::ReadWrite, "word with the highest bits"},
                                 O{count, "dec", Access::Read, "0 to 2147483647", 0, INT32_MAX}},
-                   .output = Output::Optional, .ref = text.ref, .doc = text.doc, .example = text.example}};
+                   .output = Output::Optional, .ref = text.ref, .doc = text.doc, .example = text.example},
+          .lower = lowerArray, .variant = variant, .usesScratch = true};
 }
 
 inline constexpr NctInstruction kWordRows[] = {
@@ -97,21 +98,23 @@ inline constexpr NctInstruction kWordRows[] = {
               .output = Output::Always, .stateful = true, .ref = "6.6, l.1571",
               .doc = "Finds the way of a turret or magazine from the current position to the goal: the direction (output, TRUE negative) and the "
                      "position or number of steps to go.",
-              .example = "|--[@M6]--{ROT TOGO POS GOAL #1 #12}--(NEGATIVE)"}},
+              .example = "|--[@M6]--{ROT TOGO POS GOAL #1 #12}--(NEGATIVE)"},
+     .lower = lowerRotation},
 
     {.info = {.mnemonic = "SHTR", .title = "shift register", .group = "shift",
               .pins = {P{"CK", "shifts on its rising edge", true}, P{"L/R", "FALSE left, TRUE right"}, P{"D", "the bit that enters"}},
               .operands = {O{"Address of Shift Register", "word", Access::ReadWrite, "the 32 bits"}}, .output = Output::Always, .stateful = true,
               .ref = "6.7.1, l.1683", .doc = "Shifts a word by one bit; the output is the bit that left it last.",
-              .example = "|--[STEP]--{SHTR 7000}--(OUT)"}},
+              .example = "|--[STEP]--{SHTR 7000}--(OUT)"},
+     .lower = lowerShiftRegister},
     arrayRow({"ASHL", "shift an array left", "6.7.2, l.1735", "Shifts the bits of a run of words towards higher words; zeros enter.",
-              "|--[@STEP]--{ASHL 7000 7003 #4}"}, "Shift Value"),
+              "|--[@STEP]--{ASHL 7000 7003 #4}"}, "Shift Value", kShiftLeft),
     arrayRow({"ASHR", "shift an array right", "6.7.2, l.1735", "Shifts the bits of a run of words towards lower words; zeros enter.",
-              "|--[@STEP]--{ASHR 7000 7003 #4}"}, "Shift Value"),
+              "|--[@STEP]--{ASHR 7000 7003 #4}"}, "Shift Value", kShiftRight),
     arrayRow({"ARTL", "rotate an array left", "6.7.3, l.1802", "Rotates the bits of a run of words towards higher words.",
-              "|--[@STEP]--{ARTL 7000 7003 #4}"}, "Rotation Value"),
+              "|--[@STEP]--{ARTL 7000 7003 #4}"}, "Rotation Value", kRotateLeft),
     arrayRow({"ARTR", "rotate an array right", "6.7.3, l.1802", "Rotates the bits of a run of words towards lower words.",
-              "|--[@STEP]--{ARTR 7000 7003 #4}"}, "Rotation Value"),
+              "|--[@STEP]--{ARTR 7000 7003 #4}"}, "Rotation Value", kRotateRight),
 
     convertRow({"NEG", "complement", "6.8.1, l.1868", "Result := NOT Operand, bit by bit: the one's complement, as MVN.",
                 "|--[N_ON]--{NEG 7000 7001}"}, "logic", "word", "hex", lowerMove, kMoveComplement),

@@ -1,0 +1,196 @@
+// Floating-point arithmetic and conversions (man. §6.10, §6.11).
+#include <limits>
+#include <numbers>
+
+#include "frontend/dialects/nct/lowering.h"
+
+namespace rung::nct {
+
+using ir::OpCode;
+using ir::RungBuilder;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+ValueId isFinite(RungBuilder& b, ValueId x) {
+  return b.op(OpCode::FLe, Type::F64, {b.op(OpCode::FAbs, Type::F64, {x}), b.real(std::numeric_limits<double>::max())});
+}
+ValueId isZero(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, b.real(0)}); }
+ValueId isNumber(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, x}); }
+
+// Does `store` when `ok` holds, else only sets FL_ER; gives `ok`. `store` clears FL_ER.
+template <class Store> ValueId when(Lowering& box, ValueId ok, Store store) {
+  box.b.if_(ok);
+  store();
+  box.b.else_();
+  box.memory.setErrorFlag(true);
+  box.b.endIf();
+  return ok;
+}
+
+// Underflow: the result is 0 and the exact one is not (l.694-704). Sums of doubles are exact where they are that small.
+ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, ValueId result) {
+  switch (variant) {
+    case kFloatAdd:
+    case kFloatSub: return b.bit(false);
+    case kFloatMul: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
+    case kFloatDiv: return b.and_(isZero(b, result), b.and_(b.not_(isZero(b, x)), isFinite(b, y)));
+  }
+  return {};
+}
+
+} // namespace
+
+// Overflow: finite operands, infinite result. A NaN operand, or a result that is none (∞ - ∞), is not executed; nor is a
+// division by 0.
+ValueId lowerFloatArithmetic(Lowering& box) {
+  constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
+  RungBuilder& b = box.b;
+  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  const ValueId x = box.memory.real(box.operands[1], valid);
+  const ValueId y = box.memory.real(box.operands[2], valid);
+  return execute(box, valid, [&] {
+    const auto variant = static_cast<FloatVariant>(box.variant);
+    const ValueId result = b.op(kCodes[variant], Type::F64, {x, y});
+    ValueId ok = isNumber(b, result);
+    if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
+    return when(box, ok, [&] {
+      const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
+      const ValueId under = underflows(b, variant, x, y, result);
+      const auto flag = [&](uint8_t value) { return b.constant(Type::I8, value); };
+      box.memory.storeDouble(target, result);
+      box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf, b.select(over, flag(kFlagOf), b.select(under, flag(kFlagUf), flag(0))));
+    });
+  });
+}
+
+namespace {
+
+// Word to word; `convert` gives the result and whether it exists.
+template <class Convert> ValueId convertWord(Lowering& box, Convert convert) {
+  const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  const ValueId source = box.memory.integer(box.operands[1], valid);
+  return execute(box, valid, [&] {
+    const auto [result, ok] = convert(source);
+    return when(box, ok, [&] {
+      box.memory.storeWord(target, result);
+      box.memory.setErrorFlag(false);
+    });
+  });
+}
+
+struct Converted {
+  ValueId result;
+  ValueId ok;
+};
+
+} // namespace
+
+// A digit above 9 does not survive the way back.
+ValueId lowerBin(Lowering& box) {
+  RungBuilder& b = box.b;
+  return convertWord(box, [&](ValueId source) {
+    const ValueId binary = b.op(OpCode::BcdDecode, Type::I32, {source});
+    return Converted{binary, b.eq(b.op(OpCode::BcdEncode, Type::I32, {binary}), source)};
+  });
+}
+
+ValueId lowerBcd(Lowering& box) {
+  RungBuilder& b = box.b;
+  return convertWord(box, [&](ValueId source) {
+    return Converted{b.op(OpCode::BcdEncode, Type::I32, {source}), b.leU(source, b.i32(99'999'999))};
+  });
+}
+
+ValueId lowerFlt(Lowering& box) {
+  RungBuilder& b = box.b;
+  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  const ValueId source = box.memory.integer(box.operands[1], valid);
+  return execute(box, valid, [&] {
+    box.memory.storeDouble(target, b.op(OpCode::IntToF, Type::F64, {source}));
+    box.memory.setErrorFlag(false);
+    return ValueId{};
+  });
+}
+
+// The range holds for the operand itself, before its fraction is cut off (l.2505).
+ValueId lowerFix(Lowering& box) {
+  RungBuilder& b = box.b;
+  const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  const ValueId source = box.memory.real(box.operands[1], valid);
+  return execute(box, valid, [&] {
+    const ValueId aboveLeast = b.op(OpCode::FLe, Type::F64, {b.real(INT32_MIN), source});
+    const ValueId belowGreatest = b.op(OpCode::FLe, Type::F64, {source, b.real(INT32_MAX)});
+    return when(box, b.and_(aboveLeast, belowGreatest), [&] {
+      box.memory.storeWord(target, b.op(OpCode::FToInt, Type::I32, {source}));
+      box.memory.setErrorFlag(false);
+    });
+  });
+}
+
+ValueId lowerAngle(Lowering& box) {
+  RungBuilder& b = box.b;
+  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  const ValueId source = box.memory.real(box.operands[1], valid);
+  const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;
+  return execute(box, valid, [&] {
+    return when(box, isNumber(b, source), [&] {
+      box.memory.storeDouble(target, b.op(OpCode::FMul, Type::F64, {source, b.real(factor)}));
+      box.memory.setErrorFlag(false);
+    });
+  });
+}
+
+// With a NaN none of the three flags is 1, and FL_ER is.
+ValueId lowerFloatCompare(Lowering& box) {
+  RungBuilder& b = box.b;
+  ValueId valid;
+  const ValueId x = box.memory.real(box.operands[0], valid);
+  const ValueId y = box.memory.real(box.operands[1], valid);
+  execute(box, valid, [&] {
+    const auto flag = [&](Flag which) { return b.constant(Type::I8, which); };
+    const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
+    const ValueId unordered = b.select(test(OpCode::FLt, y, x), flag(kFlagGt), flag(kFlagEr));
+    const ValueId notLess = b.select(test(OpCode::FEq, x, y), flag(kFlagEq), unordered);
+    box.memory.setFlags(kFlagEr | kFlagGt | kFlagEq | kFlagLt, b.select(test(OpCode::FLt, x, y), flag(kFlagLt), notLess));
+    return ValueId{};
+  });
+  return {};
+}
+
+namespace {
+
+ValueId compareDoubles(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
+  const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
+  switch (variant) {
+    case kLess: return test(OpCode::FLt, x, y);
+    case kLessEqual: return test(OpCode::FLe, x, y);
+    case kEqual: return test(OpCode::FEq, x, y);
+    case kNotEqual: return b.not_(test(OpCode::FEq, x, y));
+    case kGreaterEqual: return test(OpCode::FLe, y, x);
+    case kGreater: return test(OpCode::FLt, y, x);
+  }
+  return {};
+}
+
+} // namespace
+
+// A NaN is an error like an address outside the memory: no power, FL_ER.
+ValueId lowerFloatContact(Lowering& box) {
+  RungBuilder& b = box.b;
+  ValueId valid;
+  const ValueId x = box.memory.real(box.operands[0], valid);
+  const ValueId y = box.memory.real(box.operands[1], valid);
+  valid = box.memory.both(valid, b.and_(isNumber(b, x), isNumber(b, y)));
+  const ValueId holds = compareDoubles(b, static_cast<CompareVariant>(box.variant), x, y);
+  box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
+  return box.gate(b.and_(holds, valid));
+}
+
+} // namespace rung::nct

@@ -216,7 +216,7 @@ std::string RungWriter::pure(const Op& op) {
     case OpCode::FMul: return call("fmul");
     case OpCode::FDiv: return call("fdiv");
     case OpCode::FNeg: return call("fneg");
-    case OpCode::FAbs: return call("sem::fabs");
+    case OpCode::FAbs: return call("rung::sem::fabs");
     case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
     case OpCode::FToIntNearest: return call("fToIntNearest");
     case OpCode::IntToF: return call("intToF");
@@ -350,7 +350,10 @@ void RungWriter::closeLoop(const Op& op) {
 // ---- host --------------------------------------------------------------------------------------------------------
 
 void RungWriter::host(const Op& op) {
-  if (op.code == OpCode::ProfEnter) return statement(fmt::format("RUNG_PROF_ENTER({}u);", number_));
+  if (op.code == OpCode::ProfEnter) {
+    const std::string_view wrong = options_.sabotage == op.code ? " ctx->prof[{0}u].count += 1;" : "";
+    return statement(fmt::format(fmt::runtime("RUNG_PROF_ENTER({0}u);" + std::string(wrong)), number_));
+  }
   if (op.code == OpCode::ProfLeave) {
     const bool wrong = options_.sabotage == op.code;
     return statement(wrong ? "// not counted" : fmt::format("RUNG_PROF_LEAVE({}u);", number_));

@@ -29,6 +29,8 @@ struct Dialect {
   // The rows, in the order of the reference.
   std::span<const InstructionInfo* const> instructions;
   std::span<const OperandKindInfo> operandKinds;
+  // Whether a row of `instructions` can be compiled; the others give the diagnostic not-built-yet or service-not-built.
+  bool (*isBuilt)(const InstructionInfo& row);
   // Null when there were errors; every error of all files has been reported. The module passes the verifier.
   std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
                                          Diagnostics& diagnostics);

@@ -9,7 +9,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/jit/jit_engine.h"
 #include "codegen/llvm/llvm_emitter.h"
-#include "ir/interp/interp_engine.h"
+#include "ir/interp/interp.h"
 #include "rtlib/host/so_engine.h"
 
 namespace rung::driver {

@@ -57,7 +57,7 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-void appendInstruction(const InstructionInfo& row, std::string& out) {
+void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::string& out) {
   auto put = std::back_inserter(out);
   fmt::format_to(put, "### {}", row.mnemonic);
   if (row.number >= 0) fmt::format_to(put, " (function {})", row.number);
@@ -77,7 +77,7 @@ void appendInstruction(const InstructionInfo& row, std::string& out) {
   fmt::format_to(put, "Output: {}. Stands {}{}{}.{}\n\n", outputText(row.output), placementText(row.placement),
                  row.tasks.empty() ? "" : ", in ", row.tasks, row.terminating ? " Closes the logic equation." : "");
   if (!row.example.empty()) fmt::format_to(put, "```\n{}\n```\n\n", row.example);
-  fmt::format_to(put, "Manual: {}.\n\n", row.ref);
+  fmt::format_to(put, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");
 }
 
 std::string lower(std::string_view text) {
@@ -98,7 +98,7 @@ std::string dialectReference(const Dialect& dialect) {
   for (std::string_view group : groups) {
     fmt::format_to(put, "## {}\n\n", group);
     for (const InstructionInfo* row : dialect.instructions)
-      if (row->group == group) appendInstruction(*row, out);
+      if (row->group == group) appendInstruction(dialect, *row, out);
   }
   out += "## Kinds of operands\n\n| kind | what may be written |\n| --- | --- |\n";
   for (const auto& kind : dialect.operandKinds) fmt::format_to(put, "| {} | {} |\n", kind.kind, cell(kind.doc));
@@ -138,7 +138,7 @@ std::optional<std::string> explain(std::string_view word) {
     for (const InstructionInfo* row : dialect->instructions)
       if (lower(row->mnemonic) == lower(word)) {
         fmt::format_to(std::back_inserter(out), "{}[{}] ", out.empty() ? "" : "\n", dialect->name);
-        appendInstruction(*row, out);
+        appendInstruction(*dialect, *row, out);
       }
   if (out.empty()) return std::nullopt;
   return out;

@@ -79,6 +79,12 @@ constexpr std::string_view kConfigKeys[] = {"tmr.*", "ctr.*"};
 
 } // namespace
 
+// Basic commands have no lowering function of their own: the network is theirs.
+static bool isBuilt(const frontend::InstructionInfo& info) {
+  const Row* row = info.number < 0 ? nullptr : findFunction(static_cast<uint64_t>(info.number));
+  return row == nullptr || row->lower != nullptr || row->control == Control::End1 || row->control == Control::End2;
+}
+
 const frontend::Dialect kGsk = {
     .name = "gsk",
     .title = "GSK25iMc / GSK25iTc PLC",
@@ -86,6 +92,7 @@ const frontend::Dialect kGsk = {
     .configKeys = kConfigKeys,
     .instructions = instructionInfos(),
     .operandKinds = operandKindInfos(),
+    .isBuilt = isBuilt,
     .compile = &compile,
 };
 

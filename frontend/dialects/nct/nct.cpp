@@ -157,6 +157,12 @@ constexpr std::string_view kConfigKeys[] = {"PLCNVRAM", "PLCRAM", "timeslice", "
 
 } // namespace
 
+static bool isBuilt(const frontend::InstructionInfo& info) {
+  for (const NctInstruction& row : allInstructions())
+    if (&row.info == &info) return row.isBuilt();
+  return false;
+}
+
 const frontend::Dialect kNct = {
     .name = "nct",
     .title = "NCT2xx / NCT3xx PLC",
@@ -164,6 +170,7 @@ const frontend::Dialect kNct = {
     .configKeys = kConfigKeys,
     .instructions = allInfos(),
     .operandKinds = operandKinds(),
+    .isBuilt = isBuilt,
     .compile = compile,
 };
 

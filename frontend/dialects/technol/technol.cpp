@@ -47,6 +47,12 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
 
 } // namespace
 
+static bool isBuilt(const InstructionInfo& info) {
+  for (const technol::Row& row : technol::allRows())
+    if (&row.info == &info) return row.role != technol::Role::NotBuilt && row.role != technol::Role::NotBuiltService;
+  return false;
+}
+
 const Dialect kTechnol = {
     .name = "technol",
     .title = "TECHNOL, PLC836 of the MEFI CNC8x9",
@@ -54,6 +60,7 @@ const Dialect kTechnol = {
     .configKeys = kConfigKeys,
     .instructions = technol::instructionInfos(),
     .operandKinds = technol::operandKindInfos(),
+    .isBuilt = isBuilt,
     .compile = compile,
 };
 

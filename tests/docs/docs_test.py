@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Checks README.md, CONTRIBUTING.md and docs/ against the tree and the program. docs_test.py RUNGC"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+RUNGC = None
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+# Blocks of these pages whose commands are run.
+RUN_PAGES = [ROOT / "docs" / "guide.md"]
+# Not run: interactive, or for a machine that has to be set up first.
+SKIPPED_COMMANDS = ("gdb",)
+
+
+def shown(path):
+    return path.relative_to(ROOT)
+
+
+class Docs(unittest.TestCase):
+    def test_reference_is_what_the_tables_say(self):
+        for page in ("gsk", "nct", "technol", "diagnostics", "ir"):
+            text = subprocess.run([RUNGC, "doc", page], capture_output=True, check=True).stdout.decode()
+            path = ROOT / "docs" / "reference" / f"{page}.md"
+            self.assertTrue(path.exists() and path.read_text() == text, f"{shown(path)} is stale: run tests/update")
+
+    def test_links_lead_somewhere(self):
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text()):
+                if "://" not in target:
+                    self.assertTrue((page.parent / target).exists(), f"{shown(page)} links to {target}")
+
+    def test_commands_of_the_guide_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("examples", "docs"):
+                os.symlink(ROOT / name, Path(folder) / name)
+            (Path(folder) / "build").mkdir()
+            os.symlink(Path(RUNGC).parent, Path(folder) / "build" / "bin")
+            for page in RUN_PAGES:
+                for block in re.findall(r"^```\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
+                    for command in block.splitlines():
+                        if not command.startswith(SKIPPED_COMMANDS) and "/" in command.split()[0]:
+                            self.run_command(page, command, folder)
+
+    def run_command(self, page, command, folder):
+        done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, timeout=120)
+        self.assertEqual(done.returncode, 0, f"{shown(page)}: {shlex.quote(command)}\n{done.stdout.decode()[-800:]}{done.stderr.decode()[-800:]}")
+
+
+if __name__ == "__main__":
+    RUNGC = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

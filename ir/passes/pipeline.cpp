@@ -29,6 +29,14 @@ class Pipeline {
 
 void runPasses(Module& module, const PassOptions& options) {
   Pipeline pipeline(module, options.verifyEach);
+  if (options.optimise) {
+    pipeline.run(foldConstants);
+    pipeline.run(reuseValues);
+    pipeline.run(foldConstants); // of values that now are known to have been stored
+    pipeline.run(removeDeadOps); // loads, that else would keep stores to registers
+    pipeline.run(removeTransientStores);
+    pipeline.run(removeDeadOps);
+  }
   if (options.instrument) pipeline.run(instrumentRungs);
 }
 

@@ -20,7 +20,7 @@ bool isCommutative(OpCode code) {
 
 class Reuser {
  public:
-  explicit Reuser(const Module& module) : writes_(module.spaces.size()) {}
+  explicit Reuser(const Module& module) : writes_(module) {}
 
   void run(Rung& rung) {
     rung_ = &rung;

@@ -59,25 +59,28 @@ void WriteTimes::write(const Op& op, uint32_t time) {
 }
 
 void WriteTimes::writeWindow(const Op& op, uint32_t time) {
-  // The last element begins less than 8 bytes times `count` behind the first, and is at most 8 bytes wide.
   const uint64_t begin = static_cast<uint64_t>(op.imm) / 8;
-  const uint64_t end = begin + uint64_t{op.count} * 8 + 8;
+  const uint64_t unit = module_.spaces[op.ref].unitBytes;
+  const uint64_t end = begin + (uint64_t{op.count} - 1) * unit + std::max<uint64_t>(unit, byteWidth(op.type));
   SpaceWrites& writes = writesTo(op.ref);
   writes.begin = writes.window == 0 ? begin : std::min(writes.begin, begin);
   writes.end = std::max(writes.end, end);
   writes.window = time;
 }
 
+// As far as writes through windows go, and all writes for a load through a window.
+bool WriteTimes::spaceUnchanged(const Op& op, uint32_t time) const {
+  const SpaceWrites& writes = spaces_[op.ref];
+  if (writes.rung != rung_) return true;
+  if (!isFixed(op)) return writes.any <= time;
+  const uint64_t first = static_cast<uint64_t>(op.imm) / 8;
+  return writes.window <= time || first >= writes.end || first + std::max(1u, byteWidth(op.type)) <= writes.begin;
+}
+
 bool WriteTimes::unchanged(const Op& op, uint32_t time) const {
   if (all_ > time) return false;
-  if (opInfo(op.code).attr != Attr::Slot) {
-    const SpaceWrites& writes = spaces_[op.ref];
-    if (writes.rung == rung_) {
-      if (!isFixed(op)) return writes.any <= time;
-      const uint64_t first = static_cast<uint64_t>(op.imm) / 8;
-      if (writes.window > time && first < writes.end && first + byteWidth(op.type) + 1 > writes.begin) return false;
-    }
-  }
+  if (opInfo(op.code).attr != Attr::Slot && !spaceUnchanged(op, time)) return false;
+  if (!isFixed(op)) return true;
   const Place place = placeOf(op);
   for (uint32_t i = 0; i < place.bytes; ++i) {
     const Byte& byte = *findByte(place.firstByte + i);

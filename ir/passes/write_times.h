@@ -10,7 +10,7 @@ namespace rung::ir {
 
 class WriteTimes {
  public:
-  explicit WriteTimes(size_t spaces) : spaces_(spaces) {}
+  explicit WriteTimes(const Module& module) : module_(module), spaces_(module.spaces.size()) {}
 
   void start(const Rung& rung);
   // `op` writes: a store of any kind.
@@ -45,8 +45,10 @@ class WriteTimes {
   Byte* findByte(uint64_t key);
   const Byte* findByte(uint64_t key) const { return const_cast<WriteTimes*>(this)->findByte(key); }
   SpaceWrites& writesTo(uint32_t space);
+  bool spaceUnchanged(const Op& op, uint32_t time) const;
   void writeWindow(const Op& op, uint32_t time);
 
+  const Module& module_;
   std::vector<Byte> bytes_; // open addressing, a power of two, at most half full
   std::vector<SpaceWrites> spaces_;
   uint32_t rung_ = 0;

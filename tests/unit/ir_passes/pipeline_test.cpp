@@ -1,0 +1,260 @@
+// The pipeline: what it does to whole modules, that programs go on behaving the same, and how long it takes.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fmt/format.h>
+
+#include "ir/core/builder.h"
+#include "ir/interp/interp.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/pipeline.h"
+#include "ir/random/random.h"
+#include "ir/text/text.h"
+#include "ir/verify/verify.h"
+#include "rtlib/host/compare.h"
+#include "rtlib/host/instance.h"
+#include "tests/unit/ir_passes/passes_testing.h"
+
+namespace rung::ir {
+namespace {
+
+constexpr const char* kSealIn = R"(%0:bit = load B[0.0]
+%1:bit = load B[1.0]
+%2:bit = or %0, %1
+%3:bit = load B[0.1]
+%4:bit = not %3
+%5:bit = and %2, %4
+store.bit B[1.0], %5
+%6:bit = load B[1.0]
+slot_store.bit $2, %6
+%7:bit = slot_load $2
+%8:bit = not %7
+%9:bit = not %8)";
+
+TEST(Pipeline, AllTogether) {
+  Module module = moduleOf(kSealIn, "} goto 2 if %9");
+  runPasses(module, {.optimise = true, .instrument = false, .verifyEach = true});
+  EXPECT_EQ(bodyOf(module), R"(%0:bit = load B[0.0]
+%1:bit = load B[1.0]
+%2:bit = or %0, %1
+%3:bit = load B[0.1]
+%4:bit = not %3
+%5:bit = and %2, %4
+store.bit B[1.0], %5
+} goto 2 if %5
+)");
+  const Module first = module;
+  runPasses(module, {.optimise = true, .instrument = false, .verifyEach = true});
+  EXPECT_EQ(print(module), print(first)) << "nothing is left to do";
+}
+
+TEST(Pipeline, NothingToDo) {
+  Module module = moduleOf(kSealIn);
+  const std::string before = print(module);
+  runPasses(module, {.optimise = false, .instrument = false, .verifyEach = true});
+  EXPECT_EQ(print(module), before);
+}
+
+TEST(Pipeline, Instrument) {
+  Module module = moduleOf("%0:bit = load B[0.0]\nstore.bit B[0.1], %0", "} goto 2 if %0");
+  const PassOptions options{.optimise = false, .instrument = true, .verifyEach = true};
+  runPasses(module, options);
+  EXPECT_TRUE(module.instrumented);
+  EXPECT_EQ(bodyOf(module), "prof_enter\n%0:bit = load B[0.0]\nstore.bit B[0.1], %0\nprof_leave\n} goto 2 if %0\n");
+  EXPECT_EQ(bodyOf(module, RoutineId{0}, 1), "prof_enter\nprof_leave\n");
+  const std::string once = print(module);
+  runPasses(module, {.optimise = true, .instrument = true, .verifyEach = true});
+  EXPECT_EQ(print(module), once) << "measured once";
+}
+
+TEST(PipelineDeathTest, VerifiesEachPass) {
+  Module module = moduleOf("%0:bit = load B[0.0]\nstore.bit B[0.1], %0");
+  module.routines[0].rungs[0].ops[1].imm = 64 * 8;
+  EXPECT_DEATH(runPasses(module, {.optimise = true, .instrument = false, .verifyEach = true}), "outside its space");
+}
+
+// ---- the same behaviour ----------------------------------------------------------------------------------------------
+
+constexpr int kScans = 5;
+
+// Answers every second request at once.
+class Answers final : public host::ScheduleHooks {
+ public:
+  bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    if (request.ticket % 2 == 0) return false;
+    reply.ticket = request.ticket;
+    reply.state = RUNG_SERVICE_DONE;
+    reply.resultCount = 3;
+    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = 1000 * (i + 1) + (request.argCount > 0 ? request.args[0] : 0);
+    return true;
+  }
+};
+
+// A module that runs in the interpreter.
+struct Running {
+  explicit Running(Module from) : module(std::move(from)), layout(module, {}), engine(layout, 0), instance(engine.program(), &answers) {
+    instance.context().engine = engine.context();
+  }
+  Module module;
+  Layout layout;
+  Answers answers;
+  InterpEngine engine;
+  host::Instance instance;
+};
+
+// Every second scan the machine changes the inputs.
+void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
+  for (uint32_t byte = 0; byte < 8; ++byte)
+    if (const auto ref = instance.resolve(fmt::format("X{}:1", byte))) instance.write(*ref, (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255);
+}
+
+std::string slotDifference(const Running& a, const Running& b) {
+  for (uint32_t i = 0; i < a.module.slots.size(); ++i) {
+    const Slot& slot = a.module.slots[i];
+    const uint32_t bytes = std::max(1u, byteWidth(slot.type));
+    if (!slot.transient && std::memcmp(a.instance.block().data() + a.layout.slot(SlotId{i}), b.instance.block().data() + b.layout.slot(SlotId{i}), bytes) != 0)
+      return fmt::format("slot {}", slot.key);
+  }
+  return {};
+}
+
+// Empty when both modules do the same. The transient slots alone may differ.
+std::string difference(Module before, Module after, uint64_t seed) {
+  before.slots.push_back({.type = Type::I64, .key = "makes the layouts differ, so that spaces are compared and not bytes of memory"});
+  Running a(std::move(before));
+  Running b(std::move(after));
+  for (int scan = 1; scan <= kScans; ++scan) {
+    for (Running* running : {&a, &b}) {
+      changeInputs(running->instance, seed, scan);
+      running->instance.scan();
+    }
+    if (const auto found = host::firstDifference(a.instance, b.instance)) return fmt::format("scan {}: {}", scan, *found);
+    b.module.slots.resize(a.module.slots.size() - 1);
+    if (const std::string found = slotDifference(b, a); !found.empty()) return fmt::format("scan {}: {}", scan, found);
+  }
+  return {};
+}
+
+void everything(Module& module) { runPasses(module, {.optimise = true, .instrument = false, .verifyEach = false}); }
+
+struct NamedPass {
+  const char* name;
+  Pass pass;
+};
+class SameBehaviour : public testing::TestWithParam<NamedPass> {};
+
+TEST_P(SameBehaviour, OfRandomModules) {
+  size_t before = 0;
+  size_t after = 0;
+  const auto count = [](const Module& module) {
+    size_t ops = 0;
+    for (const Routine& routine : module.routines)
+      for (const Rung& rung : routine.rungs) ops += rung.ops.size();
+    return ops;
+  };
+  for (uint64_t seed = 0; seed < 400; ++seed) {
+    RandomOptions options;
+    options.ops = seed % 3 == 0 ? 60 : 16;
+    options.traps = seed % 2 == 0;
+    Module module = randomModule(seed, options);
+    const Module plain = module;
+    before += count(module);
+    GetParam().pass(module);
+    after += count(module);
+    const std::vector<VerifyError> errors = verify(module, Mode::Final);
+    ASSERT_TRUE(errors.empty()) << "seed " << seed << "\n" << render(module, errors);
+    ASSERT_EQ(difference(plain, module, seed), "") << "seed " << seed;
+  }
+  EXPECT_LT(after, before) << "the pass has nothing to do in random modules, so nothing was tested";
+}
+
+TEST_P(SameBehaviour, OfEveryOperation) {
+  for (const OpInfo& info : allOps()) {
+    Module module = moduleForOp(info.code);
+    if (module.instrumented) continue;
+    const Module plain = module;
+    GetParam().pass(module);
+    const std::vector<VerifyError> errors = verify(module, Mode::Final);
+    ASSERT_TRUE(errors.empty()) << info.name << "\n" << render(module, errors);
+    ASSERT_EQ(difference(plain, module, 1), "") << info.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
+                         testing::Values(NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues}, NamedPass{"Dead", removeDeadOps},
+                                         NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
+                         [](const auto& info) { return info.param.name; });
+
+// ---- time ------------------------------------------------------------------------------------------------------------
+
+double secondsOf(Module& module) {
+  const auto start = std::chrono::steady_clock::now();
+  runPasses(module, {.optimise = true, .instrument = true, .verifyEach = false});
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Module emptyModule(uint32_t rungs, uint32_t slots) {
+  Module module;
+  module.name = "large";
+  module.spaces = {{.name = "M", .unitBytes = 4, .units = 10000}};
+  for (uint32_t i = 0; i < slots; ++i) module.slots.push_back({.type = Type::I32, .transient = true, .key = fmt::format("r{}", i)});
+  module.routines.resize(1);
+  module.routines[0].rungs.resize(rungs);
+  module.tasks.push_back({.name = "T", .entry = RoutineId{0}});
+  return module;
+}
+
+// Twenty registers that every rung stores and loads, and a jump.
+TEST(Scale, ManyRungs) {
+  constexpr uint32_t kRungs = 100'000;
+  constexpr uint32_t kRegisters = 20;
+  Module module = emptyModule(kRungs, kRegisters);
+  for (uint32_t i = 0; i < kRungs; ++i) {
+    RungBuilder b(module, module.routines[0].rungs[i]);
+    const ValueId x = b.load(Type::Bit, {SpaceId{0}, i % 40000, i % 8});
+    const ValueId y = b.and_(b.load(Type::Bit, {SpaceId{0}, i % 40000, i % 8}), x);
+    const ValueId old = b.slotLoad(SlotId{i % kRegisters});
+    for (uint32_t k = 0; k < 3; ++k) b.slotStore(SlotId{(i + k) % kRegisters}, b.add(old, b.i32(k)));
+    b.store({SpaceId{0}, (i + 7) % 40000, i % 8}, b.or_(y, b.not_(x)));
+    if (i + 50 < kRungs) b.gotoRung(i + 50, x);
+  }
+  EXPECT_LT(secondsOf(module), 6.0) << "takes about half a second in an optimised build";
+}
+
+// As many registers as rungs, each stored in the first rung and loaded in the last ones: all live everywhere.
+TEST(Scale, ManyRegisters) {
+  constexpr uint32_t kRungs = 20'000;
+  Module module = emptyModule(kRungs, kRungs);
+  {
+    RungBuilder b(module, module.routines[0].rungs[0]);
+    const ValueId zero = b.i32(0);
+    for (uint32_t i = 0; i < kRungs; ++i) b.slotStore(SlotId{i}, zero);
+  }
+  RungBuilder b(module, module.routines[0].rungs[kRungs - 1]);
+  for (uint32_t i = 0; i < kRungs; ++i) b.store({SpaceId{0}, 0, 0}, b.slotLoad(SlotId{i}));
+  EXPECT_LT(secondsOf(module), 6.0);
+}
+
+// One rung of half a million operations, with regions in regions.
+TEST(Scale, OneLargeRung) {
+  Module module = emptyModule(2, 1);
+  RungBuilder b(module, module.routines[0].rungs[0]);
+  const ValueId cond = b.load(Type::Bit, {SpaceId{0}, 0, 0});
+  constexpr uint32_t kDepth = 2000;
+  for (uint32_t i = 0; i < kDepth; ++i) {
+    if (i % 2 == 0) b.if_(cond);
+    else b.loop(1);
+  }
+  for (uint32_t i = 0; i < 80'000; ++i) {
+    const Place place{SpaceId{0}, 4 * (i % 5000), 0};
+    b.store(place, b.add(b.load(Type::I32, place), b.loadAt(Type::I32, {SpaceId{0}, 0, 100}, b.i32(i % 7))));
+  }
+  for (uint32_t i = kDepth; i-- > 0;) {
+    if (i % 2 == 0) b.endIf();
+    else b.endLoop();
+  }
+  EXPECT_LT(secondsOf(module), 6.0);
+}
+
+} // namespace
+} // namespace rung::ir

@@ -53,7 +53,10 @@ std::optional<Address> addressOf(Diagnostics& diagnostics, const AddressText& te
   return address;
 }
 
+// Signals of the CNC and the panel whose symbols are names in the sense of P12; for `*ESP` and the like a program uses the
+// address or declares a name of its own (inventory §13).
 std::optional<Address> signalAddress(std::string_view name) {
+  if (!isFreeName(name)) return std::nullopt;
   const nc::Signal* signal = nc::findSignal(nc::gskSignals(), name);
   if (signal == nullptr) return std::nullopt;
   const auto area = splitAddress(std::string(signal->area) + "0");

@@ -94,7 +94,7 @@ void ModuleLowering::addSymbols() {
                                 .byte = symbol.address.byte,
                                 .bit = symbol.address.bit,
                                 .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
-                                .flags = areaInfo(symbol.address.area).use == AreaUse::Input ? RUNG_SYMBOL_READONLY : 0u});
+                                .flags = areaInfo(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
   std::sort(module_->symbols.begin(), module_->symbols.end(), [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
 }
 

@@ -64,7 +64,8 @@ TEST(GskList, Addresses) {
   EXPECT_EQ(bit("Q0.0"), (Codes{"2 bad-operand"}));
   EXPECT_EQ(bit("100"), (Codes{"2 bad-operand"}));
   EXPECT_EQ(bit("MF"), Codes{}) << "a signal of the CNC, F7.0";
-  EXPECT_EQ(bit("*ESP"), Codes{}) << "a signal with a star";
+  EXPECT_EQ(bit("*ESP"), (Codes{"2 bad-operand"})) << "no name in a program";
+  EXPECT_EQ(bit("RST"), (Codes{"2 bad-operand"})) << "a command's name, though F1.1 is called so";
   const auto move = [](const std::string& from, const std::string& to) { return level2("LD X0.0\nFUNC MOVW\nPRM " + from + "\nPRM " + to + "\n"); };
   EXPECT_EQ(move("X126", "Y126"), Codes{});
   EXPECT_EQ(move("X127", "Y126"), (Codes{"4 address-out-of-range"}));

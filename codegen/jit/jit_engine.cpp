@@ -31,7 +31,8 @@ struct JitEngine::State {
 
 namespace {
 
-// Small enough that two threads share the work and that memory stays flat, large enough that a piece's own cost vanishes.
+// Small enough that two threads share the work and that memory stays flat, large enough that a piece's own cost
+// vanishes.
 constexpr uint32_t kRungsPerPiece = 2048;
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
@@ -50,12 +51,14 @@ std::vector<ModulePart> cutPieces(const Layout& layout) {
   return pieces;
 }
 
-Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options, const ModulePart& piece) {
+Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
+                                 const ModulePart& piece) {
   Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options, MachineUse::Jit);
   if (!machine.ok()) return machine.failure();
   llvm::LLVMContext context;
   context.setDiscardValueNames(true);
-  Result<std::unique_ptr<llvm::Module>> module = buildModule(context, *machine.value(), layout, codeHash, options, piece);
+  Result<std::unique_ptr<llvm::Module>> module =
+      buildModule(context, *machine.value(), layout, codeHash, options, piece);
   if (!module.ok()) return module.failure();
   runPasses(*module.value(), *machine.value(), options.level);
   return generateCode(*module.value(), *machine.value(), llvm::CodeGenFileType::ObjectFile);
@@ -63,15 +66,19 @@ Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const 
 
 // Compiles or finds all pieces; `report` tells how many of each.
 class Compiler {
- public:
-  Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine, JitReport& report)
+public:
+  Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
+           JitReport& report)
       : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout)), objects_(pieces_.size()),
-        cache_(options.cacheFolder, options.cacheFolder.empty() ? 0 : cacheKey(layout, codeHash, options.code, machine)), report_(report) {}
+        cache_(options.cacheFolder,
+               options.cacheFolder.empty() ? 0 : cacheKey(layout, codeHash, options.code, machine)),
+        report_(report) {}
 
   Result<void> run() {
     report_.modules = static_cast<uint32_t>(pieces_.size());
     std::vector<std::thread> helpers;
-    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i) helpers.emplace_back([this] { work(); });
+    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
+      helpers.emplace_back([this] { work(); });
     work();
     for (std::thread& helper : helpers) helper.join();
     if (!trouble_.empty()) return failure(trouble_);
@@ -81,7 +88,7 @@ class Compiler {
   const std::vector<ModulePart>& pieces() const { return pieces_; }
   std::string& object(size_t piece) { return objects_[piece]; }
 
- private:
+private:
   void work() {
     for (uint32_t i = next_++; i < pieces_.size(); i = next_++) {
       if (std::optional<std::string> found = cache_.find(i)) {
@@ -93,8 +100,10 @@ class Compiler {
       Result<std::string> made = compilePiece(layout_, codeHash_, options_.code, pieces_[i]);
       Result<void> kept = made.ok() ? cache_.keep(i, made.value()) : Result<void>();
       const std::lock_guard lock(mutex_);
-      if (!made.ok()) trouble_ = made.error();
-      else objects_[i] = std::move(made).value();
+      if (!made.ok())
+        trouble_ = made.error();
+      else
+        objects_[i] = std::move(made).value();
       if (!kept.ok()) report_.cacheTrouble = kept.error();
     }
   }
@@ -114,11 +123,14 @@ class Compiler {
 // JITLink is LLVM's newer linker, but only the older one gives perf the lines of functions that are not exported.
 Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
   llvm::orc::LLJITBuilder builder;
-  builder.setPlatformSetUp(llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
+  builder.setPlatformSetUp(
+      llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
   if (options.perf)
     builder.setObjectLinkingLayerCreator([&](llvm::orc::ExecutionSession& session, const llvm::Triple&) {
-      auto layer = std::make_unique<llvm::orc::RTDyldObjectLinkingLayer>(session, [] { return std::make_unique<llvm::SectionMemoryManager>(); });
-      if (llvm::JITEventListener* listener = llvm::JITEventListener::createPerfJITEventListener()) layer->registerJITEventListener(*listener);
+      auto layer = std::make_unique<llvm::orc::RTDyldObjectLinkingLayer>(
+          session, [] { return std::make_unique<llvm::SectionMemoryManager>(); });
+      if (llvm::JITEventListener* listener = llvm::JITEventListener::createPerfJITEventListener())
+        layer->registerJITEventListener(*listener);
       if (options.gdb) layer->registerJITEventListener(*llvm::JITEventListener::createGDBRegistrationListener());
       return layer;
     });

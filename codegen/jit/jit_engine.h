@@ -11,11 +11,11 @@
 namespace rung::codegen {
 
 struct JitOptions {
-  LlvmOptions code;         // for this machine: `target` is empty
-  bool gdb = false;         // tell a debugger of the code
-  bool perf = false;        // write a jitdump for `perf inject` (below $JITDUMPDIR, else the home directory)
-  std::string cacheFolder;  // keeps object files there and takes them from there; empty: no cache
-  uint32_t threads = 1;     // that compile at the same time
+  LlvmOptions code;        // for this machine: `target` is empty
+  bool gdb = false;        // tell a debugger of the code
+  bool perf = false;       // write a jitdump for `perf inject` (below $JITDUMPDIR, else the home directory)
+  std::string cacheFolder; // keeps object files there and takes them from there; empty: no cache
+  uint32_t threads = 1;    // that compile at the same time
 };
 
 struct JitReport {
@@ -25,21 +25,22 @@ struct JitReport {
 };
 
 class JitEngine final : public host::Engine {
- public:
+public:
   ~JitEngine() override;
   const rung_program& program() const override;
   std::string_view name() const override { return "jit"; }
   const JitReport& report() const;
 
- private:
+private:
   struct State;
   explicit JitEngine(std::unique_ptr<State> state);
-  friend Result<std::unique_ptr<JitEngine>> compileJit(const ir::Layout& layout, uint64_t codeHash, const JitOptions& options);
+  friend Result<std::unique_ptr<JitEngine>> compileJit(const ir::Layout& layout, uint64_t codeHash,
+                                                       const JitOptions& options);
   std::unique_ptr<State> state_;
 };
 
-// `codeHash` is the hash of the module's whole text, with its lines: the cache takes equal hashes for equal programs. The
-// layout need not outlive the engine.
+// `codeHash` is the hash of the module's whole text, with its lines: the cache takes equal hashes for equal programs.
+// The layout need not outlive the engine.
 Result<std::unique_ptr<JitEngine>> compileJit(const ir::Layout& layout, uint64_t codeHash, const JitOptions& options);
 
 } // namespace rung::codegen

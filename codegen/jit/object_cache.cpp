@@ -23,14 +23,18 @@ std::string seal(std::string_view object) { return fmt::format("rung-object {:01
 } // namespace
 
 uint64_t cacheKey(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine) {
-  std::string text = fmt::format("{} {} {} {:x} {:x} {} {} {}\n", llvmBackEndVersion(), machine, RUNG_ABI_VERSION, codeHash, layout.hash(),
-                                 static_cast<int>(options.level), options.debugInfo, options.sabotage ? static_cast<int>(*options.sabotage) : -1);
+  std::string text = fmt::format("{} {} {} {:x} {:x} {} {} {}\n", llvmBackEndVersion(), machine, RUNG_ABI_VERSION,
+                                 codeHash, layout.hash(), static_cast<int>(options.level), options.debugInfo,
+                                 options.sabotage ? static_cast<int>(*options.sabotage) : -1);
   for (const std::string& file : layout.module().files) text += file + "\n";
-  for (const ir::Chunk& chunk : layout.chunks()) fmt::format_to(std::back_inserter(text), "{} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
+  for (const ir::Chunk& chunk : layout.chunks())
+    fmt::format_to(std::back_inserter(text), "{} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
   return hashBytes(text);
 }
 
-std::string ObjectCache::path(uint32_t piece) const { return (fs::path(folder_) / fmt::format("{:016x}-{}.o", key_, piece)).string(); }
+std::string ObjectCache::path(uint32_t piece) const {
+  return (fs::path(folder_) / fmt::format("{:016x}-{}.o", key_, piece)).string();
+}
 
 std::optional<std::string> ObjectCache::find(uint32_t piece) const {
   if (folder_.empty()) return std::nullopt;

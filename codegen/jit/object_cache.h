@@ -13,14 +13,14 @@ namespace rung::codegen {
 uint64_t cacheKey(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine);
 
 class ObjectCache {
- public:
+public:
   // An empty folder: nothing is kept or found.
   ObjectCache(std::string folder, uint64_t key) : folder_(std::move(folder)), key_(key) {}
 
   std::optional<std::string> find(uint32_t piece) const;
   Result<void> keep(uint32_t piece, std::string_view object) const;
 
- private:
+private:
   std::string path(uint32_t piece) const;
   std::string folder_;
   uint64_t key_;

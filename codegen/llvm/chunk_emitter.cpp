@@ -1,4 +1,5 @@
-// Chunks, regions, exits and the host's functions (see chunk_emitter.h); operations with values stand in value_emitter.cpp.
+// Chunks, regions, exits and the host's functions (see chunk_emitter.h); operations with values stand in
+// value_emitter.cpp.
 #include "codegen/llvm/chunk_emitter.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,9 @@ namespace rung::codegen {
 using namespace ir;
 
 ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugLines* lines)
-    : target_(target), layout_(layout), module_(layout.module()), options_(options), lines_(lines), abi_(target.getContext()),
-      builder_(target.getContext()), extendsWords_(llvm::Triple(target.getTargetTriple()).isRISCV64()) {
+    : target_(target), layout_(layout), module_(layout.module()), options_(options), lines_(lines),
+      abi_(target.getContext()), builder_(target.getContext()),
+      extendsWords_(llvm::Triple(target.getTargetTriple()).isRISCV64()) {
   abi_.check(target.getDataLayout());
 }
 
@@ -40,7 +42,8 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
 }
 
 void ChunkEmitter::setLine(uint32_t line) {
-  if (lines_ != nullptr) builder_.SetCurrentDebugLocation(lines_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
+  if (lines_ != nullptr)
+    builder_.SetCurrentDebugLocation(lines_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
 }
 
 void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
@@ -57,27 +60,28 @@ void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
 ChunkEmitter::Value* ChunkEmitter::spoil(OpCode code, Value* value) {
   if (!sabotaged(code)) return value;
   if (value->getType()->isDoubleTy())
-    return builder_.CreateBitCast(builder_.CreateXor(builder_.CreateBitCast(value, builder_.getInt64Ty()), 1), value->getType());
+    return builder_.CreateBitCast(builder_.CreateXor(builder_.CreateBitCast(value, builder_.getInt64Ty()), 1),
+                                  value->getType());
   return builder_.CreateXor(value, llvm::ConstantInt::get(value->getType(), 1));
 }
 
 void ChunkEmitter::emitOp(const Op& op) {
   switch (op.code) {
-    case OpCode::Store: return store(op);
-    case OpCode::StoreAt:
-    case OpCode::StoreBitAt: return storeAt(op);
-    case OpCode::SlotStore: return slotStore(op);
-    case OpCode::If: return openIf(op);
-    case OpCode::Else: return turnElse(op);
-    case OpCode::EndIf: return closeIf(op);
-    case OpCode::Loop: return openLoop(op);
-    case OpCode::EndLoop: return closeLoop(op);
-    case OpCode::Message: return message(op);
-    case OpCode::Trap: return trap(op);
-    case OpCode::Note: return;
-    case OpCode::ProfEnter: return profEnter(op);
-    case OpCode::ProfLeave: return profLeave(op);
-    default: break; // one result each; result() lists them
+  case OpCode::Store: return store(op);
+  case OpCode::StoreAt:
+  case OpCode::StoreBitAt: return storeAt(op);
+  case OpCode::SlotStore: return slotStore(op);
+  case OpCode::If: return openIf(op);
+  case OpCode::Else: return turnElse(op);
+  case OpCode::EndIf: return closeIf(op);
+  case OpCode::Loop: return openLoop(op);
+  case OpCode::EndLoop: return closeLoop(op);
+  case OpCode::Message: return message(op);
+  case OpCode::Trap: return trap(op);
+  case OpCode::Note: return;
+  case OpCode::ProfEnter: return profEnter(op);
+  case OpCode::ProfLeave: return profLeave(op);
+  default: break; // one result each; result() lists them
   }
   values_[op.result.index] = spoil(op.code, result(op));
 }
@@ -163,7 +167,8 @@ ChunkEmitter::Value* ChunkEmitter::scratch(Value*& kept, llvm::Type* type) {
   return kept;
 }
 
-ChunkEmitter::Value* ChunkEmitter::callHost(AbiTypes::HostField function, llvm::Type* result, std::vector<Value*> args) {
+ChunkEmitter::Value* ChunkEmitter::callHost(AbiTypes::HostField function, llvm::Type* result,
+                                            std::vector<Value*> args) {
   args.insert(args.begin(), ctx_);
   std::vector<llvm::Type*> types;
   for (Value* value : args) types.push_back(value->getType());
@@ -180,7 +185,9 @@ ChunkEmitter::Value* ChunkEmitter::callHost(AbiTypes::HostField function, llvm::
 
 void ChunkEmitter::message(const Op& op) {
   Value* space = scratch(messageSpace_, abi_.message);
-  const auto set = [&](AbiTypes::MessageField field, Value* value) { builder_.CreateStore(value, builder_.CreateStructGEP(abi_.message, space, field)); };
+  const auto set = [&](AbiTypes::MessageField field, Value* value) {
+    builder_.CreateStore(value, builder_.CreateStructGEP(abi_.message, space, field));
+  };
   Value* value = arg(op, 3);
   const bool real = value->getType()->isDoubleTy();
   set(AbiTypes::kMessageOp, num(op.ref));
@@ -207,7 +214,9 @@ void ChunkEmitter::trap(const Op& op) {
   builder_.CreateCondBr(spoil(op.code, arg(op, 0)), fault, go);
   builder_.SetInsertPoint(fault);
   Value* record = ctxField(AbiTypes::kFault);
-  const auto set = [&](AbiTypes::FaultField field, uint32_t value) { builder_.CreateStore(num(value), builder_.CreateStructGEP(abi_.fault, record, field)); };
+  const auto set = [&](AbiTypes::FaultField field, uint32_t value) {
+    builder_.CreateStore(num(value), builder_.CreateStructGEP(abi_.fault, record, field));
+  };
   set(AbiTypes::kFaultCode, op.ref);
   set(AbiTypes::kFaultRung, number_);
   set(AbiTypes::kFaultLine, op.line != 0 ? op.line : rung_->begin.line);
@@ -220,11 +229,13 @@ ChunkEmitter::Value* ChunkEmitter::profOfRung() {
   return builder_.CreateConstInBoundsGEP1_64(abi_.prof, counters, number_);
 }
 
-// What programs may read without the help of the kernel: the cycle counter of x86, the steady counter of ARM64 and RISC-V.
+// What programs may read without the help of the kernel: the cycle counter of x86, the steady counter of ARM64 and
+// RISC-V.
 ChunkEmitter::Value* ChunkEmitter::ticks() {
   const llvm::Triple triple(target_.getTargetTriple());
   if (triple.isX86()) return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readcyclecounter, {});
-  if (triple.isAArch64() || triple.isRISCV()) return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readsteadycounter, {});
+  if (triple.isAArch64() || triple.isRISCV())
+    return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readsteadycounter, {});
   return builder_.getInt64(0);
 }
 
@@ -233,14 +244,17 @@ void ChunkEmitter::profEnter(const Op& op) {
   builder_.CreateStore(ticks(), profField(prof, AbiTypes::kStarted));
   if (!sabotaged(op.code)) return;
   Value* count = profField(prof, AbiTypes::kCount);
-  builder_.CreateStore(builder_.CreateAdd(builder_.CreateLoad(builder_.getInt64Ty(), count), builder_.getInt64(1)), count);
+  builder_.CreateStore(builder_.CreateAdd(builder_.CreateLoad(builder_.getInt64Ty(), count), builder_.getInt64(1)),
+                       count);
 }
 
 void ChunkEmitter::profLeave(const Op& op) {
   Value* prof = profOfRung();
   llvm::Type* i64 = builder_.getInt64Ty();
   const auto load = [&](AbiTypes::ProfField field) { return builder_.CreateLoad(i64, profField(prof, field)); };
-  const auto store = [&](AbiTypes::ProfField field, Value* value) { builder_.CreateStore(value, profField(prof, field)); };
+  const auto store = [&](AbiTypes::ProfField field, Value* value) {
+    builder_.CreateStore(value, profField(prof, field));
+  };
   Value* used = builder_.CreateSub(ticks(), load(AbiTypes::kStarted));
   store(AbiTypes::kCount, builder_.CreateAdd(load(AbiTypes::kCount), builder_.getInt64(sabotaged(op.code) ? 2 : 1)));
   store(AbiTypes::kTotal, builder_.CreateAdd(load(AbiTypes::kTotal), used));
@@ -260,24 +274,29 @@ void ChunkEmitter::returnToCaller() {
 }
 
 void ChunkEmitter::returnTo(uint32_t chunk) {
-  if (chunk == RUNG_NONE) returnToCaller();
-  else builder_.CreateRet(num(chunk));
+  if (chunk == RUNG_NONE)
+    returnToCaller();
+  else
+    builder_.CreateRet(num(chunk));
 }
 
 void ChunkEmitter::pushReturn(uint32_t chunk) {
   Value* spField = ctxField(AbiTypes::kSp);
   Value* sp = builder_.CreateLoad(builder_.getInt32Ty(), spField);
   Value* index = builder_.CreateZExt(sp, builder_.getInt64Ty());
-  builder_.CreateStore(num(chunk), builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index));
+  builder_.CreateStore(num(chunk),
+                       builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index));
   builder_.CreateStore(builder_.CreateAdd(sp, num(1)), spField);
 }
 
 void ChunkEmitter::returnSwitch(const Exit& exit) {
   llvm::Constant* table = llvm::ConstantDataArray::get(target_.getContext(), exit.targets);
-  auto* variable = new llvm::GlobalVariable(target_, table->getType(), true, llvm::GlobalValue::PrivateLinkage, table, "targets");
+  auto* variable =
+      new llvm::GlobalVariable(target_, table->getType(), true, llvm::GlobalValue::PrivateLinkage, table, "targets");
   Value* value = values_[exit.value.index];
   Value* index = builder_.CreateSelect(builder_.CreateICmpULT(value, num(exit.targets.size())), value, num(0));
-  Value* entry = builder_.CreateInBoundsGEP(builder_.getInt32Ty(), variable, builder_.CreateZExt(index, builder_.getInt64Ty()));
+  Value* entry =
+      builder_.CreateInBoundsGEP(builder_.getInt32Ty(), variable, builder_.CreateZExt(index, builder_.getInt64Ty()));
   builder_.CreateRet(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
@@ -294,15 +313,15 @@ void ChunkEmitter::emitExit(const Exit& exit) {
     builder_.SetInsertPoint(leave);
   }
   switch (exit.kind) {
-    case TransferKind::Next:
-    case TransferKind::Switch:
-    case TransferKind::Goto: return returnTo(exit.taken);
-    case TransferKind::Call:
-      // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
-      if (exit.otherwise != RUNG_NONE) pushReturn(exit.otherwise);
-      return returnTo(exit.taken);
-    case TransferKind::Ret: return returnToCaller();
-    case TransferKind::End: builder_.CreateRet(num(RUNG_PC_DONE)); return;
+  case TransferKind::Next:
+  case TransferKind::Switch:
+  case TransferKind::Goto: return returnTo(exit.taken);
+  case TransferKind::Call:
+    // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
+    if (exit.otherwise != RUNG_NONE) pushReturn(exit.otherwise);
+    return returnTo(exit.taken);
+  case TransferKind::Ret: return returnToCaller();
+  case TransferKind::End: builder_.CreateRet(num(RUNG_PC_DONE)); return;
   }
 }
 

@@ -1,6 +1,6 @@
-// Writes chunks as LLVM functions, operation by operation: each value of a rung is one LLVM value, regions are blocks with
-// phis. Plain instructions stand only where LLVM's rule is the IR's rule (never one that may give poison); all other
-// arithmetic is a call of the functions of sem.hpp.
+// Writes chunks as LLVM functions, operation by operation: each value of a rung is one LLVM value, regions are blocks
+// with phis. Plain instructions stand only where LLVM's rule is the IR's rule (never one that may give poison); all
+// other arithmetic is a call of the functions of sem.hpp.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,21 +12,21 @@
 namespace rung::codegen {
 
 class ChunkEmitter {
- public:
+public:
   // `lines` may be null: no debug information.
   ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugLines* lines);
 
   llvm::Function* emit(uint32_t chunk);
 
- private:
+private:
   using Value = llvm::Value;
 
   // An open if or loop.
   struct Region {
     const ir::Op* opener;
-    llvm::BasicBlock* head;  // if: the block that branches; loop: the block with the phis
-    llvm::BasicBlock* other; // if: begins the second region, or what follows; loop: what follows
-    llvm::BasicBlock* end;   // if: what follows
+    llvm::BasicBlock* head;                // if: the block that branches; loop: the block with the phis
+    llvm::BasicBlock* other;               // if: begins the second region, or what follows; loop: what follows
+    llvm::BasicBlock* end;                 // if: what follows
     llvm::BasicBlock* firstExit = nullptr; // if: the end of the first region, once it is reached
     std::vector<Value*> yields{};          // of the first region
     std::vector<llvm::PHINode*> phis{};    // loop: number of the pass, carried values

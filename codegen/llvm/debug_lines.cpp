@@ -28,7 +28,8 @@ void DebugLines::beginFunction(llvm::Function& function, const std::string& name
   if (!file.valid()) return;
   auto flags = llvm::DISubprogram::SPFlagDefinition | llvm::DISubprogram::SPFlagLocalToUnit;
   if (optimised_) flags |= llvm::DISubprogram::SPFlagOptimized;
-  function_ = builder_->createFunction(files_[file.index], name, "", files_[file.index], line, type_, line, llvm::DINode::FlagZero, flags);
+  function_ = builder_->createFunction(files_[file.index], name, "", files_[file.index], line, type_, line,
+                                       llvm::DINode::FlagZero, flags);
   function.setSubprogram(function_);
   scope_ = function_;
 }

@@ -21,7 +21,7 @@ class Module;
 namespace rung::codegen {
 
 class DebugLines {
- public:
+public:
   DebugLines(llvm::Module& target, const ir::Module& source, bool optimised);
   ~DebugLines();
 
@@ -31,7 +31,7 @@ class DebugLines {
   llvm::DILocation* at(ir::FileIndex file, uint32_t line);
   void finish();
 
- private:
+private:
   llvm::Module& target_;
   std::unique_ptr<llvm::DIBuilder> builder_;
   std::vector<llvm::DIFile*> files_;

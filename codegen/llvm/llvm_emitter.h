@@ -1,5 +1,5 @@
-// LLVM back end: a module as LLVM IR, assembly, object file or shared object, for this machine or another. No compiler and
-// no linker is called: both work inside the process. This header is free of LLVM.
+// LLVM back end: a module as LLVM IR, assembly, object file or shared object, for this machine or another. No compiler
+// and no linker is called: both work inside the process. This header is free of LLVM.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -33,8 +33,9 @@ Result<std::string> emitLlvmIr(const ir::Layout& layout, uint64_t codeHash, cons
 Result<std::string> emitAssembly(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 Result<std::string> emitObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 
-// A `.so` that exports rung_program_v1 and needs no library (armv7: the helpers of libgcc for 64-bit division). Finished
-// under another name and then renamed: a host that has the old object loaded keeps it intact.
-Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, const std::string& outPath);
+// A `.so` that exports rung_program_v1 and needs no library (armv7: the helpers of libgcc for 64-bit division).
+// Finished under another name and then renamed: a host that has the old object loaded keeps it intact.
+Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options,
+                                   const std::string& outPath);
 
 } // namespace rung::codegen

@@ -49,7 +49,8 @@ Result<void> linkSem(llvm::Module& module) {
   // Its notes on the machine it was made for would contradict ours.
   for (const char* name : {"llvm.module.flags", "llvm.ident"})
     if (llvm::NamedMDNode* node = (*sem)->getNamedMetadata(name)) node->eraseFromParent();
-  if (llvm::Linker::linkModules(module, std::move(*sem), llvm::Linker::LinkOnlyNeeded)) return failure("LLVM cannot link its own bitcode");
+  if (llvm::Linker::linkModules(module, std::move(*sem), llvm::Linker::LinkOnlyNeeded))
+    return failure("LLVM cannot link its own bitcode");
   for (llvm::Function& function : module)
     if (!function.isDeclaration() && !own.contains(&function)) adopt(function);
   return {};
@@ -61,19 +62,23 @@ void addFlags(llvm::Module& module, const llvm::TargetMachine& machine) {
   module.setPICLevel(llvm::PICLevel::BigPIC);
   module.setFramePointer(llvm::FramePointerKind::All);
   const std::string& abi = machine.Options.MCOptions.ABIName;
-  if (!abi.empty()) module.addModuleFlag(llvm::Module::Error, "target-abi", llvm::MDString::get(module.getContext(), abi));
+  if (!abi.empty())
+    module.addModuleFlag(llvm::Module::Error, "target-abi", llvm::MDString::get(module.getContext(), abi));
 }
 
-llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions, const std::string& exported) {
+llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions,
+                                    const std::string& exported) {
   auto* type = llvm::ArrayType::get(llvm::PointerType::getUnqual(module.getContext()), functions.size());
   const auto linkage = exported.empty() ? llvm::GlobalValue::PrivateLinkage : llvm::GlobalValue::ExternalLinkage;
-  return new llvm::GlobalVariable(module, type, true, linkage, llvm::ConstantArray::get(type, functions), exported.empty() ? "chunks" : exported);
+  return new llvm::GlobalVariable(module, type, true, linkage, llvm::ConstantArray::get(type, functions),
+                                  exported.empty() ? "chunks" : exported);
 }
 
 } // namespace
 
-Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine, const ir::Layout& layout,
-                                                  uint64_t codeHash, const LlvmOptions& options, const ModulePart& part) {
+Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
+                                                  const ir::Layout& layout, uint64_t codeHash,
+                                                  const LlvmOptions& options, const ModulePart& part) {
   auto module = std::make_unique<llvm::Module>(layout.module().name, context);
   addFlags(*module, machine);
   std::optional<DebugLines> lines;

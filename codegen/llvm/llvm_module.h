@@ -32,8 +32,8 @@ struct ModulePart {
 
 // Verified; functions of sem.hpp are linked in. Fails only where LLVM refuses what we made.
 Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
-                                                  const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options,
-                                                  const ModulePart& part);
+                                                  const ir::Layout& layout, uint64_t codeHash,
+                                                  const LlvmOptions& options, const ModulePart& part);
 
 // The passes of a level, before code generation.
 void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel level);

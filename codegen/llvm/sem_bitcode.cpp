@@ -1,20 +1,20 @@
-// The functions of sem.hpp under C names, for the LLVM back end: clang makes bitcode of this file at build time, and the
-// emitter links what a program uses. A name is rung_sem_OPERATION_TYPE, in the words of the table of operations.
+// The functions of sem.hpp under C names, for the LLVM back end: clang makes bitcode of this file at build time, and
+// the emitter links what a program uses. A name is rung_sem_OPERATION_TYPE, in the words of the table of operations.
 // Numbers only, no pointers: one bitcode serves every target.
 #include "rung/sem.hpp"
 
 using namespace rung::sem;
 
-#define RUNG_SEM_INTEGER(T, U)                                                               \
-  extern "C" U rung_sem_div_s_##T(U a, U b) noexcept { return divS(a, b); }                  \
-  extern "C" U rung_sem_div_u_##T(U a, U b) noexcept { return divU(a, b); }                  \
-  extern "C" U rung_sem_rem_s_##T(U a, U b) noexcept { return remS(a, b); }                  \
-  extern "C" U rung_sem_rem_u_##T(U a, U b) noexcept { return remU(a, b); }                  \
-  extern "C" U rung_sem_shl_##T(U a, u32 n) noexcept { return shl(a, n); }                   \
-  extern "C" U rung_sem_shr_u_##T(U a, u32 n) noexcept { return shrU(a, n); }                \
-  extern "C" U rung_sem_shr_s_##T(U a, u32 n) noexcept { return shrS(a, n); }                \
-  extern "C" U rung_sem_bcd_encode_##T(U a) noexcept { return bcdEncode(a); }                \
-  extern "C" U rung_sem_bcd_decode_##T(U a) noexcept { return bcdDecode(a); }                \
+#define RUNG_SEM_INTEGER(T, U)                                                                                         \
+  extern "C" U rung_sem_div_s_##T(U a, U b) noexcept { return divS(a, b); }                                            \
+  extern "C" U rung_sem_div_u_##T(U a, U b) noexcept { return divU(a, b); }                                            \
+  extern "C" U rung_sem_rem_s_##T(U a, U b) noexcept { return remS(a, b); }                                            \
+  extern "C" U rung_sem_rem_u_##T(U a, U b) noexcept { return remU(a, b); }                                            \
+  extern "C" U rung_sem_shl_##T(U a, u32 n) noexcept { return shl(a, n); }                                             \
+  extern "C" U rung_sem_shr_u_##T(U a, u32 n) noexcept { return shrU(a, n); }                                          \
+  extern "C" U rung_sem_shr_s_##T(U a, u32 n) noexcept { return shrS(a, n); }                                          \
+  extern "C" U rung_sem_bcd_encode_##T(U a) noexcept { return bcdEncode(a); }                                          \
+  extern "C" U rung_sem_bcd_decode_##T(U a) noexcept { return bcdDecode(a); }                                          \
   extern "C" U rung_sem_f_to_int_##T(double a) noexcept { return fToInt<U>(a); }
 
 RUNG_SEM_INTEGER(i8, u8)

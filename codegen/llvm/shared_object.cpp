@@ -19,7 +19,7 @@ namespace {
 
 // Bytes under a name that the linker can open; they are never on a disk.
 class MemoryFile {
- public:
+public:
   explicit MemoryFile(std::string_view bytes) : file_(memfd_create("rung-object", MFD_CLOEXEC)) {
     while (file_ >= 0 && !bytes.empty()) {
       const ssize_t done = write(file_, bytes.data(), bytes.size());
@@ -40,7 +40,7 @@ class MemoryFile {
   bool ok() const { return file_ >= 0; }
   std::string path() const { return fmt::format("/proc/self/fd/{}", file_); }
 
- private:
+private:
   int file_;
 };
 
@@ -63,7 +63,8 @@ Result<void> link(const std::string& object, const std::string& out, bool mayNee
 
 } // namespace
 
-Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, const std::string& outPath) {
+Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options,
+                                   const std::string& outPath) {
   Result<std::string> object = emitObject(layout, codeHash, options);
   if (!object.ok()) return object.failure();
   const MemoryFile file(object.value());

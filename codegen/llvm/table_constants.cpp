@@ -19,7 +19,7 @@ using namespace ir;
 namespace {
 
 class TableBuilder {
- public:
+public:
   TableBuilder(llvm::Module& module, llvm::Constant* chunkTable)
       : module_(module), context_(module.getContext()), ptr_(llvm::PointerType::getUnqual(context_)),
         null_(llvm::ConstantPointerNull::get(ptr_)), chunkTable_(chunkTable) {}
@@ -41,8 +41,9 @@ class TableBuilder {
     return llvm::ConstantStruct::get(structType(info), fields);
   }
 
- private:
-  template <class T> static T read(const std::byte* at) {
+private:
+  template <class T>
+  static T read(const std::byte* at) {
     T value;
     std::memcpy(&value, at, sizeof value);
     return value;
@@ -50,16 +51,16 @@ class TableBuilder {
 
   llvm::Type* fieldType(FieldKind kind) const {
     switch (kind) {
-      case FieldKind::U32: return llvm::Type::getInt32Ty(context_);
-      case FieldKind::U64:
-      case FieldKind::I64: return llvm::Type::getInt64Ty(context_);
-      case FieldKind::Text:
-      case FieldKind::Bytes:
-      case FieldKind::U32s:
-      case FieldKind::Texts:
-      case FieldKind::Structs:
-      case FieldKind::ChunkFns:
-      case FieldKind::Null: break;
+    case FieldKind::U32: return llvm::Type::getInt32Ty(context_);
+    case FieldKind::U64:
+    case FieldKind::I64: return llvm::Type::getInt64Ty(context_);
+    case FieldKind::Text:
+    case FieldKind::Bytes:
+    case FieldKind::U32s:
+    case FieldKind::Texts:
+    case FieldKind::Structs:
+    case FieldKind::ChunkFns:
+    case FieldKind::Null: break;
     }
     return ptr_;
   }
@@ -68,12 +69,14 @@ class TableBuilder {
     const llvm::DataLayout& data = module_.getDataLayout();
     if (data.getPointerSize() != sizeof(void*)) return;
     for (unsigned i = 0; i < info.fields.size(); ++i)
-      RUNG_CHECK(data.getStructLayout(type)->getElementOffset(i) == info.fields[i].offset, "a struct of the ABI lies as in C");
+      RUNG_CHECK(data.getStructLayout(type)->getElementOffset(i) == info.fields[i].offset,
+                 "a struct of the ABI lies as in C");
     RUNG_CHECK(data.getTypeAllocSize(type) == info.size, "a struct of the ABI is as long as in C");
   }
 
   llvm::GlobalVariable* global(llvm::Constant* value, std::string_view name) {
-    auto* variable = new llvm::GlobalVariable(module_, value->getType(), true, llvm::GlobalValue::PrivateLinkage, value, name);
+    auto* variable =
+        new llvm::GlobalVariable(module_, value->getType(), true, llvm::GlobalValue::PrivateLinkage, value, name);
     variable->setUnnamedAddr(llvm::GlobalValue::UnnamedAddr::Global);
     return variable;
   }
@@ -90,7 +93,8 @@ class TableBuilder {
     return global(llvm::ConstantDataArray::get(context_, llvm::ArrayRef(bytes, count)), "data");
   }
 
-  template <class Element> llvm::Constant* array(llvm::Type* type, std::string_view name, uint32_t count, Element element) {
+  template <class Element>
+  llvm::Constant* array(llvm::Type* type, std::string_view name, uint32_t count, Element element) {
     if (count == 0) return null_;
     std::vector<llvm::Constant*> elements;
     elements.reserve(count);
@@ -102,24 +106,27 @@ class TableBuilder {
     const std::byte* at = base + field.offset;
     const auto count = [&] { return read<uint32_t>(base + field.countOffset); };
     switch (field.kind) {
-      case FieldKind::U32: return llvm::ConstantInt::get(fieldType(field.kind), read<uint32_t>(at));
-      case FieldKind::U64:
-      case FieldKind::I64: return llvm::ConstantInt::get(fieldType(field.kind), read<uint64_t>(at));
-      case FieldKind::Text: return textConstant(read<const char*>(at));
-      case FieldKind::Bytes: return bytesConstant(read<const uint8_t*>(at), count());
-      case FieldKind::U32s: {
-        llvm::Type* i32 = llvm::Type::getInt32Ty(context_);
-        return array(i32, field.name, count(), [&](uint32_t i) { return llvm::ConstantInt::get(i32, read<const uint32_t*>(at)[i]); });
-      }
-      case FieldKind::Texts:
-        return array(ptr_, field.name, count(), [&](uint32_t i) { return textConstant(read<const char* const*>(at)[i]); });
-      case FieldKind::Structs: {
-        const std::byte* first = read<const std::byte*>(at);
-        const StructInfo& element = *field.element;
-        return array(structType(element), field.name, count(), [&](uint32_t i) { return structConstant(element, first + i * element.size); });
-      }
-      case FieldKind::ChunkFns: return chunkTable_;
-      case FieldKind::Null: return null_;
+    case FieldKind::U32: return llvm::ConstantInt::get(fieldType(field.kind), read<uint32_t>(at));
+    case FieldKind::U64:
+    case FieldKind::I64: return llvm::ConstantInt::get(fieldType(field.kind), read<uint64_t>(at));
+    case FieldKind::Text: return textConstant(read<const char*>(at));
+    case FieldKind::Bytes: return bytesConstant(read<const uint8_t*>(at), count());
+    case FieldKind::U32s: {
+      llvm::Type* i32 = llvm::Type::getInt32Ty(context_);
+      return array(i32, field.name, count(),
+                   [&](uint32_t i) { return llvm::ConstantInt::get(i32, read<const uint32_t*>(at)[i]); });
+    }
+    case FieldKind::Texts:
+      return array(ptr_, field.name, count(),
+                   [&](uint32_t i) { return textConstant(read<const char* const*>(at)[i]); });
+    case FieldKind::Structs: {
+      const std::byte* first = read<const std::byte*>(at);
+      const StructInfo& element = *field.element;
+      return array(structType(element), field.name, count(),
+                   [&](uint32_t i) { return structConstant(element, first + i * element.size); });
+    }
+    case FieldKind::ChunkFns: return chunkTable_;
+    case FieldKind::Null: return null_;
     }
     return null_;
   }
@@ -138,7 +145,8 @@ class TableBuilder {
 void addProgramTables(llvm::Module& module, const rung_program& program, llvm::Constant* chunkTable) {
   TableBuilder builder(module, chunkTable);
   llvm::Constant* value = builder.structConstant(programInfo(), reinterpret_cast<const std::byte*>(&program));
-  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value, RUNG_PROGRAM_SYMBOL);
+  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value,
+                           RUNG_PROGRAM_SYMBOL);
 }
 
 } // namespace rung::codegen

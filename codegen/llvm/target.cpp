@@ -65,7 +65,8 @@ Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions
   const std::string host = llvm::sys::getProcessTriple();
   TargetRow row = hostRow(host);
   if (!options.target.empty()) {
-    const auto* found = std::find_if(std::begin(kTargets), std::end(kTargets), [&](const TargetRow& r) { return r.triple == options.target; });
+    const auto* found = std::find_if(std::begin(kTargets), std::end(kTargets),
+                                     [&](const TargetRow& r) { return r.triple == options.target; });
     if (found == std::end(kTargets))
       return failure(fmt::format("unknown target '{}'; known are {}", options.target, fmt::join(llvmTargets(), ", ")));
     row = *found;
@@ -79,11 +80,12 @@ Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions
   machineOptions.AllowFPOpFusion = llvm::FPOpFusion::Strict;
   machineOptions.MCOptions.ABIName = row.abi;
   if (row.hardFloat) machineOptions.FloatABIType = llvm::FloatABI::Hard;
-  const llvm::CodeGenOptLevel level = options.level == LlvmLevel::Fast ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Less;
+  const llvm::CodeGenOptLevel level =
+      options.level == LlvmLevel::Fast ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Less;
   const bool jit = use == MachineUse::Jit;
-  std::unique_ptr<llvm::TargetMachine> machine(
-      target->createTargetMachine(jit ? host : triple, jit ? llvm::sys::getHostCPUName() : row.cpu, jit ? hostFeatures() : row.features,
-                                  machineOptions, llvm::Reloc::PIC_, std::nullopt, level, jit));
+  std::unique_ptr<llvm::TargetMachine> machine(target->createTargetMachine(
+      jit ? host : triple, jit ? llvm::sys::getHostCPUName() : row.cpu, jit ? hostFeatures() : row.features,
+      machineOptions, llvm::Reloc::PIC_, std::nullopt, level, jit));
   if (machine == nullptr) return failure(fmt::format("no code generator for '{}'", triple));
   return machine;
 }
@@ -92,13 +94,15 @@ Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& mach
   llvm::SmallVector<char, 0> bytes;
   llvm::raw_svector_ostream out(bytes);
   llvm::legacy::PassManager passes;
-  if (machine.addPassesToEmitFile(passes, out, nullptr, type)) return failure("LLVM has no such output for this target");
+  if (machine.addPassesToEmitFile(passes, out, nullptr, type))
+    return failure("LLVM has no such output for this target");
   passes.run(module);
   return std::string(bytes.begin(), bytes.end());
 }
 
 std::string describeMachine(const llvm::TargetMachine& machine) {
-  return fmt::format("{} {} {} {}", machine.getTargetTriple().str(), machine.getTargetCPU().str(), machine.getTargetFeatureString().str(), LLVM_VERSION_STRING);
+  return fmt::format("{} {} {} {}", machine.getTargetTriple().str(), machine.getTargetCPU().str(),
+                     machine.getTargetFeatureString().str(), LLVM_VERSION_STRING);
 }
 
 } // namespace rung::codegen

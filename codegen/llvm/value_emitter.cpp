@@ -1,4 +1,5 @@
 // Operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
+#include <llvm/IR/MDBuilder.h>
 #include "codegen/llvm/chunk_emitter.h"
 
 #include <fmt/format.h>
@@ -16,78 +17,79 @@ llvm::Type* ChunkEmitter::type(Type type) const {
 
 ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   switch (op.code) {
-    case OpCode::Const:
-      if (op.type == Type::F64) return builder_.CreateBitCast(builder_.getInt64(static_cast<uint64_t>(op.imm)), type(op.type));
-      return llvm::ConstantInt::get(type(op.type), static_cast<uint64_t>(op.imm));
-    case OpCode::Select: return builder_.CreateSelect(arg(op, 0), arg(op, 1), arg(op, 2));
-    case OpCode::ZExt: return builder_.CreateZExt(arg(op, 0), type(op.type));
-    case OpCode::SExt: return builder_.CreateSExt(arg(op, 0), type(op.type));
-    case OpCode::Trunc: return builder_.CreateTrunc(arg(op, 0), type(op.type));
-    case OpCode::FNeg: return builder_.CreateFNeg(arg(op, 0));
-    case OpCode::FAbs: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, arg(op, 0));
-    case OpCode::IntToF: return builder_.CreateSIToFP(arg(op, 0), type(op.type));
-    case OpCode::BitsToF:
-    case OpCode::FToBits: return builder_.CreateBitCast(arg(op, 0), type(op.type));
-    case OpCode::PopCount: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::ctpop, arg(op, 0));
-    case OpCode::Add:
-    case OpCode::Sub:
-    case OpCode::Mul:
-    case OpCode::Neg:
-    case OpCode::And:
-    case OpCode::Or:
-    case OpCode::Xor:
-    case OpCode::Not:
-    case OpCode::Eq:
-    case OpCode::Ne:
-    case OpCode::LtS:
-    case OpCode::LeS:
-    case OpCode::LtU:
-    case OpCode::LeU:
-    case OpCode::FEq:
-    case OpCode::FLt:
-    case OpCode::FLe: return arithmetic(op);
-    case OpCode::DivS:
-    case OpCode::DivU:
-    case OpCode::RemS:
-    case OpCode::RemU: return divide(op);
-    case OpCode::Shl:
-    case OpCode::ShrU:
-    case OpCode::ShrS: return shift(op);
-    case OpCode::BcdEncode:
-    case OpCode::BcdDecode:
-    case OpCode::FAdd:
-    case OpCode::FSub:
-    case OpCode::FMul:
-    case OpCode::FDiv:
-    case OpCode::FToInt:
-    case OpCode::FToIntNearest: return callSem(op);
-    case OpCode::Load: return load(op);
-    case OpCode::LoadAt: return loadAt(op);
-    case OpCode::LoadBitAt: return loadBitAt(op);
-    case OpCode::SlotLoad: {
-      Value* place = at(layout_.slot(SlotId{op.ref}));
-      if (op.type == Type::Bit) return readFlag(place);
-      return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
-    }
-    case OpCode::Now: return builder_.CreateLoad(builder_.getInt64Ty(), ctxField(AbiTypes::kNow));
-    case OpCode::ServiceRequest: return serviceRequest(op);
-    case OpCode::ServicePoll: return callHost(AbiTypes::kServicePoll, builder_.getInt32Ty(), {arg(op, 0)});
-    case OpCode::ServiceResult:
-      return callHost(AbiTypes::kServiceResult, builder_.getInt64Ty(), {arg(op, 0), num(static_cast<uint64_t>(op.imm))});
-    case OpCode::Store:
-    case OpCode::StoreAt:
-    case OpCode::StoreBitAt:
-    case OpCode::SlotStore:
-    case OpCode::If:
-    case OpCode::Else:
-    case OpCode::EndIf:
-    case OpCode::Loop:
-    case OpCode::EndLoop:
-    case OpCode::Message:
-    case OpCode::Trap:
-    case OpCode::Note:
-    case OpCode::ProfEnter:
-    case OpCode::ProfLeave: break;
+  case OpCode::Const:
+    if (op.type == Type::F64)
+      return builder_.CreateBitCast(builder_.getInt64(static_cast<uint64_t>(op.imm)), type(op.type));
+    return llvm::ConstantInt::get(type(op.type), static_cast<uint64_t>(op.imm));
+  case OpCode::Select: return builder_.CreateSelect(arg(op, 0), arg(op, 1), arg(op, 2));
+  case OpCode::ZExt: return builder_.CreateZExt(arg(op, 0), type(op.type));
+  case OpCode::SExt: return builder_.CreateSExt(arg(op, 0), type(op.type));
+  case OpCode::Trunc: return builder_.CreateTrunc(arg(op, 0), type(op.type));
+  case OpCode::FNeg: return builder_.CreateFNeg(arg(op, 0));
+  case OpCode::FAbs: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, arg(op, 0));
+  case OpCode::IntToF: return builder_.CreateSIToFP(arg(op, 0), type(op.type));
+  case OpCode::BitsToF:
+  case OpCode::FToBits: return builder_.CreateBitCast(arg(op, 0), type(op.type));
+  case OpCode::PopCount: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::ctpop, arg(op, 0));
+  case OpCode::Add:
+  case OpCode::Sub:
+  case OpCode::Mul:
+  case OpCode::Neg:
+  case OpCode::And:
+  case OpCode::Or:
+  case OpCode::Xor:
+  case OpCode::Not:
+  case OpCode::Eq:
+  case OpCode::Ne:
+  case OpCode::LtS:
+  case OpCode::LeS:
+  case OpCode::LtU:
+  case OpCode::LeU:
+  case OpCode::FEq:
+  case OpCode::FLt:
+  case OpCode::FLe: return arithmetic(op);
+  case OpCode::DivS:
+  case OpCode::DivU:
+  case OpCode::RemS:
+  case OpCode::RemU: return divide(op);
+  case OpCode::Shl:
+  case OpCode::ShrU:
+  case OpCode::ShrS: return shift(op);
+  case OpCode::BcdEncode:
+  case OpCode::BcdDecode:
+  case OpCode::FAdd:
+  case OpCode::FSub:
+  case OpCode::FMul:
+  case OpCode::FDiv:
+  case OpCode::FToInt:
+  case OpCode::FToIntNearest: return callSem(op);
+  case OpCode::Load: return load(op);
+  case OpCode::LoadAt: return loadAt(op);
+  case OpCode::LoadBitAt: return loadBitAt(op);
+  case OpCode::SlotLoad: {
+    Value* place = at(layout_.slot(SlotId{op.ref}));
+    if (op.type == Type::Bit) return readFlag(place);
+    return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
+  }
+  case OpCode::Now: return builder_.CreateLoad(builder_.getInt64Ty(), ctxField(AbiTypes::kNow));
+  case OpCode::ServiceRequest: return serviceRequest(op);
+  case OpCode::ServicePoll: return callHost(AbiTypes::kServicePoll, builder_.getInt32Ty(), {arg(op, 0)});
+  case OpCode::ServiceResult:
+    return callHost(AbiTypes::kServiceResult, builder_.getInt64Ty(), {arg(op, 0), num(static_cast<uint64_t>(op.imm))});
+  case OpCode::Store:
+  case OpCode::StoreAt:
+  case OpCode::StoreBitAt:
+  case OpCode::SlotStore:
+  case OpCode::If:
+  case OpCode::Else:
+  case OpCode::EndIf:
+  case OpCode::Loop:
+  case OpCode::EndLoop:
+  case OpCode::Message:
+  case OpCode::Trap:
+  case OpCode::Note:
+  case OpCode::ProfEnter:
+  case OpCode::ProfLeave: break;
   }
   RUNG_CHECK(false, "not an operation with one result");
   return nullptr;
@@ -147,7 +149,8 @@ ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
     types.push_back(args.back()->getType());
   }
   const std::string name = fmt::format("rung_sem_{}_{}", opInfo(op.code).name, typeName(op.type));
-  llvm::CallInst* call = builder_.CreateCall(target_.getOrInsertFunction(name, llvm::FunctionType::get(type(op.type), types, false)), args);
+  llvm::CallInst* call = builder_.CreateCall(
+      target_.getOrInsertFunction(name, llvm::FunctionType::get(type(op.type), types, false)), args);
   call->setDoesNotThrow();
   return call;
 }
@@ -155,8 +158,11 @@ ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
 // ---- memory ------------------------------------------------------------------------------------------------------
 
 // A bit with a byte of its own is 0 or 1; to take its low bit is less work than to compare.
+// The runtime keeps these bytes at 0 or 1; knowing it saves a mask an access.
 ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
-  return builder_.CreateTrunc(builder_.CreateLoad(builder_.getInt8Ty(), address), builder_.getInt1Ty());
+  llvm::LoadInst* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
+  byte->setMetadata(llvm::LLVMContext::MD_range, llvm::MDBuilder(builder_.getContext()).createRange(llvm::APInt(8, 0), llvm::APInt(8, 2)));
+  return builder_.CreateTrunc(byte, builder_.getInt1Ty());
 }
 
 ChunkEmitter::Value* ChunkEmitter::readBit(Value* address, Value* bit) {
@@ -228,7 +234,8 @@ ChunkEmitter::Value* ChunkEmitter::loadAt(const Op& op) {
   llvm::Constant* none = llvm::Constant::getNullValue(type(op.type));
   if (op.count == 0) return none;
   const Element place = element(op, false);
-  return builder_.CreateSelect(place.inside, builder_.CreateAlignedLoad(type(op.type), place.address, llvm::Align(1)), none);
+  return builder_.CreateSelect(place.inside, builder_.CreateAlignedLoad(type(op.type), place.address, llvm::Align(1)),
+                               none);
 }
 
 ChunkEmitter::Value* ChunkEmitter::loadBitAt(const Op& op) {
@@ -246,8 +253,10 @@ void ChunkEmitter::storeAt(const Op& op) {
   llvm::BasicBlock* done = block("done");
   builder_.CreateCondBr(place.inside, write, done);
   builder_.SetInsertPoint(write);
-  if (isBit) writeBit(place.address, place.bit, value);
-  else builder_.CreateAlignedStore(value, place.address, llvm::Align(1));
+  if (isBit)
+    writeBit(place.address, place.bit, value);
+  else
+    builder_.CreateAlignedStore(value, place.address, llvm::Align(1));
   builder_.CreateBr(done);
   builder_.SetInsertPoint(done);
 }

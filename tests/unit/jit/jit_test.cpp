@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -68,7 +71,7 @@ TEST_P(JitLevels, RunsCallsAndTraps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, JitLevels, testing::Values(LlvmLevel::Fast, LlvmLevel::Opt),
-                         [](const auto& info) { return info.param == LlvmLevel::Fast ? "Fast" : "Opt"; });
+                         [](const auto& test) { return test.param == LlvmLevel::Fast ? "Fast" : "Opt"; });
 
 TEST(Jit, ManyPiecesOnTwoThreads) {
   constexpr uint32_t kRungs = 10'000;
@@ -81,7 +84,8 @@ TEST(Jit, ManyPiecesOnTwoThreads) {
   for (uint32_t i = 0; i < kRungs; i += 3) instance.memory().writeBit(3, i / 8, i % 8, true);
   instance.scan();
   ASSERT_FALSE(instance.faulted()) << instance.faultText();
-  for (uint32_t i = 0; i < kRungs; ++i) ASSERT_EQ(instance.memory().readBit(4, i / 8, i % 8), (i % 3 == 0) != (i % 2 != 0)) << i;
+  for (uint32_t i = 0; i < kRungs; ++i)
+    ASSERT_EQ(instance.memory().readBit(4, i / 8, i % 8), (i % 3 == 0) != (i % 2 != 0)) << i;
 }
 
 TEST(Jit, OnlyThisMachine) {
@@ -98,8 +102,26 @@ TEST(Jit, TellsADebugger) {
   EXPECT_NE(compiled(layout, {.code = {}, .gdb = true}), nullptr);
 }
 
+TEST(Jit, TellsPerf) {
+  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("rung-perf-{}", getpid());
+  fs::create_directories(folder);
+  ASSERT_EQ(setenv("JITDUMPDIR", folder.c_str(), 1), 0);
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  EXPECT_NE(compiled(layout, {.code = {}, .perf = true}), nullptr);
+  std::string dump;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".dump") {
+      std::ifstream in(entry.path(), std::ios::binary);
+      dump.assign(std::istreambuf_iterator<char>(in), {});
+    }
+  fs::remove_all(folder);
+  EXPECT_THAT(dump, HasSubstr("MAIN.0"));
+  EXPECT_THAT(dump, HasSubstr("sample.lad"));
+}
+
 class JitCache : public testing::Test {
- protected:
+protected:
   void SetUp() override { fs::remove_all(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 

@@ -22,7 +22,9 @@ using namespace ir;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string temporaryFile(const std::string& name) { return (std::filesystem::path(testing::TempDir()) / name).string(); }
+std::string temporaryFile(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / name).string();
+}
 
 std::string fileText(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -37,17 +39,20 @@ std::string functionText(const std::string& ir, const std::string& name) {
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
   return text;
 }
 
 TEST(LlvmEmitter, FastTextIsTheRungsAsTheyStand) {
   const Module module = sampleModule();
   const Layout layout(module, {});
-  const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast, .debugInfo = false, .target = "x86_64-linux-gnu"});
+  const Result<std::string> ir =
+      emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast, .debugInfo = false, .target = "x86_64-linux-gnu"});
   ASSERT_TRUE(ir.ok()) << ir.error();
   const std::string place = "i64 " + std::to_string(layout.byte(SpaceId{2}, 4));
-  EXPECT_EQ(replaced(functionText(ir.value(), "COUNT.0"), place, "i64 COUNT_PLACE"), R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx) #0 {
+  EXPECT_EQ(replaced(functionText(ir.value(), "COUNT.0"), place, "i64 COUNT_PLACE"),
+            R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx) #0 {
 entry:
   %0 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
   %1 = load i16, ptr %0, align 1
@@ -164,15 +169,18 @@ TEST(LlvmSharedObject, AFolderThatIsNotThereIsAnErrorOfTheEnvironment) {
   const Result<void> built = buildLlvmSharedObject(layout, 42, {}, temporaryFile("no-such-folder/x.so"));
   ASSERT_FALSE(built.ok());
   EXPECT_THAT(built.error(), HasSubstr("no-such-folder"));
-  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}, temporaryFile("rung_llvm_after.so")).ok()) << "the linker can run again";
+  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}, temporaryFile("rung_llvm_after.so")).ok())
+      << "the linker can run again";
 }
 
 struct Machine {
   std::string_view target;
   uint16_t elfMachine;
 };
-constexpr Machine kMachines[] = {
-    {"x86_64-linux-gnu", EM_X86_64}, {"aarch64-linux-gnu", EM_AARCH64}, {"armv7-linux-gnueabihf", EM_ARM}, {"riscv64-linux-gnu", EM_RISCV}};
+constexpr Machine kMachines[] = {{"x86_64-linux-gnu", EM_X86_64},
+                                 {"aarch64-linux-gnu", EM_AARCH64},
+                                 {"armv7-linux-gnueabihf", EM_ARM},
+                                 {"riscv64-linux-gnu", EM_RISCV}};
 
 TEST(LlvmSharedObject, ForEveryTarget) {
   const Module module = randomModule(5);
@@ -181,12 +189,14 @@ TEST(LlvmSharedObject, ForEveryTarget) {
   for (const Machine& machine : kMachines)
     for (const LlvmLevel level : {LlvmLevel::Fast, LlvmLevel::Opt}) {
       const std::string path = temporaryFile(std::string(machine.target) + ".so");
-      const Result<void> built = buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)}, path);
+      const Result<void> built =
+          buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)}, path);
       ASSERT_TRUE(built.ok()) << machine.target << ": " << built.error();
       const std::string bytes = fileText(path);
       ASSERT_EQ(bytes.substr(0, SELFMAG), ELFMAG);
       uint16_t kind = 0;
-      std::memcpy(&kind, bytes.data() + offsetof(Elf64_Ehdr, e_machine), sizeof kind); // at the same place in 32-bit files
+      std::memcpy(&kind, bytes.data() + offsetof(Elf64_Ehdr, e_machine),
+                  sizeof kind); // at the same place in 32-bit files
       EXPECT_EQ(kind, machine.elfMachine);
       EXPECT_THAT(bytes, HasSubstr(RUNG_PROGRAM_SYMBOL));
     }

@@ -11,9 +11,9 @@ extern "C" {
 
 enum { kMiniHostMemory = 1 << 20, kMiniHostRungs = 4096 };
 
-/* Cold start and `scans` runs of the main task; hashes[i] covers memory, fault, counters, messages and service calls after
- * run i. `engine` goes into the context. Returns 0, or 1 when the program is too large for this host. */
-int miniHostRun(const rung_program *program, void *engine, uint32_t scans, uint64_t *hashes);
+/* Cold start and `scans` runs of the main task; hashes[i] covers memory, fault, counters, messages and service calls
+ * after run i. `engine` goes into the context. Returns 0, or 1 when the program is too large for this host. */
+int miniHostRun(const rung_program* program, void* engine, uint32_t scans, uint64_t* hashes);
 
 #ifdef __cplusplus
 }

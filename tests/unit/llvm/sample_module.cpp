@@ -30,7 +30,8 @@ Module sampleModule() {
   first.title = "lamp";
   first.begin = {FileIndex{0}, 3, 1};
   RungBuilder lampRung(m, first);
-  lampRung.store(lamp, lampRung.and_(lampRung.load(Type::Bit, {SpaceId{0}, 0, 0}), lampRung.not_(lampRung.load(Type::Bit, {SpaceId{0}, 0, 1}))));
+  lampRung.store(lamp, lampRung.and_(lampRung.load(Type::Bit, {SpaceId{0}, 0, 0}),
+                                     lampRung.not_(lampRung.load(Type::Bit, {SpaceId{0}, 0, 1}))));
   m.routines[0].rungs[1].begin = {FileIndex{0}, 6, 1};
   RungBuilder callRung(m, m.routines[0].rungs[1]);
   callRung.call(RoutineId{1}, callRung.load(Type::Bit, lamp));
@@ -41,7 +42,13 @@ Module sampleModule() {
   countRung.setLine(11);
   countRung.trap(countRung.eq(next, countRung.constant(Type::I16, 3)), FaultId{0});
   countRung.store(count, next);
-  m.tasks.push_back({.name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1000, .budgetFault = FaultId{1}, .begin = {}, .end = {}});
+  m.tasks.push_back({.name = "MAIN",
+                     .entry = RoutineId{0},
+                     .periodUs = 8000,
+                     .budget = 1000,
+                     .budgetFault = FaultId{1},
+                     .begin = {},
+                     .end = {}});
   m.mainTask = TaskId{0};
   m.scan = {{RUNG_STEP_ADVANCE, {}, 8000}, {RUNG_STEP_RUN, TaskId{0}, 1}, {RUNG_STEP_SLOT, {}, 0}};
   return m;

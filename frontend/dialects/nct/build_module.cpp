@@ -126,6 +126,23 @@ class ModuleBuilder {
     return {transfer};
   }
 
+  // Behind the last byte of the NC area in which the two memories can differ: where the signals lie, and what the program
+  // touches beyond them. It is copied in every cycle, so the words that nobody uses are left out.
+  uint32_t synchronisedEnd() const {
+    const uint32_t nvram = config_.plcNvram * 4;
+    uint32_t end = nc::areaBytes(nc::nctSignals(), "M");
+    for (const ir::Routine& routine : module_.routines)
+      for (const ir::Rung& rung : routine.rungs)
+        for (const ir::Op& op : rung.ops) {
+          const ir::Attr attr = ir::opInfo(op.code).attr;
+          if (attr == ir::Attr::Window && op.ref == spaces_.m.index) return nvram; // an index may lead anywhere
+          if (attr != ir::Attr::Place || op.ref != spaces_.m.index) continue;
+          const uint32_t last = static_cast<uint32_t>(op.imm / 8) + std::max(1u, ir::byteWidth(op.type));
+          if (last <= nvram) end = std::max(end, last);
+        }
+    return std::min(end, nvram);
+  }
+
   void addTasks(ir::RoutineId main, ir::RoutineId int0) {
     const ir::FaultId timeout{0};
     ir::Task task{.name = "MAIN", .entry = main, .periodUs = config_.periodUs, .budget = kMainBudget, .budgetFault = timeout, .begin = {}, .end = {}};
@@ -134,7 +151,7 @@ class ModuleBuilder {
     // memory between here and the end of the run.
     if (int0.valid()) task.begin = transfer;
     // All but FLAGS; word 0001 of the time-slice memory is always 0, so what was written there is gone.
-    task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, config_.plcNvram * 4 - 4));
+    task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, synchronisedEnd() - 4));
     task.end = transfer;
     module_.mainTask = {0};
     module_.tasks.push_back(std::move(task));

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <unistd.h>
 
 #include "ir/random/random.h"
 #include "rtlib/host/instance.h"
@@ -22,9 +23,18 @@ using namespace ir;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string temporaryFile(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / name).string();
-}
+// A name for this process alone; the file goes away with it.
+struct TemporaryFile {
+  explicit TemporaryFile(const std::string& name)
+      : path((std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name)).string()) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string path;
+};
 
 std::string fileText(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -140,11 +150,11 @@ TEST(LlvmEmitter, AnUnknownTargetIsAnError) {
 TEST(LlvmSharedObject, RunsCallsAndTraps) {
   const Module module = sampleModule();
   const Layout layout(module, {});
-  const std::string path = temporaryFile("rung_llvm_test.so");
-  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, path);
+  const TemporaryFile file("rung_llvm_test.so");
+  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, file.path);
   ASSERT_TRUE(built.ok()) << built.error();
   std::string error;
-  const auto engine = host::SoEngine::open(path, error);
+  const auto engine = host::SoEngine::open(file.path, error);
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
   EXPECT_EQ(engine->program().layout_hash, layout.hash());
@@ -166,10 +176,10 @@ TEST(LlvmSharedObject, RunsCallsAndTraps) {
 TEST(LlvmSharedObject, AFolderThatIsNotThereIsAnErrorOfTheEnvironment) {
   const Module module = sampleModule();
   const Layout layout(module, {});
-  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, temporaryFile("no-such-folder/x.so"));
+  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, TemporaryFile("no-such-folder/x.so").path);
   ASSERT_FALSE(built.ok());
   EXPECT_THAT(built.error(), HasSubstr("no-such-folder"));
-  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}, temporaryFile("rung_llvm_after.so")).ok())
+  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}, TemporaryFile("rung_llvm_after.so").path).ok())
       << "the linker can run again";
 }
 
@@ -188,11 +198,11 @@ TEST(LlvmSharedObject, ForEveryTarget) {
   EXPECT_EQ(llvmTargets().size(), std::size(kMachines));
   for (const Machine& machine : kMachines)
     for (const LlvmLevel level : {LlvmLevel::Fast, LlvmLevel::Opt}) {
-      const std::string path = temporaryFile(std::string(machine.target) + ".so");
+      const TemporaryFile file(std::string(machine.target) + ".so");
       const Result<void> built =
-          buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)}, path);
+          buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)}, file.path);
       ASSERT_TRUE(built.ok()) << machine.target << ": " << built.error();
-      const std::string bytes = fileText(path);
+      const std::string bytes = fileText(file.path);
       ASSERT_EQ(bytes.substr(0, SELFMAG), ELFMAG);
       uint16_t kind = 0;
       std::memcpy(&kind, bytes.data() + offsetof(Elf64_Ehdr, e_machine),

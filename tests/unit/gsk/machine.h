@@ -2,7 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "codegen/jit/jit_engine.h"
+#include "ir/interp/interp.h"
 #include "ir/layout/layout.h"
 #include "ir/verify/verify.h"
 #include "rtlib/host/instance.h"
@@ -20,10 +20,9 @@ class Machine {
     const auto errors = ir::verify(*program_->module, ir::Mode::Built);
     EXPECT_TRUE(errors.empty()) << ir::render(*program_->module, errors);
     layout_ = std::make_unique<ir::Layout>(*program_->module, ir::LayoutOptions{});
-    auto engine = codegen::compileJit(*layout_, 0, {});
-    if (!engine.ok()) ADD_FAILURE() << engine.error();
-    engine_ = std::move(engine.value());
+    engine_ = std::make_unique<ir::InterpEngine>(*layout_, 0);
     instance_ = std::make_unique<host::Instance>(engine_->program());
+    instance_->context().engine = engine_->context();
   }
 
   uint64_t get(const std::string& name) const { return instance_->read(ref(name)); }
@@ -43,7 +42,7 @@ class Machine {
 
   std::unique_ptr<Compiled> program_;
   std::unique_ptr<ir::Layout> layout_;
-  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<ir::InterpEngine> engine_;
   std::unique_ptr<host::Instance> instance_;
 };
 

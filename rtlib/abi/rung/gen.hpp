@@ -14,6 +14,7 @@ typedef u16 __attribute__((aligned(1), may_alias)) m16;
 typedef u32 __attribute__((aligned(1), may_alias)) m32;
 typedef u64 __attribute__((aligned(1), may_alias)) m64;
 typedef double __attribute__((aligned(1), may_alias)) mf64;
+typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes at 0 or 1
 } // namespace rung::gen
 
 // All that stands inside belongs to the source line of the #line above it.
@@ -24,8 +25,8 @@ typedef double __attribute__((aligned(1), may_alias)) mf64;
 #define RUNG_SET_BIT(offset, bit, value) \
   mem[offset] = static_cast<u8>((mem[offset] & ~(1u << (bit))) | (static_cast<unsigned>(value) << (bit)))
 // A bit with a byte of its own.
-#define RUNG_FLAG(offset) (mem[offset] != 0)
-#define RUNG_SET_FLAG(offset, value) mem[offset] = static_cast<u8>(value)
+#define RUNG_FLAG(offset) (*reinterpret_cast<const mbool *>(mem + (offset)))
+#define RUNG_SET_FLAG(offset, value) *reinterpret_cast<mbool *>(mem + (offset)) = (value)
 // m8 m16 m32 m64 mf64
 #define RUNG_MEM(type, offset) (*reinterpret_cast<type *>(mem + (offset)))
 

@@ -33,8 +33,9 @@ struct Label {
 
 // JMP…JMPE and COM…COME of one unit.
 class Regions {
- public:
-  Regions(Diagnostics& diagnostics, Unit& unit, bool garbled) : diagnostics_(diagnostics), unit_(unit), garbled_(garbled) {}
+public:
+  Regions(Diagnostics& diagnostics, Unit& unit, bool garbled)
+      : diagnostics_(diagnostics), unit_(unit), garbled_(garbled) {}
 
   void check() {
     for (uint32_t i = 0; i < unit_.networks.size(); ++i) visit(i);
@@ -43,7 +44,7 @@ class Regions {
     if (com_ != kNone && !comNested_) diagnostics_.report(Diag::MissingCome, at(com_));
   }
 
- private:
+private:
   SourceRange at(uint32_t i) const { return unit_.networks[i].function.range; }
 
   void visit(uint32_t i) {
@@ -116,7 +117,7 @@ class Regions {
 };
 
 class Analysis {
- public:
+public:
   Analysis(Context& context, Program& program, bool garbled)
       : diagnostics_(context.diagnostics), program_(program), garbled_(garbled), calls_(program.units.size()) {}
 
@@ -131,7 +132,7 @@ class Analysis {
     checkNumbers();
   }
 
- private:
+private:
   struct Call {
     uint32_t callee;
     SourceRange range;
@@ -151,7 +152,8 @@ class Analysis {
   void reportUnused();
   void checkNumbers();
 
-  template <class F> void eachNetwork(F f) {
+  template <class F>
+  void eachNetwork(F f) {
     for (uint32_t u = 0; u < program_.units.size(); ++u)
       for (uint32_t n = 0; n < program_.units[u].networks.size(); ++n) f(u, n, program_.units[u].networks[n]);
   }
@@ -179,7 +181,8 @@ void Analysis::addLabel(uint32_t unit, uint32_t index) {
   const SourceRange range = network.function.params[0].range;
   const auto [at, isNew] = labels_.emplace(*number, Label{unit, index, range});
   if (!isNew)
-    diagnostics_.report(Diag::DuplicateLabel, range).note(at->second.range, "the first one is here") << fmt::format("L{}", *number);
+    diagnostics_.report(Diag::DuplicateLabel, range).note(at->second.range, "the first one is here")
+        << fmt::format("L{}", *number);
 }
 
 void Analysis::collect() {
@@ -202,7 +205,8 @@ void Analysis::resolveCalls() {
     }
     const auto at = subprograms_.find(*number);
     if (at == subprograms_.end()) {
-      if (!garbled_) diagnostics_.report(Diag::UndefinedSubprogram, network.function.params[0].range) << fmt::format("P{}", *number);
+      if (!garbled_)
+        diagnostics_.report(Diag::UndefinedSubprogram, network.function.params[0].range) << fmt::format("P{}", *number);
       return;
     }
     network.callee = at->second;
@@ -264,8 +268,10 @@ void Analysis::spread() {
   for (uint32_t u : order_) {
     Unit& unit = program_.units[u];
     if (unit.kind != UnitKind::Subprogram) continue;
-    unit.leaves = std::any_of(unit.networks.begin(), unit.networks.end(), [](const Network& n) { return controlOf(n) == Control::Jmpc; }) ||
-                  std::any_of(calls_[u].begin(), calls_[u].end(), [&](const Call& c) { return program_.units[c.callee].leaves; });
+    unit.leaves =
+        std::any_of(unit.networks.begin(), unit.networks.end(),
+                    [](const Network& n) { return controlOf(n) == Control::Jmpc; }) ||
+        std::any_of(calls_[u].begin(), calls_[u].end(), [&](const Call& c) { return program_.units[c.callee].leaves; });
   }
 }
 
@@ -322,7 +328,8 @@ void Analysis::reportUnused() {
       if (!label.used) diagnostics_.report(Diag::LabelUnused, label.range) << fmt::format("L{}", number);
   if (callLost_) return;
   for (const auto& [number, unit] : subprograms_)
-    if (!called_[unit]) diagnostics_.report(Diag::SubprogramUnused, program_.units[unit].nameRange) << fmt::format("P{}", number);
+    if (!called_[unit])
+      diagnostics_.report(Diag::SubprogramUnused, program_.units[unit].nameRange) << fmt::format("P{}", number);
 }
 
 // Numbers that stand twice (P24, P29, P39). TMR and TMRB have numbers of their own, DIFU and DIFD share theirs.
@@ -330,7 +337,9 @@ void Analysis::checkNumbers() {
   std::map<std::pair<int, int64_t>, SourceRange> seen;
   eachNetwork([&](uint32_t, uint32_t, Network& network) {
     const Row* row = network.function.row;
-    if (row == nullptr || row->numbers == Row::Numbers::Free || network.function.params.empty() || network.function.params[0].bad) return;
+    if (row == nullptr || row->numbers == Row::Numbers::Free || network.function.params.empty() ||
+        network.function.params[0].bad)
+      return;
     const Diag code = row->numbers == Row::Numbers::Timer     ? Diag::DuplicateTimer
                       : row->numbers == Row::Numbers::Counter ? Diag::DuplicateCounter
                                                               : Diag::DuplicateEdgeNumber;

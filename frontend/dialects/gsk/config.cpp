@@ -29,7 +29,8 @@ struct Entry {
 
 std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
   const uint64_t value = parseDigits(text).value_or(UINT64_MAX);
-  if (const auto timer = numberOf(key, "tmr.")) return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
+  if (const auto timer = numberOf(key, "tmr."))
+    return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
   if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};
   return std::nullopt;
 }
@@ -45,18 +46,23 @@ std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
 } // namespace
 
 void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
-  if (const auto period = periodOf(options); period && (*period == 0 || *period % kSlotUs != 0 || *period / kSlotUs > kMaxParts))
-    diagnostics.report(Diag::ConstantOutOfRange) << fmt::format("period_us {}", options.config.at("period_us"))
-                                                 << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
+  if (const auto period = periodOf(options);
+      period && (*period == 0 || *period % kSlotUs != 0 || *period / kSlotUs > kMaxParts))
+    diagnostics.report(Diag::ConstantOutOfRange)
+        << fmt::format("period_us {}", options.config.at("period_us"))
+        << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
   for (const auto& [key, text] : options.config) {
     const auto entry = entryOf(key, text);
     if (!entry || isSound(*entry)) continue;
     diagnostics.report(Diag::ConstantOutOfRange)
-        << fmt::format("{} {}", key, text) << fmt::format("{}.1 to {}.{} with 0 to {}", entry->family, entry->family, kNumbers, entry->max);
+        << fmt::format("{} {}", key, text)
+        << fmt::format("{}.1 to {}.{} with 0 to {}", entry->family, entry->family, kNumbers, entry->max);
   }
 }
 
-uint32_t partsOf(const frontend::CompileOptions& options) { return static_cast<uint32_t>(periodOf(options).value_or(kSlotUs) / kSlotUs); }
+uint32_t partsOf(const frontend::CompileOptions& options) {
+  return static_cast<uint32_t>(periodOf(options).value_or(kSlotUs) / kSlotUs);
+}
 
 std::vector<Preset> presetsOf(const frontend::CompileOptions& options) {
   std::vector<Preset> result;

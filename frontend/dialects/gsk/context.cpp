@@ -53,8 +53,8 @@ std::optional<Address> addressOf(Diagnostics& diagnostics, const AddressText& te
   return address;
 }
 
-// Signals of the CNC and the panel whose symbols are names in the sense of P12; for `*ESP` and the like a program uses the
-// address or declares a name of its own (inventory §13).
+// Signals of the CNC and the panel whose symbols are names in the sense of P12; for `*ESP` and the like a program uses
+// the address or declares a name of its own (inventory §13).
 std::optional<Address> signalAddress(std::string_view name) {
   if (!isFreeName(name)) return std::nullopt;
   const nc::Signal* signal = nc::findSignal(nc::gskSignals(), name);
@@ -124,7 +124,8 @@ const UserConstant* Names::findConstant(std::string_view name) const {
 
 std::optional<Address> bitOperand(Context& context, const Word& word) {
   const Found found = findAddress(context, word);
-  if (!found.known) context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "bit address and no declared name";
+  if (!found.known)
+    context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "bit address and no declared name";
   if (!found.address) return std::nullopt;
   if (!found.address->isBit) {
     context.diagnostics.report(Diag::BitAddressExpected, word.range) << word.text;
@@ -136,7 +137,8 @@ std::optional<Address> bitOperand(Context& context, const Word& word) {
 
 std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t length) {
   const Found found = findAddress(context, word);
-  if (!found.known) context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "byte address and no declared name";
+  if (!found.known)
+    context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "byte address and no declared name";
   if (!found.address) return std::nullopt;
   if (found.address->isBit) {
     context.diagnostics.report(Diag::ByteAddressExpected, word.range) << word.text;

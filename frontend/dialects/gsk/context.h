@@ -28,7 +28,7 @@ struct UserConstant {
 };
 
 class Names {
- public:
+public:
   void addSymbol(Diagnostics& diagnostics, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Diagnostics& diagnostics, const Word& name, const Word& value);
 
@@ -36,7 +36,7 @@ class Names {
   const UserConstant* findConstant(std::string_view name) const;
   const std::vector<UserSymbol>& symbols() const { return symbols_; }
 
- private:
+private:
   bool declare(Diagnostics& diagnostics, const Word& name);
 
   std::vector<UserSymbol> symbols_;
@@ -55,7 +55,8 @@ struct Context {
   uint32_t steps = 0;
 };
 
-// Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong gives nullopt silently.
+// Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong gives nullopt
+// silently.
 std::optional<Address> bitOperand(Context& context, const Word& word);
 std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t length);
 // False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.

@@ -27,7 +27,7 @@ bool isLadder(const SourceManager& sources, FileId file) {
 
 // All files of one program, command lists in front of ladder text.
 class Reading {
- public:
+public:
   Reading(Context& context, Program& program) : context_(context), units_(context, program) {}
 
   void add(FileId file) {
@@ -51,7 +51,7 @@ class Reading {
     return !units_.garbled();
   }
 
- private:
+private:
   Context& context_;
   UnitAssembler units_;
   std::vector<FileId> lists_;
@@ -59,8 +59,8 @@ class Reading {
   FileId last_;
 };
 
-std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
-                                    Diagnostics& diagnostics) {
+std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
+                                    const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (options.strict) diagnostics.raiseToError({Diag::DuplicateCounter}); // P29
   Context context{sources, diagnostics, {}, 0};
   Program program;

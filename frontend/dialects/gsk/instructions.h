@@ -1,6 +1,7 @@
 // The instruction table of the dialect: one row an instruction, with its lowering. Everything that is data about an
 // instruction stands here only; README.md tells how to add one.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -32,7 +33,11 @@ enum class Kind : uint8_t {
   WorkArea,       // address of 4 bytes in R
 };
 inline constexpr int kKindCount = 17;
-std::string_view kindName(Kind kind);
+inline constexpr std::array<std::string_view, kKindCount> kKindNames = {
+    "bit",        "coil",       "format",   "format-a",         "byte",   "word", "dword",
+    "data",       "block",      "constant", "constant-or-data", "number", "mask", "label",
+    "subprogram", "data-table", "work-area"};
+constexpr std::string_view kindName(Kind kind) { return kKindNames[static_cast<size_t>(kind)]; }
 Kind kindOf(const frontend::OperandInfo& operand);
 
 // Instructions that shape the program; everything else is Plain.

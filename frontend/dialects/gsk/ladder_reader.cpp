@@ -19,10 +19,10 @@ using ladder::NetId;
 
 Coil coilOf(ladder::CoilKind kind) {
   switch (kind) {
-    case ladder::CoilKind::Plain: return Coil::Out;
-    case ladder::CoilKind::Negated: return Coil::OutInverted;
-    case ladder::CoilKind::Set: return Coil::Set;
-    case ladder::CoilKind::Reset: return Coil::Reset;
+  case ladder::CoilKind::Plain: return Coil::Out;
+  case ladder::CoilKind::Negated: return Coil::OutInverted;
+  case ladder::CoilKind::Set: return Coil::Set;
+  case ladder::CoilKind::Reset: return Coil::Reset;
   }
   return Coil::Out;
 }
@@ -31,14 +31,14 @@ Place placeOf(const Element& element) { return {element.range, element.line}; }
 
 // The shape of one rung: which box, which coils, and whether a command list can say it.
 class RungReader {
- public:
+public:
   RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung)
       : diagnostics_(context.diagnostics), builder_(builder), rung_(rung) {}
 
   // False when the drawing was rejected; it was reported, and nothing has reached the builder.
   bool read();
 
- private:
+private:
   bool sort();
   bool checkKind(const Element& element);
   bool checkLeft(const Element& element);
@@ -60,7 +60,9 @@ class RungReader {
 };
 
 std::string RungReader::nameOf(const Element& element) const {
-  return element.kind == ElementKind::Box ? std::string(element.mnemonic) : element.kind == ElementKind::Coil ? "the coil" : "the contact";
+  return element.kind == ElementKind::Box    ? std::string(element.mnemonic)
+         : element.kind == ElementKind::Coil ? "the coil"
+                                             : "the contact";
 }
 
 bool RungReader::checkKind(const Element& element) {
@@ -107,8 +109,9 @@ bool RungReader::sort() {
       if (box_ == nullptr) box_ = &element;
     }
   }
-  std::sort(coils_.begin(), coils_.end(),
-            [](const Element* a, const Element* b) { return std::pair(a->line, a->column) < std::pair(b->line, b->column); });
+  std::sort(coils_.begin(), coils_.end(), [](const Element* a, const Element* b) {
+    return std::pair(a->line, a->column) < std::pair(b->line, b->column);
+  });
   return good;
 }
 
@@ -120,26 +123,28 @@ bool RungReader::checkBox() {
     return false;
   }
   switch (row_->control) {
-    case Control::End1:
-    case Control::End2:
-    case Control::Sp:
-    case Control::Spe:
-      diagnostics_.report(Diag::UnsupportedElement, box_->range) << fmt::format("a box {}", row_->info.mnemonic) << "the `module` statements stand for it";
-      return false;
-    case Control::Plain:
-    case Control::Jmp:
-    case Control::Jmpe:
-    case Control::Jmpb:
-    case Control::Jmpc:
-    case Control::Lbl:
-    case Control::Call:
-    case Control::CallU:
-    case Control::Com:
-    case Control::Come: break;
+  case Control::End1:
+  case Control::End2:
+  case Control::Sp:
+  case Control::Spe:
+    diagnostics_.report(Diag::UnsupportedElement, box_->range)
+        << fmt::format("a box {}", row_->info.mnemonic) << "the `module` statements stand for it";
+    return false;
+  case Control::Plain:
+  case Control::Jmp:
+  case Control::Jmpe:
+  case Control::Jmpb:
+  case Control::Jmpc:
+  case Control::Lbl:
+  case Control::Call:
+  case Control::CallU:
+  case Control::Com:
+  case Control::Come: break;
   }
   if (row_->info.output == frontend::Output::None && box_->output.valid()) {
     const auto after = rung_.consumersOf(box_->output);
-    diagnostics_.report(Diag::ElementAfterClosing, after.empty() ? box_->range : rung_.element(after[0]).range) << row_->info.mnemonic;
+    diagnostics_.report(Diag::ElementAfterClosing, after.empty() ? box_->range : rung_.element(after[0]).range)
+        << row_->info.mnemonic;
     return false;
   }
   return checkPins();
@@ -166,7 +171,8 @@ bool RungReader::checkPins() {
   }
   for (size_t i = 0; i < wanted.size(); ++i) {
     if (pins[i].input != ladder::kRail) continue;
-    diagnostics_.report(Diag::MissingCondition, pins[i].range) << row_->info.mnemonic << fmt::format("pin {}", wanted[i].name);
+    diagnostics_.report(Diag::MissingCondition, pins[i].range)
+        << row_->info.mnemonic << fmt::format("pin {}", wanted[i].name);
     return false;
   }
   return true;
@@ -271,9 +277,10 @@ bool RungReader::read() {
 }
 
 class LadderReader {
- public:
+public:
   LadderReader(Context& context, const ladder::LadderFile& file, UnitAssembler& units)
-      : context_(context), file_(file), units_(units), builder_(context, file.file, [this](Network&& n) { take(std::move(n)); }) {}
+      : context_(context), file_(file), units_(units),
+        builder_(context, file.file, [this](Network&& n) { take(std::move(n)); }) {}
 
   void read() {
     for (const ladder::Statement& statement : file_.statements) {
@@ -282,7 +289,7 @@ class LadderReader {
     }
   }
 
- private:
+private:
   void module(const ladder::Module& module);
   void readRung(const ladder::Rung& rung);
   void take(Network&& network) {
@@ -311,9 +318,11 @@ void LadderReader::module(const ladder::Module& module) {
     // The operand of SP, checked like one.
     Function sp{.row = findFunction("SP"), .range = module.range};
     if (checkFunction(context_, {module.name[1]}, {}, sp))
-      unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range, module.name[1].range);
+      unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range,
+                                module.name[1].range);
   } else {
-    context_.diagnostics.report(Diag::MalformedStatement, module.range) << "module" << "module LEVEL1, module LEVEL2 or module SUB Pn";
+    context_.diagnostics.report(Diag::MalformedStatement, module.range)
+        << "module" << "module LEVEL1, module LEVEL2 or module SUB Pn";
   }
   if (unit_ == kNone) units_.setGarbled();
 }
@@ -341,20 +350,23 @@ void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
     diagnostics.report(Diag::DialectConflict, file.dialectRange) << file.dialect << "gsk";
   for (const ladder::Declaration& declaration : file.declarations) {
     switch (declaration.kind) {
-      case ladder::DeclarationKind::Symbol:
-        context.names.addSymbol(diagnostics, declaration.name, declaration.value, declaration.comment);
-        break;
-      case ladder::DeclarationKind::Const:
-        context.names.addConstant(diagnostics, declaration.name, declaration.value);
-        break;
-      case ladder::DeclarationKind::Message:
-      case ladder::DeclarationKind::Button:
-        diagnostics.report(Diag::UnsupportedElement, declaration.range) << "a statement for texts" << "the control shows the texts of area A itself";
-        break;
+    case ladder::DeclarationKind::Symbol:
+      context.names.addSymbol(diagnostics, declaration.name, declaration.value, declaration.comment);
+      break;
+    case ladder::DeclarationKind::Const:
+      context.names.addConstant(diagnostics, declaration.name, declaration.value);
+      break;
+    case ladder::DeclarationKind::Message:
+    case ladder::DeclarationKind::Button:
+      diagnostics.report(Diag::UnsupportedElement, declaration.range)
+          << "a statement for texts" << "the control shows the texts of area A itself";
+      break;
     }
   }
 }
 
-void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler& units) { LadderReader(context, file, units).read(); }
+void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler& units) {
+  LadderReader(context, file, units).read();
+}
 
 } // namespace rung::gsk

@@ -14,35 +14,55 @@ namespace {
 // ';' comments; no quoted texts.
 constexpr WordRules kRules = {.comment = ';', .quotes = "", .separators = ""};
 
-enum class Command : uint8_t { Ld, Ldi, And, Ani, Or, Ori, Orb, Anb, Out, Outi, Set, Rst, Func, Prm, Table, Dialect, Symbol };
-constexpr std::array<std::string_view, 17> kCommands = {"LD",  "LDI",  "AND", "ANI", "OR",   "ORI", "ORB",   "ANB",    "OUT",
-                                                        "OUTI", "SET", "RST", "FUNC", "PRM", "TABLE", "DIALECT", "SYMBOL"};
+enum class Command : uint8_t {
+  Ld,
+  Ldi,
+  And,
+  Ani,
+  Or,
+  Ori,
+  Orb,
+  Anb,
+  Out,
+  Outi,
+  Set,
+  Rst,
+  Func,
+  Prm,
+  Table,
+  Dialect,
+  Symbol
+};
+constexpr std::array<std::string_view, 17> kCommands = {"LD",   "LDI", "AND",   "ANI",     "OR",    "ORI",
+                                                        "ORB",  "ANB", "OUT",   "OUTI",    "SET",   "RST",
+                                                        "FUNC", "PRM", "TABLE", "DIALECT", "SYMBOL"};
 
 std::optional<Command> commandOf(std::string_view text) {
-  const auto at = std::find_if(kCommands.begin(), kCommands.end(), [&](std::string_view c) { return equalNoCase(c, text); });
+  const auto at =
+      std::find_if(kCommands.begin(), kCommands.end(), [&](std::string_view c) { return equalNoCase(c, text); });
   if (at == kCommands.end()) return std::nullopt;
   return static_cast<Command>(at - kCommands.begin());
 }
 
 std::string_view wantedOperand(Command command) {
   switch (command) {
-    case Command::Func: return "the number or name of a function";
-    case Command::Prm: return "a parameter";
-    case Command::Table: return "a constant";
-    case Command::Dialect: return "the name of the dialect";
-    case Command::Symbol: return "a name and an address";
-    case Command::Orb:
-    case Command::Anb: return "";
-    case Command::Ld:
-    case Command::Ldi:
-    case Command::And:
-    case Command::Ani:
-    case Command::Or:
-    case Command::Ori:
-    case Command::Out:
-    case Command::Outi:
-    case Command::Set:
-    case Command::Rst: return "a bit";
+  case Command::Func: return "the number or name of a function";
+  case Command::Prm: return "a parameter";
+  case Command::Table: return "a constant";
+  case Command::Dialect: return "the name of the dialect";
+  case Command::Symbol: return "a name and an address";
+  case Command::Orb:
+  case Command::Anb: return "";
+  case Command::Ld:
+  case Command::Ldi:
+  case Command::And:
+  case Command::Ani:
+  case Command::Or:
+  case Command::Ori:
+  case Command::Out:
+  case Command::Outi:
+  case Command::Set:
+  case Command::Rst: return "a bit";
   }
   return "";
 }
@@ -65,9 +85,10 @@ bool isDecoration(std::string_view text) {
 }
 
 class ListReader {
- public:
+public:
   ListReader(Context& context, FileId file, UnitAssembler& units)
-      : context_(context), file_(file), builder_(context, file, [&units](Network&& network) { units.add(std::move(network)); }) {}
+      : context_(context), file_(file),
+        builder_(context, file, [&units](Network&& network) { units.add(std::move(network)); }) {}
 
   void read() {
     LineReader lines(context_.sources, file_);
@@ -82,7 +103,7 @@ class ListReader {
     builder_.finish();
   }
 
- private:
+private:
   void comment();
   void readStatement(std::span<const Word> words);
   bool checkCharacters(std::span<const Word> words);
@@ -116,11 +137,14 @@ bool ListReader::checkCharacters(std::span<const Word> words) {
     if (bad == word.text.end()) continue;
     const auto offset = static_cast<uint32_t>(bad - word.text.begin());
     size_t length = 1;
-    while (offset + length < word.text.size() && (static_cast<unsigned char>(word.text[offset + length]) & 0xC0) == 0x80) ++length;
+    while (offset + length < word.text.size() &&
+           (static_cast<unsigned char>(word.text[offset + length]) & 0xC0) == 0x80)
+      ++length;
     const SourcePos begin{word.range.begin.value + offset};
     const SourceRange range{begin, {begin.value + static_cast<uint32_t>(length)}};
     if (static_cast<unsigned char>(*bad) < 0x80)
-      context_.diagnostics.report(Diag::BadCharacter, range) << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
+      context_.diagnostics.report(Diag::BadCharacter, range)
+          << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
     else
       context_.diagnostics.report(Diag::BadCharacter, range) << fmt::format("'{}'", word.text.substr(offset, length));
     return false;
@@ -136,7 +160,9 @@ bool ListReader::checkOperands(Command command, std::span<const Word> words) {
         << words[0].text << fmt::format("complete statement: {} is missing", wantedOperand(command));
   else
     context_.diagnostics.report(Diag::BadOperand, words[wanted + 1].range)
-        << words[wanted + 1].text << fmt::format("part of this statement: {} takes {}", words[0].text, wanted == 0 ? "nothing" : wantedOperand(command));
+        << words[wanted + 1].text
+        << fmt::format("part of this statement: {} takes {}", words[0].text,
+                       wanted == 0 ? "nothing" : wantedOperand(command));
   return false;
 }
 
@@ -156,7 +182,8 @@ void ListReader::readStatement(std::span<const Word> words) {
 }
 
 void ListReader::checkDialect(const Word& word) {
-  if (!equalNoCase(word.text, "gsk")) context_.diagnostics.report(Diag::DialectConflict, word.range) << word.text << "gsk";
+  if (!equalNoCase(word.text, "gsk"))
+    context_.diagnostics.report(Diag::DialectConflict, word.range) << word.text << "gsk";
 }
 
 const Row* ListReader::functionOf(const Word& word) {
@@ -168,23 +195,23 @@ const Row* ListReader::functionOf(const Word& word) {
 
 void ListReader::dispatch(Command command, std::span<const Word> words, Place at) {
   switch (command) {
-    case Command::Ld: return builder_.contact(Logic::Load, false, words[1], at);
-    case Command::Ldi: return builder_.contact(Logic::Load, true, words[1], at);
-    case Command::And: return builder_.contact(Logic::And, false, words[1], at);
-    case Command::Ani: return builder_.contact(Logic::And, true, words[1], at);
-    case Command::Or: return builder_.contact(Logic::Or, false, words[1], at);
-    case Command::Ori: return builder_.contact(Logic::Or, true, words[1], at);
-    case Command::Orb: return builder_.block(Logic::OrBlock, at);
-    case Command::Anb: return builder_.block(Logic::AndBlock, at);
-    case Command::Out: return builder_.coil(Coil::Out, words[1], at);
-    case Command::Outi: return builder_.coil(Coil::OutInverted, words[1], at);
-    case Command::Set: return builder_.coil(Coil::Set, words[1], at);
-    case Command::Rst: return builder_.coil(Coil::Reset, words[1], at);
-    case Command::Func: return builder_.function(functionOf(words[1]), at);
-    case Command::Prm: return builder_.parameter(words[1], at);
-    case Command::Table: return builder_.tableRow(words[1], at);
-    case Command::Dialect:
-    case Command::Symbol: return;
+  case Command::Ld: return builder_.contact(Logic::Load, false, words[1], at);
+  case Command::Ldi: return builder_.contact(Logic::Load, true, words[1], at);
+  case Command::And: return builder_.contact(Logic::And, false, words[1], at);
+  case Command::Ani: return builder_.contact(Logic::And, true, words[1], at);
+  case Command::Or: return builder_.contact(Logic::Or, false, words[1], at);
+  case Command::Ori: return builder_.contact(Logic::Or, true, words[1], at);
+  case Command::Orb: return builder_.block(Logic::OrBlock, at);
+  case Command::Anb: return builder_.block(Logic::AndBlock, at);
+  case Command::Out: return builder_.coil(Coil::Out, words[1], at);
+  case Command::Outi: return builder_.coil(Coil::OutInverted, words[1], at);
+  case Command::Set: return builder_.coil(Coil::Set, words[1], at);
+  case Command::Rst: return builder_.coil(Coil::Reset, words[1], at);
+  case Command::Func: return builder_.function(functionOf(words[1]), at);
+  case Command::Prm: return builder_.parameter(words[1], at);
+  case Command::Table: return builder_.tableRow(words[1], at);
+  case Command::Dialect:
+  case Command::Symbol: return;
   }
 }
 

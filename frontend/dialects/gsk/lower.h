@@ -1,5 +1,6 @@
 // Lowering of networks to IR. A lowering function of the table gets a FunctionLowering: conditions as values, checked
-// parameters, and the few things that functions do with them. It says what the output bit W is; coils are not its business.
+// parameters, and the few things that functions do with them. It says what the output bit W is; coils are not its
+// business.
 #pragma once
 #include <functional>
 #include <memory>
@@ -18,7 +19,7 @@ class ModuleLowering;
 struct RoutineContext;
 
 class FunctionLowering {
- public:
+public:
   FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
                    std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
 
@@ -67,7 +68,7 @@ class FunctionLowering {
   // Where a JMPC leads, plus 1; 0: none is under way.
   ir::SlotId leaveTarget();
 
- private:
+private:
   ModuleLowering& module_;
   RoutineContext& routine_;
   std::span<const ir::ValueId> conditions_;

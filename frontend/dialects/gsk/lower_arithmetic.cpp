@@ -1,4 +1,5 @@
-// Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing overflows.
+// Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing
+// overflows.
 #include "frontend/dialects/gsk/lower.h"
 
 namespace rung::gsk {
@@ -15,7 +16,8 @@ void storeFlags(FunctionLowering& f, ValueId zero, ValueId negative, ValueId ove
   ir::RungBuilder& b = f.b;
   ValueId byte = b.constant(Type::I8, 0);
   const auto add = [&](ValueId flag, int64_t bit) {
-    if (flag.valid()) byte = b.or_(byte, b.select(flag, b.constant(Type::I8, int64_t{1} << bit), b.constant(Type::I8, 0)));
+    if (flag.valid())
+      byte = b.or_(byte, b.select(flag, b.constant(Type::I8, int64_t{1} << bit), b.constant(Type::I8, 0)));
   };
   add(zero, 0);
   add(negative, 1);

@@ -80,7 +80,8 @@ void lowerShift(FunctionLowering& f) {
     const ValueId right = f.condition(0);
     const ValueId old = f.load(Type::I16, f.param(0).address);
     const ValueId one = b.i32(1);
-    const ValueId shifted = b.select(right, b.op(OpCode::ShrU, Type::I16, {old, one}), b.op(OpCode::Shl, Type::I16, {old, one}));
+    const ValueId shifted =
+        b.select(right, b.op(OpCode::ShrU, Type::I16, {old, one}), b.op(OpCode::Shl, Type::I16, {old, one}));
     const ValueId kept = b.select(f.condition(1), b.or_(shifted, old), shifted);
     const ValueId end = b.select(right, old, b.op(OpCode::ShrU, Type::I16, {old, b.i32(15)}));
     f.store(f.param(0).address, kept);
@@ -107,7 +108,8 @@ void lowerCompare(FunctionLowering& f) {
 }
 
 void lowerCoincidence(FunctionLowering& f) {
-  f.latchedOutput(f.act(), {}, [&] { return f.b.eq(f.operand(1, f.dataType()), f.load(f.dataType(), f.param(2).address)); });
+  f.latchedOutput(f.act(), {},
+                  [&] { return f.b.eq(f.operand(1, f.dataType()), f.load(f.dataType(), f.param(2).address)); });
 }
 
 } // namespace rung::gsk

@@ -18,9 +18,9 @@ constexpr uint32_t kCopyGap = 8;
 
 uint32_t spaceFlags(AreaUse use) {
   switch (use) {
-    case AreaUse::Input: return RUNG_SPACE_INPUT;
-    case AreaUse::Output: return RUNG_SPACE_OUTPUT;
-    case AreaUse::Memory: return 0;
+  case AreaUse::Input: return RUNG_SPACE_INPUT;
+  case AreaUse::Output: return RUNG_SPACE_OUTPUT;
+  case AreaUse::Memory: return 0;
   }
   return 0;
 }
@@ -32,7 +32,9 @@ ir::SpaceId addSpace(ir::Module& module, std::string name, uint32_t bytes, uint3
 
 size_t indexOf(Area area) { return static_cast<size_t>(area); }
 
-bool isTimer(const Network& network) { return network.function.row != nullptr && network.function.row->lower == &lowerTimer; }
+bool isTimer(const Network& network) {
+  return network.function.row != nullptr && network.function.row->lower == &lowerTimer;
+}
 
 std::string stemOf(std::string_view path) {
   const size_t slash = path.find_last_of('/');
@@ -42,7 +44,8 @@ std::string stemOf(std::string_view path) {
 
 } // namespace
 
-ModuleLowering::ModuleLowering(const Program& program, Context& context, std::span<const FileId> files, const frontend::CompileOptions& options)
+ModuleLowering::ModuleLowering(const Program& program, Context& context, std::span<const FileId> files,
+                               const frontend::CompileOptions& options)
     : program_(program), context_(context), files_(files), options_(options), module_(std::make_unique<ir::Module>()) {}
 
 std::unique_ptr<ir::Module> ModuleLowering::run() {
@@ -88,14 +91,16 @@ void ModuleLowering::addSpaces() {
 
 void ModuleLowering::addSymbols() {
   for (const UserSymbol& symbol : context_.names.symbols())
-    module_->symbols.push_back({.name = symbol.name,
-                                .comment = symbol.comment,
-                                .space = levels_[0].spaces[indexOf(symbol.address.area)],
-                                .byte = symbol.address.byte,
-                                .bit = symbol.address.bit,
-                                .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
-                                .flags = areaInfo(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
-  std::sort(module_->symbols.begin(), module_->symbols.end(), [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+    module_->symbols.push_back(
+        {.name = symbol.name,
+         .comment = symbol.comment,
+         .space = levels_[0].spaces[indexOf(symbol.address.area)],
+         .byte = symbol.address.byte,
+         .bit = symbol.address.bit,
+         .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
+         .flags = areaInfo(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
+  std::sort(module_->symbols.begin(), module_->symbols.end(),
+            [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
 }
 
 void ModuleLowering::addPresets() {
@@ -156,7 +161,8 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   if (clock) addClock(routine, level, unit);
   for (uint32_t n = 0; n < unit.networks.size(); ++n) {
     lowerNetwork(context, routine.rungs[context.rungOf[n]], n);
-    if (leavesBehind(context, unit.networks[n])) addLeave(context, routine.rungs[context.rungOf[n] + 1], context.rungOf[n] + 2);
+    if (leavesBehind(context, unit.networks[n]))
+      addLeave(context, routine.rungs[context.rungOf[n] + 1], context.rungOf[n] + 2);
   }
 }
 
@@ -176,8 +182,17 @@ void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Uni
 }
 
 void ModuleLowering::addTasks() {
-  module_->tasks.push_back({.name = "LEVEL1", .entry = levels_[0].routines[kLevel1], .periodUs = kSlotUs, .budget = kBudget, .budgetFault = ir::FaultId{0}});
-  module_->tasks.push_back({.name = "LEVEL2", .entry = levels_[1].routines[kLevel2], .periodUs = kSlotUs * parts_, .budget = kBudget, .budgetFault = ir::FaultId{0}, .parts = parts_});
+  module_->tasks.push_back({.name = "LEVEL1",
+                            .entry = levels_[0].routines[kLevel1],
+                            .periodUs = kSlotUs,
+                            .budget = kBudget,
+                            .budgetFault = ir::FaultId{0}});
+  module_->tasks.push_back({.name = "LEVEL2",
+                            .entry = levels_[1].routines[kLevel2],
+                            .periodUs = kSlotUs * parts_,
+                            .budget = kBudget,
+                            .budgetFault = ir::FaultId{0},
+                            .parts = parts_});
   module_->fastTask = ir::TaskId{0};
   module_->mainTask = ir::TaskId{1};
   addResultRegisters(module_->tasks[0]);
@@ -211,7 +226,9 @@ void ModuleLowering::addLatch(ir::Task& task, Area area) {
 // P4: Level 1 works on a set of result registers of its own; between its runs R holds that of Level 2.
 void ModuleLowering::addResultRegisters(ir::Task& task) {
   const std::vector<bool>& used = levels_[0].used[indexOf(Area::R)];
-  if (std::find(used.begin() + kResultFlags, used.begin() + kResultFlags + kResultBytes, true) == used.begin() + kResultFlags + kResultBytes) return;
+  if (std::find(used.begin() + kResultFlags, used.begin() + kResultFlags + kResultBytes, true) ==
+      used.begin() + kResultFlags + kResultBytes)
+    return;
   const ir::SpaceId relays = levels_[0].spaces[indexOf(Area::R)];
   const ir::SpaceId level1 = addSpace(*module_, "@R1", kResultBytes, RUNG_SPACE_HIDDEN);
   const ir::SpaceId level2 = addSpace(*module_, "@R2", kResultBytes, RUNG_SPACE_HIDDEN);

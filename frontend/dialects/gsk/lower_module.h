@@ -10,8 +10,8 @@
 
 namespace rung::gsk {
 
-// Level 1 reads X and F as they are, Level 2 from its latch (P3). Units that both levels run are lowered twice and share
-// their slots.
+// Level 1 reads X and F as they are, Level 2 from its latch (P3). Units that both levels run are lowered twice and
+// share their slots.
 struct LevelState {
   bool isLevel2 = false;
   std::array<ir::SpaceId, kAreaCount> spaces;
@@ -30,8 +30,9 @@ struct RoutineContext {
 };
 
 class ModuleLowering {
- public:
-  ModuleLowering(const Program& program, Context& context, std::span<const FileId> files, const frontend::CompileOptions& options);
+public:
+  ModuleLowering(const Program& program, Context& context, std::span<const FileId> files,
+                 const frontend::CompileOptions& options);
   std::unique_ptr<ir::Module> run();
 
   // For FunctionLowering.
@@ -42,7 +43,7 @@ class ModuleLowering {
   const Program& program() const { return program_; }
   void use(LevelState& level, const Address& address, uint32_t bytes);
 
- private:
+private:
   void addSpaces();
   void addFiles();
   void addSymbols();

@@ -7,7 +7,9 @@
 namespace rung::gsk {
 namespace {
 
-ir::SpaceId spaceOf(const LevelState& level, const Address& address) { return level.spaces[static_cast<size_t>(address.area)]; }
+ir::SpaceId spaceOf(const LevelState& level, const Address& address) {
+  return level.spaces[static_cast<size_t>(address.area)];
+}
 
 ir::Place placeOf(const LevelState& level, const Address& address) {
   return {spaceOf(level, address), address.byte, address.isBit ? address.bit : 0u};
@@ -28,7 +30,8 @@ std::string linesOf(const SourceManager& sources, const Network& network) {
 void ModuleLowering::describe(ir::Rung& rung, const Network& network, uint64_t key) const {
   rung.title = network.title;
   rung.sourceText = linesOf(context_.sources, network);
-  rung.begin = {fileIndex_.at(network.file.index), network.firstLine, context_.sources.lineCol(network.range.begin).column};
+  rung.begin = {fileIndex_.at(network.file.index), network.firstLine,
+                context_.sources.lineCol(network.range.begin).column};
   rung.lastLine = network.lastLine;
   rung.key = key;
   rung.weight = std::max(network.steps, 1u);
@@ -56,17 +59,19 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
 }
 
 // Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0.
-void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value) {
-  if (network.com != kNone) value = b.and_(value, b.slotLoad(slot(slotPrefix(routine.unit, network.com) + "com", ir::Type::Bit, 0, true)));
+void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network,
+                                ir::ValueId value) {
+  if (network.com != kNone)
+    value = b.and_(value, b.slotLoad(slot(slotPrefix(routine.unit, network.com) + "com", ir::Type::Bit, 0, true)));
   for (const CoilStep& coil : network.coils) {
     b.setLine(coil.line);
     use(*routine.level, coil.bit, 1);
     const ir::Place place = placeOf(*routine.level, coil.bit);
     switch (coil.kind) {
-      case Coil::Out: b.store(place, value); break;
-      case Coil::OutInverted: b.store(place, b.not_(value)); break;
-      case Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
-      case Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
+    case Coil::Out: b.store(place, value); break;
+    case Coil::OutInverted: b.store(place, b.not_(value)); break;
+    case Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
+    case Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
     }
   }
 }
@@ -106,9 +111,11 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
 
 // ---- FunctionLowering ----------------------------------------------------------------------------------------------
 
-FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& net,
-                                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix)
-    : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions), slotPrefix_(slotPrefix) {}
+FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
+                                   const Network& net, std::span<const ir::ValueId> conditions,
+                                   std::string_view slotPrefix)
+    : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
+      slotPrefix_(slotPrefix) {}
 
 ir::ValueId FunctionLowering::load(ir::Type type, const Address& address) {
   module_.use(*routine_.level, address, std::max(ir::byteWidth(type), 1u));
@@ -167,7 +174,9 @@ void FunctionLowering::when(ir::ValueId condition, const std::function<void()>& 
 
 uint32_t FunctionLowering::targetRung() const { return routine_.rungOf[network.target]; }
 ir::RoutineId FunctionLowering::callee() const { return routine_.level->routines[network.callee]; }
-ir::SlotId FunctionLowering::commonLine() { return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true); }
+ir::SlotId FunctionLowering::commonLine() {
+  return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true);
+}
 ir::SlotId FunctionLowering::leaveTarget() { return module_.leaveTarget(); }
 
 } // namespace rung::gsk

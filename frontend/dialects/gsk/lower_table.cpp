@@ -11,7 +11,9 @@ using ir::Type;
 using ir::ValueId;
 
 // Entries of a table in D that exist (P35).
-uint32_t entriesFrom(const Address& table, uint32_t length) { return (areaInfo(table.area).bytes - table.byte) / length; }
+uint32_t entriesFrom(const Address& table, uint32_t length) {
+  return (areaInfo(table.area).bytes - table.byte) / length;
+}
 
 // Entries of `length` bytes one behind the other; the index counts bytes.
 ir::Window tableWindow(FunctionLowering& f, const Address& table) {
@@ -69,7 +71,8 @@ void lowerRotation(FunctionLowering& f) {
 void lowerCodeTable(FunctionLowering& f) {
   std::vector<uint8_t> bytes;
   for (int64_t row : f.function.table)
-    for (uint32_t i = 0; i < f.function.length; ++i) bytes.push_back(static_cast<uint8_t>(static_cast<uint64_t>(row) >> (8 * i)));
+    for (uint32_t i = 0; i < f.function.length; ++i)
+      bytes.push_back(static_cast<uint8_t>(static_cast<uint64_t>(row) >> (8 * i)));
   const auto rows = static_cast<uint32_t>(f.function.table.size());
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
@@ -111,8 +114,10 @@ void lowerIndexedMove(FunctionLowering& f) {
     const ValueId exists = b.ltU(index, b.i32(entriesFrom(table, f.function.length)));
     const ValueId legal = b.and_(b.ltU(index, unsignedWord(f, 1, Type::I32)), exists);
     const ValueId write = f.condition(0);
-    f.when(b.and_(legal, write), [&] { b.storeAt(tableWindow(f, table), byteIndex(f, index), f.load(f.dataType(), data)); });
-    f.when(b.and_(legal, b.not_(write)), [&] { f.store(data, b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, index))); });
+    f.when(b.and_(legal, write),
+           [&] { b.storeAt(tableWindow(f, table), byteIndex(f, index), f.load(f.dataType(), data)); });
+    f.when(b.and_(legal, b.not_(write)),
+           [&] { f.store(data, b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, index))); });
     return b.not_(legal);
   });
 }

@@ -19,9 +19,9 @@ ValueId presetOf(FunctionLowering& f) {
   };
   const int64_t first = f.param(0).value;
   switch (f.variant()) {
-    case kTimerPage: return word(timerPreset(first), timerUnitMs(first));
-    case kTimerMemory: return word(f.param(1).address, kAccuracyMs[first]);
-    default: return f.b.constant(Type::I64, f.param(1).value / 8 * 8 * kUsPerMs); // man. l.1152
+  case kTimerPage: return word(timerPreset(first), timerUnitMs(first));
+  case kTimerMemory: return word(f.param(1).address, kAccuracyMs[first]);
+  default: return f.b.constant(Type::I64, f.param(1).value / 8 * 8 * kUsPerMs); // man. l.1152
   }
 }
 

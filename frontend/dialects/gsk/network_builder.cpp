@@ -83,7 +83,8 @@ void NetworkBuilder::block(Logic kind, Place at) {
   if (state_ != State::Logic)
     contactOutOfPlace(at);
   else if (depth_ < 2)
-    stackError(at, fmt::format("{} joins two blocks, but the network has {} here", kind == Logic::OrBlock ? "ORB" : "ANB", values(depth_)));
+    stackError(at, fmt::format("{} joins two blocks, but the network has {} here",
+                               kind == Logic::OrBlock ? "ORB" : "ANB", values(depth_)));
   else
     --depth_;
   extend(at);

@@ -20,7 +20,7 @@ struct Place {
 };
 
 class NetworkBuilder {
- public:
+public:
   using Sink = std::function<void(Network&&)>;
   NetworkBuilder(Context& context, FileId file, Sink sink) : context_(context), file_(file), sink_(std::move(sink)) {}
 
@@ -40,7 +40,7 @@ class NetworkBuilder {
   // Completes the network under way.
   void finish();
 
- private:
+private:
   enum class State : uint8_t { Idle, Logic, Function, Outputs };
 
   void begin(Place at);
@@ -66,6 +66,7 @@ class NetworkBuilder {
 };
 
 // Fills in parameters, table and length by the row. False when something was wrong; everything wrong was reported.
-bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table, Function& function);
+bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
+                   Function& function);
 
 } // namespace rung::gsk

@@ -33,13 +33,13 @@ bool fits(int64_t value, uint32_t length) {
 }
 
 class ParameterCheck {
- public:
+public:
   ParameterCheck(Context& context, Function& function) : context_(context), function_(function) {}
 
   bool check(const std::vector<Word>& words);
   bool checkTable(const std::vector<Word>& rows, bool capacityKnown);
 
- private:
+private:
   bool checkOne(const OperandInfo& info, const Word& word, Param& param);
   bool checkFormat(const Word& word, Param& param, bool selects);
   bool checkNumber(const OperandInfo& info, const Word& word, Param& param);
@@ -58,23 +58,23 @@ class ParameterCheck {
 
 uint32_t ParameterCheck::lengthOf(Kind kind) const {
   switch (kind) {
-    case Kind::Word: return 2;
-    case Kind::Dword:
-    case Kind::WorkArea: return 4;
-    case Kind::Data:
-    case Kind::DataTable:
-    case Kind::ConstantOrData: return lengthKnown_ ? function_.length : 1;
-    case Kind::Block: return blockLength_;
-    case Kind::Byte:
-    case Kind::Bit:
-    case Kind::Coil:
-    case Kind::Format:
-    case Kind::FormatA:
-    case Kind::Constant:
-    case Kind::Number:
-    case Kind::Mask:
-    case Kind::Label:
-    case Kind::Subprogram: return 1;
+  case Kind::Word: return 2;
+  case Kind::Dword:
+  case Kind::WorkArea: return 4;
+  case Kind::Data:
+  case Kind::DataTable:
+  case Kind::ConstantOrData: return lengthKnown_ ? function_.length : 1;
+  case Kind::Block: return blockLength_;
+  case Kind::Byte:
+  case Kind::Bit:
+  case Kind::Coil:
+  case Kind::Format:
+  case Kind::FormatA:
+  case Kind::Constant:
+  case Kind::Number:
+  case Kind::Mask:
+  case Kind::Label:
+  case Kind::Subprogram: return 1;
   }
   return 1;
 }
@@ -102,8 +102,10 @@ bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Para
   if (!number.value) return false;
   param.value = *number.value;
   if (param.value < info.min || param.value > info.max) {
-    const std::string range = info.min == info.max ? fmt::format("{}", info.min) : fmt::format("{} to {}", info.min, info.max);
-    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range) << word.text << range << function_.row->info.mnemonic;
+    const std::string range =
+        info.min == info.max ? fmt::format("{}", info.min) : fmt::format("{} to {}", info.min, info.max);
+    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range)
+        << word.text << range << function_.row->info.mnemonic;
     return false;
   }
   blockLength_ = static_cast<uint32_t>(param.value);
@@ -136,12 +138,14 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
   const bool named = !word.text.empty() && upper(word.text[0]) == letter;
   const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
   if (!number) {
-    context_.diagnostics.report(Diag::BadOperand, word.range) << word.text << (letter == 'L' ? "label such as L1" : "subprogram such as P1");
+    context_.diagnostics.report(Diag::BadOperand, word.range)
+        << word.text << (letter == 'L' ? "label such as L1" : "subprogram such as P1");
     return false;
   }
   param.value = static_cast<int64_t>(*number);
   if (param.value > info.max) {
-    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range) << word.text << info.doc << function_.row->info.mnemonic;
+    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range)
+        << word.text << info.doc << function_.row->info.mnemonic;
     return false;
   }
   if (param.value == 0) context_.diagnostics.report(Diag::LabelZero, word.range) << info.doc;
@@ -167,25 +171,25 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
 
 bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& param) {
   switch (param.kind) {
-    case Kind::Format: return checkFormat(word, param, false);
-    case Kind::FormatA: return checkFormat(word, param, true);
-    case Kind::Constant: return checkConstant(word, param);
-    case Kind::Number: return checkNumber(info, word, param);
-    case Kind::Mask: return checkMask(word, param);
-    case Kind::Label: return checkNamed(info, word, param, 'L');
-    case Kind::Subprogram: return checkNamed(info, word, param, 'P');
-    case Kind::ConstantOrData:
-      if (!lengthKnown_) return false; // whether it is a constant is not known either
-      return constantOperand_ ? checkConstant(word, param) : checkAddress(info, word, param);
-    case Kind::Bit:
-    case Kind::Coil:
-    case Kind::Byte:
-    case Kind::Word:
-    case Kind::Dword:
-    case Kind::Data:
-    case Kind::Block:
-    case Kind::DataTable:
-    case Kind::WorkArea: return checkAddress(info, word, param);
+  case Kind::Format: return checkFormat(word, param, false);
+  case Kind::FormatA: return checkFormat(word, param, true);
+  case Kind::Constant: return checkConstant(word, param);
+  case Kind::Number: return checkNumber(info, word, param);
+  case Kind::Mask: return checkMask(word, param);
+  case Kind::Label: return checkNamed(info, word, param, 'L');
+  case Kind::Subprogram: return checkNamed(info, word, param, 'P');
+  case Kind::ConstantOrData:
+    if (!lengthKnown_) return false; // whether it is a constant is not known either
+    return constantOperand_ ? checkConstant(word, param) : checkAddress(info, word, param);
+  case Kind::Bit:
+  case Kind::Coil:
+  case Kind::Byte:
+  case Kind::Word:
+  case Kind::Dword:
+  case Kind::Data:
+  case Kind::Block:
+  case Kind::DataTable:
+  case Kind::WorkArea: return checkAddress(info, word, param);
   }
   return false;
 }
@@ -224,7 +228,8 @@ bool ParameterCheck::checkTable(const std::vector<Word>& rows, bool capacityKnow
 
 } // namespace
 
-bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table, Function& function) {
+bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
+                   Function& function) {
   ParameterCheck check(context, function);
   const bool good = check.check(parameters);
   return function.row->hasTable ? check.checkTable(table, good) : good;

@@ -10,21 +10,21 @@ namespace {
 
 std::string_view commandOf(const LogicStep& step) {
   switch (step.kind) {
-    case Logic::Load: return step.negated ? "LDI" : "LD";
-    case Logic::And: return step.negated ? "ANI" : "AND";
-    case Logic::Or: return step.negated ? "ORI" : "OR";
-    case Logic::OrBlock: return "ORB";
-    case Logic::AndBlock: return "ANB";
+  case Logic::Load: return step.negated ? "LDI" : "LD";
+  case Logic::And: return step.negated ? "ANI" : "AND";
+  case Logic::Or: return step.negated ? "ORI" : "OR";
+  case Logic::OrBlock: return "ORB";
+  case Logic::AndBlock: return "ANB";
   }
   return {};
 }
 
 std::string_view commandOf(Coil kind) {
   switch (kind) {
-    case Coil::Out: return "OUT";
-    case Coil::OutInverted: return "OUTI";
-    case Coil::Set: return "SET";
-    case Coil::Reset: return "RST";
+  case Coil::Out: return "OUT";
+  case Coil::OutInverted: return "OUTI";
+  case Coil::Set: return "SET";
+  case Coil::Reset: return "RST";
   }
   return {};
 }
@@ -32,23 +32,23 @@ std::string_view commandOf(Coil kind) {
 std::string textOf(const Param& param) {
   if (param.isAddress) return textOf(param.address);
   switch (param.kind) {
-    case Kind::Mask: return fmt::format("{:04b}", param.value);
-    case Kind::Label: return fmt::format("L{}", param.value);
-    case Kind::Subprogram: return fmt::format("P{}", param.value);
-    case Kind::FormatA: return fmt::format("{:04}", param.value);
-    case Kind::Bit:
-    case Kind::Coil:
-    case Kind::Format:
-    case Kind::Byte:
-    case Kind::Word:
-    case Kind::Dword:
-    case Kind::Data:
-    case Kind::Block:
-    case Kind::Constant:
-    case Kind::ConstantOrData:
-    case Kind::Number:
-    case Kind::DataTable:
-    case Kind::WorkArea: return fmt::format("{}", param.value);
+  case Kind::Mask: return fmt::format("{:04b}", param.value);
+  case Kind::Label: return fmt::format("L{}", param.value);
+  case Kind::Subprogram: return fmt::format("P{}", param.value);
+  case Kind::FormatA: return fmt::format("{:04}", param.value);
+  case Kind::Bit:
+  case Kind::Coil:
+  case Kind::Format:
+  case Kind::Byte:
+  case Kind::Word:
+  case Kind::Dword:
+  case Kind::Data:
+  case Kind::Block:
+  case Kind::Constant:
+  case Kind::ConstantOrData:
+  case Kind::Number:
+  case Kind::DataTable:
+  case Kind::WorkArea: return fmt::format("{}", param.value);
   }
   return {};
 }

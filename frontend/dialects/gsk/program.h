@@ -60,8 +60,8 @@ struct Network {
   Function function;
   std::vector<CoilStep> coils;
   uint32_t steps = 0;
-  bool bad = false;      // reported; never lowered
-  bool garbled = false;  // bad in a way that may hide a function command
+  bool bad = false;     // reported; never lowered
+  bool garbled = false; // bad in a way that may hide a function command
 
   // Filled in by analyse(): indices of networks in the unit, of a unit in the program.
   uint32_t target = kNone;
@@ -73,9 +73,9 @@ enum class UnitKind : uint8_t { Level1, Level2, Subprogram };
 
 struct Unit {
   UnitKind kind = UnitKind::Level1;
-  uint32_t number = 0;    // subprograms
-  SourceRange range;      // what opens the unit
-  SourceRange nameRange;  // subprograms: the operand of SP
+  uint32_t number = 0;           // subprograms
+  SourceRange range;             // what opens the unit
+  SourceRange nameRange;         // subprograms: the operand of SP
   std::vector<Network> networks; // the last one is the unit's end: END1, END2 or SPE
   // Filled in by analyse().
   bool fromLevel1 = false;

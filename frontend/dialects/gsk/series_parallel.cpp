@@ -37,7 +37,7 @@ struct Edge {
 };
 
 class Reduction {
- public:
+public:
   Reduction(const ladder::Rung& rung, NetId target)
       : rung_(rung), target_(target.index), ins_(rung.nets.size()), outs_(rung.nets.size()) {}
 
@@ -52,7 +52,7 @@ class Reduction {
     return flatten(edges_[onlyAlive(ins_[target_].edges)].pair);
   }
 
- private:
+private:
   struct Side {
     std::vector<uint32_t> edges; // with dead ones
     uint32_t alive = 0;
@@ -64,7 +64,8 @@ class Reduction {
   void joinSeries(uint32_t net);
   uint32_t join(Kind kind, uint32_t left, uint32_t right);
   void look(uint32_t net) {
-    if (net != ladder::kRail.index && net != target_ && ins_[net].alive == 1 && outs_[net].alive == 1) work_.push_back(net);
+    if (net != ladder::kRail.index && net != target_ && ins_[net].alive == 1 && outs_[net].alive == 1)
+      work_.push_back(net);
   }
   uint32_t onlyAlive(std::vector<uint32_t>& edges) {
     while (!edges_[edges.back()].alive) edges.pop_back();
@@ -107,7 +108,8 @@ void Reduction::collect() {
 }
 
 uint32_t Reduction::join(Kind kind, uint32_t left, uint32_t right) {
-  pairs_.push_back({.kind = kind, .left = left, .right = right, .spot = std::min(pairs_[left].spot, pairs_[right].spot)});
+  pairs_.push_back(
+      {.kind = kind, .left = left, .right = right, .spot = std::min(pairs_[left].spot, pairs_[right].spot)});
   return static_cast<uint32_t>(pairs_.size()) - 1;
 }
 

@@ -9,7 +9,7 @@ namespace rung::gsk {
 
 // Sorts networks into units. Command lists bring their own ends (§1.2); ladder modules name their unit.
 class UnitAssembler {
- public:
+public:
   UnitAssembler(Context& context, Program& program) : context_(context), program_(program) {}
 
   // Command lists: every network in the order of the text, then the end of each file.
@@ -26,7 +26,7 @@ class UnitAssembler {
   bool garbled() const { return garbled_; }
   void setGarbled() { garbled_ = true; }
 
- private:
+private:
   void end1(Network&& network);
   void end2(Network&& network);
   void beginSubprogram(const Network& network);

@@ -9,9 +9,9 @@ namespace rung::gsk {
 
 std::string nameOf(const Unit& unit) {
   switch (unit.kind) {
-    case UnitKind::Level1: return "LEVEL1";
-    case UnitKind::Level2: return "LEVEL2";
-    case UnitKind::Subprogram: return fmt::format("P{}", unit.number);
+  case UnitKind::Level1: return "LEVEL1";
+  case UnitKind::Level2: return "LEVEL2";
+  case UnitKind::Subprogram: return fmt::format("P{}", unit.number);
   }
   return {};
 }
@@ -21,20 +21,20 @@ void UnitAssembler::add(Network&& network) {
   if (network.garbled) garbled_ = true;
   const Control control = network.function.row == nullptr ? Control::Plain : network.function.row->control;
   switch (control) {
-    case Control::End1: return end1(std::move(network));
-    case Control::End2: return end2(std::move(network));
-    case Control::Sp: return beginSubprogram(network);
-    case Control::Spe: return endSubprogram(std::move(network));
-    case Control::Plain:
-    case Control::Jmp:
-    case Control::Jmpe:
-    case Control::Jmpb:
-    case Control::Jmpc:
-    case Control::Lbl:
-    case Control::Call:
-    case Control::CallU:
-    case Control::Com:
-    case Control::Come: return body(std::move(network));
+  case Control::End1: return end1(std::move(network));
+  case Control::End2: return end2(std::move(network));
+  case Control::Sp: return beginSubprogram(network);
+  case Control::Spe: return endSubprogram(std::move(network));
+  case Control::Plain:
+  case Control::Jmp:
+  case Control::Jmpe:
+  case Control::Jmpb:
+  case Control::Jmpc:
+  case Control::Lbl:
+  case Control::Call:
+  case Control::CallU:
+  case Control::Com:
+  case Control::Come: return body(std::move(network));
   }
 }
 
@@ -84,7 +84,8 @@ void UnitAssembler::beginSubprogram(const Network& network) {
   strayReported_ = false;
   const SourceRange range = network.function.range;
   if (current_ != kNone && program_.units[current_].kind == UnitKind::Subprogram) {
-    context_.diagnostics.report(Diag::NestedSubprogram, range).note(program_.units[current_].range, "the outer one begins here");
+    context_.diagnostics.report(Diag::NestedSubprogram, range)
+        .note(program_.units[current_].range, "the outer one begins here");
     ++nested_;
     nestedReported_ = true;
     return;
@@ -128,7 +129,8 @@ void UnitAssembler::endOfList(SourceRange lastLine) {
 uint32_t UnitAssembler::openModule(UnitKind kind, uint32_t number, SourceRange module, SourceRange name) {
   if (kind == UnitKind::Subprogram) return subprogram(number, module, name);
   const uint32_t unit = kind == UnitKind::Level1 ? kLevel1 : kLevel2;
-  if (sawList_ || moduleOpened_[unit]) context_.diagnostics.report(Diag::DuplicateModule, module) << nameOf(program_.units[unit]);
+  if (sawList_ || moduleOpened_[unit])
+    context_.diagnostics.report(Diag::DuplicateModule, module) << nameOf(program_.units[unit]);
   moduleOpened_[unit] = true;
   program_.units[unit].range = module;
   return unit;

@@ -31,7 +31,8 @@ struct File {
   std::string text;
 };
 
-inline std::unique_ptr<Compiled> compileFiles(const std::vector<File>& texts, const frontend::CompileOptions& options = {}) {
+inline std::unique_ptr<Compiled> compileFiles(const std::vector<File>& texts,
+                                              const frontend::CompileOptions& options = {}) {
   auto result = std::make_unique<Compiled>();
   std::vector<FileId> files;
   for (const File& file : texts) files.push_back(result->sources.addBuffer(file.name, file.text));
@@ -45,7 +46,6 @@ inline std::unique_ptr<Compiled> compileList(const std::string& text, const fron
 inline std::unique_ptr<Compiled> compileLadder(const std::string& text, const frontend::CompileOptions& options = {}) {
   return compileFiles({{"test.lad", text}}, options);
 }
-
 
 using Codes = std::vector<std::string>;
 

@@ -137,7 +137,9 @@ FUNC SPE
 // ---- errors --------------------------------------------------------------------------------------------------------
 
 // Of a rung of Level 2; the drawing begins in line 4.
-Codes errorsOf(const std::string& drawing) { return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n" + drawing)->codes(); }
+Codes errorsOf(const std::string& drawing) {
+  return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n" + drawing)->codes();
+}
 
 TEST(GskLadderErrors, Shapes) {
   EXPECT_EQ(errorsOf("|--[@X0.0]--(Y0.0)\n"), (Codes{"4 unsupported-element"}));
@@ -148,7 +150,8 @@ TEST(GskLadderErrors, Shapes) {
   EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}\n"), (Codes{"4 missing-output"}));
   EXPECT_EQ(errorsOf("|--(Y0.0)\n"), (Codes{"4 missing-condition"}));
   EXPECT_EQ(errorsOf("|--{MOVB D0 D1}\n"), (Codes{"4 missing-condition"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|----------{ACT             }\n"), (Codes{"5 missing-condition"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|----------{ACT             }\n"),
+            (Codes{"5 missing-condition"}));
   EXPECT_EQ(errorsOf("|--[X0.0]--[X0.1]\n"), (Codes{"4 missing-closing-element"}));
   EXPECT_EQ(errorsOf("|--[X0.0]--{END1}\n"), (Codes{"4 unsupported-element"}));
   EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}\n"), (Codes{"4 unknown-function"}));
@@ -165,11 +168,13 @@ TEST(GskLadderErrors, Bridge) {
 
 TEST(GskLadderErrors, Pins) {
   EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n"), (Codes{"4 missing-pin"}));
-  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|--[R0.1]--{RST             }\n"), (Codes{"5 unknown-pin"}));
+  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|--[R0.1]--{RST             }\n"),
+            (Codes{"5 unknown-pin"}));
 }
 
 TEST(GskLadderErrors, Operands) {
-  EXPECT_EQ(errorsOf("|--[X128.0]--[X0.9]--(X0.0)\n"), (Codes{"4 address-out-of-range", "4 bad-bit-number", "4 write-to-input"}));
+  EXPECT_EQ(errorsOf("|--[X128.0]--[X0.9]--(X0.0)\n"),
+            (Codes{"4 address-out-of-range", "4 bad-bit-number", "4 write-to-input"}));
   EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}--(Y0.0)\n"), (Codes{"4 parameter-out-of-range"}));
   EXPECT_EQ(errorsOf("|--[X0.0]--{TMR}--(Y0.0)\n"), (Codes{"4 wrong-parameter-count"}));
 }
@@ -184,14 +189,16 @@ TEST(GskLadderErrors, Modules) {
   EXPECT_EQ(codes("module SUB P513\n" + rung), (Codes{"2 parameter-out-of-range"}));
   EXPECT_EQ(codes("module SUB 5\n" + rung), (Codes{"2 bad-operand"}));
   EXPECT_EQ(codes("module LEVEL2\n" + rung + "module SUB P5\n" + rung), (Codes{"5 subprogram-unused"}));
-  EXPECT_EQ(codes("module LEVEL2\nrung\n|--{CALLU P5}\nmodule SUB P5\n" + rung + "module SUB P5\n" + rung), (Codes{"8 duplicate-subprogram"}));
+  EXPECT_EQ(codes("module LEVEL2\nrung\n|--{CALLU P5}\nmodule SUB P5\n" + rung + "module SUB P5\n" + rung),
+            (Codes{"8 duplicate-subprogram"}));
   EXPECT_EQ(codes("const LIMIT 50\nmodule LEVEL2\nrung\n|--[X0.0]--{NUMEB 1 LIMIT D0}\n"), Codes{});
   EXPECT_EQ(codes("message 1 \"x\"\nmodule LEVEL2\n" + rung), (Codes{"2 unsupported-element"}));
   EXPECT_EQ(compileLadder("dialect nct\nmodule LEVEL2\n" + rung)->codes(), (Codes{"1 dialect-conflict"}));
 }
 
 TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {
-  EXPECT_EQ(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes(), (Codes{"4 unclosed-element"}));
+  EXPECT_EQ(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes(),
+            (Codes{"4 unclosed-element"}));
 }
 
 } // namespace

@@ -32,8 +32,10 @@ FUNC 1            ; END2
 
 TEST(GskList, StepColumnCaseAndLeadingZerosDoNotMatter) {
   EXPECT_EQ(level2("0001 ld x002.01\n"), (Codes{"2 bad-bit-number", "3 wrong-condition-count"}));
-  EXPECT_EQ(level2("0001 ld x002.1\n0002 out y0003.7\n0003\n\n4 Ld X1.0\n5 func ADDb\n6 prm 1\n7 Prm D1\n8 prm 1\n9 prm d2\n"),
-            (Codes{"7 wrong-condition-count", "7 missing-output"}));
+  EXPECT_EQ(
+      level2(
+          "0001 ld x002.1\n0002 out y0003.7\n0003\n\n4 Ld X1.0\n5 func ADDb\n6 prm 1\n7 Prm D1\n8 prm 1\n9 prm d2\n"),
+      (Codes{"7 wrong-condition-count", "7 missing-output"}));
 }
 
 TEST(GskList, Words) {
@@ -42,10 +44,13 @@ TEST(GskList, Words) {
   EXPECT_EQ(level2("LD X0.0 X0.1\nOUT Y0.0\n"), (Codes{"2 bad-operand"}));
   EXPECT_EQ(level2("LD X0.0\nLD X0.1\nORB X0.2\nOUT Y0.0\n"), (Codes{"4 bad-operand"}));
   EXPECT_EQ(level2("LD X0.0\nOUT Y0.0 ; \xD0\xA1 in a comment is fine\n"), Codes{});
-  EXPECT_EQ(level2("LD \xD0\xA1" "0.0\nOUT Y0.0\n"), (Codes{"2 bad-character"}));
+  EXPECT_EQ(level2("LD \xD0\xA1"
+                   "0.0\nOUT Y0.0\n"),
+            (Codes{"2 bad-character"}));
   EXPECT_EQ(level2("FUNC 47\nPRM 1\nOUT Y0.0\n"), (Codes{"2 unknown-function"}));
   EXPECT_EQ(level2("FUNC NOPE\nPRM 1\nPRM 2\nOUT Y0.0\n"), (Codes{"2 unknown-function"}));
-  EXPECT_EQ(level2("FUNC 44\n"), (Codes{"2 wrong-condition-count", "2 not-built-yet", "2 missing-output", "2 wrong-parameter-count"}));
+  EXPECT_EQ(level2("FUNC 44\n"),
+            (Codes{"2 wrong-condition-count", "2 not-built-yet", "2 missing-output", "2 wrong-parameter-count"}));
   EXPECT_EQ(level2("dialect gsk\n"), Codes{});
   EXPECT_EQ(level2("dialect nct\n"), (Codes{"2 dialect-conflict"}));
 }
@@ -66,7 +71,9 @@ TEST(GskList, Addresses) {
   EXPECT_EQ(bit("MF"), Codes{}) << "a signal of the CNC, F7.0";
   EXPECT_EQ(bit("*ESP"), (Codes{"2 bad-operand"})) << "no name in a program";
   EXPECT_EQ(bit("RST"), (Codes{"2 bad-operand"})) << "a command's name, though F1.1 is called so";
-  const auto move = [](const std::string& from, const std::string& to) { return level2("LD X0.0\nFUNC MOVW\nPRM " + from + "\nPRM " + to + "\n"); };
+  const auto move = [](const std::string& from, const std::string& to) {
+    return level2("LD X0.0\nFUNC MOVW\nPRM " + from + "\nPRM " + to + "\n");
+  };
   EXPECT_EQ(move("X126", "Y126"), Codes{});
   EXPECT_EQ(move("X127", "Y126"), (Codes{"4 address-out-of-range"}));
   EXPECT_EQ(move("D10", "D1859"), (Codes{"5 address-out-of-range"}));
@@ -153,11 +160,14 @@ TEST(GskList, Parameters) {
   EXPECT_EQ(level2("LD X0.0\nFUNC MOVE\nPRM 0011\nPRM 111\nPRM D0\nPRM D1\n"), (Codes{"5 bad-mask"}));
   EXPECT_EQ(level2("LD X0.0\nFUNC MOVE\nPRM 0012\nPRM 1111\nPRM D0\nPRM D1\n"), (Codes{"4 bad-mask"}));
   EXPECT_EQ(level2("LD X0.0\nFUNC JMP\nPRM 1\nFUNC JMPE\n"), (Codes{"4 parameter-out-of-range"}));
-  EXPECT_EQ(level2("LD R0.0\nLD X0.0\nFUNC DSCHB\nPRM 1\nPRM D0\nPRM R20\nPRM D1\nPRM D2\nOUT Y0.0\n"), (Codes{"7 not-a-data-table"}));
+  EXPECT_EQ(level2("LD R0.0\nLD X0.0\nFUNC DSCHB\nPRM 1\nPRM D0\nPRM R20\nPRM D1\nPRM D2\nOUT Y0.0\n"),
+            (Codes{"7 not-a-data-table"}));
 }
 
 TEST(GskList, CodeTable) {
-  const auto codb = [](const std::string& rest) { return level2("LD R0.0\nLD X0.0\nFUNC CODB\nPRM 1\nPRM 2\nPRM D0\nPRM D1\n" + rest + "OUT Y0.0\n"); };
+  const auto codb = [](const std::string& rest) {
+    return level2("LD R0.0\nLD X0.0\nFUNC CODB\nPRM 1\nPRM 2\nPRM D0\nPRM D1\n" + rest + "OUT Y0.0\n");
+  };
   EXPECT_EQ(codb("TABLE 1\nTABLE -1\n"), Codes{});
   EXPECT_EQ(codb("TABLE 1\n"), (Codes{"4 table-size-mismatch"}));
   EXPECT_EQ(codb("TABLE 1\nTABLE 2\nTABLE 3\n"), (Codes{"4 table-size-mismatch"}));
@@ -179,7 +189,8 @@ TEST(GskList, Symbols) {
 
 TEST(GskList, OneRunReportsAllErrors) {
   EXPECT_EQ(level2("LD X128.0\nOUT X0.0\nLD X0.0\nAND X0.9\nFUNC 2\nPRM 200\nLD X0.1\nOUT Y0.0\n"),
-            (Codes{"2 address-out-of-range", "3 write-to-input", "5 bad-bit-number", "6 missing-output", "7 parameter-out-of-range"}));
+            (Codes{"2 address-out-of-range", "3 write-to-input", "5 bad-bit-number", "6 missing-output",
+                   "7 parameter-out-of-range"}));
 }
 
 TEST(GskList, ProgramSize) {
@@ -196,7 +207,9 @@ TEST(GskList, Positions) {
 }
 
 TEST(GskConfig, WrongValues) {
-  const auto codes = [](const char* key, const char* value) { return compileList("FUNC 0\nFUNC 1\n", {{{key, value}}})->codes(); };
+  const auto codes = [](const char* key, const char* value) {
+    return compileList("FUNC 0\nFUNC 1\n", {{{key, value}}})->codes();
+  };
   EXPECT_EQ(codes("period_us", "8000"), Codes{});
   EXPECT_EQ(codes("period_us", "10000"), (Codes{"- constant-out-of-range"}));
   EXPECT_EQ(codes("tmr.1", "3145680"), Codes{});

@@ -11,7 +11,7 @@
 namespace rung::gsk::test {
 
 class Machine {
- public:
+public:
   explicit Machine(std::unique_ptr<Compiled> program) : program_(std::move(program)) {
     if (program_->module == nullptr) {
       ADD_FAILURE() << program_->text();
@@ -33,7 +33,7 @@ class Machine {
   host::Instance& instance() { return *instance_; }
   const ir::Module& module() const { return *program_->module; }
 
- private:
+private:
   host::Ref ref(const std::string& name) const {
     const auto found = instance_->resolve(name);
     if (!found) ADD_FAILURE() << name;

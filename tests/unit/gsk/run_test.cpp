@@ -5,7 +5,9 @@
 namespace rung::gsk::test {
 namespace {
 
-Machine listMachine(const std::string& text, const frontend::CompileOptions& options = {}) { return Machine(compileList(text, options)); }
+Machine listMachine(const std::string& text, const frontend::CompileOptions& options = {}) {
+  return Machine(compileList(text, options));
+}
 
 TEST(GskRun, ManualExampleOfOrder) { // l.419-422
   Machine m = listMachine("FUNC 0\nLD R0.0\nANI R0.2\nOUT R0.1\nLD R0.0\nOUT R0.2\nFUNC 1\n");
@@ -20,9 +22,7 @@ TEST(GskRun, EveryFunctionRuns) {
   std::string text = "FUNC 0\n";
   for (const Row& row : allRows()) {
     if (row.info.number < 0 || row.lower == nullptr || row.control != Control::Plain) continue;
-    std::string lines(row.info.example);
-    for (size_t at; (at = lines.find(" / ")) != std::string::npos;) lines.replace(at, 3, "\n");
-    text += lines + "\n";
+    text += std::string(row.info.example) + "\n";
   }
   Machine m = listMachine(text + "FUNC 1\n");
   m.scan(2);
@@ -71,7 +71,8 @@ FUNC 1
 TEST(GskModule, KeysSurviveEditsElsewhere) {
   const std::string network = "LD X010.0\nFUNC DIFU\nPRM 001\nOUT R0.0\n";
   const auto before = compiled("FUNC 0\n" + network + "FUNC 1\n");
-  const auto after = compiled("FUNC 0\nLD X1.1\nOUT Y1.1\n; a comment\nLD X10.0\nFUNC 26\nPRM 1\nOUT R000.0\n" + std::string("FUNC 1\n"));
+  const auto after = compiled("FUNC 0\nLD X1.1\nOUT Y1.1\n; a comment\nLD X10.0\nFUNC 26\nPRM 1\nOUT R000.0\n" +
+                              std::string("FUNC 1\n"));
   EXPECT_EQ(before->module->routines[1].rungs[0].key, after->module->routines[1].rungs[1].key);
   EXPECT_EQ(before->module->slots[0].key, after->module->slots[0].key);
   const auto twice = compiled("FUNC 0\n" + network + network + "FUNC 1\n");

@@ -23,7 +23,8 @@ TEST(GskEnds, MissingAndDouble) {
 
 TEST(GskEnds, CodeBehindEnd2) {
   EXPECT_EQ(codes("FUNC 0\nFUNC 1\nLD X0.0\nOUT Y0.0\nLD X0.1\nOUT Y0.1\n"), (Codes{"3 code-after-end2"}));
-  EXPECT_EQ(codes("FUNC 0\nLD X0.0\nFUNC CALL\nPRM P1\nFUNC 1\nLD X0.0\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"6 condition-ignored"}));
+  EXPECT_EQ(codes("FUNC 0\nLD X0.0\nFUNC CALL\nPRM P1\nFUNC 1\nLD X0.0\nFUNC SP\nPRM P1\nFUNC SPE\n"),
+            (Codes{"6 condition-ignored"}));
 }
 
 TEST(GskSubprograms, Text) {
@@ -36,9 +37,11 @@ TEST(GskSubprograms, Text) {
   EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"9 duplicate-subprogram"}));
   EXPECT_EQ(codes(call), (Codes{"3 undefined-subprogram"}));
   EXPECT_EQ(codes("FUNC 0\nFUNC 1\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"4 subprogram-unused"}));
-  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P1\nFUNC SP\nPRM P1\nFUNC SPE\nLD X0.0\nOUT Y0.0\nFUNC 1\n"), (Codes{"4 subprogram-misplaced"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P1\nFUNC SP\nPRM P1\nFUNC SPE\nLD X0.0\nOUT Y0.0\nFUNC 1\n"),
+            (Codes{"4 subprogram-misplaced"}));
   EXPECT_EQ(codes(call + "FUNC SP\nPRM P513\nFUNC SPE\n"), (Codes{"6 parameter-out-of-range"}));
-  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P0\nFUNC 1\nFUNC SP\nPRM P0\nFUNC SPE\n"), (Codes{"3 label-zero", "6 label-zero"}));
+  EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P0\nFUNC 1\nFUNC SP\nPRM P0\nFUNC SPE\n"),
+            (Codes{"3 label-zero", "6 label-zero"}));
 }
 
 std::string chain(int length, const std::string& last) {
@@ -104,8 +107,10 @@ TEST(GskLabels, Jmpc) {
   const std::string sub = "FUNC SP\nPRM P1\n" + jump + "FUNC SPE\n"; // JMPC's FUNC in its line 4, PRM in 5
   EXPECT_EQ(codes("FUNC 0\nFUNC CALLU\nPRM P1\nFUNC LBL\nPRM L1\nFUNC 1\n" + sub), Codes{});
   EXPECT_EQ(level2(jump + "FUNC LBL\nPRM L1\n"), (Codes{"3 jmpc-outside-subprogram"}));
-  EXPECT_EQ(codes("FUNC CALLU\nPRM P1\nFUNC 0\nFUNC LBL\nPRM L1\nFUNC 1\n" + sub), (Codes{"11 jump-across-end"})) << "Level 1 calls it";
-  EXPECT_EQ(codes("FUNC LBL\nPRM L1\nFUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n" + sub), (Codes{"11 jump-across-end"})) << "a label of Level 1";
+  EXPECT_EQ(codes("FUNC CALLU\nPRM P1\nFUNC 0\nFUNC LBL\nPRM L1\nFUNC 1\n" + sub), (Codes{"11 jump-across-end"}))
+      << "Level 1 calls it";
+  EXPECT_EQ(codes("FUNC LBL\nPRM L1\nFUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n" + sub), (Codes{"11 jump-across-end"}))
+      << "a label of Level 1";
 }
 
 TEST(GskNumbers, TwiceIsAWarning) {
@@ -113,7 +118,8 @@ TEST(GskNumbers, TwiceIsAWarning) {
   const std::string tmrb = "LD X0.0\nFUNC TMRB\nPRM 5\nPRM 80\nOUT Y0.0\n";
   EXPECT_EQ(level2(tmr + tmrb), Codes{});
   EXPECT_EQ(level2(tmr + tmr), (Codes{"8 duplicate-timer"}));
-  EXPECT_EQ(level2("LD X0.0\nFUNC DIFU\nPRM 5\nOUT R0.0\nLD X0.0\nFUNC DIFD\nPRM 5\nOUT R0.1\n"), (Codes{"8 duplicate-edge-number"}));
+  EXPECT_EQ(level2("LD X0.0\nFUNC DIFU\nPRM 5\nOUT R0.0\nLD X0.0\nFUNC DIFD\nPRM 5\nOUT R0.1\n"),
+            (Codes{"8 duplicate-edge-number"}));
   const std::string ctr = "LD R0.0\nLD R0.1\nLD R0.2\nLD X0.0\nFUNC CTR\nPRM 7\nOUT Y0.0\n"; // seven lines
   EXPECT_EQ(level2(ctr + ctr), (Codes{"14 duplicate-counter"}));
   EXPECT_NE(compileList("FUNC 0\n" + ctr + ctr + "FUNC 1\n")->module, nullptr);

@@ -74,7 +74,8 @@ TEST(GskTable, EveryInstructionBuiltHasItsScenario) {
 }
 
 const OperandKindInfo& kindInfo(std::string_view kind) {
-  return *std::find_if(operandKindInfos().begin(), operandKindInfos().end(), [&](const OperandKindInfo& k) { return k.kind == kind; });
+  return *std::find_if(operandKindInfos().begin(), operandKindInfos().end(),
+                       [&](const OperandKindInfo& k) { return k.kind == kind; });
 }
 
 // A call of a function in Level 2, one command a line.
@@ -84,9 +85,12 @@ struct Call {
   size_t conditions;
   std::string coil;
 
-  explicit Call(const Row& r) : row(r), conditions(r.info.pins.size()), coil(r.info.output == Output::Always ? "OUT R20.0\n" : "") {
+  explicit Call(const Row& r)
+      : row(r), conditions(r.info.pins.size()), coil(r.info.output == Output::Always ? "OUT R20.0\n" : "") {
     for (const auto& operand : r.info.operands.all())
-      parameters.push_back(operand.min <= operand.max && operand.kind == "number" ? std::to_string(operand.min) : std::string(kindInfo(operand.kind).good));
+      parameters.push_back(operand.min <= operand.max && operand.kind == "number"
+                               ? std::to_string(operand.min)
+                               : std::string(kindInfo(operand.kind).good));
   }
   std::string text() const {
     std::string text = "FUNC 0\n";
@@ -134,7 +138,8 @@ TEST(GskTable, RangesOfNumbersAreExact) {
       const auto& operand = row->info.operands[i];
       if (operand.kind != "number" || row->hasTable) continue;
       Call call(*row);
-      for (const auto& [value, good] : {std::pair(operand.min, true), {operand.max, true}, {operand.min - 1, false}, {operand.max + 1, false}}) {
+      for (const auto& [value, good] :
+           {std::pair(operand.min, true), {operand.max, true}, {operand.min - 1, false}, {operand.max + 1, false}}) {
         call.parameters[i] = std::to_string(value);
         EXPECT_EQ(call.codes().empty(), good) << row->info.mnemonic << " " << operand.name << " " << value;
       }
@@ -156,14 +161,16 @@ TEST(GskTable, CountsAreChecked) {
     coil.coil = hasOutput ? "" : "OUT R20.0\n";
     const Codes codes = coil.codes();
     EXPECT_EQ(codes.size(), 1u) << row->info.mnemonic;
-    EXPECT_TRUE(codes.size() == 1 && codes[0].ends_with(hasOutput ? "missing-output" : "unbalanced-stack")) << row->info.mnemonic;
+    EXPECT_TRUE(codes.size() == 1 && codes[0].ends_with(hasOutput ? "missing-output" : "unbalanced-stack"))
+        << row->info.mnemonic;
   }
 }
 
 TEST(GskTable, FunctionsThatAreNotBuiltSaySo) {
   for (const Row& row : allRows()) {
     if (row.info.number < 0 || row.lower != nullptr) continue;
-    EXPECT_EQ(Call(row).codes(), (Codes{std::to_string(Call(row).functionLine()) + " not-built-yet"})) << row.info.mnemonic;
+    EXPECT_EQ(Call(row).codes(), (Codes{std::to_string(Call(row).functionLine()) + " not-built-yet"}))
+        << row.info.mnemonic;
   }
 }
 

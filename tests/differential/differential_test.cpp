@@ -41,8 +41,6 @@ std::optional<std::string> disagreement(const driver::Compiled& compiled, const 
   return testing::firstDisagreement(*reference.value(), *engine.value(), kScans);
 }
 
-std::string opName(OpCode code) { return std::string(ir::opInfo(code).name); }
-
 class EveryOp : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(EveryOp, AgreesWithTheInterpreter) {
@@ -79,23 +77,6 @@ TEST_P(RandomModules, AgreeWithTheInterpreter) {
 const auto kVariantName = [](const ::testing::TestParamInfo<Variant>& info) { return std::string(info.param.name); };
 INSTANTIATE_TEST_SUITE_P(Engines, EveryOp, ::testing::ValuesIn(kVariants), kVariantName);
 INSTANTIATE_TEST_SUITE_P(Engines, RandomModules, ::testing::ValuesIn(kVariants), kVariantName);
-
-// Optimised code means the same as the module it was made from.
-TEST(Passes, KeepTheMeaningOfRandomModules) {
-  for (uint64_t seed = 1000; seed < 1200; ++seed) {
-    ir::Module plain = ir::randomModule(seed);
-    ir::Module optimised = plain;
-    ir::runPasses(optimised, {});
-    ir::LayoutOptions packed;
-    packed.expandBits = false; // the passes may remove the only whole-byte access, and then the layouts differ
-    const driver::Compiled a = testing::compiledFrom(std::move(plain), packed);
-    const driver::Compiled b = testing::compiledFrom(std::move(optimised), packed);
-    auto first = driver::makeEngine(EngineKind::Interp, a, {});
-    auto second = driver::makeEngine(EngineKind::Interp, b, {});
-    const auto difference = testing::firstDisagreement(*first.value(), *second.value(), kScans);
-    EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
-  }
-}
 
 } // namespace
 } // namespace rung

@@ -42,7 +42,7 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
       continue;
     }
     Result<FileId> file = sources.addFile(name);
-    if (!file.ok()) return file.failure();
+    if (!file.ok()) return failure(fmt::format("cannot read '{}': {}", name, file.error()));
     files.push_back(file.value());
   }
   return files;

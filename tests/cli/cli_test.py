@@ -157,6 +157,18 @@ class Products(Cli):
 
 
 class HostileInput(Cli):
+    def test_unknown_dialect(self):
+        done = rungc("check", self.file("lamp.lad", LAMP), "--dialect", "klingon")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn(b"[unknown-dialect]", done.stderr)
+
+    def test_limits_of_sources(self):
+        chain = "".join(f"symbol S{i} S{i + 1},#1\n" for i in range(5000))
+        done = self.survives(self.file("chain.lad", "dialect nct\n" + chain + "symbol S5000 5100\nmodule MAIN\n"))
+        self.assertIn(b"[too-deep]", done.stderr)
+        data = TECHNOL_NULL.replace("DATA\n", "DATA\nBIG: DS 10000000\nMORE: DS 10000000\n", 1)
+        self.assertIn(b"[too-large]", self.survives(self.file("big.plc", data)).stderr)
+
     def test_empty_files(self):
         for name in ("empty.lad", "empty.pmc", "empty.plc"):
             self.assertEqual(self.survives(self.file(name, "")).returncode, WRONG)

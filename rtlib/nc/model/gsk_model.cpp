@@ -40,8 +40,13 @@ public:
     return NcModel::config(key, value);
   }
 
+  // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
   void powerOn(host::Instance& instance, PowerOn kind) override {
+    const std::vector<uint8_t> machine = readArea(instance, "X");
+    const std::vector<uint8_t> cnc = readArea(instance, "F");
     NcModel::powerOn(instance, kind);
+    writeArea(instance, "X", machine);
+    writeArea(instance, "F", cnc);
     for (const Preset& p : presets_)
       instance.write(host::intRef(host::findSpace(instance.program(), p.area), p.byte, 16), p.value);
   }
@@ -71,6 +76,17 @@ protected:
   }
 
 private:
+  static std::vector<uint8_t> readArea(const host::Instance& instance, const char* area) {
+    const uint32_t space = host::findSpace(instance.program(), area);
+    std::vector<uint8_t> bytes(space == RUNG_NONE ? 0 : instance.program().spaces[space].byte_count);
+    for (uint32_t i = 0; i < bytes.size(); ++i) bytes[i] = instance.memory().readByte(space, i);
+    return bytes;
+  }
+  static void writeArea(host::Instance& instance, const char* area, const std::vector<uint8_t>& bytes) {
+    const uint32_t space = host::findSpace(instance.program(), area);
+    for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
+  }
+
   struct Preset {
     const char* area;
     uint32_t byte;

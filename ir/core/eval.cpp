@@ -8,15 +8,16 @@ namespace rung::ir {
 namespace {
 
 // Calls f with a zero of the unsigned integer type that stands for `type`.
-template <class F> uint64_t asInt(Type type, F f) {
+template <class F>
+uint64_t asInt(Type type, F f) {
   switch (type) {
-    case Type::I8: return static_cast<uint64_t>(f(sem::u8{}));
-    case Type::I16: return static_cast<uint64_t>(f(sem::u16{}));
-    case Type::I32: return static_cast<uint64_t>(f(sem::u32{}));
-    case Type::I64: return static_cast<uint64_t>(f(sem::u64{}));
-    case Type::None:
-    case Type::Bit:
-    case Type::F64: break;
+  case Type::I8: return static_cast<uint64_t>(f(sem::u8{}));
+  case Type::I16: return static_cast<uint64_t>(f(sem::u16{}));
+  case Type::I32: return static_cast<uint64_t>(f(sem::u32{}));
+  case Type::I64: return static_cast<uint64_t>(f(sem::u64{}));
+  case Type::None:
+  case Type::Bit:
+  case Type::F64: break;
   }
   RUNG_CHECK(false, "an integer operation of another type");
   return 0;
@@ -43,73 +44,72 @@ uint64_t evalPure(OpCode code, Type type, Type first, const uint64_t* args) {
   };
   const auto real = [&](int i) { return sem::fromBits(args[i]); };
   switch (code) {
-    case OpCode::Add: return two([](auto x, auto y) { return sem::add(x, y); });
-    case OpCode::Sub: return two([](auto x, auto y) { return sem::sub(x, y); });
-    case OpCode::Mul: return two([](auto x, auto y) { return sem::mul(x, y); });
-    case OpCode::DivS: return two([](auto x, auto y) { return sem::divS(x, y); });
-    case OpCode::DivU: return two([](auto x, auto y) { return sem::divU(x, y); });
-    case OpCode::RemS: return two([](auto x, auto y) { return sem::remS(x, y); });
-    case OpCode::RemU: return two([](auto x, auto y) { return sem::remU(x, y); });
-    case OpCode::Neg: return one([](auto x) { return sem::neg(x); });
-    case OpCode::And: return a & b();
-    case OpCode::Or: return a | b();
-    case OpCode::Xor: return a ^ b();
-    case OpCode::Not: return ~a & valueMask(type);
-    case OpCode::Shl: return shift([](auto x, uint32_t n) { return sem::shl(x, n); });
-    case OpCode::ShrU: return shift([](auto x, uint32_t n) { return sem::shrU(x, n); });
-    case OpCode::ShrS: return shift([](auto x, uint32_t n) { return sem::shrS(x, n); });
-    case OpCode::PopCount: return one([](auto x) { return sem::popCount(x); });
-    case OpCode::BcdEncode: return one([](auto x) { return sem::bcdEncode(x); });
-    case OpCode::BcdDecode: return one([](auto x) { return sem::bcdDecode(x); });
-    case OpCode::Eq: return a == b() ? 1 : 0;
-    case OpCode::Ne: return a != b() ? 1 : 0;
-    case OpCode::LtS: return two([](auto x, auto y) { return sem::ltS(x, y); });
-    case OpCode::LeS: return two([](auto x, auto y) { return sem::leS(x, y); });
-    case OpCode::LtU: return a < b() ? 1 : 0;
-    case OpCode::LeU: return a <= b() ? 1 : 0;
-    case OpCode::Select: return a != 0 ? args[1] : args[2];
-    case OpCode::ZExt: return a;
-    case OpCode::SExt: return static_cast<uint64_t>(signedValue(first, a)) & valueMask(type);
-    case OpCode::Trunc: return a & valueMask(type);
-    case OpCode::FAdd: return sem::toBits(sem::fadd(real(0), real(1)));
-    case OpCode::FSub: return sem::toBits(sem::fsub(real(0), real(1)));
-    case OpCode::FMul: return sem::toBits(sem::fmul(real(0), real(1)));
-    case OpCode::FDiv: return sem::toBits(sem::fdiv(real(0), real(1)));
-    case OpCode::FNeg: return sem::toBits(sem::fneg(real(0)));
-    case OpCode::FAbs: return sem::toBits(sem::fabs(real(0)));
-    case OpCode::FEq: return real(0) == real(1) ? 1 : 0;
-    case OpCode::FLt: return real(0) < real(1) ? 1 : 0;
-    case OpCode::FLe: return real(0) <= real(1) ? 1 : 0;
-    case OpCode::FToInt:
-      return asInt(type, [&](auto u) { return sem::fToInt<decltype(u)>(real(0)); });
-    case OpCode::FToIntNearest: return sem::fToIntNearest(real(0));
-    case OpCode::IntToF:
-      return asInt(first, [&](auto u) { return sem::toBits(sem::intToF(static_cast<decltype(u)>(a))); });
-    case OpCode::BitsToF:
-    case OpCode::FToBits: return a;
-    case OpCode::Const:
-    case OpCode::Load:
-    case OpCode::Store:
-    case OpCode::LoadAt:
-    case OpCode::StoreAt:
-    case OpCode::LoadBitAt:
-    case OpCode::StoreBitAt:
-    case OpCode::SlotLoad:
-    case OpCode::SlotStore:
-    case OpCode::Now:
-    case OpCode::If:
-    case OpCode::Else:
-    case OpCode::EndIf:
-    case OpCode::Loop:
-    case OpCode::EndLoop:
-    case OpCode::Message:
-    case OpCode::ServiceRequest:
-    case OpCode::ServicePoll:
-    case OpCode::ServiceResult:
-    case OpCode::Trap:
-    case OpCode::Note:
-    case OpCode::ProfEnter:
-    case OpCode::ProfLeave: break;
+  case OpCode::Add: return two([](auto x, auto y) { return sem::add(x, y); });
+  case OpCode::Sub: return two([](auto x, auto y) { return sem::sub(x, y); });
+  case OpCode::Mul: return two([](auto x, auto y) { return sem::mul(x, y); });
+  case OpCode::DivS: return two([](auto x, auto y) { return sem::divS(x, y); });
+  case OpCode::DivU: return two([](auto x, auto y) { return sem::divU(x, y); });
+  case OpCode::RemS: return two([](auto x, auto y) { return sem::remS(x, y); });
+  case OpCode::RemU: return two([](auto x, auto y) { return sem::remU(x, y); });
+  case OpCode::Neg: return one([](auto x) { return sem::neg(x); });
+  case OpCode::And: return a & b();
+  case OpCode::Or: return a | b();
+  case OpCode::Xor: return a ^ b();
+  case OpCode::Not: return ~a & valueMask(type);
+  case OpCode::Shl: return shift([](auto x, uint32_t n) { return sem::shl(x, n); });
+  case OpCode::ShrU: return shift([](auto x, uint32_t n) { return sem::shrU(x, n); });
+  case OpCode::ShrS: return shift([](auto x, uint32_t n) { return sem::shrS(x, n); });
+  case OpCode::PopCount: return one([](auto x) { return sem::popCount(x); });
+  case OpCode::BcdEncode: return one([](auto x) { return sem::bcdEncode(x); });
+  case OpCode::BcdDecode: return one([](auto x) { return sem::bcdDecode(x); });
+  case OpCode::Eq: return a == b() ? 1 : 0;
+  case OpCode::Ne: return a != b() ? 1 : 0;
+  case OpCode::LtS: return two([](auto x, auto y) { return sem::ltS(x, y); });
+  case OpCode::LeS: return two([](auto x, auto y) { return sem::leS(x, y); });
+  case OpCode::LtU: return a < b() ? 1 : 0;
+  case OpCode::LeU: return a <= b() ? 1 : 0;
+  case OpCode::Select: return a != 0 ? args[1] : args[2];
+  case OpCode::ZExt: return a;
+  case OpCode::SExt: return static_cast<uint64_t>(signedValue(first, a)) & valueMask(type);
+  case OpCode::Trunc: return a & valueMask(type);
+  case OpCode::FAdd: return sem::toBits(sem::fadd(real(0), real(1)));
+  case OpCode::FSub: return sem::toBits(sem::fsub(real(0), real(1)));
+  case OpCode::FMul: return sem::toBits(sem::fmul(real(0), real(1)));
+  case OpCode::FDiv: return sem::toBits(sem::fdiv(real(0), real(1)));
+  case OpCode::FNeg: return sem::toBits(sem::fneg(real(0)));
+  case OpCode::FAbs: return sem::toBits(sem::fabs(real(0)));
+  case OpCode::FEq: return real(0) == real(1) ? 1 : 0;
+  case OpCode::FLt: return real(0) < real(1) ? 1 : 0;
+  case OpCode::FLe: return real(0) <= real(1) ? 1 : 0;
+  case OpCode::FToInt: return asInt(type, [&](auto u) { return sem::fToInt<decltype(u)>(real(0)); });
+  case OpCode::FToIntNearest: return sem::fToIntNearest(real(0));
+  case OpCode::IntToF:
+    return asInt(first, [&](auto u) { return sem::toBits(sem::intToF(static_cast<decltype(u)>(a))); });
+  case OpCode::BitsToF:
+  case OpCode::FToBits: return a;
+  case OpCode::Const:
+  case OpCode::Load:
+  case OpCode::Store:
+  case OpCode::LoadAt:
+  case OpCode::StoreAt:
+  case OpCode::LoadBitAt:
+  case OpCode::StoreBitAt:
+  case OpCode::SlotLoad:
+  case OpCode::SlotStore:
+  case OpCode::Now:
+  case OpCode::If:
+  case OpCode::Else:
+  case OpCode::EndIf:
+  case OpCode::Loop:
+  case OpCode::EndLoop:
+  case OpCode::Message:
+  case OpCode::ServiceRequest:
+  case OpCode::ServicePoll:
+  case OpCode::ServiceResult:
+  case OpCode::Trap:
+  case OpCode::Note:
+  case OpCode::ProfEnter:
+  case OpCode::ProfLeave: break;
   }
   RUNG_CHECK(false, "not an operation that can be evaluated");
   return 0;

@@ -26,23 +26,25 @@ std::vector<uint32_t> partnersOf(const Rung& rung) {
 uint32_t doReturn(rung_ctx& ctx) { return ctx.stack[--ctx.sp]; }
 
 // The chunk below, or the caller's when there is none.
-uint32_t fallThrough(const Exit& exit, rung_ctx& ctx) { return exit.otherwise == RUNG_NONE ? doReturn(ctx) : exit.otherwise; }
+uint32_t fallThrough(const Exit& exit, rung_ctx& ctx) {
+  return exit.otherwise == RUNG_NONE ? doReturn(ctx) : exit.otherwise;
+}
 
 uint32_t leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ctx& ctx) {
   if (exit.cond.valid() && values[exit.cond.index] == 0) return fallThrough(exit, ctx);
   switch (exit.kind) {
-    case TransferKind::Next: return fallThrough(exit, ctx);
-    case TransferKind::Goto: return exit.taken;
-    case TransferKind::Call:
-      // Behind a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
-      if (exit.otherwise != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise;
-      return exit.taken;
-    case TransferKind::Ret: return doReturn(ctx);
-    case TransferKind::End: return RUNG_PC_DONE;
-    case TransferKind::Switch: {
-      const uint64_t value = values[exit.value.index];
-      return exit.targets[value < exit.targets.size() ? value : 0];
-    }
+  case TransferKind::Next: return fallThrough(exit, ctx);
+  case TransferKind::Goto: return exit.taken;
+  case TransferKind::Call:
+    // Behind a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
+    if (exit.otherwise != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise;
+    return exit.taken;
+  case TransferKind::Ret: return doReturn(ctx);
+  case TransferKind::End: return RUNG_PC_DONE;
+  case TransferKind::Switch: {
+    const uint64_t value = values[exit.value.index];
+    return exit.targets[value < exit.targets.size() ? value : 0];
+  }
   }
   return RUNG_PC_DONE;
 }

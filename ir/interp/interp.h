@@ -13,7 +13,7 @@
 namespace rung::ir {
 
 class InterpEngine final : public host::Engine {
- public:
+public:
   // The layout and its module outlive the engine.
   InterpEngine(const Layout& layout, uint64_t codeHash);
 
@@ -22,7 +22,7 @@ class InterpEngine final : public host::Engine {
   // What its chunks find in rung_ctx::engine.
   void* context() { return this; }
 
- private:
+private:
   static uint32_t runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
   uint32_t run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const;
 

@@ -40,33 +40,40 @@ uint64_t RungRun::readBit(BitLocation at) const {
 
 void RungRun::writeBit(BitLocation at, bool value) {
   const auto mask = static_cast<uint8_t>(1u << at.bit);
-  if (at.wholeByte) mem_[at.offset] = value ? 1 : 0;
-  else mem_[at.offset] = static_cast<uint8_t>(value ? mem_[at.offset] | mask : mem_[at.offset] & ~mask);
+  if (at.wholeByte)
+    mem_[at.offset] = value ? 1 : 0;
+  else
+    mem_[at.offset] = static_cast<uint8_t>(value ? mem_[at.offset] | mask : mem_[at.offset] & ~mask);
 }
 
 void RungRun::load(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
-  give(op, op.type == Type::Bit ? readBit(layout_.bit(space, place)) : readBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type));
+  give(op, op.type == Type::Bit ? readBit(layout_.bit(space, place))
+                                : readBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type));
 }
 
 void RungRun::store(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
-  if (op.type == Type::Bit) writeBit(layout_.bit(space, place), in(op, 0) != 0);
-  else writeBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type, in(op, 0));
+  if (op.type == Type::Bit)
+    writeBit(layout_.bit(space, place), in(op, 0) != 0);
+  else
+    writeBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type, in(op, 0));
 }
 
 void RungRun::loadAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return give(op, 0);
-  give(op, readBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type));
+  give(op,
+       readBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type));
 }
 
 void RungRun::storeAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return;
-  writeBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type, in(op, 1));
+  writeBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type,
+             in(op, 1));
 }
 
 void RungRun::loadBitAt(const Op& op) {
@@ -82,7 +89,8 @@ void RungRun::storeBitAt(const Op& op) {
   const auto bit = static_cast<uint32_t>(in(op, 1));
   const uint32_t unitBits = unitBytes(op) * 8;
   if (index >= op.count || bit >= unitBits) return;
-  writeBit(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit), in(op, 2) != 0);
+  writeBit(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit),
+           in(op, 2) != 0);
 }
 
 // ---- regions -------------------------------------------------------------------------------------------------------
@@ -152,91 +160,94 @@ void RungRun::evaluate(const Op& op) {
 // The number of the operation that comes next.
 size_t RungRun::step(const Op& op, size_t index) {
   switch (op.code) {
-    case OpCode::Const: give(op, static_cast<uint64_t>(op.imm)); break;
-    case OpCode::Add:
-    case OpCode::Sub:
-    case OpCode::Mul:
-    case OpCode::DivS:
-    case OpCode::DivU:
-    case OpCode::RemS:
-    case OpCode::RemU:
-    case OpCode::Neg:
-    case OpCode::And:
-    case OpCode::Or:
-    case OpCode::Xor:
-    case OpCode::Not:
-    case OpCode::Shl:
-    case OpCode::ShrU:
-    case OpCode::ShrS:
-    case OpCode::PopCount:
-    case OpCode::BcdEncode:
-    case OpCode::BcdDecode:
-    case OpCode::Eq:
-    case OpCode::Ne:
-    case OpCode::LtS:
-    case OpCode::LeS:
-    case OpCode::LtU:
-    case OpCode::LeU:
-    case OpCode::Select:
-    case OpCode::ZExt:
-    case OpCode::SExt:
-    case OpCode::Trunc:
-    case OpCode::FAdd:
-    case OpCode::FSub:
-    case OpCode::FMul:
-    case OpCode::FDiv:
-    case OpCode::FNeg:
-    case OpCode::FAbs:
-    case OpCode::FEq:
-    case OpCode::FLt:
-    case OpCode::FLe:
-    case OpCode::FToInt:
-    case OpCode::FToIntNearest:
-    case OpCode::IntToF:
-    case OpCode::BitsToF:
-    case OpCode::FToBits: evaluate(op); break;
-    case OpCode::Load: load(op); break;
-    case OpCode::Store: store(op); break;
-    case OpCode::LoadAt: loadAt(op); break;
-    case OpCode::StoreAt: storeAt(op); break;
-    case OpCode::LoadBitAt: loadBitAt(op); break;
-    case OpCode::StoreBitAt: storeBitAt(op); break;
-    case OpCode::SlotLoad:
-      give(op, op.type == Type::Bit ? readBit({slotOffset(op), 0, true}) : readBytes(slotOffset(op), op.type));
-      break;
-    case OpCode::SlotStore:
-      if (op.type == Type::Bit) writeBit({slotOffset(op), 0, true}, in(op, 0) != 0);
-      else writeBytes(slotOffset(op), op.type, in(op, 0));
-      break;
-    case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
-    // When the branch above an else has run, its yields become the results of the endif.
-    case OpCode::If:
-      if (in(op, 0) == 0) return partners_[index] + (rung_.ops[partners_[index]].code == OpCode::Else ? 1u : 0u);
-      break;
-    case OpCode::Else: giveArgs(op, rung_.ops[partners_[index]], 0); return partners_[index] + 1;
-    case OpCode::EndIf: giveArgs(op, op, 0); break;
-    case OpCode::Loop:
-      if (op.count == 0) {
-        giveArgs(op, rung_.ops[partners_[index]], 0);
-        return partners_[index] + 1;
-      }
-      giveArgs(op, op, 1);
-      give(op, 0);
-      break;
-    case OpCode::EndLoop: return endLoop(op, index);
-    case OpCode::Message: message(op); break;
-    case OpCode::ServiceRequest: request(op); break;
-    case OpCode::ServicePoll: give(op, ctx_.host->service_poll(&ctx_, static_cast<uint32_t>(in(op, 0)))); break;
-    case OpCode::ServiceResult:
-      give(op, static_cast<uint64_t>(ctx_.host->service_result(&ctx_, static_cast<uint32_t>(in(op, 0)), static_cast<uint32_t>(op.imm))));
-      break;
-    case OpCode::Trap:
-      if (in(op, 0) == 0) break;
-      setFault(op);
-      return kFaulted;
-    case OpCode::Note: break;
-    case OpCode::ProfEnter: ctx_.prof[number_].started = rt::readTicks(); break;
-    case OpCode::ProfLeave: countRung(); break;
+  case OpCode::Const: give(op, static_cast<uint64_t>(op.imm)); break;
+  case OpCode::Add:
+  case OpCode::Sub:
+  case OpCode::Mul:
+  case OpCode::DivS:
+  case OpCode::DivU:
+  case OpCode::RemS:
+  case OpCode::RemU:
+  case OpCode::Neg:
+  case OpCode::And:
+  case OpCode::Or:
+  case OpCode::Xor:
+  case OpCode::Not:
+  case OpCode::Shl:
+  case OpCode::ShrU:
+  case OpCode::ShrS:
+  case OpCode::PopCount:
+  case OpCode::BcdEncode:
+  case OpCode::BcdDecode:
+  case OpCode::Eq:
+  case OpCode::Ne:
+  case OpCode::LtS:
+  case OpCode::LeS:
+  case OpCode::LtU:
+  case OpCode::LeU:
+  case OpCode::Select:
+  case OpCode::ZExt:
+  case OpCode::SExt:
+  case OpCode::Trunc:
+  case OpCode::FAdd:
+  case OpCode::FSub:
+  case OpCode::FMul:
+  case OpCode::FDiv:
+  case OpCode::FNeg:
+  case OpCode::FAbs:
+  case OpCode::FEq:
+  case OpCode::FLt:
+  case OpCode::FLe:
+  case OpCode::FToInt:
+  case OpCode::FToIntNearest:
+  case OpCode::IntToF:
+  case OpCode::BitsToF:
+  case OpCode::FToBits: evaluate(op); break;
+  case OpCode::Load: load(op); break;
+  case OpCode::Store: store(op); break;
+  case OpCode::LoadAt: loadAt(op); break;
+  case OpCode::StoreAt: storeAt(op); break;
+  case OpCode::LoadBitAt: loadBitAt(op); break;
+  case OpCode::StoreBitAt: storeBitAt(op); break;
+  case OpCode::SlotLoad:
+    give(op, op.type == Type::Bit ? readBit({slotOffset(op), 0, true}) : readBytes(slotOffset(op), op.type));
+    break;
+  case OpCode::SlotStore:
+    if (op.type == Type::Bit)
+      writeBit({slotOffset(op), 0, true}, in(op, 0) != 0);
+    else
+      writeBytes(slotOffset(op), op.type, in(op, 0));
+    break;
+  case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
+  // When the branch above an else has run, its yields become the results of the endif.
+  case OpCode::If:
+    if (in(op, 0) == 0) return partners_[index] + (rung_.ops[partners_[index]].code == OpCode::Else ? 1u : 0u);
+    break;
+  case OpCode::Else: giveArgs(op, rung_.ops[partners_[index]], 0); return partners_[index] + 1;
+  case OpCode::EndIf: giveArgs(op, op, 0); break;
+  case OpCode::Loop:
+    if (op.count == 0) {
+      giveArgs(op, rung_.ops[partners_[index]], 0);
+      return partners_[index] + 1;
+    }
+    giveArgs(op, op, 1);
+    give(op, 0);
+    break;
+  case OpCode::EndLoop: return endLoop(op, index);
+  case OpCode::Message: message(op); break;
+  case OpCode::ServiceRequest: request(op); break;
+  case OpCode::ServicePoll: give(op, ctx_.host->service_poll(&ctx_, static_cast<uint32_t>(in(op, 0)))); break;
+  case OpCode::ServiceResult:
+    give(op, static_cast<uint64_t>(
+                 ctx_.host->service_result(&ctx_, static_cast<uint32_t>(in(op, 0)), static_cast<uint32_t>(op.imm))));
+    break;
+  case OpCode::Trap:
+    if (in(op, 0) == 0) break;
+    setFault(op);
+    return kFaulted;
+  case OpCode::Note: break;
+  case OpCode::ProfEnter: ctx_.prof[number_].started = rt::readTicks(); break;
+  case OpCode::ProfLeave: countRung(); break;
   }
   return index + 1;
 }

@@ -8,16 +8,16 @@
 namespace rung::ir {
 
 class RungRun {
- public:
+public:
   // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); all outlive the run.
-  RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem, rung_ctx& ctx,
-          std::vector<uint64_t>& values)
+  RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem,
+          rung_ctx& ctx, std::vector<uint64_t>& values)
       : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values) {}
 
   // False: a fault, which stands in the context.
   bool run();
 
- private:
+private:
   size_t step(const Op& op, size_t index);
   uint64_t in(const Op& op, int i) const { return values_[arg(rung_, op, i).index]; }
   void give(const Op& op, uint64_t value) { values_[op.result.index] = value; }

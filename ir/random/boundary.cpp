@@ -8,8 +8,20 @@ namespace {
 constexpr uint64_t kBits[] = {0, 1};
 constexpr uint64_t kI8[] = {0, 1, 2, 7, 9, 0x10, 0x7F, 0x80, 0x99, 0xFE, 0xFF};
 constexpr uint64_t kI16[] = {0, 1, 2, 10, 0x80, 0xFF, 0x100, 0x7FFF, 0x8000, 0x9999, 0xFFFF};
-constexpr uint64_t kI32[] = {0, 1, 2, 10, 0x80, 0x8000, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0x99999999, 0xFFFFFFFE, 0xFFFFFFFF};
-constexpr uint64_t kI64[] = {0, 1, 2, 10, 0x80000000, 0xFFFFFFFF, 0x20000000000001, 0x7FFFFFFFFFFFFFFF, 0x8000000000000000, 0x9999999999999999, 0xFFFFFFFFFFFFFFFE, 0xFFFFFFFFFFFFFFFF};
+constexpr uint64_t kI32[] = {0,      1,          2,          10,         0x80,       0x8000,
+                             0xFFFF, 0x7FFFFFFF, 0x80000000, 0x99999999, 0xFFFFFFFE, 0xFFFFFFFF};
+constexpr uint64_t kI64[] = {0,
+                             1,
+                             2,
+                             10,
+                             0x80000000,
+                             0xFFFFFFFF,
+                             0x20000000000001,
+                             0x7FFFFFFFFFFFFFFF,
+                             0x8000000000000000,
+                             0x9999999999999999,
+                             0xFFFFFFFFFFFFFFFE,
+                             0xFFFFFFFFFFFFFFFF};
 constexpr uint64_t kF64[] = {
     0x0000000000000000, 0x8000000000000000, // 0, -0
     0x3FF0000000000000, 0xBFF0000000000000, // 1, -1
@@ -28,13 +40,13 @@ constexpr uint64_t kCounts[] = {0, 1, 3, 7, 8, 15, 16, 31, 32, 63, 64, 0x7FFFFFF
 
 std::span<const uint64_t> boundaryValues(Type type) {
   switch (type) {
-    case Type::Bit: return kBits;
-    case Type::I8: return kI8;
-    case Type::I16: return kI16;
-    case Type::I32: return kI32;
-    case Type::I64: return kI64;
-    case Type::F64: return kF64;
-    case Type::None: break;
+  case Type::Bit: return kBits;
+  case Type::I8: return kI8;
+  case Type::I16: return kI16;
+  case Type::I32: return kI32;
+  case Type::I64: return kI64;
+  case Type::F64: return kF64;
+  case Type::None: break;
   }
   RUNG_CHECK(false, "there are no values of no type");
   return {};

@@ -8,9 +8,9 @@
 namespace rung::ir {
 namespace {
 
-constexpr SpaceId kIn{0};   // the operands, as initial values
-constexpr SpaceId kOut{1};  // results that are no bits
-constexpr SpaceId kFlags{2}; // results that are bits: expanded by the layout
+constexpr SpaceId kIn{0};         // the operands, as initial values
+constexpr SpaceId kOut{1};        // results that are no bits
+constexpr SpaceId kFlags{2};      // results that are bits: expanded by the layout
 constexpr SpaceId kFirstTable{3}; // spaces with units of 1, 2, 4, 8 bytes, for computed indices
 constexpr uint32_t kTableUnits = 12;
 constexpr uint32_t kMaxPairs = 14; // of f64 operands
@@ -18,14 +18,16 @@ constexpr uint32_t kMaxPairs = 14; // of f64 operands
 constexpr Type kTypes[] = {Type::Bit, Type::I8, Type::I16, Type::I32, Type::I64, Type::F64};
 
 class OpModule {
- public:
+public:
   explicit OpModule(OpCode code) : code_(code), info_(opInfo(code)) {
     module_.name = fmt::format("operation {}", info_.name);
     module_.dialect = "operations";
     module_.files = {"operations.rir"};
     module_.faults = {"budget", "stopped"};
     module_.services = {"WORK"};
-    const auto add = [&](std::string name, uint32_t unit, uint32_t units) { module_.spaces.push_back({.name = std::move(name), .unitBytes = unit, .units = units}); };
+    const auto add = [&](std::string name, uint32_t unit, uint32_t units) {
+      module_.spaces.push_back({.name = std::move(name), .unitBytes = unit, .units = units});
+    };
     add("IN", 1, 0);
     add("OUT", 1, 0);
     add("FLAGS", 1, 0);
@@ -39,83 +41,85 @@ class OpModule {
     return std::move(module_);
   }
 
- private:
+private:
   void fill() {
     if (isEvaluable(info_)) return eachType([&](Type type) { evaluable(type); });
     switch (code_) {
-      case OpCode::Const: return eachType([&](Type type) { constants(type); });
-      case OpCode::Load: return eachType([&](Type type) { loads(type); });
-      case OpCode::Store: return eachType([&](Type type) { stores(type); });
-      case OpCode::LoadAt:
-      case OpCode::StoreAt: return eachType([&](Type type) { dynamic(type); });
-      case OpCode::LoadBitAt:
-      case OpCode::StoreBitAt: return dynamicBits();
-      case OpCode::SlotLoad:
-      case OpCode::SlotStore: return eachType([&](Type type) { slots(type); });
-      case OpCode::Now: return inRung([&](RungBuilder& b) { result(b, b.now()); });
-      case OpCode::If:
-      case OpCode::Else:
-      case OpCode::EndIf: return ifs();
-      case OpCode::Loop:
-      case OpCode::EndLoop: return loops();
-      case OpCode::Message: return messages();
-      case OpCode::ServiceRequest:
-      case OpCode::ServicePoll:
-      case OpCode::ServiceResult: return services();
-      case OpCode::Trap: return traps();
-      case OpCode::Note: return inRung([&](RungBuilder& b) { b.note("a remark"), result(b, b.i32(1)); });
-      case OpCode::ProfEnter:
-      case OpCode::ProfLeave: return profile();
-      case OpCode::Add:
-      case OpCode::Sub:
-      case OpCode::Mul:
-      case OpCode::DivS:
-      case OpCode::DivU:
-      case OpCode::RemS:
-      case OpCode::RemU:
-      case OpCode::Neg:
-      case OpCode::And:
-      case OpCode::Or:
-      case OpCode::Xor:
-      case OpCode::Not:
-      case OpCode::Shl:
-      case OpCode::ShrU:
-      case OpCode::ShrS:
-      case OpCode::PopCount:
-      case OpCode::BcdEncode:
-      case OpCode::BcdDecode:
-      case OpCode::Eq:
-      case OpCode::Ne:
-      case OpCode::LtS:
-      case OpCode::LeS:
-      case OpCode::LtU:
-      case OpCode::LeU:
-      case OpCode::Select:
-      case OpCode::ZExt:
-      case OpCode::SExt:
-      case OpCode::Trunc:
-      case OpCode::FAdd:
-      case OpCode::FSub:
-      case OpCode::FMul:
-      case OpCode::FDiv:
-      case OpCode::FNeg:
-      case OpCode::FAbs:
-      case OpCode::FEq:
-      case OpCode::FLt:
-      case OpCode::FLe:
-      case OpCode::FToInt:
-      case OpCode::FToIntNearest:
-      case OpCode::IntToF:
-      case OpCode::BitsToF:
-      case OpCode::FToBits: break; // evaluable, see above
+    case OpCode::Const: return eachType([&](Type type) { constants(type); });
+    case OpCode::Load: return eachType([&](Type type) { loads(type); });
+    case OpCode::Store: return eachType([&](Type type) { stores(type); });
+    case OpCode::LoadAt:
+    case OpCode::StoreAt: return eachType([&](Type type) { dynamic(type); });
+    case OpCode::LoadBitAt:
+    case OpCode::StoreBitAt: return dynamicBits();
+    case OpCode::SlotLoad:
+    case OpCode::SlotStore: return eachType([&](Type type) { slots(type); });
+    case OpCode::Now: return inRung([&](RungBuilder& b) { result(b, b.now()); });
+    case OpCode::If:
+    case OpCode::Else:
+    case OpCode::EndIf: return ifs();
+    case OpCode::Loop:
+    case OpCode::EndLoop: return loops();
+    case OpCode::Message: return messages();
+    case OpCode::ServiceRequest:
+    case OpCode::ServicePoll:
+    case OpCode::ServiceResult: return services();
+    case OpCode::Trap: return traps();
+    case OpCode::Note: return inRung([&](RungBuilder& b) { b.note("a remark"), result(b, b.i32(1)); });
+    case OpCode::ProfEnter:
+    case OpCode::ProfLeave: return profile();
+    case OpCode::Add:
+    case OpCode::Sub:
+    case OpCode::Mul:
+    case OpCode::DivS:
+    case OpCode::DivU:
+    case OpCode::RemS:
+    case OpCode::RemU:
+    case OpCode::Neg:
+    case OpCode::And:
+    case OpCode::Or:
+    case OpCode::Xor:
+    case OpCode::Not:
+    case OpCode::Shl:
+    case OpCode::ShrU:
+    case OpCode::ShrS:
+    case OpCode::PopCount:
+    case OpCode::BcdEncode:
+    case OpCode::BcdDecode:
+    case OpCode::Eq:
+    case OpCode::Ne:
+    case OpCode::LtS:
+    case OpCode::LeS:
+    case OpCode::LtU:
+    case OpCode::LeU:
+    case OpCode::Select:
+    case OpCode::ZExt:
+    case OpCode::SExt:
+    case OpCode::Trunc:
+    case OpCode::FAdd:
+    case OpCode::FSub:
+    case OpCode::FMul:
+    case OpCode::FDiv:
+    case OpCode::FNeg:
+    case OpCode::FAbs:
+    case OpCode::FEq:
+    case OpCode::FLt:
+    case OpCode::FLe:
+    case OpCode::FToInt:
+    case OpCode::FToIntNearest:
+    case OpCode::IntToF:
+    case OpCode::BitsToF:
+    case OpCode::FToBits: break; // evaluable, see above
     }
   }
 
-  template <class Visit> void eachType(Visit visit) {
+  template <class Visit>
+  void eachType(Visit visit) {
     for (Type type : kTypes)
       if (contains(info_.types, type)) visit(type);
   }
-  template <class Fill> void inRung(Fill fillRung) {
+  template <class Fill>
+  void inRung(Fill fillRung) {
     Rung rung;
     rung.begin = {.file = FileIndex{0}, .line = static_cast<uint32_t>(module_.routines[0].rungs.size() + 1)};
     rung.lastLine = rung.begin.line;
@@ -168,8 +172,10 @@ class OpModule {
     for (Type first : kTypes) {
       if (!satisfies(info_.operands[0], type, first)) continue;
       inRung([&](RungBuilder& b) {
-        if (fixedOperands(info_) == 1) unary(b, type, first);
-        else binary(b, type, first);
+        if (fixedOperands(info_) == 1)
+          unary(b, type, first);
+        else
+          binary(b, type, first);
       });
     }
   }
@@ -187,7 +193,8 @@ class OpModule {
     // Of the many pairs of f64, each value with itself and with the rarest ones.
     for (size_t i = 0; i < as.size(); ++i)
       for (size_t k = 0; k < bs.size(); ++k)
-        if (first != Type::F64 || i == k || (i * as.size() + k) % kMaxPairs < 4) result(b, b.op(code_, type, {as[i], bs[k]}));
+        if (first != Type::F64 || i == k || (i * as.size() + k) % kMaxPairs < 4)
+          result(b, b.op(code_, type, {as[i], bs[k]}));
   }
 
   void selects(RungBuilder& b, Type type) {
@@ -229,11 +236,13 @@ class OpModule {
       b.store({kFirstTable, 3}, operand(b, type, 0));
     });
     // What is stored over: all ones.
-    if (module_.inits.empty()) module_.inits.push_back({.space = kFirstTable, .byte = 0, .data = std::vector<uint8_t>(kTableUnits, 0xFF)});
+    if (module_.inits.empty())
+      module_.inits.push_back({.space = kFirstTable, .byte = 0, .data = std::vector<uint8_t>(kTableUnits, 0xFF)});
   }
 
   // Windows in spaces of every unit, element 0 not at the beginning; the last legal index and those beyond.
-  template <class Visit> void eachWindow(uint32_t bytes, Visit visit) {
+  template <class Visit>
+  void eachWindow(uint32_t bytes, Visit visit) {
     for (uint32_t i = 0; i < 4; ++i) {
       const uint32_t unit = 1u << i;
       const uint32_t count = kTableUnits - 2 - (bytes > unit ? (bytes - 1) / unit : 0);
@@ -250,10 +259,13 @@ class OpModule {
   void dynamic(Type type) {
     eachWindow(byteWidth(type), [&](Window window, uint32_t count) {
       inRung([&](RungBuilder& b) {
-        for (uint64_t index : {uint64_t{0}, uint64_t{1}, uint64_t{count} - 1, uint64_t{count}, uint64_t{0x80000000}, uint64_t{0xFFFFFFFF}}) {
+        for (uint64_t index : {uint64_t{0}, uint64_t{1}, uint64_t{count} - 1, uint64_t{count}, uint64_t{0x80000000},
+                               uint64_t{0xFFFFFFFF}}) {
           const ValueId i = operand(b, Type::I32, index);
-          if (code_ == OpCode::LoadAt) result(b, b.loadAt(type, window, i));
-          else b.storeAt(window, i, operand(b, type, boundaryValues(type)[index % 3 + 1]));
+          if (code_ == OpCode::LoadAt)
+            result(b, b.loadAt(type, window, i));
+          else
+            b.storeAt(window, i, operand(b, type, boundaryValues(type)[index % 3 + 1]));
         }
       });
     });
@@ -266,8 +278,10 @@ class OpModule {
         for (uint64_t index : {uint64_t{0}, uint64_t{count} - 1, uint64_t{count}, uint64_t{0xFFFFFFFF}}) {
           const ValueId i = operand(b, Type::I32, index);
           for (size_t k = 0; k < bits.size(); ++k) {
-            if (code_ == OpCode::LoadBitAt) result(b, b.loadBitAt(window, i, bits[k]));
-            else b.storeBitAt(window, i, bits[k], operand(b, Type::Bit, k % 2));
+            if (code_ == OpCode::LoadBitAt)
+              result(b, b.loadBitAt(window, i, bits[k]));
+            else
+              b.storeBitAt(window, i, bits[k], operand(b, Type::Bit, k % 2));
           }
         }
       });
@@ -278,7 +292,10 @@ class OpModule {
     const auto first = static_cast<uint32_t>(module_.slots.size());
     for (uint64_t value : boundaryValues(type)) {
       const bool odd = module_.slots.size() % 2 != 0;
-      module_.slots.push_back({.type = type, .init = odd ? static_cast<int64_t>(value) : 0, .retain = odd, .key = fmt::format("slot {}", module_.slots.size())});
+      module_.slots.push_back({.type = type,
+                               .init = odd ? static_cast<int64_t>(value) : 0,
+                               .retain = odd,
+                               .key = fmt::format("slot {}", module_.slots.size())});
     }
     inRung([&](RungBuilder& b) {
       uint32_t slot = first;
@@ -315,7 +332,8 @@ class OpModule {
 
   // Carried values of every type, two of them changing places; memory written in each pass.
   void loops() {
-    for (uint32_t count : {0u, 1u, 5u}) inRung([&](RungBuilder& b) {
+    for (uint32_t count : {0u, 1u, 5u})
+      inRung([&](RungBuilder& b) {
         std::vector<ValueId> carried{operand(b, Type::I32, 0x11), operand(b, Type::I32, 0x22)};
         for (Type type : kTypes) carried.push_back(operand(b, type, boundaryValues(type)[1]));
         const std::vector<ValueId> in = b.loop(count, carried);
@@ -351,7 +369,8 @@ class OpModule {
 
   void services() {
     inRung([&](RungBuilder& b) {
-      const ValueId args[] = {operand(b, Type::I64, 5), operand(b, Type::I64, ~0ull), operand(b, Type::I64, 1ull << 40)};
+      const ValueId args[] = {operand(b, Type::I64, 5), operand(b, Type::I64, ~0ull),
+                              operand(b, Type::I64, 1ull << 40)};
       for (size_t count : {size_t{0}, size_t{1}, size_t{3}}) {
         const ValueId ticket = b.serviceRequest(ServiceId{0}, std::span(args, count));
         result(b, ticket);

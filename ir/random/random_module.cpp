@@ -13,7 +13,7 @@ constexpr uint32_t kBackJumps = 3; // of one run of a routine
 constexpr uint32_t kSpaceBytes = 64;
 
 class RandomModule {
- public:
+public:
   RandomModule(uint64_t seed, const RandomOptions& options) : random_(seed), options_(options) {
     RUNG_CHECK(options.routines >= 1 && options.rungs >= 1, "a module has a routine and a rung");
     module_.name = fmt::format("random {}", seed);
@@ -27,17 +27,22 @@ class RandomModule {
     module_.faults = {"budget", "trap 1", "trap 2"};
     module_.services = {"READ", "WRITE"};
     module_.messages = {{1, "first"}, {2, "second \"quoted\"\n"}};
-    for (uint32_t i = 0; i < options_.routines; ++i) module_.routines.push_back({.name = fmt::format("R{}", i), .rungs = {}});
+    for (uint32_t i = 0; i < options_.routines; ++i)
+      module_.routines.push_back({.name = fmt::format("R{}", i), .rungs = {}});
     for (uint32_t i = 0; i < options_.routines; ++i) fillRoutine(i);
     addTasks();
     return std::move(module_);
   }
 
- private:
+private:
   // Small spaces, so that accesses overlap. X and Y are the ones whose bits may be expanded.
   void addSpaces() {
     const auto add = [&](std::string_view name, uint32_t unit, uint32_t flags, bool packed) {
-      module_.spaces.push_back({.name = std::string(name), .unitBytes = unit, .units = kSpaceBytes / unit, .flags = flags, .packedOnly = packed});
+      module_.spaces.push_back({.name = std::string(name),
+                                .unitBytes = unit,
+                                .units = kSpaceBytes / unit,
+                                .flags = flags,
+                                .packedOnly = packed});
     };
     add("X", 1, RUNG_SPACE_INPUT, false);
     add("Y", 1, RUNG_SPACE_OUTPUT, false);
@@ -62,7 +67,8 @@ class RandomModule {
 
   void addSymbols() {
     for (uint32_t i = 0; i < 6; ++i) {
-      Symbol symbol{.name = fmt::format("S{}", i), .comment = i == 0 ? "a comment" : "", .space = SpaceId{random_.below(6)}};
+      Symbol symbol{
+          .name = fmt::format("S{}", i), .comment = i == 0 ? "a comment" : "", .space = SpaceId{random_.below(6)}};
       const bool bit = random_.chance(70);
       symbol.byte = random_.below(kSpaceBytes - 8);
       symbol.bit = bit ? random_.below(8) : 0;
@@ -81,12 +87,17 @@ class RandomModule {
       slot.key = fmt::format("slot {}", i);
       module_.slots.push_back(std::move(slot));
     }
-    for (uint32_t i = 0; i < 4; ++i) module_.slots.push_back({.type = randomType(), .transient = true, .key = fmt::format("register {}", i)});
+    for (uint32_t i = 0; i < 4; ++i)
+      module_.slots.push_back({.type = randomType(), .transient = true, .key = fmt::format("register {}", i)});
     firstCounter_ = static_cast<uint32_t>(module_.slots.size());
-    for (uint32_t i = 0; i < options_.routines; ++i) module_.slots.push_back({.type = Type::I32, .key = fmt::format("jumps {}", i)});
+    for (uint32_t i = 0; i < options_.routines; ++i)
+      module_.slots.push_back({.type = Type::I32, .key = fmt::format("jumps {}", i)});
   }
 
-  Type randomType() { return static_cast<Type>(random_.between(static_cast<uint32_t>(Type::Bit), static_cast<uint32_t>(options_.floats ? Type::F64 : Type::I64))); }
+  Type randomType() {
+    return static_cast<Type>(random_.between(static_cast<uint32_t>(Type::Bit),
+                                             static_cast<uint32_t>(options_.floats ? Type::F64 : Type::I64)));
+  }
 
   void fillRoutine(uint32_t routine) {
     const uint32_t count = random_.between(1, options_.rungs);
@@ -125,24 +136,25 @@ class RandomModule {
     const ValueId cond = random_.chance(80) ? filler.value(Type::Bit) : ValueId{};
     const uint32_t ahead = random_.between(at, count - 1);
     switch (random_.below(6)) {
-      case 0:
-        if (at + 1 < count) builder.gotoRung(std::max(ahead, at + 1), cond);
-        break;
-      case 1:
-        if (at > 0) jumpBack(filler, builder, routine, random_.between(1, at));
-        break;
-      case 2:
-        if (routine + 1 < options_.routines) builder.call(RoutineId{random_.between(routine + 1, options_.routines - 1)}, cond);
-        break;
-      case 3:
-        if (random_.chance(30)) builder.ret(cond);
-        break;
-      case 4:
-        if (random_.chance(30)) builder.end(cond);
-        break;
-      default:
-        if (at + 1 < count) switchAhead(filler, builder, at, count);
-        break;
+    case 0:
+      if (at + 1 < count) builder.gotoRung(std::max(ahead, at + 1), cond);
+      break;
+    case 1:
+      if (at > 0) jumpBack(filler, builder, routine, random_.between(1, at));
+      break;
+    case 2:
+      if (routine + 1 < options_.routines)
+        builder.call(RoutineId{random_.between(routine + 1, options_.routines - 1)}, cond);
+      break;
+    case 3:
+      if (random_.chance(30)) builder.ret(cond);
+      break;
+    case 4:
+      if (random_.chance(30)) builder.end(cond);
+      break;
+    default:
+      if (at + 1 < count) switchAhead(filler, builder, at, count);
+      break;
     }
   }
 
@@ -164,19 +176,32 @@ class RandomModule {
   }
 
   void addTasks() {
-    Task main{.name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1'000'000'000, .budgetFault = FaultId{0}};
+    Task main{
+        .name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1'000'000'000, .budgetFault = FaultId{0}};
     main.parts = random_.between(1, 3);
     // The inputs as they were when the run began; and what the program wrote over them, where the mask says so.
     main.begin.push_back({.from = {SpaceId{0}, 0, kSpaceBytes}, .to = SpaceId{6}});
-    main.end.push_back({.masked = true, .from = {SpaceId{6}, 8, 16}, .to = SpaceId{5}, .toByte = 24, .mask = SpaceId{7}, .maskByte = 4});
+    main.end.push_back({.masked = true,
+                        .from = {SpaceId{6}, 8, 16},
+                        .to = SpaceId{5},
+                        .toByte = 24,
+                        .mask = SpaceId{7},
+                        .maskByte = 4});
     module_.tasks.push_back(std::move(main));
     module_.mainTask = TaskId{0};
     module_.scan = {{RUNG_STEP_ADVANCE, {}, 4000}, {RUNG_STEP_RUN, TaskId{0}, 1}, {RUNG_STEP_SLOT, {}, 0}};
     if (options_.routines == 1) return;
-    module_.tasks.push_back({.name = "FAST", .entry = RoutineId{options_.routines - 1}, .periodUs = 1000, .budget = 1'000'000'000, .budgetFault = FaultId{0}});
+    module_.tasks.push_back({.name = "FAST",
+                             .entry = RoutineId{options_.routines - 1},
+                             .periodUs = 1000,
+                             .budget = 1'000'000'000,
+                             .budgetFault = FaultId{0}});
     module_.fastTask = TaskId{1};
     module_.fast = {{RUNG_STEP_RUN, TaskId{1}, 1}};
-    module_.scan = {{RUNG_STEP_ADVANCE, {}, 4000}, {RUNG_STEP_PART, TaskId{0}, 1}, {RUNG_STEP_RUN, TaskId{1}, 2}, {RUNG_STEP_SLOT, {}, 0}};
+    module_.scan = {{RUNG_STEP_ADVANCE, {}, 4000},
+                    {RUNG_STEP_PART, TaskId{0}, 1},
+                    {RUNG_STEP_RUN, TaskId{1}, 2},
+                    {RUNG_STEP_SLOT, {}, 0}};
   }
 
   RandomSource random_;

@@ -9,7 +9,8 @@ namespace rung::ir {
 namespace {
 
 constexpr uint32_t kMaxDepth = 3;
-constexpr uint32_t kFirstHidden = 6; // spaces from here on belong to copies: read and written like the others, but rarely
+constexpr uint32_t kFirstHidden =
+    6; // spaces from here on belong to copies: read and written like the others, but rarely
 
 } // namespace
 
@@ -25,11 +26,16 @@ void RandomRung::fill() {
 void RandomRung::addOp(uint32_t depth) {
   const uint32_t dice = random_.below(100);
   if (random_.chance(10)) builder_.setLine(builder_.rung().begin.line + random_.below(5));
-  if (dice < 50) addPlain();
-  else if (dice < 75) addAccess();
-  else if (dice < 87) addSlotAccess();
-  else if (dice < 92) addHost();
-  else if (options_.regions && depth < kMaxDepth) addRegion(depth);
+  if (dice < 50)
+    addPlain();
+  else if (dice < 75)
+    addAccess();
+  else if (dice < 87)
+    addSlotAccess();
+  else if (dice < 92)
+    addHost();
+  else if (options_.regions && depth < kMaxDepth)
+    addRegion(depth);
 }
 
 ValueId RandomRung::constant(Type type) {
@@ -71,7 +77,8 @@ Place RandomRung::place(Type type) {
   const bool bit = type == Type::Bit;
   const uint32_t first = bit ? 0 : 2;
   const auto spaces = static_cast<uint32_t>(builder_.module().spaces.size());
-  const SpaceId space{random_.chance(80) ? random_.between(first, kFirstHidden - 1) : random_.between(std::max(first, kFirstHidden - 1), spaces - 1)};
+  const SpaceId space{random_.chance(80) ? random_.between(first, kFirstHidden - 1)
+                                         : random_.between(std::max(first, kFirstHidden - 1), spaces - 1)};
   const uint32_t bytes = std::max(1u, byteWidth(type));
   const Space& chosen = builder_.module().at(space);
   const uint32_t last = chosen.units * chosen.unitBytes - bytes;
@@ -102,14 +109,16 @@ void RandomRung::addPlain() {
     const Type wanted = operandType(constraint, type);
     if (wanted == Type::None) return;
     // Counts near the width are the interesting ones.
-    if (constraint == Constraint::I32 && random_.chance(50)) args[count++] = builder_.i32(static_cast<int64_t>(random_.pick(boundaryCounts())));
-    else args[count++] = value(wanted);
+    if (constraint == Constraint::I32 && random_.chance(50))
+      args[count++] = builder_.i32(static_cast<int64_t>(random_.pick(boundaryCounts())));
+    else
+      args[count++] = value(wanted);
   }
   switch (count) {
-    case 0: remember(builder_.op(info.code, type, {})); break;
-    case 1: remember(builder_.op(info.code, type, {args[0]})); break;
-    case 2: remember(builder_.op(info.code, type, {args[0], args[1]})); break;
-    default: remember(builder_.op(info.code, type, {args[0], args[1], args[2]})); break;
+  case 0: remember(builder_.op(info.code, type, {})); break;
+  case 1: remember(builder_.op(info.code, type, {args[0]})); break;
+  case 2: remember(builder_.op(info.code, type, {args[0], args[1]})); break;
+  default: remember(builder_.op(info.code, type, {args[0], args[1], args[2]})); break;
   }
 }
 
@@ -128,13 +137,17 @@ void RandomRung::addAccess() {
     ValueId bit = value(Type::I32);
     if (random_.chance(75)) bit = builder_.and_(bit, builder_.i32(63));
     const ValueId stored = value(Type::Bit);
-    if (load) remember(builder_.loadBitAt(window(type), index, bit));
-    else builder_.storeBitAt(window(type), index, bit, stored);
+    if (load)
+      remember(builder_.loadBitAt(window(type), index, bit));
+    else
+      builder_.storeBitAt(window(type), index, bit, stored);
     return;
   }
   const ValueId stored = value(type);
-  if (load) remember(builder_.loadAt(type, window(type), index));
-  else builder_.storeAt(window(type), index, stored);
+  if (load)
+    remember(builder_.loadAt(type, window(type), index));
+  else
+    builder_.storeAt(window(type), index, stored);
 }
 
 void RandomRung::addSlotAccess() {
@@ -154,32 +167,34 @@ void RandomRung::addHost() {
   }
   if (!options_.host) return;
   switch (random_.below(4)) {
-    case 0: {
-      const ValueId number = value(Type::I32);
-      const ValueId channel = value(Type::I32);
-      const ValueId index = value(Type::I32);
-      const ValueId shown = value(options_.floats && random_.chance(50) ? Type::F64 : Type::I64);
-      return builder_.message(random_.below(RUNG_MESSAGE_LOG + 1), number, channel, index, shown);
-    }
-    case 1: {
-      std::vector<ValueId> args;
-      for (uint32_t n = random_.below(4); n > 0; --n) args.push_back(value(Type::I64));
-      return remember(builder_.serviceRequest(ServiceId{random_.below(2)}, args));
-    }
-    case 2: {
-      const ValueId ticket = value(Type::I32);
-      return remember(builder_.servicePoll(ticket));
-    }
-    default: {
-      const ValueId ticket = value(Type::I32);
-      return remember(builder_.serviceResult(ticket, random_.below(3)));
-    }
+  case 0: {
+    const ValueId number = value(Type::I32);
+    const ValueId channel = value(Type::I32);
+    const ValueId index = value(Type::I32);
+    const ValueId shown = value(options_.floats && random_.chance(50) ? Type::F64 : Type::I64);
+    return builder_.message(random_.below(RUNG_MESSAGE_LOG + 1), number, channel, index, shown);
+  }
+  case 1: {
+    std::vector<ValueId> args;
+    for (uint32_t n = random_.below(4); n > 0; --n) args.push_back(value(Type::I64));
+    return remember(builder_.serviceRequest(ServiceId{random_.below(2)}, args));
+  }
+  case 2: {
+    const ValueId ticket = value(Type::I32);
+    return remember(builder_.servicePoll(ticket));
+  }
+  default: {
+    const ValueId ticket = value(Type::I32);
+    return remember(builder_.serviceResult(ticket, random_.below(3)));
+  }
   }
 }
 
 void RandomRung::addRegion(uint32_t depth) {
-  if (random_.chance(65)) addIf(depth);
-  else addLoop(depth);
+  if (random_.chance(65))
+    addIf(depth);
+  else
+    addLoop(depth);
 }
 
 void RandomRung::addIf(uint32_t depth) {

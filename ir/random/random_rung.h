@@ -9,7 +9,7 @@
 namespace rung::ir {
 
 class RandomRung {
- public:
+public:
   // `slots` are those that may be read and written.
   RandomRung(RandomSource& random, const RandomOptions& options, RungBuilder& builder, std::vector<SlotId> slots)
       : random_(random), options_(options), builder_(builder), slots_(std::move(slots)) {}
@@ -18,7 +18,7 @@ class RandomRung {
   // A value of the type that is visible here: an earlier one, a constant, or a load.
   ValueId value(Type type);
 
- private:
+private:
   void addOp(uint32_t depth);
   void addPlain();
   void addAccess();

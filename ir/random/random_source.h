@@ -5,7 +5,7 @@
 namespace rung::ir {
 
 class RandomSource {
- public:
+public:
   explicit RandomSource(uint64_t seed) : state_(seed) {}
 
   uint64_t next() {
@@ -18,9 +18,12 @@ class RandomSource {
   uint32_t below(uint32_t n) { return static_cast<uint32_t>(next() % n); }
   uint32_t between(uint32_t first, uint32_t last) { return first + below(last - first + 1); }
   bool chance(uint32_t percent) { return below(100) < percent; }
-  template <class Range> const auto& pick(const Range& range) { return range[below(static_cast<uint32_t>(range.size()))]; }
+  template <class Range>
+  const auto& pick(const Range& range) {
+    return range[below(static_cast<uint32_t>(range.size()))];
+  }
 
- private:
+private:
   uint64_t state_;
 };
 

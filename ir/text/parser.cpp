@@ -9,12 +9,14 @@ namespace rung::ir {
 namespace {
 
 class Parser {
- public:
+public:
   explicit Parser(std::string_view text) : scanner_(text) {}
 
   ParseOutcome run() {
-    if (!scanner_.atEnd()) parseHead();
-    else scanner_.fail("'module' expected");
+    if (!scanner_.atEnd())
+      parseHead();
+    else
+      scanner_.fail("'module' expected");
     while (scanner_.ok() && !scanner_.atEnd()) {
       parseDeclaration();
       scanner_.endLine();
@@ -24,7 +26,7 @@ class Parser {
     return {std::move(module_), {}};
   }
 
- private:
+private:
   struct Call {
     uint32_t routine;
     uint32_t rung;
@@ -48,7 +50,8 @@ class Parser {
   }
 
   // A name that later lines may refer to. Of equal names the first counts; the others are referred to by number.
-  template <class Vector> std::string declare(NameIndex& names, const Vector& items) {
+  template <class Vector>
+  std::string declare(NameIndex& names, const Vector& items) {
     std::string name = scanner_.name();
     names.emplace(name, static_cast<uint32_t>(items.size()));
     return name;
@@ -106,7 +109,8 @@ class Parser {
   void parseSlot() {
     Slot slot;
     scanner_.expect('$');
-    if (scanner_.u32() != module_.slots.size()) scanner_.fail(fmt::format("the next slot is ${}", module_.slots.size()));
+    if (scanner_.u32() != module_.slots.size())
+      scanner_.fail(fmt::format("the next slot is ${}", module_.slots.size()));
     slot.type = parseType(scanner_);
     scanner_.expectWord("init");
     slot.init = parseLiteral(scanner_, slot.type);
@@ -280,10 +284,10 @@ class Parser {
 };
 
 const Parser::Declaration Parser::kDeclarations[14] = {
-    {"file", &Parser::parseFile},       {"space", &Parser::parseSpace},     {"slot", &Parser::parseSlot},
-    {"symbol", &Parser::parseSymbol},   {"init", &Parser::parseInit},       {"retain", &Parser::parseRetain},
-    {"safe", &Parser::parseSafe},       {"fault", &Parser::parseFault},     {"service", &Parser::parseService},
-    {"message", &Parser::parseMessage}, {"routine", &Parser::parseRoutine}, {"task", &Parser::parseTask},
+    {"file", &Parser::parseFile},         {"space", &Parser::parseSpace},     {"slot", &Parser::parseSlot},
+    {"symbol", &Parser::parseSymbol},     {"init", &Parser::parseInit},       {"retain", &Parser::parseRetain},
+    {"safe", &Parser::parseSafe},         {"fault", &Parser::parseFault},     {"service", &Parser::parseService},
+    {"message", &Parser::parseMessage},   {"routine", &Parser::parseRoutine}, {"task", &Parser::parseTask},
     {"schedule", &Parser::parseSchedule}, {"step", &Parser::parseStep}};
 
 } // namespace

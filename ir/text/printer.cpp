@@ -1,7 +1,7 @@
 // The printer of the text form (see text.h). It trusts nothing: broken modules print too.
+#include <bit>
 #include <charconv>
 #include <cmath>
-#include <bit>
 #include <fmt/format.h>
 #include <iterator>
 #include <unordered_map>
@@ -16,12 +16,18 @@ std::string quoted(std::string_view text) {
   std::string out = "\"";
   for (char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') out += '\\', out += c;
-    else if (c == '\n') out += "\\n";
-    else if (c == '\r') out += "\\r";
-    else if (c == '\t') out += "\\t";
-    else if (byte < 0x20 || byte == 0x7F) fmt::format_to(std::back_inserter(out), "\\x{:02X}", byte);
-    else out += c;
+    if (c == '"' || c == '\\')
+      out += '\\', out += c;
+    else if (c == '\n')
+      out += "\\n";
+    else if (c == '\r')
+      out += "\\r";
+    else if (c == '\t')
+      out += "\\t";
+    else if (byte < 0x20 || byte == 0x7F)
+      fmt::format_to(std::back_inserter(out), "\\x{:02X}", byte);
+    else
+      out += c;
   }
   out += '"';
   return out;
@@ -38,7 +44,7 @@ std::string nameText(std::string_view name) { return isWord(name) ? std::string(
 
 // Names of one kind, as a reference writes them: by name when it is unique, else by index.
 class References {
- public:
+public:
   void add(std::string_view name) {
     unique_[name] = unique_.count(name) == 0;
     names_.push_back(name);
@@ -49,7 +55,7 @@ class References {
     return fmt::format("#{}", index);
   }
 
- private:
+private:
   std::vector<std::string_view> names_;
   std::unordered_map<std::string_view, bool> unique_;
 };
@@ -63,12 +69,13 @@ struct PlaceKey {
 };
 struct PlaceKeyHash {
   size_t operator()(const PlaceKey& key) const {
-    return std::hash<uint64_t>()((static_cast<uint64_t>(key.space) << 40) ^ (static_cast<uint64_t>(key.bitOffset) << 1) ^ (key.bit ? 1 : 0));
+    return std::hash<uint64_t>()((static_cast<uint64_t>(key.space) << 40) ^
+                                 (static_cast<uint64_t>(key.bitOffset) << 1) ^ (key.bit ? 1 : 0));
   }
 };
 
 class Printer {
- public:
+public:
   explicit Printer(const Module& module) : module_(module) {
     for (const std::string& file : module.files) files_.add(file);
     for (const Space& space : module.spaces) spaces_.add(space.name);
@@ -82,7 +89,8 @@ class Printer {
   }
 
   void printModule() {
-    put("module {} dialect {}{}\n", quoted(module_.name), quoted(module_.dialect), module_.instrumented ? " instrumented" : "");
+    put("module {} dialect {}{}\n", quoted(module_.name), quoted(module_.dialect),
+        module_.instrumented ? " instrumented" : "");
     for (const std::string& file : module_.files) put("file {}\n", quoted(file));
     printMemory();
     for (const std::string& fault : module_.faults) put("fault {}\n", nameText(fault));
@@ -103,8 +111,9 @@ class Printer {
   void printRung(const Rung& rung, uint32_t number, const Remark& remark);
   std::string take() { return std::move(out_); }
 
- private:
-  template <class... Args> void put(fmt::format_string<Args...> format, Args&&... args) {
+private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
   }
 
@@ -114,7 +123,8 @@ class Printer {
   void printCopy(std::string_view when, const Copy& copy);
   void printStep(std::string_view list, const Step& step) {
     const Keyword* op = findKeyword(kStepOps, step.op);
-    put("step {} {} {} {}\n", list, op != nullptr ? std::string(op->word) : fmt::format("#{}", step.op), tasks_.text(step.task.index), step.arg);
+    put("step {} {} {} {}\n", list, op != nullptr ? std::string(op->word) : fmt::format("#{}", step.op),
+        tasks_.text(step.task.index), step.arg);
   }
 
   uint32_t unitOf(uint32_t space) const {
@@ -169,13 +179,14 @@ void Printer::printMemory() {
   }
   for (size_t i = 0; i < module_.slots.size(); ++i) {
     const Slot& slot = module_.slots[i];
-    put("slot ${} {} init {}{}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init), slot.retain ? " retain" : "",
-        slot.transient ? " transient" : "", quoted(slot.key));
+    put("slot ${} {} init {}{}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init),
+        slot.retain ? " retain" : "", slot.transient ? " transient" : "", quoted(slot.key));
   }
   for (const Symbol& s : module_.symbols) {
     const Keyword* type = findKeyword(kSymbolTypes, s.type);
     const bool bit = s.type == RUNG_TYPE_BIT;
-    put("symbol {} {} {} count {}", nameText(s.name), type != nullptr ? std::string(type->word) : fmt::format("#{}", s.type),
+    put("symbol {} {} {} count {}", nameText(s.name),
+        type != nullptr ? std::string(type->word) : fmt::format("#{}", s.type),
         bit ? bitPlace(s.space.index, uint64_t{s.byte} * 8 + s.bit) : bytePlace(s.space.index, s.byte), s.count);
     printFlags(kSymbolFlags, s.flags);
     put(" value {} {}\n", s.value, quoted(s.comment));
@@ -185,20 +196,23 @@ void Printer::printMemory() {
     for (uint8_t byte : init.data) put("{:02X}", byte);
     put("\n");
   }
-  for (const SpaceSpan& span : module_.retains) put("retain {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
-  for (const SpaceSpan& span : module_.safes) put("safe {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
+  for (const SpaceSpan& span : module_.retains)
+    put("retain {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
+  for (const SpaceSpan& span : module_.safes)
+    put("safe {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
 }
 
 void Printer::printTask(const Task& task) {
-  put("task {} entry {} period {} budget {} fault {} parts {} {{\n", nameText(task.name), routines_.text(task.entry.index),
-      task.periodUs, task.budget, faults_.text(task.budgetFault.index), task.parts);
+  put("task {} entry {} period {} budget {} fault {} parts {} {{\n", nameText(task.name),
+      routines_.text(task.entry.index), task.periodUs, task.budget, faults_.text(task.budgetFault.index), task.parts);
   for (const Copy& copy : task.begin) printCopy("begin", copy);
   for (const Copy& copy : task.end) printCopy("end", copy);
   put("}}\n");
 }
 
 void Printer::printCopy(std::string_view when, const Copy& copy) {
-  put("  {} {} -> {} size {}", when, bytePlace(copy.from.space.index, copy.from.byte), bytePlace(copy.to.index, copy.toByte), copy.from.size);
+  put("  {} {} -> {} size {}", when, bytePlace(copy.from.space.index, copy.from.byte),
+      bytePlace(copy.to.index, copy.toByte), copy.from.size);
   if (copy.masked) put(" masked {}", bytePlace(copy.mask.index, copy.maskByte));
   put("\n");
 }
@@ -222,20 +236,20 @@ std::string Printer::literal(Type type, int64_t bits) const {
 
 std::string Printer::attribute(const Rung& rung, const Op& op) const {
   switch (opInfo(op.code).attr) {
-    case Attr::None: return {};
-    case Attr::Literal: return literal(op.type, op.imm);
-    case Attr::Place: return place(op, false);
-    case Attr::Window: return place(op, true);
-    case Attr::Slot: return fmt::format("${}", op.ref);
-    case Attr::Count: return fmt::format("{}", op.count);
-    case Attr::MessageOp: {
-      const Keyword* keyword = findKeyword(kMessageOps, op.ref);
-      return keyword != nullptr ? std::string(keyword->word) : fmt::format("#{}", op.ref);
-    }
-    case Attr::Service: return services_.text(op.ref);
-    case Attr::ResultNo: return fmt::format("{}", op.imm);
-    case Attr::Fault: return faults_.text(op.ref);
-    case Attr::Text: return op.ref < rung.notes.size() ? quoted(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
+  case Attr::None: return {};
+  case Attr::Literal: return literal(op.type, op.imm);
+  case Attr::Place: return place(op, false);
+  case Attr::Window: return place(op, true);
+  case Attr::Slot: return fmt::format("${}", op.ref);
+  case Attr::Count: return fmt::format("{}", op.count);
+  case Attr::MessageOp: {
+    const Keyword* keyword = findKeyword(kMessageOps, op.ref);
+    return keyword != nullptr ? std::string(keyword->word) : fmt::format("#{}", op.ref);
+  }
+  case Attr::Service: return services_.text(op.ref);
+  case Attr::ResultNo: return fmt::format("{}", op.imm);
+  case Attr::Fault: return faults_.text(op.ref);
+  case Attr::Text: return op.ref < rung.notes.size() ? quoted(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
   }
   return {};
 }
@@ -243,7 +257,8 @@ std::string Printer::attribute(const Rung& rung, const Op& op) const {
 // The name of what is accessed; empty when there is none.
 std::string_view Printer::comment(const Op& op) const {
   const Attr attr = opInfo(op.code).attr;
-  if (attr == Attr::Slot) return op.ref < module_.slots.size() ? std::string_view(module_.slots[op.ref].key) : std::string_view();
+  if (attr == Attr::Slot)
+    return op.ref < module_.slots.size() ? std::string_view(module_.slots[op.ref].key) : std::string_view();
   if (attr != Attr::Place && attr != Attr::Window) return {};
   auto found = symbols_.find({op.ref, op.imm, attr == Attr::Place && op.type == Type::Bit});
   return found == symbols_.end() ? std::string_view() : found->second;
@@ -259,7 +274,8 @@ void Printer::printResults(const Rung& rung, const Op& op) {
 
 void Printer::printOp(const Rung& rung, const Op& op) {
   printResults(rung, op);
-  const bool typed = op.resultCount == 1 && op.result.index < rung.values.size() && rung.values[op.result.index] == op.type;
+  const bool typed =
+      op.resultCount == 1 && op.result.index < rung.values.size() && rung.values[op.result.index] == op.type;
   put("{}", opInfo(op.code).name);
   if (op.type != Type::None && !typed) put(".{}", typeName(op.type));
   std::string_view lead = " ";
@@ -280,14 +296,12 @@ void Printer::printTransfer(const Rung& rung) {
   const Transfer& transfer = rung.transfer;
   put("  }}");
   switch (transfer.kind) {
-    case TransferKind::Next: break;
-    case TransferKind::Goto: put(" goto {}", transfer.target); break;
-    case TransferKind::Call: put(" call {}", routines_.text(transfer.callee.index)); break;
-    case TransferKind::Ret: put(" ret"); break;
-    case TransferKind::End: put(" end"); break;
-    case TransferKind::Switch:
-      put(" switch %{} [{}]", transfer.value.index, fmt::join(transfer.targets, ", "));
-      break;
+  case TransferKind::Next: break;
+  case TransferKind::Goto: put(" goto {}", transfer.target); break;
+  case TransferKind::Call: put(" call {}", routines_.text(transfer.callee.index)); break;
+  case TransferKind::Ret: put(" ret"); break;
+  case TransferKind::End: put(" end"); break;
+  case TransferKind::Switch: put(" switch %{} [{}]", transfer.value.index, fmt::join(transfer.targets, ", ")); break;
   }
   if (transfer.cond.valid()) put(" if %{}", transfer.cond.index);
   if (rung.transferLine != 0) put(" @{}", rung.transferLine);
@@ -304,8 +318,8 @@ void Printer::printRemark(const Remark& remark, size_t index, size_t indent) {
 }
 
 void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark) {
-  put("  rung {} {} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, quoted(rung.title), files_.text(rung.begin.file.index),
-      rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
+  put("  rung {} {} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, quoted(rung.title),
+      files_.text(rung.begin.file.index), rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
   std::string_view source = rung.sourceText;
   for (bool more = !source.empty(); more;) {
     const size_t end = source.find('\n');

@@ -125,41 +125,43 @@ void RungParser::parseName(Op& op) {
 
 bool RungParser::parseAttribute(Op& op) {
   switch (opInfo(op.code).attr) {
-    case Attr::None: return false;
-    case Attr::Literal: op.imm = parseLiteral(scanner_, op.type); break;
-    case Attr::Place:
-    case Attr::Window: {
-      const bool window = opInfo(op.code).attr == Attr::Window;
-      const PlaceForm form = window ? PlaceForm::Window : op.type == Type::Bit ? PlaceForm::Bit : PlaceForm::Byte;
-      const ParsedPlace place = parsePlace(scanner_, module_, names_.spaces, form);
-      op.ref = place.space;
-      op.imm = place.bitOffset;
-      op.count = place.count;
-      break;
-    }
-    case Attr::Slot:
-      scanner_.expect('$');
+  case Attr::None: return false;
+  case Attr::Literal: op.imm = parseLiteral(scanner_, op.type); break;
+  case Attr::Place:
+  case Attr::Window: {
+    const bool window = opInfo(op.code).attr == Attr::Window;
+    const PlaceForm form = window ? PlaceForm::Window : op.type == Type::Bit ? PlaceForm::Bit : PlaceForm::Byte;
+    const ParsedPlace place = parsePlace(scanner_, module_, names_.spaces, form);
+    op.ref = place.space;
+    op.imm = place.bitOffset;
+    op.count = place.count;
+    break;
+  }
+  case Attr::Slot:
+    scanner_.expect('$');
+    op.ref = scanner_.u32();
+    break;
+  case Attr::Count: op.count = scanner_.u32(); break;
+  case Attr::MessageOp: {
+    if (scanner_.accept('#')) {
       op.ref = scanner_.u32();
       break;
-    case Attr::Count: op.count = scanner_.u32(); break;
-    case Attr::MessageOp: {
-      if (scanner_.accept('#')) {
-        op.ref = scanner_.u32();
-        break;
-      }
-      const std::string_view word = scanner_.word();
-      const Keyword* keyword = findKeyword(kMessageOps, word);
-      if (keyword != nullptr) op.ref = keyword->value;
-      else scanner_.fail(fmt::format("unknown kind of message '{}'", word));
-      break;
     }
-    case Attr::Service: op.ref = parseReference(scanner_, names_.services, "service"); break;
-    case Attr::ResultNo: op.imm = scanner_.i64(); break;
-    case Attr::Fault: op.ref = parseReference(scanner_, names_.faults, "fault"); break;
-    case Attr::Text:
-      op.ref = static_cast<uint32_t>(rung_.notes.size());
-      rung_.notes.push_back(scanner_.text());
-      break;
+    const std::string_view word = scanner_.word();
+    const Keyword* keyword = findKeyword(kMessageOps, word);
+    if (keyword != nullptr)
+      op.ref = keyword->value;
+    else
+      scanner_.fail(fmt::format("unknown kind of message '{}'", word));
+    break;
+  }
+  case Attr::Service: op.ref = parseReference(scanner_, names_.services, "service"); break;
+  case Attr::ResultNo: op.imm = scanner_.i64(); break;
+  case Attr::Fault: op.ref = parseReference(scanner_, names_.faults, "fault"); break;
+  case Attr::Text:
+    op.ref = static_cast<uint32_t>(rung_.notes.size());
+    rung_.notes.push_back(scanner_.text());
+    break;
   }
   return true;
 }
@@ -186,8 +188,10 @@ std::string RungParser::parseTransfer() {
     transfer.target = scanner_.u32();
   } else if (scanner_.acceptWord("call")) {
     transfer.kind = TransferKind::Call;
-    if (scanner_.peekName()) callee = scanner_.name();
-    else transfer.callee = RoutineId{parseReference(scanner_, names_.routines, "routine")};
+    if (scanner_.peekName())
+      callee = scanner_.name();
+    else
+      transfer.callee = RoutineId{parseReference(scanner_, names_.routines, "routine")};
   } else if (scanner_.acceptWord("ret")) {
     transfer.kind = TransferKind::Ret;
   } else if (scanner_.acceptWord("end")) {

@@ -29,7 +29,7 @@ struct ModuleNames {
 };
 
 class RungParser {
- public:
+public:
   RungParser(Scanner& scanner, const Module& module, const ModuleNames& names, Rung& rung)
       : scanner_(scanner), module_(module), names_(names), rung_(rung) {}
 
@@ -39,7 +39,7 @@ class RungParser {
   // `-` and `#N` are resolved at once.
   std::string parseTransfer();
 
- private:
+private:
   void parseSource(bool first);
   void parseOp();
   void parseResults(Op& op);

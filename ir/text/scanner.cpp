@@ -112,21 +112,27 @@ std::string Scanner::text() {
     char c = text_[pos_++];
     if (c == '\\' && more()) {
       c = text_[pos_++];
-      if (c == 'n') c = '\n';
-      else if (c == 'r') c = '\r';
-      else if (c == 't') c = '\t';
+      if (c == 'n')
+        c = '\n';
+      else if (c == 'r')
+        c = '\r';
+      else if (c == 't')
+        c = '\t';
       else if (c == 'x') {
         const int high = more() ? hexValue(text_[pos_]) : -1;
         const int low = pos_ + 1 < text_.size() ? hexValue(text_[pos_ + 1]) : -1;
         if (high < 0 || low < 0) fail("two hexadecimal digits expected behind \\x");
         pos_ = std::min(pos_ + 2, text_.size());
         c = static_cast<char>(high * 16 + low);
-      } else if (c != '"' && c != '\\') fail("unknown escape");
+      } else if (c != '"' && c != '\\')
+        fail("unknown escape");
     }
     out += c;
   }
-  if (!more() || text_[pos_] != '"') fail("text without its closing quote");
-  else ++pos_;
+  if (!more() || text_[pos_] != '"')
+    fail("text without its closing quote");
+  else
+    ++pos_;
   return out;
 }
 
@@ -166,8 +172,10 @@ double Scanner::real() {
   skipBlanks();
   double value = 0;
   const auto [end, code] = std::from_chars(text_.data() + pos_, text_.data() + text_.size(), value);
-  if (code != std::errc()) fail("number expected");
-  else pos_ = static_cast<size_t>(end - text_.data());
+  if (code != std::errc())
+    fail("number expected");
+  else
+    pos_ = static_cast<size_t>(end - text_.data());
   return value;
 }
 

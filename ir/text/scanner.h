@@ -1,5 +1,5 @@
-// Reads words, numbers and texts of the text form, character by character. After the first error it stands at the end of
-// the text and gives empty answers, so that callers need not check every step.
+// Reads words, numbers and texts of the text form, character by character. After the first error it stands at the end
+// of the text and gives empty answers, so that callers need not check every step.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@
 namespace rung::ir {
 
 class Scanner {
- public:
+public:
   explicit Scanner(std::string_view text) : text_(text) {}
 
   bool ok() const { return message_.empty(); }
@@ -43,7 +43,7 @@ class Scanner {
   void endLine();
   bool atEnd();
 
- private:
+private:
   void skipBlanks(); // and a comment
   void skipEmptyLines();
   bool more() const { return pos_ < text_.size(); }

@@ -1,7 +1,7 @@
 // The textual form of a module: complete, canonical, and readable. Grammar: README.md beside this file.
 //
-// For every module that passes the verifier, parse(print(m)) equals m; for every printed text, print(parse(t)) equals t.
-// The printer also accepts modules that do not pass, so that the verifier can show what it complains about.
+// For every module that passes the verifier, parse(print(m)) equals m; for every printed text, print(parse(t)) equals
+// t. The printer also accepts modules that do not pass, so that the verifier can show what it complains about.
 #pragma once
 #include <functional>
 #include <optional>

@@ -22,12 +22,15 @@ constexpr uint64_t kMaxSpaceBytes = 1ull << 30;
 constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
 constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
-template <class Items, class NameOf> void checkUnique(ModuleCheck& check, std::string_view kind, const Items& items, NameOf nameOf) {
+template <class Items, class NameOf>
+void checkUnique(ModuleCheck& check, std::string_view kind, const Items& items, NameOf nameOf) {
   std::unordered_set<std::string_view> seen;
   for (const auto& item : items) {
     const std::string_view name = nameOf(item);
-    if (name.empty()) check.fail(Rule::Names, fmt::format("a {} without a name", kind));
-    else if (!seen.insert(name).second) check.fail(Rule::Names, fmt::format("two {}s are named '{}'", kind, name));
+    if (name.empty())
+      check.fail(Rule::Names, fmt::format("a {} without a name", kind));
+    else if (!seen.insert(name).second)
+      check.fail(Rule::Names, fmt::format("two {}s are named '{}'", kind, name));
   }
 }
 
@@ -44,7 +47,8 @@ void checkNames(ModuleCheck& check) {
   checkUnique(check, "service", m.services, itself);
   std::unordered_set<uint32_t> numbers;
   for (const MessageText& message : m.messages)
-    if (!numbers.insert(message.number).second) check.fail(Rule::Names, fmt::format("two messages have number {}", message.number));
+    if (!numbers.insert(message.number).second)
+      check.fail(Rule::Names, fmt::format("two messages have number {}", message.number));
   for (const Symbol& symbol : m.symbols)
     if (symbol.name.empty()) check.fail(Rule::Names, "a symbol without a name");
 }
@@ -52,15 +56,19 @@ void checkNames(ModuleCheck& check) {
 void checkSpaces(ModuleCheck& check) {
   for (const Space& space : check.module.spaces) {
     const uint32_t unit = space.unitBytes;
-    if (unit != 1 && unit != 2 && unit != 4 && unit != 8) check.fail(Rule::Spaces, fmt::format("space {} has units of {} bytes", space.name, unit));
-    if (byteCount(space) > kMaxSpaceBytes) check.fail(Rule::Spaces, fmt::format("space {} is larger than 1 GB", space.name));
-    if ((space.flags & ~kSpaceFlagMask) != 0) check.fail(Rule::Spaces, fmt::format("space {} has unknown flags", space.name));
+    if (unit != 1 && unit != 2 && unit != 4 && unit != 8)
+      check.fail(Rule::Spaces, fmt::format("space {} has units of {} bytes", space.name, unit));
+    if (byteCount(space) > kMaxSpaceBytes)
+      check.fail(Rule::Spaces, fmt::format("space {} is larger than 1 GB", space.name));
+    if ((space.flags & ~kSpaceFlagMask) != 0)
+      check.fail(Rule::Spaces, fmt::format("space {} has unknown flags", space.name));
   }
 }
 
 void checkSlots(ModuleCheck& check) {
   for (const Slot& slot : check.module.slots) {
-    if (slot.type == Type::None) check.fail(Rule::Slots, fmt::format("slot \"{}\" has no type", slot.key));
+    if (slot.type == Type::None)
+      check.fail(Rule::Slots, fmt::format("slot \"{}\" has no type", slot.key));
     else if ((static_cast<uint64_t>(slot.init) & ~valueMask(slot.type)) != 0)
       check.fail(Rule::Slots, fmt::format("slot \"{}\" cannot hold its initial value", slot.key));
   }
@@ -69,20 +77,22 @@ void checkSlots(ModuleCheck& check) {
 // Bits of one element; 0 for an unknown type.
 uint64_t elementBits(uint32_t symbolType) {
   switch (symbolType) {
-    case RUNG_TYPE_BIT: return 1;
-    case RUNG_TYPE_I8:
-    case RUNG_TYPE_TEXT: return 8;
-    case RUNG_TYPE_I16: return 16;
-    case RUNG_TYPE_I32: return 32;
-    case RUNG_TYPE_I64:
-    case RUNG_TYPE_F64: return 64;
-    default: return 0;
+  case RUNG_TYPE_BIT: return 1;
+  case RUNG_TYPE_I8:
+  case RUNG_TYPE_TEXT: return 8;
+  case RUNG_TYPE_I16: return 16;
+  case RUNG_TYPE_I32: return 32;
+  case RUNG_TYPE_I64:
+  case RUNG_TYPE_F64: return 64;
+  default: return 0;
   }
 }
 
 void checkSymbols(ModuleCheck& check) {
   for (const Symbol& s : check.module.symbols) {
-    const auto fail = [&](std::string_view what) { check.fail(Rule::Symbols, fmt::format("symbol {} {}", s.name, what)); };
+    const auto fail = [&](std::string_view what) {
+      check.fail(Rule::Symbols, fmt::format("symbol {} {}", s.name, what));
+    };
     const uint64_t bits = elementBits(s.type);
     if (bits == 0) fail("has an unknown type");
     if ((s.flags & ~kSymbolFlagMask) != 0) fail("has unknown flags");
@@ -95,22 +105,28 @@ void checkSymbols(ModuleCheck& check) {
 
 void checkSpans(ModuleCheck& check) {
   for (const Init& init : check.module.inits)
-    if (!check.inside(init.space, init.byte, init.data.size())) check.fail(Rule::Spans, fmt::format("an initial value at byte {} lies outside its space", init.byte));
+    if (!check.inside(init.space, init.byte, init.data.size()))
+      check.fail(Rule::Spans, fmt::format("an initial value at byte {} lies outside its space", init.byte));
   for (const SpaceSpan& span : check.module.retains)
-    if (!check.inside(span.space, span.byte, span.size)) check.fail(Rule::Spans, fmt::format("a retained piece at byte {} lies outside its space", span.byte));
+    if (!check.inside(span.space, span.byte, span.size))
+      check.fail(Rule::Spans, fmt::format("a retained piece at byte {} lies outside its space", span.byte));
   for (const SpaceSpan& span : check.module.safes)
-    if (!check.inside(span.space, span.byte, span.size)) check.fail(Rule::Spans, fmt::format("a safe piece at byte {} lies outside its space", span.byte));
+    if (!check.inside(span.space, span.byte, span.size))
+      check.fail(Rule::Spans, fmt::format("a safe piece at byte {} lies outside its space", span.byte));
 }
 
 void checkCopy(ModuleCheck& check, const Task& task, const Copy& copy) {
-  const auto fail = [&](std::string_view what) { check.fail(Rule::Copies, fmt::format("a copy of task {} {}", task.name, what)); };
+  const auto fail = [&](std::string_view what) {
+    check.fail(Rule::Copies, fmt::format("a copy of task {} {}", task.name, what));
+  };
   const uint64_t size = copy.from.size;
   if (size == 0) fail("copies nothing");
   if (!check.inside(copy.from.space, copy.from.byte, size)) fail("reads outside its space");
   if (!check.inside(copy.to, copy.toByte, size)) fail("writes outside its space");
   if (copy.masked ? !check.inside(copy.mask, copy.maskByte, size) : copy.mask.valid() || copy.maskByte != 0)
     fail(copy.masked ? "has a mask outside its space" : "has a mask that it does not use");
-  if (copy.from.space == copy.to && copy.from.byte < copy.toByte + size && copy.toByte < copy.from.byte + size) fail("overlaps itself");
+  if (copy.from.space == copy.to && copy.from.byte < copy.toByte + size && copy.toByte < copy.from.byte + size)
+    fail("overlaps itself");
 }
 
 void checkCopies(ModuleCheck& check) {
@@ -122,7 +138,9 @@ void checkCopies(ModuleCheck& check) {
 
 void checkTasks(ModuleCheck& check) {
   for (const Task& task : check.module.tasks) {
-    const auto fail = [&](std::string_view what) { check.fail(Rule::Tasks, fmt::format("task {} {}", task.name, what)); };
+    const auto fail = [&](std::string_view what) {
+      check.fail(Rule::Tasks, fmt::format("task {} {}", task.name, what));
+    };
     if (task.entry.index >= check.module.routines.size()) fail("has no entry");
     if (task.budgetFault.index >= check.module.faults.size()) fail("has no fault for its budget");
     if (task.parts == 0) fail("has no parts");
@@ -133,12 +151,14 @@ void checkTasks(ModuleCheck& check) {
 void checkSchedule(ModuleCheck& check) {
   const Module& m = check.module;
   const auto exists = [&](TaskId task) { return task.index < m.tasks.size(); };
-  if (!exists(m.mainTask) && (check.mode == Mode::Final || m.mainTask.valid())) check.fail(Rule::Schedule, "there is no main task");
+  if (!exists(m.mainTask) && (check.mode == Mode::Final || m.mainTask.valid()))
+    check.fail(Rule::Schedule, "there is no main task");
   if (!exists(m.fastTask) && m.fastTask.valid()) check.fail(Rule::Schedule, "the fast task does not exist");
   for (const std::vector<Step>* steps : {&m.scan, &m.fast})
     for (const Step& step : *steps) {
       const bool needsTask = step.op == RUNG_STEP_RUN || step.op == RUNG_STEP_PART;
-      if (step.op > RUNG_STEP_SLOT) check.fail(Rule::Schedule, fmt::format("there is no step {}", step.op));
+      if (step.op > RUNG_STEP_SLOT)
+        check.fail(Rule::Schedule, fmt::format("there is no step {}", step.op));
       else if (needsTask != exists(step.task) || needsTask != step.task.valid())
         check.fail(Rule::Schedule, needsTask ? "a step without its task" : "a step with a task that it does not use");
     }
@@ -151,7 +171,7 @@ void checkRoutines(ModuleCheck& check) {
 
 // Depth-first over the calls, without recursion: a circle of 100,000 routines must not overflow our own stack.
 class CallWalk {
- public:
+public:
   explicit CallWalk(ModuleCheck& check) : check_(check), depth_(check.module.routines.size(), kUnseen) {}
 
   void run() {
@@ -159,7 +179,7 @@ class CallWalk {
       if (depth_[i] == kUnseen) visit(i);
   }
 
- private:
+private:
   static constexpr uint32_t kUnseen = UINT32_MAX;
   static constexpr uint32_t kOpen = UINT32_MAX - 1;
   struct Frame {
@@ -181,8 +201,10 @@ class CallWalk {
       }
       const Transfer& transfer = rungs[top.rung].transfer;
       const uint32_t callee = transfer.callee.index;
-      if (transfer.kind != TransferKind::Call) ++top.rung;
-      else if (depth_[callee] == kUnseen) open(frames, callee); // and look at this rung again
+      if (transfer.kind != TransferKind::Call)
+        ++top.rung;
+      else if (depth_[callee] == kUnseen)
+        open(frames, callee); // and look at this rung again
       else {
         follow(top, callee);
         ++top.rung;
@@ -197,11 +219,13 @@ class CallWalk {
 
   void follow(Frame& top, uint32_t callee) {
     const auto op = static_cast<uint32_t>(check_.module.routines[top.routine].rungs[top.rung].ops.size());
-    if (depth_[callee] == kOpen) return check_.fail(Rule::Calls, "routines call each other in a circle", RoutineId{top.routine}, top.rung, op);
+    if (depth_[callee] == kOpen)
+      return check_.fail(Rule::Calls, "routines call each other in a circle", RoutineId{top.routine}, top.rung, op);
     top.depth = std::max(top.depth, depth_[callee] + 1);
     // Reported where it is first exceeded; callers above see the limit again, and not the error.
     if (top.depth <= kLimit) return;
-    check_.fail(Rule::Calls, fmt::format("calls are nested more than {} deep", kLimit), RoutineId{top.routine}, top.rung, op);
+    check_.fail(Rule::Calls, fmt::format("calls are nested more than {} deep", kLimit), RoutineId{top.routine},
+                top.rung, op);
     top.depth = kLimit;
   }
 
@@ -215,7 +239,9 @@ class CallWalk {
 } // namespace
 
 bool checkModule(ModuleCheck& check) {
-  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkSymbols, checkSpans, checkCopies, checkTasks, checkSchedule, checkRoutines}) rule(check);
+  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkSymbols, checkSpans, checkCopies,
+                                     checkTasks, checkSchedule, checkRoutines})
+    rule(check);
   return check.errorCount() == 0;
 }
 

@@ -10,10 +10,12 @@ namespace rung::ir {
 
 // What a rule of the module sees.
 class ModuleCheck {
- public:
-  ModuleCheck(const Module& m, Mode checkMode, std::vector<VerifyError>& errors) : module(m), mode(checkMode), errors_(errors) {}
+public:
+  ModuleCheck(const Module& m, Mode checkMode, std::vector<VerifyError>& errors)
+      : module(m), mode(checkMode), errors_(errors) {}
 
-  void fail(Rule rule, std::string message, RoutineId routine = {}, uint32_t rung = RUNG_NONE, uint32_t op = RUNG_NONE) {
+  void fail(Rule rule, std::string message, RoutineId routine = {}, uint32_t rung = RUNG_NONE,
+            uint32_t op = RUNG_NONE) {
     errors_.push_back({rule, std::move(message), routine, rung, op});
   }
   size_t errorCount() const { return errors_.size(); }
@@ -22,7 +24,7 @@ class ModuleCheck {
   const Module& module;
   const Mode mode;
 
- private:
+private:
   std::vector<VerifyError>& errors_;
 };
 

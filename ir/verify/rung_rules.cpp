@@ -12,25 +12,28 @@ constexpr uint32_t kNoOp = RUNG_NONE;
 constexpr uint64_t kMaxPasses = 1ull << 20;
 
 class RungCheck {
- public:
+public:
   RungCheck(ModuleCheck& check, RoutineId routine, uint32_t number)
-      : check_(check), module_(check.module), routine_(routine), number_(number), rung_(module_.at(routine).rungs[number]) {}
+      : check_(check), module_(check.module), routine_(routine), number_(number),
+        rung_(module_.at(routine).rungs[number]) {}
 
   void run() {
-    for (void (RungCheck::*rule)() : {&RungCheck::header, &RungCheck::form, &RungCheck::regions, &RungCheck::scope, &RungCheck::types,
-                                      &RungCheck::yields, &RungCheck::places, &RungCheck::windows, &RungCheck::slotUse, &RungCheck::host,
-                                      &RungCheck::loops, &RungCheck::profile, &RungCheck::transfer}) {
+    for (void (RungCheck::*rule)() :
+         {&RungCheck::header, &RungCheck::form, &RungCheck::regions, &RungCheck::scope, &RungCheck::types,
+          &RungCheck::yields, &RungCheck::places, &RungCheck::windows, &RungCheck::slotUse, &RungCheck::host,
+          &RungCheck::loops, &RungCheck::profile, &RungCheck::transfer}) {
       (this->*rule)();
       if (failed_) return;
     }
   }
 
- private:
+private:
   void fail(Rule rule, size_t op, std::string message) {
     check_.fail(rule, std::move(message), routine_, number_, static_cast<uint32_t>(op));
     failed_ = true;
   }
-  template <class Visit> void eachOp(Visit visit) {
+  template <class Visit>
+  void eachOp(Visit visit) {
     for (size_t i = 0; i < rung_.ops.size(); ++i) visit(rung_.ops[i], i);
   }
   Type argType(const Op& op, uint32_t i) const { return typeOf(rung_, rung_.args[op.firstArg + i]); }
@@ -63,8 +66,10 @@ class RungCheck {
 
 void RungCheck::header() {
   const Location& begin = rung_.begin;
-  if (begin.file.valid() ? begin.file.index >= module_.files.size() : begin.line != 0) fail(Rule::Header, kNoOp, "the file does not exist");
-  if (rung_.lastLine != 0 && rung_.lastLine < begin.line) fail(Rule::Header, kNoOp, "the last line stands before the first");
+  if (begin.file.valid() ? begin.file.index >= module_.files.size() : begin.line != 0)
+    fail(Rule::Header, kNoOp, "the file does not exist");
+  if (rung_.lastLine != 0 && rung_.lastLine < begin.line)
+    fail(Rule::Header, kNoOp, "the last line stands before the first");
   if (rung_.weight == 0) fail(Rule::Header, kNoOp, "the weight is 0");
 }
 
@@ -90,12 +95,15 @@ bool unusedFieldsAreEmpty(const Op& op) {
 void RungCheck::formOf(const Op& op, size_t i) {
   const OpInfo& info = opInfo(op.code);
   const auto fixed = static_cast<uint32_t>(fixedOperands(info));
-  if (!contains(info.types, op.type)) return fail(Rule::Form, i, fmt::format("{} has no type {}", info.name, typeName(op.type)));
-  if (isVariadic(info) ? op.argCount < fixed : op.argCount != fixed) return fail(Rule::Form, i, fmt::format("{} operands", op.argCount));
+  if (!contains(info.types, op.type))
+    return fail(Rule::Form, i, fmt::format("{} has no type {}", info.name, typeName(op.type)));
+  if (isVariadic(info) ? op.argCount < fixed : op.argCount != fixed)
+    return fail(Rule::Form, i, fmt::format("{} operands", op.argCount));
   if (op.resultCount != resultsOf(op)) return fail(Rule::Form, i, fmt::format("{} results", op.resultCount));
   if (op.resultCount == 0 && op.result.valid()) return fail(Rule::Form, i, "a number of results without results");
   if (!unusedFieldsAreEmpty(op)) return fail(Rule::Form, i, "a field that the operation does not use is set");
-  if (info.attr == Attr::Literal && (static_cast<uint64_t>(op.imm) & ~valueMask(op.type)) != 0) fail(Rule::Form, i, "the constant is wider than its type");
+  if (info.attr == Attr::Literal && (static_cast<uint64_t>(op.imm) & ~valueMask(op.type)) != 0)
+    fail(Rule::Form, i, "the constant is wider than its type");
 }
 
 void RungCheck::form() {
@@ -105,15 +113,20 @@ void RungCheck::form() {
   eachOp([&](const Op& op, size_t i) {
     if (failed_) return;
     formOf(op, i);
-    if (op.firstArg != args || args + op.argCount > rung_.args.size()) return fail(Rule::Form, i, "operands out of sequence");
+    if (op.firstArg != args || args + op.argCount > rung_.args.size())
+      return fail(Rule::Form, i, "operands out of sequence");
     if (op.resultCount != 0 && (op.result.index != values || values + op.resultCount > rung_.values.size()))
       return fail(Rule::Form, i, "results out of sequence");
-    if (opInfo(op.code).attr == Attr::Text && (op.ref != notes++ || notes > rung_.notes.size())) return fail(Rule::Form, i, "notes out of sequence");
+    if (opInfo(op.code).attr == Attr::Text) {
+      if (op.ref != notes || notes >= rung_.notes.size()) return fail(Rule::Form, i, "notes out of sequence");
+      ++notes;
+    }
     args += op.argCount;
     values += op.resultCount;
   });
   if (failed_) return;
-  if (args != rung_.args.size() || values != rung_.values.size() || notes != rung_.notes.size()) fail(Rule::Form, kNoOp, "operands, values or notes of no operation");
+  if (args != rung_.args.size() || values != rung_.values.size() || notes != rung_.notes.size())
+    fail(Rule::Form, kNoOp, "operands, values or notes of no operation");
 }
 
 // ---- structure -----------------------------------------------------------------------------------------------------
@@ -125,14 +138,20 @@ void RungCheck::regions() {
     if (op.code == OpCode::If || op.code == OpCode::Loop) {
       open.push_back(op.code);
     } else if (op.code == OpCode::Else) {
-      if (inner != OpCode::If) fail(Rule::Regions, i, "else without if");
-      else open.back() = OpCode::Else;
+      if (inner != OpCode::If)
+        fail(Rule::Regions, i, "else without if");
+      else
+        open.back() = OpCode::Else;
     } else if (op.code == OpCode::EndIf) {
-      if (inner != OpCode::If && inner != OpCode::Else) fail(Rule::Regions, i, "endif without if");
-      else open.pop_back();
+      if (inner != OpCode::If && inner != OpCode::Else)
+        fail(Rule::Regions, i, "endif without if");
+      else
+        open.pop_back();
     } else if (op.code == OpCode::EndLoop) {
-      if (inner != OpCode::Loop) fail(Rule::Regions, i, "endloop without loop");
-      else open.pop_back();
+      if (inner != OpCode::Loop)
+        fail(Rule::Regions, i, "endloop without loop");
+      else
+        open.pop_back();
     }
   });
   if (!open.empty() && !failed_) fail(Rule::Regions, rung_.ops.size(), "a region is not closed");
@@ -145,7 +164,8 @@ void RungCheck::scope() {
   eachOp([&](const Op& op, size_t i) {
     for (uint32_t k = 0; k < op.argCount; ++k) {
       const ValueId id = rung_.args[op.firstArg + k];
-      if (id.index >= visible_.size() || !visible_[id.index]) fail(Rule::Scope, i, fmt::format("%{} is not defined here", id.index));
+      if (id.index >= visible_.size() || !visible_[id.index])
+        fail(Rule::Scope, i, fmt::format("%{} is not defined here", id.index));
     }
     if (op.code == OpCode::Else || op.code == OpCode::EndIf || op.code == OpCode::EndLoop) {
       for (uint32_t v = firstOfRegion.back(); v < next; ++v) visible_[v] = false;
@@ -155,7 +175,8 @@ void RungCheck::scope() {
     for (uint32_t k = 0; k < op.resultCount; ++k) visible_[next++] = true;
   });
   for (ValueId id : {rung_.transfer.cond, rung_.transfer.value})
-    if (id.valid() && (id.index >= visible_.size() || !visible_[id.index])) fail(Rule::Scope, rung_.ops.size(), fmt::format("%{} is not defined here", id.index));
+    if (id.valid() && (id.index >= visible_.size() || !visible_[id.index]))
+      fail(Rule::Scope, rung_.ops.size(), fmt::format("%{} is not defined here", id.index));
 }
 
 void RungCheck::types() {
@@ -163,22 +184,26 @@ void RungCheck::types() {
     const OpInfo& info = opInfo(op.code);
     const auto fixed = static_cast<uint32_t>(fixedOperands(info));
     for (uint32_t k = 0; k < fixed; ++k)
-      if (!satisfies(info.operands[k], op.type, argType(op, k))) fail(Rule::Types, i, fmt::format("operand {} is {}", k, typeName(argType(op, k))));
+      if (!satisfies(info.operands[k], op.type, argType(op, k)))
+        fail(Rule::Types, i, fmt::format("operand {} is {}", k, typeName(argType(op, k))));
     for (uint32_t k = 0; k < op.resultCount; ++k)
       if (resultTypeAt(op, k) == Type::None) fail(Rule::Types, i, "a result without a type");
     if (info.result == Constraint::None || info.result == Constraint::Variadic) return;
     const Type wanted = resultType(info.result, op.type);
-    if (resultTypeAt(op, 0) != wanted) fail(Rule::Types, i, fmt::format("the result is {}, not {}", typeName(resultTypeAt(op, 0)), typeName(wanted)));
+    if (resultTypeAt(op, 0) != wanted)
+      fail(Rule::Types, i, fmt::format("the result is {}, not {}", typeName(resultTypeAt(op, 0)), typeName(wanted)));
   });
 }
 
 // The operands (or results, but for the first `skip`) of `op` are like the operands of `like`.
 void RungCheck::checkYield(const Op& op, size_t i, const Op& like, uint32_t skip, bool results) {
   const uint32_t count = results ? op.resultCount - skip : op.argCount;
-  if (count != like.argCount) return fail(Rule::Yields, i, fmt::format("{} values where {} are expected", count, like.argCount));
+  if (count != like.argCount)
+    return fail(Rule::Yields, i, fmt::format("{} values where {} are expected", count, like.argCount));
   for (uint32_t k = 0; k < count; ++k) {
     const Type type = results ? resultTypeAt(op, skip + k) : argType(op, k);
-    if (type != argType(like, k)) fail(Rule::Yields, i, fmt::format("value {} is {}, not {}", k, typeName(type), typeName(argType(like, k))));
+    if (type != argType(like, k))
+      fail(Rule::Yields, i, fmt::format("value {} is {}, not {}", k, typeName(type), typeName(argType(like, k))));
   }
 }
 
@@ -211,7 +236,8 @@ void RungCheck::places() {
     if (op.ref >= module_.spaces.size()) return fail(Rule::Places, i, "the space does not exist");
     if (op.type != Type::Bit && op.imm % 8 != 0) return fail(Rule::Places, i, "the access begins within a byte");
     const uint64_t bytes = op.type == Type::Bit ? 1 : byteWidth(op.type);
-    if (op.imm < 0 || !check_.inside(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) / 8, bytes)) fail(Rule::Places, i, "the access lies outside its space");
+    if (op.imm < 0 || !check_.inside(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) / 8, bytes))
+      fail(Rule::Places, i, "the access lies outside its space");
   });
 }
 
@@ -223,15 +249,18 @@ void RungCheck::windows() {
     if (op.imm < 0 || op.imm % 8 != 0) return fail(Rule::Windows, i, "the window begins within a byte");
     const uint64_t unit = module_.spaces[op.ref].unitBytes;
     const uint64_t bytes = (uint64_t{op.count} - 1) * unit + (op.type == Type::Bit ? unit : byteWidth(op.type));
-    if (!check_.inside(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) / 8, bytes)) fail(Rule::Windows, i, "the window reaches beyond its space");
+    if (!check_.inside(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) / 8, bytes))
+      fail(Rule::Windows, i, "the window reaches beyond its space");
   });
 }
 
 void RungCheck::slotUse() {
   eachOp([&](const Op& op, size_t i) {
     if (opInfo(op.code).attr != Attr::Slot) return;
-    if (op.ref >= module_.slots.size()) fail(Rule::SlotUse, i, "the slot does not exist");
-    else if (module_.slots[op.ref].type != op.type) fail(Rule::SlotUse, i, fmt::format("the slot is {}", typeName(module_.slots[op.ref].type)));
+    if (op.ref >= module_.slots.size())
+      fail(Rule::SlotUse, i, "the slot does not exist");
+    else if (module_.slots[op.ref].type != op.type)
+      fail(Rule::SlotUse, i, fmt::format("the slot is {}", typeName(module_.slots[op.ref].type)));
   });
 }
 
@@ -241,16 +270,19 @@ void RungCheck::host() {
     if (attr == Attr::MessageOp) {
       const Type value = argType(op, 3);
       if (op.ref > RUNG_MESSAGE_LOG) fail(Rule::Host, i, "there is no such kind of message");
-      if (value != Type::I64 && value != Type::F64) fail(Rule::Host, i, fmt::format("the value of the message is {}", typeName(value)));
+      if (value != Type::I64 && value != Type::F64)
+        fail(Rule::Host, i, fmt::format("the value of the message is {}", typeName(value)));
     }
     if (attr == Attr::Service) {
       if (op.ref >= module_.services.size()) fail(Rule::Host, i, "the service does not exist");
       if (op.argCount > RUNG_MAX_SERVICE_ARGS) fail(Rule::Host, i, "too many arguments of a service");
       for (uint32_t k = 0; k < op.argCount; ++k)
-        if (argType(op, k) != Type::I64) fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
+        if (argType(op, k) != Type::I64)
+          fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
     }
     if (attr == Attr::Fault && op.ref >= module_.faults.size()) fail(Rule::Host, i, "the fault does not exist");
-    if (attr == Attr::ResultNo && (op.imm < 0 || op.imm >= static_cast<int64_t>(RUNG_MAX_SERVICE_ARGS))) fail(Rule::Host, i, "there is no such result");
+    if (attr == Attr::ResultNo && (op.imm < 0 || op.imm >= static_cast<int64_t>(RUNG_MAX_SERVICE_ARGS)))
+      fail(Rule::Host, i, "there is no such result");
   });
 }
 
@@ -262,7 +294,8 @@ void RungCheck::loops() {
     if (op.code != OpCode::Loop) return;
     passes.push_back(std::min(passes.back() * std::min<uint64_t>(op.count, kMaxPasses + 1), kMaxPasses + 1));
     total = std::min(total + passes.back(), kMaxPasses + 1);
-    if (total > kMaxPasses && !failed_) fail(Rule::Loops, i, fmt::format("the rung makes more than {} passes", kMaxPasses));
+    if (total > kMaxPasses && !failed_)
+      fail(Rule::Loops, i, fmt::format("the rung makes more than {} passes", kMaxPasses));
   });
 }
 
@@ -270,11 +303,13 @@ void RungCheck::profile() {
   const bool instrumented = module_.instrumented;
   const size_t last = rung_.ops.size() - 1;
   if (check_.mode == Mode::Built && instrumented) fail(Rule::Profile, kNoOp, "the module is instrumented already");
-  if (instrumented && (rung_.ops.empty() || rung_.ops.front().code != OpCode::ProfEnter || rung_.ops[last].code != OpCode::ProfLeave || last == 0))
+  if (instrumented && (rung_.ops.empty() || rung_.ops.front().code != OpCode::ProfEnter ||
+                       rung_.ops[last].code != OpCode::ProfLeave || last == 0))
     return fail(Rule::Profile, kNoOp, "the rung is not measured");
   eachOp([&](const Op& op, size_t i) {
     if (op.code != OpCode::ProfEnter && op.code != OpCode::ProfLeave) return;
-    if (!instrumented || i != (op.code == OpCode::ProfEnter ? 0 : last)) fail(Rule::Profile, i, "profiling out of place");
+    if (!instrumented || i != (op.code == OpCode::ProfEnter ? 0 : last))
+      fail(Rule::Profile, i, "profiling out of place");
   });
 }
 
@@ -284,14 +319,17 @@ void RungCheck::transfer() {
   const size_t rungs = module_.at(routine_).rungs.size();
   const auto refuse = [&](std::string_view message) { fail(Rule::Transfer, at, std::string(message)); };
   if (t.kind == TransferKind::Goto ? t.target >= rungs : t.target != 0) refuse("the target does not exist");
-  if (t.kind == TransferKind::Call ? t.callee.index >= module_.routines.size() : t.callee.valid()) refuse("the callee does not exist");
+  if (t.kind == TransferKind::Call ? t.callee.index >= module_.routines.size() : t.callee.valid())
+    refuse("the callee does not exist");
   const bool switches = t.kind == TransferKind::Switch;
   if (switches == t.targets.empty()) refuse(switches ? "a switch without targets" : "targets without a switch");
   for (uint32_t target : t.targets)
     if (target >= rungs) refuse(fmt::format("target {} does not exist", target));
-  if (switches ? !t.value.valid() || typeOf(rung_, t.value) != Type::I32 : t.value.valid()) refuse("the value of a switch is an i32");
+  if (switches ? !t.value.valid() || typeOf(rung_, t.value) != Type::I32 : t.value.valid())
+    refuse("the value of a switch is an i32");
   const bool conditional = t.kind != TransferKind::Next && !switches;
-  if (t.cond.valid() && (!conditional || typeOf(rung_, t.cond) != Type::Bit)) refuse(conditional ? "the condition is not a bit" : "a condition that is not used");
+  if (t.cond.valid() && (!conditional || typeOf(rung_, t.cond) != Type::Bit))
+    refuse(conditional ? "the condition is not a bit" : "a condition that is not used");
 }
 
 } // namespace

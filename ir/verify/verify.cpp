@@ -8,11 +8,14 @@
 
 namespace rung::ir {
 
+// Rungs and declarations that `render` shows; one is mostly enough, and a text of thousands helps nobody.
+constexpr int kMaxShown = 20;
+
 std::string_view ruleName(Rule rule) {
-  constexpr std::string_view kNames[kRuleCount] = {"names",    "spaces", "slots",   "symbols", "spans", "copies",
-                                                   "tasks",    "schedule", "routines", "calls",  "header", "form",
-                                                   "regions",  "scope",  "types",   "yields",  "places", "windows",
-                                                   "slot use", "host",   "loops",   "profile", "transfer"};
+  constexpr std::string_view kNames[kRuleCount] = {"names",    "spaces",   "slots",    "symbols", "spans",   "copies",
+                                                   "tasks",    "schedule", "routines", "calls",   "header",  "form",
+                                                   "regions",  "scope",    "types",    "yields",  "places",  "windows",
+                                                   "slot use", "host",     "loops",    "profile", "transfer"};
   return kNames[static_cast<int>(rule)];
 }
 
@@ -28,7 +31,12 @@ std::vector<VerifyError> verify(const Module& module, Mode mode) {
 
 std::string render(const Module& module, const std::vector<VerifyError>& errors) {
   std::string out;
+  int shown = 0;
   for (size_t i = 0; i < errors.size();) {
+    if (shown++ == kMaxShown) {
+      fmt::format_to(std::back_inserter(out), "and {} more errors\n", errors.size() - i);
+      break;
+    }
     const VerifyError& error = errors[i];
     const bool inRung = error.routine.valid() && error.rung != RUNG_NONE;
     if (error.routine.valid()) fmt::format_to(std::back_inserter(out), "routine {}: ", module.at(error.routine).name);
@@ -42,12 +50,15 @@ std::string render(const Module& module, const std::vector<VerifyError>& errors)
     }
     // All errors at operations of this rung, which stand one behind the other.
     size_t end = i;
-    while (end < errors.size() && errors[end].routine == error.routine && errors[end].rung == error.rung && errors[end].op != RUNG_NONE) ++end;
+    while (end < errors.size() && errors[end].routine == error.routine && errors[end].rung == error.rung &&
+           errors[end].op != RUNG_NONE)
+      ++end;
     fmt::format_to(std::back_inserter(out), "rung {}:\n", error.rung);
     out += printRung(module, error.routine, error.rung, [&](size_t op) {
       std::string text;
       for (size_t k = i; k < end; ++k)
-        if (errors[k].op == op) text += fmt::format("{}[{}] {}", text.empty() ? "" : "; ", ruleName(errors[k].rule), errors[k].message);
+        if (errors[k].op == op)
+          text += fmt::format("{}[{}] {}", text.empty() ? "" : "; ", ruleName(errors[k].rule), errors[k].message);
       return text;
     });
     i = end;

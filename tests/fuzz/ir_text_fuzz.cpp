@@ -1,5 +1,5 @@
-// libFuzzer target: any bytes through the parser of the IR text. What parses must print to a text that prints to itself,
-// and the verifier must survive it.
+// libFuzzer target: any bytes through the parser of the IR text. What parses must print to a text that prints to
+// itself, and the verifier must survive it.
 #include <cstddef>
 #include <cstdint>
 

@@ -2,6 +2,7 @@
 // the module stand, as comments that begin with `;! `, the errors as they are rendered. RUNG_UPDATE=1 rewrites both.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -38,7 +39,8 @@ void expectGolden(const fs::path& file, const std::string& actual) {
 
 Module moduleIn(const fs::path& file) {
   ParseOutcome parsed = parse(read(file));
-  EXPECT_TRUE(parsed.module) << file << ':' << parsed.error.line << ':' << parsed.error.column << ": " << parsed.error.message;
+  EXPECT_TRUE(parsed.module) << file << ':' << parsed.error.line << ':' << parsed.error.column << ": "
+                             << parsed.error.message;
   return parsed.module ? std::move(*parsed.module) : Module{};
 }
 
@@ -61,7 +63,8 @@ TEST(GoldenVerify, RendersItsErrors) {
     const std::vector<VerifyError> errors = verify(module, Mode::Final);
     EXPECT_FALSE(errors.empty()) << file;
     const std::string text = read(file);
-    std::string actual = text.substr(0, text.find(std::string("\n") + std::string(kMark)) + 1);
+    const size_t mark = text.find("\n" + std::string(kMark));
+    std::string actual = text.substr(0, mark == std::string::npos ? mark : mark + 1);
     std::istringstream lines(render(module, errors));
     for (std::string line; std::getline(lines, line);) actual += std::string(kMark) + line + '\n';
     expectGolden(file, actual);

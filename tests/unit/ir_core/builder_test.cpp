@@ -7,7 +7,7 @@ namespace rung::ir {
 namespace {
 
 class BuilderTest : public ::testing::Test {
- protected:
+protected:
   BuilderTest() {
     module_.spaces = {{.name = "D", .unitBytes = 4, .units = 16}};
     module_.slots = {{.type = Type::I16, .key = "s"}};

@@ -31,10 +31,13 @@ TEST(Eval, IntegersOfEveryWidth) {
         SCOPED_TRACE(::testing::Message() << typeName(type) << " " << a << " " << b);
         const Wide sa = signedOf(type, a);
         const Wide sb = signedOf(type, b);
-        const auto is = [&](OpCode code, uint64_t wanted) { EXPECT_EQ(eval(code, type, type, {a, b}), wanted) << opInfo(code).name; };
+        const auto is = [&](OpCode code, uint64_t wanted) {
+          EXPECT_EQ(eval(code, type, type, {a, b}), wanted) << opInfo(code).name;
+        };
         is(OpCode::Add, wrap(type, sa + sb));
         is(OpCode::Sub, wrap(type, sa - sb));
-        is(OpCode::Mul, wrap(type, static_cast<Wide>(static_cast<unsigned __int128>(sa) * static_cast<unsigned __int128>(sb))));
+        is(OpCode::Mul,
+           wrap(type, static_cast<Wide>(static_cast<unsigned __int128>(sa) * static_cast<unsigned __int128>(sb))));
         is(OpCode::DivS, b == 0 ? 0 : wrap(type, sa / sb));
         is(OpCode::RemS, b == 0 ? 0 : wrap(type, sa % sb));
         is(OpCode::DivU, b == 0 ? 0 : a / b);
@@ -61,7 +64,8 @@ TEST(Eval, Shifts) {
         const uint32_t width = bitWidth(type);
         EXPECT_EQ(eval(OpCode::Shl, type, type, {a, n}), n >= width ? 0 : a << n & valueMask(type)) << a << " " << n;
         EXPECT_EQ(eval(OpCode::ShrU, type, type, {a, n}), n >= width ? 0 : a >> n) << a << " " << n;
-        EXPECT_EQ(eval(OpCode::ShrS, type, type, {a, n}), wrap(type, signedOf(type, a) >> std::min(n, width - 1))) << a << " " << n;
+        EXPECT_EQ(eval(OpCode::ShrS, type, type, {a, n}), wrap(type, signedOf(type, a) >> std::min(n, width - 1)))
+            << a << " " << n;
       }
 }
 

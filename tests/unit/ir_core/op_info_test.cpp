@@ -31,7 +31,8 @@ TEST(OpInfo, RowsAreWellFormed) {
     }
     const bool access = info.attr == Attr::Place || info.attr == Attr::Window || info.attr == Attr::Slot;
     EXPECT_EQ((info.effects & (kReads | kWrites)) != 0, access) << "only accesses touch memory";
-    EXPECT_EQ(info.result == Constraint::Variadic && (info.effects & kStructure) == 0, false) << "only regions give several results";
+    EXPECT_EQ(info.result == Constraint::Variadic && (info.effects & kStructure) == 0, false)
+        << "only regions give several results";
   }
 }
 
@@ -43,7 +44,8 @@ TEST(OpInfo, EveryTypeCanBeUsed) {
       if (!contains(info.types, own)) continue;
       for (int i = 0; i < fixedOperands(info); ++i) {
         bool any = false;
-        for (int k = 1; k < kTypeCount; ++k) any = any || satisfies(info.operands[static_cast<size_t>(i)], own, static_cast<Type>(k));
+        for (int k = 1; k < kTypeCount; ++k)
+          any = any || satisfies(info.operands[static_cast<size_t>(i)], own, static_cast<Type>(k));
         EXPECT_TRUE(any) << info.name << " of " << typeName(own) << ", operand " << i;
       }
     }

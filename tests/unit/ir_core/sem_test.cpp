@@ -19,7 +19,8 @@ static_assert(neg<u8>(0x80) == 0x80 && neg<u64>(1) == ~0ull);
 static_assert(divS<u8>(0x80, 0xFF) == 0x80 && remS<u8>(0x80, 0xFF) == 0);
 static_assert(divS<u64>(1ull << 63, ~0ull) == 1ull << 63 && remS<u64>(1ull << 63, ~0ull) == 0);
 static_assert(divS<u32>(7, 0) == 0 && remS<u32>(7, 0) == 0 && divU<u32>(7, 0) == 0 && remU<u32>(7, 0) == 0);
-static_assert(shl<u8>(0xFF, 8) == 0 && shl<u64>(1, 64) == 0 && shrU<u32>(~0u, 32) == 0 && shrS<u16>(0x8000, 99) == 0xFFFF);
+static_assert(shl<u8>(0xFF, 8) == 0 && shl<u64>(1, 64) == 0 && shrU<u32>(~0u, 32) == 0 &&
+              shrS<u16>(0x8000, 99) == 0xFFFF);
 static_assert(ltS<u8>(0x80, 0) && !ltS<u8>(0, 0x80) && leS<u64>(1ull << 63, 1ull << 63));
 static_assert(popCount<u64>(~0ull) == 64 && popCount<u8>(0) == 0);
 static_assert(bcdEncode<u8>(99) == 0x99 && bcdEncode<u8>(255) == 0x55 && bcdDecode<u8>(0xFF) == 165);
@@ -49,7 +50,8 @@ TEST(Sem, AllPairsOfBytes) {
       ASSERT_EQ(leS(x, y), sx <= sy);
       ASSERT_EQ(shl(x, static_cast<u32>(b)), b >= 8 ? 0 : (a << b) % 256);
       ASSERT_EQ(shrU(x, static_cast<u32>(b)), b >= 8 ? 0 : a >> b);
-      ASSERT_EQ(shrS(x, static_cast<u32>(b)), b >= 8 ? (sx < 0 ? 255 : 0) : (static_cast<int>(std::floor(sx / std::pow(2.0, b))) + 256) % 256);
+      ASSERT_EQ(shrS(x, static_cast<u32>(b)),
+                b >= 8 ? (sx < 0 ? 255 : 0) : (static_cast<int>(std::floor(sx / std::pow(2.0, b))) + 256) % 256);
     }
 }
 
@@ -92,8 +94,9 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 const double kNan = fromBits(0xFFF8000000000123); // a NaN that no operation gives
 
 TEST(Sem, NanResultsAreOneNan) {
-  for (double x : {fadd(kNan, 1), fadd(1, kNan), fadd(kInf, -kInf), fsub(kInf, kInf), fsub(kNan, kNan), fmul(kInf, 0), fmul(0, -kInf),
-                   fmul(kNan, 2), fdiv(0, 0), fdiv(0, -0.0), fdiv(kInf, kInf), fdiv(kNan, 0), fdiv(1, kNan)})
+  for (double x :
+       {fadd(kNan, 1), fadd(1, kNan), fadd(kInf, -kInf), fsub(kInf, kInf), fsub(kNan, kNan), fmul(kInf, 0),
+        fmul(0, -kInf), fmul(kNan, 2), fdiv(0, 0), fdiv(0, -0.0), fdiv(kInf, kInf), fdiv(kNan, 0), fdiv(1, kNan)})
     EXPECT_EQ(toBits(x), kNanBits);
 }
 
@@ -160,14 +163,32 @@ TEST(Sem, FloatToIntegerSaturates) {
 
 TEST(Sem, FloatToNearestTiesToEven) {
   constexpr u64 kMin = 1ull << 63;
-  const std::pair<double, i64> rows[] = {
-      {0.0, 0}, {-0.0, 0}, {0.5, 0}, {1.5, 2}, {2.5, 2}, {3.5, 4}, {-0.5, 0}, {-1.5, -2}, {-2.5, -2}, {-3.5, -4},
-      {0.49999999999999994, 0}, {0.50000000000000011, 1}, {-0.49999999999999994, 0}, {-0.50000000000000011, -1},
-      {1.4999999999999998, 1}, {2.4999999999999996, 2}, {2.5000000000000004, 3}, {1e15 + 0.5, 1000000000000000},
-      {4503599627370495.5, 4503599627370496}, {-4503599627370495.5, -4503599627370496}, {4503599627370497.0, 4503599627370497},
-      {9223372036854774784.0, 9223372036854774784}, {-9223372036854775808.0, std::numeric_limits<i64>::min()}};
+  const std::pair<double, i64> rows[] = {{0.0, 0},
+                                         {-0.0, 0},
+                                         {0.5, 0},
+                                         {1.5, 2},
+                                         {2.5, 2},
+                                         {3.5, 4},
+                                         {-0.5, 0},
+                                         {-1.5, -2},
+                                         {-2.5, -2},
+                                         {-3.5, -4},
+                                         {0.49999999999999994, 0},
+                                         {0.50000000000000011, 1},
+                                         {-0.49999999999999994, 0},
+                                         {-0.50000000000000011, -1},
+                                         {1.4999999999999998, 1},
+                                         {2.4999999999999996, 2},
+                                         {2.5000000000000004, 3},
+                                         {1e15 + 0.5, 1000000000000000},
+                                         {4503599627370495.5, 4503599627370496},
+                                         {-4503599627370495.5, -4503599627370496},
+                                         {4503599627370497.0, 4503599627370497},
+                                         {9223372036854774784.0, 9223372036854774784},
+                                         {-9223372036854775808.0, std::numeric_limits<i64>::min()}};
   for (const auto& [x, nearest] : rows) EXPECT_EQ(static_cast<i64>(fToIntNearest(x)), nearest) << x;
-  for (double x : {9223372036854775808.0, -9223372036854777856.0, 1e300, kInf, -kInf, kNan}) EXPECT_EQ(fToIntNearest(x), kMin) << x;
+  for (double x : {9223372036854775808.0, -9223372036854777856.0, 1e300, kInf, -kInf, kNan})
+    EXPECT_EQ(fToIntNearest(x), kMin) << x;
   // Everywhere else as the machine rounds.
   for (double x = -1000; x < 1000; x += 0.0625) ASSERT_EQ(static_cast<i64>(fToIntNearest(x)), std::llrint(x)) << x;
 }

@@ -1,4 +1,5 @@
-// The reference interpreter: memory, regions, transfers, host. Values of single operations are the evaluator's (ir_core).
+// The reference interpreter: memory, regions, transfers, host. Values of single operations are the evaluator's
+// (ir_core).
 #include <gtest/gtest.h>
 
 #include "ir/random/random.h"
@@ -23,9 +24,12 @@ slot $1 bit init 1 "flag"
 
 // One rung with these operations.
 std::string rung(std::string_view ops, std::string_view transfer = "}", int number = 0) {
-  return "rung " + std::to_string(number) + " \"\" loc(-:0:0-0) key(0) weight 1 {\n" + std::string(ops) + "\n" + std::string(transfer) + "\n";
+  return "rung " + std::to_string(number) + " \"\" loc(-:0:0-0) key(0) weight 1 {\n" + std::string(ops) + "\n" +
+         std::string(transfer) + "\n";
 }
-std::string routine(std::string_view rungs, std::string_view name = "MAIN") { return "routine " + std::string(name) + " {\n" + std::string(rungs) + "}\n"; }
+std::string routine(std::string_view rungs, std::string_view name = "MAIN") {
+  return "routine " + std::string(name) + " {\n" + std::string(rungs) + "}\n";
+}
 Machine machineOf(std::string_view ops) { return Machine(moduleFromText(program(routine(rung(ops))))); }
 
 // ---- memory --------------------------------------------------------------------------------------------------------
@@ -48,7 +52,9 @@ TEST(InterpMemory, PlacesAreLittleEndianAtAnyAlignment) {
 }
 
 TEST(InterpMemory, BitsLeaveTheirByteAlone) {
-  Machine m(moduleFromText(program(routine(rung("%0:bit = const 0\nstore.bit B[0.3], %0\n%1:bit = const 1\nstore.bit B[1.0], %1")), "init B[0] FF7E\n")));
+  Machine m(moduleFromText(
+      program(routine(rung("%0:bit = const 0\nstore.bit B[0.3], %0\n%1:bit = const 1\nstore.bit B[1.0], %1")),
+              "init B[0] FF7E\n")));
   m->scan();
   EXPECT_EQ(m.value("B", 0), 0xF7u);
   EXPECT_EQ(m.value("B", 1), 0x7Fu);
@@ -68,7 +74,8 @@ TEST(InterpMemory, WindowsBoundTheirIndex) {
     %6:i32 = const 77
     store_at.i32 D[5 count 3], %0, %6
     store_at.i32 D[5 count 3], %1, %6
-    store_at.i32 D[5 count 3], %2, %6)")), "init D[3] 11111111\ninit D[4] 22222222\ninit B[0] FFFFFFFFFFFFFFFFFFFFFFFF\n")));
+    store_at.i32 D[5 count 3], %2, %6)")),
+                                   "init D[3] 11111111\ninit D[4] 22222222\ninit B[0] FFFFFFFFFFFFFFFFFFFFFFFF\n")));
   m->scan();
   EXPECT_EQ(m.value("B", 0, 4), 0x11111111u);
   EXPECT_EQ(m.value("B", 4, 8), 0u);
@@ -91,7 +98,8 @@ TEST(InterpMemory, BitWindowsBoundIndexAndBitNumber) {
     %6:bit = const 1
     store_bit_at.bit D[4 count 2], %0, %1, %6
     store_bit_at.bit D[4 count 2], %0, %2, %6
-    store_bit_at.bit D[4 count 2], %2, %0, %6)")), "init D[2] 00000080FFFFFFFF\n")));
+    store_bit_at.bit D[4 count 2], %2, %0, %6)")),
+                                   "init D[2] 00000080FFFFFFFF\n")));
   m->scan();
   EXPECT_EQ(m.value("B", 0), 1u);
   EXPECT_EQ(m.value("D", 20, 4), 0x80000000u);
@@ -222,7 +230,8 @@ TEST(InterpTransfers, Goto) {
 }
 
 TEST(InterpTransfers, SwitchTakesTheFirstWhenOutside) {
-  const std::string rungs = routine(digit(1, "} switch %6 [3, 1, 2]", 0) + digit(2, "}", 1) + digit(3, "}", 2) + digit(4, "}", 3));
+  const std::string rungs =
+      routine(digit(1, "} switch %6 [3, 1, 2]", 0) + digit(2, "}", 1) + digit(3, "}", 2) + digit(4, "}", 3));
   EXPECT_EQ(digitsOf(rungs), 14u);
   EXPECT_EQ(digitsOf(rungs, "init B[4] 01000000\n"), 1234u);
   EXPECT_EQ(digitsOf(rungs, "init B[4] 02000000\n"), 134u);
@@ -290,7 +299,9 @@ TEST(InterpHost, TrapRecordsWhereItStopped) {
 }
 
 TEST(InterpHost, TrapWithoutALineNamesTheRungs) {
-  Machine m(moduleFromText(program("file \"a.lad\"\n" + routine("rung 0 \"\" loc(\"a.lad\":5:0-9) key(0) weight 1 {\n%0:bit = const 1\ntrap \"stop\", %0\n}\n"))));
+  Machine m(moduleFromText(program(
+      "file \"a.lad\"\n" +
+      routine("rung 0 \"\" loc(\"a.lad\":5:0-9) key(0) weight 1 {\n%0:bit = const 1\ntrap \"stop\", %0\n}\n"))));
   m->scan();
   EXPECT_EQ(m->fault().line, 5u);
 }
@@ -400,7 +411,9 @@ TEST(InterpModules, EveryOperationRunsAndLeavesATrace) {
     Machine untouched(moduleForOp(info.code));
     m->scan();
     EXPECT_EQ(m->faulted(), info.code == OpCode::Trap) << info.name;
-    EXPECT_TRUE(m->messages().size() > 0 || !std::equal(m->block().begin(), m->block().end(), untouched->block().begin())) << info.name;
+    EXPECT_TRUE(m->messages().size() > 0 ||
+                !std::equal(m->block().begin(), m->block().end(), untouched->block().begin()))
+        << info.name;
   }
 }
 

@@ -24,9 +24,10 @@ inline Module moduleFromText(std::string_view text, Mode mode = Mode::Final) {
 }
 
 class Machine {
- public:
+public:
   explicit Machine(Module module, const LayoutOptions& options = {}, host::ScheduleHooks* hooks = nullptr)
-      : module_(std::move(module)), layout_(module_, options), engine_(layout_, 1), instance_(engine_.program(), hooks) {
+      : module_(std::move(module)), layout_(module_, options), engine_(layout_, 1),
+        instance_(engine_.program(), hooks) {
     instance_.context().engine = engine_.context();
   }
 
@@ -38,12 +39,15 @@ class Machine {
   uint64_t value(std::string_view space, uint32_t byte, uint32_t bytes = 1) const {
     const SpaceId id = findSpace(module_, space);
     uint64_t out = 0;
-    for (uint32_t i = 0; i < bytes; ++i) out |= static_cast<uint64_t>(instance_.memory().readByte(id.index, byte + i)) << (8 * i);
+    for (uint32_t i = 0; i < bytes; ++i)
+      out |= static_cast<uint64_t>(instance_.memory().readByte(id.index, byte + i)) << (8 * i);
     return out;
   }
-  bool bit(std::string_view space, uint32_t byte, uint32_t number) const { return (value(space, byte) >> number & 1) != 0; }
+  bool bit(std::string_view space, uint32_t byte, uint32_t number) const {
+    return (value(space, byte) >> number & 1) != 0;
+  }
 
- private:
+private:
   const Module module_;
   const Layout layout_;
   InterpEngine engine_;

@@ -6,7 +6,8 @@
 namespace rung::ir {
 namespace {
 
-template <class T> bool equalAll(const std::vector<T>& a, const std::vector<T>& b) {
+template <class T>
+bool equalAll(const std::vector<T>& a, const std::vector<T>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return equal(x, y); });
 }
 
@@ -19,19 +20,22 @@ bool equal(const Location& a, const Location& b) {
 
 bool equal(const Op& a, const Op& b) {
   const auto& [code, type, argCount, resultCount, firstArg, result, ref, count, imm, line] = a;
-  return code == b.code && type == b.type && argCount == b.argCount && resultCount == b.resultCount && firstArg == b.firstArg && result == b.result &&
-         ref == b.ref && count == b.count && imm == b.imm && line == b.line;
+  return code == b.code && type == b.type && argCount == b.argCount && resultCount == b.resultCount &&
+         firstArg == b.firstArg && result == b.result && ref == b.ref && count == b.count && imm == b.imm &&
+         line == b.line;
 }
 
 bool equal(const Transfer& a, const Transfer& b) {
   const auto& [kind, cond, value, target, callee, targets] = a;
-  return kind == b.kind && cond == b.cond && value == b.value && target == b.target && callee == b.callee && targets == b.targets;
+  return kind == b.kind && cond == b.cond && value == b.value && target == b.target && callee == b.callee &&
+         targets == b.targets;
 }
 
 bool equal(const Rung& a, const Rung& b) {
   const auto& [title, sourceText, begin, lastLine, key, weight, ops, args, values, notes, transfer, transferLine] = a;
-  return title == b.title && sourceText == b.sourceText && equal(begin, b.begin) && lastLine == b.lastLine && key == b.key && weight == b.weight &&
-         equalAll(ops, b.ops) && args == b.args && values == b.values && notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine;
+  return title == b.title && sourceText == b.sourceText && equal(begin, b.begin) && lastLine == b.lastLine &&
+         key == b.key && weight == b.weight && equalAll(ops, b.ops) && args == b.args && values == b.values &&
+         notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine;
 }
 
 bool equal(const Routine& a, const Routine& b) {
@@ -41,7 +45,8 @@ bool equal(const Routine& a, const Routine& b) {
 
 bool equal(const Space& a, const Space& b) {
   const auto& [name, unitBytes, units, flags, packedOnly] = a;
-  return name == b.name && unitBytes == b.unitBytes && units == b.units && flags == b.flags && packedOnly == b.packedOnly;
+  return name == b.name && unitBytes == b.unitBytes && units == b.units && flags == b.flags &&
+         packedOnly == b.packedOnly;
 }
 
 bool equal(const Slot& a, const Slot& b) {
@@ -51,8 +56,8 @@ bool equal(const Slot& a, const Slot& b) {
 
 bool equal(const Symbol& a, const Symbol& b) {
   const auto& [name, comment, space, byte, bit, type, count, flags, value] = a;
-  return name == b.name && comment == b.comment && space == b.space && byte == b.byte && bit == b.bit && type == b.type && count == b.count &&
-         flags == b.flags && value == b.value;
+  return name == b.name && comment == b.comment && space == b.space && byte == b.byte && bit == b.bit &&
+         type == b.type && count == b.count && flags == b.flags && value == b.value;
 }
 
 bool equal(const SpaceSpan& a, const SpaceSpan& b) {
@@ -62,7 +67,8 @@ bool equal(const SpaceSpan& a, const SpaceSpan& b) {
 
 bool equal(const Copy& a, const Copy& b) {
   const auto& [masked, from, to, toByte, mask, maskByte] = a;
-  return masked == b.masked && equal(from, b.from) && to == b.to && toByte == b.toByte && mask == b.mask && maskByte == b.maskByte;
+  return masked == b.masked && equal(from, b.from) && to == b.to && toByte == b.toByte && mask == b.mask &&
+         maskByte == b.maskByte;
 }
 
 bool equal(const Init& a, const Init& b) {
@@ -72,8 +78,8 @@ bool equal(const Init& a, const Init& b) {
 
 bool equal(const Task& a, const Task& b) {
   const auto& [name, entry, periodUs, budget, budgetFault, begin, end, parts] = a;
-  return name == b.name && entry == b.entry && periodUs == b.periodUs && budget == b.budget && budgetFault == b.budgetFault && equalAll(begin, b.begin) &&
-         equalAll(end, b.end) && parts == b.parts;
+  return name == b.name && entry == b.entry && periodUs == b.periodUs && budget == b.budget &&
+         budgetFault == b.budgetFault && equalAll(begin, b.begin) && equalAll(end, b.end) && parts == b.parts;
 }
 
 bool equal(const Step& a, const Step& b) {
@@ -87,11 +93,14 @@ bool equal(const MessageText& a, const MessageText& b) {
 }
 
 bool equal(const Module& a, const Module& b) {
-  const auto& [name, dialect, files, spaces, slots, symbols, inits, retains, safes, faults, services, messages, routines, tasks, mainTask, fastTask, scan, fast, instrumented] = a;
-  return name == b.name && dialect == b.dialect && files == b.files && equalAll(spaces, b.spaces) && equalAll(slots, b.slots) &&
-         equalAll(symbols, b.symbols) && equalAll(inits, b.inits) && equalAll(retains, b.retains) && equalAll(safes, b.safes) && faults == b.faults &&
-         services == b.services && equalAll(messages, b.messages) && equalAll(routines, b.routines) && equalAll(tasks, b.tasks) &&
-         mainTask == b.mainTask && fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) && instrumented == b.instrumented;
+  const auto& [name, dialect, files, spaces, slots, symbols, inits, retains, safes, faults, services, messages,
+               routines, tasks, mainTask, fastTask, scan, fast, instrumented] = a;
+  return name == b.name && dialect == b.dialect && files == b.files && equalAll(spaces, b.spaces) &&
+         equalAll(slots, b.slots) && equalAll(symbols, b.symbols) && equalAll(inits, b.inits) &&
+         equalAll(retains, b.retains) && equalAll(safes, b.safes) && faults == b.faults && services == b.services &&
+         equalAll(messages, b.messages) && equalAll(routines, b.routines) && equalAll(tasks, b.tasks) &&
+         mainTask == b.mainTask && fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) &&
+         instrumented == b.instrumented;
 }
 
 } // namespace rung::ir

@@ -1,5 +1,5 @@
-// Whether two modules are alike in every field. The structured bindings stop the build when a struct gets a field that is
-// not compared here; each is used exactly once.
+// Whether two modules are alike in every field. The structured bindings stop the build when a struct gets a field that
+// is not compared here; each is used exactly once.
 #pragma once
 #include "ir/core/module.h"
 

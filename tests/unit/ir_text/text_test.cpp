@@ -15,7 +15,8 @@ namespace {
 void expectRoundTrip(const Module& module) {
   const std::string text = print(module);
   const ParseOutcome parsed = parse(text);
-  ASSERT_TRUE(parsed.module) << parsed.error.line << ':' << parsed.error.column << ": " << parsed.error.message << '\n' << text;
+  ASSERT_TRUE(parsed.module) << parsed.error.line << ':' << parsed.error.column << ": " << parsed.error.message << '\n'
+                             << text;
   EXPECT_TRUE(equal(*parsed.module, module)) << text;
   EXPECT_EQ(print(*parsed.module), text);
 }
@@ -39,7 +40,22 @@ TEST(TextRoundTrip, EmptyModule) { expectRoundTrip(Module{}); }
 // Names and texts that need quotes and escapes.
 TEST(TextRoundTrip, StrangeTexts) {
   Module module;
-  const std::string strange[] = {"", " ", "a b", "1st", "\"quoted\"", "back\\slash", "line\nline\r\n", "tab\tbell\x07", "; no comment", "Stra\xC3\x9F" "e", "@hidden", "-", "#1", std::string("nul\0x", 5), "\x7F"};
+  const std::string strange[] = {"",
+                                 " ",
+                                 "a b",
+                                 "1st",
+                                 "\"quoted\"",
+                                 "back\\slash",
+                                 "line\nline\r\n",
+                                 "tab\tbell\x07",
+                                 "; no comment",
+                                 "Stra\xC3\x9F"
+                                 "e",
+                                 "@hidden",
+                                 "-",
+                                 "#1",
+                                 std::string("nul\0x", 5),
+                                 "\x7F"};
   for (const std::string& text : strange) {
     module.name = module.dialect = text;
     module.files = {text};
@@ -62,7 +78,9 @@ TEST(TextRoundTrip, StrangeTexts) {
 // Where names are not unique, references are numbers.
 TEST(TextRoundTrip, EqualNames) {
   Module module;
-  module.spaces = {{.name = "D", .unitBytes = 1, .units = 4}, {.name = "D", .unitBytes = 4, .units = 4}, {.name = "E", .unitBytes = 4, .units = 4}};
+  module.spaces = {{.name = "D", .unitBytes = 1, .units = 4},
+                   {.name = "D", .unitBytes = 4, .units = 4},
+                   {.name = "E", .unitBytes = 4, .units = 4}};
   module.faults = {"f", "f"};
   module.retains = {{SpaceId{1}, 5, 1}, {SpaceId{2}, 6, 1}};
   Rung rung;
@@ -79,8 +97,17 @@ TEST(TextRoundTrip, EqualNames) {
 TEST(TextRoundTrip, FieldsAtTheirLimits) {
   Module module;
   module.spaces = {{.name = "D", .unitBytes = 8, .units = UINT32_MAX, .flags = 0xFF, .packedOnly = true}};
-  module.slots = {{.type = Type::I64, .init = INT64_MIN, .retain = true, .transient = true, .key = "a"}, {.type = Type::F64, .init = static_cast<int64_t>(0xFFF0000000000000), .key = "b"}, {.type = Type::I8, .init = 0x80, .key = "c"}};
-  module.symbols = {{.name = "S", .space = SpaceId{}, .byte = 3, .bit = 5, .type = 99, .count = 0, .flags = 0xF0, .value = INT64_MIN}};
+  module.slots = {{.type = Type::I64, .init = INT64_MIN, .retain = true, .transient = true, .key = "a"},
+                  {.type = Type::F64, .init = static_cast<int64_t>(0xFFF0000000000000), .key = "b"},
+                  {.type = Type::I8, .init = 0x80, .key = "c"}};
+  module.symbols = {{.name = "S",
+                     .space = SpaceId{},
+                     .byte = 3,
+                     .bit = 5,
+                     .type = 99,
+                     .count = 0,
+                     .flags = 0xF0,
+                     .value = INT64_MIN}};
   module.symbols[0].bit = 0;
   Rung rung;
   rung.key = UINT64_MAX;
@@ -101,11 +128,12 @@ TEST(TextRoundTrip, FieldsAtTheirLimits) {
 // ---- the printed form ----------------------------------------------------------------------------------------------
 
 class PrintedRung : public ::testing::Test {
- protected:
+protected:
   PrintedRung() {
     module_.files = {"main.lad"};
     module_.spaces = {{.name = "M", .unitBytes = 4, .units = 200}, {.name = "X", .unitBytes = 1, .units = 8}};
-    module_.symbols = {{.name = "START", .space = SpaceId{0}, .byte = 402, .bit = 1}, {.name = "TABLE", .space = SpaceId{0}, .byte = 40, .type = RUNG_TYPE_I32, .count = 5}};
+    module_.symbols = {{.name = "START", .space = SpaceId{0}, .byte = 402, .bit = 1},
+                       {.name = "TABLE", .space = SpaceId{0}, .byte = 40, .type = RUNG_TYPE_I32, .count = 5}};
     module_.slots = {{.type = Type::Bit, .key = "edge"}};
     module_.faults = {"watchdog"};
   }
@@ -168,7 +196,9 @@ TEST_F(PrintedRung, RemarksStandUnderTheirOperation) {
   b_.note("x");
   b_.endIf();
   module_.routines = {{.name = "MAIN", .rungs = {rung_}}};
-  const std::string printed = printRung(module_, RoutineId{0}, 0, [](size_t i) { return i == 2 ? "wrong\nhere" : i == 4 ? "and here" : ""; });
+  const std::string printed = printRung(module_, RoutineId{0}, 0, [](size_t i) {
+    return i == 2 ? "wrong\nhere" : i == 4 ? "and here" : "";
+  });
   EXPECT_EQ(printed, R"(  rung 0 "" loc(-:0:0-0) key(0x0000000000000000) weight 1 {
     %0:bit = const 1
     if %0
@@ -187,7 +217,8 @@ TEST_F(PrintedRung, BrokenRungsPrint) {
   rung_.ops[0].ref = 77;
   rung_.ops[0].imm = -3;
   rung_.ops[1].imm = static_cast<int64_t>(0x1FFFFFFFFF);
-  rung_.ops.push_back({.code = OpCode::Add, .type = Type::Bit, .argCount = 2, .resultCount = 1, .firstArg = 50, .result = ValueId{99}});
+  rung_.ops.push_back(
+      {.code = OpCode::Add, .type = Type::Bit, .argCount = 2, .resultCount = 1, .firstArg = 50, .result = ValueId{99}});
   rung_.ops.push_back({.code = OpCode::Note, .ref = 5});
   rung_.ops.push_back({.code = OpCode::Message, .ref = 9});
   rung_.ops.push_back({.code = OpCode::SlotLoad, .ref = 9});
@@ -230,7 +261,8 @@ struct Mistake {
 
 TEST(TextParse, ErrorsSayWhere) {
   const std::string head = "module \"m\" dialect \"d\"\n";
-  const std::string inRung = head + "space D unit 1 units 8\nservice S\nroutine R {\nrung 0 \"\" loc(-:0:0-0) key(0) weight 1 {\n";
+  const std::string inRung =
+      head + "space D unit 1 units 8\nservice S\nroutine R {\nrung 0 \"\" loc(-:0:0-0) key(0) weight 1 {\n";
   const Mistake whole[] = {
       {"", 1, 1, "'module' expected"},
       {"modul", 1, 1, "'module' expected"},
@@ -309,7 +341,8 @@ TEST(TextParse, LargeModules) {
   const ValueId x = builder.load(Type::Bit, {SpaceId{0}, 5, 1});
   builder.store({SpaceId{0}, 6, 1}, x);
   module.routines = {{.name = "R", .rungs = std::vector<Rung>(100000, rung)}};
-  for (uint32_t i = 0; i < 100000; ++i) module.symbols.push_back({.name = "S" + std::to_string(i), .space = SpaceId{0}, .byte = i});
+  for (uint32_t i = 0; i < 100000; ++i)
+    module.symbols.push_back({.name = "S" + std::to_string(i), .space = SpaceId{0}, .byte = i});
   const auto start = std::chrono::steady_clock::now();
   expectRoundTrip(module);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60)) << "more than linear";

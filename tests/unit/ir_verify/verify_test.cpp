@@ -20,9 +20,12 @@ Module goodModule() {
   Module m;
   m.name = "m";
   m.files = {"a.lad"};
-  m.spaces = {{.name = "D", .unitBytes = 4, .units = kSpaceBytes / 4}, {.name = "E", .unitBytes = 1, .units = kSpaceBytes, .flags = RUNG_SPACE_HIDDEN}};
+  m.spaces = {{.name = "D", .unitBytes = 4, .units = kSpaceBytes / 4},
+              {.name = "E", .unitBytes = 1, .units = kSpaceBytes, .flags = RUNG_SPACE_HIDDEN}};
   m.slots = {{.type = Type::I16, .init = 0xFFFF, .key = "s0"}, {.type = Type::Bit, .key = "s1"}};
-  m.symbols = {{.name = "S", .space = kD, .byte = 1, .bit = 7}, {.name = "A", .space = kD, .byte = 60, .type = RUNG_TYPE_I16, .count = 2}, {.name = "C", .type = RUNG_TYPE_I64, .flags = RUNG_SYMBOL_CONST, .value = 3}};
+  m.symbols = {{.name = "S", .space = kD, .byte = 1, .bit = 7},
+               {.name = "A", .space = kD, .byte = 60, .type = RUNG_TYPE_I16, .count = 2},
+               {.name = "C", .type = RUNG_TYPE_I64, .flags = RUNG_SYMBOL_CONST, .value = 3}};
   m.inits = {{kD, 62, {1, 2}}};
   m.retains = {{kD, 0, kSpaceBytes}};
   m.safes = {{SpaceId{1}, kSpaceBytes, 0}};
@@ -67,14 +70,16 @@ void expectBroken(const Module& m, Rule rule, std::string_view part, uint32_t op
   EXPECT_NE(render(m, errors).find(errors[0].message), std::string::npos);
 }
 
-void expectBroken(const std::function<void(Module&)>& breakIt, Rule rule, std::string_view part, Mode mode = Mode::Final) {
+void expectBroken(const std::function<void(Module&)>& breakIt, Rule rule, std::string_view part,
+                  Mode mode = Mode::Final) {
   Module m = goodModule();
   breakIt(m);
   expectBroken(m, rule, part, RUNG_NONE, mode);
 }
 
 // The first rung, built, then broken; the error stands at operation `op`.
-void expectRungBroken(const std::function<void(RungBuilder&)>& fill, const std::function<void(Rung&)>& breakIt, Rule rule, std::string_view part, uint32_t op) {
+void expectRungBroken(const std::function<void(RungBuilder&)>& fill, const std::function<void(Rung&)>& breakIt,
+                      Rule rule, std::string_view part, uint32_t op) {
   Module m = withRung(fill);
   expectGood(m);
   breakIt(rungOf(m));
@@ -207,7 +212,8 @@ TEST(VerifyCalls, NotTooDeep) {
   expectBroken(callChain(RUNG_STACK_DEPTH + 1), Rule::Calls, "nested more than 127 deep", 0);
   // Wide is not deep, and a routine that many call is looked at once.
   Module m = callChain(60);
-  for (uint32_t i = 0; i < 59; ++i) m.routines[i].rungs[0].transfer = {.kind = TransferKind::Call, .callee = RoutineId{i + 1}};
+  for (uint32_t i = 0; i < 59; ++i)
+    m.routines[i].rungs[0].transfer = {.kind = TransferKind::Call, .callee = RoutineId{i + 1}};
   expectGood(m);
 }
 
@@ -233,7 +239,9 @@ void addition(RungBuilder& b) {
 }
 
 TEST(VerifyRung, Form) {
-  const auto broken = [](const std::function<void(Rung&)>& breakIt, std::string_view part, uint32_t op) { expectRungBroken(addition, breakIt, Rule::Form, part, op); };
+  const auto broken = [](const std::function<void(Rung&)>& breakIt, std::string_view part, uint32_t op) {
+    expectRungBroken(addition, breakIt, Rule::Form, part, op);
+  };
   broken([](Rung& r) { r.ops[1].type = Type::Bit; }, "add has no type bit", 1);
   broken([](Rung& r) { r.ops[1].argCount = 1, r.args.pop_back(); }, "1 operands", 1);
   broken([](Rung& r) { r.ops[1].resultCount = 0, r.ops[1].result = {}, r.values.pop_back(); }, "0 results", 1);
@@ -263,7 +271,8 @@ TEST(VerifyRung, Regions) {
     b.loop(2);
     b.endLoop();
   };
-  const auto broken = [](const auto& fill, const std::function<void(Rung&)>& breakIt, std::string_view part, uint32_t op) { expectRungBroken(fill, breakIt, Rule::Regions, part, op); };
+  const auto broken = [](const auto& fill, const std::function<void(Rung&)>& breakIt, std::string_view part,
+                         uint32_t op) { expectRungBroken(fill, breakIt, Rule::Regions, part, op); };
   broken(ifElse, [](Rung& r) { r.ops.pop_back(); }, "not closed", 3);
   broken(loop, [](Rung& r) { r.ops.pop_back(); }, "not closed", 1);
   broken(ifElse, [](Rung& r) { r.ops[3].code = OpCode::EndLoop; }, "endloop without loop", 3);
@@ -326,17 +335,19 @@ TEST(VerifyRung, Yields) {
     const ValueId c = b.bit(true); // %0
     const ValueId w = b.i32(1);    // %1
     b.if_(c);
-    b.else_(std::vector{w});       // 3
-    b.endIf(std::vector{w});       // 4: %2
-    b.loop(1, std::vector{w});     // 5: %3, %4
-    b.endLoop(std::vector{w});     // 6: %5
+    b.else_(std::vector{w});   // 3
+    b.endIf(std::vector{w});   // 4: %2
+    b.loop(1, std::vector{w}); // 5: %3, %4
+    b.endLoop(std::vector{w}); // 6: %5
   };
-  expectRungBroken(fill, [](Rung& r) { r.args[r.ops[4].firstArg] = ValueId{0}; }, Rule::Yields, "value 0 is bit, not i32", 4);
+  expectRungBroken(
+      fill, [](Rung& r) { r.args[r.ops[4].firstArg] = ValueId{0}; }, Rule::Yields, "value 0 is bit, not i32", 4);
   expectRungBroken(fill, [](Rung& r) { r.values[2] = Type::Bit; }, Rule::Yields, "value 0 is bit, not i32", 4);
   expectRungBroken(fill, [](Rung& r) { r.values[3] = Type::I64; }, Rule::Yields, "number of the pass", 5);
   expectRungBroken(fill, [](Rung& r) { r.values[4] = Type::Bit; }, Rule::Yields, "value 0 is bit, not i32", 5);
   expectRungBroken(fill, [](Rung& r) { r.values[5] = Type::Bit; }, Rule::Yields, "value 0 is bit, not i32", 6);
-  expectRungBroken(fill, [](Rung& r) { r.args[r.ops[6].firstArg] = ValueId{0}; }, Rule::Yields, "value 0 is bit, not i32", 6);
+  expectRungBroken(
+      fill, [](Rung& r) { r.args[r.ops[6].firstArg] = ValueId{0}; }, Rule::Yields, "value 0 is bit, not i32", 6);
   // Without an else there is nothing to yield.
   Module m = withRung([](RungBuilder& b) {
     const ValueId c = b.bit(true);
@@ -366,7 +377,9 @@ TEST(VerifyRung, Places) {
 }
 
 TEST(VerifyRung, Windows) {
-  const auto load = [](Type type, uint32_t byte, uint32_t count) { return [=](RungBuilder& b) { b.loadAt(type, {kD, byte, count}, b.i32(0)); }; };
+  const auto load = [](Type type, uint32_t byte, uint32_t count) {
+    return [=](RungBuilder& b) { b.loadAt(type, {kD, byte, count}, b.i32(0)); };
+  };
   expectGood(withRung(load(Type::I32, 4, 15)));
   expectGood(withRung(load(Type::I64, 0, 15)));
   expectGood(withRung(load(Type::I8, 3, 16)));
@@ -375,7 +388,8 @@ TEST(VerifyRung, Windows) {
   expectBroken(withRung(load(Type::I8, 4, 16)), Rule::Windows, "beyond its space", 1);
   expectBroken(withRung(load(Type::I8, 4, UINT32_MAX)), Rule::Windows, "beyond its space", 1);
   expectBroken(withRung(load(Type::I32, 0, 0)), Rule::Windows, "empty", 1);
-  expectBroken(withRung([](RungBuilder& b) { b.loadBitAt({kD, 1, 16}, b.i32(0), b.i32(0)); }), Rule::Windows, "beyond its space", 2);
+  expectBroken(withRung([](RungBuilder& b) { b.loadBitAt({kD, 1, 16}, b.i32(0), b.i32(0)); }), Rule::Windows,
+               "beyond its space", 2);
   expectRungBroken(load(Type::I8, 0, 1), [](Rung& r) { r.ops[1].imm = 3; }, Rule::Windows, "within a byte", 1);
   expectRungBroken(load(Type::I8, 0, 1), [](Rung& r) { r.ops[1].ref = 9; }, Rule::Windows, "does not exist", 1);
 }
@@ -394,12 +408,16 @@ TEST(VerifyRung, Host) {
   expectRungBroken(message, [](Rung& r) { r.ops[2].ref = 4; }, Rule::Host, "no such kind", 2);
   expectRungBroken(message, [](Rung& r) { r.args[3] = ValueId{0}; }, Rule::Host, "value of the message is i32", 2);
   const auto request = [](size_t count) {
-    return [=](RungBuilder& b) { b.serviceRequest(ServiceId{0}, std::vector<ValueId>(count, b.constant(Type::I64, 1))); };
+    return
+        [=](RungBuilder& b) { b.serviceRequest(ServiceId{0}, std::vector<ValueId>(count, b.constant(Type::I64, 1))); };
   };
   expectGood(withRung(request(16)));
   expectRungBroken(request(1), [](Rung& r) { r.ops[1].ref = 1; }, Rule::Host, "service does not exist", 1);
-  expectRungBroken(request(1), [](Rung& r) { r.ops[0].type = r.values[0] = Type::I32; }, Rule::Host, "argument 0 is i32", 1);
-  expectRungBroken(request(16), [](Rung& r) { ++r.ops[1].argCount, r.args.push_back(ValueId{0}); }, Rule::Host, "too many arguments", 1);
+  expectRungBroken(
+      request(1), [](Rung& r) { r.ops[0].type = r.values[0] = Type::I32; }, Rule::Host, "argument 0 is i32", 1);
+  expectRungBroken(
+      request(16), [](Rung& r) { ++r.ops[1].argCount, r.args.push_back(ValueId{0}); }, Rule::Host, "too many arguments",
+      1);
   const auto result = [](RungBuilder& b) { b.serviceResult(b.i32(1), 15); };
   expectRungBroken(result, [](Rung& r) { r.ops[1].imm = 16; }, Rule::Host, "no such result", 1);
   expectRungBroken(result, [](Rung& r) { r.ops[1].imm = -1; }, Rule::Host, "no such result", 1);
@@ -454,7 +472,9 @@ TEST(VerifyRung, Transfer) {
     b.bit(true);
     b.i32(1);
   };
-  const auto broken = [&](const Transfer& transfer, std::string_view part) { expectRungBroken(fill, [&](Rung& r) { r.transfer = transfer; }, Rule::Transfer, part, 2); };
+  const auto broken = [&](const Transfer& transfer, std::string_view part) {
+    expectRungBroken(fill, [&](Rung& r) { r.transfer = transfer; }, Rule::Transfer, part, 2);
+  };
   const ValueId bit{0};
   const ValueId word{1};
   broken({.kind = TransferKind::Goto, .target = 1}, "the target does not exist");
@@ -476,6 +496,18 @@ TEST(VerifyRung, Transfer) {
     rungOf(m).transfer = {.kind = kind, .cond = bit};
     expectGood(m);
   }
+}
+
+TEST(VerifyRung, OnlyTheFirstErrorsAreRendered) {
+  Module m = goodModule();
+  rungOf(m).weight = 0;
+  m.routines[0].rungs.resize(100, rungOf(m));
+  const std::vector<VerifyError> errors = verify(m, Mode::Final);
+  EXPECT_EQ(errors.size(), 100u);
+  const std::string text = render(m, errors);
+  EXPECT_NE(text.find("rung 19:"), std::string::npos);
+  EXPECT_EQ(text.find("rung 20:"), std::string::npos);
+  EXPECT_NE(text.find("and 80 more errors"), std::string::npos);
 }
 
 // Each rung with an error is reported, and a rung only once.

@@ -107,21 +107,10 @@ void addSymbols(const Program& program, ir::Module& module) {
     }
   // A local name is public where no other file has it.
   std::erase_if(module.symbols, [&](const ir::Symbol& symbol) { return count[symbol.name] > 1; });
-  uint64_t initFiles = 0, doneFiles = 0;
-  for (size_t i = 0; i < program.files.size(); ++i) {
-    if (program.files[i].finishesInit) initFiles |= uint64_t{1} << i;
-    if (program.files[i].finishesDone) doneFiles |= uint64_t{1} << i;
-  }
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
     module.symbols.push_back({.name = std::string(cell.name), .space = kRegisterSpace, .byte = cell.byte, .type = abiType(cell.type), .flags = RUNG_SYMBOL_HIDDEN});
   }
-  const auto constant = [&](std::string name, uint64_t value) {
-    module.symbols.push_back({.name = std::move(name), .type = RUNG_TYPE_I64,
-                              .flags = RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST, .value = static_cast<int64_t>(value)});
-  };
-  constant("@INIT.NEEDED", initFiles);
-  constant("@DONE.NEEDED", doneFiles);
   std::sort(module.symbols.begin(), module.symbols.end(), [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
 }
 

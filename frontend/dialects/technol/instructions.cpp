@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "frontend/dialects/technol/host_cells.h"
 #include "frontend/dialects/technol/lexer.h"
 #include "frontend/dialects/technol/lower.h"
 
@@ -285,9 +286,9 @@ constexpr Row kRows[] = {
               .operands = {OperandInfo{.name = "error", .kind = "message value", .doc = "number; in DR without it", .optional = true}, OperandInfo{.name = "subid", .kind = "message value", .doc = "additional number", .optional = true}, OperandInfo{.name = "set", .kind = "message value", .doc = "of a persistent message: 1 shows, 0 removes", .optional = true}, OperandInfo{.name = "par1", .kind = "message value", .doc = "value in the text", .optional = true}, OperandInfo{.name = "par2", .kind = "message value", .doc = "value in the text", .optional = true}, OperandInfo{.name = "par3", .kind = "message value", .doc = "value in the text", .optional = true}}, .terminating = true,
               .ref = "14.3.1, l.5091", .doc = "As ESET, but only while RLO is 1."}, .effects = kReadsDr | kReadsRlo, .lower = lowerMessage, .variant = kIfRlo},
     {.info = {.mnemonic = "MODULE_INIT_FINISHED", .title = "start is complete", .group = "module service",
-              .ref = "5.3, l.2572", .doc = "The start is complete when each file that has this instruction has carried one out."}, .lower = lowerInitFinished},
+              .ref = "5.3, l.2572", .doc = "The start is complete when each file that has this instruction has carried one out."}, .effects = kEndsInit, .lower = lowerFinished, .variant = static_cast<int>(HostCell::InitOwed)},
     {.info = {.mnemonic = "MODULE_DONE_FINISHED", .title = "shutdown is complete", .group = "module service",
-              .ref = "5.3, l.2618", .doc = "The shutdown is complete when each file that has this instruction has carried one out."}, .lower = lowerDoneFinished},
+              .ref = "5.3, l.2618", .doc = "The shutdown is complete when each file that has this instruction has carried one out."}, .effects = kEndsDone, .lower = lowerFinished, .variant = static_cast<int>(HostCell::DoneOwed)},
 
     // ---- declarations (man. ch. 3.4, 3.18) ------------------------------------------------------------------------
     {.info = {.mnemonic = "DFM", .title = "bits of a byte", .group = "declaration",

@@ -47,6 +47,8 @@ enum Effect : uint16_t {
   kJumps = 128,
   kKeepsDr = 256, // EX kind: DR is still there when it passes
   kInitOnly = 512,
+  kEndsInit = 1024,
+  kEndsDone = 2048,
 };
 
 using LowerFn = void (*)(Lowering& lowering, std::span<const Operand> operands, int variant);

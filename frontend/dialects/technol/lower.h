@@ -59,7 +59,6 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int);
 // lower_calls.cpp
 void lowerCall(Lowering& l, std::span<const Operand> o, int);
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
-void lowerInitFinished(Lowering& l, std::span<const Operand> o, int);
-void lowerDoneFinished(Lowering& l, std::span<const Operand> o, int);
+void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
 
 } // namespace rung::frontend::technol

@@ -78,27 +78,13 @@ void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   l.restoreRegisters();
 }
 
-namespace {
-
 // One bit a file: the host waits until all files that have the instruction have executed one (man. l.2571-2601).
-void finished(Lowering& l, HostCell cell) {
+void lowerFinished(Lowering& l, std::span<const Operand>, int cell) {
   const uint32_t file = l.statement().file;
-  ir::Place place = l.place(cell);
+  ir::Place place = l.place(static_cast<HostCell>(cell));
   place.byte += file / 8;
   place.bit = file % 8;
-  l.b().store(place, l.b().bit(true));
-}
-
-} // namespace
-
-void lowerInitFinished(Lowering& l, std::span<const Operand>, int) {
-  l.program().files[l.statement().file].finishesInit = true;
-  finished(l, HostCell::InitFinished);
-}
-
-void lowerDoneFinished(Lowering& l, std::span<const Operand>, int) {
-  l.program().files[l.statement().file].finishesDone = true;
-  finished(l, HostCell::DoneFinished);
+  l.b().store(place, l.b().bit(false));
 }
 
 } // namespace rung::frontend::technol

@@ -21,8 +21,8 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@BLOCK_INIT.DONE", Type::Bit, 16},
     {"@BLOCK_DONE.CONT", Type::I32, 20},
     {"@BLOCK_DONE.DONE", Type::Bit, 24},
-    {"@INIT.FINISHED", Type::I64, 32},
-    {"@DONE.FINISHED", Type::I64, 40},
+    {"@INIT.OWED", Type::I64, 32},
+    {"@DONE.OWED", Type::I64, 40},
     {"@ESET.PAR2", Type::I64, 48},
     {"@ESET.PAR3", Type::I64, 56},
 };
@@ -107,9 +107,20 @@ void Lowering::lowerModule(ModuleKind kind) {
   out_.reset();
 }
 
+int64_t Lowering::filesOwing(bool SourceFile::* finishes) const {
+  uint64_t mask = 0;
+  for (size_t i = 0; i < program_.files.size(); ++i)
+    if (program_.files[i].*finishes) mask |= uint64_t{1} << i;
+  return static_cast<int64_t>(mask);
+}
+
 // What the compiler adds in front of a module.
 void Lowering::prologue(ModuleKind kind) {
   if (kind == ModuleKind::Init) out_->call(start_);
+  if (kind == ModuleKind::Done) {
+    b().store(place(HostCell::DoneOwed), b().constant(Type::I64, filesOwing(&SourceFile::finishesDone)));
+    out_->cut();
+  }
   if (kind == ModuleKind::Input || kind == ModuleKind::Fast) advanceClock(kind);
 }
 
@@ -326,8 +337,8 @@ void Lowering::makeResets() {
 void Lowering::makeStart() {
   constexpr size_t kStoresPerRung = 64;
   out_ = newBuilder(start_);
-  b().store(place(HostCell::InitFinished), b().constant(Type::I64, 0));
-  b().store(place(HostCell::DoneFinished), b().constant(Type::I64, 0));
+  b().store(place(HostCell::InitOwed), b().constant(Type::I64, filesOwing(&SourceFile::finishesInit)));
+  b().store(place(HostCell::DoneOwed), b().constant(Type::I64, 0));
   const auto preset = [&](std::string_view name) {
     const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I");
     if (signal) b().store({.space = kInterfaceSpace, .byte = signal->byteOffset, .bit = signal->bit}, b().bit(true));

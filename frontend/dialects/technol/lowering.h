@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "frontend/dialects/technol/host_cells.h"
 #include "frontend/dialects/technol/operand.h"
 #include "frontend/dialects/technol/program.h"
 #include "frontend/dialects/technol/routine_builder.h"
@@ -43,19 +44,6 @@ struct Sequence {
   std::unordered_map<uint32_t, uint32_t> stateOfLabel;
   std::vector<CountCell> cells; // cleared when the unit ends or is initialised
 };
-
-// Symbols in the space @REG that host and program share; see README.md.
-enum class HostCell : uint8_t {
-  Dr, Rlo, BlockInitCont, BlockInitDone, BlockDoneCont, BlockDoneDone, InitFinished, DoneFinished, MessagePar2, MessagePar3,
-};
-struct HostCellInfo {
-  std::string_view name;
-  ir::Type type;
-  uint32_t byte;
-};
-const HostCellInfo& hostCell(HostCell cell);
-inline constexpr uint32_t kRegisterBytes = 64;
-inline constexpr int kHostCells = 10;
 
 struct LoweredModule {
   ModuleKind kind;
@@ -130,6 +118,7 @@ private:
   void lowerPart(const ModulePart& part, ModuleKind kind);
   void enterPart(const ModulePart& part, ModuleKind kind);
   void prologue(ModuleKind kind);
+  int64_t filesOwing(bool SourceFile::* finishes) const;
   void advanceClock(ModuleKind kind);
   void lowerStatement(const Statement& statement, uint32_t index);
   void bindLabels(const Statement& statement, uint32_t index);

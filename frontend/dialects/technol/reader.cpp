@@ -280,6 +280,8 @@ void FileReader::code(Statement& statement) {
   }
   const Role role = statement.row->role;
   const uint16_t effects = statement.row->effects;
+  if (effects & kEndsInit) program_.files[file_].finishesInit = true;
+  if (effects & kEndsDone) program_.files[file_].finishesDone = true;
   if (role == Role::Code) {
     if (effects & kWaits) checkWait(statement);
     if (effects & kJumps) checkLoop(statement);

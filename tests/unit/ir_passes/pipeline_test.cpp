@@ -1,7 +1,9 @@
 // The pipeline: what it does to whole modules, that programs go on behaving the same, and how long it takes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <fmt/format.h>
 
 #include "ir/core/builder.h"
@@ -85,7 +87,7 @@ class Answers final : public host::ScheduleHooks {
     reply.ticket = request.ticket;
     reply.state = RUNG_SERVICE_DONE;
     reply.resultCount = 3;
-    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = 1000 * (i + 1) + (request.argCount > 0 ? request.args[0] : 0);
+    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = (1000 * (i + 1)) ^ (request.argCount > 0 ? request.args[0] : 0);
     return true;
   }
 };
@@ -102,10 +104,11 @@ struct Running {
   host::Instance instance;
 };
 
-// Every second scan the machine changes the inputs.
+// Every second scan the machine changes the inputs; they are the first space.
 void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
-  for (uint32_t byte = 0; byte < 8; ++byte)
-    if (const auto ref = instance.resolve(fmt::format("X{}:1", byte))) instance.write(*ref, (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255);
+  const uint32_t bytes = std::min(8u, instance.program().spaces[0].byte_count);
+  for (uint32_t byte = 0; byte < bytes; ++byte)
+    instance.write(host::intRef(0, byte, 8), (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255);
 }
 
 std::string slotDifference(const Running& a, const Running& b) {

@@ -104,9 +104,10 @@ def expect(condition, what):
 def session(bench, options):
     """A whole LinuxCNC: spindle, coolant, tool change, a part program, emergency stop."""
     bench.program(options.program)
-    bench.copy(options.map, "program.map")
+    bench.file("program.map", "".join(Path(path).read_text(encoding="utf-8") for path in options.map))
     for name in ("machine.ini", "machine.hal", "tool.tbl", "drive.py"):
         bench.copy(HERE / name)
+    bench.file("steps.txt", options.steps)
     bench.run("linuxcnc", "-r", str(bench.home / "machine.ini"))
     result = bench.home / "result.txt"
     expect(result.exists(), "LinuxCNC did not start the driver")
@@ -173,7 +174,8 @@ def main():
     parser.add_argument("--module", default="", help="the component; empty when it was not built")
     parser.add_argument("--rungc", required=True)
     parser.add_argument("--program", default=HERE / "handshake.pmc", help="source of the PLC program of `session`")
-    parser.add_argument("--map", default=HERE / "handshake.map", help="its mapping file")
+    parser.add_argument("--steps", default="spindle coolant tools part counters emergency_stop", help="what `session` does, in order")
+    parser.add_argument("--map", nargs="+", default=[HERE / "handshake.map"], help="its mapping file, in one or several pieces")
     options = parser.parse_args()
     check_machine(options.module)
     with tempfile.TemporaryDirectory(dir="/var/tmp", prefix="rung-cnc-") as folder:

@@ -94,14 +94,14 @@ def coolant():
 
 
 def tools():
-    check(pin("tool") == 0, "a tool too early")
+    check(pin("tool") != 2, "the tool too early")
     took = mdi("T2 M6")
     check(took >= 0.36, f"the magazine and the arm were not waited for: {took:.3f} s")
     check(status.tool_in_spindle == 2, f"tool {status.tool_in_spindle} in the spindle")
     pins(tool=2, tool_changed=False, tool_prepared=False)
 
 
-def program():
+def part():
     with open("part.ngc", "w", encoding="ascii") as file:
         file.write("G21 G90 T1 M6\nM3 S500\nM8\nG1 X10 F6000\nM9\nM5\nG0 X0\nM2\n")
     set_mode(linuxcnc.MODE_AUTO)
@@ -145,11 +145,12 @@ def main():
     component.ready()
     switch_on()
     set_mode(linuxcnc.MODE_MDI)
-    for step in (spindle, coolant, tools, program, counters):
-        step()
-        print("driver:", step.__name__, "ok", flush=True)
-    set_mode(linuxcnc.MODE_MDI)
-    emergency_stop()
+    steps = {step.__name__: step for step in (spindle, coolant, tools, part, counters, emergency_stop)}
+    with open("steps.txt", encoding="ascii") as file:
+        for name in file.read().split():
+            set_mode(linuxcnc.MODE_MDI)
+            steps[name]()
+            print("driver:", name, "ok", flush=True)
 
 
 try:

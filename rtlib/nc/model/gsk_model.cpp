@@ -1,4 +1,5 @@
-// The CNC beside a GSK25i PLC: timer and counter presets as typed on their pages, messages of the A area.
+// The CNC beside a GSK25i PLC: messages of the A area, machine inputs. Presets of timers and counters are the compiler's
+// configuration: initial contents of T and C.
 #include <charconv>
 
 #include "rtlib/host/program_info.h"
@@ -7,10 +8,6 @@
 
 namespace rung::nc {
 namespace {
-
-constexpr uint32_t kTimers = 100;
-constexpr uint32_t kCounters = 100;
-constexpr uint32_t kSlowTimers = 20; // in units of 48 ms, the others of 8 ms (manual 5.3, l.1114)
 
 std::optional<uint32_t> number(std::string_view text) {
   uint32_t value = 0;
@@ -30,12 +27,6 @@ public:
   std::string config(std::string_view key, std::string_view value) override {
     const auto amount = number(value);
     if (!amount) return "expected a number, found '" + std::string(value) + "'";
-    if (const auto timer = numberBehind(key, "tmr."); timer && *timer >= 1 && *timer <= kTimers) {
-      const uint32_t unit = *timer <= kSlowTimers ? 48 : 8;
-      return preset("T", 2 * (*timer - 1), *amount / unit);
-    }
-    if (const auto counter = numberBehind(key, "ctr."); counter && *counter >= 1 && *counter <= kCounters)
-      return preset("C", 4 * (*counter - 1), *amount);
     if (numberBehind(key, "param.")) return setQuantity(key, *amount);
     return NcModel::config(key, value);
   }
@@ -47,8 +38,6 @@ public:
     NcModel::powerOn(instance, kind);
     writeArea(instance, "X", machine);
     writeArea(instance, "F", cnc);
-    for (const Preset& p : presets_)
-      instance.write(host::intRef(host::findSpace(instance.program(), p.area), p.byte, 16), p.value);
   }
 
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
@@ -86,20 +75,6 @@ private:
     const uint32_t space = host::findSpace(instance.program(), area);
     for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
   }
-
-  struct Preset {
-    const char* area;
-    uint32_t byte;
-    uint32_t value;
-  };
-
-  std::string preset(const char* area, uint32_t byte, uint32_t value) {
-    if (value > 0xFFFF) return "the preset is too large";
-    presets_.push_back({area, byte, value});
-    return {};
-  }
-
-  std::vector<Preset> presets_;
 };
 
 } // namespace

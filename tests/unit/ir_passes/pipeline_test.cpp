@@ -186,7 +186,7 @@ TEST_P(SameBehaviour, OfEveryOperation) {
 INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
                          testing::Values(NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues}, NamedPass{"Dead", removeDeadOps},
                                          NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 // ---- time ------------------------------------------------------------------------------------------------------------
 

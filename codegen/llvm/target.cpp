@@ -2,6 +2,9 @@
 #include <mutex>
 
 #include <fmt/format.h>
+#include <llvm/CodeGen/MachineModuleInfo.h>
+#include <llvm/CodeGen/Passes.h>
+#include <llvm/CodeGen/TargetPassConfig.h>
 #include <llvm/Config/llvm-config.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/MC/TargetRegistry.h>
@@ -52,6 +55,24 @@ std::string hostFeatures() {
   return features.getString();
 }
 
+// LLVM's addPassesToEmitFile, which offers no way to leave a pass out. False: the target has no such output.
+bool addCodeGenerator(llvm::LLVMTargetMachine& machine, llvm::legacy::PassManager& passes, llvm::raw_pwrite_stream& out,
+                      llvm::CodeGenFileType type) {
+  llvm::TargetPassConfig* config = machine.createPassConfig(passes);
+  // x86 reorders instructions itself. The scheduler compares all accesses of a block with each other: it is what would
+  // make time grow faster than the length of a chunk, and the code is no better for it.
+  if (machine.getTargetTriple().isX86()) config->disablePass(&llvm::MachineSchedulerID);
+  auto* info = new llvm::MachineModuleInfoWrapperPass(&machine);
+  passes.add(config);
+  passes.add(info);
+  if (config->addISelPasses()) return false;
+  config->addMachinePasses();
+  config->setInitialized();
+  if (machine.addAsmPrinter(passes, out, nullptr, type, info->getMMI().getContext())) return false;
+  passes.add(llvm::createFreeMachineFunctionPass());
+  return true;
+}
+
 } // namespace
 
 std::vector<std::string_view> llvmTargets() {
@@ -94,7 +115,7 @@ Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& mach
   llvm::SmallVector<char, 0> bytes;
   llvm::raw_svector_ostream out(bytes);
   llvm::legacy::PassManager passes;
-  if (machine.addPassesToEmitFile(passes, out, nullptr, type))
+  if (!addCodeGenerator(static_cast<llvm::LLVMTargetMachine&>(machine), passes, out, type))
     return failure("LLVM has no such output for this target");
   passes.run(module);
   return std::string(bytes.begin(), bytes.end());

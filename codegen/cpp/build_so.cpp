@@ -93,7 +93,8 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
   const std::string unfinished = outPath + ".tmp";
   std::vector<std::string> words;
   appendWords(options.compiler, words);
-  appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off -fno-strict-aliasing -w", words);
+  // Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
+  appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off -fno-strict-aliasing -fno-tree-slp-vectorize -w", words);
   words.push_back(options.optimisation);
   if (options.debugInfo) words.push_back("-g");
   appendWords(options.extraFlags, words);

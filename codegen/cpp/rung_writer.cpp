@@ -185,8 +185,9 @@ std::string RungWriter::pure(const Op& op) {
     case OpCode::RemS: return call("remS");
     case OpCode::RemU: return call("remU");
     case OpCode::Neg: return call("neg");
-    case OpCode::And: return bit ? infix("&&") : cast(infix("&"));
-    case OpCode::Or: return bit ? infix("||") : cast(infix("|"));
+    // Of bits too: && and || would ask for jumps, which compilers then keep as conditional moves.
+    case OpCode::And: return bit ? infix("&") : cast(infix("&"));
+    case OpCode::Or: return bit ? infix("|") : cast(infix("|"));
     case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
     case OpCode::Not: return bit ? "!" + a(op, 0) : cast("~" + a(op, 0));
     case OpCode::Shl: return call("shl");

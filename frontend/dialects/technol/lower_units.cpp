@@ -89,7 +89,7 @@ void Lowering::endSequence() {
 
 void Lowering::beginMechanism() {
   const uint32_t mechanism = program_.units[statement_->unit].index;
-  checkBalance(statement_->range(), "MECH_BEGIN");
+  endEquation(statement_->range(), "MECH_BEGIN");
   out_->cut();
   out_->statement(sourceOf(*statement_));
   const uint32_t byte = mechanism * kMechanismBytes;
@@ -105,7 +105,7 @@ void Lowering::beginMechanism() {
 }
 
 void Lowering::endMechanism() {
-  checkBalance(statement_->range(), "MECH_END");
+  endEquation(statement_->range(), "MECH_END");
   // Without its beginning (an error) there is nothing to end.
   if (sequences_.empty() || sequences_.back().mechanism == kNone || sequences_.back().routine != out_->routine()) return;
   out_->cut();
@@ -161,7 +161,7 @@ void Lowering::initMechanism(uint32_t mechanism) {
 
 // The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
 void Lowering::beginProcedure() {
-  checkBalance(statement_->range(), "PROC_BEGIN");
+  endEquation(statement_->range(), "PROC_BEGIN");
   out_->cut();
   outer_.push_back(std::move(out_));
   outerProcedures_.push_back(procedure_);
@@ -172,7 +172,7 @@ void Lowering::beginProcedure() {
 }
 
 void Lowering::endProcedure() {
-  checkBalance(statement_->range(), "PROC_END");
+  endEquation(statement_->range(), "PROC_END");
   if (outer_.empty()) return;
   out_->finish();
   out_ = std::move(outer_.back());

@@ -184,7 +184,7 @@ void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
   for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
     lowerStatement(program_.statements[i], i);
   while (procedure_ != kNone) endProcedure(); // not closed: an error
-  checkBalance(part.end, std::string(moduleName(kind)));
+  endEquation(part.end, std::string(moduleName(kind)));
   if (sequential) endSequence();
   sequences_.clear();
 }
@@ -295,6 +295,10 @@ void Lowering::checkBalance(SourceRange at, std::string_view where) {
   else if (equationOpen_)
     program_.diagnostics.report(Diag::UnterminatedEquation, equation_).note(at, "it is still open here");
   depth_ = 0;
+}
+
+void Lowering::endEquation(SourceRange at, std::string_view where) {
+  checkBalance(at, where);
   equationOpen_ = false;
 }
 

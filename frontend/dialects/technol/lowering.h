@@ -111,7 +111,9 @@ public:
   // The rules on mixing real and integer arithmetic (man. l.1551).
   enum class Arithmetic : uint8_t { LoadInteger, LoadReal, Integer, Real };
   void note(Arithmetic kind);
+  // Where the stack must be empty: CHECK, and the borders of units, which end the equation too.
   void checkBalance(SourceRange at, std::string_view where);
+  void endEquation(SourceRange at, std::string_view where);
 
 private:
   void lowerModule(ModuleKind kind);

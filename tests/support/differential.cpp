@@ -18,7 +18,7 @@ class Responder final : public host::ScheduleHooks {
     reply.ticket = request.ticket;
     reply.state = request.argCount % 3 == 0 ? uint32_t{RUNG_SERVICE_ERROR} : uint32_t{RUNG_SERVICE_DONE};
     reply.resultCount = 4;
-    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = static_cast<int64_t>(i) * 1000 + (request.argCount > 0 ? request.args[0] : 7);
+    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = static_cast<int64_t>(i) * 1000 ^ (request.argCount > 0 ? request.args[0] : 7);
     return true;
   }
 };

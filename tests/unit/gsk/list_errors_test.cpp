@@ -47,7 +47,7 @@ TEST(GskList, Words) {
   EXPECT_EQ(level2("LD \xD0\xA1"
                    "0.0\nOUT Y0.0\n"),
             (Codes{"2 bad-character"}));
-  EXPECT_EQ(level2("FUNC 47\nPRM 1\nOUT Y0.0\n"), (Codes{"2 unknown-function"}));
+  EXPECT_EQ(level2("FUNC 999\nPRM 1\nOUT Y0.0\n"), (Codes{"2 unknown-function"}));
   EXPECT_EQ(level2("FUNC NOPE\nPRM 1\nPRM 2\nOUT Y0.0\n"), (Codes{"2 unknown-function"}));
   EXPECT_EQ(level2("FUNC 44\n"),
             (Codes{"2 wrong-condition-count", "2 not-built-yet", "2 missing-output", "2 wrong-parameter-count"}));

@@ -22,7 +22,11 @@ TEST(GskRun, EveryFunctionRuns) {
   std::string text = "FUNC 0\n";
   for (const Row& row : allRows()) {
     if (row.info.number < 0 || row.lower == nullptr || row.control != Control::Plain) continue;
-    text += std::string(row.info.example) + "\n";
+    // By itself first, so that a bad example is told by its name and keeps none of the others from running.
+    const std::string example = std::string(row.info.example) + "\n";
+    const auto alone = compileList("FUNC 0\n" + example + "FUNC 1\n");
+    EXPECT_EQ(alone->codes(), Codes{}) << row.info.mnemonic << '\n' << alone->text();
+    if (alone->module != nullptr) text += example;
   }
   Machine m = listMachine(text + "FUNC 1\n");
   m.scan(2);

@@ -1,5 +1,5 @@
 // Programs beside what they become: NAME.lad with NAME.ir (the module's text) or NAME.diag (the diagnostics).
-// RUNG_UPDATE_GOLDEN=1 writes the expected files anew; a review reads the difference.
+// RUNG_UPDATE=1 writes the expected files anew; a review reads the difference.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,7 +40,7 @@ TEST(NctGolden, AllPrograms) {
     const std::unique_ptr<ir::Module> module = kNct.compile(sources, {&file, 1}, {}, diagnostics);
     const std::string text = module ? ir::print(*module) : renderText(diagnostics, sources);
     const std::string path = kFolder + "/" + name + (module ? ".ir" : ".diag");
-    if (std::getenv("RUNG_UPDATE_GOLDEN") != nullptr) std::ofstream(path, std::ios::binary) << text;
+    if (std::getenv("RUNG_UPDATE") != nullptr) std::ofstream(path, std::ios::binary) << text;
     EXPECT_EQ(readFile(path), text) << path;
     if (!module) continue;
     const ir::ParseOutcome again = ir::parse(text);

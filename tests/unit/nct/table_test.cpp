@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <set>
+#include <map>
 #include <sstream>
 
 #include "frontend/dialects/nct/instructions.h"
@@ -47,13 +47,17 @@ TEST(NctTable, HoldsTheWholeInventory) {
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::string line;
   std::getline(file, line);
-  size_t i = 0;
-  const auto rows = allInstructions();
-  for (; std::getline(file, line); ++i) {
+  std::map<std::string_view, const NctInstruction*> rows;
+  for (const NctInstruction& row : allInstructions()) EXPECT_TRUE(rows.emplace(row.info.mnemonic, &row).second) << row.info.mnemonic << " twice";
+  while (std::getline(file, line)) {
     const std::vector<std::string> csv = columns(line);
-    ASSERT_LT(i, rows.size());
-    const frontend::InstructionInfo& info = rows[i].info;
-    EXPECT_EQ(info.mnemonic, csv[0]);
+    const auto found = rows.find(csv[0]);
+    if (found == rows.end()) {
+      ADD_FAILURE() << csv[0] << " is missing in the table, or twice in the inventory";
+      continue;
+    }
+    const frontend::InstructionInfo& info = found->second->info;
+    rows.erase(found);
     EXPECT_TRUE(info.ref.starts_with(csv[1] + ", l.")) << info.mnemonic << ' ' << info.ref;
     const Output output = csv[5] == "configurable" ? Output::Optional : csv[5] == "no" ? Output::Always : Output::None;
     EXPECT_EQ(info.output, output) << info.mnemonic;
@@ -62,7 +66,7 @@ TEST(NctTable, HoldsTheWholeInventory) {
     EXPECT_EQ(info.pins.size(), static_cast<size_t>(pins)) << info.mnemonic;
     EXPECT_EQ(info.operands.size(), operandsIn(csv[4])) << info.mnemonic;
   }
-  EXPECT_EQ(i, rows.size());
+  for (const auto& [mnemonic, row] : rows) ADD_FAILURE() << mnemonic << " is not in the inventory";
 }
 
 constexpr std::string_view kSymbols =
@@ -184,7 +188,6 @@ TEST(NctTable, FindsBoxesOnly) {
   EXPECT_EQ(findBox("tond"), nullptr);
   EXPECT_EQ(findBox(""), nullptr);
   EXPECT_EQ(findBox("ZZZ"), nullptr);
-  EXPECT_EQ(kNct.instructions.size(), 85u);
 }
 
 } // namespace

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 // A directory of its own that goes away with its owner.
 class TemporaryFolder {
- public:
+public:
   TemporaryFolder() {
     std::string pattern = (fs::temp_directory_path() / "rung-XXXXXX").string();
     if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
@@ -37,7 +37,7 @@ class TemporaryFolder {
   bool ok() const { return !path_.empty(); }
   fs::path operator/(std::string_view name) const { return path_ / name; }
 
- private:
+private:
   fs::path path_;
 };
 
@@ -86,7 +86,8 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
   TemporaryFolder folder;
   if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
   bool written = writeFile(folder / "program.cpp", text);
-  for (const EmbeddedHeader& header : embeddedHeaders()) written = written && writeFile(folder / header.name, header.text);
+  for (const EmbeddedHeader& header : embeddedHeaders())
+    written = written && writeFile(folder / header.name, header.text);
   if (!written) return failure("cannot write the generated C++ to a temporary folder");
 
   // Finished under another name and then renamed: a host that has the old object loaded keeps it intact.
@@ -94,11 +95,14 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
   std::vector<std::string> words;
   appendWords(options.compiler, words);
   // Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
-  appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off -fno-strict-aliasing -fno-tree-slp-vectorize -w", words);
+  appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off "
+              "-fno-strict-aliasing -fno-tree-slp-vectorize -w",
+              words);
   words.push_back(options.optimisation);
   if (options.debugInfo) words.push_back("-g");
   appendWords(options.extraFlags, words);
-  for (std::string word : {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(), std::string("-o"), unfinished})
+  for (std::string word :
+       {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(), std::string("-o"), unfinished})
     words.push_back(std::move(word));
   Result<int> code = run(words, folder / "log");
   if (!code.ok()) return code.failure();

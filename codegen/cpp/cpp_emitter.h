@@ -1,5 +1,6 @@
-// C++ back end: a module as one readable C++ file for g++ or clang++, without std and without globals but constant tables.
-// Above each rung stand its comment and its source text, #line gives debuggers the PLC source, comments name the symbols.
+// C++ back end: a module as one readable C++ file for g++ or clang++, without std and without globals but constant
+// tables. Above each rung stand its comment and its source text, #line gives debuggers the PLC source, comments name
+// the symbols.
 #pragma once
 #include <optional>
 #include <string>
@@ -20,14 +21,14 @@ struct CppOptions {
 std::string emitCpp(const ir::Layout& layout, uint64_t codeHash, const CppOptions& options);
 
 struct CppBuildOptions {
-  std::string compiler = "c++";  // a driver: clang++-19, g++, aarch64-linux-gnu-g++ …
+  std::string compiler = "c++"; // a driver: clang++-19, g++, aarch64-linux-gnu-g++ …
   std::string optimisation = "-O2";
   bool debugInfo = true;
-  std::string extraFlags;        // e.g. "-fsanitize=undefined"; split at blanks
+  std::string extraFlags; // e.g. "-fsanitize=undefined"; split at blanks
 };
 
-// Compiles the text to a shared object at `outPath`. The headers that the text includes are built into this library. Fails
-// with what the compiler said.
+// Compiles the text to a shared object at `outPath`. The headers that the text includes are built into this library.
+// Fails with what the compiler said.
 Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& options, const std::string& outPath);
 
 } // namespace rung::codegen

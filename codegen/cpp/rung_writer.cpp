@@ -19,13 +19,13 @@ uint64_t placeKey(uint32_t space, int64_t bitOffset, bool bit) {
 // The type of a place of the memory block.
 std::string_view memoryType(Type type) {
   switch (type) {
-    case Type::I8: return "m8";
-    case Type::I16: return "m16";
-    case Type::I32: return "m32";
-    case Type::I64: return "m64";
-    case Type::F64: return "mf64";
-    case Type::None:
-    case Type::Bit: break;
+  case Type::I8: return "m8";
+  case Type::I16: return "m16";
+  case Type::I32: return "m32";
+  case Type::I64: return "m64";
+  case Type::F64: return "mf64";
+  case Type::None:
+  case Type::Bit: break;
   }
   RUNG_CHECK(false, "a bit has no place of its own");
   return {};
@@ -43,13 +43,13 @@ std::string commentText(std::string_view text) {
 
 std::string_view cppType(Type type) {
   switch (type) {
-    case Type::Bit: return "bool";
-    case Type::I8: return "u8";
-    case Type::I16: return "u16";
-    case Type::I32: return "u32";
-    case Type::I64: return "u64";
-    case Type::F64: return "double";
-    case Type::None: break;
+  case Type::Bit: return "bool";
+  case Type::I8: return "u8";
+  case Type::I16: return "u16";
+  case Type::I32: return "u32";
+  case Type::I64: return "u64";
+  case Type::F64: return "double";
+  case Type::None: break;
   }
   return "void";
 }
@@ -57,7 +57,9 @@ std::string_view cppType(Type type) {
 PlaceNames::PlaceNames(const Module& module) {
   for (const Symbol& symbol : module.symbols)
     if (symbol.space.valid() && (symbol.flags & RUNG_SYMBOL_CONST) == 0)
-      names_.try_emplace(placeKey(symbol.space.index, int64_t{symbol.byte} * 8 + symbol.bit, symbol.type == RUNG_TYPE_BIT), &symbol.name);
+      names_.try_emplace(
+          placeKey(symbol.space.index, int64_t{symbol.byte} * 8 + symbol.bit, symbol.type == RUNG_TYPE_BIT),
+          &symbol.name);
 }
 
 std::string_view PlaceNames::at(uint32_t space, int64_t bitOffset, bool bit) const {
@@ -136,7 +138,8 @@ std::string RungWriter::load(const Op& op) const {
     const BitLocation at = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     return at.wholeByte ? fmt::format("RUNG_FLAG({})", at.offset) : fmt::format("RUNG_BIT({}, {})", at.offset, at.bit);
   }
-  return fmt::format("RUNG_MEM({}, {})", memoryType(op.type), layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)));
+  return fmt::format("RUNG_MEM({}, {})", memoryType(op.type),
+                     layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)));
 }
 
 void RungWriter::store(const Op& op) {
@@ -148,7 +151,8 @@ void RungWriter::store(const Op& op) {
               placeComment(op));
     return;
   }
-  statement(fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)), value),
+  statement(fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type),
+                        layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)), value),
             placeComment(op));
 }
 
@@ -157,100 +161,107 @@ void RungWriter::storeAt(const Op& op) {
   const uint32_t unit = module_.spaces[op.ref].unitBytes;
   const uint32_t base = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
   if (op.code == OpCode::StoreBitAt)
-    statement(fmt::format("RUNG_SET_BIT_AT({}u, {}u, {}u, {}, {}, {});", base, op.count, unit, a(op, 0), a(op, 1), spoil(op.code, op.type, a(op, 2))), placeComment(op));
+    statement(fmt::format("RUNG_SET_BIT_AT({}u, {}u, {}u, {}, {}, {});", base, op.count, unit, a(op, 0), a(op, 1),
+                          spoil(op.code, op.type, a(op, 2))),
+              placeComment(op));
   else
-    statement(fmt::format("RUNG_SET_AT({}, {}u, {}u, {}u, {}, {});", memoryType(op.type), base, op.count, unit, a(op, 0), spoil(op.code, op.type, a(op, 1))), placeComment(op));
+    statement(fmt::format("RUNG_SET_AT({}, {}u, {}u, {}u, {}, {});", memoryType(op.type), base, op.count, unit,
+                          a(op, 0), spoil(op.code, op.type, a(op, 1))),
+              placeComment(op));
 }
 
 // The expression of an operation that has a value and no region.
 std::string RungWriter::pure(const Op& op) {
   const auto infix = [&](std::string_view sign) { return fmt::format("{} {} {}", a(op, 0), sign, a(op, 1)); };
   const auto call = [&](std::string_view name) {
-    return op.argCount == 1 ? fmt::format("{}({})", name, a(op, 0)) : fmt::format("{}({}, {})", name, a(op, 0), a(op, 1));
+    return op.argCount == 1 ? fmt::format("{}({})", name, a(op, 0))
+                            : fmt::format("{}({}, {})", name, a(op, 0), a(op, 1));
   };
   const auto cast = [&](const std::string& text) { return fmt::format("static_cast<{}>({})", cppType(op.type), text); };
   const uint32_t unit = opInfo(op.code).attr == Attr::Window ? module_.spaces[op.ref].unitBytes : 0;
   const auto window = [&] { return layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)); };
   const bool bit = op.type == Type::Bit;
   switch (op.code) {
-    case OpCode::Const:
-      if (bit) return op.imm != 0 ? "true" : "false";
-      if (op.type == Type::F64) return fmt::format("fromBits(0x{:016x}ull)", static_cast<uint64_t>(op.imm));
-      return fmt::format("{}{}", static_cast<uint64_t>(op.imm), op.type == Type::I64 ? "ull" : "u");
-    case OpCode::Add: return call("add");
-    case OpCode::Sub: return call("sub");
-    case OpCode::Mul: return call("mul");
-    case OpCode::DivS: return call("divS");
-    case OpCode::DivU: return call("divU");
-    case OpCode::RemS: return call("remS");
-    case OpCode::RemU: return call("remU");
-    case OpCode::Neg: return call("neg");
-    // Of bits too: && and || would ask for jumps, which compilers then keep as conditional moves.
-    case OpCode::And: return bit ? infix("&") : cast(infix("&"));
-    case OpCode::Or: return bit ? infix("|") : cast(infix("|"));
-    case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
-    case OpCode::Not: return bit ? "!" + a(op, 0) : cast("~" + a(op, 0));
-    case OpCode::Shl: return call("shl");
-    case OpCode::ShrU: return call("shrU");
-    case OpCode::ShrS: return call("shrS");
-    case OpCode::PopCount: return call("popCount");
-    case OpCode::BcdEncode: return call("bcdEncode");
-    case OpCode::BcdDecode: return call("bcdDecode");
-    case OpCode::Eq:
-    case OpCode::FEq: return infix("==");
-    case OpCode::Ne: return infix("!=");
-    case OpCode::LtS: return call("ltS");
-    case OpCode::LeS: return call("leS");
-    case OpCode::LtU:
-    case OpCode::FLt: return infix("<");
-    case OpCode::LeU:
-    case OpCode::FLe: return infix("<=");
-    case OpCode::Select: return fmt::format("{} ? {} : {}", a(op, 0), a(op, 1), a(op, 2));
-    case OpCode::ZExt: return cast(a(op, 0));
-    case OpCode::SExt: {
-      const Type from = typeOf(*rung_, arg(*rung_, op, 0));
-      return from == Type::Bit ? cast(fmt::format("0 - static_cast<i64>({})", a(op, 0))) : cast(fmt::format("asSigned({})", a(op, 0)));
-    }
-    case OpCode::Trunc: return bit ? fmt::format("({} & 1) != 0", a(op, 0)) : cast(a(op, 0));
-    case OpCode::FAdd: return call("fadd");
-    case OpCode::FSub: return call("fsub");
-    case OpCode::FMul: return call("fmul");
-    case OpCode::FDiv: return call("fdiv");
-    case OpCode::FNeg: return call("fneg");
-    case OpCode::FAbs: return call("rung::sem::fabs");
-    case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
-    case OpCode::FToIntNearest: return call("fToIntNearest");
-    case OpCode::IntToF: return call("intToF");
-    case OpCode::BitsToF: return call("fromBits");
-    case OpCode::FToBits: return call("toBits");
-    case OpCode::Load: return load(op);
-    case OpCode::LoadAt:
-      if (op.count == 0) return "0";
-      return fmt::format("RUNG_AT({}, {}u, {}u, {}u, {})", memoryType(op.type), window(), op.count, unit, a(op, 0));
-    case OpCode::LoadBitAt:
-      if (op.count == 0) return "false";
-      return fmt::format("RUNG_BIT_AT({}u, {}u, {}u, {}, {})", window(), op.count, unit, a(op, 0), a(op, 1));
-    case OpCode::SlotLoad:
-      return bit ? fmt::format("RUNG_FLAG({})", layout_.slot(SlotId{op.ref}))
-                 : fmt::format("RUNG_MEM({}, {})", memoryType(op.type), layout_.slot(SlotId{op.ref}));
-    case OpCode::Now: return "static_cast<u64>(ctx->now_us)";
-    case OpCode::ServicePoll: return fmt::format("ctx->host->service_poll(ctx, {})", a(op, 0));
-    case OpCode::ServiceResult: return fmt::format("static_cast<u64>(ctx->host->service_result(ctx, {}, {}u))", a(op, 0), op.imm);
-    case OpCode::Store:
-    case OpCode::StoreAt:
-    case OpCode::StoreBitAt:
-    case OpCode::SlotStore:
-    case OpCode::If:
-    case OpCode::Else:
-    case OpCode::EndIf:
-    case OpCode::Loop:
-    case OpCode::EndLoop:
-    case OpCode::Message:
-    case OpCode::ServiceRequest:
-    case OpCode::Trap:
-    case OpCode::Note:
-    case OpCode::ProfEnter:
-    case OpCode::ProfLeave: break;
+  case OpCode::Const:
+    if (bit) return op.imm != 0 ? "true" : "false";
+    if (op.type == Type::F64) return fmt::format("fromBits(0x{:016x}ull)", static_cast<uint64_t>(op.imm));
+    return fmt::format("{}{}", static_cast<uint64_t>(op.imm), op.type == Type::I64 ? "ull" : "u");
+  case OpCode::Add: return call("add");
+  case OpCode::Sub: return call("sub");
+  case OpCode::Mul: return call("mul");
+  case OpCode::DivS: return call("divS");
+  case OpCode::DivU: return call("divU");
+  case OpCode::RemS: return call("remS");
+  case OpCode::RemU: return call("remU");
+  case OpCode::Neg: return call("neg");
+  // Of bits too: && and || would ask for jumps, which compilers then keep as conditional moves.
+  case OpCode::And: return bit ? infix("&") : cast(infix("&"));
+  case OpCode::Or: return bit ? infix("|") : cast(infix("|"));
+  case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
+  case OpCode::Not: return bit ? "!" + a(op, 0) : cast("~" + a(op, 0));
+  case OpCode::Shl: return call("shl");
+  case OpCode::ShrU: return call("shrU");
+  case OpCode::ShrS: return call("shrS");
+  case OpCode::PopCount: return call("popCount");
+  case OpCode::BcdEncode: return call("bcdEncode");
+  case OpCode::BcdDecode: return call("bcdDecode");
+  case OpCode::Eq:
+  case OpCode::FEq: return infix("==");
+  case OpCode::Ne: return infix("!=");
+  case OpCode::LtS: return call("ltS");
+  case OpCode::LeS: return call("leS");
+  case OpCode::LtU:
+  case OpCode::FLt: return infix("<");
+  case OpCode::LeU:
+  case OpCode::FLe: return infix("<=");
+  case OpCode::Select: return fmt::format("{} ? {} : {}", a(op, 0), a(op, 1), a(op, 2));
+  case OpCode::ZExt: return cast(a(op, 0));
+  case OpCode::SExt: {
+    const Type from = typeOf(*rung_, arg(*rung_, op, 0));
+    return from == Type::Bit ? cast(fmt::format("0 - static_cast<i64>({})", a(op, 0)))
+                             : cast(fmt::format("asSigned({})", a(op, 0)));
+  }
+  case OpCode::Trunc: return bit ? fmt::format("({} & 1) != 0", a(op, 0)) : cast(a(op, 0));
+  case OpCode::FAdd: return call("fadd");
+  case OpCode::FSub: return call("fsub");
+  case OpCode::FMul: return call("fmul");
+  case OpCode::FDiv: return call("fdiv");
+  case OpCode::FNeg: return call("fneg");
+  case OpCode::FAbs: return call("rung::sem::fabs");
+  case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
+  case OpCode::FToIntNearest: return call("fToIntNearest");
+  case OpCode::IntToF: return call("intToF");
+  case OpCode::BitsToF: return call("fromBits");
+  case OpCode::FToBits: return call("toBits");
+  case OpCode::Load: return load(op);
+  case OpCode::LoadAt:
+    if (op.count == 0) return "0";
+    return fmt::format("RUNG_AT({}, {}u, {}u, {}u, {})", memoryType(op.type), window(), op.count, unit, a(op, 0));
+  case OpCode::LoadBitAt:
+    if (op.count == 0) return "false";
+    return fmt::format("RUNG_BIT_AT({}u, {}u, {}u, {}, {})", window(), op.count, unit, a(op, 0), a(op, 1));
+  case OpCode::SlotLoad:
+    return bit ? fmt::format("RUNG_FLAG({})", layout_.slot(SlotId{op.ref}))
+               : fmt::format("RUNG_MEM({}, {})", memoryType(op.type), layout_.slot(SlotId{op.ref}));
+  case OpCode::Now: return "static_cast<u64>(ctx->now_us)";
+  case OpCode::ServicePoll: return fmt::format("ctx->host->service_poll(ctx, {})", a(op, 0));
+  case OpCode::ServiceResult:
+    return fmt::format("static_cast<u64>(ctx->host->service_result(ctx, {}, {}u))", a(op, 0), op.imm);
+  case OpCode::Store:
+  case OpCode::StoreAt:
+  case OpCode::StoreBitAt:
+  case OpCode::SlotStore:
+  case OpCode::If:
+  case OpCode::Else:
+  case OpCode::EndIf:
+  case OpCode::Loop:
+  case OpCode::EndLoop:
+  case OpCode::Message:
+  case OpCode::ServiceRequest:
+  case OpCode::Trap:
+  case OpCode::Note:
+  case OpCode::ProfEnter:
+  case OpCode::ProfLeave: break;
   }
   RUNG_CHECK(false, "not an operation with a value");
   return {};
@@ -260,44 +271,47 @@ void RungWriter::writeOp(const Op& op) {
   const size_t index = static_cast<size_t>(&op - rung_->ops.data());
   beginLine(op.line != 0 ? op.line : rung_->begin.line, false);
   switch (op.code) {
-    case OpCode::Store: return store(op);
-    case OpCode::StoreAt:
-    case OpCode::StoreBitAt: return storeAt(op);
-    case OpCode::SlotStore: {
-      const uint32_t offset = layout_.slot(SlotId{op.ref});
-      const std::string value = spoil(op.code, op.type, a(op, 0));
-      return statement(op.type == Type::Bit ? fmt::format("RUNG_SET_FLAG({}, {});", offset, value)
-                                            : fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), offset, value),
-                       module_.slots[op.ref].key);
-    }
-    case OpCode::If: return openIf(op, index);
-    case OpCode::Else:
-      yield(op, *regions_.back().end);
-      --indent_;
-      statement("} else {");
-      ++indent_;
-      return;
-    case OpCode::EndIf:
-      yield(op, op);
-      regions_.pop_back();
-      --indent_;
-      return statement("}");
-    case OpCode::Loop: return openLoop(op, index);
-    case OpCode::EndLoop: return closeLoop(op);
-    case OpCode::Message:
-    case OpCode::ServiceRequest:
-    case OpCode::ProfEnter:
-    case OpCode::ProfLeave: return host(op);
-    case OpCode::Trap:
-      return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", spoil(op.code, Type::Bit, a(op, 0)), op.ref, number_,
-                                   op.line != 0 ? op.line : rung_->begin.line),
-                       module_.faults[op.ref]);
-    case OpCode::Note: return statement("// " + commentText(rung_->notes[op.ref]));
-    default: break;
+  case OpCode::Store: return store(op);
+  case OpCode::StoreAt:
+  case OpCode::StoreBitAt: return storeAt(op);
+  case OpCode::SlotStore: {
+    const uint32_t offset = layout_.slot(SlotId{op.ref});
+    const std::string value = spoil(op.code, op.type, a(op, 0));
+    return statement(op.type == Type::Bit ? fmt::format("RUNG_SET_FLAG({}, {});", offset, value)
+                                          : fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), offset, value),
+                     module_.slots[op.ref].key);
+  }
+  case OpCode::If: return openIf(op, index);
+  case OpCode::Else:
+    yield(op, *regions_.back().end);
+    --indent_;
+    statement("} else {");
+    ++indent_;
+    return;
+  case OpCode::EndIf:
+    yield(op, op);
+    regions_.pop_back();
+    --indent_;
+    return statement("}");
+  case OpCode::Loop: return openLoop(op, index);
+  case OpCode::EndLoop: return closeLoop(op);
+  case OpCode::Message:
+  case OpCode::ServiceRequest:
+  case OpCode::ProfEnter:
+  case OpCode::ProfLeave: return host(op);
+  case OpCode::Trap:
+    return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", spoil(op.code, Type::Bit, a(op, 0)), op.ref, number_,
+                                 op.line != 0 ? op.line : rung_->begin.line),
+                     module_.faults[op.ref]);
+  case OpCode::Note: return statement("// " + commentText(rung_->notes[op.ref]));
+  default: break;
   }
   const Attr attr = opInfo(op.code).attr;
   const bool place = attr == Attr::Place || attr == Attr::Window;
-  declare(op, pure(op), place ? placeComment(op) : op.code == OpCode::SlotLoad ? module_.slots[op.ref].key : std::string());
+  declare(op, pure(op),
+          place                         ? placeComment(op)
+          : op.code == OpCode::SlotLoad ? module_.slots[op.ref].key
+                                        : std::string());
 }
 
 // ---- regions: results of an endif and the carried values of a loop are variables declared in front ---------------
@@ -326,10 +340,12 @@ void RungWriter::openLoop(const Op& op, size_t index) {
   const std::string pass = v(op.result);
   for (uint32_t i = 1; i < op.resultCount; ++i) {
     const ValueId id{op.result.index + i};
-    statement(fmt::format("{} {} = {};", cppType(typeOf(*rung_, id)), v(id), spoil(op.code, typeOf(*rung_, id), a(op, static_cast<int>(i - 1)))));
+    statement(fmt::format("{} {} = {};", cppType(typeOf(*rung_, id)), v(id),
+                          spoil(op.code, typeOf(*rung_, id), a(op, static_cast<int>(i - 1)))));
   }
   const bool wrongCount = options_.sabotage == op.code && op.resultCount == 1;
-  statement(fmt::format("for (u32 {0} = 0; {0} < {1}u; ++{0}) {{", pass, wrongCount && op.count > 0 ? op.count - 1 : op.count));
+  statement(fmt::format("for (u32 {0} = 0; {0} < {1}u; ++{0}) {{", pass,
+                        wrongCount && op.count > 0 ? op.count - 1 : op.count));
   ++indent_;
 }
 
@@ -338,13 +354,16 @@ void RungWriter::closeLoop(const Op& op) {
   regions_.pop_back();
   // All next values are read before the first is carried on.
   for (uint32_t i = 0; i < op.argCount; ++i)
-    statement(fmt::format("const {} n{} = {};", cppType(typeOf(*rung_, arg(*rung_, op, static_cast<int>(i)))), i, a(op, static_cast<int>(i))));
-  for (uint32_t i = 0; i < op.argCount; ++i) statement(fmt::format("{} = n{};", v(ValueId{begin.result.index + 1 + i}), i));
+    statement(fmt::format("const {} n{} = {};", cppType(typeOf(*rung_, arg(*rung_, op, static_cast<int>(i)))), i,
+                          a(op, static_cast<int>(i))));
+  for (uint32_t i = 0; i < op.argCount; ++i)
+    statement(fmt::format("{} = n{};", v(ValueId{begin.result.index + 1 + i}), i));
   --indent_;
   statement("}");
   for (uint32_t i = 0; i < op.resultCount; ++i) {
     const ValueId id{op.result.index + i};
-    statement(fmt::format("const {} {} = {};", cppType(typeOf(*rung_, id)), v(id), spoil(op.code, typeOf(*rung_, id), v(ValueId{begin.result.index + 1 + i}))));
+    statement(fmt::format("const {} {} = {};", cppType(typeOf(*rung_, id)), v(id),
+                          spoil(op.code, typeOf(*rung_, id), v(ValueId{begin.result.index + 1 + i}))));
   }
 }
 
@@ -361,39 +380,46 @@ void RungWriter::host(const Op& op) {
   }
   if (op.code == OpCode::Message) {
     const bool real = typeOf(*rung_, arg(*rung_, op, 3)) == Type::F64;
-    return statement(fmt::format("RUNG_MESSAGE({}u, {}, {}, {}, {}, {}u, {}u)", op.ref, spoil(op.code, Type::I32, a(op, 0)), a(op, 1), a(op, 2),
+    return statement(fmt::format("RUNG_MESSAGE({}u, {}, {}, {}, {}, {}u, {}u)", op.ref,
+                                 spoil(op.code, Type::I32, a(op, 0)), a(op, 1), a(op, 2),
                                  real ? fmt::format("toBits({})", a(op, 3)) : a(op, 3), real ? 1 : 0, number_));
   }
   const std::string array = fmt::format("a{}", op.result.index);
   std::string values;
-  for (uint32_t i = 0; i < op.argCount; ++i) values += fmt::format("{}static_cast<i64>({})", i == 0 ? "" : ", ", a(op, static_cast<int>(i)));
+  for (uint32_t i = 0; i < op.argCount; ++i)
+    values += fmt::format("{}static_cast<i64>({})", i == 0 ? "" : ", ", a(op, static_cast<int>(i)));
   statement(fmt::format("const i64 {}[{}] = {{{}}};", array, std::max(1u, unsigned{op.argCount}), values));
-  declare(op, fmt::format("ctx->host->service_request(ctx, {}u, {}, {}u)", op.ref, array, op.argCount), module_.services[op.ref]);
+  declare(op, fmt::format("ctx->host->service_request(ctx, {}u, {}, {}u)", op.ref, array, op.argCount),
+          module_.services[op.ref]);
 }
 
 // ---- exits -------------------------------------------------------------------------------------------------------
 
 void RungWriter::writeExit(const Exit& exit) {
-  const auto leave = [](uint32_t chunk) { return chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", chunk); };
+  const auto leave = [](uint32_t chunk) {
+    return chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", chunk);
+  };
   const std::string when = exit.cond.valid() ? fmt::format("if ({}) ", v(exit.cond)) : "";
   const bool always = !exit.cond.valid();
   beginLine(rung_->transferLine != 0 ? rung_->transferLine : rung_->begin.line, true);
   switch (exit.kind) {
-    case TransferKind::Next: statement(leave(exit.otherwise)); break;
-    case TransferKind::Goto: statement(when + leave(exit.taken)); break;
-    case TransferKind::Call:
-      // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
-      statement(exit.otherwise == RUNG_NONE ? when + leave(exit.taken) : fmt::format("{}RUNG_CALL({}u, {}u)", when, exit.otherwise, exit.taken));
-      break;
-    case TransferKind::Ret: statement(when + "RUNG_RETURN;"); break;
-    case TransferKind::End: statement(when + "return RUNG_PC_DONE;"); break;
-    case TransferKind::Switch: {
-      statement(fmt::format("switch ({}) {{", v(exit.value)));
-      for (size_t i = 1; i < exit.targets.size(); ++i) statement(fmt::format("  case {}u: return {}u;", i, exit.targets[i]));
-      statement(fmt::format("  default: return {}u;", exit.targets[0]));
-      statement("}");
-      break;
-    }
+  case TransferKind::Next: statement(leave(exit.otherwise)); break;
+  case TransferKind::Goto: statement(when + leave(exit.taken)); break;
+  case TransferKind::Call:
+    // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
+    statement(exit.otherwise == RUNG_NONE ? when + leave(exit.taken)
+                                          : fmt::format("{}RUNG_CALL({}u, {}u)", when, exit.otherwise, exit.taken));
+    break;
+  case TransferKind::Ret: statement(when + "RUNG_RETURN;"); break;
+  case TransferKind::End: statement(when + "return RUNG_PC_DONE;"); break;
+  case TransferKind::Switch: {
+    statement(fmt::format("switch ({}) {{", v(exit.value)));
+    for (size_t i = 1; i < exit.targets.size(); ++i)
+      statement(fmt::format("  case {}u: return {}u;", i, exit.targets[i]));
+    statement(fmt::format("  default: return {}u;", exit.targets[0]));
+    statement("}");
+    break;
+  }
   }
   if (!always && exit.kind != TransferKind::Next && exit.kind != TransferKind::Switch) statement(leave(exit.otherwise));
   endLine();

@@ -10,17 +10,17 @@ namespace rung::codegen {
 
 // Names of places, for comments: the first symbol that lies exactly there.
 class PlaceNames {
- public:
+public:
   explicit PlaceNames(const ir::Module& module);
   // Empty when no symbol lies there. `bitOffset` counts from the beginning of the space.
   std::string_view at(uint32_t space, int64_t bitOffset, bool bit) const;
 
- private:
+private:
   std::unordered_map<uint64_t, const std::string*> names_;
 };
 
 class RungWriter {
- public:
+public:
   RungWriter(const ir::Layout& layout, const PlaceNames& names, const CppOptions& options, std::string& out)
       : layout_(layout), module_(layout.module()), names_(names), options_(options), out_(out) {}
 
@@ -29,7 +29,7 @@ class RungWriter {
   // How the chunk is left behind its last rung, which is the one written last.
   void writeExit(const ir::Exit& exit);
 
- private:
+private:
   void beginLine(uint32_t line, bool force);
   void endLine();
   void statement(std::string_view text, std::string_view comment = {});

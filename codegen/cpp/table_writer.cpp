@@ -13,7 +13,7 @@ using namespace ir;
 namespace {
 
 class TableWriter {
- public:
+public:
   TableWriter(std::string_view chunkTable, std::string& out) : chunkTable_(chunkTable), out_(out) {}
 
   // The initialiser of one struct; arrays it points to are written in front of it.
@@ -26,8 +26,9 @@ class TableWriter {
     return text + "}";
   }
 
- private:
-  template <class T> static T read(const std::byte* at) {
+private:
+  template <class T>
+  static T read(const std::byte* at) {
     T value;
     std::memcpy(&value, at, sizeof value);
     return value;
@@ -37,24 +38,32 @@ class TableWriter {
     const std::byte* at = base + field.offset;
     const auto count = [&] { return read<uint32_t>(base + field.countOffset); };
     switch (field.kind) {
-      case FieldKind::U32: return fmt::format("{}u", read<uint32_t>(at));
-      case FieldKind::U64: return fmt::format("0x{:016x}ull", read<uint64_t>(at));
-      case FieldKind::I64: return fmt::format("static_cast<int64_t>({}ull)", static_cast<uint64_t>(read<int64_t>(at)));
-      case FieldKind::Text: return cppString(read<const char*>(at));
-      case FieldKind::Bytes: return array("uint8_t", field.name, count(), [&](uint32_t i) { return fmt::format("{}", read<const uint8_t*>(at)[i]); });
-      case FieldKind::U32s: return array("uint32_t", field.name, count(), [&](uint32_t i) { return fmt::format("{}u", read<const uint32_t*>(at)[i]); });
-      case FieldKind::Texts: return array("char *const", field.name, count(), [&](uint32_t i) { return cppString(read<const char* const*>(at)[i]); });
-      case FieldKind::Structs: {
-        const std::byte* first = read<const std::byte*>(at);
-        return array(field.element->name, field.name, count(), [&](uint32_t i) { return structText(*field.element, first + i * field.element->size); });
-      }
-      case FieldKind::ChunkFns: return std::string(chunkTable_);
-      case FieldKind::Null: return "nullptr";
+    case FieldKind::U32: return fmt::format("{}u", read<uint32_t>(at));
+    case FieldKind::U64: return fmt::format("0x{:016x}ull", read<uint64_t>(at));
+    case FieldKind::I64: return fmt::format("static_cast<int64_t>({}ull)", static_cast<uint64_t>(read<int64_t>(at)));
+    case FieldKind::Text: return cppString(read<const char*>(at));
+    case FieldKind::Bytes:
+      return array("uint8_t", field.name, count(),
+                   [&](uint32_t i) { return fmt::format("{}", read<const uint8_t*>(at)[i]); });
+    case FieldKind::U32s:
+      return array("uint32_t", field.name, count(),
+                   [&](uint32_t i) { return fmt::format("{}u", read<const uint32_t*>(at)[i]); });
+    case FieldKind::Texts:
+      return array("char *const", field.name, count(),
+                   [&](uint32_t i) { return cppString(read<const char* const*>(at)[i]); });
+    case FieldKind::Structs: {
+      const std::byte* first = read<const std::byte*>(at);
+      return array(field.element->name, field.name, count(),
+                   [&](uint32_t i) { return structText(*field.element, first + i * field.element->size); });
+    }
+    case FieldKind::ChunkFns: return std::string(chunkTable_);
+    case FieldKind::Null: return "nullptr";
     }
     return {};
   }
 
-  template <class Element> std::string array(std::string_view type, std::string_view name, uint32_t count, Element element) {
+  template <class Element>
+  std::string array(std::string_view type, std::string_view name, uint32_t count, Element element) {
     if (count == 0) return "nullptr";
     std::string body;
     for (uint32_t i = 0; i < count; ++i) {
@@ -79,9 +88,12 @@ std::string cppString(std::string_view text) {
   for (char c : text) {
     const unsigned char byte = static_cast<unsigned char>(c);
     // Three octal digits end by themselves, so that a digit may follow; `?` is escaped against trigraphs.
-    if (c == '"' || c == '\\' || c == '?') fmt::format_to(std::back_inserter(out), "\\{}", c);
-    else if (byte < 32 || byte > 126) fmt::format_to(std::back_inserter(out), "\\{:03o}", byte);
-    else out += c;
+    if (c == '"' || c == '\\' || c == '?')
+      fmt::format_to(std::back_inserter(out), "\\{}", c);
+    else if (byte < 32 || byte > 126)
+      fmt::format_to(std::back_inserter(out), "\\{:03o}", byte);
+    else
+      out += c;
   }
   return out + "\"";
 }
@@ -90,7 +102,8 @@ void writeTables(const rung_program& program, std::string_view chunkTable, std::
   TableWriter writer(chunkTable, out);
   const std::string text = writer.structText(programInfo(), reinterpret_cast<const std::byte*>(&program));
   fmt::format_to(std::back_inserter(out),
-                 "\nextern \"C\" __attribute__((visibility(\"default\"))) const rung_program {0};\nconst rung_program {0} = {1};\n",
+                 "\nextern \"C\" __attribute__((visibility(\"default\"))) const rung_program {0};\nconst rung_program "
+                 "{0} = {1};\n",
                  RUNG_PROGRAM_SYMBOL, text);
 }
 

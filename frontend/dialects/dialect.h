@@ -1,5 +1,5 @@
-// What a dialect gives to the rest: its name, its table, and a function from source files to a module. Nothing behind it
-// knows a mnemonic. registry.cpp lists the dialects.
+// What a dialect gives to the rest: its name, its table, and a function from source files to a module. Nothing behind
+// it knows a mnemonic. registry.cpp lists the dialects.
 #pragma once
 #include <map>
 #include <memory>
@@ -15,25 +15,26 @@
 namespace rung::frontend {
 
 struct CompileOptions {
-  // The dialect's configuration (scenario `config KEY VALUE`), and the key "period_us" when a period was asked for. Keys that the
-  // compiler does not use are none of its business: they may be the NC model's.
+  // The dialect's configuration (scenario `config KEY VALUE`), and the key "period_us" when a period was asked for.
+  // Keys that the compiler does not use are none of its business: they may be the NC model's.
   std::map<std::string, std::string> config;
   bool strict = false; // warnings that the inventory calls errors in strict mode are errors
 };
 
 struct Dialect {
-  std::string_view name;  // "gsk"
-  std::string_view title; // "GSK25iMc / GSK25iTc PLC"
+  std::string_view name;                        // "gsk"
+  std::string_view title;                       // "GSK25iMc / GSK25iTc PLC"
   std::span<const std::string_view> extensions; // of source files that need not name the dialect, e.g. ".pmc"
-  std::span<const std::string_view> configKeys; // what compile reads from CompileOptions::config; "tmr.*" names a family
+  std::span<const std::string_view>
+      configKeys; // what compile reads from CompileOptions::config; "tmr.*" names a family
   // The rows, in the order of the reference.
   std::span<const InstructionInfo* const> instructions;
   std::span<const OperandKindInfo> operandKinds;
   // Whether a row of `instructions` can be compiled; the others give the diagnostic not-built-yet or service-not-built.
   bool (*isBuilt)(const InstructionInfo& row);
   // Null when there were errors; every error of all files has been reported. The module passes the verifier.
-  std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
-                                         Diagnostics& diagnostics);
+  std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files,
+                                         const CompileOptions& options, Diagnostics& diagnostics);
 };
 
 // All dialects, and one by its name; null when there is none.

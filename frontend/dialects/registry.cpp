@@ -25,7 +25,8 @@ const Dialect* findDialect(std::string_view name) {
 const Dialect* dialectOf(const SourceManager& sources, FileId file) {
   if (const Dialect* named = findDialect(ladder::peekDialect(sources, file))) return named;
   std::string name(sources.name(file));
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Dialect* dialect : allDialects())
     for (std::string_view extension : dialect->extensions)
       if (name.ends_with(extension)) return dialect;

@@ -1,6 +1,6 @@
-// The row of an instruction: everything about it that is data. A dialect's table is a constexpr array of rows, each with
-// its lowering function beside it; parser, checker, reference pages, `rungc explain` and the table tests read the rows.
-// A new instruction is one row, one lowering function (often shared), one scenario.
+// The row of an instruction: everything about it that is data. A dialect's table is a constexpr array of rows, each
+// with its lowering function beside it; parser, checker, reference pages, `rungc explain` and the table tests read the
+// rows. A new instruction is one row, one lowering function (often shared), one scenario.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,7 +11,8 @@
 namespace rung::frontend {
 
 // A list of at most N entries that a constexpr row can hold.
-template <class T, size_t N> struct FixedList {
+template <class T, size_t N>
+struct FixedList {
   std::array<T, N> items{};
   size_t count = 0;
 
@@ -60,28 +61,28 @@ enum class Placement : uint8_t {
 
 struct InstructionInfo {
   std::string_view mnemonic;
-  std::string_view title;             // a few words
-  std::string_view group;             // category, for the reference
-  int number = -1;                    // GSK's function number
+  std::string_view title; // a few words
+  std::string_view group; // category, for the reference
+  int number = -1;        // GSK's function number
   FixedList<PinInfo, 6> pins{};
   FixedList<OperandInfo, 8> operands{};
   Output output = Output::None;
   Placement placement = Placement::BehindContact;
-  bool terminating = false;           // TECHNOL: closes the logic equation
-  bool stateful = false;              // keeps something between its runs
-  std::string_view tasks{};           // where it may stand, empty: everywhere
-  std::string_view ref;               // manual: section and line, e.g. "5.7, l.1271"
-  std::string_view doc;               // what it does, in full
-  std::string_view example{};         // source text
+  bool terminating = false;   // TECHNOL: closes the logic equation
+  bool stateful = false;      // keeps something between its runs
+  std::string_view tasks{};   // where it may stand, empty: everywhere
+  std::string_view ref;       // manual: section and line, e.g. "5.7, l.1271"
+  std::string_view doc;       // what it does, in full
+  std::string_view example{}; // source text
 };
 
 // A class of operands, for the reference and for tests generated from the rows.
 struct OperandKindInfo {
   std::string_view kind;
-  std::string_view doc;      // what may be written
-  std::string_view good{};   // an operand that is right
-  std::string_view bad{};    // one that is wrong
-  std::string_view badCode{};// the diagnostic that `bad` raises
+  std::string_view doc;       // what may be written
+  std::string_view good{};    // an operand that is right
+  std::string_view bad{};     // one that is wrong
+  std::string_view badCode{}; // the diagnostic that `bad` raises
 };
 
 } // namespace rung::frontend

@@ -26,7 +26,8 @@ void RungBuilder::checkArgs(const Op& op) const {
   const int fixed = fixedOperands(info);
   RUNG_CHECK(isVariadic(info) ? op.argCount >= fixed : op.argCount == fixed, "wrong number of operands");
   for (int i = 0; i < fixed; ++i)
-    RUNG_CHECK(satisfies(info.operands[static_cast<size_t>(i)], op.type, typeOf(arg(rung_, op, i))), "operand of the wrong type");
+    RUNG_CHECK(satisfies(info.operands[static_cast<size_t>(i)], op.type, typeOf(arg(rung_, op, i))),
+               "operand of the wrong type");
 }
 
 ValueId RungBuilder::newResult(Op& op, Type type) {
@@ -153,7 +154,8 @@ std::vector<ValueId> RungBuilder::loop(uint32_t count, std::span<const ValueId> 
 }
 
 std::vector<ValueId> RungBuilder::endLoop(std::span<const ValueId> next) {
-  RUNG_CHECK(!yieldTypes_.empty() && yieldTypes_.back().size() == next.size(), "a loop carries on the values it began with");
+  RUNG_CHECK(!yieldTypes_.empty() && yieldTypes_.back().size() == next.size(),
+             "a loop carries on the values it began with");
   const std::vector<Type> types = std::move(yieldTypes_.back());
   yieldTypes_.pop_back();
   Op& added = append(OpCode::EndLoop, Type::None, next);

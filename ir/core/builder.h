@@ -27,7 +27,7 @@ struct Window {
 };
 
 class RungBuilder {
- public:
+public:
   // `rung` and `module` outlive the builder; the rung starts empty.
   RungBuilder(const Module& module, Rung& rung) : module_(module), rung_(rung) {}
 
@@ -97,7 +97,7 @@ class RungBuilder {
   void end(ValueId cond = {});
   void switchTo(ValueId value, std::vector<uint32_t> targets);
 
- private:
+private:
   Op& append(OpCode code, Type type, std::span<const ValueId> args);
   ValueId newResult(Op& op, Type type);
   ValueId resize(OpCode widen, Type type, ValueId a);

@@ -49,8 +49,8 @@ enum class TransferKind : uint8_t {
 // Falling off the last rung of a routine returns.
 struct Transfer {
   TransferKind kind = TransferKind::Next;
-  ValueId cond{};      // bit
-  ValueId value{};     // Switch: i32, unsigned
+  ValueId cond{};  // bit
+  ValueId value{}; // Switch: i32, unsigned
   uint32_t target = 0;
   RoutineId callee{};
   std::vector<uint32_t> targets{};
@@ -64,11 +64,11 @@ struct Rung {
   uint64_t key = 0;    // stable while the rung's text is unchanged
   uint32_t weight = 1; // steps, as the dialect counts them
   std::vector<Op> ops;
-  std::vector<ValueId> args;  // operands of all ops
-  std::vector<Type> values;   // type of each value
+  std::vector<ValueId> args; // operands of all ops
+  std::vector<Type> values;  // type of each value
   std::vector<std::string> notes;
   Transfer transfer;
-  uint32_t transferLine = 0;  // source line of the transfer; 0: the first line of the rung
+  uint32_t transferLine = 0; // source line of the transfer; 0: the first line of the rung
 };
 
 struct Routine {

@@ -24,32 +24,32 @@ inline constexpr int kOpCount = 0
 
 // What an operand or the result must be, in terms of the operation's own type T (`Op::type`).
 enum class Constraint : uint8_t {
-  None,      // not there
-  Same,      // T
-  Bit,       // bit
-  I32,       // i32
-  I64,       // i64
-  F64,       // f64
-  Narrower,  // bit or an integer narrower than T
-  Wider,     // an integer wider than T
-  AnyInt,    // any integer type but bit
-  Any,       // any type
-  Variadic,  // last entry only: any number of operands, each of any type
+  None,     // not there
+  Same,     // T
+  Bit,      // bit
+  I32,      // i32
+  I64,      // i64
+  F64,      // f64
+  Narrower, // bit or an integer narrower than T
+  Wider,    // an integer wider than T
+  AnyInt,   // any integer type but bit
+  Any,      // any type
+  Variadic, // last entry only: any number of operands, each of any type
 };
 
 // What stands behind the operands, and which fields of Op carry it.
 enum class Attr : uint8_t {
   None,
-  Literal,  // imm: the constant's bits
-  Place,    // ref: space, imm: bit offset of the accessed bit or first byte in the space
-  Window,   // ref: space, imm: bit offset of element 0, count: elements that may be addressed
-  Slot,     // ref: slot
-  Count,    // count: iterations
-  MessageOp,// ref: enum rung_message_op
-  Service,  // ref: service
-  ResultNo, // imm: index of the result
-  Fault,    // ref: fault
-  Text,     // ref: text in Rung::notes
+  Literal,   // imm: the constant's bits
+  Place,     // ref: space, imm: bit offset of the accessed bit or first byte in the space
+  Window,    // ref: space, imm: bit offset of element 0, count: elements that may be addressed
+  Slot,      // ref: slot
+  Count,     // count: iterations
+  MessageOp, // ref: enum rung_message_op
+  Service,   // ref: service
+  ResultNo,  // imm: index of the result
+  Fault,     // ref: fault
+  Text,      // ref: text in Rung::notes
 };
 
 enum Effect : uint8_t {
@@ -65,12 +65,12 @@ enum Effect : uint8_t {
 struct OpInfo {
   OpCode code;
   std::string_view name;
-  TypeSet types;                       // legal T; kNoTypes where the operation has no type
+  TypeSet types; // legal T; kNoTypes where the operation has no type
   std::array<Constraint, 4> operands;
   Constraint result;
   Attr attr;
-  uint8_t effects;                     // Effect
-  std::string_view doc;                // one or two sentences, with the result of every odd input
+  uint8_t effects;      // Effect
+  std::string_view doc; // one or two sentences, with the result of every odd input
 };
 
 const OpInfo& opInfo(OpCode code);

@@ -29,10 +29,10 @@ constexpr std::optional<Type> typeFromName(std::string_view name) {
 // The integer type of a width in bytes (1, 2, 4, 8).
 constexpr Type intOfBytes(uint32_t bytes) {
   switch (bytes) {
-    case 1: return Type::I8;
-    case 2: return Type::I16;
-    case 4: return Type::I32;
-    case 8: return Type::I64;
+  case 1: return Type::I8;
+  case 2: return Type::I16;
+  case 4: return Type::I32;
+  case 8: return Type::I64;
   }
   return Type::None;
 }

@@ -5,26 +5,27 @@ namespace rung::ir {
 namespace {
 
 // Private to this file: a row names its field once, struct and member.
-#define RUNG_FIELD(st, member, kind) FieldInfo{#member, FieldKind::kind, offsetof(st, member)}
-#define RUNG_ARRAY(st, member, counter, kind) FieldInfo{#member, FieldKind::kind, offsetof(st, member), offsetof(st, counter)}
-#define RUNG_STRUCTS(st, member, counter, info) \
-  FieldInfo{#member, FieldKind::Structs, offsetof(st, member), offsetof(st, counter), &info}
+#define RUNG_FIELD(st, member, kind)                                                                                   \
+  FieldInfo { #member, FieldKind::kind, offsetof(st, member) }
+#define RUNG_ARRAY(st, member, counter, kind)                                                                          \
+  FieldInfo { #member, FieldKind::kind, offsetof(st, member), offsetof(st, counter) }
+#define RUNG_STRUCTS(st, member, counter, info)                                                                        \
+  FieldInfo { #member, FieldKind::Structs, offsetof(st, member), offsetof(st, counter), &info }
 
-constexpr FieldInfo kRangeFields[] = {
-    RUNG_FIELD(rung_range, first_byte, U32), RUNG_FIELD(rung_range, byte_count, U32),
-    RUNG_FIELD(rung_range, offset, U32), RUNG_FIELD(rung_range, repr, U32)};
+constexpr FieldInfo kRangeFields[] = {RUNG_FIELD(rung_range, first_byte, U32), RUNG_FIELD(rung_range, byte_count, U32),
+                                      RUNG_FIELD(rung_range, offset, U32), RUNG_FIELD(rung_range, repr, U32)};
 constexpr StructInfo kRange{"rung_range", sizeof(rung_range), kRangeFields};
 
 constexpr FieldInfo kSpaceFields[] = {
-    RUNG_FIELD(rung_space, name, Text), RUNG_FIELD(rung_space, unit_bytes, U32), RUNG_FIELD(rung_space, byte_count, U32),
-    RUNG_FIELD(rung_space, flags, U32), RUNG_FIELD(rung_space, range_count, U32),
-    RUNG_STRUCTS(rung_space, ranges, range_count, kRange)};
+    RUNG_FIELD(rung_space, name, Text),       RUNG_FIELD(rung_space, unit_bytes, U32),
+    RUNG_FIELD(rung_space, byte_count, U32),  RUNG_FIELD(rung_space, flags, U32),
+    RUNG_FIELD(rung_space, range_count, U32), RUNG_STRUCTS(rung_space, ranges, range_count, kRange)};
 constexpr StructInfo kSpace{"rung_space", sizeof(rung_space), kSpaceFields};
 
 constexpr FieldInfo kSymbolFields[] = {
     RUNG_FIELD(rung_symbol, name, Text), RUNG_FIELD(rung_symbol, comment, Text), RUNG_FIELD(rung_symbol, space, U32),
-    RUNG_FIELD(rung_symbol, byte, U32), RUNG_FIELD(rung_symbol, bit, U32), RUNG_FIELD(rung_symbol, type, U32),
-    RUNG_FIELD(rung_symbol, count, U32), RUNG_FIELD(rung_symbol, flags, U32), RUNG_FIELD(rung_symbol, value, I64)};
+    RUNG_FIELD(rung_symbol, byte, U32),  RUNG_FIELD(rung_symbol, bit, U32),      RUNG_FIELD(rung_symbol, type, U32),
+    RUNG_FIELD(rung_symbol, count, U32), RUNG_FIELD(rung_symbol, flags, U32),    RUNG_FIELD(rung_symbol, value, I64)};
 constexpr StructInfo kSymbol{"rung_symbol", sizeof(rung_symbol), kSymbolFields};
 
 constexpr FieldInfo kInitFields[] = {RUNG_FIELD(rung_init, offset, U32), RUNG_FIELD(rung_init, size, U32),
@@ -34,8 +35,9 @@ constexpr StructInfo kInit{"rung_init", sizeof(rung_init), kInitFields};
 constexpr FieldInfo kSpanFields[] = {RUNG_FIELD(rung_span, offset, U32), RUNG_FIELD(rung_span, size, U32)};
 constexpr StructInfo kSpan{"rung_span", sizeof(rung_span), kSpanFields};
 
-constexpr FieldInfo kCopyFields[] = {RUNG_FIELD(rung_copy, kind, U32), RUNG_FIELD(rung_copy, from, U32), RUNG_FIELD(rung_copy, to, U32),
-                                     RUNG_FIELD(rung_copy, mask, U32), RUNG_FIELD(rung_copy, size, U32)};
+constexpr FieldInfo kCopyFields[] = {RUNG_FIELD(rung_copy, kind, U32), RUNG_FIELD(rung_copy, from, U32),
+                                     RUNG_FIELD(rung_copy, to, U32), RUNG_FIELD(rung_copy, mask, U32),
+                                     RUNG_FIELD(rung_copy, size, U32)};
 constexpr StructInfo kCopy{"rung_copy", sizeof(rung_copy), kCopyFields};
 
 constexpr FieldInfo kChunkFields[] = {RUNG_FIELD(rung_chunk, first_rung, U32), RUNG_FIELD(rung_chunk, rung_count, U32),
@@ -43,69 +45,71 @@ constexpr FieldInfo kChunkFields[] = {RUNG_FIELD(rung_chunk, first_rung, U32), R
 constexpr StructInfo kChunk{"rung_chunk", sizeof(rung_chunk), kChunkFields};
 
 constexpr FieldInfo kRungFields[] = {
-    RUNG_FIELD(rung_rung_info, title, Text), RUNG_FIELD(rung_rung_info, file, U32), RUNG_FIELD(rung_rung_info, first_line, U32),
-    RUNG_FIELD(rung_rung_info, last_line, U32), RUNG_FIELD(rung_rung_info, routine, U32), RUNG_FIELD(rung_rung_info, key, U64)};
+    RUNG_FIELD(rung_rung_info, title, Text),     RUNG_FIELD(rung_rung_info, file, U32),
+    RUNG_FIELD(rung_rung_info, first_line, U32), RUNG_FIELD(rung_rung_info, last_line, U32),
+    RUNG_FIELD(rung_rung_info, routine, U32),    RUNG_FIELD(rung_rung_info, key, U64)};
 constexpr StructInfo kRung{"rung_rung_info", sizeof(rung_rung_info), kRungFields};
 
-constexpr FieldInfo kTaskFields[] = {
-    RUNG_FIELD(rung_task, name, Text), RUNG_FIELD(rung_task, entry, U32), RUNG_FIELD(rung_task, period_us, U32),
-    RUNG_FIELD(rung_task, budget, U32), RUNG_FIELD(rung_task, budget_fault, U32), RUNG_FIELD(rung_task, begin_first, U32),
-    RUNG_FIELD(rung_task, begin_count, U32), RUNG_FIELD(rung_task, end_first, U32), RUNG_FIELD(rung_task, end_count, U32),
-    RUNG_FIELD(rung_task, part_first, U32), RUNG_FIELD(rung_task, part_count, U32)};
+constexpr FieldInfo kTaskFields[] = {RUNG_FIELD(rung_task, name, Text),        RUNG_FIELD(rung_task, entry, U32),
+                                     RUNG_FIELD(rung_task, period_us, U32),    RUNG_FIELD(rung_task, budget, U32),
+                                     RUNG_FIELD(rung_task, budget_fault, U32), RUNG_FIELD(rung_task, begin_first, U32),
+                                     RUNG_FIELD(rung_task, begin_count, U32),  RUNG_FIELD(rung_task, end_first, U32),
+                                     RUNG_FIELD(rung_task, end_count, U32),    RUNG_FIELD(rung_task, part_first, U32),
+                                     RUNG_FIELD(rung_task, part_count, U32)};
 constexpr StructInfo kTask{"rung_task", sizeof(rung_task), kTaskFields};
 
-constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(rung_step, task, U32), RUNG_FIELD(rung_step, arg, U32)};
+constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(rung_step, task, U32),
+                                     RUNG_FIELD(rung_step, arg, U32)};
 constexpr StructInfo kStep{"rung_step", sizeof(rung_step), kStepFields};
 
-constexpr FieldInfo kProgramFields[] = {
-    RUNG_FIELD(rung_program, size, U32),
-    RUNG_FIELD(rung_program, abi_version, U32),
-    RUNG_FIELD(rung_program, name, Text),
-    RUNG_FIELD(rung_program, dialect, Text),
-    RUNG_FIELD(rung_program, compiler, Text),
-    RUNG_FIELD(rung_program, layout_hash, U64),
-    RUNG_FIELD(rung_program, code_hash, U64),
-    RUNG_FIELD(rung_program, memory_size, U32),
-    RUNG_FIELD(rung_program, memory_align, U32),
-    RUNG_FIELD(rung_program, instrumented, U32),
-    RUNG_FIELD(rung_program, main_task, U32),
-    RUNG_FIELD(rung_program, fast_task, U32),
-    RUNG_FIELD(rung_program, space_count, U32),
-    RUNG_FIELD(rung_program, symbol_count, U32),
-    RUNG_FIELD(rung_program, init_count, U32),
-    RUNG_FIELD(rung_program, retain_count, U32),
-    RUNG_FIELD(rung_program, safe_count, U32),
-    RUNG_FIELD(rung_program, copy_count, U32),
-    RUNG_FIELD(rung_program, chunk_count, U32),
-    RUNG_FIELD(rung_program, rung_count, U32),
-    RUNG_FIELD(rung_program, routine_count, U32),
-    RUNG_FIELD(rung_program, file_count, U32),
-    RUNG_FIELD(rung_program, task_count, U32),
-    RUNG_FIELD(rung_program, part_end_count, U32),
-    RUNG_FIELD(rung_program, scan_count, U32),
-    RUNG_FIELD(rung_program, fast_count, U32),
-    RUNG_FIELD(rung_program, fault_count, U32),
-    RUNG_FIELD(rung_program, service_count, U32),
-    RUNG_FIELD(rung_program, text_count, U32),
-    RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
-    RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
-    RUNG_STRUCTS(rung_program, inits, init_count, kInit),
-    RUNG_STRUCTS(rung_program, retains, retain_count, kSpan),
-    RUNG_STRUCTS(rung_program, safes, safe_count, kSpan),
-    RUNG_STRUCTS(rung_program, copies, copy_count, kCopy),
-    RUNG_STRUCTS(rung_program, chunks, chunk_count, kChunk),
-    RUNG_STRUCTS(rung_program, rungs, rung_count, kRung),
-    RUNG_ARRAY(rung_program, routines, routine_count, Texts),
-    RUNG_ARRAY(rung_program, files, file_count, Texts),
-    RUNG_STRUCTS(rung_program, tasks, task_count, kTask),
-    RUNG_ARRAY(rung_program, part_ends, part_end_count, U32s),
-    RUNG_STRUCTS(rung_program, scan, scan_count, kStep),
-    RUNG_STRUCTS(rung_program, fast, fast_count, kStep),
-    RUNG_ARRAY(rung_program, faults, fault_count, Texts),
-    RUNG_ARRAY(rung_program, services, service_count, Texts),
-    RUNG_ARRAY(rung_program, texts, text_count, Texts),
-    RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
-    RUNG_FIELD(rung_program, run_chunk, Null)};
+constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, U32),
+                                        RUNG_FIELD(rung_program, abi_version, U32),
+                                        RUNG_FIELD(rung_program, name, Text),
+                                        RUNG_FIELD(rung_program, dialect, Text),
+                                        RUNG_FIELD(rung_program, compiler, Text),
+                                        RUNG_FIELD(rung_program, layout_hash, U64),
+                                        RUNG_FIELD(rung_program, code_hash, U64),
+                                        RUNG_FIELD(rung_program, memory_size, U32),
+                                        RUNG_FIELD(rung_program, memory_align, U32),
+                                        RUNG_FIELD(rung_program, instrumented, U32),
+                                        RUNG_FIELD(rung_program, main_task, U32),
+                                        RUNG_FIELD(rung_program, fast_task, U32),
+                                        RUNG_FIELD(rung_program, space_count, U32),
+                                        RUNG_FIELD(rung_program, symbol_count, U32),
+                                        RUNG_FIELD(rung_program, init_count, U32),
+                                        RUNG_FIELD(rung_program, retain_count, U32),
+                                        RUNG_FIELD(rung_program, safe_count, U32),
+                                        RUNG_FIELD(rung_program, copy_count, U32),
+                                        RUNG_FIELD(rung_program, chunk_count, U32),
+                                        RUNG_FIELD(rung_program, rung_count, U32),
+                                        RUNG_FIELD(rung_program, routine_count, U32),
+                                        RUNG_FIELD(rung_program, file_count, U32),
+                                        RUNG_FIELD(rung_program, task_count, U32),
+                                        RUNG_FIELD(rung_program, part_end_count, U32),
+                                        RUNG_FIELD(rung_program, scan_count, U32),
+                                        RUNG_FIELD(rung_program, fast_count, U32),
+                                        RUNG_FIELD(rung_program, fault_count, U32),
+                                        RUNG_FIELD(rung_program, service_count, U32),
+                                        RUNG_FIELD(rung_program, text_count, U32),
+                                        RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
+                                        RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
+                                        RUNG_STRUCTS(rung_program, inits, init_count, kInit),
+                                        RUNG_STRUCTS(rung_program, retains, retain_count, kSpan),
+                                        RUNG_STRUCTS(rung_program, safes, safe_count, kSpan),
+                                        RUNG_STRUCTS(rung_program, copies, copy_count, kCopy),
+                                        RUNG_STRUCTS(rung_program, chunks, chunk_count, kChunk),
+                                        RUNG_STRUCTS(rung_program, rungs, rung_count, kRung),
+                                        RUNG_ARRAY(rung_program, routines, routine_count, Texts),
+                                        RUNG_ARRAY(rung_program, files, file_count, Texts),
+                                        RUNG_STRUCTS(rung_program, tasks, task_count, kTask),
+                                        RUNG_ARRAY(rung_program, part_ends, part_end_count, U32s),
+                                        RUNG_STRUCTS(rung_program, scan, scan_count, kStep),
+                                        RUNG_STRUCTS(rung_program, fast, fast_count, kStep),
+                                        RUNG_ARRAY(rung_program, faults, fault_count, Texts),
+                                        RUNG_ARRAY(rung_program, services, service_count, Texts),
+                                        RUNG_ARRAY(rung_program, texts, text_count, Texts),
+                                        RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
+                                        RUNG_FIELD(rung_program, run_chunk, Null)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

@@ -30,8 +30,9 @@ const rung_range& rangeOf(const SpaceLayout& space, uint32_t byte) {
 
 // Fills a Layout step by step.
 class LayoutBuilder {
- public:
-  LayoutBuilder(Layout& layout, const LayoutOptions& options) : layout_(layout), module_(*layout.module_), options_(options) {}
+public:
+  LayoutBuilder(Layout& layout, const LayoutOptions& options)
+      : layout_(layout), module_(*layout.module_), options_(options) {}
 
   void run() {
     placeSlots();
@@ -44,7 +45,7 @@ class LayoutBuilder {
     findPartEnds();
   }
 
- private:
+private:
   // Widest first, so that each is aligned without gaps.
   void placeSlots() {
     layout_.slotOffsets_.resize(module_.slots.size());
@@ -124,7 +125,8 @@ class LayoutBuilder {
       std::vector<uint32_t>& chunkOf = layout_.chunkOfRung_.emplace_back();
       size_t ops = 0;
       for (uint32_t i = 0; i < rungs.size(); ++i) {
-        const bool full = i > 0 && (layout_.chunks_.back().rungCount >= options_.maxChunkRungs || ops + rungs[i].ops.size() > options_.maxChunkOps);
+        const bool full = i > 0 && (layout_.chunks_.back().rungCount >= options_.maxChunkRungs ||
+                                    ops + rungs[i].ops.size() > options_.maxChunkOps);
         if (heads_[r][i] || full) {
           layout_.chunks_.push_back({.routine = RoutineId{r}, .firstRung = i, .rungCount = 0, .weight = 0});
           ops = 0;
@@ -153,7 +155,9 @@ class LayoutBuilder {
   std::vector<std::vector<uint32_t>> partBorders_;
 };
 
-Layout::Layout(const Module& module, const LayoutOptions& options) : module_(&module) { LayoutBuilder(*this, options).run(); }
+Layout::Layout(const Module& module, const LayoutOptions& options) : module_(&module) {
+  LayoutBuilder(*this, options).run();
+}
 
 BitLocation Layout::bit(SpaceId space, uint64_t bitOffset) const {
   const uint32_t byte = static_cast<uint32_t>(bitOffset / 8);
@@ -198,7 +202,12 @@ Exit exitOf(const Layout& layout, uint32_t chunk) {
   const std::vector<Rung>& rungs = layout.module().at(place.routine).rungs;
   const uint32_t below = place.firstRung + place.rungCount;
   const Transfer& transfer = rungs[below - 1].transfer;
-  Exit exit{.kind = transfer.kind, .cond = transfer.cond, .value = transfer.value, .taken = RUNG_NONE, .otherwise = RUNG_NONE, .targets = {}};
+  Exit exit{.kind = transfer.kind,
+            .cond = transfer.cond,
+            .value = transfer.value,
+            .taken = RUNG_NONE,
+            .otherwise = RUNG_NONE,
+            .targets = {}};
   if (below < rungs.size()) exit.otherwise = layout.chunkAt(place.routine, below);
   if (transfer.kind == TransferKind::Goto) exit.taken = layout.chunkAt(place.routine, transfer.target);
   if (transfer.kind == TransferKind::Call) exit.taken = layout.entry(transfer.callee);

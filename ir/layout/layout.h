@@ -1,14 +1,15 @@
 // Layout: where every byte of a program's memory lies and how its rungs are cut into chunks. Computed once from a
 // final module and obeyed by every engine and by the host; nothing else decides how a space is represented.
 //
-// Representation. A logical byte of a space is *expanded* (a byte a bit, see RUNG_REPR_BYTE_PER_BIT) when every access to
-// it in the whole program is a fixed bit access, no non-bit symbol names it, it has no initial value, and the space is not
-// packedOnly; it is packed otherwise. Bytes that a Copy connects have one representation. Bytes that nothing touches are
-// packed, but for short gaps between expanded ones.
+// Representation. A logical byte of a space is *expanded* (a byte a bit, see RUNG_REPR_BYTE_PER_BIT) when every access
+// to it in the whole program is a fixed bit access, no non-bit symbol names it, it has no initial value, and the space
+// is not packedOnly; it is packed otherwise. Bytes that a Copy connects have one representation. Bytes that nothing
+// touches are packed, but for short gaps between expanded ones.
 //
-// Chunks. A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only at its head. A chunk begins at
-// each routine's start, at every target of a Goto or Switch, behind every rung whose transfer is not Next, and where a part
-// of a task begins. Compile time grows linearly with the number of chunks.
+// Chunks. A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine,
+// entered only at its head. A chunk begins at each routine's start, at every target of a Goto or Switch, behind every
+// rung whose transfer is not Next, and where a part of a task begins. Compile time grows linearly with the number of
+// chunks.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -43,7 +44,7 @@ struct SpaceLayout {
 };
 
 class Layout {
- public:
+public:
   // `module` has passed the verifier in mode Final and outlives the layout.
   Layout(const Module& module, const LayoutOptions& options);
 
@@ -70,7 +71,7 @@ class Layout {
   std::string text() const;
   uint64_t hash() const;
 
- private:
+private:
   friend class LayoutBuilder;
   const Module* module_;
   uint32_t memorySize_ = 0;
@@ -87,10 +88,11 @@ class Layout {
 // The walk order and these numbers are all that engines need; they decide nothing themselves.
 struct Exit {
   TransferKind kind = TransferKind::Next;
-  ValueId cond;                 // invalid: always
-  ValueId value;                // Switch
-  uint32_t taken = RUNG_NONE;   // Goto: target chunk; Call: entry of the callee
-  uint32_t otherwise = RUNG_NONE; // where it goes when cond is 0, and the return address of a Call; RUNG_NONE: return to the caller
+  ValueId cond;               // invalid: always
+  ValueId value;              // Switch
+  uint32_t taken = RUNG_NONE; // Goto: target chunk; Call: entry of the callee
+  uint32_t otherwise =
+      RUNG_NONE; // where it goes when cond is 0, and the return address of a Call; RUNG_NONE: return to the caller
   std::vector<uint32_t> targets; // Switch
 };
 Exit exitOf(const Layout& layout, uint32_t chunk);

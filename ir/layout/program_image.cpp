@@ -10,7 +10,7 @@ namespace rung::ir {
 inline constexpr char kCompilerName[] = "rungc 0.1";
 
 class ImageBuilder {
- public:
+public:
   ImageBuilder(ProgramImage& image, const Layout& layout) : image_(image), layout_(layout), module_(layout.module()) {}
 
   void run(uint64_t codeHash) {
@@ -42,11 +42,12 @@ class ImageBuilder {
     link();
   }
 
- private:
+private:
   const char* text(const std::string& s) { return image_.strings_.emplace_back(s).c_str(); }
 
   // The pieces of a span that lie together in the memory block.
-  template <class Visit> void forPieces(const SpaceSpan& span, Visit visit) {
+  template <class Visit>
+  void forPieces(const SpaceSpan& span, Visit visit) {
     uint32_t done = 0;
     for (const rung_range& range : layout_.space(span.space).ranges) {
       const uint32_t first = std::max(range.first_byte, span.byte);
@@ -70,7 +71,8 @@ class ImageBuilder {
 
   void addSymbols() {
     for (const Symbol& s : module_.symbols)
-      image_.symbols_.push_back({text(s.name), text(s.comment), s.space.index, s.byte, s.bit, s.type, s.count, s.flags, s.value});
+      image_.symbols_.push_back(
+          {text(s.name), text(s.comment), s.space.index, s.byte, s.bit, s.type, s.count, s.flags, s.value});
     std::sort(image_.symbols_.begin(), image_.symbols_.end(), [](const rung_symbol& a, const rung_symbol& b) {
       const int order = std::string_view(a.name).compare(b.name);
       return order != 0 ? order < 0 : a.byte < b.byte;
@@ -78,13 +80,13 @@ class ImageBuilder {
   }
 
   void addInits() {
-    for (const Init& init : module_.inits)
-      addInit(layout_.byte(init.space, init.byte), init.data);
+    for (const Init& init : module_.inits) addInit(layout_.byte(init.space, init.byte), init.data);
     for (uint32_t i = 0; i < module_.slots.size(); ++i) {
       const Slot& slot = module_.slots[i];
       if (slot.init == 0) continue;
       std::vector<uint8_t> bytes(std::max(1u, byteWidth(slot.type)));
-      for (size_t b = 0; b < bytes.size(); ++b) bytes[b] = static_cast<uint8_t>(static_cast<uint64_t>(slot.init) >> (8 * b));
+      for (size_t b = 0; b < bytes.size(); ++b)
+        bytes[b] = static_cast<uint8_t>(static_cast<uint64_t>(slot.init) >> (8 * b));
       addInit(layout_.slot(SlotId{i}), bytes);
     }
   }
@@ -112,8 +114,8 @@ class ImageBuilder {
       Piece to = piece(copy.to, copy.toByte + done, from.bytes);
       Piece mask = copy.masked ? piece(copy.mask, copy.maskByte + done, to.bytes) : to;
       RUNG_CHECK(from.scale == to.scale && to.scale == mask.scale, "a copy connects bytes of two representations");
-      image_.copies_.push_back({copy.masked ? uint32_t{RUNG_COPY_MASKED} : uint32_t{RUNG_COPY_ALL}, from.offset, to.offset,
-                                copy.masked ? mask.offset : 0, mask.bytes * mask.scale});
+      image_.copies_.push_back({copy.masked ? uint32_t{RUNG_COPY_MASKED} : uint32_t{RUNG_COPY_ALL}, from.offset,
+                                to.offset, copy.masked ? mask.offset : 0, mask.bytes * mask.scale});
       done += mask.bytes;
     }
   }
@@ -188,7 +190,8 @@ class ImageBuilder {
     }
   }
 
-  template <class T> static void point(const std::vector<T>& from, const T*& to, uint32_t& count) {
+  template <class T>
+  static void point(const std::vector<T>& from, const T*& to, uint32_t& count) {
     to = from.empty() ? nullptr : from.data();
     count = static_cast<uint32_t>(from.size());
   }

@@ -1,5 +1,5 @@
-// The tables of a rung_program, made from a module and its layout, with their storage. The interpreter and the JIT use the
-// image as it stands; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns and
+// The tables of a rung_program, made from a module and its layout, with their storage. The interpreter and the JIT use
+// the image as it stands; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns and
 // run_chunk are null here: whoever owns code fills them in.
 #pragma once
 #include <deque>
@@ -12,7 +12,7 @@
 namespace rung::ir {
 
 class ProgramImage {
- public:
+public:
   // `codeHash` names the code that will run (hash of the IR text and the options); the image copies what it needs.
   ProgramImage(const Layout& layout, uint64_t codeHash);
   ProgramImage(const ProgramImage&) = delete;
@@ -21,7 +21,7 @@ class ProgramImage {
   const rung_program& program() const { return program_; }
   rung_program& program() { return program_; }
 
- private:
+private:
   friend class ImageBuilder;
   rung_program program_{};
   std::deque<std::string> strings_;

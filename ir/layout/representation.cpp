@@ -34,12 +34,12 @@ void markOp(const Module& module, const Op& op, Uses& uses) {
 
 uint32_t symbolBytes(const Symbol& symbol) {
   switch (symbol.type) {
-    case RUNG_TYPE_BIT: return 0;
-    case RUNG_TYPE_I16: return 2 * symbol.count;
-    case RUNG_TYPE_I32: return 4 * symbol.count;
-    case RUNG_TYPE_I64:
-    case RUNG_TYPE_F64: return 8 * symbol.count;
-    default: return symbol.count;
+  case RUNG_TYPE_BIT: return 0;
+  case RUNG_TYPE_I16: return 2 * symbol.count;
+  case RUNG_TYPE_I32: return 4 * symbol.count;
+  case RUNG_TYPE_I64:
+  case RUNG_TYPE_F64: return 8 * symbol.count;
+  default: return symbol.count;
   }
 }
 
@@ -57,7 +57,8 @@ Uses collectUses(const Module& module) {
 }
 
 // Calls visit(a, b) for every pair of bytes that a copy connects.
-template <class Visit> void forConnected(const Module& module, Uses& uses, Visit visit) {
+template <class Visit>
+void forConnected(const Module& module, Uses& uses, Visit visit) {
   for (const Task& task : module.tasks)
     for (const std::vector<Copy>* copies : {&task.begin, &task.end})
       for (const Copy& copy : *copies)
@@ -85,7 +86,8 @@ void fillGaps(std::vector<uint8_t>& uses) {
   for (size_t i = 0; i < uses.size(); ++i) {
     if (uses[i] == kWhole) lastBits = uses.size();
     if (uses[i] != kBits) continue;
-    if (lastBits < i && i - lastBits - 1 <= kGap) std::fill(uses.begin() + static_cast<ptrdiff_t>(lastBits), uses.begin() + static_cast<ptrdiff_t>(i), kBits);
+    if (lastBits < i && i - lastBits - 1 <= kGap)
+      std::fill(uses.begin() + static_cast<ptrdiff_t>(lastBits), uses.begin() + static_cast<ptrdiff_t>(i), kBits);
     lastBits = i;
   }
 }

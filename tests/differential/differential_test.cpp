@@ -1,5 +1,6 @@
-// The engines against the interpreter, which is the definition: every operation with boundary values, random modules, and
-// proof that the comparison would notice: an emitter that is wrong for one operation is caught, operation by operation.
+// The engines against the interpreter, which is the definition: every operation with boundary values, random modules,
+// and proof that the comparison would notice: an emitter that is wrong for one operation is caught, operation by
+// operation.
 #include <gtest/gtest.h>
 
 #include "ir/passes/pipeline.h"
@@ -22,14 +23,16 @@ struct Variant {
   const char* name;
 };
 constexpr Variant kVariants[] = {
-    {EngineKind::Cpp, false, "clang++-19 -fsanitize=undefined -fno-sanitize=alignment -fsanitize-trap=all", "CppO0Ubsan"},
+    {EngineKind::Cpp, false, "clang++-19 -fsanitize=undefined -fno-sanitize=alignment -fsanitize-trap=all",
+     "CppO0Ubsan"},
     {EngineKind::Cpp, true, "g++", "CppGcc"},
     {EngineKind::Jit, false, "", "JitFast"},
     {EngineKind::Jit, true, "", "JitOpt"},
     {EngineKind::Llvm, true, "", "LlvmSo"},
 };
 
-std::optional<std::string> disagreement(const driver::Compiled& compiled, const Variant& variant, std::optional<OpCode> sabotage = {}) {
+std::optional<std::string> disagreement(const driver::Compiled& compiled, const Variant& variant,
+                                        std::optional<OpCode> sabotage = {}) {
   EngineOptions options;
   options.optimise = variant.optimise;
   options.cppCompiler = variant.compiler;

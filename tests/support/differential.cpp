@@ -12,13 +12,14 @@ namespace {
 
 // Answers every second request in the same scan, so that programs see both kinds.
 class Responder final : public host::ScheduleHooks {
- public:
+public:
   bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     if (request.ticket % 2 == 0) return false;
     reply.ticket = request.ticket;
     reply.state = request.argCount % 3 == 0 ? uint32_t{RUNG_SERVICE_ERROR} : uint32_t{RUNG_SERVICE_DONE};
     reply.resultCount = 4;
-    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = static_cast<int64_t>(i) * 1000 ^ (request.argCount > 0 ? request.args[0] : 7);
+    for (uint32_t i = 0; i < reply.resultCount; ++i)
+      reply.results[i] = static_cast<int64_t>(i) * 1000 ^ (request.argCount > 0 ? request.args[0] : 7);
     return true;
   }
 };
@@ -26,7 +27,8 @@ class Responder final : public host::ScheduleHooks {
 std::optional<std::string> firstCountDifference(const host::Instance& a, const host::Instance& b) {
   for (size_t i = 0; i < a.profile().size(); ++i)
     if (a.profile()[i].count != b.profile()[i].count)
-      return fmt::format("rung {} was counted {} times here, {} times there", i, a.profile()[i].count, b.profile()[i].count);
+      return fmt::format("rung {} was counted {} times here, {} times there", i, a.profile()[i].count,
+                         b.profile()[i].count);
   return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
-// rung-bench: measures every engine on generated programs and prints docs/performance.md. Each case runs in a process of
-// its own, so that its resident memory is its own; figures are medians, and ratios are taken in one process.
+// rung-bench: measures every engine on generated programs and prints docs/performance.md. Each case runs in a process
+// of its own, so that its resident memory is its own; figures are medians, and ratios are taken in one process.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -29,14 +29,21 @@ int measureOne(const Case& which) {
     return 1;
   }
   const Measured& v = m.value();
-  std::cout << nlohmann::json{{"first", v.firstScanMs}, {"scan", v.nsPerScan}, {"hand", v.handNsPerScan}, {"ratio", v.ratio}, {"rss", v.residentMb}} << '\n';
+  std::cout << nlohmann::json{{"first", v.firstScanMs},
+                              {"scan", v.nsPerScan},
+                              {"hand", v.handNsPerScan},
+                              {"ratio", v.ratio},
+                              {"rss", v.residentMb}}
+            << '\n';
   return 0;
 }
 
 // Runs this program for one case; nothing when it failed.
 std::optional<nlohmann::json> runCase(const Case& which) {
-  const std::string command = fmt::format("'{}' --engine {} --compiler '{}' --rungs {} --hand '{}' {}", std::filesystem::read_symlink("/proc/self/exe").string(), which.engine,
-                                          which.compiler, which.rungs, which.handWritten, which.optimise ? "" : "--fast");
+  const std::string command =
+      fmt::format("'{}' --engine {} --compiler '{}' --rungs {} --hand '{}' {}",
+                  std::filesystem::read_symlink("/proc/self/exe").string(), which.engine, which.compiler, which.rungs,
+                  which.handWritten, which.optimise ? "" : "--fast");
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
   std::string text;
@@ -64,7 +71,9 @@ int printTable(uint32_t rungs, const std::string& handCompiler, const std::files
     fmt::print(stderr, "rung-bench: {}\n", built.error());
     return 1;
   }
-  fmt::print("## {} rungs\n\n| engine | ns a scan | ns a rung | ratio to hand-written | source to first scan, ms | resident, MB |\n| --- | --- | --- | --- | --- | --- |\n", rungs);
+  fmt::print("## {} rungs\n\n| engine | ns a scan | ns a rung | ratio to hand-written | source to first scan, ms | "
+             "resident, MB |\n| --- | --- | --- | --- | --- | --- |\n",
+             rungs);
   int status = 0;
   for (const Row& row : rowsFor(rungs, hand)) {
     const auto m = runCase(row.which);
@@ -74,7 +83,8 @@ int printTable(uint32_t rungs, const std::string& handCompiler, const std::files
       continue;
     }
     const double scan = (*m)["scan"];
-    fmt::print("| {} | {:.0f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} |\n", row.title, scan, scan / rungs, (*m)["ratio"].get<double>(), (*m)["first"].get<double>(), (*m)["rss"].get<double>());
+    fmt::print("| {} | {:.0f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} |\n", row.title, scan, scan / rungs,
+               (*m)["ratio"].get<double>(), (*m)["first"].get<double>(), (*m)["rss"].get<double>());
     std::fflush(stdout);
   }
   fmt::print("\n");

@@ -25,20 +25,26 @@ constexpr double kSampleNs = 2e6; // a sample repeats its scan for about this lo
 
 using Clock = std::chrono::steady_clock;
 
-double nsSince(Clock::time_point start) { return std::chrono::duration<double, std::nano>(Clock::now() - start).count(); }
+double nsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
 
-template <class Scan> double sample(int repeats, Scan scan) {
+template <class Scan>
+double sample(int repeats, Scan scan) {
   const auto start = Clock::now();
   for (int i = 0; i < repeats; ++i) scan();
   return nsSince(start) / repeats;
 }
 
-template <class Scan> int repeatsFor(Scan scan) { return std::max(1, static_cast<int>(kSampleNs / std::max(1.0, sample(3, scan)))); }
+template <class Scan>
+int repeatsFor(Scan scan) {
+  return std::max(1, static_cast<int>(kSampleNs / std::max(1.0, sample(3, scan))));
+}
 
 double residentMb() {
   rusage usage{};
@@ -46,8 +52,10 @@ double residentMb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// Both forms from the same state through the same number of scans; they must stay equal, or the figures compare nothing.
-template <class RunEngine, class RunHand> Result<void> settle(host::Instance& instance, std::vector<uint8_t>& bits, RunEngine runEngine, RunHand runHand) {
+// Both forms from the same state through the same number of scans; they must stay equal, or the figures compare
+// nothing.
+template <class RunEngine, class RunHand>
+Result<void> settle(host::Instance& instance, std::vector<uint8_t>& bits, RunEngine runEngine, RunHand runHand) {
   std::mt19937_64 random(kSeed + 1);
   instance.coldStart();
   const auto place = [&](uint32_t bit) { return *instance.resolve(fmt::format("{:04}.{:02}", wordOf(bit), bit % 32)); };
@@ -60,7 +68,8 @@ template <class RunEngine, class RunHand> Result<void> settle(host::Instance& in
     runHand();
   }
   for (uint32_t bit = 0; bit < bits.size(); ++bit)
-    if (instance.read(place(bit)) != bits[bit]) return failure(fmt::format("bit {} differs from the hand-written form", bit));
+    if (instance.read(place(bit)) != bits[bit])
+      return failure(fmt::format("bit {} differs from the hand-written form", bit));
   return {};
 }
 

@@ -16,11 +16,11 @@ struct Case {
 };
 
 struct Measured {
-  double firstScanMs = 0;  // from source text to the end of the first scan
-  double nsPerScan = 0;    // median
+  double firstScanMs = 0; // from source text to the end of the first scan
+  double nsPerScan = 0;   // median
   double handNsPerScan = 0;
-  double ratio = 0;        // median of the ratios of neighbouring samples
-  double residentMb = 0;   // most that the process ever had
+  double ratio = 0;      // median of the ratios of neighbouring samples
+  double residentMb = 0; // most that the process ever had
 };
 
 Result<Measured> measure(const Case& which);

@@ -47,7 +47,8 @@ std::string ladderText(const std::vector<WorkRung>& rungs) {
       continue;
     }
     const size_t width = std::max(a.size(), b.size());
-    fmt::format_to(put, "|--{:-<{}}--+--{}--({})\n|--{:-<{}}--+\n", a, width, contact(r.third), address(kInputs + i), b, width);
+    fmt::format_to(put, "|--{:-<{}}--+--{}--({})\n|--{:-<{}}--+\n", a, width, contact(r.third), address(kInputs + i), b,
+                   width);
   }
   return out;
 }
@@ -59,7 +60,8 @@ std::string handWritten(const std::vector<WorkRung>& rungs) {
   for (size_t first = 0; first < rungs.size(); first += kRungsAFunction, ++functions) {
     fmt::format_to(put, "static void part{}(bool *m) {{\n", functions);
     for (size_t i = first; i < std::min(rungs.size(), first + kRungsAFunction); ++i)
-      fmt::format_to(put, "  m[{}] = ({} {} {}) & {};\n", kInputs + i, term(rungs[i].first), rungs[i].parallel ? "|" : "&", term(rungs[i].second), term(rungs[i].third));
+      fmt::format_to(put, "  m[{}] = ({} {} {}) & {};\n", kInputs + i, term(rungs[i].first),
+                     rungs[i].parallel ? "|" : "&", term(rungs[i].second), term(rungs[i].third));
     out += "}\n";
   }
   out += "extern \"C\" __attribute__((visibility(\"default\"))) void scan(bool *m) {\n";

@@ -1,6 +1,6 @@
-// The program that the benchmarks run, in two forms that do the same: NCT ladder text, and the C++ that somebody would write
-// by hand for it. Bit logic only: a rung is three contacts (two in series with one, or a parallel pair with one) and a coil;
-// the contacts are drawn from a seed among all inputs and all coils.
+// The program that the benchmarks run, in two forms that do the same: NCT ladder text, and the C++ that somebody would
+// write by hand for it. Bit logic only: a rung is three contacts (two in series with one, or a parallel pair with one)
+// and a coil; the contacts are drawn from a seed among all inputs and all coils.
 #pragma once
 #include <cstdint>
 #include <string>

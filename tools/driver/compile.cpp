@@ -20,7 +20,8 @@ void checkModule(const ir::Module& module, ir::Mode mode) {
   RUNG_CHECK(errors.empty(), ir::render(module, errors).c_str());
 }
 
-const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics) {
+const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
+                                       const CompileRequest& request, Diagnostics& diagnostics) {
   const SourceRange start = sources.range(files[0], 0, 0);
   if (!request.dialect.empty()) {
     const frontend::Dialect* named = frontend::findDialect(request.dialect);
@@ -48,7 +49,8 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
   return files;
 }
 
-std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics) {
+std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
+                                Diagnostics& diagnostics) {
   Compiled out;
   out.dialect = chooseDialect(sources, files, request, diagnostics);
   if (out.dialect == nullptr) return std::nullopt;

@@ -25,13 +25,14 @@ struct Compiled {
   const frontend::Dialect* dialect = nullptr;
   std::unique_ptr<ir::Module> module; // final, optimised
   std::unique_ptr<ir::Layout> layout;
-  uint64_t codeHash = 0;              // of the IR's text
+  uint64_t codeHash = 0; // of the IR's text
 };
 
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
 
 // Nothing when the program has errors; they stand in `diagnostics`.
-std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request, Diagnostics& diagnostics);
+std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
+                                Diagnostics& diagnostics);
 
 } // namespace rung::driver

@@ -21,21 +21,24 @@ struct NamedEngine {
   EngineKind kind;
   std::string_view name;
 };
-constexpr std::array<NamedEngine, 4> kEngines = {{{EngineKind::Interp, "interp"}, {EngineKind::Cpp, "cpp"}, {EngineKind::Llvm, "llvm"}, {EngineKind::Jit, "jit"}}};
+constexpr std::array<NamedEngine, 4> kEngines = {
+    {{EngineKind::Interp, "interp"}, {EngineKind::Cpp, "cpp"}, {EngineKind::Llvm, "llvm"}, {EngineKind::Jit, "jit"}}};
 
 // A loaded shared object under the name of the engine that made it; the file is needed no longer once it is loaded.
 class BuiltEngine final : public host::Engine {
- public:
-  BuiltEngine(std::unique_ptr<host::SoEngine> loaded, std::string_view name) : loaded_(std::move(loaded)), name_(name) {}
+public:
+  BuiltEngine(std::unique_ptr<host::SoEngine> loaded, std::string_view name)
+      : loaded_(std::move(loaded)), name_(name) {}
   const rung_program& program() const override { return loaded_->program(); }
   std::string_view name() const override { return name_; }
 
- private:
+private:
   std::unique_ptr<host::SoEngine> loaded_;
   std::string_view name_;
 };
 
-template <class Build> Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build build) {
+template <class Build>
+Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build build) {
   std::string folder = (fs::temp_directory_path() / "rung-so-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) return failure("cannot make a temporary folder");
   const std::string path = folder + "/program.so";
@@ -79,7 +82,8 @@ std::optional<EngineKind> engineFromName(std::string_view name) {
 }
 
 std::span<const EngineKind> allEngines() {
-  static constexpr std::array<EngineKind, 4> kAll = {EngineKind::Interp, EngineKind::Cpp, EngineKind::Llvm, EngineKind::Jit};
+  static constexpr std::array<EngineKind, 4> kAll = {EngineKind::Interp, EngineKind::Cpp, EngineKind::Llvm,
+                                                     EngineKind::Jit};
   return kAll;
 }
 
@@ -90,30 +94,33 @@ std::string defaultCppCompiler() {
   return "c++";
 }
 
-Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled, const EngineOptions& options) {
+Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled,
+                                                 const EngineOptions& options) {
   const ir::Layout& layout = *compiled.layout;
   switch (kind) {
-    case EngineKind::Interp: return std::unique_ptr<host::Engine>(new ir::InterpEngine(layout, compiled.codeHash));
-    case EngineKind::Cpp:
-      return buildAndLoad(engineName(kind), [&](const std::string& path) {
-        codegen::CppOptions emit;
-        emit.sabotage = options.sabotage;
-        codegen::CppBuildOptions build;
-        build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
-        build.optimisation = options.optimise ? "-O2" : "-O0";
-        build.debugInfo = false;
-        return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build, path);
-      });
-    case EngineKind::Llvm:
-      return buildAndLoad(engineName(kind), [&](const std::string& path) { return codegen::buildLlvmSharedObject(layout, compiled.codeHash, llvmOptions(options), path); });
-    case EngineKind::Jit: {
-      codegen::JitOptions jit;
-      jit.code = llvmOptions(options);
-      jit.gdb = options.debugger;
-      Result<std::unique_ptr<codegen::JitEngine>> engine = codegen::compileJit(layout, compiled.codeHash, jit);
-      if (!engine.ok()) return engine.failure();
-      return std::unique_ptr<host::Engine>(std::move(engine).value());
-    }
+  case EngineKind::Interp: return std::unique_ptr<host::Engine>(new ir::InterpEngine(layout, compiled.codeHash));
+  case EngineKind::Cpp:
+    return buildAndLoad(engineName(kind), [&](const std::string& path) {
+      codegen::CppOptions emit;
+      emit.sabotage = options.sabotage;
+      codegen::CppBuildOptions build;
+      build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
+      build.optimisation = options.optimise ? "-O2" : "-O0";
+      build.debugInfo = false;
+      return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build, path);
+    });
+  case EngineKind::Llvm:
+    return buildAndLoad(engineName(kind), [&](const std::string& path) {
+      return codegen::buildLlvmSharedObject(layout, compiled.codeHash, llvmOptions(options), path);
+    });
+  case EngineKind::Jit: {
+    codegen::JitOptions jit;
+    jit.code = llvmOptions(options);
+    jit.gdb = options.debugger;
+    Result<std::unique_ptr<codegen::JitEngine>> engine = codegen::compileJit(layout, compiled.codeHash, jit);
+    if (!engine.ok()) return engine.failure();
+    return std::unique_ptr<host::Engine>(std::move(engine).value());
+  }
   }
   return failure("unknown engine");
 }

@@ -25,14 +25,15 @@ std::optional<EngineKind> engineFromName(std::string_view name);
 std::span<const EngineKind> allEngines();
 
 struct EngineOptions {
-  bool optimise = true;                     // false: fastest compilation
-  bool debugger = false;                    // JIT: tell gdb about the code
-  std::string cppCompiler;                  // empty: the first of clang++-19, g++, c++ that is installed
-  std::optional<ir::OpCode> sabotage;       // for the tests of the comparison
+  bool optimise = true;               // false: fastest compilation
+  bool debugger = false;              // JIT: tell gdb about the code
+  std::string cppCompiler;            // empty: the first of clang++-19, g++, c++ that is installed
+  std::optional<ir::OpCode> sabotage; // for the tests of the comparison
 };
 
 // `compiled` outlives the engine.
-Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled, const EngineOptions& options);
+Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled,
+                                                 const EngineOptions& options);
 
 // An instance of the engine's program, with what an interpreter needs in its context.
 std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks);

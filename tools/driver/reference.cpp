@@ -22,28 +22,28 @@ namespace {
 
 std::string_view accessText(Access access) {
   switch (access) {
-    case Access::Read: return "read";
-    case Access::Write: return "written";
-    case Access::ReadWrite: return "read and written";
-    case Access::None: return "-";
+  case Access::Read: return "read";
+  case Access::Write: return "written";
+  case Access::ReadWrite: return "read and written";
+  case Access::None: return "-";
   }
   return "";
 }
 
 std::string_view outputText(Output output) {
   switch (output) {
-    case Output::None: return "none";
-    case Output::Always: return "always";
-    case Output::Optional: return "may be used";
+  case Output::None: return "none";
+  case Output::Always: return "always";
+  case Output::Optional: return "may be used";
   }
   return "";
 }
 
 std::string_view placementText(Placement placement) {
   switch (placement) {
-    case Placement::BehindContact: return "behind a condition";
-    case Placement::AtRail: return "at the left rail";
-    case Placement::Anywhere: return "anywhere";
+  case Placement::BehindContact: return "behind a condition";
+  case Placement::AtRail: return "at the left rail";
+  case Placement::Anywhere: return "anywhere";
   }
   return "";
 }
@@ -64,13 +64,15 @@ void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::
   fmt::format_to(put, ": {}\n\n{}\n\n", row.title, row.doc);
   if (row.pins.size() > 0) {
     out += "| condition | meaning |\n| --- | --- |\n";
-    for (const PinInfo& pin : row.pins.all()) fmt::format_to(put, "| `{}` | {}{} |\n", pin.name, cell(pin.doc), pin.edge ? " (rising edge)" : "");
+    for (const PinInfo& pin : row.pins.all())
+      fmt::format_to(put, "| `{}` | {}{} |\n", pin.name, cell(pin.doc), pin.edge ? " (rising edge)" : "");
     out += '\n';
   }
   if (row.operands.size() > 0) {
     out += "| operand | kind | access | range | meaning |\n| --- | --- | --- | --- | --- |\n";
     for (const OperandInfo& o : row.operands.all())
-      fmt::format_to(put, "| {}{}{} | {} | {} | {} | {} |\n", o.name, o.optional ? " (optional)" : "", o.repeated ? " …" : "", o.kind, accessText(o.access),
+      fmt::format_to(put, "| {}{}{} | {} | {} | {} | {} |\n", o.name, o.optional ? " (optional)" : "",
+                     o.repeated ? " …" : "", o.kind, accessText(o.access),
                      o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
     out += '\n';
   }
@@ -82,7 +84,8 @@ void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return out;
 }
 
@@ -91,7 +94,8 @@ std::string lower(std::string_view text) {
 std::string dialectReference(const Dialect& dialect) {
   std::string out;
   auto put = std::back_inserter(out);
-  fmt::format_to(put, "# {}: instructions\n\n{}. Made by `rungc doc {}` from the instruction table; do not edit.\n\n", dialect.name, dialect.title, dialect.name);
+  fmt::format_to(put, "# {}: instructions\n\n{}. Made by `rungc doc {}` from the instruction table; do not edit.\n\n",
+                 dialect.name, dialect.title, dialect.name);
   std::vector<std::string_view> groups;
   for (const InstructionInfo* row : dialect.instructions)
     if (std::find(groups.begin(), groups.end(), row->group) == groups.end()) groups.push_back(row->group);
@@ -111,20 +115,24 @@ std::string diagnosticReference() {
   std::vector<const DiagInfo*> rows;
   for (const DiagInfo& info : allDiags()) rows.push_back(&info);
   std::sort(rows.begin(), rows.end(), [](const DiagInfo* a, const DiagInfo* b) { return a->code < b->code; });
-  std::string out = "# Diagnostics\n\nEvery code that the compiler reports. Made by `rungc doc diagnostics`; do not edit.\n\n";
+  std::string out =
+      "# Diagnostics\n\nEvery code that the compiler reports. Made by `rungc doc diagnostics`; do not edit.\n\n";
   for (const DiagInfo* info : rows)
-    fmt::format_to(std::back_inserter(out), "## {}\n\n{}: {}\n\n{}\n\n", info->code, info->severity == Severity::Error ? "Error" : "Warning", info->message,
-                   info->explanation);
+    fmt::format_to(std::back_inserter(out), "## {}\n\n{}: {}\n\n{}\n\n", info->code,
+                   info->severity == Severity::Error ? "Error" : "Warning", info->message, info->explanation);
   return out;
 }
 
 std::string operationReference() {
-  std::string out = "# Operations of the IR\n\nMade by `rungc doc ir` from ir/core/op_info.cpp; do not edit.\n\n| operation | types | meaning |\n| --- | --- | --- |\n";
+  std::string out = "# Operations of the IR\n\nMade by `rungc doc ir` from ir/core/op_info.cpp; do not edit.\n\n| "
+                    "operation | types | meaning |\n| --- | --- | --- |\n";
   for (const ir::OpInfo& info : ir::allOps()) {
     std::string types;
     for (int t = 1; t < ir::kTypeCount; ++t)
-      if (ir::contains(info.types, static_cast<ir::Type>(t))) types += (types.empty() ? "" : " ") + std::string(ir::typeName(static_cast<ir::Type>(t)));
-    fmt::format_to(std::back_inserter(out), "| `{}` | {} | {} |\n", info.name, types.empty() ? "-" : types, cell(info.doc));
+      if (ir::contains(info.types, static_cast<ir::Type>(t)))
+        types += (types.empty() ? "" : " ") + std::string(ir::typeName(static_cast<ir::Type>(t)));
+    fmt::format_to(std::back_inserter(out), "| `{}` | {} | {} |\n", info.name, types.empty() ? "-" : types,
+                   cell(info.doc));
   }
   return out;
 }
@@ -132,8 +140,8 @@ std::string operationReference() {
 std::optional<std::string> explain(std::string_view word) {
   std::string out;
   if (const DiagInfo* info = findDiag(lower(word)))
-    fmt::format_to(std::back_inserter(out), "{} ({})\n  {}\n\n{}\n", info->code, info->severity == Severity::Error ? "error" : "warning", info->message,
-                   info->explanation);
+    fmt::format_to(std::back_inserter(out), "{} ({})\n  {}\n\n{}\n", info->code,
+                   info->severity == Severity::Error ? "error" : "warning", info->message, info->explanation);
   for (const Dialect* dialect : frontend::allDialects())
     for (const InstructionInfo* row : dialect->instructions)
       if (lower(row->mnemonic) == lower(word)) {

@@ -1,5 +1,5 @@
-// Reference pages made from the tables: instructions of a dialect, diagnostics, operations of the IR. `rungc doc` prints
-// them, `rungc explain` prints one entry; docs/reference/ holds the output and a test fails when it is stale.
+// Reference pages made from the tables: instructions of a dialect, diagnostics, operations of the IR. `rungc doc`
+// prints them, `rungc explain` prints one entry; docs/reference/ holds the output and a test fails when it is stale.
 #pragma once
 #include <optional>
 #include <string>

@@ -28,7 +28,8 @@ void addCodeOptions(CLI::App& command, BuildOptions& options) {
   addLevelOption(command, options.level);
   command.add_flag("-g", options.debugInfo, "With debug information for the PLC source");
   command.add_flag("--profile", options.profile, "Count and time every rung");
-  command.add_option("--target", options.target, "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
+  command.add_option("--target", options.target,
+                     "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
 }
 
 driver::CompileRequest requestOf(const BuildOptions& options) {
@@ -48,11 +49,14 @@ codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
 
 int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
   if (options.via == "llvm") {
-    const Result<void> built = codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options), options.out);
+    const Result<void> built =
+        codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options), options.out);
     return built.ok() ? kOk : environmentError(built.error());
   }
   codegen::CppBuildOptions cpp;
-  cpp.compiler = !options.cxx.empty() ? options.cxx : options.target.empty() ? driver::defaultCppCompiler() : options.target + "-g++";
+  cpp.compiler = !options.cxx.empty()     ? options.cxx
+                 : options.target.empty() ? driver::defaultCppCompiler()
+                                          : options.target + "-g++";
   cpp.optimisation = options.level == "0" ? "-O0" : "-O2";
   cpp.debugInfo = options.debugInfo;
   const std::string text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
@@ -62,11 +66,16 @@ int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
 
 int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
   Result<std::string> text = failure("");
-  if (options.what == "cpp") text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
-  else if (options.what == "ir") text = ir::print(*compiled.module);
-  else if (options.what == "layout") text = compiled.layout->text();
-  else if (options.what == "llvm") text = codegen::emitLlvmIr(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
-  else text = codegen::emitAssembly(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
+  if (options.what == "cpp")
+    text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
+  else if (options.what == "ir")
+    text = ir::print(*compiled.module);
+  else if (options.what == "layout")
+    text = compiled.layout->text();
+  else if (options.what == "llvm")
+    text = codegen::emitLlvmIr(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
+  else
+    text = codegen::emitAssembly(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   if (!text.ok()) return environmentError(text.error());
   std::cout << text.value();
   return kOk;
@@ -79,22 +88,27 @@ void addBuild(CLI::App& app, int& status) {
   auto options = std::make_shared<BuildOptions>();
   addCodeOptions(*command, *options);
   command->add_option("-o,--output", options->out, "The shared object to write")->required();
-  command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")->check(CLI::IsMember({"llvm", "cpp"}));
+  command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")
+      ->check(CLI::IsMember({"llvm", "cpp"}));
   command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
   command->callback([options, &status] {
     SourceManager sources;
-    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status)) status = buildObject(*compiled, *options);
+    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status))
+      status = buildObject(*compiled, *options);
   });
 }
 
 void addEmit(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("emit", "Print a form of the program: C++, IR, layout, LLVM IR or assembly");
   auto options = std::make_shared<BuildOptions>();
-  command->add_option("WHAT", options->what, "cpp, ir, layout, llvm or asm")->required()->check(CLI::IsMember({"cpp", "ir", "layout", "llvm", "asm"}));
+  command->add_option("WHAT", options->what, "cpp, ir, layout, llvm or asm")
+      ->required()
+      ->check(CLI::IsMember({"cpp", "ir", "layout", "llvm", "asm"}));
   addCodeOptions(*command, *options);
   command->callback([options, &status] {
     SourceManager sources;
-    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status)) status = emitText(*compiled, *options);
+    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status))
+      status = emitText(*compiled, *options);
   });
 }
 

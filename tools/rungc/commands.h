@@ -25,7 +25,8 @@ void addSourceOptions(CLI::App& command, SourceOptions& options);
 // -O0 compiles fast, -O2 runs fast.
 void addLevelOption(CLI::App& command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
-std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options, driver::CompileRequest request, int& status);
+std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
+                                               driver::CompileRequest request, int& status);
 // Prints "rungc: MESSAGE" and gives kEnvironment.
 int environmentError(const std::string& message);
 

@@ -13,8 +13,10 @@ void addExplain(CLI::App& app, int& status) {
   command->add_option("WORD", *word, "A code such as unbalanced-stack, or a mnemonic such as TOND")->required();
   command->callback([word, &status] {
     const std::optional<std::string> text = driver::explain(*word);
-    if (text) std::cout << *text;
-    else fmt::print(stderr, "rungc: neither a diagnostic code nor an instruction: '{}'\n", *word);
+    if (text)
+      std::cout << *text;
+    else
+      fmt::print(stderr, "rungc: neither a diagnostic code nor an instruction: '{}'\n", *word);
     status = text ? kOk : kWrong;
   });
 }
@@ -24,9 +26,12 @@ void addDoc(CLI::App& app, int& status) {
   auto page = std::make_shared<std::string>();
   command->add_option("PAGE", *page, "gsk, nct, technol, diagnostics or ir")->required();
   command->callback([page, &status] {
-    if (*page == "diagnostics") std::cout << driver::diagnosticReference();
-    else if (*page == "ir") std::cout << driver::operationReference();
-    else if (const frontend::Dialect* dialect = frontend::findDialect(*page)) std::cout << driver::dialectReference(*dialect);
+    if (*page == "diagnostics")
+      std::cout << driver::diagnosticReference();
+    else if (*page == "ir")
+      std::cout << driver::operationReference();
+    else if (const frontend::Dialect* dialect = frontend::findDialect(*page))
+      std::cout << driver::dialectReference(*dialect);
     else {
       fmt::print(stderr, "rungc: no such page: '{}'; there are gsk, nct, technol, diagnostics and ir\n", *page);
       status = kUsage;

@@ -34,11 +34,11 @@ struct Watched {
 
 std::string valueText(const host::Instance& instance, const host::Ref& place) {
   switch (place.kind) {
-    case host::RefKind::Text: return "\"" + instance.readText(place) + "\"";
-    case host::RefKind::Real: return fmt::format("{}", instance.readReal(place));
-    case host::RefKind::Bit: return fmt::format("{}", instance.read(place));
-    case host::RefKind::Int:
-    case host::RefKind::Constant: return fmt::format("{}", host::readSigned(instance.memory(), place));
+  case host::RefKind::Text: return "\"" + instance.readText(place) + "\"";
+  case host::RefKind::Real: return fmt::format("{}", instance.readReal(place));
+  case host::RefKind::Bit: return fmt::format("{}", instance.read(place));
+  case host::RefKind::Int:
+  case host::RefKind::Constant: return fmt::format("{}", host::readSigned(instance.memory(), place));
   }
   return {};
 }
@@ -53,7 +53,8 @@ void printChanges(const host::Instance& instance, std::vector<Watched>& watched)
   }
 }
 
-bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const std::vector<std::string>& names, std::vector<Watched>& watched) {
+bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const std::vector<std::string>& names,
+                    std::vector<Watched>& watched) {
   for (const std::string& name : names) {
     const auto place = nc.readPlace(instance, name);
     if (!place) {
@@ -73,7 +74,9 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs) 
   if (!resolveWatched(*nc, *instance, options.watch, watched)) return kUsage;
   std::signal(SIGINT, [](int) { gStop = 1; });
   uint64_t scans = 0;
-  const auto more = [&] { return gStop == 0 && !instance->faulted() && (forUs >= 0 ? instance->nowUs() < forUs : scans < options.scans); };
+  const auto more = [&] {
+    return gStop == 0 && !instance->faulted() && (forUs >= 0 ? instance->nowUs() < forUs : scans < options.scans);
+  };
   if (options.realtime) {
     const host::RealTimeStats stats = host::runRealTime(*instance, {}, [&] {
       nc->board().take(*instance);
@@ -81,15 +84,16 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs) 
       scans += instance->atListStart() ? 1 : 0;
       return more();
     });
-    fmt::print("{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices, stats.missed, static_cast<double>(stats.maxLateNs) / 1e3,
-               static_cast<double>(stats.maxRunNs) / 1e3);
+    fmt::print("{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices, stats.missed,
+               static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
   } else {
     for (; more(); ++scans) {
       nc->scan(*instance);
       printChanges(*instance, watched);
     }
   }
-  fmt::print("{} scans, {:.3f} ms of the program's time, engine {}\n", scans, static_cast<double>(instance->nowUs()) / 1000.0, engine.name());
+  fmt::print("{} scans, {:.3f} ms of the program's time, engine {}\n", scans,
+             static_cast<double>(instance->nowUs()) / 1000.0, engine.name());
   if (!instance->faulted()) return kOk;
   fmt::print(stderr, "rungc: the program stopped with a fault: {}\n", instance->faultText());
   return kWrong;
@@ -124,7 +128,8 @@ void addRun(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("run", "Run a program, from source or from a shared object");
   auto options = std::make_shared<RunOptions>();
   addSourceOptions(*command, options->source);
-  command->add_option("--engine", options->engine, "interp, cpp, llvm or jit; a shared object brings its own")->capture_default_str();
+  command->add_option("--engine", options->engine, "interp, cpp, llvm or jit; a shared object brings its own")
+      ->capture_default_str();
   CLI::Option* scans = command->add_option("--scans", options->scans, "Number of scans")->capture_default_str();
   command->add_option("--for", options->duration, "Time to run, such as 2s or 500ms")->excludes(scans);
   command->add_option("--watch", options->watch, "Names whose changes are printed");

@@ -9,16 +9,21 @@
 namespace rung::rungc {
 
 void addSourceOptions(CLI::App& command, SourceOptions& options) {
-  command.add_option("FILE", options.files, "Source files in order (.lad, .pmc, .plc); - reads standard input")->required();
+  command.add_option("FILE", options.files, "Source files in order (.lad, .pmc, .plc); - reads standard input")
+      ->required();
   command.add_option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not tell");
-  command.add_option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated")->allow_extra_args(false);
+  command.add_option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated")
+      ->allow_extra_args(false);
   command.add_flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
   command.add_flag("--json", options.json, "Diagnostics as JSON on standard output");
-  command.add_option("--color", options.color, "Colours in diagnostics")->check(CLI::IsMember({"auto", "always", "never"}));
+  command.add_option("--color", options.color, "Colours in diagnostics")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
 }
 
 void addLevelOption(CLI::App& command, std::string& level) {
-  command.add_option("-O", level, "0: compile fast, 2: run fast")->check(CLI::IsMember({"0", "2"}))->capture_default_str();
+  command.add_option("-O", level, "0: compile fast, 2: run fast")
+      ->check(CLI::IsMember({"0", "2"}))
+      ->capture_default_str();
 }
 
 int environmentError(const std::string& message) {
@@ -40,7 +45,8 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
 
 } // namespace
 
-std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options, driver::CompileRequest request, int& status) {
+std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
+                                               driver::CompileRequest request, int& status) {
   request.dialect = options.dialect;
   request.options.strict = options.strict;
   for (const std::string& pair : options.config) {

@@ -51,7 +51,8 @@ void printResult(const TestCase& test) {
     return;
   }
   fmt::print("FAILED  {}\n", test.path);
-  for (const scenario::Problem& problem : test.result.problems) fmt::print("  {}:{}: {}\n", test.path, problem.line, problem.message);
+  for (const scenario::Problem& problem : test.result.problems)
+    fmt::print("  {}:{}: {}\n", test.path, problem.line, problem.message);
   if (!test.result.environment.empty()) fmt::print("  {}\n", test.result.environment);
 }
 
@@ -59,9 +60,12 @@ TestCase runOne(const std::string& path, const scenario::RunOptions& options) {
   TestCase test{path, 0, {}};
   const auto start = std::chrono::steady_clock::now();
   Result<scenario::Scenario> parsed = readScenario(path);
-  if (!parsed.ok()) test.result.environment = parsed.error();
-  else if (!parsed.value().problems.empty()) test.result.problems = parsed.value().problems;
-  else test.result = scenario::run(parsed.value(), options);
+  if (!parsed.ok())
+    test.result.environment = parsed.error();
+  else if (!parsed.value().problems.empty())
+    test.result.problems = parsed.value().problems;
+  else
+    test.result = scenario::run(parsed.value(), options);
   test.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return test;
 }
@@ -84,7 +88,8 @@ int runTests(const TestOptions& options) {
     tests.push_back(runOne(path, run));
     printResult(tests.back());
     passed += tests.back().result.passed ? 1 : 0;
-    if (!tests.back().result.passed) status = std::max(status, tests.back().result.environment.empty() ? int{kWrong} : int{kEnvironment});
+    if (!tests.back().result.passed)
+      status = std::max(status, tests.back().result.environment.empty() ? int{kWrong} : int{kEnvironment});
   }
   fmt::print("{} passed, {} failed\n", passed, tests.size() - passed);
   if (!options.junit.empty()) {
@@ -101,7 +106,8 @@ void addTest(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("test", "Run scenarios; several engines are compared after every scan");
   auto options = std::make_shared<TestOptions>();
   command->add_option("SCENARIO", options->files, "Scenario files (.scn)")->required();
-  command->add_option("--engine", options->engines, "interp, cpp, llvm, jit, a list of them with commas, or all")->capture_default_str();
+  command->add_option("--engine", options->engines, "interp, cpp, llvm, jit, a list of them with commas, or all")
+      ->capture_default_str();
   command->add_option("--junit", options->junit, "Write the results as JUnit XML");
   command->add_option("--cxx", options->cxx, "C++ compiler of the engine cpp");
   addLevelOption(*command, options->level);
@@ -141,7 +147,8 @@ void addProfile(CLI::App& app, int& status) {
       status = test.result.environment.empty() ? kWrong : kEnvironment;
       return;
     }
-    std::cout << (options->json ? profile::reportJson(test.result.profile) : profile::reportText(test.result.profile, options->top));
+    std::cout << (options->json ? profile::reportJson(test.result.profile)
+                                : profile::reportText(test.result.profile, options->top));
     if (options->json) std::cout << '\n';
   });
 }

@@ -17,14 +17,16 @@ struct Reported {
 
 std::vector<Reported> reportedOf(const Diagnostics& diagnostics, const SourceManager& sources) {
   std::vector<Reported> out;
-  for (const Diagnostic* d : diagnostics.sorted()) out.push_back({d, d->range.valid() ? sources.lineCol(d->range.begin).line : 0});
+  for (const Diagnostic* d : diagnostics.sorted())
+    out.push_back({d, d->range.valid() ? sources.lineCol(d->range.begin).line : 0});
   return out;
 }
 
 std::string listOf(const std::vector<Reported>& reported, Severity severity) {
   std::string text;
   for (const Reported& r : reported)
-    if (r.diagnostic->severity == severity) text += fmt::format("{}{} (line {})", text.empty() ? "" : ", ", diagInfo(r.diagnostic->id).code, r.line);
+    if (r.diagnostic->severity == severity)
+      text += fmt::format("{}{} (line {})", text.empty() ? "" : ", ", diagInfo(r.diagnostic->id).code, r.line);
   return text.empty() ? "none" : text;
 }
 
@@ -44,8 +46,10 @@ void checkExpected(const Scenario& scenario, std::vector<Reported>& reported, st
       found = r.expected = true;
     }
     if (!found)
-      problems.push_back({s.line, fmt::format("expected {} {}{}; reported: {}", severity == Severity::Error ? "error" : "warning", s.name,
-                                              s.number == 0 ? "" : fmt::format(" at line {}", s.number), listOf(reported, severity))});
+      problems.push_back(
+          {s.line,
+           fmt::format("expected {} {}{}; reported: {}", severity == Severity::Error ? "error" : "warning", s.name,
+                       s.number == 0 ? "" : fmt::format(" at line {}", s.number), listOf(reported, severity))});
   }
 }
 
@@ -57,7 +61,8 @@ bool readsKey(const frontend::Dialect& dialect, std::string_view key) {
   return false;
 }
 
-CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict, bool instrument) {
+CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
+                           bool instrument) {
   CompileStep step;
   driver::CompileRequest request;
   request.options.strict = strict;
@@ -84,7 +89,8 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
   std::vector<Reported> reported = reportedOf(diagnostics, sources);
   checkExpected(scenario, reported, step.problems);
   if (!errorExpected && !step.program)
-    step.problems.push_back({scenario.statements[0].line, "the program has errors:\n" + renderText(diagnostics, sources)});
+    step.problems.push_back(
+        {scenario.statements[0].line, "the program has errors:\n" + renderText(diagnostics, sources)});
   if (errorExpected) step.program.reset();
   return step;
 }

@@ -16,7 +16,8 @@ struct CompileStep {
 };
 
 // `programs`: instead of the files that the scenario names, when not empty.
-CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict, bool instrument);
+CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
+                           bool instrument);
 
 // Whether the compiler itself reads this configuration key; the rest is for the NC model.
 bool readsKey(const frontend::Dialect& dialect, std::string_view key);

@@ -56,13 +56,13 @@ Value valueOf(const ScenarioWord& word) {
 }
 
 class LineParser {
- public:
+public:
   LineParser(Statement& statement, std::vector<ScenarioWord> words) : s_(statement), words_(std::move(words)) {}
 
   // Empty when the line is right.
   std::string run();
 
- private:
+private:
   bool done() const { return next_ >= words_.size(); }
   bool fail(std::string message) {
     if (error_.empty()) error_ = std::move(message);
@@ -110,7 +110,8 @@ class LineParser {
       const size_t equals = text.find('=');
       if (equals == std::string::npos || equals == 0) return fail(fmt::format("expected KEY=VALUE, found '{}'", text));
       ScenarioWord value{text.substr(equals + 1), false};
-      if (value.text.size() >= 2 && value.text.front() == '"' && value.text.back() == '"') value = {value.text.substr(1, value.text.size() - 2), true};
+      if (value.text.size() >= 2 && value.text.front() == '"' && value.text.back() == '"')
+        value = {value.text.substr(1, value.text.size() - 2), true};
       into.push_back({text.substr(0, equals), valueOf(value)});
     }
     return true;
@@ -191,7 +192,8 @@ class LineParser {
 const LineParser::Form LineParser::kForms[] = {
     {"program", Kind::Program, [](LineParser& p) { return p.program(); }},
     {"dialect", Kind::Dialect, [](LineParser& p) { return p.takeWord(p.s_.name, "a dialect"); }},
-    {"config", Kind::Config, [](LineParser& p) { return p.takeWord(p.s_.name, "a key") && (p.takeText(), p.error_.empty()); }},
+    {"config", Kind::Config,
+     [](LineParser& p) { return p.takeWord(p.s_.name, "a key") && (p.takeText(), p.error_.empty()); }},
     {"connect", Kind::Connect, [](LineParser& p) { return p.connect(); }},
     {"period", Kind::Period, [](LineParser& p) { return p.takeDuration(); }},
     {"set", Kind::Set, [](LineParser& p) { return p.set(); }},
@@ -201,11 +203,15 @@ const LineParser::Form LineParser::kForms[] = {
     {"run", Kind::Run, [](LineParser& p) { return p.takeDuration(); }},
     {"expect", Kind::Expect, [](LineParser& p) { return p.expect(); }},
     {"expect_range", Kind::ExpectRange,
-     [](LineParser& p) { return p.takeWord(p.s_.name, "a name") && p.takeValue(p.s_.value, true) && p.takeValue(p.s_.high, true); }},
+     [](LineParser& p) {
+       return p.takeWord(p.s_.name, "a name") && p.takeValue(p.s_.value, true) && p.takeValue(p.s_.high, true);
+     }},
     {"expect_message", Kind::ExpectMessage, [](LineParser& p) { return p.expectMessage(); }},
     {"expect_log", Kind::ExpectLog, [](LineParser& p) { return p.takeText(); }},
-    {"expect_call", Kind::ExpectCall, [](LineParser& p) { return p.takeWord(p.s_.name, "a service") && p.takeKeys(p.s_.keys); }},
-    {"expect_no_call", Kind::ExpectNoCall, [](LineParser& p) { return p.done() || p.takeWord(p.s_.name, "a service"); }},
+    {"expect_call", Kind::ExpectCall,
+     [](LineParser& p) { return p.takeWord(p.s_.name, "a service") && p.takeKeys(p.s_.keys); }},
+    {"expect_no_call", Kind::ExpectNoCall,
+     [](LineParser& p) { return p.done() || p.takeWord(p.s_.name, "a service"); }},
     {"reply", Kind::Reply, [](LineParser& p) { return p.takeKeys(p.s_.results); }},
     {"prepare", Kind::Prepare, [](LineParser& p) { return p.prepare(); }},
     {"block", Kind::BlockStart, [](LineParser& p) { return p.block(); }},
@@ -283,8 +289,10 @@ Scenario parse(std::string path, std::string_view text) {
     Statement statement;
     statement.line = number;
     if (problem.empty()) problem = LineParser(statement, std::move(words)).run();
-    if (!problem.empty()) scenario.problems.push_back({number, std::move(problem)});
-    else scenario.statements.push_back(std::move(statement));
+    if (!problem.empty())
+      scenario.problems.push_back({number, std::move(problem)});
+    else
+      scenario.statements.push_back(std::move(statement));
   }
   if (scenario.problems.empty() && (scenario.statements.empty() || scenario.statements[0].kind != Kind::Program))
     scenario.problems.push_back({1, "a scenario begins with: program FILE"});

@@ -23,14 +23,14 @@ struct Lane {
   std::unique_ptr<host::Engine> engine;
   std::unique_ptr<nc::NcModel> nc;
   std::unique_ptr<Instance> instance;
-  std::vector<std::string> unreadLog;   // since the last expect_log
+  std::vector<std::string> unreadLog;    // since the last expect_log
   std::vector<rt::ServiceRequest> taken; // requests that expect_call consumed, oldest first
-  std::vector<Prepared> prepared;       // answers that wait for their request
+  std::vector<Prepared> prepared;        // answers that wait for their request
 };
 
 // Lends the NC model's hooks and adds the scenario's prepared answers.
 class LaneHooks final : public host::ScheduleHooks {
- public:
+public:
   explicit LaneHooks(Lane& lane) : lane_(lane) {}
   void onHook(Instance& instance, uint32_t work) override { lane_.nc->onHook(instance, work); }
   void onFault(Instance& instance) override { lane_.nc->onFault(instance); }
@@ -45,26 +45,31 @@ class LaneHooks final : public host::ScheduleHooks {
     return lane_.nc->respond(instance, request, reply);
   }
 
- private:
+private:
   Lane& lane_;
 };
 
 class Runner {
- public:
+public:
   Runner(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {}
 
   RunResult run() {
     CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
     result_.environment = step.environment;
     result_.problems = step.problems;
-    if (step.program && result_.environment.empty() && result_.problems.empty() && startLanes(*step.program)) runStatements();
-    if (!lanes_.empty() && options_.instrument) result_.profile = profile::makeReport(lanes_[0].instance->program(), lanes_[0].instance->profile(), profile::nsPerTick());
+    if (step.program && result_.environment.empty() && result_.problems.empty() && startLanes(*step.program))
+      runStatements();
+    if (!lanes_.empty() && options_.instrument)
+      result_.profile =
+          profile::makeReport(lanes_[0].instance->program(), lanes_[0].instance->profile(), profile::nsPerTick());
     result_.passed = result_.problems.empty() && result_.environment.empty();
     return std::move(result_);
   }
 
- private:
-  void fail(const Statement& statement, std::string message) { result_.problems.push_back({statement.line, std::move(message)}); }
+private:
+  void fail(const Statement& statement, std::string message) {
+    result_.problems.push_back({statement.line, std::move(message)});
+  }
 
   bool startLanes(const driver::Compiled& program) {
     lanes_.reserve(options_.engines.size());
@@ -105,14 +110,16 @@ class Runner {
     }
     for (const Lane& lane : lanes_)
       if (lane.instance->faulted() && !faultExpected_)
-        return fail(scenario_.statements.back(), fmt::format("[{}] the program stopped with a fault: {}", lane.engine->name(), lane.instance->faultText()));
+        return fail(scenario_.statements.back(), fmt::format("[{}] the program stopped with a fault: {}",
+                                                             lane.engine->name(), lane.instance->faultText()));
   }
 
   // The engines must agree after every scan.
   bool compare(const Statement& s) {
     for (size_t i = 1; i < lanes_.size(); ++i)
       if (const auto difference = host::firstDifference(*lanes_[0].instance, *lanes_[i].instance)) {
-        fail(s, fmt::format("engines disagree after scan {}: {} against {}: {}", result_.scans, lanes_[0].engine->name(), lanes_[i].engine->name(), *difference));
+        fail(s, fmt::format("engines disagree after scan {}: {} against {}: {}", result_.scans,
+                            lanes_[0].engine->name(), lanes_[i].engine->name(), *difference));
         return false;
       }
     return true;
@@ -156,10 +163,12 @@ class Runner {
   }
 
   // Calls act(lane) for every lane; a text it gives is a problem of this statement.
-  template <class Act> void forLanes(const Statement& s, Act act) {
+  template <class Act>
+  void forLanes(const Statement& s, Act act) {
     for (Lane& lane : lanes_) {
       const std::string problem = act(lane);
-      if (!problem.empty()) return fail(s, lanes_.size() > 1 ? fmt::format("[{}] {}", lane.engine->name(), problem) : problem);
+      if (!problem.empty())
+        return fail(s, lanes_.size() > 1 ? fmt::format("[{}] {}", lane.engine->name(), problem) : problem);
     }
   }
 
@@ -183,39 +192,39 @@ class Runner {
 
 void Runner::execute(const Statement& s) {
   switch (s.kind) {
-    case Kind::Program:
-    case Kind::Dialect:
-    case Kind::Config:
-    case Kind::Connect:
-    case Kind::Period:
-    case Kind::ExpectError:
-    case Kind::ExpectWarning: return; // done before the first scan
-    case Kind::Set: return forLanes(s, [&](Lane& lane) { return setValue(lane, s); });
-    case Kind::Scan: return advance(s, &nc::NcModel::scan);
-    case Kind::Fast: return advance(s, &nc::NcModel::fast);
-    case Kind::Slot: return advance(s, &nc::NcModel::slot);
-    case Kind::Run: return runFor(s);
-    case Kind::Expect:
-    case Kind::ExpectRange: return forLanes(s, [&](Lane& lane) { return expectValue(lane, s); });
-    case Kind::ExpectMessage: return forLanes(s, [&](Lane& lane) { return expectMessage(lane, s); });
-    case Kind::ExpectLog: return forLanes(s, [&](Lane& lane) { return expectLog(lane, s); });
-    case Kind::ExpectCall: return forLanes(s, [&](Lane& lane) { return expectCall(lane, s); });
-    case Kind::ExpectNoCall: return forLanes(s, [&](Lane& lane) { return expectNoCall(lane, s); });
-    case Kind::Reply: return forLanes(s, [&](Lane& lane) { return replyTo(lane, s); });
-    case Kind::Prepare:
-      return forLanes(s, [&](Lane& lane) {
-        lane.prepared.push_back({s.name, s.keys, s.results});
-        return std::string();
-      });
-    case Kind::BlockStart: return forLanes(s, [&](Lane& lane) { return lane.nc->blockStart(*lane.instance, arguments(s.keys)); });
-    case Kind::BlockDone: return forLanes(s, [&](Lane& lane) { return lane.nc->blockDone(*lane.instance); });
-    case Kind::Event: return forLanes(s, [&](Lane& lane) { return lane.nc->event(*lane.instance, s.name, arguments(s.keys)); });
-    case Kind::Plc: return forLanes(s, [&](Lane& lane) { return lane.nc->plcCommand(*lane.instance, s.name); });
-    case Kind::ColdStart: return restart(nc::PowerOn::Cold);
-    case Kind::WarmStart: return restart(nc::PowerOn::Warm);
-    case Kind::ExpectFault:
-      faultExpected_ = true;
-      return forLanes(s, [&](Lane& lane) { return expectFault(lane, s); });
+  case Kind::Program:
+  case Kind::Dialect:
+  case Kind::Config:
+  case Kind::Connect:
+  case Kind::Period:
+  case Kind::ExpectError:
+  case Kind::ExpectWarning: return; // done before the first scan
+  case Kind::Set: return forLanes(s, [&](Lane& lane) { return setValue(lane, s); });
+  case Kind::Scan: return advance(s, &nc::NcModel::scan);
+  case Kind::Fast: return advance(s, &nc::NcModel::fast);
+  case Kind::Slot: return advance(s, &nc::NcModel::slot);
+  case Kind::Run: return runFor(s);
+  case Kind::Expect:
+  case Kind::ExpectRange: return forLanes(s, [&](Lane& lane) { return expectValue(lane, s); });
+  case Kind::ExpectMessage: return forLanes(s, [&](Lane& lane) { return expectMessage(lane, s); });
+  case Kind::ExpectLog: return forLanes(s, [&](Lane& lane) { return expectLog(lane, s); });
+  case Kind::ExpectCall: return forLanes(s, [&](Lane& lane) { return expectCall(lane, s); });
+  case Kind::ExpectNoCall: return forLanes(s, [&](Lane& lane) { return expectNoCall(lane, s); });
+  case Kind::Reply: return forLanes(s, [&](Lane& lane) { return replyTo(lane, s); });
+  case Kind::Prepare:
+    return forLanes(s, [&](Lane& lane) {
+      lane.prepared.push_back({s.name, s.keys, s.results});
+      return std::string();
+    });
+  case Kind::BlockStart:
+    return forLanes(s, [&](Lane& lane) { return lane.nc->blockStart(*lane.instance, arguments(s.keys)); });
+  case Kind::BlockDone: return forLanes(s, [&](Lane& lane) { return lane.nc->blockDone(*lane.instance); });
+  case Kind::Event:
+    return forLanes(s, [&](Lane& lane) { return lane.nc->event(*lane.instance, s.name, arguments(s.keys)); });
+  case Kind::Plc: return forLanes(s, [&](Lane& lane) { return lane.nc->plcCommand(*lane.instance, s.name); });
+  case Kind::ColdStart: return restart(nc::PowerOn::Cold);
+  case Kind::WarmStart: return restart(nc::PowerOn::Warm);
+  case Kind::ExpectFault: faultExpected_ = true; return forLanes(s, [&](Lane& lane) { return expectFault(lane, s); });
   }
 }
 
@@ -235,7 +244,8 @@ std::string Runner::expectValue(Lane& lane, const Statement& s) {
   } else {
     const std::optional<Ref> place = lane.nc->readPlace(*lane.instance, s.name);
     if (!place) return fmt::format("'{}' is no name of this program", s.name);
-    reading = readValue(*lane.instance, *place, s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real);
+    reading =
+        readValue(*lane.instance, *place, s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real);
   }
   return s.kind == Kind::ExpectRange ? checkRange(reading, s) : checkValue(reading, s);
 }
@@ -249,7 +259,8 @@ std::string Runner::expectMessage(Lane& lane, const Statement& s) {
     if (!difference.empty()) return difference;
     return s.on ? std::string() : fmt::format("message {} is displayed", s.number);
   }
-  return s.on ? fmt::format("message {} is not displayed; there is {}", s.number, seen.empty() ? "none" : seen) : std::string();
+  return s.on ? fmt::format("message {} is not displayed; there is {}", s.number, seen.empty() ? "none" : seen)
+              : std::string();
 }
 
 std::string Runner::expectLog(Lane& lane, const Statement& s) {
@@ -293,7 +304,8 @@ std::string Runner::replyTo(Lane& lane, const Statement& s) {
   }
   const ServiceSignature signature(host::serviceName(lane.instance->program(), request.service));
   for (const KeyValue& key : s.results)
-    if (key.key != "error" && signature.result(key.key) < 0) return fmt::format("{} has no result '{}'", signature.name(), key.key);
+    if (key.key != "error" && signature.result(key.key) < 0)
+      return fmt::format("{} has no result '{}'", signature.name(), key.key);
   lane.instance->services().complete(replyOf(signature, request.ticket, s.results));
   return {};
 }
@@ -301,7 +313,9 @@ std::string Runner::replyTo(Lane& lane, const Statement& s) {
 std::string Runner::expectFault(Lane& lane, const Statement& s) {
   if (!lane.instance->faulted()) return fmt::format("the program runs; expected the fault \"{}\"", s.value.text);
   const std::string text = lane.instance->faultText();
-  return text.find(s.value.text) != std::string::npos ? std::string() : fmt::format("the fault is \"{}\", expected \"{}\"", text, s.value.text);
+  return text.find(s.value.text) != std::string::npos
+             ? std::string()
+             : fmt::format("the fault is \"{}\", expected \"{}\"", text, s.value.text);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Runs a scenario on one or several engines in step. With several, all memory, messages, services and the fault of each are
-// compared with the first engine's after every scan, whatever the scenario expects.
+// Runs a scenario on one or several engines in step. With several, all memory, messages, services and the fault of each
+// are compared with the first engine's after every scan, whatever the scenario expects.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,9 +13,9 @@ namespace rung::scenario {
 struct RunOptions {
   std::vector<driver::EngineKind> engines; // at least one
   driver::EngineOptions engine;
-  bool instrument = false;                 // profile counters are in the result
+  bool instrument = false; // profile counters are in the result
   bool strict = false;
-  std::vector<std::string> programs;       // instead of the scenario's own program statement, when not empty
+  std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
 };
 
 struct RunResult {

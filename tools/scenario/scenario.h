@@ -1,5 +1,5 @@
-// Scenario files as data: one statement a line, as docs/scenario-format.md describes them. The parser knows the shape of
-// each statement; what a name or a key means is the dialect's business and is decided when the scenario runs.
+// Scenario files as data: one statement a line, as docs/scenario-format.md describes them. The parser knows the shape
+// of each statement; what a name or a key means is the dialect's business and is decided when the scenario runs.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -11,8 +11,33 @@
 namespace rung::scenario {
 
 enum class Kind : uint8_t {
-  Program, Dialect, Config, Connect, Period, Set, Scan, Fast, Slot, Run, Expect, ExpectRange, ExpectMessage, ExpectLog, ExpectCall,
-  ExpectNoCall, Reply, Prepare, BlockStart, BlockDone, Event, Plc, ColdStart, WarmStart, ExpectError, ExpectWarning, ExpectFault,
+  Program,
+  Dialect,
+  Config,
+  Connect,
+  Period,
+  Set,
+  Scan,
+  Fast,
+  Slot,
+  Run,
+  Expect,
+  ExpectRange,
+  ExpectMessage,
+  ExpectLog,
+  ExpectCall,
+  ExpectNoCall,
+  Reply,
+  Prepare,
+  BlockStart,
+  BlockDone,
+  Event,
+  Plc,
+  ColdStart,
+  WarmStart,
+  ExpectError,
+  ExpectWarning,
+  ExpectFault,
 };
 
 enum class ValueKind : uint8_t { Int, Real, Text };
@@ -21,8 +46,8 @@ enum class ValueKind : uint8_t { Int, Real, Text };
 struct Value {
   ValueKind kind = ValueKind::Int;
   int64_t integer = 0;
-  double real = 0;     // also filled for integers
-  std::string text;    // of a quoted string, else as written
+  double real = 0;  // also filled for integers
+  std::string text; // of a quoted string, else as written
 };
 
 struct KeyValue {
@@ -32,19 +57,20 @@ struct KeyValue {
 
 struct Statement {
   Kind kind = Kind::Scan;
-  uint32_t line = 0;               // from 1
-  std::string name;                // Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the service or event; Plc: the command
-  std::vector<std::string> words;  // Program: files; Connect: source and destination
-  Value value;                     // Set, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
-  Value high;                      // ExpectRange
-  bool near = false;               // expect NAME ~ VALUE TOLERANCE
+  uint32_t line = 0; // from 1
+  std::string name; // Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the service or event; Plc:
+                    // the command
+  std::vector<std::string> words; // Program: files; Connect: source and destination
+  Value value;                    // Set, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
+  Value high;                     // ExpectRange
+  bool near = false;              // expect NAME ~ VALUE TOLERANCE
   double tolerance = 0;
-  uint64_t count = 1;              // Scan, Fast, Slot
-  int64_t microseconds = 0;        // Run, Period
-  uint32_t number = 0;             // ExpectMessage: the number; ExpectError, ExpectWarning: the line, 0 for any
-  bool on = true;                  // ExpectMessage
+  uint64_t count = 1;       // Scan, Fast, Slot
+  int64_t microseconds = 0; // Run, Period
+  uint32_t number = 0;      // ExpectMessage: the number; ExpectError, ExpectWarning: the line, 0 for any
+  bool on = true;           // ExpectMessage
   std::vector<KeyValue> keys;
-  std::vector<KeyValue> results;   // Prepare: behind ->
+  std::vector<KeyValue> results; // Prepare: behind ->
 };
 
 struct Problem {

@@ -26,16 +26,19 @@ int64_t asSigned(uint64_t value, uint32_t width) {
 
 std::string show(const Reading& reading) {
   switch (reading.kind) {
-    case ValueKind::Real: return fmt::format("{}", reading.real);
-    case ValueKind::Text: return fmt::format("\"{}\"", reading.text);
-    case ValueKind::Int: break;
+  case ValueKind::Real: return fmt::format("{}", reading.real);
+  case ValueKind::Text: return fmt::format("\"{}\"", reading.text);
+  case ValueKind::Int: break;
   }
   if (reading.width <= 1) return fmt::format("{}", reading.integer);
   const int64_t number = asSigned(reading.integer, reading.width);
-  return number < 0 ? fmt::format("{} ({}, 0x{:X})", reading.integer, number, reading.integer) : fmt::format("{} (0x{:X})", number, reading.integer);
+  return number < 0 ? fmt::format("{} ({}, 0x{:X})", reading.integer, number, reading.integer)
+                    : fmt::format("{} (0x{:X})", number, reading.integer);
 }
 
-std::string show(const Value& value) { return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text; }
+std::string show(const Value& value) {
+  return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text;
+}
 
 bool sameName(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -48,7 +51,9 @@ int indexOf(const std::vector<std::string>& names, std::string_view key) {
   return -1;
 }
 
-int64_t rawOf(const Value& value) { return value.kind == ValueKind::Real ? std::bit_cast<int64_t>(value.real) : value.integer; }
+int64_t rawOf(const Value& value) {
+  return value.kind == ValueKind::Real ? std::bit_cast<int64_t>(value.real) : value.integer;
+}
 
 } // namespace
 
@@ -100,23 +105,34 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
 
 std::string checkValue(const Reading& reading, const Statement& expect) {
   bool same = false;
-  if (expect.near) same = std::fabs(reading.real - expect.value.real) <= expect.tolerance;
-  else if (reading.kind == ValueKind::Text) same = expect.value.kind == ValueKind::Text && reading.text == expect.value.text;
-  else if (expect.value.kind == ValueKind::Text) same = false;
-  else if (reading.kind == ValueKind::Real) same = reading.real == expect.value.real || (std::isnan(reading.real) && std::isnan(expect.value.real));
-  else same = reading.integer == modulo(static_cast<uint64_t>(expect.value.integer), reading.width);
+  if (expect.near)
+    same = std::fabs(reading.real - expect.value.real) <= expect.tolerance;
+  else if (reading.kind == ValueKind::Text)
+    same = expect.value.kind == ValueKind::Text && reading.text == expect.value.text;
+  else if (expect.value.kind == ValueKind::Text)
+    same = false;
+  else if (reading.kind == ValueKind::Real)
+    same = reading.real == expect.value.real || (std::isnan(reading.real) && std::isnan(expect.value.real));
+  else
+    same = reading.integer == modulo(static_cast<uint64_t>(expect.value.integer), reading.width);
   if (same) return {};
-  return fmt::format("{} is {}, expected {}{}", expect.name, show(reading), show(expect.value), expect.near ? fmt::format(" within {}", expect.tolerance) : "");
+  return fmt::format("{} is {}, expected {}{}", expect.name, show(reading), show(expect.value),
+                     expect.near ? fmt::format(" within {}", expect.tolerance) : "");
 }
 
 std::string checkRange(const Reading& reading, const Statement& expect) {
   bool inside = false;
-  if (reading.kind == ValueKind::Real) inside = reading.real >= expect.value.real && reading.real <= expect.high.real;
+  if (reading.kind == ValueKind::Real)
+    inside = reading.real >= expect.value.real && reading.real <= expect.high.real;
   else if (reading.kind == ValueKind::Int && expect.value.integer < 0)
-    inside = asSigned(reading.integer, reading.width) >= expect.value.integer && asSigned(reading.integer, reading.width) <= expect.high.integer;
+    inside = asSigned(reading.integer, reading.width) >= expect.value.integer &&
+             asSigned(reading.integer, reading.width) <= expect.high.integer;
   else if (reading.kind == ValueKind::Int)
-    inside = reading.integer >= static_cast<uint64_t>(expect.value.integer) && reading.integer <= static_cast<uint64_t>(expect.high.integer);
-  return inside ? std::string() : fmt::format("{} is {}, expected {}…{}", expect.name, show(reading), expect.value.text, expect.high.text);
+    inside = reading.integer >= static_cast<uint64_t>(expect.value.integer) &&
+             reading.integer <= static_cast<uint64_t>(expect.high.integer);
+  return inside
+             ? std::string()
+             : fmt::format("{} is {}, expected {}…{}", expect.name, show(reading), expect.value.text, expect.high.text);
 }
 
 std::string messageDifference(const nc::ShownMessage& message, const std::vector<KeyValue>& keys) {
@@ -144,7 +160,8 @@ std::string messageDifference(const nc::ShownMessage& message, const std::vector
 std::vector<nc::NcArgument> arguments(const std::vector<KeyValue>& keys) {
   std::vector<nc::NcArgument> out;
   for (const KeyValue& key : keys)
-    out.push_back({key.key, key.value.kind == ValueKind::Text, key.value.kind == ValueKind::Real, key.value.integer, key.value.real, key.value.text});
+    out.push_back({key.key, key.value.kind == ValueKind::Text, key.value.kind == ValueKind::Real, key.value.integer,
+                   key.value.real, key.value.text});
   return out;
 }
 
@@ -153,8 +170,10 @@ ServiceSignature::ServiceSignature(std::string_view text) {
   in >> name_;
   bool results = false;
   for (std::string word; in >> word;) {
-    if (word == "->") results = true;
-    else (results ? results_ : arguments_).push_back(word);
+    if (word == "->")
+      results = true;
+    else
+      (results ? results_ : arguments_).push_back(word);
   }
 }
 
@@ -162,18 +181,21 @@ bool ServiceSignature::isNamed(std::string_view name) const { return sameName(na
 int ServiceSignature::argument(std::string_view key) const { return indexOf(arguments_, key); }
 int ServiceSignature::result(std::string_view key) const { return indexOf(results_, key); }
 
-std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service, const std::vector<KeyValue>& keys) {
+std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
+                              std::string_view service, const std::vector<KeyValue>& keys) {
   if (!signature.isNamed(service)) return fmt::format("the next request is {}, expected {}", signature.name(), service);
   for (const KeyValue& key : keys) {
     const int index = signature.argument(key.key);
-    if (index < 0 || static_cast<uint32_t>(index) >= request.argCount) return fmt::format("{} has no argument '{}'", signature.name(), key.key);
+    if (index < 0 || static_cast<uint32_t>(index) >= request.argCount)
+      return fmt::format("{} has no argument '{}'", signature.name(), key.key);
     if (request.args[index] != rawOf(key.value))
       return fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, request.args[index], key.value.text);
   }
   return {};
 }
 
-bool matches(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service, const std::vector<KeyValue>& keys) {
+bool matches(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service,
+             const std::vector<KeyValue>& keys) {
   return requestDifference(signature, request, service, keys).empty();
 }
 

@@ -35,7 +35,7 @@ std::vector<nc::NcArgument> arguments(const std::vector<KeyValue>& keys);
 
 // A service as rung_program names it: "NAME arg1 arg2 -> result1 result2".
 class ServiceSignature {
- public:
+public:
   explicit ServiceSignature(std::string_view text);
   const std::string& name() const { return name_; }
   bool isNamed(std::string_view name) const; // whatever the case
@@ -43,7 +43,7 @@ class ServiceSignature {
   int argument(std::string_view key) const;
   int result(std::string_view key) const;
 
- private:
+private:
   std::string name_;
   std::vector<std::string> arguments_;
   std::vector<std::string> results_;
@@ -57,8 +57,10 @@ struct Prepared {
 };
 
 // "" when the request is this service with these arguments; keys that are not given are not compared.
-std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service, const std::vector<KeyValue>& keys);
-bool matches(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service, const std::vector<KeyValue>& keys);
+std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
+                              std::string_view service, const std::vector<KeyValue>& keys);
+bool matches(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service,
+             const std::vector<KeyValue>& keys);
 // Results in the order of the signature; `error=1` gives the state Error.
 rt::ServiceReply replyOf(const ServiceSignature& signature, uint32_t ticket, const std::vector<KeyValue>& results);
 

@@ -12,7 +12,7 @@ constexpr uint32_t kMainBudget = 1'000'000; // executed instructions (2.1, propo
 constexpr uint32_t kInt0Budget = 100'000;
 
 class ModuleBuilder {
- public:
+public:
   ModuleBuilder(ir::Module& module, const Program& program, SymbolTable& symbols, const SourceManager& sources)
       : module_(module), program_(program), symbols_(symbols), config_(symbols.config()), sources_(sources) {}
 
@@ -23,7 +23,8 @@ class ModuleBuilder {
     module_.faults = {"PLC timeout"}; // l.540
     addSpaces();
     addSymbols();
-    LoweringContext context{.module = module_, .config = config_, .spaces = spaces_, .written = written_, .sources = sources_};
+    LoweringContext context{
+        .module = module_, .config = config_, .spaces = spaces_, .written = written_, .sources = sources_};
     for (FileId file : files) {
       context.files[file.index] = {static_cast<uint32_t>(module_.files.size())};
       module_.files.emplace_back(sources_.name(file));
@@ -34,7 +35,7 @@ class ModuleBuilder {
     addSchedule();
   }
 
- private:
+private:
   ir::SpaceId addSpace(ir::Space space) {
     module_.spaces.push_back(std::move(space));
     return {static_cast<uint32_t>(module_.spaces.size() - 1)};
@@ -80,7 +81,8 @@ class ModuleBuilder {
       added.space = spaces_.m;
       added.byte = symbol.word * 4 + symbol.bit / 8;
       added.bit = symbol.bit % 8;
-      if (symbol.signal != nullptr && symbol.signal->direction == nc::Direction::In) added.flags |= RUNG_SYMBOL_READONLY;
+      if (symbol.signal != nullptr && symbol.signal->direction == nc::Direction::In)
+        added.flags |= RUNG_SYMBOL_READONLY;
       setType(added, symbol);
     }
     std::ranges::sort(module_.symbols, {}, &ir::Symbol::name);
@@ -88,22 +90,22 @@ class ModuleBuilder {
 
   static void setType(ir::Symbol& added, const Symbol& symbol) {
     switch (symbol.kind) {
-      case SymbolKind::Bad: return;
-      case SymbolKind::Bit: added.type = RUNG_TYPE_BIT; return;
-      case SymbolKind::Word:
-        added.type = RUNG_TYPE_I32;
-        if (symbol.signal == nullptr) return;
-        added.count = symbol.signal->count;
-        if (symbol.signal->type == nc::SignalType::Real) added.type = RUNG_TYPE_F64;
-        return;
-      case SymbolKind::Constant:
-        added.flags |= RUNG_SYMBOL_CONST;
-        added.space = {};
-        added.byte = 0;
-        const bool real = symbol.constant.kind == ConstantKind::Real;
-        added.type = real ? RUNG_TYPE_F64 : RUNG_TYPE_I32;
-        added.value = real ? std::bit_cast<int64_t>(symbol.constant.real) : symbol.constant.integer;
-        return;
+    case SymbolKind::Bad: return;
+    case SymbolKind::Bit: added.type = RUNG_TYPE_BIT; return;
+    case SymbolKind::Word:
+      added.type = RUNG_TYPE_I32;
+      if (symbol.signal == nullptr) return;
+      added.count = symbol.signal->count;
+      if (symbol.signal->type == nc::SignalType::Real) added.type = RUNG_TYPE_F64;
+      return;
+    case SymbolKind::Constant:
+      added.flags |= RUNG_SYMBOL_CONST;
+      added.space = {};
+      added.byte = 0;
+      const bool real = symbol.constant.kind == ConstantKind::Real;
+      added.type = real ? RUNG_TYPE_F64 : RUNG_TYPE_I32;
+      added.value = real ? std::bit_cast<int64_t>(symbol.constant.real) : symbol.constant.integer;
+      return;
     }
   }
 
@@ -126,8 +128,8 @@ class ModuleBuilder {
     return {transfer};
   }
 
-  // Behind the last byte of the NC area in which the two memories can differ: where the signals lie, and what the program
-  // touches beyond them. It is copied in every cycle, so the words that nobody uses are left out.
+  // Behind the last byte of the NC area in which the two memories can differ: where the signals lie, and what the
+  // program touches beyond them. It is copied in every cycle, so the words that nobody uses are left out.
   uint32_t synchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;
     uint32_t end = nc::areaBytes(nc::nctSignals(), "M");
@@ -145,7 +147,13 @@ class ModuleBuilder {
 
   void addTasks(ir::RoutineId main, ir::RoutineId int0) {
     const ir::FaultId timeout{0};
-    ir::Task task{.name = "MAIN", .entry = main, .periodUs = config_.periodUs, .budget = kMainBudget, .budgetFault = timeout, .begin = {}, .end = {}};
+    ir::Task task{.name = "MAIN",
+                  .entry = main,
+                  .periodUs = config_.periodUs,
+                  .budget = kMainBudget,
+                  .budgetFault = timeout,
+                  .begin = {},
+                  .end = {}};
     const std::vector<ir::Copy> transfer = writtenToTimeSlice();
     // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; nobody reads the time-slice
     // memory between here and the end of the run.
@@ -157,7 +165,13 @@ class ModuleBuilder {
     module_.tasks.push_back(std::move(task));
     if (!int0.valid()) return;
     // INT0 interrupts MAIN, so each has its own FLAGS (proposal 4): word 0 of @F keeps MAIN's, word 1 INT0's.
-    ir::Task fast{.name = "INT0", .entry = int0, .periodUs = config_.timesliceUs, .budget = kInt0Budget, .budgetFault = timeout, .begin = {}, .end = {}};
+    ir::Task fast{.name = "INT0",
+                  .entry = int0,
+                  .periodUs = config_.timesliceUs,
+                  .budget = kInt0Budget,
+                  .budgetFault = timeout,
+                  .begin = {},
+                  .end = {}};
     fast.begin = {copy(spaces_.m, 0, flags_, 0, 4), copy(flags_, 4, spaces_.m, 0, 4)};
     fast.end = {copy(spaces_.m, 0, flags_, 4, 4), copy(flags_, 0, spaces_.m, 0, 4)};
     module_.fastTask = {1};
@@ -196,8 +210,8 @@ class ModuleBuilder {
 
 } // namespace
 
-std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts, const SourceManager& sources,
-                                        std::span<const FileId> files) {
+std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
+                                        const SourceManager& sources, std::span<const FileId> files) {
   auto module = std::make_unique<ir::Module>();
   ModuleBuilder(*module, program, symbols, sources).run(texts, files);
   return module;

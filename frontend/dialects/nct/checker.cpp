@@ -28,19 +28,19 @@ bool inUserMemory(std::string_view kind) { return kind == "uword" || kind == "ud
 
 std::string_view describe(Form form) {
   switch (form) {
-    case Form::Bad: return "wrong";
-    case Form::Constant: return "a constant";
-    case Form::Word: return "a word";
-    case Form::Bit: return "a bit";
-    case Form::Text: return "a text";
+  case Form::Bad: return "wrong";
+  case Form::Constant: return "a constant";
+  case Form::Word: return "a word";
+  case Form::Bit: return "a bit";
+  case Form::Text: return "a text";
   }
   return "";
 }
 std::string_view describe(ConstantKind kind) {
   switch (kind) {
-    case ConstantKind::Decimal: return "a decimal constant";
-    case ConstantKind::Hex: return "a hexadecimal constant";
-    case ConstantKind::Real: return "a floating-point constant";
+  case ConstantKind::Decimal: return "a decimal constant";
+  case ConstantKind::Hex: return "a hexadecimal constant";
+  case ConstantKind::Real: return "a floating-point constant";
   }
   return "";
 }
@@ -56,16 +56,18 @@ std::string_view wanted(std::string_view kind) {
 // How messages name an element.
 std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
   switch (element.kind) {
-    case ElementKind::Contact: return "a contact";
-    case ElementKind::Coil: return row.claim == Claim::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
-    case ElementKind::Box: return std::string(row.info.mnemonic);
+  case ElementKind::Contact: return "a contact";
+  case ElementKind::Coil:
+    return row.claim == Claim::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
+  case ElementKind::Box: return std::string(row.info.mnemonic);
   }
   return {};
 }
 
 } // namespace
 
-// --- each output once ---------------------------------------------------------------------------------------------------
+// --- each output once
+// ---------------------------------------------------------------------------------------------------
 void OutputClaims::add(Claim claim, const Operand& operand) {
   const Address& address = operand.address;
   if (claim == Claim::None || !address.isFixed()) return;
@@ -80,11 +82,13 @@ void OutputClaims::add(Claim claim, const Operand& operand) {
   if (claim == Claim::Once) owner.once = here;
   if (claim == Claim::SetReset && !owner.setReset.valid()) owner.setReset = here;
   if (!wasMixed && owner.once.valid() && owner.setReset.valid())
-    diagnostics_.report(Diag::MixedOutput, here).note(claim == Claim::Once ? owner.setReset : owner.once, "the other one")
+    diagnostics_.report(Diag::MixedOutput, here)
+            .note(claim == Claim::Once ? owner.setReset : owner.once, "the other one")
         << operand.source->text;
 }
 
-// --- rungs --------------------------------------------------------------------------------------------------------------
+// --- rungs
+// --------------------------------------------------------------------------------------------------------------
 RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, Diagnostics& diagnostics, bool inInt0)
     : symbols_(symbols), claims_(claims), diagnostics_(diagnostics), inInt0_(inInt0),
       handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")), fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
@@ -99,7 +103,8 @@ TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung&
   for (const ladder::Element& element : rung.elements) checkElement(typed, element);
   // What marks a place in the program has a rung of its own (l.2926, l.2968, l.3022).
   for (const TypedElement& element : typed.elements) {
-    if (typed.elements.size() == 1 || element.row == nullptr || element.row->info.placement != Placement::AtRail) continue;
+    if (typed.elements.size() == 1 || element.row == nullptr || element.row->info.placement != Placement::AtRail)
+      continue;
     if (typed.bad) break;
     typed.bad = true;
     diagnostics_.report(Diag::FirstColumnRequired, element.element->range).note("it needs a rung of its own")
@@ -110,9 +115,9 @@ TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung&
 
 const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const Operand* first) {
   switch (element.kind) {
-    case ElementKind::Contact: return &contactRow(first->form == Form::Bit, element.negated);
-    case ElementKind::Coil: return &coilRow(static_cast<int>(element.coil));
-    case ElementKind::Box: break;
+  case ElementKind::Contact: return &contactRow(first->form == Form::Bit, element.negated);
+  case ElementKind::Coil: return &coilRow(static_cast<int>(element.coil));
+  case ElementKind::Box: break;
   }
   const NctInstruction* row = findBox(element.mnemonic);
   if (row == nullptr) diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange) << element.mnemonic;
@@ -152,8 +157,10 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
     ok = false;
   };
   for (const ladder::Pin& pin : rung.pinsOf(element)) {
-    if (row.info.placement == Placement::BehindContact && pin.input == ladder::kRail) complain(Diag::FirstColumnNotAllowed, pin.range);
-    if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail) complain(Diag::FirstColumnRequired, pin.range);
+    if (row.info.placement == Placement::BehindContact && pin.input == ladder::kRail)
+      complain(Diag::FirstColumnNotAllowed, pin.range);
+    if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail)
+      complain(Diag::FirstColumnRequired, pin.range);
   }
   const bool connected = element.output.valid();
   if (row.info.output == Output::None && connected) complain(Diag::ElementAfterClosing, element.range);
@@ -172,7 +179,8 @@ bool RungChecker::checkPins(const ladder::Rung& rung, const ladder::Element& ele
     }
     if (i < known.size() && drawn[i].name == known[i].name) continue;
     diagnostics_.report(Diag::UnknownPin, drawn[i].range)
-        << row.info.mnemonic << drawn[i].name << (i < known.size() ? known[i].name : std::string_view("no further pin"));
+        << row.info.mnemonic << drawn[i].name
+        << (i < known.size() ? known[i].name : std::string_view("no further pin"));
     ok = false;
   }
   return ok;
@@ -186,7 +194,9 @@ bool RungChecker::checkCount(const ladder::Rung& rung, const ladder::Element& el
   if (words.size() >= least && words.size() <= most) return true;
   const SourceRange range = words.size() > most ? words[most].range : element.mnemonicRange;
   diagnostics_.report(Diag::OperandCount, range)
-      << row.info.mnemonic << (least == most ? fmt::format("{} operand{}", most, most == 1 ? "" : "s") : fmt::format("{} or {} operands", least, most))
+      << row.info.mnemonic
+      << (least == most ? fmt::format("{} operand{}", most, most == 1 ? "" : "s")
+                        : fmt::format("{} or {} operands", least, most))
       << static_cast<int>(words.size());
   return false;
 }
@@ -199,14 +209,14 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   bool ok = true;
   for (size_t i = 0; i < words.size(); ++i) {
     switch (classOf(row.info.operands[i].kind)) {
-      case Class::Label:
-        typedElement.label = parseLabel(words[i], symbols_, diagnostics_);
-        ok = typedElement.label.has_value() && ok;
-        continue;
-      case Class::Other: continue;
-      case Class::Bit:
-      case Class::Word:
-      case Class::Double: break;
+    case Class::Label:
+      typedElement.label = parseLabel(words[i], symbols_, diagnostics_);
+      ok = typedElement.label.has_value() && ok;
+      continue;
+    case Class::Other: continue;
+    case Class::Bit:
+    case Class::Word:
+    case Class::Double: break;
     }
     if (element.kind == ElementKind::Box) {
       typed.operands.push_back(parseOperand(words[i], symbols_, diagnostics_));
@@ -227,7 +237,8 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   return true;
 }
 
-// --- operands -----------------------------------------------------------------------------------------------------------
+// --- operands
+// -----------------------------------------------------------------------------------------------------------
 bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Operand& operand) {
   const OperandInfo& info = row.info.operands[index];
   const std::string_view text = operand.source->text;
@@ -235,7 +246,8 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
   if (operand.form == Form::Constant) {
     if (takesConstant(info.kind)) return checkConstant(row, index, operand);
     if (operand.fromSymbol)
-      diagnostics_.report(Diag::SymbolKindMismatch, range) << text << "a constant" << (info.kind == "bit" ? "a bit" : "an address");
+      diagnostics_.report(Diag::SymbolKindMismatch, range)
+          << text << "a constant" << (info.kind == "bit" ? "a bit" : "an address");
     else
       diagnostics_.report(Diag::OperandNotRegister, range) << static_cast<int>(index + 1) << row.info.mnemonic;
     return false;

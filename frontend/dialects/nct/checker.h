@@ -8,11 +8,11 @@ namespace rung::nct {
 
 // "Each output once" (l.233), over all modules.
 class OutputClaims {
- public:
+public:
   explicit OutputClaims(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
   void add(Claim claim, const Operand& operand);
 
- private:
+private:
   struct Owner {
     SourceRange once;     // of the coil, timer, …; invalid: none yet
     SourceRange setReset; // of the first SET or RST
@@ -22,11 +22,11 @@ class OutputClaims {
 };
 
 class RungChecker {
- public:
+public:
   RungChecker(SymbolTable& symbols, OutputClaims& claims, Diagnostics& diagnostics, bool inInt0);
   TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
 
- private:
+private:
   const NctInstruction* rowOf(const ladder::Element& element, const Operand* first);
   void checkElement(TypedRung& typed, const ladder::Element& element);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);

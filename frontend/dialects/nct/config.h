@@ -6,14 +6,14 @@
 
 namespace rung::nct {
 
-inline constexpr uint32_t kWords = 10000;  // addresses 0000 to 9999, l.283
-inline constexpr uint32_t kFlagsWord = 0;  // FLAGS, l.723
+inline constexpr uint32_t kWords = 10000;   // addresses 0000 to 9999, l.283
+inline constexpr uint32_t kFlagsWord = 0;   // FLAGS, l.723
 inline constexpr uint32_t kFirstNcWord = 2; // the time-slice memory begins here, l.544; word 0001 is reserved
 
 // The limits depend on the control and the manual does not print them (l.293); these are the project's defaults.
 struct Config {
-  uint32_t plcNvram = 4000; // first word of the non-volatile user memory
-  uint32_t plcRam = 5024;   // first word of the volatile user memory: 1024 words further, l.290
+  uint32_t plcNvram = 4000;     // first word of the non-volatile user memory
+  uint32_t plcRam = 5024;       // first word of the volatile user memory: 1024 words further, l.290
   uint32_t periodUs = 10'000;   // T_PLC, l.536
   uint32_t timesliceUs = 2'000; // l.540
   uint32_t slices() const { return timesliceUs < periodUs ? periodUs / timesliceUs : 1; }

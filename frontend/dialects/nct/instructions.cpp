@@ -13,7 +13,8 @@ namespace {
 using frontend::InstructionInfo;
 using frontend::OperandKindInfo;
 
-constexpr size_t kRowCount = std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) + std::size(kControlRows);
+constexpr size_t kRowCount =
+    std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) + std::size(kControlRows);
 
 constexpr std::array<NctInstruction, kRowCount> joinRows() {
   std::array<NctInstruction, kRowCount> rows{};
@@ -36,7 +37,8 @@ constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
 constexpr std::array<uint8_t, kRowCount> sortByMnemonic() {
   std::array<uint8_t, kRowCount> order{};
   for (size_t i = 0; i < kRowCount; ++i) order[i] = static_cast<uint8_t>(i);
-  std::sort(order.begin(), order.end(), [](uint8_t a, uint8_t b) { return kRows[a].info.mnemonic < kRows[b].info.mnemonic; });
+  std::sort(order.begin(), order.end(),
+            [](uint8_t a, uint8_t b) { return kRows[a].info.mnemonic < kRows[b].info.mnemonic; });
   return order;
 }
 constexpr std::array<uint8_t, kRowCount> kByMnemonic = sortByMnemonic();
@@ -44,7 +46,9 @@ constexpr std::array<uint8_t, kRowCount> kByMnemonic = sortByMnemonic();
 constexpr bool complete() {
   for (const NctInstruction& row : kRows) {
     const InstructionInfo& info = row.info;
-    if (info.mnemonic.empty() || info.title.empty() || info.group.empty() || info.ref.empty() || info.doc.empty() || info.example.empty()) return false;
+    if (info.mnemonic.empty() || info.title.empty() || info.group.empty() || info.ref.empty() || info.doc.empty() ||
+        info.example.empty())
+      return false;
     if (info.pins.size() == 0) return false;
   }
   for (size_t i = 1; i < kRowCount; ++i)
@@ -54,8 +58,10 @@ constexpr bool complete() {
 static_assert(complete(), "every row says what it is, where the manual describes it, and has a name of its own");
 
 constexpr OperandKindInfo kKinds[] = {
-    {"bit", "A bit: 0056.17, a bit symbol, 0056:REG (the bit's number in a register), each with ,#3 or ,REG to move by whole words.", "7000.05",
-     "7000", "symbol-kind-mismatch"},
+    {"bit",
+     "A bit: 0056.17, a bit symbol, 0056:REG (the bit's number in a register), each with ,#3 or ,REG to move by whole "
+     "words.",
+     "7000.05", "7000", "symbol-kind-mismatch"},
     {"word", "A double word: 0056, a word symbol, with ,#3 or ,REG.", "7000", "#5", "operand-not-register"},
     {"uword", "A double word of the user memory, from PLCNVRAM on.", "7000", "2000", "user-area-required"},
     {"double", "The first of two words of a double; an index is even.", "7000", "9999", "double-at-9999"},
@@ -82,7 +88,8 @@ std::span<const InstructionInfo* const> allInfos() { return kInfos; }
 std::span<const OperandKindInfo> operandKinds() { return kKinds; }
 
 const NctInstruction* findBox(std::string_view mnemonic) {
-  const auto found = std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
+  const auto found =
+      std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
   if (found == kByMnemonic.end()) return nullptr;
   const NctInstruction& row = kRows[*found];
   return row.info.mnemonic == mnemonic && row.shape == Shape::Box ? &row : nullptr;

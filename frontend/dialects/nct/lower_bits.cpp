@@ -31,8 +31,8 @@ ValueId pulse(RungBuilder& b, SlotId slot, ValueId value, bool rising) {
 
 constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
 
-// The edge of a contact whose address is computed. Its memory belongs to the address it was taken from: when that moved,
-// the memory starts anew without an edge. Before the first evaluation there is no address and the value is 0.
+// The edge of a contact whose address is computed. Its memory belongs to the address it was taken from: when that
+// moved, the memory starts anew without an edge. Before the first evaluation there is no address and the value is 0.
 ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
   RungBuilder& b = box.b;
   const SlotId addressSlot = box.slots.make("address", Type::I32, kNoAddress);

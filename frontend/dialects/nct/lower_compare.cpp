@@ -26,12 +26,12 @@ namespace {
 
 ValueId compare(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
   switch (variant) {
-    case kLess: return b.ltS(x, y);
-    case kLessEqual: return b.leS(x, y);
-    case kEqual: return b.eq(x, y);
-    case kNotEqual: return b.ne(x, y);
-    case kGreaterEqual: return b.leS(y, x);
-    case kGreater: return b.ltS(y, x);
+  case kLess: return b.ltS(x, y);
+  case kLessEqual: return b.leS(x, y);
+  case kEqual: return b.eq(x, y);
+  case kNotEqual: return b.ne(x, y);
+  case kGreaterEqual: return b.leS(y, x);
+  case kGreater: return b.ltS(y, x);
   }
   return {};
 }

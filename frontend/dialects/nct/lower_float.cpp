@@ -20,7 +20,8 @@ ValueId isZero(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, 
 ValueId isNumber(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, x}); }
 
 // Does `store` when `ok` holds, else only sets FL_ER; gives `ok`. `store` clears FL_ER.
-template <class Store> ValueId when(Lowering& box, ValueId ok, Store store) {
+template <class Store>
+ValueId when(Lowering& box, ValueId ok, Store store) {
   box.b.if_(ok);
   store();
   box.b.else_();
@@ -32,18 +33,18 @@ template <class Store> ValueId when(Lowering& box, ValueId ok, Store store) {
 // Underflow: the result is 0 and the exact one is not (l.694-704). Sums of doubles are exact where they are that small.
 ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, ValueId result) {
   switch (variant) {
-    case kFloatAdd:
-    case kFloatSub: return b.bit(false);
-    case kFloatMul: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
-    case kFloatDiv: return b.and_(isZero(b, result), b.and_(b.not_(isZero(b, x)), isFinite(b, y)));
+  case kFloatAdd:
+  case kFloatSub: return b.bit(false);
+  case kFloatMul: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
+  case kFloatDiv: return b.and_(isZero(b, result), b.and_(b.not_(isZero(b, x)), isFinite(b, y)));
   }
   return {};
 }
 
 } // namespace
 
-// Overflow: finite operands, infinite result. A NaN operand, or a result that is none (∞ - ∞), is not executed; nor is a
-// division by 0.
+// Overflow: finite operands, infinite result. A NaN operand, or a result that is none (∞ - ∞), is not executed; nor is
+// a division by 0.
 ValueId lowerFloatArithmetic(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   RungBuilder& b = box.b;
@@ -61,7 +62,8 @@ ValueId lowerFloatArithmetic(Lowering& box) {
       const ValueId under = underflows(b, variant, x, y, result);
       const auto flag = [&](uint8_t value) { return b.constant(Type::I8, value); };
       box.memory.storeDouble(target, result);
-      box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf, b.select(over, flag(kFlagOf), b.select(under, flag(kFlagUf), flag(0))));
+      box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf,
+                          b.select(over, flag(kFlagOf), b.select(under, flag(kFlagUf), flag(0))));
     });
   });
 }
@@ -69,7 +71,8 @@ ValueId lowerFloatArithmetic(Lowering& box) {
 namespace {
 
 // Word to word; `convert` gives the result and whether it exists.
-template <class Convert> ValueId convertWord(Lowering& box, Convert convert) {
+template <class Convert>
+ValueId convertWord(Lowering& box, Convert convert) {
   const Place target = box.memory.word(box.operands[0].address, Reach::Write);
   ValueId valid = target.valid;
   const ValueId source = box.memory.integer(box.operands[1], valid);
@@ -158,7 +161,8 @@ ValueId lowerFloatCompare(Lowering& box) {
     const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
     const ValueId unordered = b.select(test(OpCode::FLt, y, x), flag(kFlagGt), flag(kFlagEr));
     const ValueId notLess = b.select(test(OpCode::FEq, x, y), flag(kFlagEq), unordered);
-    box.memory.setFlags(kFlagEr | kFlagGt | kFlagEq | kFlagLt, b.select(test(OpCode::FLt, x, y), flag(kFlagLt), notLess));
+    box.memory.setFlags(kFlagEr | kFlagGt | kFlagEq | kFlagLt,
+                        b.select(test(OpCode::FLt, x, y), flag(kFlagLt), notLess));
     return ValueId{};
   });
   return {};
@@ -169,12 +173,12 @@ namespace {
 ValueId compareDoubles(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
   const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
   switch (variant) {
-    case kLess: return test(OpCode::FLt, x, y);
-    case kLessEqual: return test(OpCode::FLe, x, y);
-    case kEqual: return test(OpCode::FEq, x, y);
-    case kNotEqual: return b.not_(test(OpCode::FEq, x, y));
-    case kGreaterEqual: return test(OpCode::FLe, y, x);
-    case kGreater: return test(OpCode::FLt, y, x);
+  case kLess: return test(OpCode::FLt, x, y);
+  case kLessEqual: return test(OpCode::FLe, x, y);
+  case kEqual: return test(OpCode::FEq, x, y);
+  case kNotEqual: return b.not_(test(OpCode::FEq, x, y));
+  case kGreaterEqual: return test(OpCode::FLe, y, x);
+  case kGreater: return test(OpCode::FLt, y, x);
   }
   return {};
 }

@@ -28,8 +28,9 @@ struct OpenJump {
 };
 
 class BodyLowering {
- public:
-  BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines, uint32_t body)
+public:
+  BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines,
+               uint32_t body)
       : context_(context), source_(module), routines_(routines), body_(module.bodies[body]),
         routine_(context.module.routines[routines[body].index]), slots_(context.module, routine_.name) {}
 
@@ -45,7 +46,7 @@ class BodyLowering {
       routine_.rungs[jump.rung].transfer.target = place_[*source_.labels[jump.number] - body_.first];
   }
 
- private:
+private:
   void lowerRung(const TypedRung& typed);
   void describe(ir::Rung& rung, const TypedRung& typed);
   void lowerElement(ir::RungBuilder& b, Memory& memory, const TypedRung& typed, size_t index);
@@ -90,7 +91,12 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
     if (element.kind == ladder::ElementKind::Box) b.note(row.info.mnemonic);
     slots_.setElement(index);
     const std::span<const Operand> operands = typed.operandsOf(typedElement);
-    Lowering box{.b = b, .memory = memory, .slots = slots_, .operands = operands, .pins = pins_, .variant = row.variant,
+    Lowering box{.b = b,
+                 .memory = memory,
+                 .slots = slots_,
+                 .operands = operands,
+                 .pins = pins_,
+                 .variant = row.variant,
                  .edge = operands.empty() ? '\0' : operands[0].edge};
     output = row.lower(box);
   } else if (row.flow == Flow::Jump || row.flow == Flow::Call || row.flow == Flow::Return) {
@@ -139,16 +145,16 @@ void BodyLowering::addHelpers(const std::vector<ir::SlotId>& conditions, const T
 
 void BodyLowering::leave(ir::RungBuilder& b, const Leave& leave) {
   switch (leave.flow) {
-    case Flow::Jump:
-      jumps_.push_back({static_cast<uint32_t>(routine_.rungs.size() - 1), leave.number});
-      return b.gotoRung(0, leave.cond);
-    case Flow::Call: return b.call(routines_[*source_.subroutines[leave.number]], leave.cond);
-    case Flow::Return: return b.ret(leave.cond);
-    case Flow::None:
-    case Flow::End:
-    case Flow::Label:
-    case Flow::Subroutine:
-    case Flow::Section: return;
+  case Flow::Jump:
+    jumps_.push_back({static_cast<uint32_t>(routine_.rungs.size() - 1), leave.number});
+    return b.gotoRung(0, leave.cond);
+  case Flow::Call: return b.call(routines_[*source_.subroutines[leave.number]], leave.cond);
+  case Flow::Return: return b.ret(leave.cond);
+  case Flow::None:
+  case Flow::End:
+  case Flow::Label:
+  case Flow::Subroutine:
+  case Flow::Section: return;
   }
 }
 

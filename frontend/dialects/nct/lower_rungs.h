@@ -1,5 +1,5 @@
-// Lowers the bodies of a module to routines: one rung of the source is one rung of the IR, followed by a helper rung for
-// each further jump, call or return in it.
+// Lowers the bodies of a module to routines: one rung of the source is one rung of the IR, followed by a helper rung
+// for each further jump, call or return in it.
 #pragma once
 #include <unordered_map>
 
@@ -16,8 +16,8 @@ struct LoweringContext {
   const MemorySpaces& spaces;
   WrittenRange& written;
   const SourceManager& sources;
-  std::unordered_map<uint32_t, ir::FileIndex> files{};  // by FileId
-  std::unordered_map<uint64_t, uint32_t> sameText{}; // rungs with equal texts so far, for their keys
+  std::unordered_map<uint32_t, ir::FileIndex> files{}; // by FileId
+  std::unordered_map<uint64_t, uint32_t> sameText{};   // rungs with equal texts so far, for their keys
 };
 
 // Adds the routines of the module; the first of them is the entry.

@@ -134,8 +134,8 @@ ValueId shiftedWord(Lowering& box, const WordRange& array, ValueId i, ValueId wo
 
 } // namespace
 
-// The result is put together in scratch memory and copied back, so that no word is read after it was written. With fixed
-// addresses the loops are as long as the array, else as long as the memory.
+// The result is put together in scratch memory and copied back, so that no word is read after it was written. With
+// fixed addresses the loops are as long as the array, else as long as the memory.
 ValueId lowerArray(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;

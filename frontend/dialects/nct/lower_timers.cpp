@@ -77,9 +77,9 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
   box.memory.storeWord(timer, value);
   const ValueId over = b.eq(value, none);
   switch (static_cast<TimerVariant>(box.variant)) {
-    case kOnDelay: return b.and_(active, over);
-    case kOffDelay: return b.or_(input, b.not_(over));
-    case kTimedPulse: return b.and_(active, b.not_(over));
+  case kOnDelay: return b.and_(active, over);
+  case kOffDelay: return b.or_(input, b.not_(over));
+  case kTimedPulse: return b.and_(active, b.not_(over));
   }
   return {};
 }
@@ -102,7 +102,8 @@ void checkTimer(std::span<const Operand> operands, Diagnostics& diagnostics) {
   if (set.form != Form::Constant || basis.form != Form::Constant) return;
   const int64_t limit = kLimit[basis.constant.integer];
   if (set.constant.integer > limit)
-    diagnostics.report(Diag::ConstantOutOfRange, set.source->range) << set.source->text << "0 to " + std::to_string(limit);
+    diagnostics.report(Diag::ConstantOutOfRange, set.source->range)
+        << set.source->text << "0 to " + std::to_string(limit);
 }
 
 } // namespace rung::nct

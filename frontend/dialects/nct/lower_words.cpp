@@ -11,7 +11,8 @@ using ir::ValueId;
 namespace {
 
 // `compute` gives the result's value and sets the flags.
-template <class Compute> ValueId binary(Lowering& box, Compute compute) {
+template <class Compute>
+ValueId binary(Lowering& box, Compute compute) {
   ValueId valid;
   const Place result = box.memory.word(box.operands[0].address, Reach::Write);
   valid = result.valid;
@@ -114,7 +115,8 @@ ValueId lowerDiv(Lowering& box) {
     const ValueId over = b.and_(b.eq(x, b.i32(INT32_MIN)), b.eq(y, b.i32(-1)));
     box.memory.storeWord(result, b.op(OpCode::DivS, Type::I32, {x, y}));
     const ValueId none = b.constant(Type::I8, 0);
-    const ValueId flags = b.select(zero, b.constant(Type::I8, kFlagEr), b.select(over, b.constant(Type::I8, kFlagOf), none));
+    const ValueId flags =
+        b.select(zero, b.constant(Type::I8, kFlagEr), b.select(over, b.constant(Type::I8, kFlagOf), none));
     box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf | kFlagCy, flags);
     return b.not_(zero);
   });

@@ -11,14 +11,14 @@ namespace rung::nct {
 
 // Makes the state slots of the elements of one rung. Their keys stay the same while the rung's text does.
 class SlotMaker {
- public:
+public:
   SlotMaker(ir::Module& module, std::string_view routine) : module_(module), routine_(routine) {}
   void setRung(uint64_t key) { key_ = key; }
   void setElement(size_t element) { element_ = element; }
   // `role` tells the slots of one element apart.
   ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
 
- private:
+private:
   ir::Module& module_;
   std::string_view routine_;
   uint64_t key_ = 0;
@@ -32,7 +32,7 @@ struct Lowering {
   std::span<const Operand> operands;
   std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
   int variant = 0;
-  char edge = 0;                     // '@' or '%' of a contact
+  char edge = 0; // '@' or '%' of a contact
 
   // The power at a pin as a value.
   ir::ValueId power(size_t pin = 0) { return pins[pin].valid() ? pins[pin] : b.bit(true); }
@@ -40,10 +40,12 @@ struct Lowering {
   ir::ValueId gate(ir::ValueId value) { return pins[0].valid() ? b.and_(pins[0], value) : value; }
 };
 
-// --- boxes ------------------------------------------------------------------------------------------------------------
-// Runs `body` when `valid` (invalid id: always) holds. An operand that is not valid sets FL_ER, leaves everything else
-// alone and makes the output 0 (man. l.729). `body` gives the output, an invalid id for "always 1"; so does guarded.
-template <class Body> ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
+// --- boxes
+// ------------------------------------------------------------------------------------------------------------ Runs
+// `body` when `valid` (invalid id: always) holds. An operand that is not valid sets FL_ER, leaves everything else alone
+// and makes the output 0 (man. l.729). `body` gives the output, an invalid id for "always 1"; so does guarded.
+template <class Body>
+ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
   if (!valid.valid()) return body();
   ir::RungBuilder& b = box.b;
   b.if_(valid);
@@ -56,7 +58,8 @@ template <class Body> ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body
 }
 
 // A box that works while its first pin has power: a guarded body that also writes FL_ER. Gives the power at the output.
-template <class Body> ir::ValueId execute(Lowering& box, ir::ValueId valid, Body body) {
+template <class Body>
+ir::ValueId execute(Lowering& box, ir::ValueId valid, Body body) {
   ir::RungBuilder& b = box.b;
   const ir::ValueId enable = box.power();
   b.if_(enable);
@@ -109,13 +112,14 @@ ir::ValueId lowerShiftRegister(Lowering& box);
 enum ArrayVariant : int { kShiftLeft, kShiftRight, kRotateLeft, kRotateRight };
 ir::ValueId lowerArray(Lowering& box);
 
-ir::ValueId lowerCompare(Lowering& box); // CMP
+ir::ValueId lowerCompare(Lowering& box);      // CMP
 ir::ValueId lowerFloatCompare(Lowering& box); // FCMP
 enum CompareVariant : int { kLess, kLessEqual, kEqual, kNotEqual, kGreaterEqual, kGreater };
 ir::ValueId lowerCompareContact(Lowering& box);
 ir::ValueId lowerFloatContact(Lowering& box);
 
-// --- checks -----------------------------------------------------------------------------------------------------------
+// --- checks
+// -----------------------------------------------------------------------------------------------------------
 void checkTimer(std::span<const Operand> operands, Diagnostics& diagnostics);
 
 } // namespace rung::nct

@@ -20,7 +20,9 @@ ValueId Memory::both(ValueId a, ValueId b) {
   return b.valid() ? b_.and_(a, b) : a;
 }
 
-ValueId Memory::loadRegister(uint32_t word) { return b_.load(Type::I32, {.space = spaces_.m, .byte = word * 4, .bit = 0}); }
+ValueId Memory::loadRegister(uint32_t word) {
+  return b_.load(Type::I32, {.space = spaces_.m, .byte = word * 4, .bit = 0});
+}
 
 // An unsigned comparison of the distance from the first word covers both ends: the sum wraps, and no sum that wraps
 // falls into 0000 to 9999 by accident.
@@ -48,9 +50,9 @@ Place Memory::place(const Address& address, Reach reach, uint32_t words) {
   uint32_t first = 0;
   uint32_t end = kWords;
   switch (reach) {
-    case Reach::Read: break;
-    case Reach::Write: first = kFlagsWord + 1; break;
-    case Reach::User: first = config_.plcNvram; break;
+  case Reach::Read: break;
+  case Reach::Write: first = kFlagsWord + 1; break;
+  case Reach::User: first = config_.plcNvram; break;
   }
   if (address.immediate) { // only the NC area has a time-slice copy (l.544)
     first = kFirstNcWord;
@@ -118,7 +120,8 @@ void Memory::storeWord(const Place& place, ValueId value) {
 }
 
 ValueId Memory::loadBit(const Place& place) {
-  if (place.fixed) return b_.load(Type::Bit, {.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8});
+  if (place.fixed)
+    return b_.load(Type::Bit, {.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8});
   return b_.loadBitAt(place.window, place.index, place.bitNo);
 }
 
@@ -224,7 +227,9 @@ void Memory::storeIn(const WordRange& range, ValueId i, ValueId value) {
   written_.add(std::max(begin, kFirstNcWord), std::max(begin + count, kFirstNcWord));
 }
 
-ValueId Memory::loadScratch(ValueId index) { return b_.loadAt(Type::I32, {.space = spaces_.scratch, .byte = 0, .count = kWords}, index); }
+ValueId Memory::loadScratch(ValueId index) {
+  return b_.loadAt(Type::I32, {.space = spaces_.scratch, .byte = 0, .count = kWords}, index);
+}
 
 void Memory::storeScratch(ValueId index, ValueId value) {
   b_.storeAt({.space = spaces_.scratch, .byte = 0, .count = kWords}, index, value);

@@ -1,5 +1,5 @@
-// The memory of the dialect in terms of the IR: synchronised memory M, time-slice memory TS, and the mask @W of the bits
-// of the NC area that normal instructions wrote since the last transfer (man. §3.3, l.542-550).
+// The memory of the dialect in terms of the IR: synchronised memory M, time-slice memory TS, and the mask @W of the
+// bits of the NC area that normal instructions wrote since the last transfer (man. §3.3, l.542-550).
 //
 // A fixed operand becomes a fixed place and costs nothing beyond its load or store. A computed operand carries `valid`;
 // out of its range it reads 0 and writes nothing, so a store needs no condition of its own.
@@ -48,11 +48,11 @@ struct Place {
   bool fixed = true;
   uint32_t word = 0;
   uint32_t bit = 0;
-  ir::Window window;   // computed: the words that are in reach
-  ir::ValueId index;   // computed: i32, counted from the window
-  ir::ValueId wordNo;  // computed: i32, the word's number
-  ir::ValueId bitNo;   // computed: i32
-  ir::ValueId valid;   // computed: bit; invalid id: always
+  ir::Window window;  // computed: the words that are in reach
+  ir::ValueId index;  // computed: i32, counted from the window
+  ir::ValueId wordNo; // computed: i32, the word's number
+  ir::ValueId bitNo;  // computed: i32
+  ir::ValueId valid;  // computed: bit; invalid id: always
 };
 
 // A run of words from one place to another.
@@ -64,7 +64,7 @@ struct WordRange {
 };
 
 class Memory {
- public:
+public:
   Memory(ir::RungBuilder& builder, const Config& config, const MemorySpaces& spaces, WrittenRange& written)
       : b_(builder), config_(config), spaces_(spaces), written_(written) {}
 
@@ -73,7 +73,7 @@ class Memory {
   // Two words; a computed index must be even (l.509).
   Place twoWords(const Address& address, Reach reach);
 
-  ir::ValueId loadWord(const Place& place);             // i32
+  ir::ValueId loadWord(const Place& place); // i32
   void storeWord(const Place& place, ir::ValueId value);
   ir::ValueId loadBit(const Place& place);
   void storeBit(const Place& place, ir::ValueId value);
@@ -106,7 +106,7 @@ class Memory {
   ir::ValueId bitAddress(const Place& place);
   const Config& config() const { return config_; }
 
- private:
+private:
   Place place(const Address& address, Reach reach, uint32_t words);
   void compute(Place& place, const Address& address, uint32_t first, uint32_t count);
   ir::ValueId loadRegister(uint32_t word);

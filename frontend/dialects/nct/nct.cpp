@@ -15,7 +15,7 @@ using frontend::CompileOptions;
 
 // The names of a box's pins behind its first, for the drawing's parser.
 class PinNames {
- public:
+public:
   PinNames() {
     for (const NctInstruction& row : allInstructions()) {
       if (row.shape != Shape::Box) continue;
@@ -29,12 +29,12 @@ class PinNames {
     return std::span(found->second).subspan(1);
   }
 
- private:
+private:
   std::unordered_map<std::string_view, std::vector<std::string_view>> names_;
 };
 
 class Compiler {
- public:
+public:
   Compiler(SourceManager& sources, const Config& config, Diagnostics& diagnostics)
       : sources_(sources), diagnostics_(diagnostics), symbols_(config, diagnostics), claims_(diagnostics) {}
 
@@ -42,7 +42,8 @@ class Compiler {
     const PinNames pins;
     files_.reserve(files.size());
     for (FileId file : files) {
-      ladder::LadderFile& parsed = files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, std::cref(pins)));
+      ladder::LadderFile& parsed =
+          files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, std::cref(pins)));
       if (!parsed.dialect.empty() && parsed.dialect != "nct")
         diagnostics_.report(Diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
     }
@@ -51,10 +52,10 @@ class Compiler {
   void declare() {
     for (const ladder::LadderFile& file : files_)
       for (const ladder::Declaration& declaration : file.declarations) switch (declaration.kind) {
-          case ladder::DeclarationKind::Symbol:
-          case ladder::DeclarationKind::Const: symbols_.declare(declaration); break;
-          case ladder::DeclarationKind::Message: addText(declaration, 999, 0); break;
-          case ladder::DeclarationKind::Button: addText(declaration, 32, kButtonTexts); break;
+        case ladder::DeclarationKind::Symbol:
+        case ladder::DeclarationKind::Const: symbols_.declare(declaration); break;
+        case ladder::DeclarationKind::Message: addText(declaration, 999, 0); break;
+        case ladder::DeclarationKind::Button: addText(declaration, 32, kButtonTexts); break;
         }
     symbols_.resolveAll();
   }
@@ -73,7 +74,7 @@ class Compiler {
     return buildModule(program_, symbols_, texts_, sources_, files);
   }
 
- private:
+private:
   // `message 20 "text"` and `button 23 "title"`.
   void addText(const ladder::Declaration& declaration, uint32_t most, uint32_t offset) {
     const std::string_view digits = declaration.name.text;
@@ -114,16 +115,16 @@ class Compiler {
     std::optional<RungChecker> checker;
     for (const ladder::Statement& statement : file.statements) {
       switch (statement.kind) {
-        case ladder::StatementKind::Module:
-          module = open(file.modules[statement.index]);
-          checker.emplace(symbols_, claims_, diagnostics_, module == &program_.int0);
-          break;
-        case ladder::StatementKind::Rung:
-          if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
-          if (module != nullptr) module->rungs.push_back(checker->check(file, file.rungs[statement.index]));
-          break;
-        case ladder::StatementKind::Declaration:
-        case ladder::StatementKind::Section: break;
+      case ladder::StatementKind::Module:
+        module = open(file.modules[statement.index]);
+        checker.emplace(symbols_, claims_, diagnostics_, module == &program_.int0);
+        break;
+      case ladder::StatementKind::Rung:
+        if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
+        if (module != nullptr) module->rungs.push_back(checker->check(file, file.rungs[statement.index]));
+        break;
+      case ladder::StatementKind::Declaration:
+      case ladder::StatementKind::Section: break;
       }
     }
   }
@@ -136,11 +137,11 @@ class Compiler {
   Program program_;
   Texts texts_;
   std::unordered_set<uint32_t> numbers_; // of the texts
-  bool nameless_ = false; // rungs stand in no known module: MAIN may be what was meant
+  bool nameless_ = false;                // rungs stand in no known module: MAIN may be what was meant
 };
 
-std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
-                                    Diagnostics& diagnostics) {
+std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
+                                    const CompileOptions& options, Diagnostics& diagnostics) {
   if (options.strict) diagnostics.raiseToError({Diag::SymbolInNcArea});
   const size_t before = diagnostics.errorCount();
   const Config config = readConfig(options, diagnostics);

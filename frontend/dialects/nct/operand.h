@@ -34,11 +34,11 @@ struct Address {
 enum class Form : uint8_t { Bad, Constant, Word, Bit, Text };
 
 struct Operand {
-  Form form = Form::Bad;     // Bad: reported already
-  bool fromSymbol = false;   // written as a name
-  char edge = 0;             // '@' or '%' in front
+  Form form = Form::Bad;   // Bad: reported already
+  bool fromSymbol = false; // written as a name
+  char edge = 0;           // '@' or '%' in front
   Constant constant;
-  Address address;           // Word and Bit
+  Address address; // Word and Bit
   const Word* source = nullptr;
 };
 

@@ -80,7 +80,7 @@ struct ConstantReader {
 };
 
 class AddressReader {
- public:
+public:
   AddressReader(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics)
       : word_(word), symbols_(symbols), diagnostics_(diagnostics) {}
 
@@ -101,7 +101,7 @@ class AddressReader {
     return result_;
   }
 
- private:
+private:
   std::optional<uint32_t> number(std::string_view text) {
     if (text.size() == 4 && allDigits(text)) return static_cast<uint32_t>(decimalValue(text));
     diagnostics_.report(Diag::AddressFormat, rangeOf(word_, text)) << text;
@@ -215,16 +215,17 @@ const Symbol* constantSymbol(std::string_view text, SymbolTable& symbols) {
 
 SourceRange rangeOf(const Word& word, std::string_view part) {
   if (part.empty()) return word.range;
-  const uint32_t begin = word.range.begin.value + (word.quoted ? 1 : 0) + static_cast<uint32_t>(part.data() - word.text.data());
+  const uint32_t begin =
+      word.range.begin.value + (word.quoted ? 1 : 0) + static_cast<uint32_t>(part.data() - word.text.data());
   return {{begin}, {begin + static_cast<uint32_t>(part.size())}};
 }
 
 std::string_view describe(SymbolKind kind) {
   switch (kind) {
-    case SymbolKind::Bad: return "wrong";
-    case SymbolKind::Word: return "a word";
-    case SymbolKind::Bit: return "a bit";
-    case SymbolKind::Constant: return "a constant";
+  case SymbolKind::Bad: return "wrong";
+  case SymbolKind::Word: return "a word";
+  case SymbolKind::Bit: return "a bit";
+  case SymbolKind::Constant: return "a constant";
   }
   return "";
 }
@@ -236,7 +237,8 @@ std::optional<Constant> parseConstant(const Word& word, std::string_view text, D
   return reader.real(text.substr(1));
 }
 
-std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols, Diagnostics& diagnostics) {
+std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,
+                                          Diagnostics& diagnostics) {
   return AddressReader(word, symbols, diagnostics).read(text);
 }
 
@@ -292,12 +294,16 @@ std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagn
     const Operand operand = parseOperand(word, symbols, diagnostics);
     if (operand.form == Form::Bad) return std::nullopt;
     if (operand.form != Form::Constant) {
-      diagnostics.report(Diag::SymbolKindMismatch, word.range)
-          << word.text << (operand.form == Form::Bit ? "a bit" : operand.form == Form::Word ? "a word" : "a text") << "a label number";
+      diagnostics.report(Diag::SymbolKindMismatch, word.range) << word.text
+                                                               << (operand.form == Form::Bit    ? "a bit"
+                                                                   : operand.form == Form::Word ? "a word"
+                                                                                                : "a text")
+                                                               << "a label number";
       return std::nullopt;
     }
     if (operand.constant.kind != ConstantKind::Decimal) {
-      diagnostics.report(Diag::OperandTypeMismatch, word.range) << word.text << "no decimal constant" << "a label" << "#0 to #99";
+      diagnostics.report(Diag::OperandTypeMismatch, word.range)
+          << word.text << "no decimal constant" << "a label" << "#0 to #99";
       return std::nullopt;
     }
     number = operand.constant.integer;

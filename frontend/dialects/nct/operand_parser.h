@@ -19,7 +19,8 @@ struct ParsedAddress {
   bool numeric = false; // the base is digits, not a name
 };
 // Without modifiers. Names are looked up in `symbols`.
-std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols, Diagnostics& diagnostics);
+std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,
+                                          Diagnostics& diagnostics);
 
 // An operand of a contact, coil or box, with its modifiers. A quoted word is Form::Text.
 Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);

@@ -16,13 +16,13 @@ struct TypedElement {
   const NctInstruction* row = nullptr; // null: reported
   uint32_t firstOperand = 0;           // in TypedRung::operands
   uint32_t operandCount = 0;
-  std::optional<uint32_t> label;       // of JMP, JME, SBS, SBN
+  std::optional<uint32_t> label; // of JMP, JME, SBS, SBN
 };
 
 struct TypedRung {
   const ladder::LadderFile* file = nullptr;
   const ladder::Rung* rung = nullptr;
-  bool bad = false; // something in it was reported
+  bool bad = false;                   // something in it was reported
   std::vector<TypedElement> elements; // in the order of evaluation
   std::vector<Operand> operands;
 
@@ -45,7 +45,7 @@ struct TypedModule {
   SourceRange range;
   bool exists = false;
   std::vector<TypedRung> rungs;
-  std::vector<Body> bodies;                                  // [0] is the main part
+  std::vector<Body> bodies;                                   // [0] is the main part
   std::array<std::optional<uint32_t>, kLabels> labels{};      // JME: its rung
   std::array<std::optional<uint32_t>, kLabels> subroutines{}; // SBN: its body
 };

@@ -25,7 +25,7 @@ bool hidesStructure(const TypedRung& rung) {
 }
 
 class StructureChecker {
- public:
+public:
   StructureChecker(TypedModule& module, Diagnostics& diagnostics) : module_(module), diagnostics_(diagnostics) {}
 
   void run() {
@@ -46,11 +46,11 @@ class StructureChecker {
     }
   }
 
- private:
-
+private:
   void rungBegins(uint32_t rung) {
     const auto& elements = module_.rungs[rung].elements;
-    const bool startsBody = !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::Subroutine;
+    const bool startsBody =
+        !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::Subroutine;
     const bool isEnd = !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::End;
     if (!ended_ || inSubroutine() || startsBody || isEnd || reportedAfterEnd_) return;
     reportedAfterEnd_ = true;
@@ -62,24 +62,24 @@ class StructureChecker {
   void visit(uint32_t rung, const TypedElement& element) {
     const SourceRange range = element.element->range;
     switch (element.row->flow) {
-      case Flow::None:
-      case Flow::Section: return;
-      case Flow::End: return end(range);
-      case Flow::Return: return ret(range);
-      case Flow::Label:
-        if (element.label) label(*element.label, rung, range);
-        return;
-      case Flow::Jump:
-        if (element.label) jumps_.push_back({*element.label, rung, range});
-        if (element.label) claim(*element.label, false, range);
-        return;
-      case Flow::Subroutine:
-        if (element.label) subroutine(*element.label, rung, range);
-        return;
-      case Flow::Call:
-        if (element.label) calls_.push_back({*element.label, rung, range});
-        if (element.label) claim(*element.label, true, range);
-        return;
+    case Flow::None:
+    case Flow::Section: return;
+    case Flow::End: return end(range);
+    case Flow::Return: return ret(range);
+    case Flow::Label:
+      if (element.label) label(*element.label, rung, range);
+      return;
+    case Flow::Jump:
+      if (element.label) jumps_.push_back({*element.label, rung, range});
+      if (element.label) claim(*element.label, false, range);
+      return;
+    case Flow::Subroutine:
+      if (element.label) subroutine(*element.label, rung, range);
+      return;
+    case Flow::Call:
+      if (element.label) calls_.push_back({*element.label, rung, range});
+      if (element.label) claim(*element.label, true, range);
+      return;
     }
   }
 
@@ -140,7 +140,8 @@ class StructureChecker {
     body.end = rung;
     if (!body.number) return;
     const auto rungs = std::span(module_.rungs).subspan(body.first, body.end - body.first);
-    if (!hasRet_ && std::ranges::none_of(rungs, hidesStructure)) diagnostics_.report(Diag::MissingRet, bodyRange_) << *body.number;
+    if (!hasRet_ && std::ranges::none_of(rungs, hidesStructure))
+      diagnostics_.report(Diag::MissingRet, bodyRange_) << *body.number;
   }
 
   uint32_t bodyOf(uint32_t rung) const {
@@ -155,7 +156,8 @@ class StructureChecker {
     if (!target) {
       diagnostics_.report(Diag::UndefinedLabel, jump.range) << jump.number << "in this module";
     } else if (bodyOf(*target) != bodyOf(jump.rung)) {
-      diagnostics_.report(Diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target") << jump.number;
+      diagnostics_.report(Diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target")
+          << jump.number;
     } else if (*target <= jump.rung) {
       diagnostics_.report(Diag::BackwardJump, jump.range).note(labelRange_[jump.number], "its target") << jump.number;
     }
@@ -203,8 +205,8 @@ class StructureChecker {
     std::string through;
     for (size_t i = path.size(); i-- > 0 && path[i] != callee;)
       through = fmt::format("{}{}", *module_.bodies[path[i]].number, through.empty() ? "" : ", ") + through;
-    diagnostics_.report(Diag::RecursiveCall, call.range)
-        << fmt::format("subroutine {}", *module_.bodies[callee].number) << (through.empty() ? "" : " through " + through);
+    diagnostics_.report(Diag::RecursiveCall, call.range) << fmt::format("subroutine {}", *module_.bodies[callee].number)
+                                                         << (through.empty() ? "" : " through " + through);
   }
 
   struct Use {

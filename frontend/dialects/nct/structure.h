@@ -1,5 +1,5 @@
-// Checks how the rungs of a module hang together: END, labels and jumps, subroutines and calls (man. §6.14). Fills in the
-// module's bodies, labels and subroutines.
+// Checks how the rungs of a module hang together: END, labels and jumps, subroutines and calls (man. §6.14). Fills in
+// the module's bodies, labels and subroutines.
 #pragma once
 #include "frontend/dialects/nct/program.h"
 

@@ -29,7 +29,7 @@ struct Symbol {
 };
 
 class SymbolTable {
- public:
+public:
   SymbolTable(const Config& config, Diagnostics& diagnostics);
 
   // Enters a name; a name that is there already is reported.
@@ -48,7 +48,7 @@ class SymbolTable {
   bool isInputWord(uint32_t word) const { return word < direction_.size() && direction_[word] == kInput; }
   bool isNcWord(uint32_t word) const { return word >= kFirstNcWord && word < config_.plcNvram; }
 
- private:
+private:
   Symbol* enter(Symbol symbol);
   Symbol* enterSignal(std::string_view name);
   void resolve(Symbol& symbol);

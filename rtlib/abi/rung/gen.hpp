@@ -22,66 +22,68 @@ typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes 
 
 // A bit packed in a byte.
 #define RUNG_BIT(offset, bit) ((mem[offset] >> (bit)) & 1)
-#define RUNG_SET_BIT(offset, bit, value) \
+#define RUNG_SET_BIT(offset, bit, value)                                                                               \
   mem[offset] = static_cast<u8>((mem[offset] & ~(1u << (bit))) | (static_cast<unsigned>(value) << (bit)))
 // A bit with a byte of its own.
-#define RUNG_FLAG(offset) (*reinterpret_cast<const mbool *>(mem + (offset)))
-#define RUNG_SET_FLAG(offset, value) *reinterpret_cast<mbool *>(mem + (offset)) = (value)
+#define RUNG_FLAG(offset) (*reinterpret_cast<const mbool*>(mem + (offset)))
+#define RUNG_SET_FLAG(offset, value) *reinterpret_cast<mbool*>(mem + (offset)) = (value)
 // m8 m16 m32 m64 mf64
-#define RUNG_MEM(type, offset) (*reinterpret_cast<type *>(mem + (offset)))
+#define RUNG_MEM(type, offset) (*reinterpret_cast<type*>(mem + (offset)))
 
 // Element i of a window of `count` elements, `unit` bytes apart; outside of it nothing is read or written.
-#define RUNG_AT(type, offset, count, unit, i) \
+#define RUNG_AT(type, offset, count, unit, i)                                                                          \
   ((i) < (count) ? RUNG_MEM(type, (offset) + static_cast<u64>(i) * (unit)) : 0)
-#define RUNG_SET_AT(type, offset, count, unit, i, value) \
+#define RUNG_SET_AT(type, offset, count, unit, i, value)                                                               \
   if ((i) < (count)) RUNG_MEM(type, (offset) + static_cast<u64>(i) * (unit)) = (value)
-#define RUNG_BIT_AT(offset, count, unit, i, b) \
-  ((i) < (count) && (b) < (unit)*8u ? RUNG_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8) : 0)
-#define RUNG_SET_BIT_AT(offset, count, unit, i, b, value) \
-  if ((i) < (count) && (b) < (unit)*8u) RUNG_SET_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8, value)
+#define RUNG_BIT_AT(offset, count, unit, i, b)                                                                         \
+  ((i) < (count) && (b) < (unit) * 8u ? RUNG_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8) : 0)
+#define RUNG_SET_BIT_AT(offset, count, unit, i, b, value)                                                              \
+  if ((i) < (count) && (b) < (unit) * 8u)                                                                              \
+  RUNG_SET_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8, value)
 
-#define RUNG_TRAP(condition, fault_code, rung_number, source_line) \
-  if (condition) {                                                 \
-    ctx->fault.code = (fault_code);                                \
-    ctx->fault.rung = (rung_number);                               \
-    ctx->fault.line = (source_line);                               \
-    return RUNG_PC_FAULT;                                          \
+#define RUNG_TRAP(condition, fault_code, rung_number, source_line)                                                     \
+  if (condition) {                                                                                                     \
+    ctx->fault.code = (fault_code);                                                                                    \
+    ctx->fault.rung = (rung_number);                                                                                   \
+    ctx->fault.line = (source_line);                                                                                   \
+    return RUNG_PC_FAULT;                                                                                              \
   }
-#define RUNG_CALL(return_chunk, callee) \
-  {                                     \
-    ctx->stack[ctx->sp++] = (return_chunk); \
-    return (callee);                    \
+#define RUNG_CALL(return_chunk, callee)                                                                                \
+  {                                                                                                                    \
+    ctx->stack[ctx->sp++] = (return_chunk);                                                                            \
+    return (callee);                                                                                                   \
   }
 #define RUNG_RETURN return ctx->stack[--ctx->sp]
 
-#define RUNG_MESSAGE(message_op, number, channel, index, value, real, rung_number)                                    \
-  {                                                                                                                  \
-    const rung_message m = {(message_op), (number), static_cast<i32>(channel), static_cast<i32>(index), \
-                            static_cast<i64>(value), (real), (rung_number)};                                         \
-    ctx->host->message(ctx, &m);                                                                                     \
+#define RUNG_MESSAGE(message_op, number, channel, index, value, real, rung_number)                                     \
+  {                                                                                                                    \
+    const rung_message m = {                                                                                           \
+        (message_op), (number),     static_cast<i32>(channel), static_cast<i32>(index), static_cast<i64>(value),       \
+        (real),       (rung_number)};                                                                                  \
+    ctx->host->message(ctx, &m);                                                                                       \
   }
 
 // Ticks of the machine, those that the host calibrates (rtlib/core/ticks.h): no cycle counter that traps in user mode.
 #if defined(__x86_64__) || defined(__i386__)
 #define RUNG_TICKS() __builtin_ia32_rdtsc()
 #elif defined(__aarch64__)
-#define RUNG_TICKS()                             \
-  ({                                             \
-    u64 now;                                     \
-    asm volatile("mrs %0, cntvct_el0" : "=r"(now)); \
-    now;                                         \
+#define RUNG_TICKS()                                                                                                   \
+  ({                                                                                                                   \
+    u64 now;                                                                                                           \
+    asm volatile("mrs %0, cntvct_el0" : "=r"(now));                                                                    \
+    now;                                                                                                               \
   })
 #else
 #define RUNG_TICKS() 0
 #endif
 #define RUNG_PROF_ENTER(rung_number) ctx->prof[rung_number].started = RUNG_TICKS()
-#define RUNG_PROF_LEAVE(rung_number)                                          \
-  {                                                                           \
-    rung_prof &p = ctx->prof[rung_number];                                    \
-    const u64 ticks = RUNG_TICKS() - p.started;                               \
-    p.count += 1;                                                             \
-    p.total += ticks;                                                         \
-    p.max = ticks > p.max ? ticks : p.max;                                    \
+#define RUNG_PROF_LEAVE(rung_number)                                                                                   \
+  {                                                                                                                    \
+    rung_prof& p = ctx->prof[rung_number];                                                                             \
+    const u64 ticks = RUNG_TICKS() - p.started;                                                                        \
+    p.count += 1;                                                                                                      \
+    p.total += ticks;                                                                                                  \
+    p.max = ticks > p.max ? ticks : p.max;                                                                             \
   }
 
 #endif

@@ -18,59 +18,114 @@ using i32 = int32_t;
 using i64 = int64_t;
 
 // The signed type of the same width. Values travel as unsigned integers; signedness is the operation's.
-template <class U> struct SignedOf;
-template <> struct SignedOf<u8> { using type = i8; };
-template <> struct SignedOf<u16> { using type = i16; };
-template <> struct SignedOf<u32> { using type = i32; };
-template <> struct SignedOf<u64> { using type = i64; };
+template <class U>
+struct SignedOf;
+template <>
+struct SignedOf<u8> {
+  using type = i8;
+};
+template <>
+struct SignedOf<u16> {
+  using type = i16;
+};
+template <>
+struct SignedOf<u32> {
+  using type = i32;
+};
+template <>
+struct SignedOf<u64> {
+  using type = i64;
+};
 
-template <class U> constexpr i64 asSigned(U x) noexcept { return static_cast<typename SignedOf<U>::type>(x); }
-template <class U> constexpr u32 bitsOf() noexcept { return sizeof(U) * 8; }
+template <class U>
+constexpr i64 asSigned(U x) noexcept {
+  return static_cast<typename SignedOf<U>::type>(x);
+}
+template <class U>
+constexpr u32 bitsOf() noexcept {
+  return sizeof(U) * 8;
+}
 
 // ---- integers: wrap around --------------------------------------------------------------------------------------
-template <class U> constexpr U add(U a, U b) noexcept { return static_cast<U>(static_cast<u64>(a) + b); }
-template <class U> constexpr U sub(U a, U b) noexcept { return static_cast<U>(static_cast<u64>(a) - b); }
-template <class U> constexpr U mul(U a, U b) noexcept { return static_cast<U>(static_cast<u64>(a) * b); }
-template <class U> constexpr U neg(U a) noexcept { return static_cast<U>(0 - static_cast<u64>(a)); }
+template <class U>
+constexpr U add(U a, U b) noexcept {
+  return static_cast<U>(static_cast<u64>(a) + b);
+}
+template <class U>
+constexpr U sub(U a, U b) noexcept {
+  return static_cast<U>(static_cast<u64>(a) - b);
+}
+template <class U>
+constexpr U mul(U a, U b) noexcept {
+  return static_cast<U>(static_cast<u64>(a) * b);
+}
+template <class U>
+constexpr U neg(U a) noexcept {
+  return static_cast<U>(0 - static_cast<u64>(a));
+}
 
 // Division toward zero. By zero: quotient 0, remainder 0. MIN / -1: MIN, remainder 0.
-template <class U> constexpr U divU(U a, U b) noexcept { return b == 0 ? U(0) : static_cast<U>(a / b); }
-template <class U> constexpr U remU(U a, U b) noexcept { return b == 0 ? U(0) : static_cast<U>(a % b); }
-template <class U> constexpr U divS(U a, U b) noexcept {
+template <class U>
+constexpr U divU(U a, U b) noexcept {
+  return b == 0 ? U(0) : static_cast<U>(a / b);
+}
+template <class U>
+constexpr U remU(U a, U b) noexcept {
+  return b == 0 ? U(0) : static_cast<U>(a % b);
+}
+template <class U>
+constexpr U divS(U a, U b) noexcept {
   if (b == 0) return 0;
   if (b == static_cast<U>(~static_cast<U>(0))) return neg(a);
   return static_cast<U>(asSigned(a) / asSigned(b));
 }
-template <class U> constexpr U remS(U a, U b) noexcept {
+template <class U>
+constexpr U remS(U a, U b) noexcept {
   if (b == 0 || b == static_cast<U>(~static_cast<U>(0))) return 0;
   return static_cast<U>(asSigned(a) % asSigned(b));
 }
 
 // Shifts by an unsigned 32-bit count; a count of the width or more shifts everything out.
-template <class U> constexpr U shl(U a, u32 n) noexcept {
+template <class U>
+constexpr U shl(U a, u32 n) noexcept {
   return n >= bitsOf<U>() ? U(0) : static_cast<U>(static_cast<u64>(a) << n);
 }
-template <class U> constexpr U shrU(U a, u32 n) noexcept { return n >= bitsOf<U>() ? U(0) : static_cast<U>(a >> n); }
-template <class U> constexpr U shrS(U a, u32 n) noexcept {
+template <class U>
+constexpr U shrU(U a, u32 n) noexcept {
+  return n >= bitsOf<U>() ? U(0) : static_cast<U>(a >> n);
+}
+template <class U>
+constexpr U shrS(U a, u32 n) noexcept {
   return static_cast<U>(asSigned(a) >> (n >= bitsOf<U>() ? bitsOf<U>() - 1 : n));
 }
 
-template <class U> constexpr bool ltS(U a, U b) noexcept { return asSigned(a) < asSigned(b); }
-template <class U> constexpr bool leS(U a, U b) noexcept { return asSigned(a) <= asSigned(b); }
+template <class U>
+constexpr bool ltS(U a, U b) noexcept {
+  return asSigned(a) < asSigned(b);
+}
+template <class U>
+constexpr bool leS(U a, U b) noexcept {
+  return asSigned(a) <= asSigned(b);
+}
 
-template <class U> constexpr U popCount(U a) noexcept {
+template <class U>
+constexpr U popCount(U a) noexcept {
   U n = 0;
   for (; a != 0; a = static_cast<U>(a & (a - 1))) n = static_cast<U>(n + 1);
   return n;
 }
 
-// Packed BCD, one digit a nibble. Encoding drops the digits above the width; decoding takes a nibble above 9 as its value.
-template <class U> constexpr U bcdEncode(U a) noexcept {
+// Packed BCD, one digit a nibble. Encoding drops the digits above the width; decoding takes a nibble above 9 as its
+// value.
+template <class U>
+constexpr U bcdEncode(U a) noexcept {
   U r = 0;
-  for (u32 n = 0; n < bitsOf<U>(); n += 4, a = static_cast<U>(a / 10)) r = static_cast<U>(r | (static_cast<u64>(a % 10) << n));
+  for (u32 n = 0; n < bitsOf<U>(); n += 4, a = static_cast<U>(a / 10))
+    r = static_cast<U>(r | (static_cast<u64>(a % 10) << n));
   return r;
 }
-template <class U> constexpr U bcdDecode(U a) noexcept {
+template <class U>
+constexpr U bcdDecode(U a) noexcept {
   U r = 0;
   for (u32 n = bitsOf<U>(); n != 0; n -= 4) r = static_cast<U>(static_cast<u64>(r) * 10 + ((a >> (n - 4)) & 15));
   return r;
@@ -98,7 +153,8 @@ constexpr double fneg(double a) noexcept { return fromBits(toBits(a) ^ (1ull << 
 constexpr double fabs(double a) noexcept { return fromBits(toBits(a) & ~(1ull << 63)); }
 
 // Toward zero, saturating; NaN gives 0.
-template <class U> constexpr U fToInt(double x) noexcept {
+template <class U>
+constexpr U fToInt(double x) noexcept {
   constexpr double kLimit = static_cast<double>(1ull << (bitsOf<U>() - 1)); // 2^(w-1), exact
   constexpr U kMin = static_cast<U>(static_cast<u64>(1) << (bitsOf<U>() - 1));
   if (x != x) return 0;
@@ -117,7 +173,10 @@ constexpr u64 fToIntNearest(double x) noexcept {
   const bool up = rest > 0.5 || (rest == 0.5 && (low & 1) != 0);
   return static_cast<u64>(low + (up ? 1 : 0));
 }
-template <class U> constexpr double intToF(U a) noexcept { return static_cast<double>(asSigned(a)); }
+template <class U>
+constexpr double intToF(U a) noexcept {
+  return static_cast<double>(asSigned(a));
+}
 
 } // namespace rung::sem
 

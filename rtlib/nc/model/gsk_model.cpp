@@ -1,5 +1,5 @@
-// The CNC beside a GSK25i PLC: messages of the A area, machine inputs. Presets of timers and counters are the compiler's
-// configuration: initial contents of T and C.
+// The CNC beside a GSK25i PLC: messages of the A area, machine inputs. Presets of timers and counters are the
+// compiler's configuration: initial contents of T and C.
 #include <charconv>
 
 #include "rtlib/host/program_info.h"

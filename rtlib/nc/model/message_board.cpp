@@ -11,9 +11,11 @@ namespace rung::nc {
 void MessageBoard::take(host::Instance& instance) {
   rung_message message;
   while (instance.messages().pop(message)) {
-    ShownMessage shown{message.number, message.channel, message.index, message.value, message.real != 0,
-                       std::string(host::messageText(instance.program(), message.number))};
-    if (message.op == RUNG_MESSAGE_SHOW_LOG || message.op == RUNG_MESSAGE_LOG) log(std::to_string(message.number) + " " + shown.text);
+    ShownMessage shown{message.number,    message.channel,
+                       message.index,     message.value,
+                       message.real != 0, std::string(host::messageText(instance.program(), message.number))};
+    if (message.op == RUNG_MESSAGE_SHOW_LOG || message.op == RUNG_MESSAGE_LOG)
+      log(std::to_string(message.number) + " " + shown.text);
     if (message.op == RUNG_MESSAGE_SHOW || message.op == RUNG_MESSAGE_SHOW_LOG) show(std::move(shown));
     if (message.op == RUNG_MESSAGE_CLEAR) remove(message.number);
   }

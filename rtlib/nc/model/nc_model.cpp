@@ -3,13 +3,17 @@
 
 namespace rung::nc {
 
-std::string NcModel::config(std::string_view key, std::string_view) { return "unknown configuration key '" + std::string(key) + "'"; }
+std::string NcModel::config(std::string_view key, std::string_view) {
+  return "unknown configuration key '" + std::string(key) + "'";
+}
 
 std::string NcModel::connect(std::string_view, std::string_view) { return "this dialect has no connections"; }
 
 void NcModel::powerOn(host::Instance& instance, PowerOn kind) {
-  if (kind == PowerOn::Cold) instance.coldStart();
-  else instance.warmStart();
+  if (kind == PowerOn::Cold)
+    instance.coldStart();
+  else
+    instance.warmStart();
   board_.clear();
 }
 
@@ -34,7 +38,9 @@ std::optional<host::Ref> NcModel::readPlace(const host::Instance& instance, std:
   return instance.resolve(name, [&](std::string_view unknown) { return signal(instance, unknown); });
 }
 
-std::optional<host::Ref> NcModel::writePlace(const host::Instance& instance, std::string_view name) const { return readPlace(instance, name); }
+std::optional<host::Ref> NcModel::writePlace(const host::Instance& instance, std::string_view name) const {
+  return readPlace(instance, name);
+}
 
 std::string NcModel::setQuantity(std::string_view name, double value) {
   quantities_.insert_or_assign(std::string(name), value);
@@ -47,12 +53,16 @@ std::optional<double> NcModel::quantity(std::string_view name) const {
   return found->second;
 }
 
-std::string NcModel::blockStart(host::Instance&, const std::vector<NcArgument>&) { return "this dialect's NC starts no blocks"; }
+std::string NcModel::blockStart(host::Instance&, const std::vector<NcArgument>&) {
+  return "this dialect's NC starts no blocks";
+}
 std::string NcModel::blockDone(host::Instance&) { return "this dialect's NC starts no blocks"; }
 std::string NcModel::event(host::Instance&, std::string_view name, const std::vector<NcArgument>&) {
   return "unknown event '" + std::string(name) + "'";
 }
-std::string NcModel::plcCommand(host::Instance&, std::string_view) { return "this dialect has no operator commands to the PLC"; }
+std::string NcModel::plcCommand(host::Instance&, std::string_view) {
+  return "this dialect has no operator commands to the PLC";
+}
 
 std::vector<ShownMessage> NcModel::messages(const host::Instance&) const { return board_.shown(); }
 

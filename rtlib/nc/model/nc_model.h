@@ -1,5 +1,5 @@
-// The simulated NC beside a running program: what the control's own software does around the PLC. One class a dialect; a scenario
-// or `rungc run` drives it. It knows the program only through its tables.
+// The simulated NC beside a running program: what the control's own software does around the PLC. One class a dialect;
+// a scenario or `rungc run` drives it. It knows the program only through its tables.
 //
 // Errors of the caller (an unknown key, a name that does not exist) come back as a text; "" means done.
 #pragma once
@@ -33,7 +33,8 @@ public:
   virtual std::string config(std::string_view key, std::string_view value);
   virtual std::string connect(std::string_view source, std::string_view destination);
 
-  // Switches the program on: memory, presets, what the control runs before the first scan. Warm keeps what the dialect keeps.
+  // Switches the program on: memory, presets, what the control runs before the first scan. Warm keeps what the dialect
+  // keeps.
   virtual void powerOn(host::Instance& instance, PowerOn kind);
   // What the control runs before a regular power-off.
   virtual void powerOff(host::Instance& instance);

@@ -35,7 +35,8 @@ public:
     ++timeSlices_;
     set(instance, "N_P2MS", timeSlices_ % 2 != 0);
     set(instance, "N_P2T", cycles_ % 2 != 0);
-    for (const Clock& clock : kClocks) set(instance, clock.symbol, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
+    for (const Clock& clock : kClocks)
+      set(instance, clock.symbol, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
     board_.take(instance);
     set(instance, "N_MSGA", !board_.shown().empty());
     set(instance, "N_MSG0", !board_.shown().empty());
@@ -52,7 +53,8 @@ public:
     std::optional<host::Ref> place = readPlace(instance, name);
     const uint32_t memory = host::findSpace(instance.program(), "M");
     const uint32_t slice = host::findSpace(instance.program(), "TS");
-    if (place && slice != RUNG_NONE && place->space == memory && place->byte >= 8 && place->byte < instance.program().spaces[slice].byte_count)
+    if (place && slice != RUNG_NONE && place->space == memory && place->byte >= 8 &&
+        place->byte < instance.program().spaces[slice].byte_count)
       place->space = slice;
     return place;
   }
@@ -63,7 +65,8 @@ protected:
     if (found == nullptr) return std::nullopt;
     const uint32_t memory = host::findSpace(instance.program(), "M");
     if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
-    host::Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset) : host::intRef(memory, found->byteOffset, 32);
+    host::Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)
+                                                      : host::intRef(memory, found->byteOffset, 32);
     place.count = found->count;
     return place;
   }
@@ -74,7 +77,8 @@ private:
     const uint32_t area = host::findSpace(instance.program(), space);
     if (found == nullptr || area == RUNG_NONE) return;
     const uint32_t byte = found->byteOffset + index * found->strideBytes;
-    if (byte + 4 <= instance.program().spaces[area].byte_count) instance.write(host::bitRef(area, byte, found->bit), value ? 1 : 0);
+    if (byte + 4 <= instance.program().spaces[area].byte_count)
+      instance.write(host::bitRef(area, byte, found->bit), value ? 1 : 0);
   }
   static void set(host::Instance& instance, const char* symbol, bool value) { write(instance, "TS", symbol, 0, value); }
   // At power-on both memories hold what the NC says.

@@ -1,5 +1,5 @@
-// The NC beside a TECHNOL PLC: start and stop of the program, the flow of part-program blocks through MODULE_BLOCK_INIT and
-// MODULE_BLOCK_DONE, messages (inventory §12, §13, §25).
+// The NC beside a TECHNOL PLC: start and stop of the program, the flow of part-program blocks through MODULE_BLOCK_INIT
+// and MODULE_BLOCK_DONE, messages (inventory §12, §13, §25).
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/technol/signals.h"
@@ -56,8 +56,10 @@ public:
     }
     for (const NcArgument& key : keys) {
       const host::Ref place = *writePlace(instance, key.key);
-      if (key.isReal) instance.writeReal(place, key.real);
-      else instance.write(place, static_cast<uint64_t>(key.integer));
+      if (key.isReal)
+        instance.writeReal(place, key.real);
+      else
+        instance.write(place, static_cast<uint64_t>(key.integer));
       blockSignals_.push_back(key.key);
     }
     phase_ = BlockPhase::Starting;
@@ -100,7 +102,8 @@ protected:
     if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
     const uint32_t bytes = elementBytes(found->type);
     if (bytes == 0) return std::nullopt;
-    host::Ref place = found->type == SignalType::Real ? host::realRef(space, found->byteOffset) : host::intRef(space, found->byteOffset, bytes * 8);
+    host::Ref place = found->type == SignalType::Real ? host::realRef(space, found->byteOffset)
+                                                      : host::intRef(space, found->byteOffset, bytes * 8);
     place.count = found->count;
     return place;
   }

@@ -53,7 +53,13 @@ Module sampleModule() {
     b.trap(b.eq(next, b.constant(Type::I16, 3)), FaultId{0});
     b.store(count, next);
   }
-  m.tasks.push_back({.name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1000, .budgetFault = FaultId{1}, .begin = {}, .end = {}});
+  m.tasks.push_back({.name = "MAIN",
+                     .entry = RoutineId{0},
+                     .periodUs = 8000,
+                     .budget = 1000,
+                     .budgetFault = FaultId{1},
+                     .begin = {},
+                     .end = {}});
   m.mainTask = TaskId{0};
   m.scan = {{RUNG_STEP_ADVANCE, {}, 8000}, {RUNG_STEP_RUN, TaskId{0}, 1}, {RUNG_STEP_SLOT, {}, 0}};
   return m;
@@ -109,7 +115,8 @@ TEST(CppEmitter, TextIsReadable) {
 {
 #line 3 "sample.pmc"
 RUNG_LINE(
-  const bool v0 = RUNG_FLAG()"), std::string::npos)
+  const bool v0 = RUNG_FLAG()"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("// LAMP Y[0.0]"), std::string::npos);
 }
@@ -126,7 +133,9 @@ TEST(CppEmitter, AMissingCompilerIsAnErrorOfTheEnvironment) {
 
 TEST(CppString, EscapesWhatALiteralCannotHold) {
   EXPECT_EQ(cppString("a\"b\\c\n\x01?"), R"("a\"b\\c\012\001\?")");
-  EXPECT_EQ(cppString("\xC3\xA9" "1"), R"("\303\2511")");
+  EXPECT_EQ(cppString("\xC3\xA9"
+                      "1"),
+            R"("\303\2511")");
 }
 
 } // namespace

@@ -8,7 +8,8 @@ namespace {
 
 Statement only(const std::string& line) {
   const Scenario scenario = parse("t.scn", "program a.lad\n" + line + "\n");
-  EXPECT_TRUE(scenario.problems.empty()) << line << ": " << (scenario.problems.empty() ? "" : scenario.problems[0].message);
+  EXPECT_TRUE(scenario.problems.empty()) << line << ": "
+                                         << (scenario.problems.empty() ? "" : scenario.problems[0].message);
   return scenario.statements.size() == 2 ? scenario.statements[1] : Statement{};
 }
 
@@ -89,7 +90,9 @@ TEST(ScenarioParser, Mistakes) {
   EXPECT_NE(problemOf("event X Y").find("KEY=VALUE"), std::string::npos);
 }
 
-TEST(ScenarioParser, SeveralMistakesAreReportedAtOnce) { EXPECT_EQ(parse("t.scn", "program a\nfoo\nscan x\nset A\n").problems.size(), 3u); }
+TEST(ScenarioParser, SeveralMistakesAreReportedAtOnce) {
+  EXPECT_EQ(parse("t.scn", "program a\nfoo\nscan x\nset A\n").problems.size(), 3u);
+}
 
 TEST(ScenarioParser, TheProgramComesFirst) {
   EXPECT_EQ(parse("t.scn", "scan\n").problems.size(), 1u);

@@ -19,7 +19,7 @@ rung
 )";
 
 class ScenarioRunner : public testing::Test {
- protected:
+protected:
   void SetUp() override {
     folder_ = std::filesystem::path(testing::TempDir()) / "rung_scenario_test";
     std::filesystem::create_directories(folder_);
@@ -33,19 +33,23 @@ class ScenarioRunner : public testing::Test {
   }
   std::string problemOf(const std::string& text) {
     const RunResult result = runText(text);
-    return result.problems.empty() ? "passed" : std::to_string(result.problems[0].line) + ": " + result.problems[0].message;
+    return result.problems.empty() ? "passed"
+                                   : std::to_string(result.problems[0].line) + ": " + result.problems[0].message;
   }
 
   std::filesystem::path folder_;
 };
 
 TEST_F(ScenarioRunner, PassesAndCountsScans) {
-  const RunResult result = runText("set 5100.00 1\nscan 3\nexpect 5101.00 1\nset 5100.01 1\nrun 20ms\nexpect 5101.00 0\n");
+  const RunResult result =
+      runText("set 5100.00 1\nscan 3\nexpect 5101.00 1\nset 5100.01 1\nrun 20ms\nexpect 5101.00 0\n");
   EXPECT_TRUE(result.passed) << (result.problems.empty() ? result.environment : result.problems[0].message);
   EXPECT_EQ(result.scans, 5u);
 }
 
-TEST_F(ScenarioRunner, SaysWhatItRead) { EXPECT_EQ(problemOf("scan\nexpect 5101.00 1\n"), "3: 5101.00 is 0, expected 1"); }
+TEST_F(ScenarioRunner, SaysWhatItRead) {
+  EXPECT_EQ(problemOf("scan\nexpect 5101.00 1\n"), "3: 5101.00 is 0, expected 1");
+}
 
 TEST_F(ScenarioRunner, UnknownNamesAndKeysAreProblems) {
   EXPECT_NE(problemOf("set NOTHING 1\n").find("no name of this program"), std::string::npos);
@@ -62,7 +66,10 @@ TEST_F(ScenarioRunner, UnknownNamesAndKeysAreProblems) {
 
 TEST_F(ScenarioRunner, ExpectedDiagnosticsMustBeReported) {
   std::ofstream(folder_ / "bad.lad") << "dialect nct\nmodule MAIN\nrung\n|--(5101.00)\n";
-  const auto check = [&](const std::string& text) { return run(parse((folder_ / "t.scn").string(), "program bad.lad\n" + text), {.engines = {EngineKind::Interp}, .engine = {}, .programs = {}}); };
+  const auto check = [&](const std::string& text) {
+    return run(parse((folder_ / "t.scn").string(), "program bad.lad\n" + text),
+               {.engines = {EngineKind::Interp}, .engine = {}, .programs = {}});
+  };
   EXPECT_TRUE(check("expect_error 4 first-column-not-allowed\n").passed);
   EXPECT_FALSE(check("expect_error 3 first-column-not-allowed\n").passed);
   EXPECT_FALSE(check("expect_error dangling-wire\n").passed);
@@ -77,7 +84,8 @@ TEST_F(ScenarioRunner, AWrongEngineIsCaughtThoughTheScenarioExpectsNothing) {
   options.engine.sabotage = ir::OpCode::And;
   const RunResult result = runText("set 5100.00 1\nscan\n", options);
   ASSERT_FALSE(result.passed);
-  EXPECT_NE(result.problems[0].message.find("engines disagree after scan 1: interp against jit"), std::string::npos) << result.problems[0].message;
+  EXPECT_NE(result.problems[0].message.find("engines disagree after scan 1: interp against jit"), std::string::npos)
+      << result.problems[0].message;
   EXPECT_NE(result.problems[0].message.find("5101.00"), std::string::npos) << result.problems[0].message;
 }
 

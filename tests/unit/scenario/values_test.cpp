@@ -37,9 +37,12 @@ TEST(ScenarioValues, RangesAreUnsignedUnlessTheLowBoundIsNegative) {
 
 TEST(ScenarioValues, MessagesCompareTheirProperties) {
   const nc::ShownMessage message{20, 1, 2, 33, false, "Mount tool 7"};
-  EXPECT_EQ(messageDifference(message, statement("expect_message 20 channel=1 index=2 value=33 text=\"Mount tool 7\"").keys), "");
+  EXPECT_EQ(
+      messageDifference(message, statement("expect_message 20 channel=1 index=2 value=33 text=\"Mount tool 7\"").keys),
+      "");
   EXPECT_NE(messageDifference(message, statement("expect_message 20 channel=2").keys), "");
-  EXPECT_NE(messageDifference(message, statement("expect_message 20 colour=2").keys).find("no property"), std::string::npos);
+  EXPECT_NE(messageDifference(message, statement("expect_message 20 colour=2").keys).find("no property"),
+            std::string::npos);
 }
 
 TEST(ScenarioServices, ArgumentsGoByName) {
@@ -51,7 +54,9 @@ TEST(ScenarioServices, ArgumentsGoByName) {
   EXPECT_EQ(requestDifference(windr, request, "windr", statement("expect_call windr length=4").keys), "");
   EXPECT_NE(requestDifference(windr, request, "windr", statement("expect_call windr length=2").keys), "");
   EXPECT_NE(requestDifference(windr, request, "windw", {}), "");
-  EXPECT_NE(requestDifference(windr, request, "windr", statement("expect_call windr colour=2").keys).find("no argument"), std::string::npos);
+  EXPECT_NE(
+      requestDifference(windr, request, "windr", statement("expect_call windr colour=2").keys).find("no argument"),
+      std::string::npos);
   const rt::ServiceReply reply = replyOf(windr, 9, statement("reply data=77").results);
   EXPECT_EQ(reply.ticket, 9u);
   EXPECT_EQ(reply.resultCount, 2u);

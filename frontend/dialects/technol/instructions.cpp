@@ -51,8 +51,7 @@ constexpr Row moduleEndRow(std::string_view name, ModuleKind kind, std::string_v
 }
 
 constexpr Row kRows[] = {
-    // ---- modules (man. ch. 5.1)
-    // --------------------------------------------------------------------------------------
+    // ---- modules (man. ch. 5.1) -------------------------------------------------------------------------------------
     moduleRow("DATA", ModuleKind::Data, "5.1, l.2470", "Declarations, known in all files."),
     moduleEndRow("DATA_END", ModuleKind::Data, "5.1, l.2472"),
     moduleRow("MODULE_INPUT", ModuleKind::Input, "5.1, l.2501", "Runs first in every cycle."),

@@ -88,7 +88,7 @@ class Coverage(unittest.TestCase):
                  "END1": r"module LEVEL2", "END2": r"module LEVEL2", "SP": r"module SUB", "SPE": r"module SUB"}
         if mnemonic in forms and re.search(forms[mnemonic], sources, re.MULTILINE):
             return True
-        return re.search(rf"(?<![\w]){re.escape(mnemonic)}(?![\w])", sources) is not None
+        return re.search(rf"(?<![\w]){re.escape(mnemonic)}(?![\w])", sources, re.IGNORECASE) is not None
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // Files to a laid-out program (see compile.h).
 #include "tools/driver/compile.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <iterator>
@@ -56,6 +57,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (out.dialect == nullptr) return std::nullopt;
   out.module = out.dialect->compile(sources, files, request.options, diagnostics);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
+  out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   checkModule(*out.module, ir::Mode::Built);
   ir::PassOptions passes;
   passes.optimise = request.optimise;

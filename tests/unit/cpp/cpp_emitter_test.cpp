@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <unistd.h>
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/cpp/table_writer.h"
@@ -65,7 +66,10 @@ Module sampleModule() {
   return m;
 }
 
-std::string temporaryFile(const char* name) { return (std::filesystem::path(testing::TempDir()) / name).string(); }
+// Of this process alone: tests run side by side.
+std::string temporaryFile(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name)).string();
+}
 
 class BuiltWith : public testing::TestWithParam<const char*> {};
 

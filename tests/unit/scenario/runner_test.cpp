@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <unistd.h>
 
 #include "tools/scenario/runner.h"
 
@@ -21,7 +22,7 @@ rung
 class ScenarioRunner : public testing::Test {
 protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / "rung_scenario_test";
+    folder_ = std::filesystem::path(testing::TempDir()) / ("rung_scenario_test" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "lamp.lad") << kLamp;
   }

@@ -48,8 +48,10 @@ ir::Symbol madeSymbol(const Symbol& symbol) {
     made.count = symbol.size;
     break;
   case SymbolKind::Cell:
-    if (symbol.type == Type::None && symbol.size == 8) made.type = RUNG_TYPE_I64;
-    else made.count = std::max(1u, symbol.size / std::max(1u, ir::byteWidth(symbol.type)));
+    if (symbol.type == Type::None && symbol.size == 8)
+      made.type = RUNG_TYPE_I64;
+    else
+      made.count = std::max(1u, symbol.size / std::max(1u, ir::byteWidth(symbol.type)));
     break;
   case SymbolKind::Constant:
     made.flags = RUNG_SYMBOL_CONST;
@@ -109,16 +111,22 @@ void addSymbols(const Program& program, ir::Module& module) {
   std::erase_if(module.symbols, [&](const ir::Symbol& symbol) { return count[symbol.name] > 1; });
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
-    module.symbols.push_back({.name = std::string(cell.name), .space = kRegisterSpace, .byte = cell.byte, .type = abiType(cell.type), .flags = RUNG_SYMBOL_HIDDEN});
+    module.symbols.push_back({.name = std::string(cell.name),
+                              .space = kRegisterSpace,
+                              .byte = cell.byte,
+                              .type = abiType(cell.type),
+                              .flags = RUNG_SYMBOL_HIDDEN});
   }
-  std::sort(module.symbols.begin(), module.symbols.end(), [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+  std::sort(module.symbols.begin(), module.symbols.end(),
+            [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
 }
 
 namespace {
 
 class TaskMaker {
 public:
-  TaskMaker(Lowering& lowering, ir::Module& module, uint32_t periodUs) : lowering_(lowering), module_(module), periodUs_(periodUs) {}
+  TaskMaker(Lowering& lowering, ir::Module& module, uint32_t periodUs)
+      : lowering_(lowering), module_(module), periodUs_(periodUs) {}
   void make();
 
 private:
@@ -136,9 +144,13 @@ private:
 // A long program without a loop must not run into the watchdog.
 ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast) {
   const uint64_t budget = std::max<uint64_t>(fast ? kFastBudget : kScanBudget, weight * 4);
-  const std::string fault = fast ? "halt-status 10: fast raster overrun" : "watchdog: endless loop in " + module_.at(routine).name;
-  module_.tasks.push_back({.name = std::move(name), .entry = routine, .periodUs = period,
-                           .budget = static_cast<uint32_t>(std::min<uint64_t>(budget, UINT32_MAX)), .budgetFault = lowering_.fault(fault)});
+  const std::string fault =
+      fast ? "halt-status 10: fast raster overrun" : "watchdog: endless loop in " + module_.at(routine).name;
+  module_.tasks.push_back({.name = std::move(name),
+                           .entry = routine,
+                           .periodUs = period,
+                           .budget = static_cast<uint32_t>(std::min<uint64_t>(budget, UINT32_MAX)),
+                           .budgetFault = lowering_.fault(fault)});
   return {static_cast<uint32_t>(module_.tasks.size()) - 1};
 }
 
@@ -157,10 +169,16 @@ void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
 
 void TaskMaker::make() {
   for (const LoweredModule& lowered : lowering_.modules()) {
-    const bool fast = lowered.kind == ModuleKind::Fast || lowered.kind == ModuleKind::Fastest || lowered.kind == ModuleKind::Cyclic;
-    const bool cyclic = lowered.kind == ModuleKind::Input || lowered.kind == ModuleKind::Main || lowered.kind == ModuleKind::Cont;
+    const bool fast =
+        lowered.kind == ModuleKind::Fast || lowered.kind == ModuleKind::Fastest || lowered.kind == ModuleKind::Cyclic;
+    const bool cyclic =
+        lowered.kind == ModuleKind::Input || lowered.kind == ModuleKind::Main || lowered.kind == ModuleKind::Cont;
     const std::string_view name = moduleName(lowered.kind).substr(std::string_view("MODULE_").size());
-    ids_[static_cast<size_t>(lowered.kind)] = add(std::string(name), lowered.routine, lowered.weight, fast ? kFastPeriodUs : cyclic ? periodUs_ : 0, fast);
+    ids_[static_cast<size_t>(lowered.kind)] = add(std::string(name), lowered.routine, lowered.weight,
+                                                  fast     ? kFastPeriodUs
+                                                  : cyclic ? periodUs_
+                                                           : 0,
+                                                  fast);
   }
   for (size_t i = 0; i < lowering_.events().size(); ++i)
     add(lowering_.eventNames()[i], lowering_.events()[i].routine, 1, 0, false);
@@ -181,6 +199,8 @@ void TaskMaker::make() {
 
 } // namespace
 
-void addTasks(Lowering& lowering, ir::Module& module, uint32_t periodUs) { TaskMaker(lowering, module, periodUs).make(); }
+void addTasks(Lowering& lowering, ir::Module& module, uint32_t periodUs) {
+  TaskMaker(lowering, module, periodUs).make();
+}
 
 } // namespace rung::frontend::technol

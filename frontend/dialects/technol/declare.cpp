@@ -45,11 +45,12 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
   uint32_t number = 0;
   for (const std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
     if (number == 8) {
-      program_.diagnostics.report(Diag::TooManyBits, rangeOf(operand, statement.range()));
+      program_.diagnostics.report(Diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
       return;
     }
     if (operand.size() > 1 || (operand.size() == 1 && operand[0].kind == TokenKind::Text)) {
-      program_.diagnostics.report(Diag::SyntaxError, rangeOf(operand, statement.range())) << "the name of a bit" << "something else";
+      program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operand, statement.range()))
+          << "the name of a bit" << "something else";
     } else if (operand.size() == 1 && operand[0].kind == TokenKind::Number) {
       program_.diagnostics.report(Diag::BadIdentifier, operand[0].range()) << operand[0].text;
     } else if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {
@@ -74,8 +75,11 @@ void Declarations::constant(const Statement& statement) {
   const std::span<const Token> name = operands[0];
   if (name.size() != 1 || name[0].kind != TokenKind::Name) {
     const bool number = name.size() == 1 && name[0].kind == TokenKind::Number;
-    if (number) program_.diagnostics.report(Diag::BadIdentifier, name[0].range()) << name[0].text;
-    else program_.diagnostics.report(Diag::SyntaxError, rangeOf(name, statement.range())) << "the name of a constant" << "something else";
+    if (number)
+      program_.diagnostics.report(Diag::BadIdentifier, name[0].range()) << name[0].text;
+    else
+      program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, name, statement.range()))
+          << "the name of a constant" << "something else";
     return;
   }
   const std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
@@ -98,7 +102,8 @@ void Declarations::beginStructure(const Token& name, const Token& keyword) {
 void Declarations::endStructure(const Token& name) {
   if (!structureOpen_ || symbolKey(name.text) != symbolKey(structureName_))
     program_.diagnostics.report(Diag::SyntaxError, name.range())
-        << (structureOpen_ ? std::string(structureName_) + " ends" : std::string("a statement")) << std::string(name.text) + " ends";
+        << (structureOpen_ ? std::string(structureName_) + " ends" : std::string("a statement"))
+        << std::string(name.text) + " ends";
   structureOpen_ = false;
 }
 
@@ -107,7 +112,8 @@ void Declarations::member(const Token* name, const Token& size, uint32_t bytes, 
   int64_t count = 1;
   if (value.size() > 1 && value[1].kind == TokenKind::Name && equalsNoCase(value[1].text, "DUP"))
     count = constantValue(program_, file_, value.first(1), size.range()).value_or(1);
-  if (value.empty()) program_.diagnostics.report(Diag::SyntaxError, size.range()) << "a value or ?" << "the end of the line";
+  if (value.empty())
+    program_.diagnostics.report(Diag::SyntaxError, size.range()) << "a value or ?" << "the end of the line";
   if (name != nullptr) {
     Symbol symbol = made(*name, SymbolKind::Constant);
     symbol.value = structureBytes_;
@@ -150,7 +156,8 @@ uint32_t Placer::take(int64_t bytes, const Statement& statement) {
 std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Statement& statement) {
   const std::optional<int64_t> n = constantValue(program_, statement.file, tokens, statement.range());
   if (n && (*n < 1 || *n > kMaxData)) {
-    program_.diagnostics.report(Diag::OperandRange, rangeOf(tokens, statement.range())) << *n << "1 to " + std::to_string(kMaxData);
+    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, tokens, statement.range()))
+        << *n << "1 to " + std::to_string(kMaxData);
     return std::nullopt;
   }
   return n;
@@ -184,12 +191,14 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
   if (index == kNone) return false;
   const Symbol base = program_.symbols[index];
   if (base.kind != SymbolKind::Cell) {
-    program_.diagnostics.report(Diag::WrongOperandKind, tokens[0].range()) << tokens[0].text << "no variable" << "a variable";
+    program_.diagnostics.report(Diag::WrongOperandKind, tokens[0].range())
+        << tokens[0].text << "no variable" << "a variable";
     return false;
   }
   int64_t offset = 0;
   if (tokens.size() > 1)
-    offset = constantValue(program_, statement.file, tokens.subspan(tokens[1].is('+') ? 2 : 1), statement.range()).value_or(0);
+    offset = constantValue(program_, statement.file, tokens.subspan(tokens[1].is('+') ? 2 : 1), statement.range())
+                 .value_or(0);
   text.space = base.space;
   text.byte = base.byte + static_cast<uint32_t>(offset);
   return true;
@@ -222,8 +231,11 @@ void Placer::placeText(const DataItem& item, const Statement& statement) {
   }
   text.byte = take(text.size, statement);
   if (operands.size() == 1) return;
-  if (operands[1].size() == 1 && operands[1][0].kind == TokenKind::Text) fillText(text, operands[1][0]);
-  else program_.diagnostics.report(Diag::SyntaxError, rangeOf(operands[1], statement.range())) << "a text or an address" << "something else";
+  if (operands[1].size() == 1 && operands[1][0].kind == TokenKind::Text)
+    fillText(text, operands[1][0]);
+  else
+    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands[1], statement.range()))
+        << "a text or an address" << "something else";
 }
 
 void Placer::place(const DataItem& item) {

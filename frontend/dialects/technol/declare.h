@@ -7,7 +7,8 @@ namespace rung::frontend::technol {
 
 class Declarations {
 public:
-  Declarations(Program& program, Structure& structure, uint32_t file) : program_(program), structure_(structure), file_(file) {}
+  Declarations(Program& program, Structure& structure, uint32_t file)
+      : program_(program), structure_(structure), file_(file) {}
 
   // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
   void data(const Statement& statement, const Token* name, uint32_t index);

@@ -8,11 +8,21 @@
 
 namespace rung::frontend::technol {
 
-// @DR, @RLO: registers at the start of INIT, DONE and of event procedures. @BLOCK_x.CONT: state of a block module, 0 at its
-// beginning; @BLOCK_x.DONE: it has run through (the host clears it). @INIT.OWED, @DONE.OWED: a bit for each file that has
-// still to execute MODULE_INIT_FINISHED or MODULE_DONE_FINISHED. @ESET.PAR2, @ESET.PAR3: parameters of the last message.
+// @DR, @RLO: registers at the start of INIT, DONE and of event procedures. @BLOCK_x.CONT: state of a block module, 0 at
+// its beginning; @BLOCK_x.DONE: it has run through (the host clears it). @INIT.OWED, @DONE.OWED: a bit for each file
+// that has still to execute MODULE_INIT_FINISHED or MODULE_DONE_FINISHED. @ESET.PAR2, @ESET.PAR3: parameters of the
+// last message.
 enum class HostCell : uint8_t {
-  Dr, Rlo, BlockInitCont, BlockInitDone, BlockDoneCont, BlockDoneDone, InitOwed, DoneOwed, MessagePar2, MessagePar3,
+  Dr,
+  Rlo,
+  BlockInitCont,
+  BlockInitDone,
+  BlockDoneCont,
+  BlockDoneDone,
+  InitOwed,
+  DoneOwed,
+  MessagePar2,
+  MessagePar3,
 };
 struct HostCellInfo {
   std::string_view name;

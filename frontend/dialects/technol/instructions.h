@@ -15,25 +15,28 @@ class Lowering;
 struct Operand;
 
 enum class Role : uint8_t {
-  Code,         // lowered where it stands
-  NoCode,       // accepted, does nothing
-  NotBuilt,     // known, but this compiler cannot translate it yet
+  Code,     // lowered where it stands
+  NoCode,   // accepted, does nothing
+  NotBuilt, // known, but this compiler cannot translate it yet
   NotBuiltService,
-  Module,       // variant: ModuleKind
-  ModuleEnd,    // variant: ModuleKind
-  Local,        // DATA_LOCAL
+  Module,    // variant: ModuleKind
+  ModuleEnd, // variant: ModuleKind
+  Local,     // DATA_LOCAL
   LocalEnd,
   Stop,
   Dfm,
   Ds,
   Str,
   Equi,
-  MemberSize,   // DB DW DD DQ inside a structure; variant: bytes
+  MemberSize, // DB DW DD DQ inside a structure; variant: bytes
   MechBegin,
   MechEnd,
   ProcBegin,
   ProcEnd,
-  Timed,        // DFTMxx; variant: TimedKind
+  Timed,      // DFTMxx; variant: TimedKind
+  Macro,      // DEF_T_MACRO and its like
+  MacroBegin, // made by the use of a macro that has its own effect on the stack
+  MacroEnd,   // variant: MacroStack
 };
 
 enum Effect : uint16_t {
@@ -41,9 +44,9 @@ enum Effect : uint16_t {
   kSetsRlo = 2,
   kReadsDr = 4,
   kSetsDr = 8,
-  kPushes = 16,  // stores RLO when an equation is open (LDR)
-  kJoins = 32,   // without operand: joins with the stored value
-  kWaits = 64,   // of EX kind
+  kPushes = 16, // stores RLO when an equation is open (LDR)
+  kJoins = 32,  // without operand: joins with the stored value
+  kWaits = 64,  // of EX kind
   kJumps = 128,
   kKeepsDr = 256, // EX kind: DR is still there when it passes
   kInitOnly = 512,
@@ -64,7 +67,8 @@ struct Row {
 std::span<const Row> allRows();
 // The same rows for the reference.
 std::span<const InstructionInfo* const> instructionInfos();
-// By mnemonic in any case, JLO for JL0; null when there is none. Mnemonics that only have a meaning as a service are rows too.
+// By mnemonic in any case, JLO for JL0; null when there is none. Mnemonics that only have a meaning as a service are
+// rows too.
 const Row* findRow(std::string_view mnemonic);
 
 // How a name that is also a mnemonic, keyword or register may be used as a symbol (§1 of the inventory).
@@ -73,7 +77,19 @@ Reserved reservedWord(std::string_view name);
 bool isAssembler(std::string_view name);
 
 enum class ModuleKind : uint8_t {
-  Data, Input, BlockInit, BlockDone, Main, Init, Clear, Halt, Done, Fast, Cont, Fastest, Cyclic,
+  Data,
+  Input,
+  BlockInit,
+  BlockDone,
+  Main,
+  Init,
+  Clear,
+  Halt,
+  Done,
+  Fast,
+  Cont,
+  Fastest,
+  Cyclic,
 };
 inline constexpr int kModuleKinds = 13;
 // "MODULE_MAIN"

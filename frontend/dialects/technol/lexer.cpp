@@ -120,7 +120,9 @@ std::optional<Number> parseRadix(std::string_view digits, unsigned radix) {
   if (digits.empty()) return std::nullopt;
   for (char raw : digits) {
     const char c = upper(raw);
-    const unsigned digit = isDigit(c) ? static_cast<unsigned>(c - '0') : c >= 'A' && c <= 'F' ? static_cast<unsigned>(c - 'A') + 10 : 99;
+    const unsigned digit = isDigit(c)             ? static_cast<unsigned>(c - '0')
+                           : c >= 'A' && c <= 'F' ? static_cast<unsigned>(c - 'A') + 10
+                                                  : 99;
     if (digit >= radix || value > (UINT64_MAX - digit) / radix) return std::nullopt;
     value = value * radix + digit;
   }

@@ -1,6 +1,6 @@
 // Tokens of a TECHNOL line. Names keep their spelling; everything compares them without case (see symbols.h).
-// A name is letters, digits and `_ ? @` (man. l.18-27); a number begins with a digit and runs over letters, so that 0F8H is
-// one token; it contains a point only between decimal digits, so that BUN+3.ALFA keeps its point.
+// A name is letters, digits and `_ ? @` (man. l.18-27); a number begins with a digit and runs over letters, so that
+// 0F8H is one token; it contains a point only between decimal digits, so that BUN+3.ALFA keeps its point.
 #pragma once
 
 #include <cstdint>

@@ -34,9 +34,12 @@ ValueId Lowering::load(const Access& access, Type type) {
 }
 
 void Lowering::store(const Access& access, ValueId value) {
-  if (!access.indexed) b().store(access.place, value);
-  else if (b().typeOf(value) == Type::Bit) b().storeBitAt(access.window, access.index, b().i32(access.place.bit), value);
-  else b().storeAt(access.window, access.index, value);
+  if (!access.indexed)
+    b().store(access.place, value);
+  else if (b().typeOf(value) == Type::Bit)
+    b().storeBitAt(access.window, access.index, b().i32(access.place.bit), value);
+  else
+    b().storeAt(access.window, access.index, value);
 }
 
 ValueId Lowering::bit(const Operand& operand) {
@@ -53,7 +56,8 @@ ValueId Lowering::value(const Operand& operand, ValueId guard) {
 // The key names module, instruction and operands, with a number where several are alike.
 ir::SlotId Lowering::newSlot(Type type, std::string_view what) {
   std::string key = std::string(program_.units[statement_->unit].name) + "." + std::string(what);
-  for (const Token& token : program_.operandTokens(*statement_)) key += token.is(',') ? ',' : ' ', key += symbolKey(token.text);
+  for (const Token& token : program_.operandTokens(*statement_))
+    key += token.is(',') ? ',' : ' ', key += symbolKey(token.text);
   const uint32_t number = slotNames_[key]++;
   if (number != 0) key += "#" + std::to_string(number);
   module_.slots.push_back({.type = type, .key = std::move(key)});
@@ -61,7 +65,9 @@ ir::SlotId Lowering::newSlot(Type type, std::string_view what) {
 }
 
 CountCell Lowering::countCell(const Operand& operand) {
-  if (!operand.given()) return {.automatic = true, .slot = newSlot(Type::I16, statement_->row->info.mnemonic), .access = {}, .type = Type::I16};
+  if (!operand.given())
+    return {
+        .automatic = true, .slot = newSlot(Type::I16, statement_->row->info.mnemonic), .access = {}, .type = Type::I16};
   return {.automatic = false, .slot = {}, .access = reach(operand), .type = operand.type};
 }
 
@@ -70,8 +76,10 @@ ValueId Lowering::loadCount(const CountCell& cell) {
 }
 
 void Lowering::storeCount(const CountCell& cell, ValueId value) {
-  if (cell.automatic) b().slotStore(cell.slot, value);
-  else store(cell.access, value);
+  if (cell.automatic)
+    b().slotStore(cell.slot, value);
+  else
+    store(cell.access, value);
 }
 
 ir::Place Lowering::place(HostCell cell) const { return {.space = kRegisterSpace, .byte = hostCell(cell).byte}; }

@@ -12,7 +12,8 @@ using ir::ValueId;
 namespace {
 
 // Runs `body` always, or only while RLO is 1 (or 0).
-template <class Body> void conditionally(Lowering& l, int condition, Body body) {
+template <class Body>
+void conditionally(Lowering& l, int condition, Body body) {
   if (condition == kAlways) return body();
   const ValueId rlo = l.r().rlo();
   l.b().if_(condition == kIfRlo ? rlo : l.b().not_(rlo));
@@ -46,7 +47,8 @@ void lowerJoin(Lowering& l, std::span<const Operand> o, int kind) {
 
 void lowerComplement(Lowering& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }
 
-// The former value: 0 before the first execution after a start, then 2 or 3. The first execution reports no edge (man. l.300).
+// The former value: 0 before the first execution after a start, then 2 or 3. The first execution reports no edge (man.
+// l.300).
 void lowerEdge(Lowering& l, std::span<const Operand> o, int rising) {
   constexpr int kWasLow = 2, kWasHigh = 3;
   const ir::SlotId former = l.newSlot(Type::I8, l.statement().row->info.mnemonic);

@@ -11,7 +11,8 @@ void lowerCall(Lowering& l, std::span<const Operand> o, int) { l.callProcedure(o
 
 void Lowering::saveRegisters() {
   if (saved_.empty())
-    for (const auto& [type, key] : {std::pair(Type::Bit, "SAVED.RLO"), std::pair(Type::I64, "SAVED.DR"), std::pair(Type::F64, "SAVED.DR_REAL"), std::pair(Type::I32, "SAVED.BX")}) {
+    for (const auto& [type, key] : {std::pair(Type::Bit, "SAVED.RLO"), std::pair(Type::I64, "SAVED.DR"),
+                                    std::pair(Type::F64, "SAVED.DR_REAL"), std::pair(Type::I32, "SAVED.BX")}) {
       module_.slots.push_back({.type = type, .transient = true, .key = key});
       saved_.push_back({static_cast<uint32_t>(module_.slots.size()) - 1});
     }
@@ -49,15 +50,16 @@ void showOrRemove(Lowering& l, const MessageParts& m, const Operand& set, ValueI
 
 } // namespace
 
-// ESET [error],[subid],[set],[par1],[par2],[par3]; number in DR where it is not given (man. l.5086-5130). The second and
-// third parameter lie in @ESET.PAR2, @ESET.PAR3 when the host gets the message.
+// ESET [error],[subid],[set],[par1],[par2],[par3]; number in DR where it is not given (man. l.5086-5130). The second
+// and third parameter lie in @ESET.PAR2, @ESET.PAR3 when the host gets the message.
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   ir::RungBuilder& b = l.b();
   const auto wide = [&](const Operand& operand) {
     return operand.given() ? b.zextOrTrunc(Type::I64, l.value(operand)) : b.constant(Type::I64, 0);
   };
   MessageParts m;
-  const ValueId number = o[0].given() ? b.zextOrTrunc(Type::I32, l.value(o[0])) : b.zextOrTrunc(Type::I32, l.r().dr(Type::I16));
+  const ValueId number =
+      o[0].given() ? b.zextOrTrunc(Type::I32, l.value(o[0])) : b.zextOrTrunc(Type::I32, l.r().dr(Type::I16));
   m.number = number;
   m.subId = o[1].given() ? b.zextOrTrunc(Type::I32, l.value(o[1])) : b.i32(0);
   m.par1 = wide(o[3]);

@@ -34,7 +34,8 @@ void lowerCounter(Lowering& l, std::span<const Operand> o, int kind) {
   const ValueId count = l.loadCount(cell);
   const ValueId one = b.constant(cell.type, 1);
   ValueId next = kind == kCountDown ? b.sub(count, one) : b.add(count, one);
-  if (kind == kCountUpBcd) next = b.op(OpCode::BcdEncode, cell.type, {b.add(b.op(OpCode::BcdDecode, cell.type, {count}), one)});
+  if (kind == kCountUpBcd)
+    next = b.op(OpCode::BcdEncode, cell.type, {b.add(b.op(OpCode::BcdDecode, cell.type, {count}), one)});
   const ValueId now = b.select(rises, next, count);
   l.storeCount(cell, now);
   l.r().setRlo(b.eq(now, l.r().dr(cell.type)));

@@ -101,9 +101,12 @@ void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
   l.note(o[0].isReal() ? Note::LoadReal : Note::LoadInteger);
   ir::RungBuilder& b = l.b();
   const ValueId value = l.value(o[0]);
-  if (o[0].isReal()) l.r().setReal(o[0].negated ? b.op(OpCode::FNeg, Type::F64, {value}) : value);
-  else if (!o[0].negated) l.r().setDr(value);
-  else l.r().setDr(b.op(OpCode::Neg, Type::I64, {b.sextOrTrunc(Type::I64, value)}));
+  if (o[0].isReal())
+    l.r().setReal(o[0].negated ? b.op(OpCode::FNeg, Type::F64, {value}) : value);
+  else if (!o[0].negated)
+    l.r().setDr(value);
+  else
+    l.r().setDr(b.op(OpCode::Neg, Type::I64, {b.sextOrTrunc(Type::I64, value)}));
 }
 
 void lowerStore(Lowering& l, std::span<const Operand> o, int condition) {
@@ -238,6 +241,8 @@ void lowerRloToDr(Lowering& l, std::span<const Operand>, int) {
   l.r().setDr(l.b().op(OpCode::SExt, Type::I64, {l.r().rlo()}));
 }
 
-void lowerMovBx(Lowering& l, std::span<const Operand>, int) { l.r().setBx(l.b().zextOrTrunc(Type::I32, l.r().dr(Type::I16))); }
+void lowerMovBx(Lowering& l, std::span<const Operand>, int) {
+  l.r().setBx(l.b().zextOrTrunc(Type::I32, l.r().dr(Type::I16)));
+}
 
 } // namespace rung::frontend::technol

@@ -40,7 +40,8 @@ uint32_t Lowering::jumpTarget(const Operand& operand) {
   return codeLabels_[operand.index];
 }
 
-// ---- timed blocks -----------------------------------------------------------------------------------------------------
+// ---- timed blocks
+// -----------------------------------------------------------------------------------------------------
 
 void Lowering::beginTimed() {
   if (!parser_.parse(*statement_, operands_)) return;
@@ -54,14 +55,16 @@ void Lowering::beginTimed() {
   out_->jump(codeLabels_[operands_[0].index], b().not_(due));
 }
 
-// ---- sequential units ---------------------------------------------------------------------------------------------------
+// ---- sequential units
+// ---------------------------------------------------------------------------------------------------
 
 void Lowering::beginSequence(uint32_t mechanism, uint32_t unit) {
   Sequence& sequence = sequences_.emplace_back();
   sequence.unit = unit;
   sequence.routine = out_->routine();
   sequence.mechanism = mechanism;
-  if (mechanism == kNone) sequence.moduleCont = place(kind_ == ModuleKind::BlockInit ? HostCell::BlockInitCont : HostCell::BlockDoneCont);
+  if (mechanism == kNone)
+    sequence.moduleCont = place(kind_ == ModuleKind::BlockInit ? HostCell::BlockInitCont : HostCell::BlockDoneCont);
   sequence.leave = out_->newLabel();
   sequence.dispatch = out_->selectLater(loadCont(sequence));
   sequence.states.push_back(out_->newLabel());
@@ -107,7 +110,8 @@ void Lowering::beginMechanism() {
 void Lowering::endMechanism() {
   endEquation(statement_->range(), "MECH_END");
   // Without its beginning (an error) there is nothing to end.
-  if (sequences_.empty() || sequences_.back().mechanism == kNone || sequences_.back().routine != out_->routine()) return;
+  if (sequences_.empty() || sequences_.back().mechanism == kNone || sequences_.back().routine != out_->routine())
+    return;
   out_->cut();
   out_->statement(sourceOf(*statement_));
   endSequence();
@@ -117,7 +121,8 @@ void Lowering::endMechanism() {
 Sequence* Lowering::sequence() {
   if (sequences_.empty()) return nullptr;
   Sequence& innermost = sequences_.back();
-  return program_.owner(statement_->unit) == innermost.unit && innermost.routine == out_->routine() ? &innermost : nullptr;
+  return program_.owner(statement_->unit) == innermost.unit && innermost.routine == out_->routine() ? &innermost
+                                                                                                    : nullptr;
 }
 
 uint32_t Lowering::newState(Sequence& sequence) {
@@ -132,8 +137,10 @@ uint32_t Lowering::stateOf(Sequence& sequence, uint32_t label) {
 }
 
 void Lowering::storeCont(const Sequence& sequence, ValueId state) {
-  if (sequence.mechanism == kNone) b().store(sequence.moduleCont, state);
-  else b().slotStore(contSlots_[sequence.mechanism], state);
+  if (sequence.mechanism == kNone)
+    b().store(sequence.moduleCont, state);
+  else
+    b().slotStore(contSlots_[sequence.mechanism], state);
 }
 
 ValueId Lowering::loadCont(const Sequence& sequence) {
@@ -144,7 +151,8 @@ ValueId Lowering::loadCont(const Sequence& sequence) {
 void Lowering::storeLine(const Sequence& sequence, uint32_t line) {
   if (sequence.mechanism == kNone) return;
   const uint32_t shown = std::min<uint32_t>(line, UINT16_MAX);
-  b().store({.space = kMechanismSpace, .byte = sequence.mechanism * kMechanismBytes + 1}, b().constant(Type::I16, shown));
+  b().store({.space = kMechanismSpace, .byte = sequence.mechanism * kMechanismBytes + 1},
+            b().constant(Type::I16, shown));
 }
 
 void Lowering::initMechanism(uint32_t mechanism) {
@@ -153,11 +161,13 @@ void Lowering::initMechanism(uint32_t mechanism) {
   b().store({.space = kMechanismSpace, .byte = byte + 1}, b().constant(Type::I16, 0));
   b().slotStore(contSlots_[mechanism], b().i32(0));
   if (!program_.mechanisms[mechanism].hasTimers) return;
-  if (!resets_[mechanism].valid()) resets_[mechanism] = newRoutine("@MECH_INIT " + symbolKey(program_.mechanisms[mechanism].name));
+  if (!resets_[mechanism].valid())
+    resets_[mechanism] = newRoutine("@MECH_INIT " + symbolKey(program_.mechanisms[mechanism].name));
   out_->call(resets_[mechanism]);
 }
 
-// ---- procedures -------------------------------------------------------------------------------------------------------
+// ---- procedures
+// -------------------------------------------------------------------------------------------------------
 
 // The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
 void Lowering::beginProcedure() {

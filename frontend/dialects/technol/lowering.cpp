@@ -52,7 +52,8 @@ Lowering::Lowering(Program& program, ir::Module& module, uint32_t periodUs)
   }
   resets_.resize(program.mechanisms.size());
   resetCells_.resize(program.mechanisms.size());
-  for (const Procedure& procedure : program.procedures) procedureRoutines_.push_back(newRoutine("PROC " + symbolKey(procedure.name)));
+  for (const Procedure& procedure : program.procedures)
+    procedureRoutines_.push_back(newRoutine("PROC " + symbolKey(procedure.name)));
 }
 
 ir::RoutineId Lowering::newRoutine(std::string name) {
@@ -72,12 +73,19 @@ ir::FaultId Lowering::fault(std::string_view text) {
 
 RungSource Lowering::sourceOf(const Statement& statement) const {
   const FileId file = program_.sources.fileOf(statement.pos);
-  return {.sources = &program_.sources, .file = program_.files[statement.file].id,
-          .index = {statement.file}, .line = statement.line,
-          .column = file == program_.files[statement.file].id ? program_.sources.lineCol(statement.pos).column : 1};
+  // A statement of a macro has its own text elsewhere; it stands in the line of the use.
+  const LineCol at = program_.sources.lineCol(statement.pos);
+  const bool here = file == program_.files[statement.file].id && at.line == statement.line;
+  return {.sources = &program_.sources,
+          .file = program_.files[statement.file].id,
+          .index = {statement.file},
+          .line = statement.line,
+          .column = here ? at.column : 1};
 }
 
-bool Lowering::inFastTask() const { return kind_ == ModuleKind::Fast || kind_ == ModuleKind::Fastest || kind_ == ModuleKind::Cyclic; }
+bool Lowering::inFastTask() const {
+  return kind_ == ModuleKind::Fast || kind_ == ModuleKind::Fastest || kind_ == ModuleKind::Cyclic;
+}
 
 // ---- modules --------------------------------------------------------------------------------------------------------
 
@@ -124,7 +132,8 @@ void Lowering::prologue(ModuleKind kind) {
   if (kind == ModuleKind::Input || kind == ModuleKind::Fast) advanceClock(kind);
 }
 
-// Counters of the timed blocks: all blocks of one kind run in the same cycle, first one period after the start (man. l.857).
+// Counters of the timed blocks: all blocks of one kind run in the same cycle, first one period after the start (man.
+// l.857).
 void Lowering::advanceClock(ModuleKind kind) {
   constexpr int64_t kPeriodsUs[] = {100'000, 1'000'000, 10'000'000, 100'000'000};
   bool used[4] = {};
@@ -140,7 +149,8 @@ void Lowering::advanceClock(ModuleKind kind) {
     const int64_t cycles = std::max<int64_t>(1, (kPeriodsUs[i] + cycleUs / 2) / cycleUs);
     const auto timed = static_cast<TimedKind>(i);
     const auto index = static_cast<uint32_t>(module_.slots.size());
-    module_.slots.push_back({.type = Type::I32, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(i)});
+    module_.slots.push_back(
+        {.type = Type::I32, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(i)});
     const ir::SlotId counter{index};
     ir::RungBuilder& b = out_->b();
     const ValueId next = b.add(b.slotLoad(counter), b.i32(1));
@@ -153,9 +163,12 @@ void Lowering::advanceClock(ModuleKind kind) {
 
 ir::SlotId Lowering::dueSlot(TimedKind kind) {
   const bool fast = inFastTask();
-  const auto [entry, isNew] = due_.emplace(std::pair(fast, kind), ir::SlotId{static_cast<uint32_t>(module_.slots.size())});
+  const auto [entry, isNew] =
+      due_.emplace(std::pair(fast, kind), ir::SlotId{static_cast<uint32_t>(module_.slots.size())});
   if (isNew)
-    module_.slots.push_back({.type = Type::Bit, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(static_cast<int>(kind)) + ".DUE"});
+    module_.slots.push_back(
+        {.type = Type::Bit,
+         .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(static_cast<int>(kind)) + ".DUE"});
   return entry->second;
 }
 
@@ -166,12 +179,8 @@ void Lowering::enterPart(const ModulePart& part, ModuleKind kind) {
   out_->cut();
   out_->statement(sourceOf(begin));
   // RLO and DR are 0 where the manual leaves them open; INIT and DONE learn in DR why they run (man. l.2567, l.2613).
-  ir::RungBuilder& builder = b();
-  const bool given = kind == ModuleKind::Init || kind == ModuleKind::Done;
-  r().setRlo(builder.bit(false));
-  r().setReal(builder.real(0));
-  r().setDr(given ? builder.load(Type::I64, place(HostCell::Dr)) : builder.constant(Type::I64, 0));
-  r().setBx(builder.i32(0));
+  r().clear();
+  if (kind == ModuleKind::Init || kind == ModuleKind::Done) r().setDr(b().load(Type::I64, place(HostCell::Dr)));
 }
 
 void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
@@ -181,6 +190,7 @@ void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
   equationOpen_ = rloLost_ = drLost_ = false;
   mixed_ = Mixed::No;
   depth_ = 0;
+  macroStates_.clear();
   for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
     lowerStatement(program_.statements[i], i);
   while (procedure_ != kNone) endProcedure(); // not closed: an error
@@ -211,7 +221,10 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   case Role::ProcBegin: beginProcedure(); return;
   case Role::ProcEnd: endProcedure(); return;
   case Role::Timed: beginTimed(); return;
+  case Role::MacroBegin: macroStates_.push_back({depth_, equationOpen_}); return;
+  case Role::MacroEnd: endMacro(static_cast<MacroStack>(statement.row->variant)); return;
   case Role::NoCode:
+  case Role::Macro:
   case Role::NotBuilt:
   case Role::NotBuiltService:
   case Role::Module:
@@ -224,6 +237,20 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   case Role::Str:
   case Role::Equi:
   case Role::MemberSize: return;
+  }
+}
+
+// The flags of a macro override what its statements did (man. l.20536).
+void Lowering::endMacro(MacroStack stack) {
+  if (macroStates_.empty()) return;
+  const auto [depth, open] = macroStates_.back();
+  macroStates_.pop_back();
+  switch (stack) {
+  case MacroStack::Normal: return;
+  case MacroStack::Begin: depth_ = 0; return;
+  case MacroStack::End: depth_ = depth, equationOpen_ = false; return;
+  case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), equationOpen_ = true; return;
+  case MacroStack::Pop: depth_ = depth == 0 ? 0 : depth - 1, equationOpen_ = open; return;
   }
 }
 
@@ -250,8 +277,10 @@ void Lowering::applyStack(const Row& row) {
   popped_ = {};
   if (row.effects & kPushes) {
     if (equationOpen_) {
-      if (depth_ == kStackDepth) program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
-      else r().setStack(depth_++, r().rlo());
+      if (depth_ == kStackDepth)
+        program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
+      else
+        r().setStack(depth_++, r().rlo());
     } else {
       equation_ = statement_->range();
     }
@@ -273,8 +302,10 @@ void Lowering::checkPreserved(const Row& row) {
     lost = false;
   };
   const bool joins = (row.effects & kJoins) != 0;
-  if (rloLost_ && (row.effects & kReadsRlo)) report(rloLost_, "RLO");
-  else if (rloLost_ && joins) report(rloLost_, "RLO");
+  if (rloLost_ && (row.effects & kReadsRlo))
+    report(rloLost_, "RLO");
+  else if (rloLost_ && joins)
+    report(rloLost_, "RLO");
   if (drLost_ && (row.effects & kReadsDr)) report(drLost_, "DR");
 }
 
@@ -290,8 +321,9 @@ void Lowering::settle(const Row& row) {
 
 void Lowering::checkBalance(SourceRange at, std::string_view where) {
   if (depth_ != 0)
-    program_.diagnostics.report(Diag::UnbalancedStack, at)
-        << std::to_string(depth_) + (depth_ == 1 ? " value is" : " values are") + " left on the stack at " + std::string(where);
+    program_.diagnostics.report(Diag::UnbalancedStack, at) << std::to_string(depth_) +
+                                                                  (depth_ == 1 ? " value is" : " values are") +
+                                                                  " left on the stack at " + std::string(where);
   else if (equationOpen_)
     program_.diagnostics.report(Diag::UnterminatedEquation, equation_).note(at, "it is still open here");
   depth_ = 0;
@@ -314,13 +346,16 @@ void Lowering::note(Arithmetic kind) {
     return;
   case Arithmetic::Real:
     if (mixed_ == Mixed::IntegerOnReal)
-      program_.diagnostics.report(Diag::MixedRealInteger, mixedAt_).note(statement_->range(), "this works on the real value again") << mixedBy_;
+      program_.diagnostics.report(Diag::MixedRealInteger, mixedAt_)
+              .note(statement_->range(), "this works on the real value again")
+          << mixedBy_;
     mixed_ = Mixed::Real;
     return;
   }
 }
 
-// ---- the compiler's own routines -------------------------------------------------------------------------------------
+// ---- the compiler's own routines
+// -------------------------------------------------------------------------------------
 
 void Lowering::finishProcedures() {
   for (const ir::RoutineId routine : procedureRoutines_)
@@ -343,9 +378,10 @@ void Lowering::makeStart() {
   out_ = newBuilder(start_);
   b().store(place(HostCell::InitOwed), b().constant(Type::I64, filesOwing(&SourceFile::finishesInit)));
   b().store(place(HostCell::DoneOwed), b().constant(Type::I64, 0));
+  const ValueId one = b().bit(true);
   const auto preset = [&](std::string_view name) {
     const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I");
-    if (signal) b().store({.space = kInterfaceSpace, .byte = signal->byteOffset, .bit = signal->bit}, b().bit(true));
+    if (signal) b().store({.space = kInterfaceSpace, .byte = signal->byteOffset, .bit = signal->bit}, one);
   };
   for (std::string_view name : kPresets) preset(name);
   for (std::string_view pattern : kNumberedPresets)
@@ -367,10 +403,9 @@ void Lowering::makeEvents() {
     if (procedure == kNone) continue;
     const ir::RoutineId routine = newRoutine("@" + std::string(name));
     out_ = newBuilder(routine);
+    r().clear();
     r().setRlo(b().load(Type::Bit, place(HostCell::Rlo)));
-    r().setReal(b().real(0));
     r().setDr(b().load(Type::I64, place(HostCell::Dr)));
-    r().setBx(b().i32(0));
     out_->call(procedureRoutines_[procedure]);
     out_->finish();
     events_.push_back({ModuleKind::Main, routine, 1});

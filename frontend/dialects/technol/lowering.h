@@ -1,6 +1,6 @@
-// Statements to IR. Lowering walks the modules in the order of the source and keeps what the language decides statically:
-// the depth of the stack, whether an equation is open, which registers are lost behind a wait. The lowering functions of
-// the rows (lower_*.cpp) use its public part only.
+// Statements to IR. Lowering walks the modules in the order of the source and keeps what the language decides
+// statically: the depth of the stack, whether an equation is open, which registers are lost behind a wait. The lowering
+// functions of the rows (lower_*.cpp) use its public part only.
 #pragma once
 
 #include <map>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/host_cells.h"
+#include "frontend/dialects/technol/macros.h"
 #include "frontend/dialects/technol/operand.h"
 #include "frontend/dialects/technol/program.h"
 #include "frontend/dialects/technol/routine_builder.h"
@@ -36,10 +37,10 @@ struct CountCell {
 struct Sequence {
   uint32_t unit = kNone;
   ir::RoutineId routine;
-  uint32_t mechanism = kNone; // kNone: a module
-  ir::Place moduleCont;       // of a module: i32 for the host
-  uint32_t leave = kNone;     // label behind its end
-  uint32_t dispatch = kNone;  // handle of the switch at its beginning
+  uint32_t mechanism = kNone;   // kNone: a module
+  ir::Place moduleCont;         // of a module: i32 for the host
+  uint32_t leave = kNone;       // label behind its end
+  uint32_t dispatch = kNone;    // handle of the switch at its beginning
   std::vector<uint32_t> states; // labels by number; 0 is the beginning
   std::unordered_map<uint32_t, uint32_t> stateOfLabel;
   std::vector<CountCell> cells; // cleared when the unit ends or is initialised
@@ -125,6 +126,7 @@ private:
   void lowerStatement(const Statement& statement, uint32_t index);
   void bindLabels(const Statement& statement, uint32_t index);
   void lowerCode();
+  void endMacro(MacroStack stack);
   void beginRungFor(const Row& row);
   void applyStack(const Row& row);
   void checkPreserved(const Row& row);
@@ -171,6 +173,7 @@ private:
   SourceRange equation_;
   uint32_t depth_ = 0;
   ir::ValueId popped_;
+  std::vector<std::pair<uint32_t, bool>> macroStates_; // depth and open equation in front of a macro
   bool rloLost_ = false;
   bool drLost_ = false;
   enum class Mixed : uint8_t { No, Real, IntegerOnReal } mixed_ = Mixed::No;
@@ -191,6 +194,5 @@ private:
   ir::RoutineId start_;
   std::vector<ir::SlotId> saved_;
 };
-
 
 } // namespace rung::frontend::technol

@@ -12,18 +12,18 @@ struct Operand {
   enum class Form : uint8_t { NotGiven, Bit, Cell, Text, Integer, Real, Label, Mechanism, Procedure, Width, Register };
 
   Form form = Form::NotGiven;
-  bool negated = false;  // a bit or a value with `-`
-  bool indexed = false;  // register BX is added to the address
-  bool prefixed = false; // the type was written
-  uint32_t scale = 1;    // bytes that BX counts
+  bool negated = false;           // a bit or a value with `-`
+  bool indexed = false;           // register BX is added to the address
+  bool prefixed = false;          // the type was written
+  uint32_t scale = 1;             // bytes that BX counts
   ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
   ir::Place place;
   uint32_t size = 0; // of a text or an array, bytes to its end; 0: unknown
-  int64_t value = 0;     // of a constant; where indexed, the offset in bytes that BX is added to
+  int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
   double real = 0;
   uint32_t index = kNone; // label, mechanism, procedure
   std::string_view text;  // of a quoted text
-  std::string_view spelling;
+  std::span<const Token> tokens;
   SourceRange range;
 
   bool given() const { return form != Form::NotGiven; }
@@ -40,12 +40,12 @@ struct OperandKind {
   OperandKindInfo info;
   OperandClass parse = OperandClass::Value;
   uint8_t prefixes = 0;
-  bool sign = false;      // `-` in front
-  bool cell = true;       // a cell may stand there
-  bool constant = false;  // a constant may
-  bool notGiven = false;  // `-` or NIL may
-  bool text = false;      // a text may
-  uint8_t types = 0xFF;   // ir::TypeSet of cells
+  bool sign = false;                   // `-` in front
+  bool cell = true;                    // a cell may stand there
+  bool constant = false;               // a constant may
+  bool notGiven = false;               // `-` or NIL may
+  bool text = false;                   // a text may
+  uint8_t types = 0xFF;                // ir::TypeSet of cells
   SymbolKind name = SymbolKind::Label; // class Name
 };
 
@@ -60,7 +60,8 @@ public:
   // `spaceBytes` are the sizes of the module's spaces, for constant addresses.
   OperandParser(Program& program, std::span<const uint32_t> spaceBytes) : program_(program), spaceBytes_(spaceBytes) {}
 
-  // False after a report. The operands stand in `out`, one an operand of the source and NotGiven where the row allows more.
+  // False after a report. The operands stand in `out`, one an operand of the source and NotGiven where the row allows
+  // more.
   bool parse(const Statement& statement, std::vector<Operand>& out);
 
 private:
@@ -102,6 +103,8 @@ private:
   bool addMember(const Token& member, Address& out);
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
+  // The operand as written, without blanks.
+  static std::string spell(const Operand& operand);
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted);
   bool syntax(std::string_view expected, std::span<const Token> tokens);
 

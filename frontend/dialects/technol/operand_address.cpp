@@ -1,4 +1,5 @@
-// Addresses in operands: bits, cells, offsets, members, the register BX, command blocks (§4.1, §4.2, §28.3 of the inventory).
+// Addresses in operands: bits, cells, offsets, members, the register BX, command blocks (§4.1, §4.2, §28.3 of the
+// inventory).
 #include <algorithm>
 
 #include "frontend/dialects/technol/operand.h"
@@ -23,7 +24,11 @@ struct PrefixType {
   ir::Type type;
 };
 // The second prefix of a block's element; DWRD without one (man. l.7026).
-constexpr PrefixType kBlockPrefixes[] = {{kByte, ir::Type::I8}, {kWord, ir::Type::I16}, {kDword, ir::Type::I32}, {kQword, ir::Type::I64}, {kReal, ir::Type::F64}};
+constexpr PrefixType kBlockPrefixes[] = {{kByte, ir::Type::I8},
+                                         {kWord, ir::Type::I16},
+                                         {kDword, ir::Type::I32},
+                                         {kQword, ir::Type::I64},
+                                         {kReal, ir::Type::F64}};
 
 bool isBx(const Token& token) { return token.kind == TokenKind::Name && equalsNoCase(token.text, "BX"); }
 
@@ -73,7 +78,8 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     }
     out.isReal = out.isReal || number->isReal;
     out.real += sign * (number->isReal ? number->real : static_cast<double>(number->value));
-    out.byte = static_cast<int64_t>(static_cast<uint64_t>(out.byte) + static_cast<uint64_t>(sign) * static_cast<uint64_t>(number->value));
+    out.byte = static_cast<int64_t>(static_cast<uint64_t>(out.byte) +
+                                    static_cast<uint64_t>(sign) * static_cast<uint64_t>(number->value));
   } else if (head.kind == TokenKind::Text) {
     if (head.text.size() != 1) return syntax("one character", tokens);
     out.byte += sign * static_cast<unsigned char>(head.text[0]);
@@ -119,7 +125,8 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
   case SymbolKind::Text:
   case SymbolKind::Mechanism: break;
   }
-  if (sign < 0 || out.hasBase || !symbol.space.valid()) return wrong(symbol.space.valid() ? "an address, which cannot be subtracted or added" : "a bit number");
+  if (sign < 0 || out.hasBase || !symbol.space.valid())
+    return wrong(symbol.space.valid() ? "an address, which cannot be subtracted or added" : "a bit number");
   out.hasBase = true;
   out.isBit = symbol.kind == SymbolKind::Bit || symbol.kind == SymbolKind::Mechanism;
   out.isText = symbol.kind == SymbolKind::Text;
@@ -147,7 +154,8 @@ bool OperandParser::addMember(const Token& member, Address& out) {
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Constant) {
-    program_.diagnostics.report(Diag::WrongOperandKind, member.range()) << member.text << "no member" << "a member of a structure";
+    program_.diagnostics.report(Diag::WrongOperandKind, member.range())
+        << member.text << "no member" << "a member of a structure";
     return false;
   }
   out.byte += symbol.value;
@@ -160,11 +168,13 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
   const int64_t first = address.indexed ? 0 : byte; // an index is checked when it is used
   if (first < 0 || first + bytes > spaceBytes_[address.space.index]) {
     program_.diagnostics.report(Diag::AddressOutOfRange, out.range)
-        << out.spelling << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
+        << spell(out) << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
     return false;
   }
-  if (address.indexed) out.value = byte;
-  else out.place.byte = static_cast<uint32_t>(byte);
+  if (address.indexed)
+    out.value = byte;
+  else
+    out.place.byte = static_cast<uint32_t>(byte);
   return true;
 }
 
@@ -179,10 +189,12 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
     if (tokens.empty()) return syntax("a bit", tokens);
   }
   out.type = ir::Type::Bit;
-  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('[')) return block(info, tokens, true, out);
+  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('['))
+    return block(info, tokens, true, out);
   const size_t point = lastPoint(tokens);
   if (point != std::string_view::npos) {
-    if (point + 2 != tokens.size() || tokens[point + 1].kind != TokenKind::Name) return syntax("the name of a bit behind the point", tokens.subspan(point));
+    if (point + 2 != tokens.size() || tokens[point + 1].kind != TokenKind::Name)
+      return syntax("the name of a bit behind the point", tokens.subspan(point));
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, tokens[0], out);
@@ -216,7 +228,8 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   if (where.empty()) return syntax("an address in front of the point", where);
   Address address;
   const bool own = where[0].is('$');
-  const bool hasBase = own ? where.size() == 1 || this->address(where.subspan(1), address) : this->address(where, address);
+  const bool hasBase =
+      own ? where.size() == 1 || this->address(where.subspan(1), address) : this->address(where, address);
   if (!hasBase) return false;
   const Symbol* member = address.hasBase ? program_.symbols.findMember(address.structure, name.text) : nullptr;
   const uint32_t index = member ? kNone : bitSymbol(name);
@@ -241,7 +254,8 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   return checkWrite(info, address.protection, address.hasBase ? address.name : name.text, out.range);
 }
 
-// ---- command blocks: BLK[n].[TYPE.]element[[k]] ------------------------------------------------------------------------
+// ---- command blocks: BLK[n].[TYPE.]element[[k]]
+// ------------------------------------------------------------------------
 
 bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out) {
   if (tokens.size() < 6 || !tokens[3].is(']') || !tokens[4].is('.')) return syntax("BLK[n].ELEMENT", tokens);
@@ -260,15 +274,18 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
     program_.diagnostics.report(Diag::UndefinedSymbol, rest[0].range()) << rest[0].text;
     return false;
   }
-  if ((element->type == nc::SignalType::Bit) != wantsBit) return wrongKind(out, wantsBit ? "no bit" : "a bit", wantsBit ? "a bit" : "a value");
+  if ((element->type == nc::SignalType::Bit) != wantsBit)
+    return wrongKind(out, wantsBit ? "no bit" : "a bit", wantsBit ? "a bit" : "a value");
   int64_t k = 0;
-  if (rest.size() == 4 && rest[1].is('[') && rest[3].is(']')) k = parseNumber(rest[2].text).value_or(Number{.value = -1}).value;
-  else if (rest.size() != 1) return syntax("an element of a block", rest.subspan(1));
+  if (rest.size() == 4 && rest[1].is('[') && rest[3].is(']'))
+    k = parseNumber(rest[2].text).value_or(Number{.value = -1}).value;
+  else if (rest.size() != 1)
+    return syntax("an element of a block", rest.subspan(1));
   if (number->value < 0 || number->value >= kQueuedBlocks || k < 0 || k >= element->count) {
-    program_.diagnostics.report(Diag::OperandRange, out.range) << out.spelling << "the queue of command blocks";
+    program_.diagnostics.report(Diag::OperandRange, out.range) << spell(out) << "the queue of command blocks";
     return false;
   }
-  if (!checkWrite(info, Protection::Error, out.spelling, out.range)) return false;
+  if (!checkWrite(info, Protection::Error, spell(out), out.range)) return false;
   const uint32_t blockBytes = spaceBytes_[kBlockSpace.index] / kQueuedBlocks;
   Address address;
   address.space = kBlockSpace;
@@ -277,7 +294,8 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   out.place.bit = element->bit;
   if (!wantsBit) out.type = wanted;
   out.scale = byRegister ? blockBytes : 1;
-  return setPlace(address, number->value * blockBytes + element->byteOffset + k * element->strideBytes, std::max(1u, ir::byteWidth(out.type)), out);
+  return setPlace(address, number->value * blockBytes + element->byteOffset + k * element->strideBytes,
+                  std::max(1u, ir::byteWidth(out.type)), out);
 }
 
 } // namespace rung::frontend::technol

@@ -14,8 +14,9 @@ struct PrefixName {
   ir::Type type;
 };
 constexpr PrefixName kPrefixes[] = {
-    {"BYTE", kByte, ir::Type::I8},   {"WORD", kWord, ir::Type::I16}, {"DWRD", kDword, ir::Type::I32}, {"QWRD", kQword, ir::Type::I64},
-    {"HIGH", kHigh, ir::Type::I8},   {"REAL", kReal, ir::Type::F64}, {"CNST", kCnst, ir::Type::I32},
+    {"BYTE", kByte, ir::Type::I8},   {"WORD", kWord, ir::Type::I16}, {"DWRD", kDword, ir::Type::I32},
+    {"QWRD", kQword, ir::Type::I64}, {"HIGH", kHigh, ir::Type::I8},  {"REAL", kReal, ir::Type::F64},
+    {"CNST", kCnst, ir::Type::I32},
 };
 
 const PrefixName* prefixNamed(std::string_view name) {
@@ -39,24 +40,33 @@ uint8_t naturalPrefix(ir::Type type) {
 std::string operandsText(size_t least, size_t most, bool repeated) {
   if (most == 0) return "no operands";
   if (repeated) return std::to_string(least) + " or more operands";
-  std::string text = least == most ? std::to_string(least) : (least == 0 ? "no" : std::to_string(least)) + (most == least + 1 ? " or " : " to ") + std::to_string(most);
+  std::string text = least == most ? std::to_string(least)
+                                   : (least == 0 ? "no" : std::to_string(least)) +
+                                         (most == least + 1 ? " or " : " to ") + std::to_string(most);
   return text + (most == 1 ? " operand" : " operands");
 }
 
 bool isNotGiven(std::span<const Token> tokens) {
-  return tokens.size() == 1 && (tokens[0].is('-') || (tokens[0].kind == TokenKind::Name && equalsNoCase(tokens[0].text, "NIL")));
+  return tokens.size() == 1 &&
+         (tokens[0].is('-') || (tokens[0].kind == TokenKind::Name && equalsNoCase(tokens[0].text, "NIL")));
 }
 
 } // namespace
 
 bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
-  program_.diagnostics.report(Diag::SyntaxError, rangeOf(tokens, statement_->range())) << expected << found;
+  program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range())) << expected << found;
   return false;
 }
 
+std::string OperandParser::spell(const Operand& operand) {
+  std::string text;
+  for (const Token& token : operand.tokens) text += token.kind == TokenKind::Text ? "'" + std::string(token.text) + "'" : std::string(token.text);
+  return text;
+}
+
 bool OperandParser::wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) {
-  program_.diagnostics.report(Diag::WrongOperandKind, operand.range) << operand.spelling << is << wanted;
+  program_.diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
   return false;
 }
 
@@ -67,7 +77,8 @@ bool OperandParser::countFits(const Statement& statement, size_t found) {
   const size_t most = info.operands.size();
   const bool repeated = most > 0 && info.operands[most - 1].repeated;
   if (found >= least && (found <= most || repeated)) return true;
-  program_.diagnostics.report(Diag::OperandCount, statement.range()) << info.mnemonic << operandsText(least, most, repeated) << found;
+  program_.diagnostics.report(Diag::OperandCount, statement.range())
+      << info.mnemonic << operandsText(least, most, repeated) << found;
   return false;
 }
 
@@ -84,8 +95,8 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
     const OperandKind* kind = findOperandKind(info.kind);
     RUNG_CHECK(kind != nullptr, "a row names an unknown class of operands");
     Operand& operand = out.emplace_back();
-    operand.range = rangeOf(operands[i], statement.range());
-    if (!operands[i].empty()) operand.spelling = program_.sources.text(operand.range);
+    operand.range = rangeOf(program_.sources, operands[i], statement.range());
+    operand.tokens = operands[i];
     ok = one(info, *kind, operands[i], operand) && ok;
   }
   while (out.size() < infos.size()) out.emplace_back().range = statement.range();
@@ -107,7 +118,8 @@ bool OperandParser::one(const OperandInfo& info, const OperandKind& kind, std::s
   return false;
 }
 
-// TIM and TEX: a written type holds for count and time, so the time is a cell then (man. l.2133); a constant time fits the count.
+// TIM and TEX: a written type holds for count and time, so the time is a cell then (man. l.2133); a constant time fits
+// the count.
 bool OperandParser::waitOperands(std::span<Operand> operands) {
   const Operand& count = operands[0];
   Operand& time = operands[1];
@@ -125,11 +137,13 @@ bool OperandParser::waitOperands(std::span<Operand> operands) {
   return true;
 }
 
-bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range) {
+bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, std::string_view name,
+                               SourceRange range) {
   const bool writes = info.access == Access::Write || info.access == Access::ReadWrite;
   if (!writes || protection == Protection::None) return true;
   const bool error = protection == Protection::Error;
-  program_.diagnostics.report(Diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning) << name;
+  program_.diagnostics.report(Diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning)
+      << name;
   return !error;
 }
 
@@ -146,15 +160,18 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
   return prefix->prefix;
 }
 
-bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                          Operand& out) {
   if (kind.sign && tokens[0].is('-')) {
     out.negated = true;
     tokens = tokens.subspan(1);
   }
-  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('[')) return block(info, tokens, false, out);
+  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('['))
+    return block(info, tokens, false, out);
   const uint8_t prefix = takePrefix(tokens);
   if (prefix != 0 && (kind.prefixes & prefix) == 0) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range) << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
+        << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
     return false;
   }
   Address address;
@@ -164,10 +181,12 @@ bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std:
   return address.hasBase ? cell(info, kind, address, prefix, out) : constant(info, kind, address, prefix, out);
 }
 
-bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out) {
+bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix,
+                             Operand& out) {
   if (!kind.constant) return wrongKind(out, "a constant", "a variable");
   if (prefix == kQword || prefix == kReal || prefix == kHigh) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range) << std::string(prefixOf(prefix).name) + "." << "a constant";
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
+        << std::string(prefixOf(prefix).name) + "." << "a constant";
     return false;
   }
   if (address.isReal) {
@@ -188,11 +207,13 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));
   const int64_t most = ranged ? info.max : (int64_t{1} << width) - 1;
   if (out.value >= least && out.value <= most) return true;
-  program_.diagnostics.report(Diag::OperandRange, out.range) << out.value << std::to_string(least) + " to " + std::to_string(most);
+  program_.diagnostics.report(Diag::OperandRange, out.range)
+      << out.value << std::to_string(least) + " to " + std::to_string(most);
   return false;
 }
 
-bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out) {
+bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix,
+                         Operand& out) {
   if (address.isBit) return wrongKind(out, "a bit", "a variable");
   if (!kind.cell) return wrongKind(out, "a variable", "a constant");
   out.form = Operand::Form::Cell;
@@ -205,11 +226,13 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of 8 or 16 bits");
   const uint8_t natural = naturalPrefix(out.type);
   if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range) << std::string(prefixOf(natural).name) + "." << statement_->row->info.mnemonic;
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
+        << std::string(prefixOf(natural).name) + "." << statement_->row->info.mnemonic;
     return false;
   }
   const int64_t byte = address.byte + (prefix == kHigh ? 1 : 0);
-  return setPlace(address, byte, ir::byteWidth(out.type), out) && checkWrite(info, address.protection, address.name, out.range);
+  return setPlace(address, byte, ir::byteWidth(out.type), out) &&
+         checkWrite(info, address.protection, address.name, out.range);
 }
 
 bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
@@ -222,19 +245,24 @@ bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   const bool shared = kind.name == SymbolKind::Mechanism && symbol.mechanism != kNone;
-  if (symbol.kind != kind.name && !shared) return wrongKind(out, "no " + std::string(kind.info.kind), "a " + std::string(kind.info.kind));
+  if (symbol.kind != kind.name && !shared)
+    return wrongKind(out, "no " + std::string(kind.info.kind), "a " + std::string(kind.info.kind));
   out.index = shared ? symbol.mechanism : symbol.index;
-  out.form = kind.name == SymbolKind::Label ? Operand::Form::Label : kind.name == SymbolKind::Mechanism ? Operand::Form::Mechanism : Operand::Form::Procedure;
+  out.form = kind.name == SymbolKind::Label       ? Operand::Form::Label
+             : kind.name == SymbolKind::Mechanism ? Operand::Form::Mechanism
+                                                  : Operand::Form::Procedure;
   return true;
 }
 
-bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                            Operand& out) {
   if (kind.info.kind == "register") {
     if (tokens.size() == 1 && equalsNoCase(tokens[0].text, info.name)) return out.form = Operand::Form::Register, true;
     program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()) << statement_->row->info.mnemonic;
     return false;
   }
-  const PrefixName* width = tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
+  const PrefixName* width =
+      tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
   if (width && (kind.prefixes & width->prefix)) {
     out.form = Operand::Form::Width;
     out.type = width->type;
@@ -246,11 +274,13 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   out.form = Operand::Form::Integer;
   out.value = *number;
   if (*number >= info.min && *number <= info.max) return true;
-  program_.diagnostics.report(Diag::OperandRange, out.range) << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
+  program_.diagnostics.report(Diag::OperandRange, out.range)
+      << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
   return false;
 }
 
-bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                         Operand& out) {
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
     if (!kind.text) return wrongKind(out, "a text", "a variable");
     out.form = Operand::Form::Text;
@@ -264,7 +294,8 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   if (!this->address(tokens, address)) return false;
   if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
   const bool wantsText = kind.info.kind != "address";
-  if (address.isBit || (wantsText && !address.isText)) return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
+  if (address.isBit || (wantsText && !address.isText))
+    return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
   out.size = address.end > address.byte ? static_cast<uint32_t>(address.end - address.byte) : 0;

@@ -9,13 +9,13 @@
 
 namespace rung::frontend::technol {
 
-// A declaration that takes memory. Addresses are given when all constants are known, in the order of the source over all
-// files, without gaps (man. l.105).
+// A declaration that takes memory. Addresses are given when all constants are known, in the order of the source over
+// all files, without gaps (man. l.105).
 struct DataItem {
   Role role = Role::Ds;
   uint32_t statement = 0;
-  uint32_t cell = kNone;       // symbol
-  uint32_t firstBit = kNone;   // in Program::itemBits, eight of them; Dfm
+  uint32_t cell = kNone;     // symbol
+  uint32_t firstBit = kNone; // in Program::itemBits, eight of them; Dfm
 };
 
 struct Program {
@@ -37,6 +37,7 @@ struct Program {
   std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
   uint32_t dataBytes = 0;
   std::vector<ir::Init> inits;
+  std::string systemFolder; // of included files named without a path; may be empty
 
   std::span<const Token> operandTokens(const Statement& statement) const {
     return std::span(tokens).subspan(statement.firstToken, statement.tokenCount);
@@ -63,7 +64,7 @@ struct Program {
 // Splits at the commas that stand outside brackets; an operand may be empty. No tokens: no operands.
 std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
 
-// The source range of tokens; of `otherwise` when there are none.
-SourceRange rangeOf(std::span<const Token> tokens, SourceRange otherwise);
+// The source range of tokens; `otherwise` when there are none. Of tokens that a macro put together only the first.
+SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens, SourceRange otherwise);
 
 } // namespace rung::frontend::technol

@@ -1,7 +1,9 @@
 // Reads files into statements (see reader.h).
 #include "frontend/dialects/technol/reader.h"
 
-#include "frontend/dialects/technol/declare.h"
+#include "frontend/dialects/technol/file_reader.h"
+
+#include <algorithm>
 
 namespace rung::frontend::technol {
 namespace {
@@ -13,83 +15,7 @@ std::string describe(std::span<const Token> tokens) {
   return "'" + std::string(tokens[0].text) + "'";
 }
 
-class FileReader {
-public:
-  FileReader(Program& program, uint32_t file) : program_(program), file_(file), structure_(program, file), declarations_(program, structure_, file) {}
-  void read();
-
-private:
-  void logicalLine(uint32_t first, uint32_t count, uint32_t line);
-  bool beginsStatement(uint32_t first) const;
-  uint32_t readLabel(uint32_t& first, uint32_t& count);
-  bool readStructure(std::span<const Token> tokens);
-  const Row* instruction(const Token& token);
-  void statement(const Row* row, uint32_t first, uint32_t count, uint32_t line);
-  void structural(Statement& statement, uint32_t index);
-  void code(Statement& statement);
-  void notBuilt(const Statement& statement, Diag code);
-  void checkWait(const Statement& statement);
-  void checkLoop(const Statement& statement);
-  void attachLabels(Statement& statement, uint32_t index);
-  const Token* oneName(const Statement& statement);
-  void declareUnit(const Token& name, SymbolKind kind, uint32_t index);
-
-  Program& program_;
-  uint32_t file_;
-  Structure structure_;
-  Declarations declarations_;
-  std::vector<uint32_t> pendingLabels_; // tokens; they belong to the next statement
-  uint32_t passed_ = 0;                 // EX-kind statements and jumps so far
-  bool textAfterStop_ = false;
-};
-
-void FileReader::read() {
-  SourceFile& file = program_.files[file_];
-  LineReader lines(program_.sources, file.id);
-  SourceLine line;
-  uint32_t first = 0, lineNumber = 0;
-  bool open = false, clean = true; // a statement that a comma continues
-  while (lines.next(line)) {
-    file.lineCount = line.number;
-    file.lastLine = line.range();
-    if (!open) {
-      first = static_cast<uint32_t>(program_.tokens.size());
-      lineNumber = line.number;
-      clean = true;
-    }
-    const auto before = static_cast<uint32_t>(program_.tokens.size());
-    if (!structure_.stopped()) clean = tokenize(line, program_.tokens, program_.diagnostics) && clean;
-    else if (line.text.find_first_not_of(" \t") < commentOf(line.text) && !textAfterStop_) {
-      textAfterStop_ = true;
-      program_.diagnostics.report(Diag::TextAfterStop, line.range());
-    }
-    if (open && clean && program_.tokens.size() == before) continue; // a blank line or a comment inside
-    if (open && clean && beginsStatement(before)) { // the comma was one too many
-      logicalLine(first, before - first, lineNumber);
-      first = before;
-      lineNumber = line.number;
-    }
-    open = clean && program_.tokens.size() > before && program_.tokens.back().is(',');
-    if (open && program_.tokens.size() - first < 4096) continue;
-    open = false;
-    if (clean && program_.tokens.size() > first) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
-  }
-  if (open) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
-  if (!pendingLabels_.empty()) {
-    Statement end{.line = file.lineCount, .unit = structure_.unit(), .file = file_};
-    end.pos = program_.tokens[pendingLabels_[0]].pos;
-    attachLabels(end, static_cast<uint32_t>(program_.statements.size()));
-    program_.statements.push_back(end);
-  }
-  structure_.finish(static_cast<uint32_t>(program_.statements.size()));
-}
-
-// Whether the tokens from `first` cannot be operands of the statement above: a label, or a word that names no symbol.
-bool FileReader::beginsStatement(uint32_t first) const {
-  const std::span<const Token> tokens = std::span(program_.tokens).subspan(first);
-  if (tokens[0].kind != TokenKind::Name) return false;
-  return (tokens.size() > 1 && tokens[1].is(':')) || (findRow(tokens[0].text) != nullptr && reservedWord(tokens[0].text) == Reserved::Yes);
-}
+} // namespace
 
 // Takes `name :` off the front; the token of the name, or kNone.
 uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
@@ -118,7 +44,8 @@ bool FileReader::readStructure(std::span<const Token> tokens) {
     const Row* row = token.kind == TokenKind::Name ? findRow(token.text) : nullptr;
     return row && row->role == Role::MemberSize ? static_cast<uint32_t>(row->variant) : 0;
   };
-  if (const uint32_t bytes = sizeOf(tokens[0])) return declarations_.member(nullptr, tokens[0], bytes, tokens.subspan(1)), true;
+  if (const uint32_t bytes = sizeOf(tokens[0]))
+    return declarations_.member(nullptr, tokens[0], bytes, tokens.subspan(1)), true;
   const bool named = tokens.size() > 1 && tokens[0].kind == TokenKind::Name;
   if (const uint32_t bytes = named ? sizeOf(tokens[1]) : 0) {
     declarations_.member(&tokens[0], tokens[1], bytes, tokens.subspan(2));
@@ -144,23 +71,48 @@ const Row* FileReader::instruction(const Token& token) {
   return row;
 }
 
+// No macro reaches over the border of a module or another macro's beginning.
+bool FileReader::endsMacros(const Token& head) {
+  const Row* row = head.kind == TokenKind::Name ? findRow(head.text) : nullptr;
+  if (row == nullptr) return false;
+  return row->role == Role::Module || row->role == Role::ModuleEnd || row->role == Role::Stop || row->info.mnemonic == "DEF_T_MACRO";
+}
+
 void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
+  if (macros_.defining() && endsMacros(program_.tokens[first])) macros_.abandon();
+  if (macros_.defining()) {
+    macros_.take(std::vector<Token>(program_.tokens.begin() + first, program_.tokens.begin() + first + count), line);
+    return;
+  }
   if (readStructure(std::span(program_.tokens).subspan(first, count))) return;
   if (const uint32_t label = readLabel(first, count); label != kNone) pendingLabels_.push_back(label);
   if (count == 0) return;
   if (program_.tokens[first].is(':')) {
-    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range()) << "a name in front of ':'" << "none";
+    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range())
+        << "a name in front of ':'" << "none";
     return;
   }
+  if (macroLine(first, count, line)) return;
   statement(instruction(program_.tokens[first]), first, count, line);
 }
 
 void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint32_t line) {
   const Token& mnemonic = program_.tokens[first];
-  Statement made{.row = row, .pos = mnemonic.pos, .length = static_cast<uint32_t>(mnemonic.text.size()), .line = line,
-                 .firstToken = first + 1, .tokenCount = count - 1, .unit = structure_.unit(), .file = file_};
+  Statement made{.row = row,
+                 .pos = mnemonic.pos,
+                 .length = static_cast<uint32_t>(mnemonic.text.size()),
+                 .line = line,
+                 .firstToken = first + 1,
+                 .tokenCount = count - 1,
+                 .unit = structure_.unit(),
+                 .file = file_};
   const auto index = static_cast<uint32_t>(program_.statements.size());
   const bool isData = row && (row->role == Role::Dfm || row->role == Role::Ds || row->role == Role::Str);
+  if (row != nullptr && !allowedInInclude(made)) {
+    pendingLabels_.clear();
+    return;
+  }
+  if (isData && row->role == Role::Dfm && !expanding_.empty()) checkEightBits(made);
   if (isData) {
     const Token* name = pendingLabels_.empty() ? nullptr : &program_.tokens[pendingLabels_.back()];
     declarations_.data(made, name, index);
@@ -172,6 +124,14 @@ void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint3
   if (!keepsLabels) attachLabels(made, index);
   if (row != nullptr) structural(made, index);
   program_.statements.push_back(made);
+}
+
+// Inside macros a DFM names all eight bits (man. l.20454).
+void FileReader::checkEightBits(const Statement& statement) {
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  const bool all =
+      operands.size() >= 8 && std::none_of(operands.begin(), operands.end(), [](const auto& o) { return o.empty(); });
+  if (!all) program_.diagnostics.report(Diag::DfmNeedsEight, statement.range());
 }
 
 // Labels are this file's alone; they stand in the unit that is open here.
@@ -202,8 +162,11 @@ const Token* FileReader::oneName(const Statement& statement) {
     program_.diagnostics.report(Diag::BadIdentifier, tokens[0].range()) << tokens[0].text;
   } else {
     const size_t found = splitOperands(tokens).size();
-    if (found == 1) program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
-    else program_.diagnostics.report(Diag::OperandCount, statement.range()) << statement.row->info.mnemonic << "1 operand" << found;
+    if (found == 1)
+      program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
+    else
+      program_.diagnostics.report(Diag::OperandCount, statement.range())
+          << statement.row->info.mnemonic << "1 operand" << found;
   }
   return nullptr;
 }
@@ -245,12 +208,15 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::LocalEnd: structure_.endLocal(statement); return;
   case Role::Stop: structure_.stop(statement, index); return;
   case Role::Equi: declarations_.constant(statement); return;
+  case Role::Macro: return;
   case Role::NotBuilt: notBuilt(statement, Diag::NotBuiltYet); return;
   case Role::NotBuiltService: notBuilt(statement, Diag::ServiceNotBuilt); return;
   case Role::MemberSize:
     program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
     return;
-  case Role::NoCode: return;
+  case Role::NoCode:
+  case Role::MacroBegin:
+  case Role::MacroEnd: return;
   case Role::Dfm:
   case Role::Ds:
   case Role::Str: return;
@@ -267,7 +233,8 @@ void FileReader::structural(Statement& statement, uint32_t index) {
 void FileReader::notBuilt(const Statement& statement, Diag code) {
   const uint16_t effects = statement.row->effects;
   const uint32_t owner = program_.owner(statement.unit);
-  const bool init = owner != kNone && (program_.units[owner].kind == UnitKind::Procedure || program_.units[owner].module == ModuleKind::Init);
+  const bool init = owner != kNone && (program_.units[owner].kind == UnitKind::Procedure ||
+                                       program_.units[owner].module == ModuleKind::Init);
   if ((effects & kInitOnly) && owner != kNone && !init) code = Diag::InitOnlyInstruction;
   if ((effects & kWaits) && !program_.mayWait(statement.unit)) code = Diag::ExOutsideMechanism;
   program_.diagnostics.report(code, statement.range()) << statement.row->info.mnemonic;
@@ -321,15 +288,15 @@ void FileReader::checkWait(const Statement& statement) {
 
 // A loop back without anything that waits or may leave it would run for ever (man. l.2207).
 void FileReader::checkLoop(const Statement& statement) {
-  if (statement.row->info.mnemonic != "JUM" || !program_.inMechanism(statement.unit) || statement.tokenCount != 1) return;
+  if (statement.row->info.mnemonic != "JUM" || !program_.inMechanism(statement.unit) || statement.tokenCount != 1)
+    return;
   const uint32_t symbol = program_.symbols.find(program_.tokens[statement.firstToken].text, file_);
   if (symbol == kNone || program_.symbols[symbol].kind != SymbolKind::Label) return;
   const Label& label = program_.labels[program_.symbols[symbol].index];
   if (label.unit == statement.unit && label.passed == passed_)
-    program_.diagnostics.report(Diag::MechLoopWithoutEx, statement.range()).note(program_.symbols[symbol].declared, "the loop begins here");
+    program_.diagnostics.report(Diag::MechLoopWithoutEx, statement.range())
+        .note(program_.symbols[symbol].declared, "the loop begins here");
 }
-
-} // namespace
 
 void readProgram(Program& program, std::span<const FileId> files) {
   if (files.size() > kMaxFiles) {
@@ -361,13 +328,15 @@ std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens)
   return operands;
 }
 
-SourceRange rangeOf(std::span<const Token> tokens, SourceRange otherwise) {
+SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens, SourceRange otherwise) {
   if (tokens.empty()) return otherwise;
-  const SourceRange range = join(tokens.front().range(), tokens.back().range());
-  return range.end < range.begin ? tokens.front().range() : range;
+  const SourceRange first = tokens.front().range(), last = tokens.back().range();
+  const bool inOrder = first.begin <= last.begin && first.end <= last.end;
+  return inOrder && sources.fileOf(first.begin) == sources.fileOf(last.begin) ? join(first, last) : first;
 }
 
-std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens, SourceRange otherwise) {
+std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
+                                     SourceRange otherwise) {
   const auto fail = [&](Diag code, const Token& token) -> std::optional<int64_t> {
     program.diagnostics.report(code, token.range()) << token.text;
     return std::nullopt;
@@ -386,7 +355,8 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
       continue;
     }
     if (!wantsTerm || token.kind == TokenKind::Punct) {
-      program.diagnostics.report(Diag::SyntaxError, token.range()) << "a constant" << "'" + std::string(token.text) + "'";
+      program.diagnostics.report(Diag::SyntaxError, token.range())
+          << "a constant" << "'" + std::string(token.text) + "'";
       return std::nullopt;
     }
     int64_t term = 0;
@@ -401,7 +371,8 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
       const uint32_t symbol = program.symbols.require(token, file);
       if (symbol == kNone || program.symbols[symbol].broken) return std::nullopt;
       if (program.symbols[symbol].kind != SymbolKind::Constant) {
-        program.diagnostics.report(Diag::WrongOperandKind, token.range()) << token.text << "no constant" << "a constant";
+        program.diagnostics.report(Diag::WrongOperandKind, token.range())
+            << token.text << "no constant" << "a constant";
         return std::nullopt;
       }
       term = program.symbols[symbol].value;

@@ -9,8 +9,9 @@ namespace rung::frontend::technol {
 // Fills `program` from files in order, the first being the main file, and gives all data its addresses.
 void readProgram(Program& program, std::span<const FileId> files);
 
-// Value of a constant expression: number, character, constant, member, with + and - between. Reports and returns nothing
-// when it is none.
-std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens, SourceRange otherwise);
+// Value of a constant expression: number, character, constant, member, with + and - between. Reports and returns
+// nothing when it is none.
+std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
+                                     SourceRange otherwise);
 
 } // namespace rung::frontend::technol

@@ -21,11 +21,11 @@ struct Statement {
   SourcePos pos;            // of the mnemonic, else of the label
   uint32_t length = 0;      // of the mnemonic
   uint32_t line = 0;
-  uint32_t firstToken = 0;  // operands
+  uint32_t firstToken = 0; // operands
   uint32_t tokenCount = 0;
-  uint32_t label = kNone;   // in Program::labels
-  uint32_t unit = kNone;    // innermost, in Program::units
-  uint32_t file = 0;        // in Program::files
+  uint32_t label = kNone; // in Program::labels
+  uint32_t unit = kNone;  // innermost, in Program::units
+  uint32_t file = 0;      // in Program::files
 
   SourceRange range() const { return {pos, {pos.value + length}}; }
 };
@@ -37,23 +37,23 @@ struct Unit {
   UnitKind kind = UnitKind::Module;
   ModuleKind module = ModuleKind::Main;
   uint32_t parent = kNone;
-  uint32_t index = kNone;  // in mechanisms or procedures
-  std::string_view name;   // as written
+  uint32_t index = kNone;    // in mechanisms or procedures
+  std::string_view name;     // as written
   uint32_t endLabel = kNone; // Timed
-  SourceRange begin;       // of the statement that opens it
+  SourceRange begin;         // of the statement that opens it
 };
 
 struct Label {
   std::string_view name;
   uint32_t unit = kNone;
   uint32_t statement = 0;
-  uint32_t passed = 0;   // EX-kind statements and jumps in front of it
+  uint32_t passed = 0; // EX-kind statements and jumps in front of it
 };
 
 struct Mechanism {
   std::string_view name;
   uint32_t unit = kNone;
-  uint32_t byte = 0;   // of its bit in the space of the mechanisms; the line number follows
+  uint32_t byte = 0;      // of its bit in the space of the mechanisms; the line number follows
   bool hasTimers = false; // TIM or TEX: initialising it clears more than the continuation
   bool open = false;
 };
@@ -90,14 +90,14 @@ struct Symbol {
   Protection protection = Protection::None;
   bool predeclared = false;
   bool local = false;
-  bool broken = false;      // declared in error: uses are silent
+  bool broken = false;            // declared in error: uses are silent
   ir::Type type = ir::Type::None; // of a cell; None: needs a prefix
   ir::SpaceId space;
   uint32_t byte = 0;
   uint32_t bit = 0;
-  uint32_t size = 0;        // bytes of a cell or a text
-  int64_t value = 0;        // of a constant
-  uint32_t index = kNone;   // label, procedure, mechanism
+  uint32_t size = 0;          // bytes of a cell or a text
+  int64_t value = 0;          // of a constant
+  uint32_t index = kNone;     // label, procedure, mechanism
   uint32_t mechanism = kNone; // of a cell: the mechanism of the same name
   const char* structure = ""; // of an interface cell: where its members are
   uint32_t file = 0;

@@ -52,6 +52,13 @@ void Registers::flush() {
   for (uint32_t i = 0; i < kStackDepth; ++i) put(stack_[i], slots_.stack[i]);
 }
 
+void Registers::clear() {
+  setRlo(b_->bit(false));
+  set(real_, b_->real(0));
+  setDr(b_->constant(Type::I64, 0));
+  setBx(b_->i32(0));
+}
+
 ValueId Registers::rlo() { return get(rlo_, slots_.rlo); }
 void Registers::setRlo(ValueId value) { set(rlo_, value); }
 ValueId Registers::real() { return get(real_, slots_.real); }

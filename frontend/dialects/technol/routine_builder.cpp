@@ -68,7 +68,8 @@ void RoutineBuilder::describe() {
   for (uint32_t line = first_.line; line <= rung_.lastLine; ++line) {
     const std::string_view text = first_.sources->lineText(first_.file, line);
     if (line == first_.line)
-      if (const size_t comment = commentOf(text); comment != std::string_view::npos) rung_.title = trimmed(text.substr(comment + 1));
+      if (const size_t comment = commentOf(text); comment != std::string_view::npos)
+        rung_.title = trimmed(text.substr(comment + 1));
     if (!rung_.sourceText.empty()) rung_.sourceText += '\n';
     rung_.sourceText += trimmed(text);
   }
@@ -107,9 +108,13 @@ uint32_t RoutineBuilder::selectLater(ir::ValueId value) {
   return static_cast<uint32_t>(fixups_.size()) - 1;
 }
 
-void RoutineBuilder::setLabels(uint32_t handle, std::vector<uint32_t> labels) { fixups_[handle].labels = std::move(labels); }
+void RoutineBuilder::setLabels(uint32_t handle, std::vector<uint32_t> labels) {
+  fixups_[handle].labels = std::move(labels);
+}
 
-void RoutineBuilder::select(ir::ValueId value, std::vector<uint32_t> labels) { setLabels(selectLater(value), std::move(labels)); }
+void RoutineBuilder::select(ir::ValueId value, std::vector<uint32_t> labels) {
+  setLabels(selectLater(value), std::move(labels));
+}
 
 void RoutineBuilder::finish() {
   cut();
@@ -121,8 +126,10 @@ void RoutineBuilder::finish() {
     for (const uint32_t label : fixup.labels) {
       // A label is unbound or another routine's only where the program has errors.
       const uint32_t rung = label >= labels_.size() || labels_[label] == kUnbound ? last : labels_[label];
-      if (transfer.kind == ir::TransferKind::Goto) transfer.target = rung;
-      else transfer.targets.push_back(rung);
+      if (transfer.kind == ir::TransferKind::Goto)
+        transfer.target = rung;
+      else
+        transfer.targets.push_back(rung);
     }
   }
 }

@@ -1,4 +1,5 @@
-// Builds one routine, rung by rung: registers are written back where a rung ends, jumps go to labels that may be bound later.
+// Builds one routine, rung by rung: registers are written back where a rung ends, jumps go to labels that may be bound
+// later.
 #pragma once
 
 #include <optional>

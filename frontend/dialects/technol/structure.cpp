@@ -108,8 +108,10 @@ void Structure::closeModule(SourceRange at, uint32_t line, uint32_t index) {
 void Structure::closeUnits(SourceRange at) {
   bool reported = false;
   while (program_.units[unit_].kind != UnitKind::Module) {
-    if (!reported || program_.units[unit_].kind == UnitKind::Timed) closeUnit(at);
-    else unit_ = program_.units[unit_].parent;
+    if (!reported || program_.units[unit_].kind == UnitKind::Timed)
+      closeUnit(at);
+    else
+      unit_ = program_.units[unit_].parent;
     reported = true;
   }
 }
@@ -117,8 +119,12 @@ void Structure::closeUnits(SourceRange at) {
 void Structure::closeUnit(SourceRange at) {
   const Unit& unit = program_.units[unit_];
   switch (unit.kind) {
-  case UnitKind::Mechanism: program_.diagnostics.report(Diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name; break;
-  case UnitKind::Procedure: program_.diagnostics.report(Diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name; break;
+  case UnitKind::Mechanism:
+    program_.diagnostics.report(Diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name;
+    break;
+  case UnitKind::Procedure:
+    program_.diagnostics.report(Diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name;
+    break;
   case UnitKind::Timed: lostBlocks_.push_back({program_.tokens[unit.endLabel], unit_}); break;
   case UnitKind::Module: break;
   }
@@ -131,7 +137,8 @@ void Structure::beginLocal(const Statement& statement) {
 }
 
 void Structure::endLocal(const Statement& statement) {
-  if (!localOpen_) program_.diagnostics.report(Diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
+  if (!localOpen_)
+    program_.diagnostics.report(Diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
   localOpen_ = false;
 }
 
@@ -152,7 +159,8 @@ void Structure::stop(const Statement& statement, uint32_t index) {
 void Structure::beginMechanism(const Statement& statement, const Token& name) {
   const uint32_t outer = program_.owner(unit_);
   if (program_.inMechanism(unit_))
-    program_.diagnostics.report(Diag::NestedMechanism, statement.range()).note(program_.units[outer].begin, "it begins here")
+    program_.diagnostics.report(Diag::NestedMechanism, statement.range())
+            .note(program_.units[outer].begin, "it begins here")
         << program_.units[outer].name;
   const auto index = static_cast<uint32_t>(program_.mechanisms.size());
   push({.kind = UnitKind::Mechanism, .index = index, .name = name.text, .begin = statement.range()});
@@ -170,7 +178,8 @@ bool Structure::endMechanism(const Statement& statement, const Token& name) {
   while (unit_ != at) closeUnit(statement.range());
   const Unit& unit = program_.units[unit_];
   if (symbolKey(unit.name) != symbolKey(name.text))
-    program_.diagnostics.report(Diag::MechNameMismatch, name.range()).note(unit.begin, "it begins here") << name.text << unit.name;
+    program_.diagnostics.report(Diag::MechNameMismatch, name.range()).note(unit.begin, "it begins here")
+        << name.text << unit.name;
   unit_ = unit.parent;
   return true;
 }
@@ -178,7 +187,8 @@ bool Structure::endMechanism(const Statement& statement, const Token& name) {
 void Structure::beginProcedure(const Statement& statement, const Token& name) {
   for (uint32_t at = unit_; at != kNone; at = program_.units[at].parent)
     if (program_.units[at].kind == UnitKind::Procedure) {
-      program_.diagnostics.report(Diag::NestedProcedure, statement.range()).note(program_.units[at].begin, "it begins here")
+      program_.diagnostics.report(Diag::NestedProcedure, statement.range())
+              .note(program_.units[at].begin, "it begins here")
           << program_.units[at].name;
       break;
     }
@@ -197,7 +207,8 @@ bool Structure::endProcedure(const Statement& statement, const Token& name) {
   while (unit_ != at) closeUnit(statement.range());
   const Unit& unit = program_.units[unit_];
   if (symbolKey(unit.name) != symbolKey(name.text))
-    program_.diagnostics.report(Diag::ProcNameMismatch, name.range()).note(unit.begin, "it begins here") << name.text << unit.name;
+    program_.diagnostics.report(Diag::ProcNameMismatch, name.range()).note(unit.begin, "it begins here")
+        << name.text << unit.name;
   unit_ = unit.parent;
   return true;
 }
@@ -205,10 +216,13 @@ bool Structure::endProcedure(const Statement& statement, const Token& name) {
 void Structure::beginTimed(const Statement& statement, const Token& endLabel) {
   if (unit_ != kNone && program_.units[unit_].kind == UnitKind::Timed)
     program_.diagnostics.report(Diag::SyntaxError, statement.range())
-        << "label '" + std::string(program_.tokens[program_.units[unit_].endLabel].text) + "', which ends the timed block,"
+        << "label '" + std::string(program_.tokens[program_.units[unit_].endLabel].text) +
+               "', which ends the timed block,"
         << "a timed block inside it";
-  push({.kind = UnitKind::Timed, .name = statement.row->info.mnemonic,
-        .endLabel = static_cast<uint32_t>(&endLabel - program_.tokens.data()), .begin = statement.range()});
+  push({.kind = UnitKind::Timed,
+        .name = statement.row->info.mnemonic,
+        .endLabel = static_cast<uint32_t>(&endLabel - program_.tokens.data()),
+        .begin = statement.range()});
 }
 
 void Structure::passLabel(std::string_view name) {
@@ -224,7 +238,8 @@ void Structure::passLabel(std::string_view name) {
 bool Structure::allowsCode(const Statement& statement) {
   if (localOpen_ && !inData()) closeLocal(statement.range());
   if (inModule() && !inData()) return true;
-  if (!outsideReported_) program_.diagnostics.report(Diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
+  if (!outsideReported_)
+    program_.diagnostics.report(Diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
   outsideReported_ = true;
   return false;
 }
@@ -242,7 +257,8 @@ void Structure::checkMissing() {
   for (int i = 1; i < kModuleKinds; ++i) {
     const auto kind = static_cast<ModuleKind>(i);
     const bool needed = file.main ? isMandatory(kind) : kind == ModuleKind::Main;
-    if (needed && !seen_[static_cast<size_t>(i)]) diagnostics.report(Diag::MissingModule, file.lastLine) << moduleName(kind);
+    if (needed && !seen_[static_cast<size_t>(i)])
+      diagnostics.report(Diag::MissingModule, file.lastLine) << moduleName(kind);
   }
   if (file.main && !stopped_) diagnostics.report(Diag::MissingStop, file.lastLine);
 }
@@ -260,8 +276,11 @@ void Structure::finish(uint32_t statementCount) {
     const uint32_t symbol = program_.symbols.find(block.label.text, file_);
     const bool later = symbol != kNone && program_.symbols[symbol].kind == SymbolKind::Label &&
                        block.label.pos < program_.symbols[symbol].declared.begin;
-    if (!later) program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
-    else program_.diagnostics.report(Diag::JumpCrossesUnit, block.label.range()) << block.label.text << "the unit of this timed block";
+    if (!later)
+      program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
+    else
+      program_.diagnostics.report(Diag::JumpCrossesUnit, block.label.range())
+          << block.label.text << "the unit of this timed block";
   }
 }
 

@@ -13,19 +13,46 @@ struct Predefined {
 
 // §24 of the inventory; values of PLCEVENT_* are this project's.
 constexpr Predefined kPredefined[] = {
-    {"BLOCK_IDLE", 0}, {"BLOCK_INIT", 1}, {"BLOCK_MOVE", 2}, {"BLOCK_DELAY", 3}, {"BLOCK_DONE", 4}, // man. l.6626
-    {"PLCEVENT_STOP_REQ", 1}, {"PLCEVENT_STOP_EMERGENCY_REQ", 2}, {"PLCEVENT_STOP", 3}, {"PLCEVENT_START", 4}, // l.1638
+    {"BLOCK_IDLE", 0},
+    {"BLOCK_INIT", 1},
+    {"BLOCK_MOVE", 2},
+    {"BLOCK_DELAY", 3},
+    {"BLOCK_DONE", 4}, // man. l.6626
+    {"PLCEVENT_STOP_REQ", 1},
+    {"PLCEVENT_STOP_EMERGENCY_REQ", 2},
+    {"PLCEVENT_STOP", 3},
+    {"PLCEVENT_START", 4}, // l.1638
     {"PLCEVENT_START_REQ", 5},
-    {"CAN_ERR_OK", 0}, {"CAN_ERR_XMTFULL", 1}, {"CAN_ERR_RCVEMPTY", 2}, // l.3696
-    {"PLC_COM_ERROR", 1}, {"PLC_COM_REQ", 2}, {"PLC_COM_SEND_OVER", 4}, {"PLC_COM_RECV_OVER", 8}, // l.21193
-    {"ECAT_INIT", 1}, {"ECAT_PREOPERATIONAL", 2}, {"ECAT_BOOTSTRAP", 3}, {"ECAT_SAFEOPERATIONAL", 4}, // l.17946
+    {"CAN_ERR_OK", 0},
+    {"CAN_ERR_XMTFULL", 1},
+    {"CAN_ERR_RCVEMPTY", 2}, // l.3696
+    {"PLC_COM_ERROR", 1},
+    {"PLC_COM_REQ", 2},
+    {"PLC_COM_SEND_OVER", 4},
+    {"PLC_COM_RECV_OVER", 8}, // l.21193
+    {"ECAT_INIT", 1},
+    {"ECAT_PREOPERATIONAL", 2},
+    {"ECAT_BOOTSTRAP", 3},
+    {"ECAT_SAFEOPERATIONAL", 4}, // l.17946
     {"ECAT_OPERATIONAL", 8},
-    {"ECATCMD_MASTER_INIT", 1}, {"ECATCMD_MASTER_PREOPERATIONAL", 2}, {"ECATCMD_MASTER_BOOTSTRAP", 3}, // l.18210
-    {"ECATCMD_MASTER_SAFEOPERATIONAL", 4}, {"ECATCMD_MASTER_OPERATIONAL", 8}, {"ECATCMD_SLAVE_INIT", 11},
-    {"ECATCMD_SLAVE_PREOPERATIONAL", 12}, {"ECATCMD_SLAVE_BOOTSTRAP", 13}, {"ECATCMD_SLAVE_SAFEOPERATIONAL", 14},
-    {"ECATCMD_SLAVE_OPERATIONAL", 18}, {"ECATCMD_MASTER_STATE", 20}, {"ECATCMD_SLAVE_STATE", 21},
-    {"PLCTABTYPE_INT", 1}, {"PLCTABTYPE_REAL", 2}, {"PLCTABTYPE_STR", 3}, {"PLCTABTYPE_BIN", 4}, // l.18893
-    {"PLCTITEMCHANGED", 1}, {"PLCTSELLLINECHANGED", 2}, // l.19010
+    {"ECATCMD_MASTER_INIT", 1},
+    {"ECATCMD_MASTER_PREOPERATIONAL", 2},
+    {"ECATCMD_MASTER_BOOTSTRAP", 3}, // l.18210
+    {"ECATCMD_MASTER_SAFEOPERATIONAL", 4},
+    {"ECATCMD_MASTER_OPERATIONAL", 8},
+    {"ECATCMD_SLAVE_INIT", 11},
+    {"ECATCMD_SLAVE_PREOPERATIONAL", 12},
+    {"ECATCMD_SLAVE_BOOTSTRAP", 13},
+    {"ECATCMD_SLAVE_SAFEOPERATIONAL", 14},
+    {"ECATCMD_SLAVE_OPERATIONAL", 18},
+    {"ECATCMD_MASTER_STATE", 20},
+    {"ECATCMD_SLAVE_STATE", 21},
+    {"PLCTABTYPE_INT", 1},
+    {"PLCTABTYPE_REAL", 2},
+    {"PLCTABTYPE_STR", 3},
+    {"PLCTABTYPE_BIN", 4}, // l.18893
+    {"PLCTITEMCHANGED", 1},
+    {"PLCTSELLLINECHANGED", 2}, // l.19010
 };
 
 const Predefined* findPredefined(std::string_view key) {
@@ -59,8 +86,9 @@ Symbol fromSignal(const nc::Signal& signal) {
   Symbol symbol;
   symbol.name = signal.symbol;
   symbol.predeclared = true;
-  symbol.kind = signal.type == nc::SignalType::Bit ? SymbolKind::Bit
-                : signal.type == nc::SignalType::String ? SymbolKind::Text : SymbolKind::Cell;
+  symbol.kind = signal.type == nc::SignalType::Bit      ? SymbolKind::Bit
+                : signal.type == nc::SignalType::String ? SymbolKind::Text
+                                                        : SymbolKind::Cell;
   symbol.type = cellType(signal.type);
   symbol.space = kInterfaceSpace;
   symbol.byte = signal.byteOffset;
@@ -83,7 +111,9 @@ void SymbolTable::checkName(const Symbol& symbol) {
   if (symbol.name.size() > kSignificant) diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
   switch (reservedWord(symbol.name)) {
   case Reserved::No: break;
-  case Reserved::Warn: diagnostics_.report(Diag::ReservedWord, symbol.declared).severity(Severity::Warning) << symbol.name; break;
+  case Reserved::Warn:
+    diagnostics_.report(Diag::ReservedWord, symbol.declared).severity(Severity::Warning) << symbol.name;
+    break;
   case Reserved::Yes: diagnostics_.report(Diag::ReservedWord, symbol.declared) << symbol.name; break;
   }
 }
@@ -100,7 +130,8 @@ uint32_t* SymbolTable::inOwnFile(const std::string& key, const Symbol& symbol) {
 // Whether both declarations may stand: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
 bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   Symbol& first = symbols_[earlier];
-  if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value) return true;
+  if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
+    return true;
   if (first.kind == SymbolKind::Cell && symbol.kind == SymbolKind::Mechanism && first.mechanism == kNone) {
     first.mechanism = symbol.index;
   } else if (first.kind == SymbolKind::Mechanism && symbol.kind == SymbolKind::Cell) {
@@ -121,7 +152,8 @@ uint32_t SymbolTable::declare(Symbol symbol) {
       if (symbol.kind == SymbolKind::Constant) return *earlier;
       if (symbol.kind == SymbolKind::Cell) *earlier = index; // the cell carries both meanings
     } else {
-      diagnostics_.report(Diag::DuplicateSymbol, symbol.declared).note(symbols_[*earlier].declared, "first declared here")
+      diagnostics_.report(Diag::DuplicateSymbol, symbol.declared)
+              .note(symbols_[*earlier].declared, "first declared here")
           << symbol.name;
     }
     symbols_.push_back(symbol);

@@ -1,6 +1,6 @@
-// Names of a program. Symbols of any case are one name, compared on 31 characters (man. l.75). Each file sees its own local
-// names first (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC interface and
-// the predefined constants, which are entered at their first use.
+// Names of a program. Symbols of any case are one name, compared on 31 characters (man. l.75). Each file sees its own
+// local names first (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC
+// interface and the predefined constants, which are entered at their first use.
 #pragma once
 
 #include <string>

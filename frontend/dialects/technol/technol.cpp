@@ -10,7 +10,7 @@ namespace rung::frontend {
 namespace {
 
 constexpr std::string_view kExtensions[] = {".plc"};
-constexpr std::string_view kConfigKeys[] = {"period_us"};
+constexpr std::string_view kConfigKeys[] = {"period_us", "system_folder"};
 
 uint32_t periodOf(const CompileOptions& options) {
   const auto found = options.config.find("period_us");
@@ -27,8 +27,11 @@ std::string baseName(std::string_view path) {
   return std::string(path.substr(0, path.rfind('.')));
 }
 
-std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options, Diagnostics& diagnostics) {
+std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
+                                    const CompileOptions& options, Diagnostics& diagnostics) {
   technol::Program program(sources, diagnostics);
+  if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
+    program.systemFolder = folder->second;
   technol::readProgram(program, files);
   if (program.files.empty()) return nullptr;
   auto module = std::make_unique<ir::Module>();

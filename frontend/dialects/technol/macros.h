@@ -1,0 +1,66 @@
+// User instructions: DEF_T_MACRO … END_T_MACRO (man. ch. 22). A macro's lines are kept as tokens; a use gives new tokens in
+// which formal parameters behind TMAC. are replaced by the actual operands and T_LOCAL names by names of their own.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/dialects/technol/program.h"
+
+namespace rung::frontend::technol {
+
+// What a use does to the stack, whatever the body does (man. l.20536).
+enum class MacroStack : uint8_t { Normal, Begin, End, Push, Pop };
+
+struct Macro {
+  struct Line {
+    std::vector<Token> tokens;
+    uint32_t line = 0;
+  };
+  Token name;
+  SourceRange at; // of its DEF_T_MACRO
+  std::vector<std::string> formals; // keys
+  std::vector<std::string> locals;  // keys
+  std::vector<Line> body;
+  MacroStack stack = MacroStack::Normal;
+};
+
+class MacroSet {
+public:
+  MacroSet(Program& program, uint32_t file) : program_(program), file_(file) {}
+
+  bool defining() const { return defining_; }
+  // DEF_T_MACRO name par1, par2
+  void begin(std::span<const Token> operands, SourceRange at);
+  // A line while a macro is being defined; false when it was its END_T_MACRO.
+  bool take(std::span<const Token> tokens, uint32_t line);
+  // A module's border or the end of the file: the macro was not closed.
+  void abandon();
+  // APPEND_T_MACRO name, alias [,flags]
+  void append(std::span<const Token> operands, SourceRange at);
+  // CONTROL_T_MACRO POS|PRE: whether macros come before the language's own instructions
+  void control(std::span<const Token> operands, SourceRange at);
+  bool first() const { return first_; }
+
+  // Null when there is none.
+  const Macro* find(std::string_view name) const;
+  // The lines of one use; nothing after a report.
+  bool expand(const Macro& macro, std::span<const Token> operands, SourceRange at, std::vector<Macro::Line>& out);
+
+private:
+  bool flags(std::span<const Token> tokens, MacroStack& stack);
+  void declare(const Token& name, uint32_t macro);
+  void substitute(const Macro& macro, const Macro::Line& line, const std::vector<std::span<const Token>>& actuals, Macro::Line& out);
+  void localName(const Macro& macro, Token token, Macro::Line& out);
+
+  Program& program_;
+  uint32_t file_;
+  bool defining_ = false;
+  bool first_ = false;
+  uint32_t uses_ = 0;
+  std::vector<Macro> macros_;
+  std::unordered_map<std::string, uint32_t> names_;
+};
+
+} // namespace rung::frontend::technol

@@ -13,6 +13,7 @@
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/cpp/embedded_headers.h"
+#include "ir/support/temporary_folder.h"
 
 extern char** environ;
 
@@ -20,26 +21,6 @@ namespace rung::codegen {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A directory of its own that goes away with its owner.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "rung-XXXXXX").string();
-    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  bool ok() const { return !path_.empty(); }
-  fs::path operator/(std::string_view name) const { return path_ / name; }
-
-private:
-  fs::path path_;
-};
 
 bool writeFile(const fs::path& path, std::string_view text) {
   std::error_code error;
@@ -100,7 +81,6 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
               words);
   words.push_back(options.optimisation);
   if (options.debugInfo) words.push_back("-g");
-  appendWords(options.extraFlags, words);
   for (std::string word :
        {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(), std::string("-o"), unfinished})
     words.push_back(std::move(word));

@@ -68,7 +68,7 @@ std::string emitCpp(const Layout& layout, uint64_t codeHash, const CppOptions& o
   const PlaceNames names(layout.module());
   writeHead(layout.module(), out);
   for (uint32_t i = 0; i < layout.chunks().size(); ++i) writeChunk(layout, i, names, options, out);
-  if (options.lineDirectives) out += "\n#line 1 \"rung_tables\"";
+  out += "\n#line 1 \"rung_tables\"";
   fmt::format_to(std::back_inserter(out), "\nstatic const rung_chunk_fn {}[] = {{\n", kChunkTable);
   for (size_t i = 0; i < layout.chunks().size(); ++i) fmt::format_to(std::back_inserter(out), "    chunk_{},\n", i);
   out += "};\n";

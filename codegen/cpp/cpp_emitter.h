@@ -12,7 +12,6 @@
 namespace rung::codegen {
 
 struct CppOptions {
-  bool lineDirectives = true;
   // For the tests of the comparison only: this operation is emitted wrongly.
   std::optional<ir::OpCode> sabotage;
 };
@@ -21,10 +20,10 @@ struct CppOptions {
 std::string emitCpp(const ir::Layout& layout, uint64_t codeHash, const CppOptions& options);
 
 struct CppBuildOptions {
-  std::string compiler = "c++"; // a driver: clang++-19, g++, aarch64-linux-gnu-g++ …
+  // A driver, with flags of its own behind it if need be: clang++-19, g++, aarch64-linux-gnu-g++ …
+  std::string compiler = "c++";
   std::string optimisation = "-O2";
   bool debugInfo = true;
-  std::string extraFlags; // e.g. "-fsanitize=undefined"; split at blanks
 };
 
 // Compiles the text to a shared object at `outPath`. The headers that the text includes are built into this library.

@@ -73,7 +73,7 @@ void RungWriter::beginLine(uint32_t line, bool force) {
   if (open_ && line == line_ && !force) return;
   endLine();
   line_ = line;
-  if (options_.lineDirectives && line != 0) fmt::format_to(std::back_inserter(out_), "#line {} \"{}\"\n", line, file_);
+  if (line != 0) fmt::format_to(std::back_inserter(out_), "#line {} \"{}\"\n", line, file_);
   out_ += "RUNG_LINE(\n";
   open_ = true;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ir/support/temporary_folder.h"
 #include "tools/bench/measure.h"
 
 namespace {
@@ -64,7 +65,7 @@ std::vector<Row> rowsFor(uint32_t rungs, const std::string& hand) {
   };
 }
 
-int printTable(uint32_t rungs, const std::string& handCompiler, const std::filesystem::path& folder) {
+int printTable(uint32_t rungs, const std::string& handCompiler, const rung::TemporaryFolder& folder) {
   const std::string hand = (folder / fmt::format("hand{}.so", rungs)).string();
   const rung::Result<void> built = rung::bench::buildHandWritten(rungs, handCompiler, hand);
   if (!built.ok()) {
@@ -92,9 +93,8 @@ int printTable(uint32_t rungs, const std::string& handCompiler, const std::files
 }
 
 int printDocument() {
-  char pattern[] = "/tmp/rung-bench-XXXXXX";
-  const char* folder = mkdtemp(pattern);
-  if (folder == nullptr) return 3;
+  const rung::TemporaryFolder folder;
+  if (!folder.ok()) return 3;
   fmt::print("{}", R"(# Performance
 
 Made by `./dev bench`; do not edit. The program is generated: bit logic, three contacts and a coil a rung, the contacts drawn at random
@@ -106,8 +106,6 @@ had, compiler included.
 )");
   int status = 0;
   for (uint32_t rungs : {1000u, 10000u}) status |= printTable(rungs, "clang++-19", folder);
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
   return status;
 }
 

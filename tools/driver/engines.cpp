@@ -10,6 +10,7 @@
 #include "codegen/jit/jit_engine.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/interp/interp.h"
+#include "ir/support/temporary_folder.h"
 #include "rtlib/host/so_engine.h"
 
 namespace rung::driver {
@@ -39,15 +40,13 @@ private:
 
 template <class Build>
 Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build build) {
-  std::string folder = (fs::temp_directory_path() / "rung-so-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) return failure("cannot make a temporary folder");
-  const std::string path = folder + "/program.so";
+  const TemporaryFolder folder;
+  if (!folder.ok()) return failure("cannot make a temporary folder");
+  const std::string path = (folder / "program.so").string();
   const Result<void> built = build(path);
   std::string error;
-  std::unique_ptr<host::SoEngine> loaded = built.ok() ? host::SoEngine::open(path, error) : nullptr;
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
   if (!built.ok()) return built.failure();
+  std::unique_ptr<host::SoEngine> loaded = host::SoEngine::open(path, error);
   if (loaded == nullptr) return failure(error);
   return std::unique_ptr<host::Engine>(new BuiltEngine(std::move(loaded), name));
 }
@@ -82,8 +81,11 @@ std::optional<EngineKind> engineFromName(std::string_view name) {
 }
 
 std::span<const EngineKind> allEngines() {
-  static constexpr std::array<EngineKind, 4> kAll = {EngineKind::Interp, EngineKind::Cpp, EngineKind::Llvm,
-                                                     EngineKind::Jit};
+  static constexpr std::array<EngineKind, kEngines.size()> kAll = [] {
+    std::array<EngineKind, kEngines.size()> kinds{};
+    for (size_t i = 0; i < kinds.size(); ++i) kinds[i] = kEngines[i].kind;
+    return kinds;
+  }();
   return kAll;
 }
 

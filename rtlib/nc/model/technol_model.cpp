@@ -15,17 +15,13 @@ enum class BlockPhase : uint8_t { Idle, Starting, Init, Motion, Done };
 
 class TechnolModel final : public NcModel {
 public:
-  std::string config(std::string_view key, std::string_view value) override {
-    configuration_.insert_or_assign(std::string(key), std::string(value));
-    return {};
-  }
-
   // Memory zeroed, interface presets, MODULE_INIT with DR = 0 (§12.3).
   void powerOn(host::Instance& instance, PowerOn kind) override {
     NcModel::powerOn(instance, kind);
     instance.setStopped(false);
     phase_ = BlockPhase::Idle;
-    motionDone_ = false;
+    motionDone_ = stopping_ = false;
+    blockSignals_.clear();
     runModule(instance, "INIT", 0);
     board_.take(instance);
   }
@@ -179,7 +175,6 @@ private:
     return name.starts_with("ZM") || name.ends_with("PID") || name == "M60PI" || name.starts_with("BLK[");
   }
 
-  std::map<std::string, std::string> configuration_;
   BlockPhase phase_ = BlockPhase::Idle;
   bool motionDone_ = false;
   bool stopping_ = false;

@@ -170,7 +170,9 @@ TEST(NctTable, GeneratedOperandErrors) {
       changed = good;
       const OperandKindInfo& kind = kindOf(info.kind);
       changed[i] = kind.bad;
-      if (!kind.bad.empty()) EXPECT_TRUE(has(withOperands(row, changed), kind.badCode)) << name << ' ' << info.name;
+      if (!kind.bad.empty()) {
+        EXPECT_TRUE(has(withOperands(row, changed), kind.badCode)) << name << ' ' << info.name;
+      }
       if (info.min > info.max) continue;
       for (int64_t value : {info.min - 1, info.max + 1}) {
         changed[i] = "#" + std::to_string(value);

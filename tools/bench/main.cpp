@@ -103,6 +103,9 @@ clang++ at -O3. Ratios are medians of pairs measured in turn in one process; abs
 main task through the host's runner, with its copies of the NC area. Resident memory is the most that the process ever
 had, compiler included.
 
+Above 1.5 are the interpreter, which is the definition and not meant to be fast, and fast compilation: LLVM's quick instruction selection
+without passes keeps every value of a rung in memory; it is for trying a change at once.
+
 )");
   int status = 0;
   for (uint32_t rungs : {1000u, 10000u}) status |= printTable(rungs, "clang++-19", folder);

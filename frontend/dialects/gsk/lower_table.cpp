@@ -86,17 +86,18 @@ void lowerCodeTable(FunctionLowering& f) {
   });
 }
 
-// The lowest entry that matches; entries 0 to the number given, as far as they exist (P35).
+// The lowest entry that matches. As many entries as the number given says, 0 to n for n+1 (man. l.2022-2026), as far as
+// they exist (P35).
 void lowerSearch(FunctionLowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     const Address& table = f.param(2).address;
-    const ValueId last = unsignedWord(f, 1, Type::I32);
+    const ValueId entries = unsignedWord(f, 1, Type::I32);
     const ValueId searched = f.load(f.dataType(), f.param(3).address);
     const ValueId first[] = {b.bit(false), b.i32(0)};
     const auto inside = b.loop(entriesFrom(table, f.function.length), first);
     const ValueId entry = b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, inside[0]));
-    const ValueId hit = b.and_(b.and_(b.leU(inside[0], last), b.eq(entry, searched)), b.not_(inside[1]));
+    const ValueId hit = b.and_(b.and_(b.ltU(inside[0], entries), b.eq(entry, searched)), b.not_(inside[1]));
     const ValueId next[] = {b.or_(inside[1], hit), b.select(hit, inside[0], inside[2])};
     const auto found = b.endLoop(next);
     f.when(found[0], [&] { f.store(f.param(4).address, b.zextOrTrunc(f.dataType(), found[1])); });

@@ -1,0 +1,73 @@
+// The functions of the GSK25i window: what WINDR and WINDW may ask of the CNC (man. Table 5-49, l.3203-3239; control
+// data l.8686-8945). The compiler checks blocks by it, the simulated CNC answers by it, the reference page prints it.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace rung::nc::gsk {
+
+enum class WindowAccess : uint8_t { Read, Write };
+
+// High speed: answered in the scan of the call. Low speed: in a later one (man. l.8501-8513).
+enum class WindowSpeed : uint8_t { High, Low };
+
+enum class WindowStatus : uint8_t {
+  Open,
+  ClosedInList,    // "not open" in the list: the PLC refuses it with end code 6 (P49)
+  ClosedInSection, // only its own section says "not open yet": the CNC is asked and refuses it
+};
+
+// End codes (man. l.8668-8676).
+enum WindowEnd : uint16_t {
+  kWindowDone = 0,
+  kWindowBadFunction = 1,
+  kWindowBadLength = 2,
+  kWindowBadCount = 3,
+  kWindowBadAttribute = 4,
+  kWindowBadData = 5,
+  kWindowNotProvided = 6,
+  kWindowProtected = 7,
+};
+
+// The control block: words, low byte first, and the data behind them (tables l.8688-8945).
+inline constexpr uint32_t kWindowFunctionAt = 0;
+inline constexpr uint32_t kWindowEndAt = 2;
+inline constexpr uint32_t kWindowLengthAt = 4;
+inline constexpr uint32_t kWindowNumberAt = 6;
+inline constexpr uint32_t kWindowAttributeAt = 8;
+inline constexpr uint32_t kWindowDataAt = 10;
+inline constexpr uint32_t kWindowMaxLength = 4;
+
+// L is 1, 2 or 4 wherever it is given (man. l.8664, and every table of §9.3).
+constexpr bool isWindowLength(uint64_t bytes) { return bytes == 1 || bytes == 2 || bytes == 4; }
+
+// The number M or the attribute N. Without `meaning` the field means nothing (man. l.8661).
+struct WindowField {
+  std::string_view meaning;
+  uint16_t min = 0;
+  uint16_t max = 0; // kNoLimit: the manual gives none
+};
+inline constexpr uint16_t kNoLimit = UINT16_MAX;
+
+struct WindowFunction {
+  uint16_t code = 0;
+  std::string_view title;
+  WindowAccess access = WindowAccess::Read;
+  WindowSpeed speed = WindowSpeed::Low;
+  WindowStatus status = WindowStatus::Open;
+  WindowField number;
+  WindowField attribute;
+  uint32_t scale = 0;       // data = value x scale; 0: no section describes the data
+  bool wholeOnly = false;   // what is written must be a multiple of the scale
+  uint16_t listLine = 0;    // in Table 5-49
+  std::string_view section; // of Part II; "" where there is none
+  uint16_t line = 0;        // of the section
+};
+
+// In the order of their codes.
+std::span<const WindowFunction> windowFunctions();
+// Null for a code that the list does not have.
+const WindowFunction* findWindowFunction(uint64_t code);
+
+} // namespace rung::nc::gsk

@@ -1,6 +1,7 @@
 // From networks to a program: which unit a network belongs to, and what holds between networks: labels, regions, calls.
 #pragma once
 #include <map>
+#include <vector>
 
 #include "frontend/dialects/gsk/context.h"
 #include "frontend/dialects/gsk/program.h"
@@ -32,21 +33,28 @@ private:
   void beginSubprogram(const Network& network);
   void endSubprogram(Network&& network);
   void body(Network&& network);
+  void nest(SourceRange inner);
+  void closeAll();
   uint32_t subprogram(uint32_t number, SourceRange range, SourceRange name);
 
   Context& context_;
   Program& program_;
   std::map<uint32_t, uint32_t> subprograms_; // number -> unit
   uint32_t current_ = kLevel1;               // kNone: behind END2, in no subprogram
-  uint32_t nested_ = 0;                      // SP inside SP, reported
+  struct Open {
+    uint32_t unit;
+    uint32_t outside;         // where a misplaced or nested subprogram stands
+    bool closedInner = false; // the last thing in it was a nested subprogram
+  };
+  std::vector<Open> open_; // subprograms, the innermost last
   bool nestedReported_ = false;
   bool sawEnd1_ = false;
   bool sawEnd2_ = false;
   bool sawList_ = false;
   SourceRange end2Range_;
-  bool strayReported_ = false; // in this run of commands behind END2
-  bool misplaced_ = false;     // in a subprogram that began before END2
-  uint32_t resume_ = kLevel1;  // where a misplaced subprogram stood
+  bool strayReported_ = false;         // in this run of commands behind END2
+  std::vector<SourceRange> stray_;     // such runs
+  std::vector<SourceRange> misplaced_; // subprograms that began before END2
   bool garbled_ = false;
   bool moduleOpened_[2] = {false, false};
 };

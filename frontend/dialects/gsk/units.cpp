@@ -39,9 +39,12 @@ void UnitAssembler::add(Network&& network) {
 }
 
 void UnitAssembler::body(Network&& network) {
+  if (!open_.empty()) open_.back().closedInner = false;
   if (current_ != kNone) return program_.units[current_].networks.push_back(std::move(network));
-  if (!strayReported_ && !network.garbled) context_.diagnostics.report(Diag::CodeAfterEnd2, network.range);
+  if (!strayReported_ && !network.garbled) stray_.push_back(network.range);
   strayReported_ = true;
+  program_.units[kLevel2].networks.push_back(
+      std::move(network)); // labels, calls and regions in it are there all the same
 }
 
 void UnitAssembler::end1(Network&& network) {
@@ -51,9 +54,14 @@ void UnitAssembler::end1(Network&& network) {
     return;
   }
   sawEnd1_ = true;
-  if (sawEnd2_) return static_cast<void>(context_.diagnostics.report(Diag::EndOrder, range));
+  if (sawEnd2_) { // what stands between them is misplaced for that reason alone
+    stray_.clear();
+    strayReported_ = false;
+    return static_cast<void>(context_.diagnostics.report(Diag::EndOrder, range));
+  }
+  closeAll();
   program_.units[kLevel1].networks.push_back(std::move(network));
-  current_ = resume_ = kLevel2;
+  current_ = kLevel2;
 }
 
 void UnitAssembler::end2(Network&& network) {
@@ -64,9 +72,9 @@ void UnitAssembler::end2(Network&& network) {
   }
   sawEnd2_ = true;
   end2Range_ = range;
+  closeAll();
   program_.units[kLevel2].networks.push_back(std::move(network));
   current_ = kNone;
-  misplaced_ = false;
 }
 
 uint32_t UnitAssembler::subprogram(uint32_t number, SourceRange range, SourceRange name) {
@@ -80,47 +88,60 @@ uint32_t UnitAssembler::subprogram(uint32_t number, SourceRange range, SourceRan
   return index;
 }
 
+// Two subprograms begin without an SPE between them: one inside the other, or the SPE of the first was forgotten, which
+// only shows when the second one is closed.
+void UnitAssembler::nest(SourceRange inner) {
+  if (open_.back().closedInner) {
+    open_.back().closedInner = false; // forgotten: this one stands beside the second
+  } else {
+    context_.diagnostics.report(Diag::NestedSubprogram, inner)
+        .note(program_.units[open_.back().unit].range, "the outer one begins here");
+    nestedReported_ = true;
+  }
+}
+
 void UnitAssembler::beginSubprogram(const Network& network) {
   strayReported_ = false;
   const SourceRange range = network.function.range;
-  if (current_ != kNone && program_.units[current_].kind == UnitKind::Subprogram) {
-    context_.diagnostics.report(Diag::NestedSubprogram, range)
-        .note(program_.units[current_].range, "the outer one begins here");
-    ++nested_;
-    nestedReported_ = true;
-    return;
-  }
-  if (current_ != kNone) {
-    context_.diagnostics.report(Diag::SubprogramMisplaced, range);
-    misplaced_ = true;
-    resume_ = current_;
-  }
+  if (!open_.empty())
+    nest(range);
+  else if (current_ != kNone)
+    misplaced_.push_back(range);
+  const uint32_t outside = current_;
   if (network.function.params.empty() || network.function.params[0].bad) { // reported; its number is not known
     program_.units.push_back(Unit{.kind = UnitKind::Subprogram, .number = kNone, .range = range, .nameRange = range});
     current_ = static_cast<uint32_t>(program_.units.size()) - 1;
     garbled_ = true;
-    return;
+  } else {
+    const Param& number = network.function.params[0];
+    current_ = subprogram(static_cast<uint32_t>(number.value), range, number.range);
   }
-  const Param& number = network.function.params[0];
-  current_ = subprogram(static_cast<uint32_t>(number.value), range, number.range);
+  open_.push_back({current_, outside});
 }
 
 void UnitAssembler::endSubprogram(Network&& network) {
-  if (nested_ > 0) {
-    --nested_;
-    return;
-  }
-  if (current_ == kNone || program_.units[current_].kind != UnitKind::Subprogram) {
-    if (!nestedReported_ && !garbled_) context_.diagnostics.report(Diag::StraySpe, network.function.range);
+  if (open_.empty()) {
+    if (!garbled_) context_.diagnostics.report(Diag::StraySpe, network.function.range);
     return;
   }
   program_.units[current_].networks.push_back(std::move(network));
-  current_ = std::exchange(misplaced_, false) ? resume_ : kNone;
+  current_ = open_.back().outside;
+  open_.pop_back();
+  if (!open_.empty()) open_.back().closedInner = true;
+}
+
+// At an end: the subprogram that is still open.
+void UnitAssembler::closeAll() {
+  if (!open_.empty() && !nestedReported_ && !garbled_)
+    context_.diagnostics.report(Diag::MissingSpe, program_.units[current_].range) << nameOf(program_.units[current_]);
+  open_.clear();
 }
 
 void UnitAssembler::endOfList(SourceRange lastLine) {
-  if (current_ != kNone && program_.units[current_].kind == UnitKind::Subprogram && !nestedReported_ && !garbled_)
-    context_.diagnostics.report(Diag::MissingSpe, program_.units[current_].range) << nameOf(program_.units[current_]);
+  for (SourceRange range : stray_) context_.diagnostics.report(Diag::CodeAfterEnd2, range);
+  if (!sawEnd2_ && misplaced_.size() > 1) misplaced_.resize(1); // the missing END2 is the mistake
+  for (SourceRange range : misplaced_) context_.diagnostics.report(Diag::SubprogramMisplaced, range);
+  closeAll();
   if (garbled_) return;
   if (!sawEnd1_) context_.diagnostics.report(Diag::MissingEnd1, sawEnd2_ ? end2Range_ : lastLine);
   if (!sawEnd2_) context_.diagnostics.report(Diag::MissingEnd2, lastLine);

@@ -27,13 +27,44 @@ TEST(GskEnds, CodeBehindEnd2) {
             (Codes{"6 condition-ignored"}));
 }
 
+TEST(GskEnds, AWrongOrderIsOneMistake) {
+  EXPECT_EQ(codes("LD X0.0\nOUT Y0.0\nFUNC 1\nLD X0.0\nOUT Y0.0\nFUNC 0\n"), (Codes{"6 end-order"}));
+  EXPECT_EQ(codes("FUNC 1\nFUNC 0\nLD X0.0\nOUT Y0.0\n"), (Codes{"2 end-order", "3 code-after-end2"}));
+  EXPECT_EQ(codes("FUNC 0\nLD X0.0\nFUNC JMPB\nPRM L1\nFUNC 1\nFUNC LBL\nPRM L1\n"), (Codes{"6 code-after-end2"}))
+      << "the label is misplaced, not missing";
+  EXPECT_EQ(codes("FUNC 0\nLD X0.0\nFUNC COM\nFUNC 1\nFUNC COME\n"), (Codes{"5 code-after-end2"}));
+}
+
+TEST(GskEnds, SubprogramsInFrontOfThem) {
+  const std::string sub = "FUNC SP\nPRM P1\nFUNC SPE\n";
+  const std::string other = "FUNC SP\nPRM P2\nFUNC CALLU\nPRM P1\nFUNC SPE\n";
+  EXPECT_EQ(codes("FUNC 0\n" + sub + "FUNC CALLU\nPRM P2\n" + other + "FUNC 1\n"),
+            (Codes{"2 subprogram-misplaced", "7 subprogram-misplaced"}));
+  EXPECT_EQ(codes("FUNC 0\n" + sub + "FUNC CALLU\nPRM P2\n" + other),
+            (Codes{"2 subprogram-misplaced", "11 missing-end2"}))
+      << "each one stands where it does because of the one mistake";
+  EXPECT_EQ(codes("FUNC SP\nPRM P1\nFUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n"),
+            (Codes{"1 missing-spe", "1 subprogram-misplaced"}));
+}
+
 TEST(GskSubprograms, Text) {
   const std::string call = "FUNC 0\nFUNC CALLU\nPRM P1\nFUNC 1\n"; // four lines
   EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\n"), Codes{});
   EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\n"), (Codes{"5 missing-spe"}));
   EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\nFUNC SPE\n"), (Codes{"8 stray-spe"}));
-  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SP\nPRM P2\nFUNC SPE\nFUNC SPE\n"), (Codes{"7 nested-subprogram"}));
-  EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SP\nPRM P2\nFUNC SPE\n"), (Codes{"7 nested-subprogram"}));
+  const std::string sub1 = "FUNC SP\nPRM P1\n";
+  const std::string sub2 = "FUNC SP\nPRM P2\n";
+  const std::string spe = "FUNC SPE\n";
+  EXPECT_EQ(codes(call + sub1 + sub2 + spe + spe), (Codes{"7 nested-subprogram", "8 subprogram-unused"}));
+  EXPECT_EQ(codes(call + sub1 + sub2 + spe), (Codes{"7 nested-subprogram", "8 subprogram-unused"}));
+  EXPECT_EQ(codes(call + sub1 + sub2 + spe + spe + spe),
+            (Codes{"7 nested-subprogram", "8 subprogram-unused", "11 stray-spe"}));
+  EXPECT_EQ(codes(call + sub1 + sub2 + spe + "FUNC SP\nPRM P3\nFUNC CALLU\nPRM P2\n" + spe),
+            (Codes{"7 nested-subprogram", "11 subprogram-unused"}))
+      << "one SPE is missing, that is all";
+  EXPECT_EQ(codes(call + sub1 + sub2 + spe + "LD X0.0\nOUT Y0.0\n" + "FUNC SP\nPRM P3\n" + spe + spe),
+            (Codes{"7 nested-subprogram", "8 subprogram-unused", "12 nested-subprogram", "13 subprogram-unused"}))
+      << "two inside the first";
   EXPECT_EQ(codes(call + "FUNC SP\nPRM P1\nFUNC SPE\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"9 duplicate-subprogram"}));
   EXPECT_EQ(codes(call), (Codes{"3 undefined-subprogram"}));
   EXPECT_EQ(codes("FUNC 0\nFUNC 1\nFUNC SP\nPRM P1\nFUNC SPE\n"), (Codes{"4 subprogram-unused"}));

@@ -28,7 +28,7 @@ struct Entry {
 };
 
 std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
-  const uint64_t value = parseDigits(text).value_or(UINT64_MAX);
+  const auto value = static_cast<uint64_t>(parseConstant(text).value_or(-1)); // a negative one is far above every limit
   if (const auto timer = numberOf(key, "tmr."))
     return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
   if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};

@@ -123,6 +123,7 @@ const UserConstant* Names::findConstant(std::string_view name) const {
 }
 
 std::optional<Address> bitOperand(Context& context, const Word& word) {
+  if (!word.range.valid()) return std::nullopt;
   const Found found = findAddress(context, word);
   if (!found.known)
     context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "bit address and no declared name";

@@ -55,8 +55,8 @@ struct Context {
   uint32_t steps = 0;
 };
 
-// Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong gives nullopt
-// silently.
+// Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong, or an operand without
+// a place, gives nullopt silently: it was reported.
 std::optional<Address> bitOperand(Context& context, const Word& word);
 std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t length);
 // False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.

@@ -108,6 +108,7 @@ private:
   void readStatement(std::span<const Word> words);
   bool checkCharacters(std::span<const Word> words);
   bool checkOperands(Command command, std::span<const Word> words);
+  void lostOperand(Command command, const Word& name, Place at);
   void dispatch(Command command, std::span<const Word> words, Place at);
   const Row* functionOf(const Word& word);
   void checkDialect(const Word& word);
@@ -169,16 +170,23 @@ bool ListReader::checkOperands(Command command, std::span<const Word> words) {
 void ListReader::readStatement(std::span<const Word> words) {
   inComment_ = false;
   const Place at{join(words.front().range, words.back().range), line_.number};
-  if (!checkCharacters(words)) return builder_.garbage(at);
+  const bool readable = checkCharacters(words);
   const auto command = commandOf(words[0].text);
   if (!command) {
-    context_.diagnostics.report(Diag::UnknownCommand, words[0].range) << words[0].text;
+    if (readable) context_.diagnostics.report(Diag::UnknownCommand, words[0].range) << words[0].text;
     return builder_.garbage(at);
   }
   if (*command == Command::Symbol) return; // readListSymbols
-  if (!checkOperands(*command, words)) return builder_.garbage(at);
+  if (!readable || !checkOperands(*command, words)) return lostOperand(*command, words[0], at);
   if (*command == Command::Dialect) return checkDialect(words[1]);
   dispatch(*command, words, at);
+}
+
+// The command counts with an operand that nothing is said about any more; of FUNC nothing is left.
+void ListReader::lostOperand(Command command, const Word& name, Place at) {
+  if (command == Command::Func) return builder_.garbage(at);
+  const Word words[] = {name, Word{}};
+  dispatch(command, words, at);
 }
 
 void ListReader::checkDialect(const Word& word) {

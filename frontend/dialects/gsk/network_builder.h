@@ -24,7 +24,7 @@ public:
   using Sink = std::function<void(Network&&)>;
   NetworkBuilder(Context& context, FileId file, Sink sink) : context_(context), file_(file), sink_(std::move(sink)) {}
 
-  // kind: Load, And or Or.
+  // An operand without a place was reported; the command counts all the same. kind: Load, And or Or.
   void contact(Logic kind, bool negated, const Word& operand, Place at);
   // kind: OrBlock or AndBlock.
   void block(Logic kind, Place at);

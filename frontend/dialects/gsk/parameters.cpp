@@ -40,6 +40,7 @@ public:
   bool checkTable(const std::vector<Word>& rows, bool capacityKnown);
 
 private:
+  bool lost(const Word& word, const Param& param);
   bool checkOne(const OperandInfo& info, const Word& word, Param& param);
   bool checkFormat(const Word& word, Param& param, bool selects);
   bool checkNumber(const OperandInfo& info, const Word& word, Param& param);
@@ -169,6 +170,13 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }
 
+// An operand without a place was reported where it was read.
+bool ParameterCheck::lost(const Word& word, const Param& param) {
+  if (word.range.valid()) return false;
+  if (param.kind == Kind::Format || param.kind == Kind::FormatA) lengthKnown_ = false;
+  return true;
+}
+
 bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& param) {
   switch (param.kind) {
   case Kind::Format: return checkFormat(word, param, false);
@@ -204,7 +212,7 @@ bool ParameterCheck::check(const std::vector<Word>& words) {
   bool good = true;
   for (size_t i = 0; i < words.size(); ++i) {
     Param param{.kind = kindOf(operands[i]), .range = words[i].range};
-    param.bad = !checkOne(operands[i], words[i], param);
+    param.bad = lost(words[i], param) || !checkOne(operands[i], words[i], param);
     good = good && !param.bad;
     function_.params.push_back(param);
   }
@@ -215,7 +223,7 @@ bool ParameterCheck::checkTable(const std::vector<Word>& rows, bool capacityKnow
   bool good = true;
   for (const Word& row : rows) {
     Param param;
-    good = checkConstant(row, param) && good;
+    good = !lost(row, param) && checkConstant(row, param) && good;
     function_.table.push_back(param.value);
   }
   if (!capacityKnown) return false;

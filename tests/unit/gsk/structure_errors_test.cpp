@@ -162,5 +162,18 @@ TEST(GskRecovery, ALostFunctionCausesNoFurtherErrors) {
   EXPECT_EQ(level2("FUMC 33\nFUNC COME\nLD X0.0\nFUNC JMPB\nPRM L1\n"), (Codes{"2 unknown-command"}));
 }
 
+TEST(GskRecovery, AWrongOperandDoesNotHideTheRest) {
+  EXPECT_EQ(level2("LD X0.0 X0.1\nOUT Y0.0\nFUNC COME\n"), (Codes{"2 bad-operand", "4 stray-come"}));
+  EXPECT_EQ(level2("LD \xD0\xA5"
+                   "0.0\nLD X0.1\nOUT Y0.0\nFUNC JMPE\n"),
+            (Codes{"2 bad-character", "4 unbalanced-stack", "5 stray-jmpe"}))
+      << "the values are counted all the same";
+  EXPECT_EQ(level2("LD X0.0\nFUNC MOVB\nPRM\nPRM D1\nLD X0.0\nFUNC MOVB\nPRM X128\nPRM D0 D1\n"),
+            (Codes{"4 bad-operand", "8 address-out-of-range", "9 bad-operand"}));
+  EXPECT_EQ(level2("LD X0.0\nFUNC NUMEB\nPRM 1 2\nPRM 500\nPRM D0\n"), (Codes{"4 bad-operand"}))
+      << "without its format nothing is known about the constant";
+  EXPECT_EQ(compileList("FUNC 0\nLD X0.0\nOUT\n")->codes(), (Codes{"3 bad-operand", "3 missing-end2"}));
+}
+
 } // namespace
 } // namespace rung::gsk::test

@@ -56,12 +56,13 @@ public:
   std::optional<Ref> resolve(std::string_view name) {
     if (name.empty() || depth_ >= kMostNested) return std::nullopt;
     if (const rung_symbol* symbol = lookUp(name)) return refOf(*symbol);
+    // GSK's T10 is an address in programs, so it is one here, and not the signal of that name.
+    const bool addressFirst = dialect_ == Dialect::Gsk;
+    if (addressFirst)
+      if (std::optional<Ref> ref = nested(name)) return ref;
     if (fallback_)
       if (std::optional<Ref> ref = fallback_(name)) return ref;
-    ++depth_;
-    const std::optional<Ref> ref = takeApart(name);
-    --depth_;
-    return ref;
+    return addressFirst ? std::nullopt : nested(name);
   }
 
 private:
@@ -75,6 +76,13 @@ private:
                        std::string_view(symbol->name).substr(0, kTechnolLength) == head &&
                        head.size() == kTechnolLength;
     return found ? symbol : nullptr;
+  }
+
+  std::optional<Ref> nested(std::string_view name) {
+    ++depth_;
+    const std::optional<Ref> ref = takeApart(name);
+    --depth_;
+    return ref;
   }
 
   std::optional<Ref> takeApart(std::string_view name) {

@@ -135,7 +135,7 @@ struct Task {
   FaultId budgetFault;
   std::vector<Copy> begin;
   std::vector<Copy> end;
-  uint32_t parts = 1; // a run is cut into this many parts of nearly equal weight
+  uint32_t parts = 1; // a run is cut into this many parts of nearly equal weight, see parts.h
 };
 
 struct Step {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "ir/core/parts.h"
 #include "ir/layout/representation.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
@@ -101,20 +102,15 @@ private:
     }
   }
 
-  // The rungs before which a part of a task ends: where the weight so far first reaches k/parts of the whole.
+  // The rungs before which a part of a task ends.
   void markParts() {
     for (const Task& task : module_.tasks) {
       std::vector<uint32_t>& borders = partBorders_.emplace_back();
-      const std::vector<Rung>& rungs = module_.at(task.entry).rungs;
-      uint64_t total = 0;
-      for (const Rung& rung : rungs) total += rung.weight;
-      uint64_t sum = 0;
-      for (uint32_t i = 0; i < rungs.size() && borders.size() + 1 < task.parts; ++i) {
-        if (i > 0 && sum * task.parts >= total * (borders.size() + 1)) {
-          borders.push_back(i);
-          heads_[task.entry.index][i] = true;
-        }
-        sum += rungs[i].weight;
+      if (task.parts < 2) continue;
+      const std::vector<PartPiece> pieces = partPieces(module_, task.entry);
+      for (const uint32_t piece : cutParts(pieces, task.parts)) {
+        borders.push_back(pieces[piece].firstRung);
+        heads_[task.entry.index][borders.back()] = true;
       }
     }
   }

@@ -13,6 +13,8 @@ constexpr uint64_t kSlotUs = 8000;
 constexpr uint64_t kMaxParts = 1000; // 8 s
 constexpr uint64_t kNumbers = 100;   // of timers and counters
 constexpr uint64_t kMaxWord = 65535;
+constexpr const char* kSlotSteps = "slot_steps";
+constexpr uint64_t kMaxSlotSteps = 1'000'000;
 
 // The number behind `prefix`, 1-100; nullopt when the key is another one.
 std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) {
@@ -51,6 +53,12 @@ void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnosti
     diagnostics.report(Diag::ConstantOutOfRange)
         << fmt::format("period_us {}", options.config.at("period_us"))
         << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
+  if (const auto steps = options.config.find(kSlotSteps); steps != options.config.end()) {
+    const uint64_t value = parseDigits(steps->second).value_or(0);
+    if (value == 0 || value > kMaxSlotSteps)
+      diagnostics.report(Diag::ConstantOutOfRange)
+          << fmt::format("{} {}", kSlotSteps, steps->second) << fmt::format("1 to {}", kMaxSlotSteps);
+  }
   for (const auto& [key, text] : options.config) {
     const auto entry = entryOf(key, text);
     if (!entry || isSound(*entry)) continue;
@@ -60,8 +68,16 @@ void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnosti
   }
 }
 
-uint32_t partsOf(const frontend::CompileOptions& options) {
-  return static_cast<uint32_t>(periodOf(options).value_or(kSlotUs) / kSlotUs);
+std::optional<uint32_t> partsOf(const frontend::CompileOptions& options) {
+  const auto period = periodOf(options);
+  if (!period) return std::nullopt;
+  return static_cast<uint32_t>(*period / kSlotUs);
+}
+
+std::optional<uint32_t> slotStepsOf(const frontend::CompileOptions& options) {
+  const auto at = options.config.find(kSlotSteps);
+  if (at == options.config.end()) return std::nullopt;
+  return static_cast<uint32_t>(parseDigits(at->second).value_or(1));
 }
 
 std::vector<Preset> presetsOf(const frontend::CompileOptions& options) {

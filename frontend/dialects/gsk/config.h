@@ -1,6 +1,8 @@
-// The configuration that the compiler reads: the period (P3) and the presets of the timer and counter pages (§18).
+// The configuration that the compiler reads: the period or the steps of a slot (P3), and the presets of the timer and
+// counter pages (§18).
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
@@ -16,8 +18,10 @@ struct Preset {
 
 // Reports values that the control would not take. The other functions take a checked configuration.
 void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics);
-// n of P3.
-uint32_t partsOf(const frontend::CompileOptions& options);
+// n of P3, when the period is given.
+std::optional<uint32_t> partsOf(const frontend::CompileOptions& options);
+// The steps that fit into one slot of 8 ms, Level 1 included, when that is given: n follows (man. l.434-444).
+std::optional<uint32_t> slotStepsOf(const frontend::CompileOptions& options);
 std::vector<Preset> presetsOf(const frontend::CompileOptions& options);
 
 // Timers 1-20 count in 48 ms, the others in 8 ms (man. l.1114).

@@ -71,11 +71,13 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   const bool understood = reading.read();
   analyse(context, program, !understood);
   if (diagnostics.hasErrors()) return nullptr;
-  return lowerProgram(program, context, files, options);
+  std::unique_ptr<ir::Module> module = lowerProgram(program, context, files, options);
+  if (diagnostics.hasErrors()) return nullptr; // a slot is too short
+  return module;
 }
 
 constexpr std::string_view kExtensions[] = {".pmc"};
-constexpr std::string_view kConfigKeys[] = {"tmr.*", "ctr.*"};
+constexpr std::string_view kConfigKeys[] = {"tmr.*", "ctr.*", "slot_steps"};
 
 } // namespace
 

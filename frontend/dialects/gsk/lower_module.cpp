@@ -52,7 +52,6 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
   module_->name = files_.empty() ? "" : stemOf(context_.sources.name(files_[0]));
   module_->dialect = "gsk";
   module_->faults.emplace_back("dead-loop");
-  parts_ = partsOf(options_);
   addFiles();
   addSpaces();
   addSymbols();
@@ -63,6 +62,7 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
   for (LevelState& level : levels_)
     for (uint32_t unit = 0; unit < program_.units.size(); ++unit)
       if (level.routines[unit].valid()) lowerRoutine(level, unit);
+  planParts();
   addTasks();
   return std::move(module_);
 }
@@ -179,6 +179,45 @@ void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Uni
   const ir::ValueId now = b.now();
   b.slotStore(level.scanTime, b.sub(now, b.slotLoad(level.clock)));
   b.slotStore(level.clock, now);
+}
+
+// n (P3): from the period, or from the steps of a slot; with both the period counts and must suffice.
+void ModuleLowering::planParts() {
+  const auto given = partsOf(options_);
+  parts_ = given.value_or(1);
+  const auto slotSteps = slotStepsOf(options_);
+  if (!slotSteps) return;
+  uint64_t level1 = 0;
+  for (const ir::PartPiece& piece : ir::partPieces(*module_, levels_[0].routines[kLevel1])) level1 += piece.weight;
+  if (level1 >= *slotSteps) {
+    context_.diagnostics.report(Diag::Level1TooLong) << level1 << *slotSteps;
+    return;
+  }
+  const uint64_t room = *slotSteps - level1;
+  const ir::RoutineId level2 = levels_[1].routines[kLevel2];
+  const std::vector<ir::PartPiece> pieces = ir::partPieces(*module_, level2);
+  const uint32_t needed = ir::partsNeeded(pieces, room);
+  if (needed == 0) return reportLongRungs(pieces, room);
+  if (!given)
+    parts_ = needed;
+  else if (needed > *given)
+    context_.diagnostics.report(Diag::PeriodTooShort)
+        << *given * kSlotUs / 1000 << level1 + ir::heaviestPart(pieces, *given) << *slotSteps
+        << needed * kSlotUs / 1000;
+}
+
+void ModuleLowering::reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room) {
+  const std::vector<ir::Rung>& rungs = module_->at(levels_[1].routines[kLevel2]).rungs;
+  const std::vector<Network>& networks = program_.units[kLevel2].networks;
+  for (const ir::PartPiece& piece : pieces) {
+    if (piece.weight <= room) continue;
+    const auto network = std::find_if(networks.begin(), networks.end(), [&](const Network& n) {
+      return n.firstLine == rungs[piece.firstRung].begin.line &&
+             fileIndex_.at(n.file.index) == rungs[piece.firstRung].begin.file;
+    });
+    context_.diagnostics.report(Diag::RungTooLong, network == networks.end() ? SourceRange{} : network->range)
+        << piece.weight << room;
+  }
 }
 
 void ModuleLowering::addTasks() {

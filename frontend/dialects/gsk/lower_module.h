@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/dialects/gsk/lower.h"
+#include "ir/core/parts.h"
 
 namespace rung::gsk {
 
@@ -58,10 +59,11 @@ private:
   void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
   bool leavesBehind(const RoutineContext& routine, const Network& network) const;
+  void planParts();
+  void reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room);
   void addTasks();
   void addLatch(ir::Task& task, Area area);
   void addResultRegisters(ir::Task& task);
-  uint32_t parts() const { return parts_; }
 
   const Program& program_;
   Context& context_;

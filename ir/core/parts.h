@@ -1,0 +1,32 @@
+// How a task's run is cut into parts of nearly equal weight. The layout cuts by it, and a dialect that has to know how
+// many parts it needs asks here.
+//
+// Rungs that begin at one place of the source are one piece (the compiler adds rungs to some), and so are a routine's
+// closing rung and the one above it. A call weighs what it calls, once, and all that is called from there: loops and
+// conditions are not looked at.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+struct PartPiece {
+  uint32_t firstRung = 0;
+  uint64_t weight = 0;
+};
+
+// The pieces of a routine in order, never empty.
+std::vector<PartPiece> partPieces(const Module& module, RoutineId routine);
+
+// The first pieces of parts 2, 3, …: the heaviest part is as light as can be, and among such cuts each border lies
+// nearest to its share of the whole. Fewer borders than parts - 1 when there are not so many pieces.
+std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t parts);
+
+// The weight of the heaviest part of that cut.
+uint64_t heaviestPart(const std::vector<PartPiece>& pieces, uint32_t parts);
+// The smallest number of parts of which none is heavier than `most`; 0 when one piece alone is.
+uint32_t partsNeeded(const std::vector<PartPiece>& pieces, uint64_t most);
+
+} // namespace rung::ir

@@ -38,82 +38,88 @@ public:
       : diagnostics_(diagnostics), unit_(unit), garbled_(garbled) {}
 
   void check() {
+    for (const Network& network : unit_.networks) count(controlOf(network));
     for (uint32_t i = 0; i < unit_.networks.size(); ++i) visit(i);
     if (garbled_) return;
-    if (jmp_ != kNone && !jmpNested_) diagnostics_.report(Diag::MissingJmpe, at(jmp_));
-    if (com_ != kNone && !comNested_) diagnostics_.report(Diag::MissingCome, at(com_));
+    if (jmp_.open != kNone) diagnostics_.report(Diag::MissingJmpe, at(jmp_.open));
+    if (com_.open != kNone) diagnostics_.report(Diag::MissingCome, at(com_.open));
   }
 
 private:
+  // Regions of one kind. A second begin inside a region is an error by itself; whether an end was forgotten or the two
+  // are meant one in the other is told by the number of ends.
+  struct Kind {
+    uint32_t open = kNone;  // where the region under way begins
+    int32_t unended = 0;    // begins without an end, in the whole unit
+    uint32_t skip = 0;      // ends of nested regions still to come
+    uint32_t forgotten = 0; // begins that were taken for regions without an end
+
+    void begin(uint32_t i) {
+      if (open == kNone || unended > 0) {
+        if (open != kNone) --unended, ++forgotten;
+        open = i;
+      } else {
+        ++skip;
+      }
+    }
+  };
+
   SourceRange at(uint32_t i) const { return unit_.networks[i].function.range; }
+
+  void count(Control control) {
+    com_.unended += control == Control::Com ? 1 : control == Control::Come ? -1 : 0;
+    jmp_.unended += control == Control::Jmp ? 1 : control == Control::Jmpe ? -1 : 0;
+  }
 
   void visit(uint32_t i) {
     const Control control = controlOf(unit_.networks[i]);
-    if (control == Control::Come) come(i);
-    unit_.networks[i].com = com_;
-    if (control == Control::Com) com(i);
-    if (control == Control::Jmp) jmp(i);
-    if (control == Control::Jmpe) jmpe(i);
+    if (control == Control::Come && ends(com_, Diag::StrayCome, i)) come(i);
+    unit_.networks[i].com = com_.open;
+    if (control == Control::Com) begin(com_, Diag::NestedCom, i);
+    if (control == Control::Jmp) begin(jmp_, Diag::NestedJmp, i);
+    if (control == Control::Jmpe && ends(jmp_, Diag::StrayJmpe, i)) jmpe(i);
   }
 
-  void com(uint32_t i) {
-    if (com_ == kNone) {
-      com_ = i;
-      return;
-    }
-    diagnostics_.report(Diag::NestedCom, at(i)).note(at(com_), "the outer one begins here");
-    ++comSkip_;
-    comNested_ = true;
+  void begin(Kind& kind, Diag nested, uint32_t i) {
+    if (kind.open != kNone) diagnostics_.report(nested, at(i)).note(at(kind.open), "the outer one begins here");
+    kind.begin(i);
+  }
+
+  // Whether network i ends the region that is open.
+  bool ends(Kind& kind, Diag stray, uint32_t i) {
+    if (kind.skip > 0)
+      --kind.skip;
+    else if (kind.open != kNone)
+      return true;
+    else if (kind.forgotten > 0)
+      --kind.forgotten;
+    else if (!garbled_)
+      diagnostics_.report(stray, at(i));
+    return false;
   }
 
   void come(uint32_t i) {
-    if (comSkip_ > 0) {
-      --comSkip_;
-    } else if (com_ == kNone) {
-      if (!garbled_ && !comNested_) diagnostics_.report(Diag::StrayCome, at(i));
-    } else {
-      if (jmp_ != kNone && jmp_ > com_) { // the JMP region inside reaches out
-        diagnostics_.report(Diag::JumpOutOfCom, at(i)).note(at(jmp_), "JMP is here") << "the JMP region";
-        overlap_ = true;
-      }
-      com_ = kNone;
+    if (jmp_.open != kNone && jmp_.open > com_.open) { // the JMP region inside reaches out
+      diagnostics_.report(Diag::JumpOutOfCom, at(i)).note(at(jmp_.open), "JMP is here") << "the JMP region";
+      overlap_ = true;
     }
-  }
-
-  void jmp(uint32_t i) {
-    if (jmp_ == kNone) {
-      jmp_ = i;
-      return;
-    }
-    diagnostics_.report(Diag::NestedJmp, at(i)).note(at(jmp_), "the outer one begins here");
-    ++jmpSkip_;
-    jmpNested_ = true;
+    com_.open = kNone;
   }
 
   void jmpe(uint32_t i) {
-    if (jmpSkip_ > 0) {
-      --jmpSkip_;
-    } else if (jmp_ == kNone) {
-      if (!garbled_ && !jmpNested_) diagnostics_.report(Diag::StrayJmpe, at(i));
-    } else {
-      if (com_ != kNone && com_ > jmp_ && !overlap_)
-        diagnostics_.report(Diag::JumpOutOfCom, at(jmp_)).note(at(com_), "COM is here") << "JMP";
-      unit_.networks[jmp_].target = i;
-      jmp_ = kNone;
-      overlap_ = false;
-    }
+    if (com_.open != kNone && com_.open > jmp_.open && !overlap_)
+      diagnostics_.report(Diag::JumpOutOfCom, at(jmp_.open)).note(at(com_.open), "COM is here") << "JMP";
+    unit_.networks[jmp_.open].target = i;
+    jmp_.open = kNone;
+    overlap_ = false;
   }
 
   Diagnostics& diagnostics_;
   Unit& unit_;
   bool garbled_;
-  uint32_t jmp_ = kNone;
-  uint32_t com_ = kNone;
-  uint32_t jmpSkip_ = 0; // ends of nested regions still to come
-  uint32_t comSkip_ = 0;
-  bool jmpNested_ = false;
-  bool comNested_ = false;
-  bool overlap_ = false;
+  Kind jmp_;
+  Kind com_;
+  bool overlap_ = false; // of the open JMP region with a common line; reported
 };
 
 class Analysis {

@@ -78,6 +78,9 @@ std::span<const Word> statementOf(const LineWords& line) {
   return words;
 }
 
+// Only these may stand outside comments.
+bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
+
 bool isDecoration(std::string_view text) {
   return std::none_of(text.begin(), text.end(), [](char c) {
     return (c >= '0' && c <= '9') || (upper(c) >= 'A' && upper(c) <= 'Z') || static_cast<signed char>(c) < 0;
@@ -134,7 +137,7 @@ void ListReader::comment() {
 // Outside comments only printable ASCII may stand: the manual's scan has look-alikes of other alphabets.
 bool ListReader::checkCharacters(std::span<const Word> words) {
   for (const Word& word : words) {
-    const auto bad = std::find_if(word.text.begin(), word.text.end(), [](char c) { return c < 0x21 || c > 0x7E; });
+    const auto bad = std::find_if_not(word.text.begin(), word.text.end(), isPlain);
     if (bad == word.text.end()) continue;
     const auto offset = static_cast<uint32_t>(bad - word.text.begin());
     size_t length = 1;
@@ -233,6 +236,10 @@ void readListSymbols(Context& context, FileId file) {
     splitWords(line, kRules, words);
     const auto statement = statementOf(words);
     if (statement.empty() || !equalNoCase(statement[0].text, "symbol")) continue;
+    const bool readable = std::all_of(statement.begin(), statement.end(), [](const Word& word) {
+      return std::all_of(word.text.begin(), word.text.end(), isPlain);
+    });
+    if (!readable) continue; // the reader of the list tells
     if (statement.size() == 3)
       context.names.addSymbol(context.diagnostics, statement[1], statement[2], words.comment);
     else

@@ -116,6 +116,16 @@ TEST(GskRegions, Com) {
   EXPECT_EQ(level2(com + jmp + "FUNC COME\nFUNC JMPE\n"), (Codes{"7 jump-out-of-com"})) << "COME closes first";
 }
 
+TEST(GskRegions, AForgottenEndIsOneMistake) {
+  const std::string com = "LD X0.0\nFUNC COM\n"; // two lines
+  const std::string come = "FUNC COME\n";
+  EXPECT_EQ(level2(com + com + come), (Codes{"5 nested-com"}));
+  EXPECT_EQ(level2(com + com + come + com + come), (Codes{"5 nested-com"})) << "the first has no end";
+  EXPECT_EQ(level2(com + com + come + com + come + come), (Codes{"5 nested-com", "8 nested-com"})) << "two in one";
+  EXPECT_EQ(level2(com + com + come + come + come), (Codes{"5 nested-com", "8 stray-come"}));
+  EXPECT_EQ(level2(com + com + come + come + com), (Codes{"5 nested-com", "9 missing-come"}));
+}
+
 TEST(GskLabels, Jmpb) {
   const std::string jump = "LD X0.0\nFUNC JMPB\nPRM L1\n"; // three lines
   const std::string label = "FUNC LBL\nPRM L1\n";

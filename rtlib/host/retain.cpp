@@ -203,8 +203,9 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
   return true;
 }
 
-RetainSaver::RetainSaver(RetainStore store, uint32_t size, std::chrono::milliseconds poll)
-    : store_(std::move(store)), buffer_(size), poll_(poll), thread_([this] { work(); }) {}
+RetainSaver::RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll)
+    : store_(std::move(store)), map_(std::move(map)), buffer_(map_.rawSize()), image_(map_.size()), poll_(poll),
+      thread_([this] { work(); }) {}
 
 RetainSaver::~RetainSaver() {
   {
@@ -222,6 +223,19 @@ bool RetainSaver::offer(const Instance& instance) noexcept {
   return true;
 }
 
+void RetainSaver::finish(const Instance& instance) {
+  bool offered = offer(instance);
+  while (!offered || full_.load(std::memory_order_acquire)) {
+    {
+      const std::lock_guard lock(mutex_);
+      hurry_ = true;
+    }
+    wake_.notify_one();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    offered = offered || offer(instance);
+  }
+}
+
 std::string RetainSaver::lastError() const {
   const std::lock_guard lock(mutex_);
   return lastError_;
@@ -229,13 +243,13 @@ std::string RetainSaver::lastError() const {
 
 void RetainSaver::saveOffered() {
   if (!full_.load(std::memory_order_acquire)) return;
+  map_.pack(buffer_, image_);
   std::string error;
-  const bool good = store_.save(buffer_, error);
+  const bool good = image_ == onDisk_ || store_.save(image_, error);
+  if (good && image_ != onDisk_) saved_.fetch_add(1);
+  if (good) onDisk_ = image_;
   full_.store(false, std::memory_order_release);
-  if (good) {
-    saved_.fetch_add(1);
-    return;
-  }
+  if (good) return;
   failed_.fetch_add(1);
   const std::lock_guard lock(mutex_);
   lastError_ = error;
@@ -247,7 +261,8 @@ void RetainSaver::work() {
   while (!stop) {
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, poll_, [this] { return stop_; });
+      wake_.wait_for(lock, poll_, [this] { return stop_ || hurry_; });
+      hurry_ = false;
       stop = stop_;
     }
     saveOffered();

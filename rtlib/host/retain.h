@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/host/retain_map.h"
 
 namespace rung::host {
 
@@ -42,15 +43,16 @@ private:
 };
 
 // Takes images from the scan thread and saves them on its own. `offer` copies and returns at once; it takes nothing
-// while the last image is still being written.
+// while the last image is still being written. An image like the last one is not written again.
 class RetainSaver {
 public:
-  RetainSaver(RetainStore store, uint32_t size, std::chrono::milliseconds poll = std::chrono::milliseconds(20));
+  RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll = std::chrono::milliseconds(20));
   ~RetainSaver(); // writes what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
 
   bool offer(const Instance& instance) noexcept; // scan thread
+  void finish(const Instance& instance);         // instead of the last `offer`; waits until it is written
   uint64_t saved() const { return saved_.load(); }
   uint64_t failed() const { return failed_.load(); }
   std::string lastError() const;
@@ -60,7 +62,10 @@ private:
   void saveOffered();
 
   RetainStore store_;
-  std::vector<uint8_t> buffer_;
+  RetainMap map_;
+  std::vector<uint8_t> buffer_; // as the memory block holds it
+  std::vector<uint8_t> image_;  // of buffer_
+  std::vector<uint8_t> onDisk_;
   std::atomic<bool> full_{false}; // true: buffer_ belongs to the saver, else to the scan thread
   std::atomic<uint64_t> saved_{0};
   std::atomic<uint64_t> failed_{0};
@@ -68,6 +73,7 @@ private:
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false;     // under mutex_
+  bool hurry_ = false;    // under mutex_
   std::string lastError_; // under mutex_
   std::thread thread_;
 };

@@ -20,6 +20,20 @@ rung "start/stop latch"
 |--[5101.00]--+
 """
 GSK = "LD X0.0\nFUNC 0\n"  # a network that is not closed, and no END2
+# Counts its scans in D0 (4 bytes); what stands behind `TAIL` changes how the program uses K, C, T and D.
+COUNTER = """FUNC END1
+LD   K0.0
+LDI  K0.0
+FUNC ADDB
+PRM  0004
+PRM  D0
+PRM  1
+PRM  D0
+OUT  R0.0
+{tail}FUNC END2
+"""
+SETS = "".join(f"LDI  K0.0\nSET  {bit}\n" for bit in ("K1.3", "K31.7", "D4.1", "D1859.6"))
+MOVES = "".join(f"LDI  K0.0\nFUNC MOVB\nPRM  {a}\nPRM  {b}\n" for a, b in (("K1", "R10"), ("K31", "R11"), ("D4", "R12"), ("D1859", "R13")))
 TECHNOL_NULL = "DATA\nDATA_END\n" + "".join(
     f"MODULE_{m}\nMODULE_{m}_END\n" for m in ("INPUT", "BLOCK_INIT", "BLOCK_DONE", "MAIN", "INIT", "CLEAR", "HALT")) + "STOP\n"
 
@@ -47,6 +61,101 @@ class Cli(unittest.TestCase):
         if done.returncode == WRONG:
             self.assertIn(b"[", done.stderr, "an error without a code")
         return done
+
+
+class Retained(Cli):
+    """rungc run --retain: what a program keeps through power-off."""
+
+    def counter(self, name="counter.pmc", tail=""):
+        return self.file(name, COUNTER.format(tail=tail))
+
+    def images(self):
+        return [Path(self.folder.name) / f"image.{end}" for end in "ab"]
+
+    def run_it(self, program, *args):
+        return rungc("run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp", *args)
+
+    def read(self, program, *names):
+        """The values at the end of one scan; --watch prints every name at its first value."""
+        done = self.run_it(program, "--scans", "1", *(word for name in names for word in ("--watch", name)))
+        self.assertEqual(done.returncode, OK, done.stderr)
+        found = dict(line.split(" ms ")[1].split(" = ") for line in done.stdout.decode().splitlines() if " = " in line)
+        return [int({key.strip(): value for key, value in found.items()}[name]) for name in names]
+
+    def test_goes_on_where_it_stopped(self):
+        program = self.counter()
+        self.assertEqual(self.run_it(program, "--scans", "70000").returncode, OK)
+        self.assertEqual(self.read(program, "D0:4"), [70001])
+        self.assertEqual(self.read(program, "D0:4"), [70002])
+
+    def test_a_changed_program_keeps_all_areas(self):
+        # Bits alone are laid out a byte a bit, bytes are packed: the image must not know.
+        done = self.run_it(self.counter("bits.pmc", SETS), "--scans", "5")
+        self.assertEqual((done.returncode, done.stderr), (OK, b""))
+        names = ("K1", "K31", "D4", "D1859", "R10", "R11", "R12", "R13", "D0:4")
+        self.assertEqual(self.read(self.counter("bytes.pmc", MOVES), *names), [8, -128, 2, 64, 8, -128, 2, 64, 6])
+        self.assertEqual(self.read(self.counter("bits.pmc", SETS), "K1", "K31", "D4", "D1859", "D0:4"), [8, -128, 2, 64, 7])
+
+    def test_presets_of_the_configuration_are_those_of_the_first_start(self):
+        program = self.counter()
+        self.run_it(program, "--config", "tmr.1=480")
+        done = self.run_it(program, "--config", "tmr.1=960", "--watch", "T0:2")
+        self.assertIn(b"T0:2 = 10", done.stdout)
+
+    def test_another_dialect_starts_cold_and_says_so(self):
+        self.run_it(self.counter(), "--scans", "5")
+        done = self.run_it(self.file("lamp.lad", LAMP))
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn(b"made by a program with another memory layout; starting cold", done.stderr)
+
+    def test_damaged_images(self):
+        program = self.counter()
+        self.run_it(program, "--scans", "5")
+        newest = max(self.images(), key=lambda path: path.read_bytes()[16:24][::-1])
+        good = newest.read_bytes()
+        newest.write_bytes(good[:100])
+        done = self.run_it(program, "--watch", "D0:4")
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(b"using the other image", done.stderr)
+        for path in self.images():
+            path.write_bytes(b"junk")
+        done = self.run_it(program, "--watch", "D0:4")
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(b"starting cold", done.stderr)
+        self.assertIn(b"D0:4 = 1\n", done.stdout)
+
+    def test_a_place_that_cannot_be_written(self):
+        done = rungc("run", self.counter(), "--retain", "/nowhere/image")
+        self.assertEqual(done.returncode, ENVIRONMENT)
+        self.assertIn(b"cannot write /nowhere/image", done.stderr)
+
+    def test_killed_at_any_moment(self):
+        program = self.counter()
+        before = 0
+        for delay in (0.31, 0.02, 0.5, 0.27, 0.111, 0.42):
+            # In the machine's time, so that the count is a measure of it: 125 scans a second.
+            command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
+                       "--realtime", "--for", "3600s"]
+            with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+                time.sleep(delay)
+                process.kill()
+                self.assertEqual(process.stderr.read(), b"")
+            now = self.read(program, "D0:4")[0]
+            self.assertGreaterEqual(now, before + 1)
+            self.assertLess(now, before + 125 * (delay + 5))
+            before = now
+        self.assertGreater(before, 20)
+
+    def test_an_ordinary_end_by_signal_saves(self):
+        program = self.counter()
+        command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--realtime", "--for", "3600s",
+                   "--engine", "interp"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+            time.sleep(0.5)
+            process.terminate()
+            output = process.communicate()[0].decode()
+        scans = int(output.split(" scans")[0].splitlines()[-1])
+        self.assertEqual(self.read(program, "D0:4"), [scans + 1])
 
 
 class Statuses(Cli):

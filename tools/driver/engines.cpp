@@ -119,6 +119,7 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     codegen::JitOptions jit;
     jit.code = llvmOptions(options);
     jit.gdb = options.debugger;
+    jit.cacheFolder = options.cacheFolder;
     Result<std::unique_ptr<codegen::JitEngine>> engine = codegen::compileJit(layout, compiled.codeHash, jit);
     if (!engine.ok()) return engine.failure();
     return std::unique_ptr<host::Engine>(std::move(engine).value());

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "rtlib/host/realtime.h"
+#include "rtlib/host/retained_memory.h"
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "tools/driver/engines.h"
@@ -22,9 +23,11 @@ struct RunOptions {
   bool realtime = false;
   bool debugger = false;
   std::string level = "2";
+  std::string retain;
+  std::string cache;
 };
 
-volatile std::sig_atomic_t gStop = 0; // set by SIGINT: the only thing a signal handler may touch
+volatile std::sig_atomic_t gStop = 0; // set by SIGINT and SIGTERM: the only thing a signal handler may touch
 
 struct Watched {
   std::string name;
@@ -66,34 +69,89 @@ bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const
   return true;
 }
 
-int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs) {
-  const std::unique_ptr<nc::NcModel> nc = nc::makeNcModel(engine.program().dialect);
-  const std::unique_ptr<host::Instance> instance = driver::makeInstance(engine, nc.get());
-  nc->powerOn(*instance, nc::PowerOn::Cold);
-  std::vector<Watched> watched;
-  if (!resolveWatched(*nc, *instance, options.watch, watched)) return kUsage;
-  std::signal(SIGINT, [](int) { gStop = 1; });
-  uint64_t scans = 0;
-  const auto more = [&] {
-    return gStop == 0 && !instance->faulted() && (forUs >= 0 ? instance->nowUs() < forUs : scans < options.scans);
-  };
-  if (options.realtime) {
-    const host::RealTimeStats stats = host::runRealTime(*instance, {}, [&] {
-      nc->board().take(*instance);
-      printChanges(*instance, watched);
-      scans += instance->atListStart() ? 1 : 0;
+// Switches the program on, warm with the file of --retain. Nothing but an error when the file cannot be used.
+std::optional<std::string> switchOn(nc::NcModel& nc, host::Instance& instance, host::RetainedMemory* retained) {
+  if (retained == nullptr) {
+    nc.powerOn(instance, nc::PowerOn::Cold);
+    return std::nullopt;
+  }
+  std::string report;
+  std::string error;
+  const bool found = retained->load(instance, report, error);
+  if (!error.empty()) return error;
+  if (!report.empty()) fmt::print(stderr, "rungc: {}\n", report);
+  nc.powerOn(instance, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
+  return std::nullopt;
+}
+
+// One run of an instance, to the end that the options set.
+class Run {
+public:
+  Run(const RunOptions& options, int64_t forUs, nc::NcModel& nc, host::Instance& instance,
+      host::RetainedMemory* retained, std::vector<Watched> watched)
+      : options_(options), forUs_(forUs), nc_(nc), instance_(instance), retained_(retained),
+        watched_(std::move(watched)) {}
+
+  uint64_t scans() const { return scans_; }
+
+  void realTime() {
+    const host::RealTimeStats stats = host::runRealTime(instance_, {}, [this] {
+      nc_.board().take(instance_);
+      scans_ += instance_.atListStart() ? 1 : 0;
+      look();
       return more();
     });
     fmt::print("{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices, stats.missed,
                static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
-  } else {
-    for (; more(); ++scans) {
-      nc->scan(*instance);
-      printChanges(*instance, watched);
+  }
+
+  void virtualTime() {
+    for (; more(); ++scans_) {
+      nc_.scan(instance_);
+      look();
     }
   }
-  fmt::print("{} scans, {:.3f} ms of the program's time, engine {}\n", scans,
+
+private:
+  void look() {
+    if (retained_ != nullptr) retained_->offer(instance_);
+    printChanges(instance_, watched_);
+  }
+  bool more() const {
+    if (gStop != 0 || instance_.faulted()) return false;
+    return forUs_ >= 0 ? instance_.nowUs() < forUs_ : scans_ < options_.scans;
+  }
+
+  const RunOptions& options_;
+  int64_t forUs_;
+  nc::NcModel& nc_;
+  host::Instance& instance_;
+  host::RetainedMemory* retained_;
+  std::vector<Watched> watched_;
+  uint64_t scans_ = 0;
+};
+
+int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs) {
+  const std::unique_ptr<nc::NcModel> nc = nc::makeNcModel(engine.program().dialect);
+  const std::unique_ptr<host::Instance> instance = driver::makeInstance(engine, nc.get());
+  std::unique_ptr<host::RetainedMemory> retained;
+  if (!options.retain.empty()) retained = std::make_unique<host::RetainedMemory>(engine.program(), options.retain);
+  if (const auto error = switchOn(*nc, *instance, retained.get())) return environmentError(*error);
+  std::vector<Watched> watched;
+  if (!resolveWatched(*nc, *instance, options.watch, watched)) return kUsage;
+  std::signal(SIGINT, [](int) { gStop = 1; });
+  std::signal(SIGTERM, [](int) { gStop = 1; });
+  Run run(options, forUs, *nc, *instance, retained.get(), std::move(watched));
+  if (options.realtime)
+    run.realTime();
+  else
+    run.virtualTime();
+  fmt::print("{} scans, {:.3f} ms of the program's time, engine {}\n", run.scans(),
              static_cast<double>(instance->nowUs()) / 1000.0, engine.name());
+  if (retained) {
+    if (!instance->faulted()) nc->powerOff(*instance);
+    if (const std::string error = retained->finish(*instance); !error.empty()) return environmentError(error);
+  }
   if (!instance->faulted()) return kOk;
   fmt::print(stderr, "rungc: the program stopped with a fault: {}\n", instance->faultText());
   return kWrong;
@@ -118,6 +176,7 @@ int runSource(const RunOptions& options, int64_t forUs) {
   driver::EngineOptions engineOptions;
   engineOptions.debugger = options.debugger;
   engineOptions.optimise = options.level != "0";
+  engineOptions.cacheFolder = options.cache;
   Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
   return engine.ok() ? runInstance(*engine.value(), options, forUs) : environmentError(engine.error());
 }
@@ -135,6 +194,11 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--watch", options->watch, "Names whose changes are printed");
   command->add_flag("--realtime", options->realtime, "On the machine's clock");
   command->add_flag("--debugger", options->debugger, "Tell gdb about code compiled in the process");
+  command->add_option(
+      "--retain", options->retain,
+      "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");
+  command->add_option("--cache", options->cache,
+                      "Folder for compiled code of engine jit, to start the same program faster");
   addLevelOption(*command, options->level);
   command->callback([options, &status] {
     int64_t forUs = -1;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/host/retained_memory.h"
 #include "tests/unit/rtlib/test_program.h"
 
 #if defined(__has_feature)
@@ -139,6 +141,41 @@ TEST(NoAllocation, NeitherStartNorScan) {
   EXPECT_EQ(count, 0);
   EXPECT_TRUE(instance.faulted());
   EXPECT_GT(instance.messages().lost() + instance.services().refused(), 0u); // overflow allocates nothing either
+}
+
+// Offering the retained memory copies or does nothing: while the saver's thread is busy or asleep too.
+TEST(NoAllocation, NorOfferingRetainedMemory) {
+  namespace fs = std::filesystem;
+  TestProgram test;
+  build(test);
+  std::string pattern = (fs::temp_directory_path() / "rung_offer_XXXXXX").string();
+  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+  Instance instance(test.program);
+  for (const int periodMs : {1, 3600'000}) {
+    RetainedMemory retained(test.program, pattern + "/plc", std::chrono::milliseconds(periodMs));
+    std::string report;
+    std::string error;
+    retained.load(instance, report, error);
+    ASSERT_EQ(error, "");
+    std::chrono::steady_clock::duration longest{};
+    const int count = allocationsOf([&] {
+      for (int i = 0; i < 20'000; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        instance.memory().writeByte(0, 4, static_cast<uint8_t>(i));
+        retained.offer(instance);
+        longest = std::max(longest, std::chrono::steady_clock::now() - start);
+      }
+    });
+    EXPECT_EQ(count, 0);
+    // Far below what waiting for the saver's thread would take in the second round.
+    EXPECT_LT(longest, std::chrono::seconds(10));
+    instance.memory().writeByte(0, 4, 123);
+    EXPECT_EQ(retained.finish(instance), "");
+    Instance next(test.program);
+    EXPECT_TRUE(RetainedMemory(test.program, pattern + "/plc").load(next, report, error));
+    EXPECT_EQ(next.memory().readByte(0, 4), 123);
+  }
+  fs::remove_all(pattern);
 }
 
 } // namespace

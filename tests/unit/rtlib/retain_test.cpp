@@ -170,7 +170,7 @@ TEST_F(RetainTest, SaverWritesWhatWasOffered) {
   test.link();
   Instance instance(test.program);
   {
-    RetainSaver saver(store(), 3, std::chrono::milliseconds(1));
+    RetainSaver saver(store(), RetainMap(test.program), std::chrono::milliseconds(1));
     for (uint32_t i = 1; i <= 5; ++i) {
       instance.write(intRef(0, 1, 8), i);
       while (!saver.offer(instance)) std::this_thread::yield();
@@ -187,7 +187,8 @@ TEST_F(RetainTest, SaverCountsFailures) {
   test.retains = {{1, 3}};
   test.link();
   Instance instance(test.program);
-  RetainSaver saver(RetainStore((folder / "none" / "plc").string(), kLayout, 3), 3, std::chrono::milliseconds(1));
+  RetainSaver saver(RetainStore((folder / "none" / "plc").string(), kLayout, 3), RetainMap(test.program),
+                    std::chrono::milliseconds(1));
   EXPECT_TRUE(saver.offer(instance));
   for (int i = 0; i < 5000 && saver.failed() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(saver.failed(), 1u);

@@ -1,0 +1,94 @@
+// Images by address: they survive another layout, and do not survive another set of kept addresses.
+#include "rtlib/host/retain_map.h"
+
+#include <gtest/gtest.h>
+
+#include "rtlib/host/instance.h"
+#include "tests/unit/rtlib/test_program.h"
+
+namespace {
+
+using namespace rung::host;
+using rung::test::TestProgram;
+using Bytes = std::vector<uint8_t>;
+
+// Space K with 4 bytes, all kept; byte 1 is a byte a bit in the second layout, and lies elsewhere.
+void onePiece(TestProgram& test) {
+  test.addPacked("K", 1, 4, 8);
+  test.retains = {{8, 4}};
+  test.link();
+}
+
+void threePieces(TestProgram& test) {
+  test.addSpace("K", 1,
+                {{0, 1, 64, RUNG_REPR_PACKED}, {1, 1, 96, RUNG_REPR_BYTE_PER_BIT}, {2, 2, 70, RUNG_REPR_PACKED}});
+  test.retains = {{64, 1}, {96, 8}, {70, 2}};
+  test.link();
+}
+
+Bytes imageOf(const RetainMap& map, const Instance& instance) {
+  Bytes raw(map.rawSize());
+  Bytes image(map.size());
+  instance.copyRetained(raw);
+  map.pack(raw, image);
+  return image;
+}
+
+TEST(RetainMap, AnImageFitsEveryLayoutOfTheSameAddresses) {
+  TestProgram packed;
+  onePiece(packed);
+  TestProgram mixed;
+  threePieces(mixed);
+  mixed.program.layout_hash = packed.program.layout_hash + 1;
+  const RetainMap from(packed.program);
+  const RetainMap to(mixed.program);
+  EXPECT_EQ(from.hash(), to.hash());
+  EXPECT_EQ(from.size(), 4u);
+  EXPECT_EQ(to.size(), 4u);
+  EXPECT_EQ(to.rawSize(), 11u);
+
+  Instance first(packed.program);
+  first.memory().write(0, 0, 4, 0x80FFA501);
+  const Bytes image = imageOf(from, first);
+  EXPECT_EQ(image, (Bytes{0x01, 0xA5, 0xFF, 0x80}));
+  Instance second(mixed.program);
+  Bytes raw(to.rawSize());
+  to.unpack(image, raw);
+  ASSERT_TRUE(second.restoreRetained(raw));
+  EXPECT_EQ(second.memory().read(0, 0, 4), 0x80FFA501u);
+  EXPECT_EQ(imageOf(to, second), image);
+}
+
+TEST(RetainMap, OtherAddressesDialectsAndNamesDiffer) {
+  TestProgram test;
+  onePiece(test);
+  const uint64_t hash = RetainMap(test.program).hash();
+  const auto other = [](auto change) {
+    TestProgram changed;
+    changed.addPacked("K", 1, 4, 8);
+    changed.retains = {{8, 4}};
+    change(changed);
+    changed.link();
+    return RetainMap(changed.program).hash();
+  };
+  EXPECT_EQ(other([](TestProgram&) {}), hash);
+  EXPECT_EQ(other([](TestProgram& t) { t.retains = {{8, 2}, {10, 2}}; }), hash); // in two pieces
+  EXPECT_NE(other([](TestProgram& t) { t.retains = {{8, 3}}; }), hash);
+  EXPECT_NE(other([](TestProgram& t) { t.retains = {{9, 3}}; }), hash);
+  EXPECT_NE(other([](TestProgram& t) { t.dialect = "else"; }), hash);
+  EXPECT_NE(other([](TestProgram& t) { t.spaces[0].name = "D"; }), hash);
+}
+
+// A kept slot has no address: only the very same layout may take it.
+TEST(RetainMap, BytesOutsideSpacesAreTiedToTheLayout) {
+  TestProgram test;
+  test.addPacked("K", 1, 4, 8);
+  test.retains = {{8, 4}, {100, 2}};
+  test.link();
+  const RetainMap map(test.program);
+  EXPECT_EQ(map.size(), 6u);
+  test.program.layout_hash += 1;
+  EXPECT_NE(RetainMap(test.program).hash(), map.hash());
+}
+
+} // namespace

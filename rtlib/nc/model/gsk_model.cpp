@@ -1,17 +1,22 @@
-// The CNC beside a GSK25i PLC: messages of the A area, machine inputs. Presets of timers and counters are the
-// compiler's configuration: initial contents of T and C.
+// The CNC beside a GSK25i PLC: messages of the A area, window requests, machine positions, and in simulated mode the
+// CNC itself (gsk/simulator.h). Presets of timers and counters are the compiler's configuration: initial contents of T
+// and C.
 #include <charconv>
+#include <cmath>
+#include <deque>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/gsk/window_functions.h"
+#include "rtlib/nc/model/gsk/simulator.h"
 #include "rtlib/nc/model/nc_model.h"
 
 namespace rung::nc {
 namespace {
 
-std::optional<uint32_t> number(std::string_view text) {
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
@@ -19,17 +24,22 @@ std::optional<uint32_t> number(std::string_view text) {
 // "tmr.3" with prefix "tmr." gives 3.
 std::optional<uint32_t> numberBehind(std::string_view key, std::string_view prefix) {
   if (!key.starts_with(prefix)) return std::nullopt;
-  return number(key.substr(prefix.size()));
+  const std::string_view digits = key.substr(prefix.size());
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+const NcArgument* find(const std::vector<NcArgument>& keys, std::string_view key) {
+  for (const NcArgument& argument : keys)
+    if (argument.key == key) return &argument;
+  return nullptr;
 }
 
 class GskModel final : public NcModel {
 public:
-  std::string config(std::string_view key, std::string_view value) override {
-    const auto amount = number(value);
-    if (!amount) return "expected a number, found '" + std::string(value) + "'";
-    if (numberBehind(key, "param.")) return setQuantity(key, *amount);
-    return NcModel::config(key, value);
-  }
+  std::string config(std::string_view key, std::string_view value) override;
 
   // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
   void powerOn(host::Instance& instance, PowerOn kind) override {
@@ -37,7 +47,47 @@ public:
     const std::vector<uint8_t> cnc = readArea(instance, "F");
     NcModel::powerOn(instance, kind);
     writeArea(instance, "X", machine);
-    writeArea(instance, "F", cnc);
+    if (!simulated_) writeArea(instance, "F", cnc);
+    simulator_.powerOn(kind == PowerOn::Warm);
+    waiting_.clear();
+  }
+
+  // Slot by slot, to the end of the cycle of Level 2.
+  void scan(host::Instance& instance) override {
+    do slot(instance);
+    while (!instance.atListStart() && !instance.faulted());
+  }
+  void slot(host::Instance& instance) override {
+    beforeSlot(instance);
+    NcModel::slot(instance);
+  }
+  void fast(host::Instance& instance) override {
+    beforeSlot(instance);
+    NcModel::fast(instance);
+  }
+
+  // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
+  // function is not provided (inventory §18).
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    const auto window = windowRequest(instance, request);
+    if (!window) return false;
+    const gsk::WindowFunction* function = gsk::findWindowFunction(window->function);
+    if (function == nullptr || function->speed != gsk::WindowSpeed::High) return false;
+    reply = replyOf(request, simulated_ ? simulator_.answer(*window, gsk::SignalsIo(instance))
+                                        : gsk::WindowAnswer{gsk::kWindowNotProvided, 0});
+    return true;
+  }
+
+  std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override;
+
+  std::string setQuantity(std::string_view name, double value) override {
+    if (simulated_) return simulator_.setQuantity(name, value);
+    const auto axis = numberBehind(name, "MPOS.");
+    if (!axis || *axis < 1 || *axis > gsk::kAxes) return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
+    return NcModel::setQuantity(name, value);
+  }
+  std::optional<double> quantity(std::string_view name) const override {
+    return simulated_ ? simulator_.quantity(name) : NcModel::quantity(name);
   }
 
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
@@ -65,6 +115,64 @@ protected:
   }
 
 private:
+  struct Waiting {
+    rt::ServiceRequest request;
+    uint32_t slots = 0;
+  };
+
+  void beforeSlot(host::Instance& instance) {
+    if (simulated_ && !instance.faulted()) {
+      simulator_.step(gsk::SignalsIo(instance));
+      answerLowSpeed(instance);
+    }
+    writePositions(instance);
+  }
+
+  // What PSGNL and PSGN2 read: 8 positions of 4 bytes in 0.001 mm.
+  void writePositions(host::Instance& instance) const {
+    const uint32_t space = host::findSpace(instance.program(), "@MPOS");
+    if (space == RUNG_NONE) return;
+    for (uint32_t axis = 0; axis < gsk::kAxes; ++axis) {
+      const double position = quantity("MPOS." + std::to_string(axis + 1)).value_or(0);
+      instance.memory().write(space, 4 * axis, 4, static_cast<uint64_t>(std::llround(position)));
+    }
+  }
+
+  void answerLowSpeed(host::Instance& instance) {
+    rt::ServiceRequest request;
+    while (instance.services().take(request)) waiting_.push_back({request, gsk::kLowSpeedSlots});
+    for (Waiting& waiting : waiting_) --waiting.slots;
+    while (!waiting_.empty() && waiting_.front().slots == 0) {
+      const rt::ServiceRequest& next = waiting_.front().request;
+      const auto window = windowRequest(instance, next);
+      instance.services().complete(replyOf(next, window ? simulator_.answer(*window, gsk::SignalsIo(instance))
+                                                        : gsk::WindowAnswer{gsk::kWindowNotProvided, 0}));
+      waiting_.pop_front();
+    }
+  }
+
+  // `windr function length number attribute`, `windw … data`.
+  static std::optional<gsk::WindowRequest> windowRequest(const host::Instance& instance,
+                                                         const rt::ServiceRequest& request) {
+    const std::string_view name = host::serviceName(instance.program(), request.service);
+    gsk::WindowRequest window;
+    window.write = name.starts_with("windw");
+    if (!window.write && !name.starts_with("windr")) return std::nullopt;
+    window.function = static_cast<uint32_t>(request.args[0]);
+    window.length = static_cast<uint32_t>(request.args[1]);
+    window.number = static_cast<uint32_t>(request.args[2]);
+    window.attribute = static_cast<uint32_t>(request.args[3]);
+    window.data = window.write ? request.args[4] : 0;
+    return window;
+  }
+
+  static rt::ServiceReply replyOf(const rt::ServiceRequest& request, const gsk::WindowAnswer& answer) {
+    rt::ServiceReply reply{.ticket = request.ticket, .resultCount = 2};
+    reply.results[0] = answer.end;
+    reply.results[1] = answer.data;
+    return reply;
+  }
+
   static std::vector<uint8_t> readArea(const host::Instance& instance, const char* area) {
     const uint32_t space = host::findSpace(instance.program(), area);
     std::vector<uint8_t> bytes(space == RUNG_NONE ? 0 : instance.program().spaces[space].byte_count);
@@ -75,7 +183,82 @@ private:
     const uint32_t space = host::findSpace(instance.program(), area);
     for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
   }
+
+  bool simulated_ = false;
+  gsk::Simulator simulator_;
+  std::deque<Waiting> waiting_; // low-speed window requests
 };
+
+std::string GskModel::config(std::string_view key, std::string_view value) {
+  const auto choice = [&](std::string_view yes, std::string_view no) -> std::optional<bool> {
+    if (value != yes && value != no) return std::nullopt;
+    return value == yes;
+  };
+  const auto expected = [&](std::string_view what) {
+    return std::string(key) + ": expected " + std::string(what) + ", found '" + std::string(value) + "'";
+  };
+  if (key == "nc") {
+    const auto simulated = choice("simulated", "scripted");
+    if (!simulated) return expected("scripted or simulated");
+    simulated_ = *simulated;
+    return {};
+  }
+  if (key == "axes") return simulator_.setAxes(value);
+  if (key == "overtravel") {
+    const auto wired = choice("on", "off");
+    if (!wired) return expected("on or off");
+    simulator_.setLimitSwitches(*wired);
+    return {};
+  }
+  if (key == "encoders") {
+    const auto absolute = choice("absolute", "incremental");
+    if (!absolute) return expected("absolute or incremental");
+    simulator_.setAbsoluteEncoders(*absolute);
+    return {};
+  }
+  if (key == "protect") {
+    const auto locked = choice("on", "off");
+    if (!locked) return expected("on or off");
+    simulator_.setProtected(*locked);
+    return {};
+  }
+  const auto parameter = numberBehind(key, "param.");
+  if (!parameter && key != "jog") return NcModel::config(key, value);
+  const auto amount = number(value);
+  if (!amount) return expected("a number");
+  if (parameter)
+    simulator_.setParameter(*parameter, *amount);
+  else
+    simulator_.setJogSpeed(*amount);
+  return {};
+}
+
+std::string GskModel::event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) {
+  const bool known = name == "program" || name == "mdi" || name == "reset" || name == "handwheel" || name == "alarm";
+  if (!known) return NcModel::event(instance, name, keys);
+  if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
+  if (name == "program" || name == "mdi") {
+    const NcArgument* blocks = find(keys, "blocks") != nullptr ? find(keys, "blocks") : find(keys, "block");
+    if (blocks == nullptr || !blocks->isText) return "event " + std::string(name) + " takes blocks=\"...\"";
+    return simulator_.loadProgram(blocks->text, name == "mdi");
+  }
+  if (name == "reset") {
+    simulator_.pressReset();
+    return {};
+  }
+  if (name == "alarm") {
+    const NcArgument* alarm = find(keys, "number");
+    if (alarm == nullptr || alarm->integer <= 0) return "event alarm takes number=N";
+    simulator_.raiseAlarm(static_cast<uint32_t>(alarm->integer));
+    return {};
+  }
+  const NcArgument* pulses = find(keys, "pulses");
+  const NcArgument* wheel = find(keys, "wheel");
+  const int64_t which = wheel == nullptr ? 1 : wheel->integer;
+  if (pulses == nullptr || which < 1 || which > 2) return "event handwheel takes pulses=N and wheel=1 or wheel=2";
+  simulator_.turnWheel(static_cast<uint32_t>(which), pulses->integer);
+  return {};
+}
 
 } // namespace
 

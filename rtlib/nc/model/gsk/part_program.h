@@ -1,0 +1,39 @@
+// Part programs of the simulated CNC: the text of `event program` and `event mdi`, read into blocks.
+//
+//   program := block { (";" | newline) block }
+//   block   := ["/"] { word | "(" comment ")" | "#" number "=" value }     word := letter value
+//   value   := number | "#" number
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rung::nc::gsk {
+
+struct Value {
+  double number = 0;
+  uint32_t variable = 0; // of a macro variable; 0: the number counts
+};
+
+struct Word {
+  char letter = 0; // '#': assignment to `variable`
+  uint32_t variable = 0;
+  Value value;
+};
+
+struct Block {
+  bool skipped = false; // "/"
+  uint32_t sequence = 0; // N, 0: none
+  std::vector<Word> words;
+};
+
+struct PartProgram {
+  uint32_t number = 0; // O
+  std::vector<Block> blocks;
+};
+
+// "" and the program, or what is wrong with the text. `axes`: the letters of the axes.
+std::string readPartProgram(std::string_view text, std::string_view axes, bool manyM, PartProgram& program);
+
+} // namespace rung::nc::gsk

@@ -1,0 +1,10 @@
+// The answer where no CNC is there to give one: a program must not wait for ever.
+#pragma once
+#include "rtlib/core/queues.h"
+
+namespace rung::nc {
+
+// GSK's window requests end with code 6, "not provided" (man. l.8668-8676); all others with an error. Allocates nothing.
+rt::ServiceReply refuse(const rung_program& program, const rt::ServiceRequest& request) noexcept;
+
+} // namespace rung::nc

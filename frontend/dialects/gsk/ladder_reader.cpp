@@ -33,12 +33,15 @@ Place placeOf(const Element& element) { return {element.range, element.line}; }
 class RungReader {
 public:
   RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung)
-      : diagnostics_(context.diagnostics), builder_(builder), rung_(rung) {}
+      : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung) {}
 
   // False when the drawing was rejected; it was reported, and nothing has reached the builder.
   bool read();
+  // Whether a region, label or call is lost with the drawing.
+  bool shapesProgram() const;
 
 private:
+  void reportSecondBox(const Element& element);
   bool sort();
   bool checkKind(const Element& element);
   bool checkLeft(const Element& element);
@@ -50,6 +53,7 @@ private:
   void emit(const SpTree& tree);
   void emitBox();
 
+  Context& context_;
   Diagnostics& diagnostics_;
   NetworkBuilder& builder_;
   const ladder::Rung& rung_;
@@ -95,6 +99,14 @@ bool RungReader::checkLeft(const Element& element) {
   return true;
 }
 
+// One below the other may be meant as one box with more pins than there are.
+void RungReader::reportSecondBox(const Element& element) {
+  if (findFunction(element.mnemonic) == nullptr && element.column == box_->column)
+    diagnostics_.report(Diag::UnknownPin, element.range) << box_->mnemonic << element.mnemonic << "no further pins";
+  else
+    diagnostics_.report(Diag::MultiLevelOutput, element.range);
+}
+
 // Finds the box and the coils; a network has one function at most.
 bool RungReader::sort() {
   bool good = true;
@@ -104,7 +116,7 @@ bool RungReader::sort() {
     } else if (element.kind == ElementKind::Coil) {
       coils_.push_back(&element);
     } else if (element.kind == ElementKind::Box) {
-      if (box_ != nullptr) diagnostics_.report(Diag::MultiLevelOutput, element.range);
+      if (box_ != nullptr) reportSecondBox(element);
       good = good && box_ == nullptr;
       if (box_ == nullptr) box_ = &element;
     }
@@ -119,7 +131,7 @@ bool RungReader::checkBox() {
   if (box_ == nullptr) return true;
   row_ = findFunction(box_->mnemonic);
   if (row_ == nullptr) {
-    diagnostics_.report(Diag::UnknownFunction, box_->mnemonicRange) << box_->mnemonic;
+    reportUnknownFunction(context_, box_->mnemonic, box_->mnemonicRange);
     return false;
   }
   switch (row_->control) {
@@ -276,6 +288,14 @@ bool RungReader::read() {
   return true;
 }
 
+bool RungReader::shapesProgram() const {
+  return std::any_of(rung_.elements.begin(), rung_.elements.end(), [](const Element& element) {
+    if (element.kind != ElementKind::Box) return false;
+    const Row* row = findFunction(element.mnemonic);
+    return row == nullptr || row->control != Control::Plain;
+  });
+}
+
 class LadderReader {
 public:
   LadderReader(Context& context, const ladder::LadderFile& file, UnitAssembler& units)
@@ -330,7 +350,9 @@ void LadderReader::module(const ladder::Module& module) {
 void LadderReader::readRung(const ladder::Rung& rung) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
-  if (rung.bad || !RungReader(context_, builder_, rung).read()) units_.setGarbled();
+  if (rung.bad) return units_.setGarbled();
+  RungReader reader(context_, builder_, rung);
+  if (!reader.read() && reader.shapesProgram()) units_.setGarbled();
 }
 
 } // namespace
@@ -359,7 +381,7 @@ void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
     case ladder::DeclarationKind::Message:
     case ladder::DeclarationKind::Button:
       diagnostics.report(Diag::UnsupportedElement, declaration.range)
-          << "a statement for texts" << "the control shows the texts of area A itself";
+          << "a statement for texts" << "give the texts of area A in a file: `config messages FILE`";
       break;
     }
   }

@@ -45,6 +45,8 @@ public:
   ir::SlotId slot(std::string_view role, ir::Type type, int64_t init = 0);
   // Microseconds between the beginnings of this and the last run of the level.
   ir::ValueId scanTime();
+  // Microseconds since the last run of the level began.
+  ir::ValueId sinceLastRun();
   // Constant bytes in a hidden space; `legal` of them may be the first of an element.
   ir::Window constants(const std::vector<uint8_t>& bytes, uint32_t legal);
 

@@ -142,6 +142,10 @@ ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t 
 
 ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
+ir::ValueId FunctionLowering::sinceLastRun() {
+  return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
+}
+
 ir::Window FunctionLowering::constants(const std::vector<uint8_t>& bytes, uint32_t legal) {
   return {module_.constantSpace(bytes), 0, legal};
 }

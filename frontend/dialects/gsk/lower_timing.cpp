@@ -27,8 +27,8 @@ ValueId presetOf(FunctionLowering& f) {
 
 } // namespace
 
-// P23. The time that a timer gains is the scan's; less when it ran already in this scan, and not more when it was not
-// reached for a while (P19).
+// P23. A timer gains the time since it ran in this or in the last scan: not always the scan's, for a jump may bring it
+// into another part of Level 2. When it was not reached for a while it gains one scan's time (P19).
 void lowerTimer(FunctionLowering& f) {
   ir::RungBuilder& b = f.b;
   const ir::SlotId elapsed = f.slot("elapsed", Type::I64, kNotRunning);
@@ -37,10 +37,10 @@ void lowerTimer(FunctionLowering& f) {
   const ValueId preset = presetOf(f);
   const ValueId now = b.now();
   const ValueId since = b.sub(now, b.slotLoad(last));
-  const ValueId scan = f.scanTime();
+  const ValueId gain = b.select(b.leS(since, f.sinceLastRun()), since, f.scanTime());
   const ValueId before = b.slotLoad(elapsed);
   const ValueId zero = b.constant(Type::I64, 0);
-  const ValueId grown = b.add(before, b.select(b.ltS(since, scan), since, scan));
+  const ValueId grown = b.add(before, gain);
   const ValueId time = b.select(b.ltS(before, zero), zero, grown);
   b.slotStore(elapsed, time);
   b.slotStore(last, now);

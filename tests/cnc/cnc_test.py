@@ -147,6 +147,20 @@ def fault(bench, _options):
     expect("stuck.pmc:" in done.stdout, "no source file in the message")
 
 
+def retained(bench, _options):
+    """D goes on where the last session stopped; a place that cannot be written stops the loading."""
+    bench.program(HERE / "stuck.pmc")
+    bench.file("program.map", "in s32 number D4:4\nout s32 kept D4:4\n")
+    bench.file("first.map", "out s32 kept D4:4\n")
+    load = LOAD.format(options="retain=@DIR@/memory", prefix="rung")
+    show = "loadusr -w sleep 0.3\nshow pin rung.kept\n"
+    bench.halrun(load + "setp rung.number 4711\n" + show)
+    done = bench.halrun(load.replace("program.map", "first.map") + show)
+    expect(shown(done.stdout, "rung.kept") == ["4711"], shown(done.stdout, "rung.kept"))
+    done = bench.halrun(LOAD.format(options="retain=/nowhere/memory", prefix="rung"))
+    expect("cannot write /nowhere/memory" in done.stdout, "no message")
+
+
 def mistakes(bench, _options):
     """What is wrong with the files is said when they are loaded, and nothing is loaded then."""
     bench.program(HERE / "stuck.pmc")
@@ -168,7 +182,7 @@ def mistakes(bench, _options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

@@ -1,8 +1,15 @@
 // Look-up and checks of the names in a mapping file.
 #include "tools/rung-hal/binding.h"
 
+#include <charconv>
+
+#include "rtlib/host/program_info.h"
+
 namespace rung::hal {
 namespace {
+
+constexpr std::string_view kPositions = "NC.MPOS.";
+constexpr uint32_t kPositionBytes = 4;
 
 enum class Access : uint8_t { Read, Write }; // by HAL
 
@@ -30,10 +37,11 @@ public:
 private:
   void addLink(std::vector<PinLink>& links, const MapLink& link, Access access) {
     const PinType type = map_.pins[link.pin].type;
-    if (auto place = find(link.name, type, access, link.line)) links.push_back({link.pin, type, *place});
+    if (auto place = find(link.name, type, access, link.line)) links.push_back({link.pin, type, *place, link.scale});
   }
 
   std::optional<host::Ref> find(const std::string& name, PinType type, Access access, uint32_t line) {
+    if (name.starts_with(kPositions)) return position(name, type, access, line);
     // What the NC and the machine write is also what they see: for NCT both are the time-slice copy.
     std::optional<host::Ref> place = nc_.writePlace(instance_, name);
     if (!place) return fail(line, name + ": the program has no such name or address");
@@ -49,6 +57,22 @@ private:
     if (type != PinType::Float && place->kind == host::RefKind::Real)
       return fail(line, name + " is a real number; its type is float");
     return place;
+  }
+
+  // NC.MPOS.N, the machine position of an axis in 0.001 mm: the program has it where it reads it (PSGNL, PSGN2).
+  std::optional<host::Ref> position(const std::string& name, PinType type, Access access, uint32_t line) {
+    const rung_program& program = instance_.program();
+    const uint32_t space = host::findSpace(program, "@MPOS");
+    if (space == RUNG_NONE) return fail(line, name + ": the program reads no machine positions");
+    const uint32_t axes = program.spaces[space].byte_count / kPositionBytes;
+    uint32_t axis = 0;
+    const char* end = name.data() + name.size();
+    const auto [rest, error] = std::from_chars(name.data() + kPositions.size(), end, axis);
+    if (error != std::errc() || rest != end || axis == 0 || axis > axes)
+      return fail(line, name + ": axes are 1 to " + std::to_string(axes));
+    if (access == Access::Read) return fail(line, name + " is written by HAL, not by the program");
+    if (type == PinType::Bit) return fail(line, name + " is no bit; s32, u32 or float is possible");
+    return host::intRef(space, kPositionBytes * (axis - 1), 8 * kPositionBytes);
   }
 
   // NCT keeps a double in two words, TECHNOL in a cell of 8 bytes; every other integer is converted.

@@ -14,6 +14,7 @@ struct PinLink {
   uint32_t pin = 0; // in MapFile::pins
   PinType type = PinType::Bit;
   host::Ref place;
+  double scale = 1; // float: the program's units in one of HAL's
 };
 
 struct ConstLink {

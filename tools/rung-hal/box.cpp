@@ -2,27 +2,30 @@
 #include "tools/rung-hal/box.h"
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/model/refuse.h"
 
 namespace rung::hal {
 namespace {
 
 constexpr uint32_t kMaxSlices = 64; // in one step; what is left is owed to the next
 
-void writePlace(const rt::Memory& memory, const host::Ref& place, PinType type, const PinCell& cell) noexcept {
-  switch (type) {
+void writePlace(const rt::Memory& memory, const PinLink& link, const PinCell& cell) noexcept {
+  const host::Ref& place = link.place;
+  switch (link.type) {
   case PinType::Bit: host::writeRaw(memory, place, *cell.bit ? 1 : 0); return;
   case PinType::S32: host::writeRaw(memory, place, static_cast<uint64_t>(int64_t{*cell.s32})); return;
   case PinType::U32: host::writeRaw(memory, place, *cell.u32); return;
-  case PinType::Float: host::writeReal(memory, place, *cell.real); return;
+  case PinType::Float: host::writeReal(memory, place, *cell.real * link.scale); return;
   }
 }
 
-void readPlace(const rt::Memory& memory, const host::Ref& place, PinType type, const PinCell& cell) noexcept {
-  switch (type) {
+void readPlace(const rt::Memory& memory, const PinLink& link, const PinCell& cell) noexcept {
+  const host::Ref& place = link.place;
+  switch (link.type) {
   case PinType::Bit: *cell.bit = host::readRaw(memory, place) != 0; return;
   case PinType::S32: *cell.s32 = static_cast<int32_t>(host::readSigned(memory, place)); return;
   case PinType::U32: *cell.u32 = static_cast<uint32_t>(host::readRaw(memory, place)); return;
-  case PinType::Float: *cell.real = host::readReal(memory, place); return;
+  case PinType::Float: *cell.real = host::readReal(memory, place) / link.scale; return;
   }
 }
 
@@ -40,7 +43,8 @@ void clearPin(PinType type, const PinCell& cell) noexcept {
 Box::Box(const rung_program& program, MapFile map)
     : map_(std::move(map)), nc_(nc::makeNcModel(program.dialect)), instance_(program, this) {}
 
-std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors) {
+std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
+                               const std::string& retain, std::string* notes) {
   if (host::scanPeriodUs(program) == 0) {
     errors.push_back(std::string(program.name) + ": the program's schedule has no period");
     return nullptr;
@@ -49,12 +53,33 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
   box->binding_ = bindMap(box->map_, box->instance_, *box->nc_, errors);
   if (!errors.empty()) return nullptr;
   box->functions_ = std::make_unique<AuxFunctions>(box->map_.sends, box->binding_.channels);
-  box->nc_->powerOn(box->instance_, nc::PowerOn::Cold);
+  if (!box->start(retain, errors, notes)) return nullptr;
   return box;
 }
 
+bool Box::start(const std::string& retain, std::vector<std::string>& errors, std::string* notes) {
+  bool found = false;
+  if (!retain.empty()) {
+    retained_ = std::make_unique<host::RetainedMemory>(program(), retain);
+    std::string report;
+    std::string error;
+    found = retained_->load(instance_, report, error);
+    if (!error.empty()) errors.push_back(error);
+    if (notes != nullptr) *notes = report;
+  }
+  if (!errors.empty()) return false;
+  nc_->powerOn(instance_, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
+  return true;
+}
+
+std::string Box::close() {
+  if (!retained_) return {};
+  if (!failed_) nc_->powerOff(instance_);
+  return retained_->finish(instance_);
+}
+
 bool Box::respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
-  reply = {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  reply = nc::refuse(program(), request);
   return true;
 }
 
@@ -80,6 +105,7 @@ void Box::slice() noexcept {
   functions_->advance(instance_.memory(), cells_);
   readPins();
   instance_.slice();
+  if (retained_) retained_->offer(instance_);
   passMessages();
   if (instance_.faulted()) return;
   if (instance_.atListStart()) ++scans_;
@@ -88,7 +114,7 @@ void Box::slice() noexcept {
 
 void Box::readPins() noexcept {
   const rt::Memory memory = instance_.memory();
-  for (const PinLink& link : binding_.inputs) writePlace(memory, link.place, link.type, cells_[link.pin]);
+  for (const PinLink& link : binding_.inputs) writePlace(memory, link, cells_[link.pin]);
   // Constants too in every slice: no restart and no model of the NC can undo them.
   for (const ConstLink& constant : binding_.constants) {
     if (constant.type == PinType::Float)
@@ -100,7 +126,7 @@ void Box::readPins() noexcept {
 
 void Box::writePins() noexcept {
   const rt::Memory memory = instance_.memory();
-  for (const PinLink& link : binding_.outputs) readPlace(memory, link.place, link.type, cells_[link.pin]);
+  for (const PinLink& link : binding_.outputs) readPlace(memory, link, cells_[link.pin]);
 }
 
 void Box::clearPins() noexcept {

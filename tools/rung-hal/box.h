@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/host/retained_memory.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "tools/rung-hal/aux_functions.h"
 #include "tools/rung-hal/binding.h"
@@ -26,8 +27,12 @@ using MessageSink = void (*)(const rung_program& program, const rung_message& me
 
 class Box : private host::ScheduleHooks {
 public:
-  // Cold start. Null, and `errors` say why, when the map does not fit the program, which outlives the box.
-  static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors);
+  // Null, and `errors` say why, when the map does not fit the program, which outlives the box. The start is cold, or
+  // with the memory that `retain` (FILE of FILE.a and FILE.b) keeps; then `notes` may have something for the user.
+  static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
+                                   const std::string& retain = {}, std::string* notes = nullptr);
+  // Behind the last step: what is retained is on disk then; "" or why not.
+  std::string close();
 
   const std::vector<MapPin>& pins() const { return map_.pins; }
   // As many cells as there are pins, in their order; they outlive the box.
@@ -48,9 +53,10 @@ private:
 
   void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
   void onFault(host::Instance& instance) override { nc_->onFault(instance); }
-  // No CNC here can answer: the program learns it at once.
+  // No CNC here can answer: the program learns it at once (rtlib/nc/model/refuse.h).
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
 
+  bool start(const std::string& retain, std::vector<std::string>& errors, std::string* notes);
   void slice() noexcept;
   void readPins() noexcept;
   void writePins() noexcept;
@@ -61,7 +67,8 @@ private:
   std::unique_ptr<nc::NcModel> nc_;
   host::Instance instance_;
   Binding binding_;
-  std::unique_ptr<AuxFunctions> functions_; // once the map is bound
+  std::unique_ptr<AuxFunctions> functions_;        // once the map is bound
+  std::unique_ptr<host::RetainedMemory> retained_; // null: nothing is kept
   const PinCell* cells_ = nullptr;
   MessageSink sink_ = nullptr;
   int64_t owedNs_ = 0; // time that the program's clock is behind

@@ -2,6 +2,7 @@
 #include "tools/rung-hal/map_file.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace rung::hal {
@@ -134,12 +135,23 @@ private:
 
   void link(const Words& words) {
     const bool output = words[0] == "out";
-    if (!hasForm(words, 4, 4, output ? "out TYPE PIN NAME" : "in TYPE PIN NAME")) return;
+    if (!hasForm(words, 4, 5, output ? "out TYPE PIN NAME [SCALE]" : "in TYPE PIN NAME [SCALE]")) return;
     const std::optional<PinType> pinType = type(words[1]);
     if (!pinType) return;
+    const std::optional<double> factor = scale(words, *pinType);
+    if (!factor) return;
     const std::optional<uint32_t> index = pin(words[2], *pinType, output);
     if (!index) return;
-    (output ? map_.outputs : map_.inputs).push_back({*index, std::string(words[3]), line_});
+    (output ? map_.outputs : map_.inputs).push_back({*index, std::string(words[3]), *factor, line_});
+  }
+
+  std::optional<double> scale(const Words& words, PinType pinType) {
+    if (words.size() < 5) return 1;
+    const std::optional<double> factor = realOf(words[4]);
+    if (pinType == PinType::Float && factor && std::isfinite(*factor) && *factor != 0) return factor;
+    error(pinType == PinType::Float ? "'" + std::string(words[4]) + "' is no scale: a number other than 0 is expected"
+                                    : "a scale is possible for float alone");
+    return std::nullopt;
   }
 
   void constant(const Words& words) {

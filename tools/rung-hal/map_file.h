@@ -22,6 +22,7 @@ struct MapPin {
 struct MapLink {
   uint32_t pin = 0; // in MapFile::pins
   std::string name;
+  double scale = 1; // float: the program's units in one of HAL's
   uint32_t line = 0;
 };
 

@@ -23,6 +23,8 @@ static char* so = nullptr;
 RTAPI_MP_STRING(so, "compiled program, absolute path");
 static char* map = nullptr;
 RTAPI_MP_STRING(map, "mapping file, absolute path");
+static char* retain = nullptr;
+RTAPI_MP_STRING(retain, "file of the retained memory, absolute path");
 static char* name = nullptr;
 RTAPI_MP_STRING(name, "prefix of the pins and the function");
 }
@@ -84,7 +86,9 @@ bool loadProgram(Component& c) {
   std::vector<std::string> errors;
   hal::MapFile mapping = hal::parseMap(*text, map, errors);
   // Both kinds of mistakes at once; a box is only made for a faultless map.
-  c.box = hal::Box::make(c.engine->program(), std::move(mapping), errors);
+  std::string notes;
+  c.box = hal::Box::make(c.engine->program(), std::move(mapping), errors, retain != nullptr ? retain : "", &notes);
+  if (!notes.empty()) rtapi_print("%s: %s\n", kModule, notes.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   return errors.empty();
 }
@@ -193,6 +197,10 @@ int rtapi_app_main() {
 
 void rtapi_app_exit() {
   hal_exit(componentId); // takes the function out of its thread first
+  if (component != nullptr && component->box) {
+    const std::string error = component->box->close();
+    if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
+  }
   delete component;
   component = nullptr;
 }

@@ -7,6 +7,7 @@
 #include "rtlib/host/retained_memory.h"
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/model/nc_model.h"
+#include "rtlib/nc/model/refuse.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/scenario.h"
@@ -114,6 +115,8 @@ public:
 
 private:
   void look() {
+    rt::ServiceRequest request; // here is nobody who could answer later
+    while (instance_.services().take(request)) instance_.services().complete(nc::refuse(instance_.program(), request));
     if (retained_ != nullptr) retained_->offer(instance_);
     printChanges(instance_, watched_);
   }

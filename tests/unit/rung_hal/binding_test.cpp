@@ -42,6 +42,25 @@ TEST(Binding, AddressesSymbolsAndSignalsOfGsk) {
   EXPECT_EQ(bound.binding.outputs[1].place, host::bitRef(3, 4, 3)); // FIN of the NC interface is G4.3
 }
 
+TEST(Binding, MachinePositions) {
+  const Bound bound = boundTo(testing::gskProgram(), "in float a NC.MPOS.1 1000\nin s32 b NC.MPOS.8\n");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  ASSERT_EQ(bound.binding.inputs.size(), 2u);
+  const uint32_t space = host::findSpace(testing::gskProgram(), "@MPOS");
+  EXPECT_EQ(bound.binding.inputs[0].place, host::intRef(space, 0, 32));
+  EXPECT_EQ(bound.binding.inputs[0].scale, 1000);
+  EXPECT_EQ(bound.binding.inputs[1].place, host::intRef(space, 28, 32));
+  EXPECT_EQ(bound.binding.inputs[1].scale, 1);
+  EXPECT_THAT(gskErrors("in bit a NC.MPOS.1\nin s32 b NC.MPOS.9\nin s32 c NC.MPOS.0\nout s32 d NC.MPOS.1\n"
+                        "in s32 e NC.MPOS.x\n"),
+              ElementsAre("m.map:1: NC.MPOS.1 is no bit; s32, u32 or float is possible",
+                          "m.map:2: NC.MPOS.9: axes are 1 to 8", "m.map:3: NC.MPOS.0: axes are 1 to 8",
+                          "m.map:5: NC.MPOS.x: axes are 1 to 8",
+                          "m.map:4: NC.MPOS.1 is written by HAL, not by the program"));
+  EXPECT_THAT(boundTo(testing::nctProgram(), "in s32 a NC.MPOS.1\n").errors,
+              ElementsAre("m.map:1: NC.MPOS.1: the program reads no machine positions"));
+}
+
 TEST(Binding, NctNamesAreTheHardwaresSide) {
   const Bound bound = boundTo(testing::nctProgram(), "in bit a 0056.17\nout s32 w 0400\nout float d 0400\n");
   EXPECT_THAT(bound.errors, IsEmpty());

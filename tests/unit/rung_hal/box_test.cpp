@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 #include "tests/unit/rung_hal/test_program.h"
@@ -41,11 +42,11 @@ union PinValue {
 // A box and its pins, as HAL would have them.
 class Bench {
 public:
-  Bench(const rung_program& program, std::string_view text) {
+  Bench(const rung_program& program, std::string_view text, const std::string& retain = {}) {
     MapFile map = parseMap(text, "m.map", errors);
     values.resize(map.pins.size());
     for (PinValue& value : values) cells.push_back({.any = &value});
-    box = Box::make(program, std::move(map), errors);
+    box = Box::make(program, std::move(map), errors, retain);
     if (box) box->connect(cells.data());
   }
 
@@ -156,11 +157,47 @@ TEST(Box, AFaultClearsTheOutputsForGood) {
   EXPECT_EQ(b.box->scans(), 2u);
 }
 
-TEST(Box, ServicesAreRefusedAtOnce) {
-  Bench b(testing::gskProgram(), "in bit ask X1.1\nout u32 state D12\n");
+// The end code 6 of a window function that the CNC does not provide (man. l.8668-8676).
+TEST(Box, WindowRequestsEndAtOnceWithCode6) {
+  Bench b(testing::gskProgram(), "in bit ask X1.1\nout u32 state D12\nout u32 end D13\n");
   b["ask"].bit = true;
   b.scans(300); // more than may be pending
-  EXPECT_EQ(b["state"].u32, static_cast<uint32_t>(RUNG_SERVICE_ERROR));
+  EXPECT_EQ(b["state"].u32, static_cast<uint32_t>(RUNG_SERVICE_DONE));
+  EXPECT_EQ(b["end"].u32, 6u);
+}
+
+TEST(Box, MachinePositionsComeFromHal) {
+  Bench b(testing::gskProgram(), "in float x NC.MPOS.1 1000\nin s32 y NC.MPOS.2\nout s32 gotx D16:4\n"
+                                 "out float goty D20:4 1000\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  b["x"].real = -12.3456; // mm
+  b["y"].s32 = 250;       // 0.001 mm
+  b.scans(1);
+  EXPECT_EQ(b["gotx"].s32, -12346);
+  EXPECT_EQ(b["goty"].real, 0.25);
+  b["x"].real = 1e30;
+  b.scans(1);
+  EXPECT_EQ(b["gotx"].s32, INT32_MAX);
+}
+
+TEST(Box, RetainedMemoryGoesOn) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "rung_box_XXXXXX").string();
+  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+  for (uint32_t round = 1; round <= 3; ++round) {
+    Bench b(testing::gskProgram(), "out u32 count D0:2\nin s32 value F10:4\n", pattern + "/plc");
+    ASSERT_THAT(b.errors, IsEmpty());
+    counting = true;
+    allocations = 0;
+    b.scans(5);
+    counting = false;
+    EXPECT_EQ(allocations, 0);
+    EXPECT_EQ(b["count"].u32, 5 * round);
+    EXPECT_EQ(b.box->close(), "");
+  }
+  Bench nowhere(testing::gskProgram(), "", pattern + "/none/plc");
+  EXPECT_THAT(nowhere.errors, ElementsAre(::testing::HasSubstr("cannot write")));
+  EXPECT_EQ(nowhere.box, nullptr);
+  std::filesystem::remove_all(pattern);
 }
 
 std::vector<uint32_t> shown;
@@ -175,7 +212,7 @@ TEST(Box, MessagesAreHandedOn) {
 
 TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
   EXPECT_THAT(Bench(testing::gskProgram(), "in bit a Y0.0\nin bit").errors,
-              ElementsAre("m.map:2: the form is: in TYPE PIN NAME",
+              ElementsAre("m.map:2: the form is: in TYPE PIN NAME [SCALE]",
                           "m.map:1: Y0.0 is an output of the program; it cannot be written"));
   Bench timeless(testing::timelessProgram(), "");
   EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));

@@ -86,7 +86,7 @@ std::vector<std::string> errorsOf(std::string_view text) {
 TEST(MapFile, EveryMistakeIsReportedWithItsLine) {
   EXPECT_THAT(errorsOf("# fine\ninput bit a X0.0\nin bit a\n"),
               ElementsAre("m.map:2: unknown keyword 'input': in, out, const, channel or send is expected",
-                          "m.map:3: the form is: in TYPE PIN NAME"));
+                          "m.map:3: the form is: in TYPE PIN NAME [SCALE]"));
   EXPECT_THAT(errorsOf("in word a X0"),
               ElementsAre("m.map:1: unknown type 'word': bit, s32, u32 or float is expected"));
   EXPECT_THAT(errorsOf("in bit a/b X0.0"),
@@ -94,6 +94,22 @@ TEST(MapFile, EveryMistakeIsReportedWithItsLine) {
   EXPECT_THAT(errorsOf("in bit a X0.0\nin s32 a X1"), ElementsAre("m.map:2: pin 'a' is already there as in bit"));
   EXPECT_THAT(errorsOf("in bit a X0.0\nout bit a Y0.0"), ElementsAre("m.map:2: pin 'a' is already there as in bit"));
   EXPECT_THAT(errorsOf("out bit a Y0.0\nout bit a Y0.1"), ElementsAre("m.map:2: output pin 'a' is already mapped"));
+}
+
+TEST(MapFile, Scales) {
+  std::vector<std::string> errors;
+  const MapFile map = parseMap("in float a D0:4 1000\nout float b D4:4 -0.5\nin float c D8:4\n", "m.map", errors);
+  EXPECT_THAT(errors, IsEmpty());
+  ASSERT_EQ(map.inputs.size(), 2u);
+  EXPECT_EQ(map.inputs[0].scale, 1000);
+  EXPECT_EQ(map.inputs[1].scale, 1);
+  ASSERT_EQ(map.outputs.size(), 1u);
+  EXPECT_EQ(map.outputs[0].scale, -0.5);
+  parseMap("in s32 a D0:4 10\nin float b D0:4 0\nout float c D0:4 x\nin float d D0:4 inf\n", "m.map", errors);
+  EXPECT_THAT(errors, ElementsAre("m.map:1: a scale is possible for float alone",
+                                  "m.map:2: '0' is no scale: a number other than 0 is expected",
+                                  "m.map:3: 'x' is no scale: a number other than 0 is expected",
+                                  "m.map:4: 'inf' is no scale: a number other than 0 is expected"));
 }
 
 TEST(MapFile, BadValues) {

@@ -6,7 +6,7 @@
 namespace rung::hal::testing {
 namespace {
 
-constexpr uint32_t kX = 0, kY = 16, kF = 32, kG = 96, kR = 160, kD = 192, kGskSize = 256;
+constexpr uint32_t kX = 0, kY = 16, kF = 32, kG = 96, kR = 160, kD = 192, kPositions = 256, kGskSize = 288;
 constexpr uint32_t kSlice = 8192; // bytes of NCT's M and TS
 
 bool bit(const uint8_t* mem, uint32_t byte, uint32_t number) { return ((mem[byte] >> number) & 1) != 0; }
@@ -27,11 +27,13 @@ uint32_t gskScan(uint8_t* mem, rung_ctx* ctx) {
   std::memcpy(&count, mem + kD, 2);
   ++count;
   std::memcpy(mem + kD, &count, 2);
+  std::memcpy(mem + kD + 16, mem + kPositions, 8);
   std::memcpy(mem + kD + 4, mem + kF + 10, 4);
   std::memcpy(mem + kD + 8, mem + kF + 14, 4);
   if (bit(mem, kX + 1, 1)) {
     const uint32_t ticket = ctx->host->service_request(ctx, 0, nullptr, 0);
     mem[kD + 12] = static_cast<uint8_t>(ctx->host->service_poll(ctx, ticket));
+    mem[kD + 13] = static_cast<uint8_t>(ctx->host->service_result(ctx, ticket, 0));
   }
   if (bit(mem, kX + 1, 2)) {
     const rung_message message = {RUNG_MESSAGE_SHOW, 7, 0, 0, 0, 0, 0};
@@ -52,8 +54,8 @@ uint32_t technolScan(uint8_t*, rung_ctx*) { return RUNG_PC_DONE; }
 constexpr rung_range packed(const uint32_t bytes, const uint32_t offset) {
   return {0, bytes, offset, RUNG_REPR_PACKED};
 }
-constexpr rung_range kGskRanges[] = {packed(16, kX), packed(16, kY), packed(64, kF),
-                                     packed(64, kG), packed(32, kR), packed(64, kD)};
+constexpr rung_range kGskRanges[] = {packed(16, kX), packed(16, kY), packed(64, kF),        packed(64, kG),
+                                     packed(32, kR), packed(64, kD), packed(32, kPositions)};
 constexpr rung_space kGskSpaces[] = {
     {"X", 1, 16, RUNG_SPACE_INPUT, 1, &kGskRanges[0]},
     {"Y", 1, 16, RUNG_SPACE_OUTPUT, 1, &kGskRanges[1]},
@@ -61,11 +63,13 @@ constexpr rung_space kGskSpaces[] = {
     {"G", 1, 64, RUNG_SPACE_OUTPUT, 1, &kGskRanges[3]},
     {"R", 1, 32, 0, 1, &kGskRanges[4]},
     {"D", 1, 64, 0, 1, &kGskRanges[5]},
+    {"@MPOS", 4, 32, RUNG_SPACE_HIDDEN, 1, &kGskRanges[6]},
 };
 constexpr rung_symbol kGskSymbols[] = {
     {"LIMIT", "", 0, 0, 0, RUNG_TYPE_I32, 1, RUNG_SYMBOL_CONST, 5},
     {"SYM", "", 1, 1, 2, RUNG_TYPE_BIT, 1, 0, 0},
 };
+constexpr rung_span kGskRetains[] = {{kD, 64}};
 constexpr rung_span kGskSafes[] = {{kY, 16}, {kG, 64}};
 constexpr rung_range kNctRanges[] = {packed(kSlice, 0), packed(kSlice, kSlice)};
 constexpr rung_space kNctSpaces[] = {{"M", 4, kSlice, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT, 1, &kNctRanges[0]},
@@ -145,6 +149,8 @@ const rung_program& gskProgram() {
     p.symbols = kGskSymbols;
     p.safe_count = 2;
     p.safes = kGskSafes;
+    p.retain_count = 1;
+    p.retains = kGskRetains;
     return p;
   }();
   return program;

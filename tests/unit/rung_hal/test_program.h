@@ -6,7 +6,8 @@ namespace rung::hal::testing {
 
 // GSK, 8 ms, spaces X Y F G R D. Each scan: Y0.0 := X0.0, D0 counts scans (2 bytes), D4 := F10 (4 bytes), D8 := F14
 // (4 bytes), the strobe F7.0 is answered by G4.3, SYM is Y1.2; X1.0 makes the fault "dead-loop" at line 42 of main.pmc,
-// X1.1 requests a service and puts its state into D12, X1.2 shows message 7.
+// X1.1 requests a window read, its state comes into D12 and its first result into D13, X1.2 shows message 7; D16 and
+// D20 (4 bytes each) are the positions of axes 1 and 2. D is retained.
 const rung_program& gskProgram();
 
 // NCT, 10 ms, spaces M and TS (words 0 to 2047); main copies the time slice both ways, M0400.00 := M0056.17.

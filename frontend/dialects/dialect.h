@@ -35,6 +35,10 @@ struct Dialect {
   // Null when there were errors; every error of all files has been reported. The module passes the verifier.
   std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files,
                                          const CompileOptions& options, Diagnostics& diagnostics);
+  // Sections of the reference page behind the instructions, in Markdown; null when there are none.
+  std::string (*reference)() = nullptr;
+  // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be null.
+  std::string (*explain)(std::string_view word) = nullptr;
 };
 
 // All dialects, and one by its name; null when there is none.

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Checks README.md, CONTRIBUTING.md and docs/ against the tree and the program. docs_test.py RUNGC"""
+import csv
 import os
 import re
 import shlex
@@ -28,6 +29,22 @@ class Docs(unittest.TestCase):
             text = subprocess.run([RUNGC, "doc", page], capture_output=True, check=True).stdout.decode()
             path = ROOT / "docs" / "reference" / f"{page}.md"
             self.assertTrue(path.exists() and path.read_text() == text, f"{shown(path)} is stale: run tests/update")
+
+    def test_gsk_page_has_every_instruction_and_signal(self):
+        page = (ROOT / "docs" / "reference" / "gsk.md").read_text()
+        headings = re.findall(r"^### (\S+?)(?: \(function (\d+)\))?: ", page.split("\n## Address areas")[0], re.MULTILINE)
+        rows = csv.DictReader((ROOT / "frontend/dialects/gsk/instructions.csv").read_text().splitlines())
+        self.assertEqual(sorted(headings), sorted((row["mnemonic"], row["func_number"]) for row in rows))
+        found = re.findall(r"^\| ([XYFG]\d+(?:\.\d)?)(?: \((\d) bytes?\))? \| `([^`]+)` \| (.*) \| l\.(\d+) \|$",
+                           page.split("\n## Signals")[1], re.MULTILINE)
+        wanted = []
+        for row in csv.DictReader((ROOT / "rtlib/nc/gsk/signals.csv").read_text().splitlines()):
+            place = row["address"][0] + str(int(row["address"][1:])) + (row["bit"] and "." + row["bit"])
+            width = {"bit": "", "byte": "1", "word": "2", "dword": "4"}[row["type"]]
+            only = {"both": "", "mc": " (GSK25iMc only)", "tc": " (GSK25iTc only)"}[row["mc_or_tc"]]
+            wanted.append((place, width, row["symbol"], row["meaning"].replace("|", "\\|") + only, row["manual_line"].split(";")[0]))
+        self.assertEqual(len(wanted), 2147)
+        self.assertEqual(sorted(found), sorted(wanted))
 
     def test_links_lead_somewhere(self):
         for page in PAGES:

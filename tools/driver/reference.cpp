@@ -94,7 +94,7 @@ std::string lower(std::string_view text) {
 std::string dialectReference(const Dialect& dialect) {
   std::string out;
   auto put = std::back_inserter(out);
-  fmt::format_to(put, "# {}: instructions\n\n{}. Made by `rungc doc {}` from the instruction table; do not edit.\n\n",
+  fmt::format_to(put, "# {}: reference\n\n{}. Made by `rungc doc {}` from the tables of the dialect; do not edit.\n\n",
                  dialect.name, dialect.title, dialect.name);
   std::vector<std::string_view> groups;
   for (const InstructionInfo* row : dialect.instructions)
@@ -108,6 +108,7 @@ std::string dialectReference(const Dialect& dialect) {
   for (const auto& kind : dialect.operandKinds) fmt::format_to(put, "| {} | {} |\n", kind.kind, cell(kind.doc));
   out += "\n## Configuration keys of the compiler\n\n";
   for (std::string_view key : dialect.configKeys) fmt::format_to(put, "- `{}`\n", key);
+  if (dialect.reference != nullptr) out += dialect.reference();
   return out;
 }
 
@@ -148,6 +149,9 @@ std::optional<std::string> explain(std::string_view word) {
         fmt::format_to(std::back_inserter(out), "{}[{}] ", out.empty() ? "" : "\n", dialect->name);
         appendInstruction(*dialect, *row, out);
       }
+  for (const Dialect* dialect : frontend::allDialects())
+    if (const std::string text = dialect->explain == nullptr ? "" : dialect->explain(word); !text.empty())
+      out += (out.empty() ? "" : "\n") + text;
   if (out.empty()) return std::nullopt;
   return out;
 }

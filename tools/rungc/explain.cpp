@@ -8,15 +8,15 @@
 namespace rung::rungc {
 
 void addExplain(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("explain", "Explain a diagnostic code or an instruction");
+  CLI::App* command = app.add_subcommand("explain", "Explain a diagnostic code, an instruction or a signal");
   auto word = std::make_shared<std::string>();
-  command->add_option("WORD", *word, "A code such as unbalanced-stack, or a mnemonic such as TOND")->required();
+  command->add_option("WORD", *word, "A code such as unbalanced-stack, a mnemonic such as TOND, or a signal of the GSK25i or its address, such as MF or F7.0")->required();
   command->callback([word, &status] {
     const std::optional<std::string> text = driver::explain(*word);
     if (text)
       std::cout << *text;
     else
-      fmt::print(stderr, "rungc: neither a diagnostic code nor an instruction: '{}'\n", *word);
+      fmt::print(stderr, "rungc: no diagnostic code, instruction or signal: '{}'\n", *word);
     status = text ? kOk : kWrong;
   });
 }

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/instructions.h"
-#include "rtlib/nc/gsk/signals.h"
+#include "ir/support/similar.h"
 
 namespace rung::gsk {
 namespace {
@@ -53,17 +53,6 @@ std::optional<Address> addressOf(Diagnostics& diagnostics, const AddressText& te
   return address;
 }
 
-// Signals of the CNC and the panel whose symbols are names in the sense of P12; for `*ESP` and the like a program uses
-// the address or declares a name of its own (inventory §13).
-std::optional<Address> signalAddress(std::string_view name) {
-  if (!isFreeName(name)) return std::nullopt;
-  const nc::Signal* signal = nc::findSignal(nc::gskSignals(), name);
-  if (signal == nullptr) return std::nullopt;
-  const auto area = splitAddress(std::string(signal->area) + "0");
-  if (!area) return std::nullopt;
-  return Address{area->area, signal->byteOffset, signal->bit, signal->type == nc::SignalType::Bit};
-}
-
 struct Found {
   std::optional<Address> address;
   bool known = false; // as a name or by its shape; then nothing more is to be said about it
@@ -73,8 +62,48 @@ Found findAddress(Context& context, const Word& word) {
   if (const UserSymbol* symbol = context.names.findSymbol(word.text))
     return {symbol->bad ? std::nullopt : std::optional(symbol->address), true};
   if (const auto text = splitAddress(word.text)) return {addressOf(context.diagnostics, *text, word), true};
-  if (const auto address = signalAddress(word.text)) return {address, true};
+  if (const nc::Signal* signal = findSignalByName(word.text)) return {signalAddress(*signal), true};
   return {};
+}
+
+// Looking for likeness in a file of rubbish would take long and help nobody.
+constexpr size_t kMostSuggestions = 100;
+
+void suggestName(const Context& context, const Word& word, DiagBuilder& report) {
+  if (context.diagnostics.errorCount() > kMostSuggestions) return;
+  Similar similar(word.text);
+  for (const UserSymbol& symbol : context.names.symbols()) similar.offer(symbol.name);
+  if (!similar.best().empty())
+    report.note(fmt::format("did you mean {}?", similar.best()));
+  else if (const nc::Signal* signal = similarSignal(word.text))
+    report.note(
+        fmt::format("did you mean {} ({}, {})?", signal->symbol, textOf(signalAddress(*signal)), signal->meaning));
+}
+
+void reportUnknown(Context& context, const Word& word, std::string_view what) {
+  DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
+  report << word.text << fmt::format("{} address, signal or declared name", what);
+  suggestName(context, word, report);
+}
+
+// T00 to T31 are addresses although the table has signals of these names.
+void reportNoBit(Context& context, const Word& word, const Address& address) {
+  DiagBuilder report = context.diagnostics.report(Diag::BitAddressExpected, word.range);
+  report << word.text;
+  const nc::Signal* signal = findSignalByName(word.text);
+  if (signal != nullptr && signalAddress(*signal) != address)
+    report.note(fmt::format("the signal {} of the T code is written by its address, {}", signal->symbol,
+                            textOf(signalAddress(*signal))));
+}
+
+// A signal that the configured machine does not have.
+void checkMachine(Context& context, const Word& word, const Address& address, uint32_t length) {
+  const nc::Signal* signal = foreignSignal(context.machine, address, length);
+  if (signal == nullptr) return;
+  const bool onMill = context.machine == Machine::Mill;
+  context.diagnostics.report(Diag::OtherMachine, word.range)
+          .note(fmt::format("man. l.{}: {}", signal->manualLine, signal->meaning))
+      << signal->symbol << (onMill ? "turning" : "milling") << (onMill ? "mill" : "turn");
 }
 
 } // namespace
@@ -98,8 +127,11 @@ void Names::addSymbol(Diagnostics& diagnostics, const Word& name, const Word& va
       symbol.address = *address;
       symbol.bad = !checkArea(diagnostics, value, text->area, text->byte, 1);
     }
+  } else if (const nc::Signal* signal = findSignalByName(value.text)) {
+    symbol.address = signalAddress(*signal);
+    symbol.bad = false;
   } else {
-    diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address";
+    diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
   }
   symbolByName_.emplace(symbol.name, static_cast<uint32_t>(symbols_.size()));
   symbols_.push_back(std::move(symbol));
@@ -122,30 +154,53 @@ const UserConstant* Names::findConstant(std::string_view name) const {
   return at == constants_.end() ? nullptr : &at->second;
 }
 
+void reportUnknownCommand(Context& context, const Word& word, std::span<const std::string_view> commands) {
+  DiagBuilder report = context.diagnostics.report(Diag::UnknownCommand, word.range);
+  report << word.text;
+  if (const Row* row = findFunction(word.text)) {
+    report.note(fmt::format("{} is a function: write `FUNC {}`", row->info.mnemonic, row->info.mnemonic));
+    return;
+  }
+  if (context.diagnostics.errorCount() > kMostSuggestions) return;
+  Similar similar(word.text);
+  for (std::string_view command : commands) similar.offer(command);
+  if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
+}
+
+void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
+  DiagBuilder report = context.diagnostics.report(Diag::UnknownFunction, range);
+  report << name;
+  if (context.diagnostics.errorCount() > kMostSuggestions) return;
+  Similar similar(name);
+  for (const Row& row : allRows())
+    if (row.info.number >= 0) similar.offer(row.info.mnemonic);
+  if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
+}
+
 std::optional<Address> bitOperand(Context& context, const Word& word) {
   if (!word.range.valid()) return std::nullopt;
   const Found found = findAddress(context, word);
-  if (!found.known)
-    context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "bit address and no declared name";
+  if (!found.known) reportUnknown(context, word, "bit");
   if (!found.address) return std::nullopt;
   if (!found.address->isBit) {
-    context.diagnostics.report(Diag::BitAddressExpected, word.range) << word.text;
+    reportNoBit(context, word, *found.address);
     return std::nullopt;
   }
   if (!checkArea(context.diagnostics, word, found.address->area, found.address->byte, 1)) return std::nullopt;
+  checkMachine(context, word, *found.address, 1);
   return found.address;
 }
 
 std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t length) {
   const Found found = findAddress(context, word);
-  if (!found.known)
-    context.diagnostics.report(Diag::BadOperand, word.range) << word.text << "byte address and no declared name";
+  if (!found.known) reportUnknown(context, word, "byte");
   if (!found.address) return std::nullopt;
   if (found.address->isBit) {
     context.diagnostics.report(Diag::ByteAddressExpected, word.range) << word.text;
     return std::nullopt;
   }
   if (!checkArea(context.diagnostics, word, found.address->area, found.address->byte, length)) return std::nullopt;
+  checkMachine(context, word, *found.address, length);
   return found.address;
 }
 

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "frontend/dialects/gsk/address.h"
+#include "frontend/dialects/gsk/signals.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
@@ -53,7 +55,12 @@ struct Context {
   Diagnostics& diagnostics;
   Names names;
   uint32_t steps = 0;
+  Machine machine = Machine::Any;
 };
+
+// Reports a word in place of a command, and a function that FUNC or a box names wrongly; with what was meant, perhaps.
+void reportUnknownCommand(Context& context, const Word& word, std::span<const std::string_view> commands);
+void reportUnknownFunction(Context& context, std::string_view name, SourceRange range);
 
 // Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong, or an operand without
 // a place, gives nullopt silently: it was reported.

@@ -7,6 +7,8 @@
 #include "frontend/dialects/gsk/ladder_reader.h"
 #include "frontend/dialects/gsk/list_reader.h"
 #include "frontend/dialects/gsk/lower.h"
+#include "frontend/dialects/gsk/messages.h"
+#include "frontend/dialects/gsk/reference.h"
 
 namespace rung::gsk {
 namespace {
@@ -59,25 +61,44 @@ private:
   FileId last_;
 };
 
+Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  const auto at = options.config.find("machine");
+  if (at == options.config.end()) return Machine::Any;
+  if (at->second == "mill") return Machine::Mill;
+  if (at->second == "turn") return Machine::Turn;
+  diagnostics.report(Diag::ConstantOutOfRange) << "machine " + at->second << "mill, turn";
+  return Machine::Any;
+}
+
+std::vector<ir::MessageText> configuredMessages(SourceManager& sources, FileId program,
+                                                const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  const auto at = options.config.find("messages");
+  if (at == options.config.end()) return {};
+  return readMessages(sources, program, at->second, diagnostics);
+}
+
 std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
                                     const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (options.strict) diagnostics.raiseToError({Diag::DuplicateCounter}); // P29
   Context context{sources, diagnostics, {}, 0};
   Program program;
   checkConfig(options, diagnostics);
+  context.machine = configuredMachine(options, diagnostics);
   if (files.empty()) return nullptr;
   Reading reading(context, program);
   for (FileId file : files) reading.add(file);
   const bool understood = reading.read();
   analyse(context, program, !understood);
+  std::vector<ir::MessageText> texts = configuredMessages(sources, files[0], options, diagnostics);
   if (diagnostics.hasErrors()) return nullptr;
   std::unique_ptr<ir::Module> module = lowerProgram(program, context, files, options);
   if (diagnostics.hasErrors()) return nullptr; // a slot is too short
+  module->messages = std::move(texts);
   return module;
 }
 
 constexpr std::string_view kExtensions[] = {".pmc"};
-constexpr std::string_view kConfigKeys[] = {"tmr.*", "ctr.*", "slot_steps"};
+constexpr std::string_view kConfigKeys[] = {"tmr.*", "ctr.*", "slot_steps", "machine", "messages"};
 
 } // namespace
 
@@ -96,6 +117,8 @@ const frontend::Dialect kGsk = {
     .operandKinds = operandKindInfos(),
     .isBuilt = isBuilt,
     .compile = &compile,
+    .reference = &referenceSections,
+    .explain = &explainSignal,
 };
 
 } // namespace rung::gsk

@@ -176,7 +176,7 @@ void ListReader::readStatement(std::span<const Word> words) {
   const bool readable = checkCharacters(words);
   const auto command = commandOf(words[0].text);
   if (!command) {
-    if (readable) context_.diagnostics.report(Diag::UnknownCommand, words[0].range) << words[0].text;
+    if (readable) reportUnknownCommand(context_, words[0], kCommands);
     return builder_.garbage(at);
   }
   if (*command == Command::Symbol) return; // readListSymbols
@@ -200,7 +200,7 @@ void ListReader::checkDialect(const Word& word) {
 const Row* ListReader::functionOf(const Word& word) {
   const auto number = parseDigits(word.text);
   const Row* row = number ? findFunction(*number) : findFunction(word.text);
-  if (row == nullptr) context_.diagnostics.report(Diag::UnknownFunction, word.range) << word.text;
+  if (row == nullptr) reportUnknownFunction(context_, word.text, word.range);
   return row;
 }
 

@@ -69,8 +69,9 @@ TEST(GskList, Addresses) {
   EXPECT_EQ(bit("Q0.0"), (Codes{"2 bad-operand"}));
   EXPECT_EQ(bit("100"), (Codes{"2 bad-operand"}));
   EXPECT_EQ(bit("MF"), Codes{}) << "a signal of the CNC, F7.0";
-  EXPECT_EQ(bit("*ESP"), (Codes{"2 bad-operand"})) << "no name in a program";
-  EXPECT_EQ(bit("RST"), (Codes{"2 bad-operand"})) << "a command's name, though F1.1 is called so";
+  EXPECT_EQ(bit("*ESP"), Codes{}) << "G8.4";
+  EXPECT_EQ(bit("RST"), Codes{}) << "F1.1: in an operand no command can stand";
+  EXPECT_EQ(bit("*ESQ"), (Codes{"2 bad-operand"}));
   const auto move = [](const std::string& from, const std::string& to) {
     return level2("LD X0.0\nFUNC MOVW\nPRM " + from + "\nPRM " + to + "\n");
   };

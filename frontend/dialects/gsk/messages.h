@@ -1,0 +1,17 @@
+// Texts of the messages that bits of area A ask for (man. l.754-762), from a file beside the program: one
+// `NUMBER "text"` a line, `;` begins a comment. The number is 1 to 256 (P57) or the bit itself, A0.0 to A31.7.
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "ir/core/module.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/source.h"
+
+namespace rung::gsk {
+
+// `path` is relative to the folder of `program`. Reports what is wrong; what is right is in the result, by number.
+std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program, std::string_view path,
+                                          Diagnostics& diagnostics);
+
+} // namespace rung::gsk

@@ -1,0 +1,27 @@
+// "Did you mean …": the known word that is most like a misspelt one.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace rung {
+
+/// Takes candidates one by one. A candidate is close when it differs by one change in words of up to four characters
+/// and by two in longer ones; a change is a character more, less, or other, or two neighbours exchanged. Other case of
+/// letters counts as no change. The first of equally close candidates stays.
+class Similar {
+public:
+  explicit Similar(std::string_view word);
+  void offer(std::string_view candidate);
+  /// Empty when nothing is close.
+  std::string_view best() const { return best_; }
+
+private:
+  size_t distance(std::string_view candidate) const;
+
+  std::string word_; // in upper case
+  size_t bound_;     // candidates must be closer
+  std::string_view best_;
+};
+
+} // namespace rung

@@ -101,8 +101,11 @@ bool RungReader::checkLeft(const Element& element) {
 
 // One below the other may be meant as one box with more pins than there are.
 void RungReader::reportSecondBox(const Element& element) {
+  const Row* row = findFunction(box_->mnemonic);
   if (findFunction(element.mnemonic) == nullptr && element.column == box_->column)
-    diagnostics_.report(Diag::UnknownPin, element.range) << box_->mnemonic << element.mnemonic << "no further pins";
+    diagnostics_.report(Diag::UnknownPin, element.range)
+        << box_->mnemonic << element.mnemonic
+        << (row == nullptr || furtherPinsOf(*row).empty() ? "no further pins" : "its pins on the lines directly below");
   else
     diagnostics_.report(Diag::MultiLevelOutput, element.range);
 }

@@ -32,10 +32,10 @@ void Operation::loadMdi(PartProgram program) {
   if (runMode_ == Mode::Mdi) next_ = 0;
 }
 
-bool Operation::select(uint32_t number) {
+bool Operation::select(uint32_t number, bool mdi) {
   const auto found = stored_.find(number);
   if (found == stored_.end()) return false;
-  program_ = found->second;
+  (mdi ? mdi_ : program_) = found->second;
   next_ = 0;
   return true;
 }

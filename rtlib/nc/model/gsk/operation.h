@@ -46,7 +46,7 @@ class Operation {
 public:
   void load(PartProgram program);
   void loadMdi(PartProgram program);
-  bool select(uint32_t number); // a program loaded before
+  bool select(uint32_t number, bool mdi); // a program loaded before
   void step(const SignalsIo& io, Machine& machine);
   void idle(const SignalsIo& io); // a slot of reset: modes and confirmations only
   void reset(const SignalsIo& io, Machine& machine);

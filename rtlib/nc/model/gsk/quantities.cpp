@@ -75,6 +75,8 @@ std::optional<double> Simulator::quantity(std::string_view text) const {
   if (text == "ALARM") return m.alarms.last();
   if (text == "PROGRAM") return operation_.programNumber();
   if (text == "SEQUENCE") return operation_.sequence();
+  if (text == "PARTS") return external_.parts();
+  if (text == "PARTSPRESET") return external_.partsPreset();
   const Name n = split(text);
   if (const auto cell = cellOf(n)) return real(m.tables.get(cell->table, cell->number, cell->attribute));
   if (n.numbers != 1 || n.first < 1 || n.first > m.axes.count()) return std::nullopt;

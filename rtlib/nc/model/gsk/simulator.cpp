@@ -20,6 +20,8 @@ void Simulator::powerOn(bool warm) {
   const double jog = manual_.jogSpeed;
   manual_ = {};
   manual_.jogSpeed = jog;
+  plcAxes_ = {};
+  external_ = {};
   machine_ = std::move(fresh);
   for (uint32_t i = 0; i < kAxes; ++i) machine_.axes[i].referenced = absoluteEncoders_ && i < machine_.axes.count();
   if (!warm)
@@ -38,6 +40,8 @@ void Simulator::step(const SignalsIo& io) {
   } else {
     operation_.idle(io);
   }
+  plcAxes_.step(io, machine_, !io.g(8, 4));
+  external_.step(io, machine_, operation_, resetSlots_ != 0);
   machine_.spindle.step(io, machine_.tables);
   machine_.axes.writeSignals(io, machine_.tables, machine_.rapid);
   io.setF(0, 6, io.g(8, 4)); // SA

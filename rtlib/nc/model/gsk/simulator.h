@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/nc/model/gsk/external_data.h"
 #include "rtlib/nc/model/gsk/machine.h"
 #include "rtlib/nc/model/gsk/manual.h"
 #include "rtlib/nc/model/gsk/operation.h"
+#include "rtlib/nc/model/gsk/plc_axes.h"
 #include "rtlib/nc/model/gsk/window.h"
 
 namespace rung::nc::gsk {
@@ -48,6 +50,8 @@ private:
   Machine machine_;
   Operation operation_;
   Manual manual_;
+  PlcAxes plcAxes_;
+  ExternalData external_;
   std::vector<std::pair<uint32_t, double>> parameters_; // of the configuration, put back by a cold start
   bool absoluteEncoders_ = true;
   bool locked_ = false;

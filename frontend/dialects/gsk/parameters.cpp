@@ -47,6 +47,7 @@ private:
   bool checkConstant(const Word& word, Param& param);
   bool checkMask(const Word& word, Param& param);
   bool checkNamed(const OperandInfo& info, const Word& word, Param& param, char letter);
+  bool checkPlace(const Word& word, Kind kind);
   bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
   uint32_t lengthOf(Kind kind) const;
 
@@ -153,20 +154,24 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
   return true;
 }
 
+// A data table and a work area have an area of their own, whatever their length.
+bool ParameterCheck::checkPlace(const Word& word, Kind kind) {
+  if (kind != Kind::DataTable && kind != Kind::WorkArea) return true;
+  const auto first = byteOperand(context_, word, 1);
+  if (!first) return false;
+  const bool table = kind == Kind::DataTable;
+  if (first->area == (table ? Area::D : Area::R)) return true;
+  context_.diagnostics.report(table ? Diag::NotADataTable : Diag::WorkAreaNotInR, word.range) << word.text;
+  return false;
+}
+
 bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Param& param) {
+  if (!checkPlace(word, param.kind)) return false;
   const uint32_t length = lengthOf(param.kind);
   const auto address = byteOperand(context_, word, length);
   if (!address) return false;
   param.isAddress = true;
   param.address = *address;
-  if (param.kind == Kind::DataTable && address->area != Area::D) {
-    context_.diagnostics.report(Diag::NotADataTable, word.range) << word.text;
-    return false;
-  }
-  if (param.kind == Kind::WorkArea && address->area != Area::R) {
-    context_.diagnostics.report(Diag::WorkAreaNotInR, word.range) << word.text;
-    return false;
-  }
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }
 

@@ -163,6 +163,13 @@ TEST(GskList, Parameters) {
   EXPECT_EQ(level2("LD X0.0\nFUNC JMP\nPRM 1\nFUNC JMPE\n"), (Codes{"4 parameter-out-of-range"}));
   EXPECT_EQ(level2("LD R0.0\nLD X0.0\nFUNC DSCHB\nPRM 1\nPRM D0\nPRM R20\nPRM D1\nPRM D2\nOUT Y0.0\n"),
             (Codes{"7 not-a-data-table"}));
+  const auto search = [](const std::string& table) {
+    return level2("LD R0.0\nLD X0.0\nFUNC DSCHB\nPRM 4\nPRM D0\nPRM " + table + "\nPRM D4\nPRM D8\nOUT Y0.0\n");
+  };
+  EXPECT_EQ(search("D1856"), Codes{});
+  EXPECT_EQ(search("D1857"), (Codes{"7 address-out-of-range"}));
+  EXPECT_EQ(search("K31"), (Codes{"7 not-a-data-table"})) << "though its end is outside K, too";
+  EXPECT_EQ(search("K32"), (Codes{"7 address-out-of-range"})) << "there is no such place";
 }
 
 TEST(GskList, CodeTable) {

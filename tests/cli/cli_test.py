@@ -256,6 +256,18 @@ class Products(Cli):
         self.assertEqual(done.returncode, OK, done.stderr)
         self.assertIn(b"10 scans", done.stdout)
 
+    def test_run_shows_messages(self):
+        self.file("texts.txt", '1 "EMERGENCY STOP"\n')
+        source = self.file("stop.pmc", "FUNC END1\nLDI X9.0\nOUT A0.0\nFUNC END2\n")
+        done = rungc("run", source, "--config", "messages=texts.txt")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn(b'message 1 "EMERGENCY STOP"', done.stdout)
+
+    def test_explain_signals(self):
+        for word in ("MF", "mf", "F7.0", "F007.0"):
+            self.assertIn(b"[gsk] MF: F7.0", rungc("explain", word).stdout)
+        self.assertIn(b"G8.4", rungc("explain", "*ESP").stdout)
+
     def test_explain_and_doc(self):
         self.assertIn(b"multi-level-output", rungc("explain", "multi-level-output").stdout)
         self.assertIn(b"TOND", rungc("explain", "tond").stdout)

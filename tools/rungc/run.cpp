@@ -1,4 +1,5 @@
 // rungc run: runs a program, from source or from a shared object, on the virtual or the real clock.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fmt/format.h>
@@ -55,6 +56,26 @@ void printChanges(const host::Instance& instance, std::vector<Watched>& watched)
     fmt::print("{:>12.3f} ms  {} = {}\n", static_cast<double>(instance.nowUs()) / 1000.0, w.name, now);
     w.last = std::move(now);
   }
+}
+
+std::string messageText(const nc::ShownMessage& message) {
+  return message.text.empty() ? fmt::format("message {}", message.number)
+                              : fmt::format("message {} \"{}\"", message.number, message.text);
+}
+
+// Prints which messages have come to the screen or gone from it, behind the time.
+void printMessages(const host::Instance& instance, std::vector<nc::ShownMessage> now,
+                   std::vector<nc::ShownMessage>& shown) {
+  if (now == shown) return;
+  const double ms = static_cast<double>(instance.nowUs()) / 1000.0;
+  const auto stands = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {
+    return std::find(list.begin(), list.end(), message) != list.end();
+  };
+  for (const nc::ShownMessage& message : shown)
+    if (!stands(now, message)) fmt::print("{:>12.3f} ms  {} is gone\n", ms, messageText(message));
+  for (const nc::ShownMessage& message : now)
+    if (!stands(shown, message)) fmt::print("{:>12.3f} ms  {}\n", ms, messageText(message));
+  shown = std::move(now);
 }
 
 bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const std::vector<std::string>& names,
@@ -119,6 +140,7 @@ private:
     while (instance_.services().take(request)) instance_.services().complete(nc::refuse(instance_.program(), request));
     if (retained_ != nullptr) retained_->offer(instance_);
     printChanges(instance_, watched_);
+    printMessages(instance_, nc_.messages(instance_), shown_);
   }
   bool more() const {
     if (gStop != 0 || instance_.faulted()) return false;
@@ -131,6 +153,7 @@ private:
   host::Instance& instance_;
   host::RetainedMemory* retained_;
   std::vector<Watched> watched_;
+  std::vector<nc::ShownMessage> shown_;
   uint64_t scans_ = 0;
 };
 

@@ -11,7 +11,7 @@ std::string values(uint32_t count) { return count == 1 ? "1 value" : fmt::format
 } // namespace
 
 void NetworkBuilder::step(Place at) {
-  if (++context_.steps == kMaxSteps + 1) context_.diagnostics.report(Diag::ProgramTooLarge, at.range) << kMaxSteps;
+  countStep(context_, at.range);
   ++network_.steps;
 }
 
@@ -120,7 +120,11 @@ void NetworkBuilder::checkConditions(const Row& row, Place at) {
     network_.logic.clear();
     return;
   }
-  context_.diagnostics.report(Diag::WrongConditionCount, at.range) << row.info.mnemonic << wanted << depth_;
+  std::string names;
+  for (const frontend::PinInfo& pin : row.info.pins.all()) names += fmt::format(" {}", pin.name);
+  DiagBuilder report = context_.diagnostics.report(Diag::WrongConditionCount, at.range);
+  report << row.info.mnemonic << wanted << depth_;
+  if (!names.empty()) report.note(fmt::format("its conditions in order:{}", names));
   network_.bad = true;
 }
 

@@ -210,8 +210,11 @@ bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& 
 bool ParameterCheck::check(const std::vector<Word>& words) {
   const auto operands = function_.row->info.operands.all();
   if (words.size() != operands.size()) { // nobody knows which one is missing
-    context_.diagnostics.report(Diag::WrongParameterCount, function_.range)
-        << function_.row->info.mnemonic << operands.size() << words.size();
+    DiagBuilder report = context_.diagnostics.report(Diag::WrongParameterCount, function_.range);
+    report << function_.row->info.mnemonic << operands.size() << words.size();
+    std::string names;
+    for (const OperandInfo& operand : operands) names += fmt::format("{}{}", names.empty() ? " " : ", ", operand.name);
+    if (!names.empty()) report.note(fmt::format("its parameters in order:{}", names));
     return false;
   }
   bool good = true;

@@ -37,7 +37,8 @@ Expectations expectationsOf(const fs::path& path) {
     std::string word, first, second;
     words >> word;
     if (word == "program")
-      while (words >> first) result.programs.push_back({first, readFile(path.parent_path() / first)});
+      while (words >> first)
+        result.programs.push_back({(path.parent_path() / first).string(), readFile(path.parent_path() / first)});
     if (word == "config" && words >> first >> second) result.options.config[first] = second;
     if (word != "expect_error" && word != "expect_warning") continue;
     result.errors = result.errors || word == "expect_error";

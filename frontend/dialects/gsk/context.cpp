@@ -177,6 +177,10 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
 }
 
+void countStep(Context& context, SourceRange range) {
+  if (++context.steps == kMaxSteps + 1) context.diagnostics.report(Diag::ProgramTooLarge, range) << kMaxSteps;
+}
+
 std::optional<Address> bitOperand(Context& context, const Word& word) {
   if (!word.range.valid()) return std::nullopt;
   const Found found = findAddress(context, word);

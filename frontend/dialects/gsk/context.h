@@ -62,6 +62,9 @@ struct Context {
 void reportUnknownCommand(Context& context, const Word& word, std::span<const std::string_view> commands);
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range);
 
+// One step of the program memory more (P1); the one that is too much is reported.
+void countStep(Context& context, SourceRange range);
+
 // Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong, or an operand without
 // a place, gives nullopt silently: it was reported.
 std::optional<Address> bitOperand(Context& context, const Word& word);

@@ -157,7 +157,7 @@ uint32_t UnitAssembler::openModule(UnitKind kind, uint32_t number, SourceRange m
   return unit;
 }
 
-// Ladder modules draw no ends.
+// Ladder modules draw neither ends nor SP; converted into commands they are steps all the same (P1).
 void UnitAssembler::finish(SourceRange anywhere) {
   for (Unit& unit : program_.units) {
     const Control last = unit.networks.empty() || unit.networks.back().function.row == nullptr
@@ -172,6 +172,8 @@ void UnitAssembler::finish(SourceRange anywhere) {
     end.function.row = findFunction(unit.kind == UnitKind::Level1 ? 0u : unit.kind == UnitKind::Level2 ? 1u : 43u);
     end.function.range = end.range;
     end.function.line = end.firstLine;
+    const int steps = unit.kind == UnitKind::Subprogram ? 3 : 1; // SP and its PRM, SPE
+    for (int i = 0; i < steps; ++i) countStep(context_, end.range);
     unit.networks.push_back(std::move(end));
   }
 }

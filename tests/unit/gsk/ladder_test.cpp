@@ -196,6 +196,19 @@ TEST(GskLadderErrors, Modules) {
   EXPECT_EQ(compileLadder("dialect nct\nmodule LEVEL2\n" + rung)->codes(), (Codes{"1 dialect-conflict"}));
 }
 
+TEST(GskLadderErrors, ProgramSize) {
+  const auto codes = [](int rungs, const std::string& rest) {
+    std::string text = "dialect gsk\nmodule LEVEL2\n"; // two steps: END1, END2
+    for (int i = 0; i < rungs; ++i) text += "rung\n|--[X0.0]--(Y0.0)\n";
+    return compileLadder(text + rest)->codes();
+  };
+  EXPECT_EQ(codes(5999, ""), Codes{}) << "12000 steps";
+  EXPECT_EQ(codes(5999, "rung\n|--{LBL L1}\n"), (Codes{"12002 program-too-large", "12002 label-unused"}));
+  const std::string sub = "rung\n|--{CALLU P1}\nmodule SUB P1\n"; // five steps
+  EXPECT_EQ(codes(5996, sub), Codes{}) << "11999 steps";
+  EXPECT_EQ(codes(5997, sub), (Codes{"11999 program-too-large"})) << "12001 steps; SPE is one too many";
+}
+
 TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {
   EXPECT_EQ(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes(),
             (Codes{"4 unclosed-element"}));

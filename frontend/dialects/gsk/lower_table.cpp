@@ -86,20 +86,51 @@ void lowerCodeTable(FunctionLowering& f) {
   });
 }
 
+namespace {
+
+// Entries that are compared together: a short table does not cost what the area holds.
+constexpr uint32_t kBlock = 32;
+
+struct Found {
+  ValueId yes; // bit
+  ValueId at;
+};
+
+// The lowest entry of the block from `start` that matches, of those below `limit`.
+Found searchBlock(FunctionLowering& f, ValueId start, ValueId limit, ValueId searched) {
+  ir::RungBuilder& b = f.b;
+  const Address& table = f.param(2).address;
+  const ValueId none[] = {b.bit(false), b.i32(0)};
+  const auto inside = b.loop(kBlock, none);
+  const ValueId entry = b.add(start, inside[0]);
+  const ValueId exists = b.ltU(entry, limit);
+  const ValueId value = b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, b.select(exists, entry, b.i32(0))));
+  const ValueId hit = b.and_(b.and_(exists, b.eq(value, searched)), b.not_(inside[1]));
+  const ValueId next[] = {b.or_(inside[1], hit), b.select(hit, entry, inside[2])};
+  const auto found = b.endLoop(next);
+  return {found[0], found[1]};
+}
+
+} // namespace
+
 // The lowest entry that matches. As many entries as the number given says, 0 to n for n+1 (man. l.2022-2026), as far as
 // they exist (P35).
 void lowerSearch(FunctionLowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    const Address& table = f.param(2).address;
+    const uint32_t exist = entriesFrom(f.param(2).address, f.function.length);
     const ValueId entries = unsignedWord(f, 1, Type::I32);
+    const ValueId limit = b.select(b.ltU(entries, b.i32(exist)), entries, b.i32(exist));
     const ValueId searched = f.load(f.dataType(), f.param(3).address);
-    const ValueId first[] = {b.bit(false), b.i32(0)};
-    const auto inside = b.loop(entriesFrom(table, f.function.length), first);
-    const ValueId entry = b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, inside[0]));
-    const ValueId hit = b.and_(b.and_(b.ltU(inside[0], entries), b.eq(entry, searched)), b.not_(inside[1]));
-    const ValueId next[] = {b.or_(inside[1], hit), b.select(hit, inside[0], inside[2])};
-    const auto found = b.endLoop(next);
+    const ValueId none[] = {b.bit(false), b.i32(0)};
+    const auto block = b.loop((exist + kBlock - 1) / kBlock, none);
+    const ValueId start = b.mul(block[0], b.i32(kBlock));
+    b.if_(b.and_(b.ltU(start, limit), b.not_(block[1])));
+    const Found here = searchBlock(f, start, limit, searched);
+    const ValueId yield[] = {here.yes, here.at};
+    b.else_(yield);
+    const ValueId keep[] = {block[1], block[2]};
+    const auto found = b.endLoop(b.endIf(keep));
     f.when(found[0], [&] { f.store(f.param(4).address, b.zextOrTrunc(f.dataType(), found[1])); });
     return b.not_(found[0]);
   });

@@ -30,11 +30,9 @@ int measureOne(const Case& which) {
     return 1;
   }
   const Measured& v = m.value();
-  std::cout << nlohmann::json{{"first", v.firstScanMs},
-                              {"scan", v.nsPerScan},
-                              {"hand", v.handNsPerScan},
-                              {"ratio", v.ratio},
-                              {"rss", v.residentMb}}
+  std::cout << nlohmann::json{{"front", v.frontMs},   {"back", v.backMs},    {"code", v.codeKb},
+                              {"memory", v.memoryKb}, {"scan", v.nsPerScan}, {"hand", v.handNsPerScan},
+                              {"ratio", v.ratio},     {"rss", v.residentMb}}
             << '\n';
   return 0;
 }
@@ -42,9 +40,9 @@ int measureOne(const Case& which) {
 // Runs this program for one case; nothing when it failed.
 std::optional<nlohmann::json> runCase(const Case& which) {
   const std::string command =
-      fmt::format("'{}' --engine {} --compiler '{}' --rungs {} --hand '{}' {}",
-                  std::filesystem::read_symlink("/proc/self/exe").string(), which.engine, which.compiler, which.rungs,
-                  which.handWritten, which.optimise ? "" : "--fast");
+      fmt::format("'{}' --engine {} --compiler '{}' --program {} --units {} --hand '{}' {}",
+                  std::filesystem::read_symlink("/proc/self/exe").string(), which.engine, which.compiler, which.program,
+                  which.units, which.handWritten, which.optimise ? "" : "--fast");
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
   std::string text;
@@ -54,41 +52,55 @@ std::optional<nlohmann::json> runCase(const Case& which) {
   return nlohmann::json::parse(text, nullptr, false);
 }
 
-std::vector<Row> rowsFor(uint32_t rungs, const std::string& hand) {
-  return {
-      {"interpreter", {"interp", "", rungs, true, hand}},
-      {"generated C++, g++ -O2", {"cpp", "g++", rungs, true, hand}},
-      {"generated C++, clang++ -O2", {"cpp", "clang++-19", rungs, true, hand}},
-      {"LLVM object, linked and loaded", {"llvm", "", rungs, true, hand}},
-      {"JIT, fast compilation", {"jit", "", rungs, false, hand}},
-      {"JIT", {"jit", "", rungs, true, hand}},
+std::vector<Row> rowsFor(const Case& program) {
+  const auto row = [&](const char* title, const char* engine, const char* compiler, bool optimise) {
+    Row made{title, program};
+    made.which.engine = engine;
+    made.which.compiler = compiler;
+    made.which.optimise = optimise;
+    return made;
   };
+  return {row("interpreter", "interp", "", true),
+          row("generated C++, g++ -O2", "cpp", "g++", true),
+          row("generated C++, clang++ -O2", "cpp", "clang++-19", true),
+          row("LLVM object, linked and loaded", "llvm", "", true),
+          row("JIT, fast compilation", "jit", "", false),
+          row("JIT", "jit", "", true)};
 }
 
-int printTable(uint32_t rungs, const std::string& handCompiler, const rung::TemporaryFolder& folder) {
-  const std::string hand = (folder / fmt::format("hand{}.so", rungs)).string();
-  const rung::Result<void> built = rung::bench::buildHandWritten(rungs, handCompiler, hand);
+int printTable(Case program, const std::string& title, const std::string& handCompiler,
+               const rung::TemporaryFolder& folder) {
+  program.handWritten = (folder / fmt::format("hand-{}{}.so", program.program, program.units)).string();
+  const rung::Result<void> built = rung::bench::buildHandWritten(program, handCompiler, program.handWritten);
   if (!built.ok()) {
     fmt::print(stderr, "rung-bench: {}\n", built.error());
     return 1;
   }
-  fmt::print("## {} rungs\n\n| engine | ns a scan | ns a rung | ratio to hand-written | source to first scan, ms | "
-             "resident, MB |\n| --- | --- | --- | --- | --- | --- |\n",
-             rungs);
+  fmt::print(
+      "## {}\n\n| engine | ns a scan | ns a {} | ratio to hand-written | faster than the interpreter | source to "
+      "layout, ms | layout to first scan, ms | resident, MB | code, kB |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+      title, program.program == "gsk" ? "step" : "rung");
   int status = 0;
-  for (const Row& row : rowsFor(rungs, hand)) {
+  double interpreter = 0;
+  double memory = 0;
+  for (const Row& row : rowsFor(program)) {
     const auto m = runCase(row.which);
     if (!m || m->is_discarded()) {
-      fmt::print("| {} | failed | | | | |\n", row.title);
+      fmt::print("| {} | failed | | | | | | | |\n", row.title);
       status = 1;
       continue;
     }
     const double scan = (*m)["scan"];
-    fmt::print("| {} | {:.0f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} |\n", row.title, scan, scan / rungs,
-               (*m)["ratio"].get<double>(), (*m)["first"].get<double>(), (*m)["rss"].get<double>());
+    const double code = (*m)["code"];
+    if (row.which.engine == "interp") interpreter = scan;
+    memory = (*m)["memory"];
+    fmt::print("| {} | {:.0f} | {:.2f} | {:.2f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {} |\n", row.title, scan,
+               scan / program.units, (*m)["ratio"].get<double>(), interpreter / scan, (*m)["front"].get<double>(),
+               (*m)["back"].get<double>(), (*m)["rss"].get<double>(), code == 0 ? "–" : fmt::format("{:.0f}", code));
     std::fflush(stdout);
   }
-  fmt::print("\n");
+  fmt::print("\nAn instance's memory block has {:.1f} kB.\n\n", memory);
   return status;
 }
 
@@ -97,18 +109,27 @@ int printDocument() {
   if (!folder.ok()) return 3;
   fmt::print("{}", R"(# Performance
 
-Made by `./dev bench`; do not edit. The program is generated: bit logic, three contacts and a coil a rung, the contacts drawn at random
-among 1,024 inputs and all coils (tools/bench/workload.h). "Hand-written" is the same logic as straight C++ over an array of `bool`, compiled by
-clang++ at -O3. Ratios are medians of pairs measured in turn in one process; absolute times depend on the machine. A scan is one run of the
-main task through the host's runner, with its copies of the NC area. Resident memory is the most that the process ever
-had, compiler included.
+Made by `./dev bench`; do not edit. Programs are generated from a seed (tools/bench). The first two are bit logic: three contacts and
+a coil a rung, the contacts drawn at random among 1,024 inputs and all coils. The third is a GSK program at the limit of the control, 12,000
+steps: seven tenths bit logic, the rest timers, edges, arithmetic, comparisons, transfers and decoding, a tenth of it in Level 1, a fifth in
+subprograms. "Hand-written" is the same logic as straight C++ over an array of `bool` and one of words, compiled by clang++ at -O3; both forms are
+run side by side from the same inputs and compared before they are measured. Ratios are medians of pairs measured in turn in one process;
+absolute times depend on the machine. A scan is one run of the main task through the host's runner, with its copies of the NC area; of GSK Level
+1 and Level 2 with the input latch. Resident memory is the most that the process ever had, compiler included. Code is what a shared object
+takes when it is loaded, and the object files of the JIT.
 
 Above 1.5 are the interpreter, which is the definition and not meant to be fast, and fast compilation: LLVM's quick instruction selection
 without passes keeps every value of a rung in memory; it is for trying a change at once.
 
 )");
   int status = 0;
-  for (uint32_t rungs : {1000u, 10000u}) status |= printTable(rungs, "clang++-19", folder);
+  for (uint32_t rungs : {1000u, 10000u})
+    status |= printTable(
+        {.engine = "", .compiler = "", .program = "bits", .units = rungs, .optimise = true, .handWritten = ""},
+        fmt::format("{} rungs of bit logic", rungs), "clang++-19", folder);
+  status |=
+      printTable({.engine = "", .compiler = "", .program = "gsk", .units = 12000, .optimise = true, .handWritten = ""},
+                 "A GSK program of 12000 steps", "clang++-19", folder);
   return status;
 }
 
@@ -120,10 +141,17 @@ int main(int argc, char** argv) {
   bool fast = false;
   app.add_option("--engine", which.engine, "interp, cpp, llvm or jit");
   app.add_option("--compiler", which.compiler, "C++ compiler of engine cpp");
-  app.add_option("--rungs", which.rungs, "Rungs of the generated program");
+  app.add_option("--program", which.program, "bits or gsk")->check(CLI::IsMember({"bits", "gsk"}));
+  app.add_option("--units", which.units, "Rungs of bits, steps of gsk");
+  bool source = false;
+  app.add_flag("--source", source, "Print the generated program");
   app.add_option("--hand", which.handWritten, "Shared object with the hand-written form");
   app.add_flag("--fast", fast, "Compile fast");
   CLI11_PARSE(app, argc, argv);
   which.optimise = !fast;
+  if (source) {
+    std::cout << rung::bench::sourceOf(which);
+    return 0;
+  }
   return which.engine.empty() ? printDocument() : measureOne(which);
 }

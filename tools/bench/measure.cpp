@@ -3,16 +3,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <dlfcn.h>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <random>
 #include <sys/resource.h>
 #include <vector>
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/support/diag_render.h"
+#include "ir/support/temporary_folder.h"
 #include "rtlib/nc/model/nc_model.h"
-#include "tools/bench/workload.h"
+#include "tools/bench/gsk_workload.h"
 #include "tools/driver/engines.h"
 
 namespace rung::bench {
@@ -52,50 +56,119 @@ double residentMb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+Workload workloadOf(const Case& which) {
+  return which.program == "gsk" ? gskWorkload(which.units, kSeed) : bitsWorkload(which.units, kSeed);
+}
+
+// The hand-written form, loaded.
+struct Hand {
+  void (*scan)(uint8_t*) = nullptr;
+  void (*start)() = nullptr; // may be null
+};
+
+Result<Hand> loadHand(const std::string& path) {
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return failure(dlerror());
+  Hand hand;
+  hand.scan = reinterpret_cast<void (*)(uint8_t*)>(dlsym(library, "scan"));
+  if (hand.scan == nullptr) return failure(dlerror());
+  hand.start = reinterpret_cast<void (*)()>(dlsym(library, "start"));
+  return hand;
+}
+
 // Both forms from the same state through the same number of scans; they must stay equal, or the figures compare
 // nothing.
 template <class RunEngine, class RunHand>
-Result<void> settle(host::Instance& instance, std::vector<uint8_t>& bits, RunEngine runEngine, RunHand runHand) {
+Result<void> settle(host::Instance& instance, const Workload& work, std::vector<uint8_t>& hand, RunEngine runEngine,
+                    RunHand runHand) {
   std::mt19937_64 random(kSeed + 1);
   instance.coldStart();
-  const auto place = [&](uint32_t bit) { return *instance.resolve(fmt::format("{:04}.{:02}", wordOf(bit), bit % 32)); };
-  for (uint32_t bit = 0; bit < kInputs; ++bit) {
-    bits[bit] = static_cast<uint8_t>(random() & 1);
-    instance.write(place(bit), bits[bit]);
+  std::vector<host::Ref> bits;
+  std::vector<host::Ref> words;
+  for (const std::string& name : work.bits) bits.push_back(*instance.resolve(name));
+  for (const std::string& name : work.words) words.push_back(*instance.resolve(name));
+  const auto wordAt = [&](size_t i) { return hand.data() + bits.size() + 2 * i; };
+  for (uint32_t bit = 0; bit < work.inputs; ++bit) {
+    hand[bit] = static_cast<uint8_t>(random() & 1);
+    instance.write(bits[bit], hand[bit]);
+  }
+  for (size_t i = 0; i < words.size(); ++i) {
+    const auto value = static_cast<uint16_t>(random() % 64);
+    std::memcpy(wordAt(i), &value, 2);
+    instance.write(words[i], value);
   }
   for (int i = 0; i < kSettleScans; ++i) {
+    for (int change = 0; change < 16; ++change) {
+      const auto bit = static_cast<uint32_t>(random() % work.inputs);
+      hand[bit] ^= 1;
+      instance.write(bits[bit], hand[bit]);
+    }
     runEngine();
     runHand();
   }
-  for (uint32_t bit = 0; bit < bits.size(); ++bit)
-    if (instance.read(place(bit)) != bits[bit])
-      return failure(fmt::format("bit {} differs from the hand-written form", bit));
+  for (size_t bit = 0; bit < bits.size(); ++bit)
+    if (instance.read(bits[bit]) != hand[bit])
+      return failure(fmt::format("{} differs from the hand-written form", work.bits[bit]));
+  for (size_t i = 0; i < words.size(); ++i)
+    if (instance.read(words[i]) != static_cast<uint64_t>(wordAt(i)[0] | wordAt(i)[1] << 8))
+      return failure(fmt::format("{} differs from the hand-written form", work.words[i]));
   return {};
+}
+
+// Of a shared object the file, of the JIT what its cache keeps of the same program.
+Result<double> codeKb(driver::EngineKind kind, const driver::Compiled& compiled, driver::EngineOptions options,
+                      const rung_program& program) {
+  if (kind == driver::EngineKind::Interp) return 0.0;
+  uintmax_t bytes = 0;
+  if (kind == driver::EngineKind::Jit) {
+    const TemporaryFolder folder;
+    options.cacheFolder = (folder / "cache").string();
+    const auto engine = driver::makeEngine(kind, compiled, options);
+    if (!engine.ok()) return engine.failure();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(options.cacheFolder))
+      if (entry.is_regular_file()) bytes += entry.file_size();
+    return static_cast<double>(bytes) / 1024.0;
+  }
+  // The file is gone when it is loaded; what is mapped of it is as large, rounded to pages.
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&program), &info) == 0) return failure("the program lies in no object");
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find(info.dli_fname) == std::string::npos) continue;
+    const size_t dash = line.find('-');
+    bytes += std::stoull(line.substr(dash + 1), nullptr, 16) - std::stoull(line, nullptr, 16);
+  }
+  return static_cast<double>(bytes) / 1024.0;
 }
 
 } // namespace
 
-Result<void> buildHandWritten(uint32_t rungs, const std::string& compiler, const std::string& path) {
+Result<void> buildHandWritten(const Case& which, const std::string& compiler, const std::string& path) {
   codegen::CppBuildOptions options;
   options.compiler = compiler;
   options.optimisation = "-O3";
   options.debugInfo = false;
-  return codegen::buildCppSharedObject(handWritten(drawRungs(rungs, kSeed)), options, path);
+  return codegen::buildCppSharedObject(workloadOf(which).hand, options, path);
 }
+
+std::string sourceOf(const Case& which) { return workloadOf(which).text; }
 
 Result<Measured> measure(const Case& which) {
   const auto kind = driver::engineFromName(which.engine);
   if (!kind) return failure(fmt::format("unknown engine '{}'", which.engine));
-  const std::string text = ladderText(drawRungs(which.rungs, kSeed));
+  const Workload work = workloadOf(which);
 
-  const auto start = Clock::now();
+  Measured out;
+  auto start = Clock::now();
   SourceManager sources;
   Diagnostics diagnostics;
-  const FileId file = sources.addBuffer("bench.lad", text);
+  const FileId file = sources.addBuffer(work.file, work.text);
   driver::CompileRequest request;
   request.optimise = which.optimise;
   const auto compiled = driver::compile(sources, {&file, 1}, request, diagnostics);
   if (!compiled) return failure("the generated program has errors:\n" + renderText(diagnostics, sources));
+  out.frontMs = nsSince(start) / 1e6;
+  start = Clock::now();
   driver::EngineOptions engineOptions;
   engineOptions.optimise = which.optimise;
   engineOptions.cppCompiler = which.compiler;
@@ -103,18 +176,24 @@ Result<Measured> measure(const Case& which) {
   if (!engine.ok()) return engine.failure();
   const std::unique_ptr<host::Instance> instance = driver::makeInstance(*engine.value(), nullptr);
   instance->scan();
-  Measured out;
-  out.firstScanMs = nsSince(start) / 1e6;
+  out.backMs = nsSince(start) / 1e6;
   out.residentMb = residentMb();
+  out.memoryKb = instance->program().memory_size / 1024.0;
 
-  void* library = dlopen(which.handWritten.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) return failure(dlerror());
-  const auto hand = reinterpret_cast<void (*)(bool*)>(dlsym(library, "scan"));
-  if (hand == nullptr) return failure(dlerror());
-  std::vector<uint8_t> bits(kInputs + which.rungs);
-  const auto runEngine = [&] { instance->runTask(instance->program().main_task); };
-  const auto runHand = [&] { hand(reinterpret_cast<bool*>(bits.data())); };
-  const Result<void> equal = settle(*instance, bits, runEngine, runHand);
+  const Result<Hand> loaded = loadHand(which.handWritten);
+  if (!loaded.ok()) return loaded.failure();
+  const Hand& hand = loaded.value();
+  if (hand.start != nullptr) hand.start();
+  std::vector<uint8_t> memory(work.bits.size() + 2 * work.words.size());
+  // NCT's time slices around a scan are the NC's; GSK's scan is Level 1 and Level 2, and no more.
+  const auto runEngine = [&] {
+    if (which.program == "gsk")
+      instance->scan();
+    else
+      instance->runTask(instance->program().main_task);
+  };
+  const auto runHand = [&] { hand.scan(memory.data()); };
+  const Result<void> equal = settle(*instance, work, memory, runEngine, runHand);
   if (!equal.ok()) return equal.failure();
   const int engineRepeats = repeatsFor(runEngine);
   const int handRepeats = repeatsFor(runHand);
@@ -129,6 +208,9 @@ Result<Measured> measure(const Case& which) {
   out.nsPerScan = median(engineNs);
   out.handNsPerScan = median(handNs);
   out.ratio = median(ratios);
+  const Result<double> size = codeKb(*kind, *compiled, engineOptions, instance->program());
+  if (!size.ok()) return size.failure();
+  out.codeKb = size.value();
   return out;
 }
 

@@ -8,24 +8,29 @@
 namespace rung::bench {
 
 struct Case {
-  std::string engine;   // interp, cpp, llvm or jit
-  std::string compiler; // of engine cpp
-  uint32_t rungs = 0;
+  std::string engine;           // interp, cpp, llvm or jit
+  std::string compiler;         // of engine cpp
+  std::string program = "bits"; // or "gsk"
+  uint32_t units = 0;           // rungs of "bits", steps of "gsk"
   bool optimise = true;
   std::string handWritten; // a shared object with the hand-written form
 };
 
 struct Measured {
-  double firstScanMs = 0; // from source text to the end of the first scan
-  double nsPerScan = 0;   // median
+  double frontMs = 0;   // from source text to the layout
+  double backMs = 0;    // from there to the end of the first scan
+  double nsPerScan = 0; // median
   double handNsPerScan = 0;
   double ratio = 0;      // median of the ratios of neighbouring samples
   double residentMb = 0; // most that the process ever had
+  double codeKb = 0;     // shared object, or object files of the JIT; 0: there is none
+  double memoryKb = 0;   // memory block of an instance
 };
 
+std::string sourceOf(const Case& which); // of the program
 Result<Measured> measure(const Case& which);
 
 // The shared object with the hand-written form, at -O3.
-Result<void> buildHandWritten(uint32_t rungs, const std::string& compiler, const std::string& path);
+Result<void> buildHandWritten(const Case& which, const std::string& compiler, const std::string& path);
 
 } // namespace rung::bench

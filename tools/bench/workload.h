@@ -1,6 +1,5 @@
-// The program that the benchmarks run, in two forms that do the same: NCT ladder text, and the C++ that somebody would
-// write by hand for it. Bit logic only: a rung is three contacts (two in series with one, or a parallel pair with one)
-// and a coil; the contacts are drawn from a seed among all inputs and all coils.
+// The programs that the benchmarks run, each in two forms that do the same: PLC source, and the C++ that somebody would
+// write by hand for it.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,26 +7,20 @@
 
 namespace rung::bench {
 
-struct Contact {
-  uint32_t bit = 0; // 0…kInputs-1: inputs, then coils
-  bool negated = false;
+struct Workload {
+  std::string file; // its ending tells the dialect
+  std::string text;
+  uint32_t units = 0;  // rungs, or steps
+  uint32_t inputs = 0; // of `bits`, the first ones
+  // Where the program keeps what the hand-written form has in one array: a byte a bit, then two bytes a word.
+  std::vector<std::string> bits;
+  std::vector<std::string> words;
+  // extern "C": void scan(unsigned char *); and void start() where there is state of its own.
+  std::string hand;
 };
 
-struct WorkRung {
-  Contact first;
-  Contact second;
-  bool parallel = false; // first OR second, else first AND second
-  Contact third;         // AND
-};
-
-inline constexpr uint32_t kInputs = 1024;
-
-// Rung i drives coil i.
-std::vector<WorkRung> drawRungs(uint32_t count, uint64_t seed);
-std::string ladderText(const std::vector<WorkRung>& rungs);
-// With a `bool` a bit, inputs and coils in one array: extern "C" void scan(bool *m).
-std::string handWritten(const std::vector<WorkRung>& rungs);
-// Where the ladder keeps a bit: word and bit number in it.
-uint32_t wordOf(uint32_t bit);
+// NCT ladder text, bit logic only: a rung is three contacts (two in series with one, or a parallel pair with one) and a
+// coil; the contacts are drawn from a seed among 1,024 inputs and all coils.
+Workload bitsWorkload(uint32_t rungs, uint64_t seed);
 
 } // namespace rung::bench

@@ -1,6 +1,8 @@
 // The CNC beside a GSK25i PLC: messages of the A area, window requests, machine positions, and in simulated mode the
 // CNC itself (gsk/simulator.h). Presets of timers and counters are the compiler's configuration: initial contents of T
 // and C.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <deque>
@@ -10,6 +12,7 @@
 #include "rtlib/nc/gsk/window_functions.h"
 #include "rtlib/nc/model/gsk/simulator.h"
 #include "rtlib/nc/model/nc_model.h"
+#include "rtlib/nc/model/refuse.h"
 
 namespace rung::nc {
 namespace {
@@ -30,6 +33,17 @@ std::optional<uint32_t> numberBehind(std::string_view key, std::string_view pref
   if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
   return value;
 }
+
+// The events and their keys.
+struct EventKeys {
+  std::string_view event;
+  std::array<std::string_view, 2> keys;
+};
+constexpr EventKeys kEvents[] = {{"program", {"blocks", "block"}},
+                                 {"mdi", {"blocks", "block"}},
+                                 {"reset", {}},
+                                 {"handwheel", {"pulses", "wheel"}},
+                                 {"alarm", {"number"}}};
 
 const NcArgument* find(const std::vector<NcArgument>& keys, std::string_view key) {
   for (const NcArgument& argument : keys)
@@ -60,10 +74,18 @@ public:
   void slot(host::Instance& instance) override {
     beforeSlot(instance);
     NcModel::slot(instance);
+    takeRequests(instance);
   }
   void fast(host::Instance& instance) override {
     beforeSlot(instance);
     NcModel::fast(instance);
+    takeRequests(instance);
+  }
+
+  // A slice is a slot.
+  void betweenSlices(host::Instance& instance) override {
+    takeRequests(instance);
+    beforeSlot(instance);
   }
 
   // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
@@ -73,8 +95,9 @@ public:
     if (!window) return false;
     const gsk::WindowFunction* function = gsk::findWindowFunction(window->function);
     if (function == nullptr || function->speed != gsk::WindowSpeed::High) return false;
-    reply = replyOf(request, simulated_ ? simulator_.answer(*window, gsk::SignalsIo(instance))
-                                        : gsk::WindowAnswer{gsk::kWindowNotProvided, 0});
+    reply = replyOf(request, window->write,
+                    simulated_ ? simulator_.answer(*window, gsk::SignalsIo(instance))
+                               : gsk::WindowAnswer{gsk::kWindowNotProvided, 0});
     return true;
   }
 
@@ -83,7 +106,8 @@ public:
   std::string setQuantity(std::string_view name, double value) override {
     if (simulated_) return simulator_.setQuantity(name, value);
     const auto axis = numberBehind(name, "MPOS.");
-    if (!axis || *axis < 1 || *axis > gsk::kAxes) return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
+    if (!axis || *axis < 1 || *axis > gsk::kAxes)
+      return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
     return NcModel::setQuantity(name, value);
   }
   std::optional<double> quantity(std::string_view name) const override {
@@ -138,15 +162,19 @@ private:
     }
   }
 
-  void answerLowSpeed(host::Instance& instance) {
+  void takeRequests(host::Instance& instance) {
     rt::ServiceRequest request;
-    while (instance.services().take(request)) waiting_.push_back({request, gsk::kLowSpeedSlots});
+    while (simulated_ && instance.services().take(request)) waiting_.push_back({request, gsk::kLowSpeedSlots});
+  }
+
+  void answerLowSpeed(host::Instance& instance) {
     for (Waiting& waiting : waiting_) --waiting.slots;
     while (!waiting_.empty() && waiting_.front().slots == 0) {
       const rt::ServiceRequest& next = waiting_.front().request;
       const auto window = windowRequest(instance, next);
-      instance.services().complete(replyOf(next, window ? simulator_.answer(*window, gsk::SignalsIo(instance))
-                                                        : gsk::WindowAnswer{gsk::kWindowNotProvided, 0}));
+      instance.services().complete(
+          window ? replyOf(next, window->write, simulator_.answer(*window, gsk::SignalsIo(instance)))
+                 : refuse(instance.program(), next));
       waiting_.pop_front();
     }
   }
@@ -166,8 +194,8 @@ private:
     return window;
   }
 
-  static rt::ServiceReply replyOf(const rt::ServiceRequest& request, const gsk::WindowAnswer& answer) {
-    rt::ServiceReply reply{.ticket = request.ticket, .resultCount = 2};
+  static rt::ServiceReply replyOf(const rt::ServiceRequest& request, bool write, const gsk::WindowAnswer& answer) {
+    rt::ServiceReply reply{.ticket = request.ticket, .resultCount = write ? 1u : 2u};
     reply.results[0] = answer.end;
     reply.results[1] = answer.data;
     return reply;
@@ -234,9 +262,12 @@ std::string GskModel::config(std::string_view key, std::string_view value) {
 }
 
 std::string GskModel::event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) {
-  const bool known = name == "program" || name == "mdi" || name == "reset" || name == "handwheel" || name == "alarm";
-  if (!known) return NcModel::event(instance, name, keys);
+  const auto known = std::ranges::find(kEvents, name, &EventKeys::event);
+  if (known == std::end(kEvents)) return NcModel::event(instance, name, keys);
   if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
+  for (const NcArgument& key : keys)
+    if (std::ranges::find(known->keys, key.key) == known->keys.end())
+      return "event " + std::string(name) + " does not know '" + key.key + "'";
   if (name == "program" || name == "mdi") {
     const NcArgument* blocks = find(keys, "blocks") != nullptr ? find(keys, "blocks") : find(keys, "block");
     if (blocks == nullptr || !blocks->isText) return "event " + std::string(name) + " takes blocks=\"...\"";

@@ -42,6 +42,8 @@ public:
   virtual void scan(host::Instance& instance);
   virtual void slot(host::Instance& instance);
   virtual void fast(host::Instance& instance);
+  // For a real clock: what the NC does before the first and between two slices.
+  virtual void betweenSlices(host::Instance& instance) { (void)instance; }
 
   // The place that `expect` reads and the one that `set` writes.
   virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;

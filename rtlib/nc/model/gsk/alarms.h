@@ -6,10 +6,10 @@
 
 namespace rung::nc::gsk {
 
-inline constexpr uint32_t kAlarmPlcAxis = 311;     // l.7817
-inline constexpr uint32_t kAlarmNoFeed = 901;      // a cutting block without F
+inline constexpr uint32_t kAlarmPlcAxis = 311;       // l.7817
+inline constexpr uint32_t kAlarmNoFeed = 901;        // a cutting block without F
 inline constexpr uint32_t kAlarmNotReferenced = 902; // G28, G30 or a PLC command 7-10 before zero return, l.7787
-inline constexpr uint32_t kAlarmOverTravel = 910;  // + axis (1-8); negative direction 920 + axis
+inline constexpr uint32_t kAlarmOverTravel = 910;    // + axis (1-8); negative direction 920 + axis
 
 class Alarms {
 public:

@@ -7,10 +7,10 @@
 namespace rung::nc::gsk {
 
 void Axes::beginSlot(const SignalsIo& io, Alarms& alarms) {
-  locked_ = io.g(44, 1);                 // MLK l.5309
-  interlocked_ = !io.g(8, 0);            // *IT l.3650
-  noPositive_ = io.gByte(132);           // +MIT l.3667
-  noNegative_ = io.gByte(134);           // -MIT
+  locked_ = io.g(44, 1);       // MLK l.5309
+  interlocked_ = !io.g(8, 0);  // *IT l.3650
+  noPositive_ = io.gByte(132); // +MIT l.3667
+  noNegative_ = io.gByte(134); // -MIT
   if (!limitSwitches) return;
   for (uint32_t i = 0; i < count(); ++i) {
     const bool positive = !io.g(114, i); // l.3599
@@ -86,9 +86,9 @@ void Axes::writeSignals(const SignalsIo& io, const Tables& tables, bool rapid) c
   for (uint32_t i = 0; i < kAxes; ++i) {
     const Axis& a = axes_[i];
     for (uint32_t point = 0; point < 4; ++point) io.setF(94 + 2 * point, i, a.atReference[point]); // l.5028, 5099
-    io.setF(102, i, a.moving);                                                                    // MV l.4114
-    io.setF(106, i, a.negative);                                                                  // MVD l.4144
-    io.setF(120, i, a.referenced);                                                                // ZRF l.5058
+    io.setF(102, i, a.moving);                                                                     // MV l.4114
+    io.setF(106, i, a.negative);                                                                   // MVD l.4144
+    io.setF(120, i, a.referenced);                                                                 // ZRF l.5058
     io.setF(124, i, a.blockedPositive);
     io.setF(126, i, a.blockedNegative);
   }

@@ -155,8 +155,7 @@ double Operation::pathStep(Run& run, const PathMove& move) {
   for (uint32_t i = 0; i < m.axes.count(); ++i) {
     const double distance = std::fabs(static_cast<double>(move.target[i] - move.start[i]));
     length += distance * distance;
-    if (move.rapid && distance > 0)
-      part = std::min(part, unitsPerSlot(rapidSpeed(run.io, m.tables, i)) / distance);
+    if (move.rapid && distance > 0) part = std::min(part, unitsPerSlot(rapidSpeed(run.io, m.tables, i)) / distance);
   }
   length = std::sqrt(length);
   if (length == 0) return 1;
@@ -202,7 +201,8 @@ void Operation::advance(Run& run) {
     if (travels) m.axes.move(i, placeOnPath(move, i) - m.axes[i].commanded);
     if (!arrived) continue;
     if (travels) m.axes[i].moving = false;
-    if (((move.arrives >> i) & 1) != 0 && m.axes[i].machine == move.target[i]) m.axes.arriveAtReference(i, move.reference);
+    if (((move.arrives >> i) & 1) != 0 && m.axes[i].machine == move.target[i])
+      m.axes.arriveAtReference(i, move.reference);
   }
   if (arrived) ++move_;
 }

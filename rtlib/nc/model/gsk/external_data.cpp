@@ -42,9 +42,7 @@ bool ExternalData::carryOut(const SignalsIo& io, Machine& machine, Operation& op
     if (low < kAxes) machine.tables.set(Table::WorkOffset, 0, low, value);
     return true;
   case 6:
-  case 7:
-    ((low & 1) == 0 ? preset_ : parts_) = data_;
-    return true;
+  case 7: ((low & 1) == 0 ? preset_ : parts_) = data_; return true;
   default: return true;
   }
 }

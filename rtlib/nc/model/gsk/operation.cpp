@@ -188,7 +188,7 @@ void Operation::writeSignals(const SignalsIo& io) const {
   io.setF(0, 5, state_ == RunState::Start);
   io.setF(0, 4, state_ == RunState::Hold);
   io.setF(1, 3, inBlock_ && move_ >= moves_.size() && dwellMs_ <= 0 && auxiliary_.busy()); // DEN l.5875
-  io.setF(2, 7, io.g(46, 7));                                                             // MDRN l.5367
+  io.setF(2, 7, io.g(46, 7));                                                              // MDRN l.5367
   io.setF(2, 6, inBlock_ && state_ == RunState::Start && move_ < moves_.size() && !moves_[move_].rapid);
   io.setF(2, 0, modal_.inch); // l.4106
   io.setF(4, 4, io.g(5, 6));

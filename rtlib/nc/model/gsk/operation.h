@@ -56,7 +56,7 @@ public:
   RunState state() const { return state_; }
   uint32_t programNumber() const { return program_.number; }
   uint32_t sequence() const { return sequence_; }
-  double speed() const { return speed_; } // mm/min along the path, in the last slot
+  double speed() const { return speed_; }                       // mm/min along the path, in the last slot
   double absolute(const Machine& machine, uint32_t axis) const; // mm, workpiece coordinates
 
 private:

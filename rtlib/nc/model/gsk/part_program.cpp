@@ -9,8 +9,8 @@ namespace rung::nc::gsk {
 namespace {
 
 // Tenths, since G54.1 is one.
-constexpr int kCodes[] = {0,   10,  40,  170, 180, 190, 200, 210, 280, 300, 400, 410, 420, 430, 490, 530,
-                          540, 541, 550, 560, 570, 580, 590, 800, 810, 900, 910, 920, 940, 950};
+constexpr int kCodes[] = {0,   10,  40,  170, 180, 190, 200, 210, 280, 300, 400, 410, 420, 430, 490,
+                          530, 540, 541, 550, 560, 570, 580, 590, 800, 810, 900, 910, 920, 940, 950};
 
 class Reader {
 public:
@@ -62,7 +62,8 @@ private:
     ++at_;
     if (word.letter == '#') {
       double variable = 0;
-      if (!readNumber(variable) || variable < 1 || at_ >= text_.size() || text_[at_] != '=') return "expected #NUMBER=VALUE";
+      if (!readNumber(variable) || variable < 1 || at_ >= text_.size() || text_[at_] != '=')
+        return "expected #NUMBER=VALUE";
       word.variable = static_cast<uint32_t>(variable);
       ++at_;
     } else if (word.letter < 'A' || word.letter > 'Z') {
@@ -115,8 +116,8 @@ private:
 
   bool readNumber(double& number) {
     if (at_ < text_.size() && text_[at_] == '+') ++at_;
-    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), number,
-                                              std::chars_format::fixed);
+    const auto [end, error] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), number, std::chars_format::fixed);
     if (error != std::errc()) return false;
     at_ = static_cast<size_t>(end - text_.data());
     return true;

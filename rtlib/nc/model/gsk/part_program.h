@@ -23,7 +23,7 @@ struct Word {
 };
 
 struct Block {
-  bool skipped = false; // "/"
+  bool skipped = false;  // "/"
   uint32_t sequence = 0; // N, 0: none
   std::vector<Word> words;
 };

@@ -15,8 +15,8 @@
 
 namespace rung::nc::gsk {
 
-inline constexpr uint32_t kResetSlots = 25;       // RST stays 200 ms after its cause (l.5253: set by a parameter)
-inline constexpr uint32_t kLowSpeedSlots = 3;     // a low-speed window request is answered so many slots later
+inline constexpr uint32_t kResetSlots = 25;   // RST stays 200 ms after its cause (l.5253: set by a parameter)
+inline constexpr uint32_t kLowSpeedSlots = 3; // a low-speed window request is answered so many slots later
 
 class Simulator {
 public:

@@ -20,8 +20,9 @@ bool numberExists(const WindowRequest& r) {
   case 4: return r.number <= kLastWorkOffset;
   case 5:
   case 6: return r.number <= kMaxParameter;
-  case 9: return (r.number >= 100 && r.number <= 999) || (r.number >= 1000 && r.number <= 1035) ||
-                 (r.number >= 1100 && r.number <= 1135);
+  case 9:
+    return (r.number >= 100 && r.number <= 999) || (r.number >= 1000 && r.number <= 1035) ||
+           (r.number >= 1100 && r.number <= 1135);
   case 10: return r.number >= 100 && r.number <= 999; // l.8800
   case 11:
   case 12: return r.number <= kMaxPitch;

@@ -1,0 +1,49 @@
+// A GSK program of nothing but its areas, beside its simulated CNC: tests play the PLC.
+#pragma once
+#include <gtest/gtest.h>
+
+#include "rtlib/nc/model/nc_model.h"
+#include "tests/unit/rtlib/test_program.h"
+
+namespace rung::nc::test {
+
+class GskMachine {
+public:
+  explicit GskMachine(std::vector<std::pair<std::string, std::string>> config) : model_(makeGskModel()) {
+    program_.dialect = "gsk";
+    program_.memorySize = 1024;
+    program_.services = {"windr function length number attribute -> end data",
+                         "windw function length number attribute data -> end"};
+    program_.addPacked("X", 1, 128, 0);
+    program_.addPacked("F", 1, 256, 128);
+    program_.addPacked("G", 1, 256, 384);
+    program_.addPacked("@MPOS", 1, 32, 640);
+    program_.addTask("LEVEL1", program_.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
+    program_.scan = {{RUNG_STEP_ADVANCE, 0, 8000}, {RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_SLOT, 0, 0}};
+    program_.fast = program_.scan;
+    for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "");
+    instance_ = std::make_unique<host::Instance>(program_.link(), model_.get());
+    model_->powerOn(*instance_, PowerOn::Cold);
+  }
+
+  void set(const char* name, uint64_t value) { instance_->write(place(name), value); }
+  uint64_t get(const char* name) { return instance_->read(place(name)); }
+  void slot(int count = 1) {
+    for (int i = 0; i < count; ++i) model_->slot(*instance_);
+  }
+  NcModel& nc() { return *model_; }
+  host::Instance& instance() { return *instance_; }
+
+private:
+  host::Ref place(const char* name) {
+    const auto found = instance_->resolve(name);
+    EXPECT_TRUE(found) << name;
+    return found.value_or(host::Ref{});
+  }
+
+  rung::test::TestProgram program_;
+  std::unique_ptr<NcModel> model_;
+  std::unique_ptr<host::Instance> instance_;
+};
+
+} // namespace rung::nc::test

@@ -208,10 +208,32 @@ TEST(GskList, ProgramSize) {
   EXPECT_EQ(compileList(text + "LD X0.0\nOUT Y0.0\nFUNC 1\n")->codes(), (Codes{"12001 program-too-large"}));
 }
 
+// "LINE:COLUMN CODE" of every report.
+Codes placesOf(const std::unique_ptr<Compiled>& program) {
+  Codes result;
+  for (const Diagnostic* d : program->diagnostics.sorted()) {
+    const LineCol at = program->sources.lineCol(d->range.begin);
+    result.push_back(std::to_string(at.line) + ":" + std::to_string(at.column) + " " +
+                     std::string(diagInfo(d->id).code));
+  }
+  return result;
+}
+
 TEST(GskList, Positions) {
-  const auto program = compileList("FUNC 0\n  LD   X0.9\n OUT Y0.0\nFUNC 1\n");
-  ASSERT_EQ(program->codes(), (Codes{"2 bad-bit-number"}));
-  EXPECT_EQ(program->sources.lineCol(program->diagnostics.reported()[0].range.begin).column, 8u);
+  const auto places = [](const std::string& text) { return placesOf(compileList("FUNC 0\n" + text + "FUNC 1\n")); };
+  EXPECT_EQ(places("  LD   X0.9\n OUT Y0.0\n"), (Codes{"2:8 bad-bit-number"})) << "the operand";
+  EXPECT_EQ(places("0001\tLD\tX0.0\n0002\tOUT\tX0.0\n"), (Codes{"3:10 write-to-input"}));
+  EXPECT_EQ(places("LD X0.0\n  FUNC NOPE\n"), (Codes{"3:8 unknown-function"})) << "its name";
+  EXPECT_EQ(places("LD X0.0\n 7 FUNC TMR\n  PRM 1\n"), (Codes{"3:4 missing-output"})) << "FUNC";
+  EXPECT_EQ(places("LD X0.0\nFUNC JMP\n PRM   1\nFUNC JMPE\n"), (Codes{"4:8 parameter-out-of-range"}));
+  EXPECT_EQ(places("LD X0.0\nLD X0.1\n\tORB\n ANB\nOUT Y0.0\n"), (Codes{"5:2 unbalanced-stack"})) << "the command";
+  EXPECT_EQ(places("LD X0.0\nOUT Y0.0\n  AND X0.1\n"), (Codes{"4:3 multi-level-output"}));
+  EXPECT_EQ(places("  LOAD X0.0\n"), (Codes{"2:3 unknown-command"}));
+  EXPECT_EQ(places("LD X0.0\nOUT Y0.\xD0\x9E ; O\n"), (Codes{"3:8 bad-character"})) << "the character itself";
+  EXPECT_EQ(places("LD X0.0\nOUT Y0.0 Y0.1\n"), (Codes{"3:10 bad-operand"})) << "what is too much";
+  EXPECT_EQ(placesOf(compileList("FUNC 0\nLD X0.0\n  OUT Y0.0\n\n")), (Codes{"3:1 missing-end2"})) << "the last line";
+  EXPECT_EQ(placesOf(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--[X0.8]--{MOVB D0.0 X1}\n")),
+            (Codes{"4:13 bad-bit-number", "4:26 byte-address-expected", "4:31 write-to-input"}));
 }
 
 TEST(GskConfig, WrongValues) {

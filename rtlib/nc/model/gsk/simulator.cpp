@@ -21,6 +21,7 @@ void Simulator::powerOn(bool warm) {
   manual_ = {};
   manual_.jogSpeed = jog;
   plcAxes_ = {};
+  positioning_ = {};
   external_ = {};
   machine_ = std::move(fresh);
   for (uint32_t i = 0; i < kAxes; ++i) machine_.axes[i].referenced = absoluteEncoders_ && i < machine_.axes.count();
@@ -42,7 +43,8 @@ void Simulator::step(const SignalsIo& io) {
   }
   plcAxes_.step(io, machine_, !io.g(8, 4));
   external_.step(io, machine_, operation_, resetSlots_ != 0);
-  machine_.spindle.step(io, machine_.tables);
+  positioning_.step(io);
+  machine_.spindle.step(io, machine_.tables, positioning_.active());
   machine_.axes.writeSignals(io, machine_.tables, machine_.rapid);
   io.setF(0, 6, io.g(8, 4)); // SA
   io.setF(1, 7, true);       // MA
@@ -57,6 +59,7 @@ void Simulator::followReset(const SignalsIo& io) {
     machine_.axes.clearOverTravel();
     operation_.reset(io, machine_);
     manual_.stop(machine_);
+    positioning_.reset();
     if (!io.g(8, 4)) machine_.spindle.reset();
     resetSlots_ = kResetSlots;
   } else if (resetSlots_ != 0) {

@@ -11,6 +11,7 @@
 #include "rtlib/nc/model/gsk/manual.h"
 #include "rtlib/nc/model/gsk/operation.h"
 #include "rtlib/nc/model/gsk/plc_axes.h"
+#include "rtlib/nc/model/gsk/spindle_positioning.h"
 #include "rtlib/nc/model/gsk/window.h"
 
 namespace rung::nc::gsk {
@@ -51,6 +52,7 @@ private:
   Operation operation_;
   Manual manual_;
   PlcAxes plcAxes_;
+  SpindlePositioning positioning_;
   ExternalData external_;
   std::vector<std::pair<uint32_t, double>> parameters_; // of the configuration, put back by a cold start
   bool absoluteEncoders_ = true;

@@ -55,9 +55,9 @@ void Spindle::writeGear(const SignalsIo& io, const Tables& tables) const {
     io.setF(34, i, shifts && !tables.parameterBit(kParamGearKind, 6) && i == gear && commanded_ != 0);
 }
 
-void Spindle::step(const SignalsIo& io, const Tables& tables) {
-  const bool orient = io.g(70, 6);             // ORCM l.6451
-  const bool enabled = io.g(29, 6) && !orient; // *SSTP l.6272
+void Spindle::step(const SignalsIo& io, const Tables& tables, bool positioning) {
+  const bool orient = io.g(70, 6);                             // ORCM l.6451
+  const bool enabled = io.g(29, 6) && !orient && !positioning; // *SSTP l.6272
   const double speed = enabled ? firstTarget(io, tables) : 0;
   const double target = io.g(33, 5) ? -speed : speed; // SGN l.6294
   one_.step(target);

@@ -11,7 +11,8 @@ namespace rung::nc::gsk {
 class Spindle {
 public:
   void command(uint32_t speed) { commanded_ = speed; }
-  void step(const SignalsIo& io, const Tables& tables);
+  // `positioning`: the speed command is cut off.
+  void step(const SignalsIo& io, const Tables& tables, bool positioning);
   void reset() { commanded_ = 0; }
   uint32_t commanded() const { return commanded_; }
   double actual() const { return one_.actual; } // signed, r/min

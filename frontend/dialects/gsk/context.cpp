@@ -101,7 +101,7 @@ void checkMachine(Context& context, const Word& word, const Address& address, ui
   const nc::Signal* signal = foreignSignal(context.machine, address, length);
   if (signal == nullptr) return;
   const bool onMill = context.machine == Machine::Mill;
-  context.diagnostics.report(Diag::OtherMachine, word.range)
+  context.diagnostics.report(Diag::SignalOfOtherMachine, word.range)
           .note(fmt::format("man. l.{}: {}", signal->manualLine, signal->meaning))
       << signal->symbol << (onMill ? "turning" : "milling") << (onMill ? "mill" : "turn");
 }

@@ -117,7 +117,8 @@ void configuration(Page& page) {
       "| `messages` | file of texts for the messages of area A, relative to the program: `NUMBER \"text\"` a line; the "
       "number is 8 x byte + bit + 1, or the bit, `A0.0`, itself |");
   page.line("| `nc` | `scripted` (default): the scenario plays the CNC; `simulated`: the simulated NC does |");
-  page.line("| `param.N` | parameter N of the simulated NC |");
+  page.line("| `param.N`, `axes`, `encoders`, `overtravel`, `jog`, `protect` | of the simulated CNC, see "
+            "[simulated-nc-gsk.md](../simulated-nc-gsk.md) |");
 }
 
 void warnings(Page& page) {
@@ -126,7 +127,7 @@ void warnings(Page& page) {
   page.table("| code | meaning |");
   for (const Diag id :
        {Diag::ConditionIgnored, Diag::DuplicateTimer, Diag::DuplicateCounter, Diag::DuplicateEdgeNumber,
-        Diag::SystemAreaWrite, Diag::LabelZero, Diag::LabelUnused, Diag::SubprogramUnused, Diag::OtherMachine})
+        Diag::SystemAreaWrite, Diag::LabelZero, Diag::LabelUnused, Diag::SubprogramUnused, Diag::SignalOfOtherMachine})
     page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
 }
 

@@ -1,0 +1,44 @@
+// Which known word a misspelt one is like.
+#include "ir/support/similar.h"
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+
+namespace rung {
+namespace {
+
+std::string_view best(std::string_view word, std::initializer_list<std::string_view> candidates) {
+  Similar similar(word);
+  for (std::string_view candidate : candidates) similar.offer(candidate);
+  return similar.best();
+}
+
+TEST(Similar, OneChange) {
+  EXPECT_EQ(best("ADB", {"SUBB", "ADDB"}), "ADDB");  // one less
+  EXPECT_EQ(best("ADDDB", {"SUBB", "ADDB"}), "ADDB"); // one more
+  EXPECT_EQ(best("ADCB", {"SUBB", "ADDB"}), "ADDB"); // another
+  EXPECT_EQ(best("DADB", {"SUBB", "ADDB"}), "ADDB"); // exchanged
+  EXPECT_EQ(best("addb", {"ADDA", "ADDB"}), "ADDB"); // case counts as none
+}
+
+TEST(Similar, TwoChangesInLongerWordsOnly) {
+  EXPECT_EQ(best("KEY_ATOU", {"KEY_AUTO"}), "KEY_AUTO");
+  EXPECT_EQ(best("KEX_AUTA", {"KEY_AUTO"}), "KEY_AUTO");
+  EXPECT_EQ(best("ABCD", {"ABXY"}), "");
+}
+
+TEST(Similar, TheClosestAndThenTheFirst) {
+  EXPECT_EQ(best("MOVEX", {"MOVNY", "MOVE", "MOVEA"}), "MOVE");
+  EXPECT_EQ(best("MOVX", {"MOVB", "MOVW"}), "MOVB");
+}
+
+TEST(Similar, NothingInCommonIsNoLikeness) {
+  EXPECT_EQ(best("A", {"B"}), "");
+  EXPECT_EQ(best("", {"A"}), "");
+  EXPECT_EQ(best("LONGER_THAN_THIRTY_TWO_CHARACTERS_X", {"LONGER_THAN_THIRTY_TWO_CHARACTERS_Y"}), "");
+  EXPECT_EQ(best("ANY", {}), "");
+}
+
+} // namespace
+} // namespace rung

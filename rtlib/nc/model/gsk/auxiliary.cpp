@@ -36,8 +36,14 @@ bool isDecoded(uint32_t code) { return code <= 2 || code == 30; }
 
 } // namespace
 
+void AuxiliaryCodes::lock() {
+  std::erase_if(m, [](uint32_t code) { return !isDecoded(code); });
+  s.reset();
+  t.reset();
+  b.reset();
+}
+
 void Auxiliary::start(const AuxiliaryCodes& codes, const SignalsIo& io, const Tables& tables) {
-  const bool locked = io.g(5, 6);
   fast_ = tables.parameterBit(kParamGuard, 7) && !codes.external;
   used_ = {};
   const auto put = [&](uint32_t channel, uint32_t code) {
@@ -45,14 +51,13 @@ void Auxiliary::start(const AuxiliaryCodes& codes, const SignalsIo& io, const Ta
     io.setFDword(kTable[channel].code, code);
   };
   for (uint32_t i = 0; i < codes.m.size() && i < kManyM; ++i) {
-    if (locked && !isDecoded(codes.m[i])) continue;
     put(i, codes.m[i]);
     for (const Decoded& d : kDecoded)
       if (d.code == codes.m[i]) io.setF(9, d.bit, true);
   }
-  if (codes.s && !locked) put(3, *codes.s);
-  if (codes.t && !locked) put(4, *codes.t);
-  if (codes.b && !locked) put(5, *codes.b);
+  if (codes.s) put(3, *codes.s);
+  if (codes.t) put(4, *codes.t);
+  if (codes.b) put(5, *codes.b);
   used_[kExternal] = codes.external;
   phase_ = Phase::Idle;
   for (bool used : used_)

@@ -16,12 +16,14 @@ struct AuxiliaryCodes {
   std::vector<uint32_t> m; // at most three
   std::optional<uint32_t> s, t, b;
   bool external = false; // EF of G81 (l.9450)
+  // AFL lets only M00, M01, M02, M30 through (l.5947-5952).
+  void lock();
   bool any() const { return !m.empty() || s || t || b || external; }
 };
 
 class Auxiliary {
 public:
-  // The codes stand in F from now on; `locked`: AFL lets only M00, M01, M02, M30 through (l.5947-5952).
+  // The codes stand in F from now on.
   void start(const AuxiliaryCodes& codes, const SignalsIo& io, const Tables& tables);
   void step(const SignalsIo& io);
   // Strobes fall at once, codes of M go away (l.5257).

@@ -132,6 +132,7 @@ bool Operation::beginBlock(Run& run) {
   ++next_;
   inBlock_ = true;
   move_ = 0;
+  if (run.io.g(5, 6)) codes_.lock(); // AFL
   if (codes_.any()) auxiliary_.start(codes_, run.io, run.machine.tables);
   if (codes_.s) run.machine.spindle.command(*codes_.s);
   return true;

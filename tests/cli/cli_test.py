@@ -82,6 +82,14 @@ class Retained(Cli):
         found = dict(line.split(" ms ")[1].split(" = ") for line in done.stdout.decode().splitlines() if " = " in line)
         return [int({key.strip(): value for key, value in found.items()}[name]) for name in names]
 
+    def started(self):
+        """Waits for the image that a program writes when it starts."""
+        for _ in range(600):
+            if any(path.exists() for path in self.images()):
+                return
+            time.sleep(0.05)
+        self.fail("nothing was written")
+
     def test_goes_on_where_it_stopped(self):
         program = self.counter()
         self.assertEqual(self.run_it(program, "--scans", "70000").returncode, OK)
@@ -137,6 +145,7 @@ class Retained(Cli):
             command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
                        "--realtime", "--for", "3600s"]
             with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+                self.started()
                 time.sleep(delay)
                 process.kill()
                 self.assertEqual(process.stderr.read(), b"")
@@ -151,6 +160,7 @@ class Retained(Cli):
         command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--realtime", "--for", "3600s",
                    "--engine", "interp"]
         with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+            self.started()
             time.sleep(0.5)
             process.terminate()
             output = process.communicate()[0].decode()

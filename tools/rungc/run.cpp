@@ -11,6 +11,7 @@
 #include "rtlib/nc/model/refuse.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
+#include "tools/scenario/compile_step.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::rungc {
@@ -117,9 +118,11 @@ public:
   uint64_t scans() const { return scans_; }
 
   void realTime() {
+    nc_.betweenSlices(instance_);
     const host::RealTimeStats stats = host::runRealTime(instance_, {}, [this] {
       nc_.board().take(instance_);
       scans_ += instance_.atListStart() ? 1 : 0;
+      nc_.betweenSlices(instance_);
       look();
       return more();
     });
@@ -157,8 +160,24 @@ private:
   uint64_t scans_ = 0;
 };
 
-int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs) {
+// The keys of --config that the compiler does not read are the NC's; `dialect` is null where nothing was compiled.
+std::string configure(nc::NcModel& nc, const SourceOptions& options, const frontend::Dialect* dialect) {
+  for (const std::string& pair : options.config) {
+    const size_t equals = std::min(pair.find('='), pair.size());
+    const std::string key = pair.substr(0, equals);
+    if (dialect != nullptr && scenario::readsKey(*dialect, key)) continue;
+    if (equals == pair.size()) return "--config takes KEY=VALUE, found '" + pair + "'";
+    if (std::string wrong = nc.config(key, pair.substr(equals + 1)); !wrong.empty()) return wrong;
+  }
+  return {};
+}
+
+int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs, const frontend::Dialect* dialect) {
   const std::unique_ptr<nc::NcModel> nc = nc::makeNcModel(engine.program().dialect);
+  if (const std::string wrong = configure(*nc, options.source, dialect); !wrong.empty()) {
+    fmt::print(stderr, "rungc: {}\n", wrong);
+    return kUsage;
+  }
   const std::unique_ptr<host::Instance> instance = driver::makeInstance(engine, nc.get());
   std::unique_ptr<host::RetainedMemory> retained;
   if (!options.retain.empty()) retained = std::make_unique<host::RetainedMemory>(engine.program(), options.retain);
@@ -186,7 +205,7 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs) 
 int runSharedObject(const RunOptions& options, int64_t forUs) {
   std::string error;
   const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(options.source.files[0], error);
-  return engine == nullptr ? environmentError(error) : runInstance(*engine, options, forUs);
+  return engine == nullptr ? environmentError(error) : runInstance(*engine, options, forUs, nullptr);
 }
 
 int runSource(const RunOptions& options, int64_t forUs) {
@@ -204,7 +223,8 @@ int runSource(const RunOptions& options, int64_t forUs) {
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
   Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
-  return engine.ok() ? runInstance(*engine.value(), options, forUs) : environmentError(engine.error());
+  return engine.ok() ? runInstance(*engine.value(), options, forUs, compiled->dialect)
+                     : environmentError(engine.error());
 }
 
 } // namespace

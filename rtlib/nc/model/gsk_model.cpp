@@ -250,12 +250,16 @@ std::string GskModel::config(std::string_view key, std::string_view value) {
     simulator_.setProtected(*locked);
     return {};
   }
-  const auto parameter = numberBehind(key, "param.");
+  // param.N, or param.N.A for axis A alone.
+  const size_t dot = key.starts_with("param.") ? key.find('.', 6) : std::string_view::npos;
+  const auto parameter = numberBehind(key.substr(0, dot), "param.");
+  const uint32_t axis = dot == std::string_view::npos ? 1 : numberBehind(key.substr(dot), ".").value_or(0);
+  if (parameter && (axis < 1 || axis > gsk::kAxes)) return std::string(key) + ": there are axes 1 to 8";
   if (!parameter && key != "jog") return NcModel::config(key, value);
   const auto amount = number(value);
   if (!amount) return expected("a number");
   if (parameter)
-    simulator_.setParameter(*parameter, *amount);
+    simulator_.setParameter(*parameter, axis - 1, *amount);
   else
     simulator_.setJogSpeed(*amount);
   return {};

@@ -23,6 +23,8 @@ TEST(GskConfig, WrongValues) {
   EXPECT_EQ(nc->config("encoders", ""), "encoders: expected absolute or incremental, found ''");
   EXPECT_EQ(nc->config("protect", "yes"), "protect: expected on or off, found 'yes'");
   EXPECT_EQ(nc->config("param.7010", "x"), "param.7010: expected a number, found 'x'");
+  EXPECT_EQ(nc->config("param.7010.9", "1"), "param.7010.9: there are axes 1 to 8");
+  EXPECT_EQ(nc->config("param.7010.x", "1"), "param.7010.x: there are axes 1 to 8");
   EXPECT_EQ(nc->config("jog", "fast"), "jog: expected a number, found 'fast'");
   EXPECT_EQ(nc->config("param.", "1"), "unknown configuration key 'param.'");
   EXPECT_EQ(nc->config("speed", "1"), "unknown configuration key 'speed'");

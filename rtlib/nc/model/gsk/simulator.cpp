@@ -26,8 +26,8 @@ void Simulator::powerOn(bool warm) {
   machine_ = std::move(fresh);
   for (uint32_t i = 0; i < kAxes; ++i) machine_.axes[i].referenced = absoluteEncoders_ && i < machine_.axes.count();
   if (!warm)
-    for (const auto& [number, value] : parameters_)
-      machine_.tables.set(Table::Parameter, number, 0, std::llround(value * kTableScale));
+    for (const auto& [number, axis, value] : parameters_)
+      machine_.tables.set(Table::Parameter, number, axis, std::llround(value * kTableScale));
   resetKey_ = false;
   resetSlots_ = 0;
 }
@@ -94,6 +94,8 @@ std::string Simulator::setAxes(std::string_view names) {
   return {};
 }
 
-void Simulator::setParameter(uint32_t number, double value) { parameters_.emplace_back(number, value); }
+void Simulator::setParameter(uint32_t number, uint32_t axis, double value) {
+  parameters_.push_back({number, axis, value});
+}
 
 } // namespace rung::nc::gsk

@@ -39,13 +39,17 @@ public:
 
   // Configuration, before the first power-on.
   std::string setAxes(std::string_view names);
-  void setParameter(uint32_t number, double value);
+  void setParameter(uint32_t number, uint32_t axis, double value); // `axis` from 0
   void setJogSpeed(double speed) { manual_.jogSpeed = speed; }
   void setLimitSwitches(bool wired) { machine_.axes.limitSwitches = wired; }
   void setAbsoluteEncoders(bool absolute) { absoluteEncoders_ = absolute; }
   void setProtected(bool locked) { locked_ = locked; }
 
 private:
+  struct ConfiguredParameter {
+    uint32_t number, axis;
+    double value;
+  };
   void followReset(const SignalsIo& io);
 
   Machine machine_;
@@ -54,7 +58,7 @@ private:
   PlcAxes plcAxes_;
   SpindlePositioning positioning_;
   ExternalData external_;
-  std::vector<std::pair<uint32_t, double>> parameters_; // of the configuration, put back by a cold start
+  std::vector<ConfiguredParameter> parameters_; // of the configuration, put back by a cold start
   bool absoluteEncoders_ = true;
   bool locked_ = false;
   bool resetKey_ = false;

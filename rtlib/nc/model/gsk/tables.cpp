@@ -24,7 +24,7 @@ int64_t defaultOf(uint32_t parameter) {
 int64_t Tables::get(Table table, uint32_t number, uint32_t attribute) const {
   const auto found = cells_.find({table, number, attribute});
   if (found != cells_.end()) return found->second;
-  if (table == Table::Parameter && attribute != 0) return get(table, number);
+  if (table == Table::Parameter && attribute != 0 && number != kParamPlcGroup) return get(table, number);
   return table == Table::Parameter ? defaultOf(number) * kTableScale : 0;
 }
 

@@ -1,6 +1,7 @@
 // What all readers of one compilation share: sources, diagnostics, names, and the count of steps.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -50,12 +51,16 @@ private:
 // The manual's program memory (man. l.354).
 inline constexpr uint32_t kMaxSteps = 12000;
 
+struct Network;
+
 struct Context {
   SourceManager& sources;
   Diagnostics& diagnostics;
   Names names;
   uint32_t steps = 0;
   Machine machine = Machine::Any;
+  // May be empty. Takes every complete network with what was written.
+  std::function<void(const Network&)> onNetwork = {};
 };
 
 // Reports a word in place of a command, and a function that FUNC or a box names wrongly; with what was meant, perhaps.

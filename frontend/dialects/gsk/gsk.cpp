@@ -1,65 +1,14 @@
 // The dialect's entry: reads all files, checks the program, lowers it.
 #include "frontend/dialects/gsk/gsk.h"
 
-#include <algorithm>
-
 #include "frontend/dialects/gsk/config.h"
-#include "frontend/dialects/gsk/ladder_reader.h"
-#include "frontend/dialects/gsk/list_reader.h"
 #include "frontend/dialects/gsk/lower.h"
 #include "frontend/dialects/gsk/messages.h"
+#include "frontend/dialects/gsk/reading.h"
 #include "frontend/dialects/gsk/reference.h"
 
 namespace rung::gsk {
 namespace {
-
-// By the name; where it does not tell, ladder text is what has modules or rungs.
-bool isLadder(const SourceManager& sources, FileId file) {
-  const std::string_view name = sources.name(file);
-  if (name.ends_with(".lad")) return true;
-  if (name.ends_with(".pmc")) return false;
-  LineReader lines(sources, file);
-  LineWords words;
-  for (SourceLine line; lines.next(line);) {
-    splitWords(line, {}, words);
-    if (!words.words.empty() && (words.words[0].text == "module" || words.words[0].text == "rung")) return true;
-  }
-  return false;
-}
-
-// All files of one program, command lists in front of ladder text.
-class Reading {
-public:
-  Reading(Context& context, Program& program) : context_(context), units_(context, program) {}
-
-  void add(FileId file) {
-    if (isLadder(context_.sources, file))
-      ladders_.push_back(parseLadderFile(context_, file)); // checks the encoding itself
-    else if (checkEncoding(context_.sources, file, context_.diagnostics))
-      lists_.push_back(file);
-    else
-      units_.setGarbled();
-    last_ = file;
-  }
-
-  // True when all function commands were understood as such.
-  bool read() {
-    for (FileId file : lists_) readListSymbols(context_, file);
-    for (const auto& file : ladders_) readLadderDeclarations(context_, file);
-    for (FileId file : lists_) readList(context_, file, units_);
-    if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()));
-    for (const auto& file : ladders_) readLadder(context_, file, units_);
-    units_.finish(lastLineOf(context_.sources, last_));
-    return !units_.garbled();
-  }
-
-private:
-  Context& context_;
-  UnitAssembler units_;
-  std::vector<FileId> lists_;
-  std::vector<ladder::LadderFile> ladders_;
-  FileId last_;
-};
 
 Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   const auto at = options.config.find("machine");

@@ -31,17 +31,22 @@ enum class Kind : uint8_t {
   Subprogram,     // P1-P512
   DataTable,      // address in D
   WorkArea,       // address of 4 bytes in R
+  Record,         // address of as many bytes as Row::recordBytes says
 };
-inline constexpr int kKindCount = 17;
+inline constexpr int kKindCount = 18;
 inline constexpr std::array<std::string_view, kKindCount> kKindNames = {
     "bit",        "coil",       "format",   "format-a",         "byte",   "word", "dword",
     "data",       "block",      "constant", "constant-or-data", "number", "mask", "label",
-    "subprogram", "data-table", "work-area"};
+    "subprogram", "data-table", "work-area", "record"};
 constexpr std::string_view kindName(Kind kind) { return kKindNames[static_cast<size_t>(kind)]; }
 Kind kindOf(const frontend::OperandInfo& operand);
 
 // Instructions that shape the program; everything else is Plain.
 enum class Control : uint8_t { Plain, End1, End2, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
+
+constexpr bool isEnd(Control control) {
+  return control == Control::End1 || control == Control::End2 || control == Control::Spe;
+}
 
 struct Row {
   frontend::InstructionInfo info;
@@ -49,6 +54,7 @@ struct Row {
   // Numbers of this class that stand twice in a program give a warning.
   enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
   bool hasTable = false;
+  uint32_t recordBytes = 0; // of an operand of kind Record
   void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
   int variant = 0;                              // for `lower`
 };

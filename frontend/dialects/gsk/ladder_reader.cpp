@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/gsk/canonical.h"
 #include "frontend/dialects/gsk/network_builder.h"
-#include "frontend/dialects/gsk/series_parallel.h"
+#include "frontend/dialects/gsk/title.h"
 
 namespace rung::gsk {
 namespace {
@@ -32,8 +33,8 @@ Place placeOf(const Element& element) { return {element.range, element.line}; }
 // The shape of one rung: which box, which coils, and whether a command list can say it.
 class RungReader {
 public:
-  RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung)
-      : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung) {}
+  RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung, std::string_view title)
+      : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung), title_(title) {}
 
   // False when the drawing was rejected; it was reported, and nothing has reached the builder.
   bool read();
@@ -57,6 +58,7 @@ private:
   Diagnostics& diagnostics_;
   NetworkBuilder& builder_;
   const ladder::Rung& rung_;
+  std::string_view title_;
   const Element* box_ = nullptr;
   const Row* row_ = nullptr;
   std::vector<const Element*> coils_; // from top to bottom
@@ -236,34 +238,16 @@ bool RungReader::decomposeInputs() {
   return true;
 }
 
-// §5: the first branch of a parallel group begins with LD, a further branch of one contact is OR, any other one a block
-// of its own and ORB; a parallel group in series behind something is a block of its own and ANB.
 void RungReader::emit(const SpTree& tree) {
-  struct Work {
-    uint32_t node = kNone; // kNone: `how` is a block command
-    Logic how = Logic::Load;
-  };
-  std::vector<Work> stack{{tree.root, Logic::Load}};
   Place last;
-  while (!stack.empty()) {
-    const Work work = stack.back();
-    stack.pop_back();
-    if (work.node == kNone) {
-      builder_.block(work.how, last);
+  for (const CanonicalStep& step : canonicalSteps(tree)) {
+    if (!step.contact.valid()) {
+      builder_.block(step.kind, last);
       continue;
     }
-    const SpTree::Node& node = tree.nodes[work.node];
-    if (node.kind == SpTree::Kind::Contact) {
-      const Element& contact = rung_.element(node.contact);
-      last = placeOf(contact);
-      builder_.contact(work.how, contact.negated, rung_.operandOf(contact), last);
-      continue;
-    }
-    if (work.how == Logic::Or) stack.push_back({kNone, Logic::OrBlock});
-    if (work.how == Logic::And) stack.push_back({kNone, Logic::AndBlock});
-    const Logic further = node.kind == SpTree::Kind::Series ? Logic::And : Logic::Or;
-    for (size_t i = node.children.size(); i-- > 1;) stack.push_back({node.children[i], further});
-    stack.push_back({node.children[0], Logic::Load});
+    const Element& contact = rung_.element(step.contact);
+    last = placeOf(contact);
+    builder_.contact(step.kind, contact.negated, rung_.operandOf(contact), last);
   }
 }
 
@@ -283,7 +267,7 @@ void RungReader::emitBox() {
 
 bool RungReader::read() {
   if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs()) return false;
-  builder_.title(rung_.comment);
+  builder_.title(title_);
   for (const SpTree& input : inputs_) emit(input);
   if (box_ != nullptr) emitBox();
   for (const Element* coil : coils_) builder_.coil(coilOf(coil->coil), rung_.operandOf(*coil), placeOf(*coil));
@@ -350,11 +334,17 @@ void LadderReader::module(const ladder::Module& module) {
   if (unit_ == kNone) units_.setGarbled();
 }
 
+// The text behind the word `rung`; where there is none that can be a title, the rule of command lists.
+std::string_view titleOf(const SourceManager& sources, FileId file, const ladder::Rung& rung) {
+  const std::string_view own = trimmed(rung.comment);
+  return isTitle(own) ? own : titleAbove(sources, file, rung.firstLine);
+}
+
 void LadderReader::readRung(const ladder::Rung& rung) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
   if (rung.bad) return units_.setGarbled();
-  RungReader reader(context_, builder_, rung);
+  RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, rung));
   if (!reader.read() && reader.shapesProgram()) units_.setGarbled();
 }
 

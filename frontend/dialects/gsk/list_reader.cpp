@@ -2,46 +2,20 @@
 #include "frontend/dialects/gsk/list_reader.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/network_builder.h"
+#include "frontend/dialects/gsk/title.h"
 
 namespace rung::gsk {
 namespace {
 
-// ';' comments; no quoted texts.
-constexpr WordRules kRules = {.comment = ';', .quotes = "", .separators = ""};
-
-enum class Command : uint8_t {
-  Ld,
-  Ldi,
-  And,
-  Ani,
-  Or,
-  Ori,
-  Orb,
-  Anb,
-  Out,
-  Outi,
-  Set,
-  Rst,
-  Func,
-  Prm,
-  Table,
-  Dialect,
-  Symbol
-};
-constexpr std::array<std::string_view, 17> kCommands = {"LD",   "LDI", "AND",   "ANI",     "OR",    "ORI",
-                                                        "ORB",  "ANB", "OUT",   "OUTI",    "SET",   "RST",
-                                                        "FUNC", "PRM", "TABLE", "DIALECT", "SYMBOL"};
-
 std::optional<Command> commandOf(std::string_view text) {
-  const auto at =
-      std::find_if(kCommands.begin(), kCommands.end(), [&](std::string_view c) { return equalNoCase(c, text); });
-  if (at == kCommands.end()) return std::nullopt;
-  return static_cast<Command>(at - kCommands.begin());
+  const auto at = std::find_if(kCommandNames.begin(), kCommandNames.end(),
+                               [&](std::string_view name) { return equalNoCase(name, text); });
+  if (at == kCommandNames.end()) return std::nullopt;
+  return static_cast<Command>(at - kCommandNames.begin());
 }
 
 std::string_view wantedOperand(Command command) {
@@ -51,6 +25,7 @@ std::string_view wantedOperand(Command command) {
   case Command::Table: return "a constant";
   case Command::Dialect: return "the name of the dialect";
   case Command::Symbol: return "a name and an address";
+  case Command::Const: return "a name and a constant";
   case Command::Orb:
   case Command::Anb: return "";
   case Command::Ld:
@@ -67,25 +42,14 @@ std::string_view wantedOperand(Command command) {
   return "";
 }
 
-size_t operandCount(Command command) {
-  return command == Command::Orb || command == Command::Anb ? 0 : command == Command::Symbol ? 2 : 1;
-}
+bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
 
-// The words behind the step number (the S/N column).
-std::span<const Word> statementOf(const LineWords& line) {
-  std::span<const Word> words(line.words);
-  if (!words.empty() && parseDigits(words[0].text)) words = words.subspan(1);
-  return words;
+size_t operandCount(Command command) {
+  return command == Command::Orb || command == Command::Anb ? 0 : isDeclaration(command) ? 2 : 1;
 }
 
 // Only these may stand outside comments.
 bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
-
-bool isDecoration(std::string_view text) {
-  return std::none_of(text.begin(), text.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (upper(c) >= 'A' && upper(c) <= 'Z') || static_cast<signed char>(c) < 0;
-  });
-}
 
 class ListReader {
 public:
@@ -96,7 +60,7 @@ public:
   void read() {
     LineReader lines(context_.sources, file_);
     while (lines.next(line_)) {
-      splitWords(line_, kRules, words_);
+      splitWords(line_, kListRules, words_);
       const auto statement = statementOf(words_);
       if (statement.empty())
         comment();
@@ -114,6 +78,7 @@ private:
   void lostOperand(Command command, const Word& name, Place at);
   void dispatch(Command command, std::span<const Word> words, Place at);
   const Row* functionOf(const Word& word);
+  void function(const Word& name, Place at);
   void checkDialect(const Word& word);
 
   Context& context_;
@@ -121,17 +86,15 @@ private:
   NetworkBuilder builder_;
   SourceLine line_;
   LineWords words_;
-  bool inComment_ = false; // the line above was a comment with words
+  TitleRule title_;
 };
 
-// The first line of a block of comment lines is the title of the network below it.
 void ListReader::comment() {
-  if (!words_.hasComment) {
-    inComment_ = false;
-  } else if (!isDecoration(words_.comment)) {
-    if (!inComment_) builder_.title(words_.comment);
-    inComment_ = true;
-  }
+  if (words_.hasComment)
+    title_.comment(words_.comment);
+  else
+    title_.blank();
+  builder_.title(title_.title());
 }
 
 // Outside comments only printable ASCII may stand: the manual's scan has look-alikes of other alphabets.
@@ -171,15 +134,16 @@ bool ListReader::checkOperands(Command command, std::span<const Word> words) {
 }
 
 void ListReader::readStatement(std::span<const Word> words) {
-  inComment_ = false;
+  title_.statement();
   const Place at{join(words.front().range, words.back().range), line_.number};
   const bool readable = checkCharacters(words);
   const auto command = commandOf(words[0].text);
   if (!command) {
-    if (readable) reportUnknownCommand(context_, words[0], kCommands);
+    if (readable) reportUnknownCommand(context_, words[0], kCommandNames);
     return builder_.garbage(at);
   }
-  if (*command == Command::Symbol) return; // readListSymbols
+  if (*command >= Command::Dialect) builder_.title({});
+  if (isDeclaration(*command)) return; // readListSymbols
   if (!readable || !checkOperands(*command, words)) return lostOperand(*command, words[0], at);
   if (*command == Command::Dialect) return checkDialect(words[1]);
   dispatch(*command, words, at);
@@ -204,6 +168,13 @@ const Row* ListReader::functionOf(const Word& word) {
   return row;
 }
 
+// The ends of units are not drawn in ladder form: they have no title.
+void ListReader::function(const Word& name, Place at) {
+  const Row* row = functionOf(name);
+  if (row != nullptr && isEnd(row->control)) builder_.title({});
+  builder_.function(row, at);
+}
+
 void ListReader::dispatch(Command command, std::span<const Word> words, Place at) {
   switch (command) {
   case Command::Ld: return builder_.contact(Logic::Load, false, words[1], at);
@@ -218,33 +189,46 @@ void ListReader::dispatch(Command command, std::span<const Word> words, Place at
   case Command::Outi: return builder_.coil(Coil::OutInverted, words[1], at);
   case Command::Set: return builder_.coil(Coil::Set, words[1], at);
   case Command::Rst: return builder_.coil(Coil::Reset, words[1], at);
-  case Command::Func: return builder_.function(functionOf(words[1]), at);
+  case Command::Func: return function(words[1], at);
   case Command::Prm: return builder_.parameter(words[1], at);
   case Command::Table: return builder_.tableRow(words[1], at);
   case Command::Dialect:
-  case Command::Symbol: return;
+  case Command::Symbol:
+  case Command::Const: return;
   }
 }
 
 } // namespace
+
+// The words behind the step number (the S/N column).
+std::span<const Word> statementOf(const LineWords& line) {
+  std::span<const Word> words(line.words);
+  if (!words.empty() && parseDigits(words[0].text)) words = words.subspan(1);
+  return words;
+}
 
 void readListSymbols(Context& context, FileId file) {
   LineReader lines(context.sources, file);
   SourceLine line;
   LineWords words;
   while (lines.next(line)) {
-    splitWords(line, kRules, words);
+    splitWords(line, kListRules, words);
     const auto statement = statementOf(words);
-    if (statement.empty() || !equalNoCase(statement[0].text, "symbol")) continue;
+    const auto command = statement.empty() ? std::nullopt : commandOf(statement[0].text);
+    if (!command || !isDeclaration(*command)) continue;
     const bool readable = std::all_of(statement.begin(), statement.end(), [](const Word& word) {
       return std::all_of(word.text.begin(), word.text.end(), isPlain);
     });
     if (!readable) continue; // the reader of the list tells
-    if (statement.size() == 3)
+    if (statement.size() != 3)
+      context.diagnostics.report(Diag::BadOperand, statement[0].range)
+          << statement[0].text
+          << (*command == Command::Symbol ? "complete statement: `symbol NAME ADDRESS`"
+                                          : "complete statement: `const NAME VALUE`");
+    else if (*command == Command::Symbol)
       context.names.addSymbol(context.diagnostics, statement[1], statement[2], words.comment);
     else
-      context.diagnostics.report(Diag::BadOperand, statement[0].range)
-          << statement[0].text << "complete statement: `symbol NAME ADDRESS`";
+      context.names.addConstant(context.diagnostics, statement[1], statement[2]);
   }
 }
 

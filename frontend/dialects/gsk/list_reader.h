@@ -1,11 +1,18 @@
 // Command lists, `*.pmc` (P12): one statement a line.
 #pragma once
+#include <span>
+
 #include "frontend/dialects/gsk/context.h"
 #include "frontend/dialects/gsk/structure.h"
 
 namespace rung::gsk {
 
-// The `symbol` statements of a file; they hold for the whole program, so they are read before all networks.
+// Comments begin with ';', there are no quoted texts.
+inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
+// The words behind the step number.
+std::span<const Word> statementOf(const LineWords& line);
+
+// The `symbol` and `const` statements of a file; they hold for the whole program, so they are read before all networks.
 void readListSymbols(Context& context, FileId file);
 void readList(Context& context, FileId file, UnitAssembler& units);
 // The last line with something on it, for errors about what is missing at the end.

@@ -15,6 +15,10 @@ void NetworkBuilder::step(Place at) {
   ++network_.steps;
 }
 
+void NetworkBuilder::write(Command command, std::string_view operand, Place at) {
+  if (context_.onNetwork) network_.written.push_back({command, operand, at.range, at.line});
+}
+
 void NetworkBuilder::begin(Place at) {
   finish();
   network_ = Network{};
@@ -72,6 +76,7 @@ void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Plac
     contactOutOfPlace(at);
   }
   extend(at);
+  write(commandOf(kind, negated), operand.text, at);
   const auto bit = bitOperand(context_, operand);
   if (bit)
     network_.logic.push_back({kind, negated, *bit, at.line});
@@ -88,6 +93,7 @@ void NetworkBuilder::block(Logic kind, Place at) {
   else
     --depth_;
   extend(at);
+  write(commandOf(kind, false), {}, at);
   network_.logic.push_back({.kind = kind, .line = at.line});
 }
 
@@ -101,6 +107,7 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
     stackError(at, fmt::format("{} has no output for this coil", network_.function.row->info.mnemonic));
   }
   extend(at);
+  write(commandOf(kind), operand.text, at);
   if (state_ != State::Function || mayHaveCoils()) state_ = State::Outputs;
   const auto bit = bitOperand(context_, operand);
   if (bit && checkWritable(context_, *bit, 1, operand.range))
@@ -139,6 +146,7 @@ void NetworkBuilder::function(const Row* row, Place at) {
     unknown_ = network_.bad = network_.garbled = true;
     return;
   }
+  write(Command::Func, row->info.mnemonic, at);
   checkConditions(*row, at);
   if (row->lower == nullptr) {
     context_.diagnostics.report(Diag::NotBuiltYet, at.range) << row->info.mnemonic;
@@ -149,6 +157,7 @@ void NetworkBuilder::function(const Row* row, Place at) {
 void NetworkBuilder::parameter(const Word& operand, Place at) {
   if (state_ == State::Function && table_.empty()) {
     extend(at);
+    write(Command::Prm, operand.text, at);
     parameters_.push_back(operand);
   } else {
     step(at);
@@ -159,6 +168,7 @@ void NetworkBuilder::parameter(const Word& operand, Place at) {
 void NetworkBuilder::tableRow(const Word& operand, Place at) {
   if (state_ == State::Function && (unknown_ || network_.function.row->hasTable)) {
     extend(at);
+    write(Command::Table, operand.text, at);
     table_.push_back(operand);
   } else {
     step(at);
@@ -187,6 +197,7 @@ void NetworkBuilder::finish() {
   if (state_ == State::Logic) stackError({network_.range, network_.firstLine}, "the network has no output");
   completeFunction();
   state_ = State::Idle;
+  if (context_.onNetwork) context_.onNetwork(network_);
   sink_(std::move(network_));
   network_ = Network{};
 }

@@ -46,6 +46,7 @@ private:
   void begin(Place at);
   void extend(Place at);
   void step(Place at);
+  void write(Command command, std::string_view operand, Place at);
   void stackError(Place at, std::string_view what);
   void contactOutOfPlace(Place at);
   void checkConditions(const Row& row, Place at);

@@ -8,27 +8,6 @@
 namespace rung::gsk {
 namespace {
 
-std::string_view commandOf(const LogicStep& step) {
-  switch (step.kind) {
-  case Logic::Load: return step.negated ? "LDI" : "LD";
-  case Logic::And: return step.negated ? "ANI" : "AND";
-  case Logic::Or: return step.negated ? "ORI" : "OR";
-  case Logic::OrBlock: return "ORB";
-  case Logic::AndBlock: return "ANB";
-  }
-  return {};
-}
-
-std::string_view commandOf(Coil kind) {
-  switch (kind) {
-  case Coil::Out: return "OUT";
-  case Coil::OutInverted: return "OUTI";
-  case Coil::Set: return "SET";
-  case Coil::Reset: return "RST";
-  }
-  return {};
-}
-
 std::string textOf(const Param& param) {
   if (param.isAddress) return textOf(param.address);
   switch (param.kind) {
@@ -48,28 +27,50 @@ std::string textOf(const Param& param) {
   case Kind::ConstantOrData:
   case Kind::Number:
   case Kind::DataTable:
-  case Kind::WorkArea: return fmt::format("{}", param.value);
+  case Kind::WorkArea:
+  case Kind::Record: return fmt::format("{}", param.value);
   }
   return {};
 }
 
 } // namespace
 
+Command commandOf(Logic kind, bool negated) {
+  switch (kind) {
+  case Logic::Load: return negated ? Command::Ldi : Command::Ld;
+  case Logic::And: return negated ? Command::Ani : Command::And;
+  case Logic::Or: return negated ? Command::Ori : Command::Or;
+  case Logic::OrBlock: return Command::Orb;
+  case Logic::AndBlock: return Command::Anb;
+  }
+  return Command::Ld;
+}
+
+Command commandOf(Coil kind) {
+  switch (kind) {
+  case Coil::Out: return Command::Out;
+  case Coil::OutInverted: return Command::Outi;
+  case Coil::Set: return Command::Set;
+  case Coil::Reset: return Command::Rst;
+  }
+  return Command::Out;
+}
+
 std::string commandText(const Network& network) {
   std::string text;
-  const auto line = [&](std::string_view command, std::string_view operand) {
-    text += command;
+  const auto line = [&](Command command, std::string_view operand) {
+    text += nameOf(command);
     if (!operand.empty()) (text += ' ') += operand;
     text += '\n';
   };
   for (const LogicStep& step : network.logic) {
     const bool isBlock = step.kind == Logic::OrBlock || step.kind == Logic::AndBlock;
-    line(commandOf(step), isBlock ? std::string() : textOf(step.bit));
+    line(commandOf(step.kind, step.negated), isBlock ? std::string() : textOf(step.bit));
   }
   if (network.function.row != nullptr) {
-    line("FUNC", fmt::format("{}", network.function.row->info.number));
-    for (const Param& param : network.function.params) line("PRM", textOf(param));
-    for (int64_t row : network.function.table) line("TABLE", fmt::format("{}", row));
+    line(Command::Func, fmt::format("{}", network.function.row->info.number));
+    for (const Param& param : network.function.params) line(Command::Prm, textOf(param));
+    for (int64_t row : network.function.table) line(Command::Table, fmt::format("{}", row));
   }
   for (const CoilStep& coil : network.coils) line(commandOf(coil.kind), textOf(coil.bit));
   return text;

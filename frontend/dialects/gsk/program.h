@@ -1,6 +1,7 @@
 // The program between reading and lowering: units of networks. Both source forms end here; a network is what a command
 // list can say (P11): contacts in postfix order, then a function or nothing, then coils.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,6 +15,25 @@ namespace rung::gsk {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
 
+// The statements of a list (P12). `const` stands in lists as in ladder text, for conversions.
+// clang-format off
+enum class Command : uint8_t {
+  Ld, Ldi, And, Ani, Or, Ori, Orb, Anb, Out, Outi, Set, Rst, Func, Prm, Table, Dialect, Symbol, Const
+};
+inline constexpr std::array<std::string_view, 18> kCommandNames = {
+    "LD", "LDI", "AND", "ANI", "OR", "ORI", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM", "TABLE",
+    "DIALECT", "SYMBOL", "CONST"};
+// clang-format on
+constexpr std::string_view nameOf(Command command) { return kCommandNames[static_cast<size_t>(command)]; }
+
+// A command with its operand as written, for conversions. In ladder form it is what a part of the drawing stands for.
+struct Written {
+  Command command = Command::Ld;
+  std::string_view operand; // FUNC: the mnemonic
+  SourceRange range;        // of the statement or the element; PRM and TABLE of a box: of the operand
+  uint32_t line = 0;
+};
+
 enum class Logic : uint8_t { Load, And, Or, OrBlock, AndBlock };
 
 struct LogicStep {
@@ -24,6 +44,9 @@ struct LogicStep {
 };
 
 enum class Coil : uint8_t { Out, OutInverted, Set, Reset };
+
+Command commandOf(Logic kind, bool negated);
+Command commandOf(Coil kind);
 
 struct CoilStep {
   Coil kind = Coil::Out;
@@ -59,6 +82,7 @@ struct Network {
   std::vector<LogicStep> logic;
   Function function;
   std::vector<CoilStep> coils;
+  std::vector<Written> written; // only where somebody asked for it (Context::onNetwork)
   uint32_t steps = 0;
   bool bad = false;     // reported; never lowered
   bool garbled = false; // bad in a way that may hide a function command

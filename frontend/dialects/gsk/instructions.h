@@ -35,9 +35,9 @@ enum class Kind : uint8_t {
 };
 inline constexpr int kKindCount = 18;
 inline constexpr std::array<std::string_view, kKindCount> kKindNames = {
-    "bit",        "coil",       "format",   "format-a",         "byte",   "word", "dword",
-    "data",       "block",      "constant", "constant-or-data", "number", "mask", "label",
-    "subprogram", "data-table", "work-area", "record"};
+    "bit",       "coil",     "format",           "format-a", "byte", "word",  "dword",      "data",
+    "block",     "constant", "constant-or-data", "number",   "mask", "label", "subprogram", "data-table",
+    "work-area", "record"};
 constexpr std::string_view kindName(Kind kind) { return kKindNames[static_cast<size_t>(kind)]; }
 Kind kindOf(const frontend::OperandInfo& operand);
 
@@ -54,7 +54,7 @@ struct Row {
   // Numbers of this class that stand twice in a program give a warning.
   enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
   bool hasTable = false;
-  uint32_t recordBytes = 0; // of an operand of kind Record
+  uint32_t recordBytes = 0;                     // of an operand of kind Record
   void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
   int variant = 0;                              // for `lower`
 };

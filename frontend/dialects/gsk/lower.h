@@ -15,6 +15,9 @@
 
 namespace rung::gsk {
 
+// Machine positions that the CNC gives: one each of the axes 1-8 (signals of axes are 1-8 as well, man. l.3368).
+inline constexpr uint32_t kMachineAxes = 8;
+
 class ModuleLowering;
 struct RoutineContext;
 
@@ -47,6 +50,14 @@ public:
   ir::ValueId scanTime();
   // Microseconds since the last run of the level began.
   ir::ValueId sinceLastRun();
+  // State that all instructions of the program share.
+  ir::SlotId shared(const std::string& key, ir::Type type);
+  // Remembers the current run of each level; how many runs ago that was, on this level.
+  void markRun();
+  ir::ValueId runsSinceMark();
+  ir::ServiceId service(std::string_view signature);
+  // The machine positions that the NC keeps: 8 cells of 4 bytes, axis n at byte 4(n-1), in 0.001 mm.
+  ir::Window machinePositions();
   // Constant bytes in a hidden space; `legal` of them may be the first of an element.
   ir::Window constants(const std::vector<uint8_t>& bytes, uint32_t legal);
 
@@ -81,6 +92,7 @@ private:
 enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
 enum CounterVariant { kCounterPage, kCounterMemory };
 enum EdgeVariant { kRising, kFalling };
+enum WindowVariant { kWindowRead, kWindowWrite };
 enum ArithmeticVariant { kAdd, kSubtract, kMultiply };
 
 void lowerTimer(FunctionLowering& f);
@@ -108,6 +120,11 @@ void lowerRotation(FunctionLowering& f);
 void lowerCodeTable(FunctionLowering& f);
 void lowerSearch(FunctionLowering& f);
 void lowerIndexedMove(FunctionLowering& f);
+
+void lowerWindow(FunctionLowering& f);
+void lowerAxisControl(FunctionLowering& f);
+void lowerPositionZones(FunctionLowering& f);
+void lowerPositionRange(FunctionLowering& f);
 
 void lowerMark(FunctionLowering& f);
 void lowerEnd(FunctionLowering& f);

@@ -32,9 +32,11 @@ ir::SpaceId addSpace(ir::Module& module, std::string name, uint32_t bytes, uint3
 
 size_t indexOf(Area area) { return static_cast<size_t>(area); }
 
-bool isTimer(const Network& network) {
-  return network.function.row != nullptr && network.function.row->lower == &lowerTimer;
+bool isLoweredBy(const Network& network, void (*lower)(FunctionLowering&)) {
+  return network.function.row != nullptr && network.function.row->lower == lower;
 }
+bool isTimer(const Network& network) { return isLoweredBy(network, &lowerTimer); }
+bool isWindow(const Network& network) { return isLoweredBy(network, &lowerWindow); }
 
 std::string stemOf(std::string_view path) {
   const size_t slash = path.find_last_of('/');
@@ -136,11 +138,18 @@ void ModuleLowering::planRoutines(LevelState& level) {
     const bool twice = unit.fromLevel1 && unit.fromLevel2;
     module_->routines.push_back({nameOf(unit) + (twice ? (level.isLevel2 ? "@2" : "@1") : ""), {}});
     level.hasClock = level.hasClock || std::any_of(unit.networks.begin(), unit.networks.end(), isTimer);
+    level.countsRuns = level.countsRuns || std::any_of(unit.networks.begin(), unit.networks.end(), isWindow);
   }
-  if (!level.hasClock) return;
+  planClock(level);
+}
+
+void ModuleLowering::planClock(LevelState& level) {
   const std::string name = level.isLevel2 ? "LEVEL2" : "LEVEL1";
-  level.clock = slot("@clock/" + name, ir::Type::I64, 0, false);
-  level.scanTime = slot("@scan/" + name, ir::Type::I64, 0, false);
+  if (level.hasClock) {
+    level.clock = slot("@clock/" + name, ir::Type::I64, 0, false);
+    level.scanTime = slot("@scan/" + name, ir::Type::I64, 0, false);
+  }
+  if (level.countsRuns) level.runs = slot("@runs/" + name, ir::Type::I32, 0, false);
 }
 
 bool ModuleLowering::leavesBehind(const RoutineContext& routine, const Network& network) const {
@@ -150,7 +159,7 @@ bool ModuleLowering::leavesBehind(const RoutineContext& routine, const Network& 
 void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   const Unit& unit = program_.units[unitIndex];
   RoutineContext context{&level, unitIndex, {}};
-  const bool clock = level.hasClock && unit.kind != UnitKind::Subprogram;
+  const bool clock = (level.hasClock || level.countsRuns) && unit.kind != UnitKind::Subprogram;
   uint32_t count = clock ? 1 : 0;
   for (const Network& network : unit.networks) {
     context.rungOf.push_back(count);
@@ -166,16 +175,18 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   }
 }
 
-// Timers grow by the time between two scans, however long that was (P23).
+// Timers grow by the time between two scans, however long that was (P23); window requests count scans (P48).
 void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Unit& unit) {
   ir::Rung& rung = routine.rungs[0];
   const Network& first = unit.networks.front();
   describe(rung, first, hashBytes("@clock", hashBytes(nameOf(unit))));
-  rung.title = "scan time";
+  rung.title = level.hasClock ? "scan time" : "number of the scan";
   rung.sourceText.clear();
   rung.lastLine = rung.begin.line;
   rung.weight = 1;
   ir::RungBuilder b(*module_, rung);
+  if (level.countsRuns) b.slotStore(level.runs, b.add(b.slotLoad(level.runs), b.i32(1)));
+  if (!level.hasClock) return;
   const ir::ValueId now = b.now();
   b.slotStore(level.scanTime, b.sub(now, b.slotLoad(level.clock)));
   b.slotStore(level.clock, now);
@@ -231,7 +242,8 @@ void ModuleLowering::addTasks() {
                             .periodUs = kSlotUs * parts_,
                             .budget = kBudget,
                             .budgetFault = ir::FaultId{0},
-                            .parts = parts_});
+                            .parts = 1});
+  ir::cutTask(*module_, module_->tasks[1], parts_);
   module_->fastTask = ir::TaskId{0};
   module_->mainTask = ir::TaskId{1};
   addResultRegisters(module_->tasks[0]);
@@ -293,6 +305,20 @@ ir::SpaceId ModuleLowering::constantSpace(const std::vector<uint8_t>& bytes) {
     module_->inits.push_back({at->second, 0, bytes});
   }
   return at->second;
+}
+
+ir::ServiceId ModuleLowering::service(std::string_view signature) {
+  std::vector<std::string>& services = module_->services;
+  const auto found = std::find(services.begin(), services.end(), signature);
+  const auto index = static_cast<uint32_t>(found - services.begin());
+  if (found == services.end()) services.emplace_back(signature);
+  return ir::ServiceId{index};
+}
+
+// The NC writes it before each slot; a program that does not look at positions has none.
+ir::SpaceId ModuleLowering::machinePositions() {
+  if (!positions_.valid()) positions_ = addSpace(*module_, "@MPOS", 4 * kMachineAxes, RUNG_SPACE_HIDDEN);
+  return positions_;
 }
 
 void ModuleLowering::use(LevelState& level, const Address& address, uint32_t bytes) {

@@ -21,6 +21,8 @@ struct LevelState {
   bool hasClock = false;
   ir::SlotId clock;    // `now` at the beginning of the last run
   ir::SlotId scanTime; // from that to the beginning of this run
+  bool countsRuns = false;
+  ir::SlotId runs; // number of the run
 };
 
 // A unit on one level.
@@ -39,6 +41,9 @@ public:
   // For FunctionLowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
   ir::SpaceId constantSpace(const std::vector<uint8_t>& bytes);
+  ir::ServiceId service(std::string_view signature);
+  ir::SpaceId machinePositions();
+  std::span<const LevelState, 2> levels() const { return levels_; }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
   std::string slotPrefix(uint32_t unit, uint32_t network) const;
   const Program& program() const { return program_; }
@@ -52,6 +57,7 @@ private:
   void planRoutines(LevelState& level);
   void makeKeys();
   void lowerRoutine(LevelState& level, uint32_t unit);
+  void planClock(LevelState& level);
   void addClock(ir::Routine& routine, LevelState& level, const Unit& unit);
   void lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t network);
   void describe(ir::Rung& rung, const Network& network, uint64_t key) const;
@@ -73,6 +79,7 @@ private:
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
   std::unordered_map<std::string, ir::SpaceId> constants_;
+  ir::SpaceId positions_;
   std::vector<std::vector<uint64_t>> keys_; // by unit and network
   LevelState levels_[2];
   uint32_t parts_ = 1;

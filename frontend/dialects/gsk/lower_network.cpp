@@ -146,6 +146,27 @@ ir::ValueId FunctionLowering::sinceLastRun() {
   return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
 }
 
+ir::SlotId FunctionLowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
+
+// A unit that both levels run shares its state, but each level has a count of its own.
+void FunctionLowering::markRun() {
+  for (const LevelState& level : module_.levels())
+    if (level.routines[routine_.unit].valid())
+      b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), b.slotLoad(level.runs));
+}
+
+ir::ValueId FunctionLowering::runsSinceMark() {
+  const ir::SlotId mark = slot(routine_.level->isLevel2 ? "mark2" : "mark1", ir::Type::I32);
+  return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(mark));
+}
+
+ir::ServiceId FunctionLowering::service(std::string_view signature) { return module_.service(signature); }
+
+ir::Window FunctionLowering::machinePositions() {
+  constexpr uint32_t kLast = 4 * (kMachineAxes - 1);
+  return {module_.machinePositions(), 0, kLast + 1};
+}
+
 ir::Window FunctionLowering::constants(const std::vector<uint8_t>& bytes, uint32_t legal) {
   return {module_.constantSpace(bytes), 0, legal};
 }

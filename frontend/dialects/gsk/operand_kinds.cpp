@@ -28,6 +28,8 @@ constexpr OperandKindInfo kKinds[] = {
     {"subprogram", "P1 to P512", "P1", "P513", "parameter-out-of-range"},
     {"data-table", "address in D", "D10", "R10", "not-a-data-table"},
     {"work-area", "address of the first of 4 bytes in R", "R10", "D10", "work-area-not-in-r"},
+    {"record", "address of the first of as many bytes as the instruction's block has", "R10", "R1098",
+     "address-out-of-range"},
 };
 static_assert(std::size(kKinds) == kKindCount);
 

@@ -67,6 +67,7 @@ uint32_t ParameterCheck::lengthOf(Kind kind) const {
   case Kind::DataTable:
   case Kind::ConstantOrData: return lengthKnown_ ? function_.length : 1;
   case Kind::Block: return blockLength_;
+  case Kind::Record: return function_.row->recordBytes;
   case Kind::Byte:
   case Kind::Bit:
   case Kind::Coil:
@@ -202,7 +203,8 @@ bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& 
   case Kind::Data:
   case Kind::Block:
   case Kind::DataTable:
-  case Kind::WorkArea: return checkAddress(info, word, param);
+  case Kind::WorkArea:
+  case Kind::Record: return checkAddress(info, word, param);
   }
   return false;
 }

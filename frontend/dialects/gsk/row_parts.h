@@ -26,6 +26,9 @@ constexpr OperandInfo inout(std::string_view name, Kind kind, std::string_view d
 constexpr OperandInfo number(std::string_view name, int64_t min, int64_t max, std::string_view doc = {}) {
   return {.name = name, .kind = "number", .access = Access::None, .doc = doc, .min = min, .max = max};
 }
+constexpr OperandInfo record(std::string_view name, Access access, std::string_view doc) {
+  return {.name = name, .kind = kindName(Kind::Record), .access = access, .doc = doc};
+}
 inline constexpr OperandInfo kFormat = {
     .name = "format", .kind = "format", .access = Access::None, .doc = "length in bytes"};
 inline constexpr OperandInfo kFormatA = {

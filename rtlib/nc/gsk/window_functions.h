@@ -56,13 +56,13 @@ struct WindowFunction {
   WindowAccess access = WindowAccess::Read;
   WindowSpeed speed = WindowSpeed::Low;
   WindowStatus status = WindowStatus::Open;
-  WindowField number;
-  WindowField attribute;
-  uint32_t scale = 0;       // data = value x scale; 0: no section describes the data
-  bool wholeOnly = false;   // what is written must be a multiple of the scale
-  uint16_t listLine = 0;    // in Table 5-49
-  std::string_view section; // of Part II; "" where there is none
-  uint16_t line = 0;        // of the section
+  WindowField number = {};
+  WindowField attribute = {};
+  uint32_t scale = 0;            // data = value x scale; 0: no section describes the data
+  bool wholeOnly = false;        // what is written must be a multiple of the scale
+  uint16_t listLine = 0;         // in Table 5-49
+  std::string_view section = {}; // of Part II; "" where there is none
+  uint16_t line = 0;             // of the section
 };
 
 // In the order of their codes.

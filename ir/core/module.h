@@ -135,7 +135,10 @@ struct Task {
   FaultId budgetFault;
   std::vector<Copy> begin;
   std::vector<Copy> end;
-  uint32_t parts = 1; // a run is cut into this many parts of nearly equal weight, see parts.h
+  uint32_t parts = 1; // of a run; cutTask (parts.h) sets this and `borders`
+  // Rungs of the entry that begin parts 2, 3, …, ascending. Passes leave them alone: what a part does is the program's
+  // meaning, not the optimiser's. Parts without a border are empty.
+  std::vector<uint32_t> borders;
 };
 
 struct Step {

@@ -123,6 +123,13 @@ std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t pa
   return borders;
 }
 
+void cutTask(const Module& module, Task& task, uint32_t parts) {
+  task.parts = parts;
+  task.borders.clear();
+  const std::vector<PartPiece> pieces = partPieces(module, task.entry);
+  for (const uint32_t piece : cutParts(pieces, parts)) task.borders.push_back(pieces[piece].firstRung);
+}
+
 uint64_t heaviestPart(const std::vector<PartPiece>& pieces, uint32_t parts) {
   return leastHeaviest(pieces, sumsOf(pieces), std::max(parts, 1u));
 }

@@ -1,5 +1,5 @@
-// How a task's run is cut into parts of nearly equal weight. The layout cuts by it, and a dialect that has to know how
-// many parts it needs asks here.
+// How a task's run is cut into parts of nearly equal weight. A dialect cuts here, before any pass, and asks how many
+// parts it needs.
 //
 // Rungs that begin at one place of the source are one piece (the compiler adds rungs to some), and so are a routine's
 // closing rung and the one above it. A call weighs what it calls, once, and all that is called from there: loops and
@@ -23,6 +23,9 @@ std::vector<PartPiece> partPieces(const Module& module, RoutineId routine);
 // The first pieces of parts 2, 3, …: the heaviest part is as light as can be, and among such cuts each border lies
 // nearest to its share of the whole. Fewer borders than parts - 1 when there are not so many pieces.
 std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t parts);
+
+// Cuts the run of `task` into `parts`: its `parts` and `borders`.
+void cutTask(const Module& module, Task& task, uint32_t parts);
 
 // The weight of the heaviest part of that cut.
 uint64_t heaviestPart(const std::vector<PartPiece>& pieces, uint32_t parts);

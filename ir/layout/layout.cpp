@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <iterator>
 
-#include "ir/core/parts.h"
 #include "ir/layout/representation.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
@@ -105,13 +104,8 @@ private:
   // The rungs before which a part of a task ends.
   void markParts() {
     for (const Task& task : module_.tasks) {
-      std::vector<uint32_t>& borders = partBorders_.emplace_back();
-      if (task.parts < 2) continue;
-      const std::vector<PartPiece> pieces = partPieces(module_, task.entry);
-      for (const uint32_t piece : cutParts(pieces, task.parts)) {
-        borders.push_back(pieces[piece].firstRung);
-        heads_[task.entry.index][borders.back()] = true;
-      }
+      partBorders_.push_back(task.borders);
+      for (const uint32_t rung : task.borders) heads_[task.entry.index][rung] = true;
     }
   }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "ir/core/parts.h"
 #include "ir/random/random.h"
 #include "ir/random/random_rung.h"
 #include "ir/support/check.h"
@@ -178,7 +179,7 @@ private:
   void addTasks() {
     Task main{
         .name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1'000'000'000, .budgetFault = FaultId{0}};
-    main.parts = random_.between(1, 3);
+    cutTask(module_, main, random_.between(1, 3));
     // The inputs as they were when the run began; and what the program wrote over them, where the mask says so.
     main.begin.push_back({.from = {SpaceId{0}, 0, kSpaceBytes}, .to = SpaceId{6}});
     main.end.push_back({.masked = true,

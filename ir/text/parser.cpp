@@ -216,6 +216,7 @@ private:
     scanner_.expectWord("fault");
     task.budgetFault = FaultId{parseReference(scanner_, names_.faults, "fault")};
     task.parts = field("parts");
+    while (scanner_.acceptWord("at")) task.borders.push_back(scanner_.u32());
     scanner_.expect('{');
     scanner_.endLine();
     while (scanner_.ok() && !scanner_.accept('}')) {

@@ -203,8 +203,10 @@ void Printer::printMemory() {
 }
 
 void Printer::printTask(const Task& task) {
-  put("task {} entry {} period {} budget {} fault {} parts {} {{\n", nameText(task.name),
-      routines_.text(task.entry.index), task.periodUs, task.budget, faults_.text(task.budgetFault.index), task.parts);
+  put("task {} entry {} period {} budget {} fault {} parts {}", nameText(task.name), routines_.text(task.entry.index),
+      task.periodUs, task.budget, faults_.text(task.budgetFault.index), task.parts);
+  for (const uint32_t rung : task.borders) put(" at {}", rung);
+  put(" {{\n");
   for (const Copy& copy : task.begin) printCopy("begin", copy);
   for (const Copy& copy : task.end) printCopy("end", copy);
   put("}}\n");

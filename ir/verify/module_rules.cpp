@@ -136,12 +136,26 @@ void checkCopies(ModuleCheck& check) {
   }
 }
 
+// Borders are rungs behind the first one, ascending, and leave no part over.
+bool hasSoundBorders(const Module& module, const Task& task) {
+  if (task.borders.size() >= std::max(task.parts, 1u)) return false;
+  uint32_t last = 0;
+  for (const uint32_t rung : task.borders) {
+    if (rung <= last || rung >= module.at(task.entry).rungs.size()) return false;
+    last = rung;
+  }
+  return true;
+}
+
 void checkTasks(ModuleCheck& check) {
   for (const Task& task : check.module.tasks) {
     const auto fail = [&](std::string_view what) {
       check.fail(Rule::Tasks, fmt::format("task {} {}", task.name, what));
     };
-    if (task.entry.index >= check.module.routines.size()) fail("has no entry");
+    if (task.entry.index >= check.module.routines.size())
+      fail("has no entry");
+    else if (!hasSoundBorders(check.module, task))
+      fail("has borders of parts that are no rungs in order, or too many");
     if (task.budgetFault.index >= check.module.faults.size()) fail("has no fault for its budget");
     if (task.parts == 0) fail("has no parts");
     if (task.budget == 0) fail("has no budget");

@@ -241,8 +241,7 @@ void ModuleLowering::addTasks() {
                             .entry = levels_[1].routines[kLevel2],
                             .periodUs = kSlotUs * parts_,
                             .budget = kBudget,
-                            .budgetFault = ir::FaultId{0},
-                            .parts = 1});
+                            .budgetFault = ir::FaultId{0}});
   ir::cutTask(*module_, module_->tasks[1], parts_);
   module_->fastTask = ir::TaskId{0};
   module_->mainTask = ir::TaskId{1};

@@ -2,6 +2,7 @@
 // (ir_core).
 #include <gtest/gtest.h>
 
+#include "ir/core/parts.h"
 #include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "tests/unit/ir_interp/machine.h"
@@ -393,7 +394,7 @@ TEST(InterpModules, LayoutDoesNotShow) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     Module module = randomModule(seed);
     // Parts are cut at chunks and faults of budgets come at chunks.
-    for (Task& task : module.tasks) task.parts = 1;
+    for (Task& task : module.tasks) cutTask(module, task, 1);
     Machine a(module);
     Machine b(module, packed);
     for (int scan = 0; scan < 4; ++scan) {

@@ -77,9 +77,10 @@ bool equal(const Init& a, const Init& b) {
 }
 
 bool equal(const Task& a, const Task& b) {
-  const auto& [name, entry, periodUs, budget, budgetFault, begin, end, parts] = a;
+  const auto& [name, entry, periodUs, budget, budgetFault, begin, end, parts, borders] = a;
   return name == b.name && entry == b.entry && periodUs == b.periodUs && budget == b.budget &&
-         budgetFault == b.budgetFault && equalAll(begin, b.begin) && equalAll(end, b.end) && parts == b.parts;
+         budgetFault == b.budgetFault && equalAll(begin, b.begin) && equalAll(end, b.end) &&
+         parts == b.parts && borders == b.borders;
 }
 
 bool equal(const Step& a, const Step& b) {

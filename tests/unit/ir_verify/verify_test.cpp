@@ -168,6 +168,19 @@ TEST(VerifyModule, Tasks) {
   expectBroken([](Module& m) { m.tasks[0].entry = RoutineId{2}; }, Rule::Tasks, "no entry");
   expectBroken([](Module& m) { m.tasks[0].budgetFault = {}; }, Rule::Tasks, "no fault");
   expectBroken([](Module& m) { m.tasks[0].parts = 0; }, Rule::Tasks, "no parts");
+  expectBroken([](Module& m) { m.tasks[0].borders = {1}; }, Rule::Tasks, "borders");
+  expectBroken(
+      [](Module& m) {
+        m.tasks[0].parts = 3;
+        m.tasks[0].borders = {1, 1};
+      },
+      Rule::Tasks, "borders");
+  expectBroken(
+      [](Module& m) {
+        m.tasks[0].parts = 2;
+        m.tasks[0].borders = {9999};
+      },
+      Rule::Tasks, "borders");
   expectBroken([](Module& m) { m.tasks[0].budget = 0; }, Rule::Tasks, "no budget");
 }
 

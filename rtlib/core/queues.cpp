@@ -92,9 +92,9 @@ void ServiceQueue::deliver() noexcept {
   }
 }
 
+// Tickets go on: a reply that comes late, to a request from before, finds no record of its number.
 void ServiceQueue::clear() noexcept {
   for (ServiceRecord& record : records_) record = {};
-  lastTicket_ = 0;
   pending_ = 0;
   refused_.store(0, std::memory_order_relaxed);
   stray_.store(0, std::memory_order_relaxed);

@@ -180,6 +180,7 @@ private:
   std::string expectCall(Lane& lane, const Statement& s);
   std::string expectNoCall(Lane& lane, const Statement& s);
   std::string replyTo(Lane& lane, const Statement& s);
+  std::string prepare(Lane& lane, const Statement& s);
   std::string expectFault(Lane& lane, const Statement& s);
 
   const Scenario& scenario_;
@@ -211,11 +212,7 @@ void Runner::execute(const Statement& s) {
   case Kind::ExpectCall: return forLanes(s, [&](Lane& lane) { return expectCall(lane, s); });
   case Kind::ExpectNoCall: return forLanes(s, [&](Lane& lane) { return expectNoCall(lane, s); });
   case Kind::Reply: return forLanes(s, [&](Lane& lane) { return replyTo(lane, s); });
-  case Kind::Prepare:
-    return forLanes(s, [&](Lane& lane) {
-      lane.prepared.push_back({s.name, s.keys, s.results});
-      return std::string();
-    });
+  case Kind::Prepare: return forLanes(s, [&](Lane& lane) { return prepare(lane, s); });
   case Kind::BlockStart:
     return forLanes(s, [&](Lane& lane) { return lane.nc->blockStart(*lane.instance, arguments(s.keys)); });
   case Kind::BlockDone: return forLanes(s, [&](Lane& lane) { return lane.nc->blockDone(*lane.instance); });
@@ -303,11 +300,22 @@ std::string Runner::replyTo(Lane& lane, const Statement& s) {
     return "no request is pending";
   }
   const ServiceSignature signature(host::serviceName(lane.instance->program(), request.service));
-  for (const KeyValue& key : s.results)
-    if (key.key != "error" && signature.result(key.key) < 0)
-      return fmt::format("{} has no result '{}'", signature.name(), key.key);
+  const std::string problem = keyProblem(signature, {}, s.results);
+  if (!problem.empty()) return problem;
   lane.instance->services().complete(replyOf(signature, request.ticket, s.results));
   return {};
+}
+
+std::string Runner::prepare(Lane& lane, const Statement& s) {
+  const rung_program& program = lane.instance->program();
+  for (uint32_t i = 0; i < program.service_count; ++i) {
+    const ServiceSignature signature(host::serviceName(program, i));
+    if (!signature.isNamed(s.name)) continue;
+    const std::string problem = keyProblem(signature, s.keys, s.results);
+    if (problem.empty()) lane.prepared.push_back({s.name, s.keys, s.results});
+    return problem;
+  }
+  return fmt::format("this program asks for no service {}", s.name);
 }
 
 std::string Runner::expectFault(Lane& lane, const Statement& s) {

@@ -181,6 +181,28 @@ bool ServiceSignature::isNamed(std::string_view name) const { return sameName(na
 int ServiceSignature::argument(std::string_view key) const { return indexOf(arguments_, key); }
 int ServiceSignature::result(std::string_view key) const { return indexOf(results_, key); }
 
+std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyValue>& arguments,
+                       const std::vector<KeyValue>& results) {
+  for (const KeyValue& key : arguments)
+    if (signature.argument(key.key) < 0) return fmt::format("{} has no argument '{}'", signature.name(), key.key);
+  for (const KeyValue& key : results)
+    if (key.key != "error" && signature.result(key.key) < 0)
+      return fmt::format("{} has no result '{}'", signature.name(), key.key);
+  return {};
+}
+
+namespace {
+
+// Bits of an argument that count.
+uint64_t maskOf(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view key) {
+  const int length = signature.argument("length");
+  if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !sameName(key, "data")) return UINT64_MAX;
+  const int64_t bytes = request.args[length];
+  return bytes > 0 && bytes < 8 ? (uint64_t{1} << (8 * bytes)) - 1 : UINT64_MAX;
+}
+
+} // namespace
+
 std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
                               std::string_view service, const std::vector<KeyValue>& keys) {
   if (!signature.isNamed(service)) return fmt::format("the next request is {}, expected {}", signature.name(), service);
@@ -188,7 +210,8 @@ std::string requestDifference(const ServiceSignature& signature, const rt::Servi
     const int index = signature.argument(key.key);
     if (index < 0 || static_cast<uint32_t>(index) >= request.argCount)
       return fmt::format("{} has no argument '{}'", signature.name(), key.key);
-    if (request.args[index] != rawOf(key.value))
+    const uint64_t difference = static_cast<uint64_t>(request.args[index]) ^ static_cast<uint64_t>(rawOf(key.value));
+    if ((difference & maskOf(signature, request, key.key)) != 0)
       return fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, request.args[index], key.value.text);
   }
   return {};

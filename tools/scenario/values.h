@@ -56,7 +56,11 @@ struct Prepared {
   std::vector<KeyValue> results;
 };
 
-// "" when the request is this service with these arguments; keys that are not given are not compared.
+// "" when the service knows these arguments and results; a result may also be `error`.
+std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyValue>& arguments,
+                       const std::vector<KeyValue>& results);
+// "" when the request is this service with these arguments; keys that are not given are not compared. `data` of a
+// request that has a `length` compares modulo so many bytes.
 std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
                               std::string_view service, const std::vector<KeyValue>& keys);
 bool matches(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service,

@@ -52,7 +52,7 @@ public:
   ir::ValueId sinceLastRun();
   // State that all instructions of the program share.
   ir::SlotId shared(const std::string& key, ir::Type type);
-  // Remembers the current run of each level; how many runs ago that was, on this level.
+  // Remembers the current run of each level; how many runs ago that was, on this level (signed).
   void markRun();
   ir::ValueId runsSinceMark();
   ir::ServiceId service(std::string_view signature);

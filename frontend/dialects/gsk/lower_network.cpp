@@ -148,11 +148,15 @@ ir::ValueId FunctionLowering::sinceLastRun() {
 
 ir::SlotId FunctionLowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
-// A unit that both levels run shares its state, but each level has a count of its own.
+// A unit that both levels run shares its state, but each level has a count of its own. What Level 2 does behind Level 1
+// in one slot belongs to the same scan.
 void FunctionLowering::markRun() {
-  for (const LevelState& level : module_.levels())
-    if (level.routines[routine_.unit].valid())
-      b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), b.slotLoad(level.runs));
+  for (const LevelState& level : module_.levels()) {
+    if (!level.routines[routine_.unit].valid()) continue;
+    const bool behind = level.isLevel2 && !routine_.level->isLevel2;
+    const ir::ValueId runs = b.slotLoad(level.runs);
+    b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), behind ? b.add(runs, b.i32(1)) : runs);
+  }
 }
 
 ir::ValueId FunctionLowering::runsSinceMark() {

@@ -188,7 +188,7 @@ Step WindowLowering::whenPending() {
 Step WindowLowering::awaited() {
   const ValueId asked = b_.slotLoad(ticket());
   const ValueId there = b_.ne(b_.servicePoll(asked), b_.i32(RUNG_SERVICE_PENDING));
-  const ValueId ripe = b_.leU(b_.i32(kAnswerAfterRuns), f_.runsSinceMark());
+  const ValueId ripe = b_.leS(b_.i32(kAnswerAfterRuns), f_.runsSinceMark());
   const ValueId finished = b_.and_(there, ripe);
   f_.when(finished, [&] { setState(kDone); });
   return {finished, finished, endOf(asked), b_.serviceResult(asked, 1), b_.slotLoad(length())};

@@ -119,6 +119,21 @@ TEST_F(Services, RepliesToNothingAreCounted) {
   EXPECT_EQ(queue->pending(), 0u);
 }
 
+TEST_F(Services, LateReplyToARequestFromBeforeClearIsThrownAway) {
+  const uint32_t before = queue->request(0, nullptr, 0);
+  ServiceRequest request;
+  ASSERT_TRUE(queue->take(request));
+  queue->clear();
+  const uint32_t after = queue->request(0, nullptr, 0);
+  EXPECT_NE(after, before);
+  queue->complete(reply(before, 5));
+  queue->deliver();
+  EXPECT_EQ(queue->poll(after), RUNG_SERVICE_PENDING);
+  EXPECT_EQ(queue->poll(before), RUNG_SERVICE_NONE);
+  EXPECT_EQ(queue->stray(), 1u);
+  EXPECT_EQ(queue->pending(), 1u);
+}
+
 TEST_F(Services, ResponderAnswersInTheSameScan) {
   queue->setResponder({[](void*, const ServiceRequest& request, ServiceReply& r) {
                          if (request.service != 1) return false;

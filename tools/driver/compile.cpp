@@ -21,20 +21,20 @@ void checkModule(const ir::Module& module, ir::Mode mode) {
   RUNG_CHECK(errors.empty(), ir::render(module, errors).c_str());
 }
 
+} // namespace
+
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
-                                       const CompileRequest& request, Diagnostics& diagnostics) {
+                                       const std::string& name, Diagnostics& diagnostics) {
   const SourceRange start = sources.range(files[0], 0, 0);
-  if (!request.dialect.empty()) {
-    const frontend::Dialect* named = frontend::findDialect(request.dialect);
-    if (named == nullptr) diagnostics.report(Diag::UnknownDialect, start) << request.dialect;
+  if (!name.empty()) {
+    const frontend::Dialect* named = frontend::findDialect(name);
+    if (named == nullptr) diagnostics.report(Diag::UnknownDialect, start) << name;
     return named;
   }
   const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
   if (found == nullptr) diagnostics.report(Diag::MissingDialect, start);
   return found;
 }
-
-} // namespace
 
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names) {
   std::vector<FileId> files;
@@ -53,7 +53,7 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics) {
   Compiled out;
-  out.dialect = chooseDialect(sources, files, request, diagnostics);
+  out.dialect = chooseDialect(sources, files, request.dialect, diagnostics);
   if (out.dialect == nullptr) return std::nullopt;
   out.module = out.dialect->compile(sources, files, request.options, diagnostics);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;

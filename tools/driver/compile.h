@@ -31,6 +31,11 @@ struct Compiled {
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
 
+// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing tells; that is
+// reported.
+const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
+                                       const std::string& name, Diagnostics& diagnostics);
+
 // Nothing when the program has errors; they stand in `diagnostics`.
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics);

@@ -27,11 +27,17 @@ void addLevelOption(CLI::App& command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
 std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
                                                driver::CompileRequest request, int& status);
+// The files and the configuration of these options; nothing, and `status` says why, when they cannot be had.
+std::optional<std::vector<FileId>> addSources(SourceManager& sources, const SourceOptions& options,
+                                              frontend::CompileOptions& compile, int& status);
+// To standard error, as JSON to standard output.
+void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options);
 // Prints "rungc: MESSAGE" and gives kEnvironment.
 int environmentError(const std::string& message);
 
 void addCheck(CLI::App& app, int& status);
 void addBuild(CLI::App& app, int& status);
+void addConvert(CLI::App& app, int& status);
 void addEmit(CLI::App& app, int& status);
 void addRun(CLI::App& app, int& status);
 void addTest(CLI::App& app, int& status);

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   addCheck(app, status);
   addBuild(app, status);
   addEmit(app, status);
+  addConvert(app, status);
   addRun(app, status);
   addTest(app, status);
   addProfile(app, status);

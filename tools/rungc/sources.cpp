@@ -31,8 +31,6 @@ int environmentError(const std::string& message) {
   return kEnvironment;
 }
 
-namespace {
-
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options) {
   if (options.json) {
     std::cout << renderJson(diagnostics, sources) << '\n';
@@ -43,12 +41,9 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
   std::cerr << renderText(diagnostics, sources, render);
 }
 
-} // namespace
-
-std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
-                                               driver::CompileRequest request, int& status) {
-  request.dialect = options.dialect;
-  request.options.strict = options.strict;
+std::optional<std::vector<FileId>> addSources(SourceManager& sources, const SourceOptions& options,
+                                              frontend::CompileOptions& compile, int& status) {
+  compile.strict = options.strict;
   for (const std::string& pair : options.config) {
     const size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -56,15 +51,21 @@ std::optional<driver::Compiled> compileSources(SourceManager& sources, const Sou
       status = kUsage;
       return std::nullopt;
     }
-    request.options.config[pair.substr(0, equals)] = pair.substr(equals + 1);
+    compile.config[pair.substr(0, equals)] = pair.substr(equals + 1);
   }
   Result<std::vector<FileId>> files = driver::addFiles(sources, options.files);
-  if (!files.ok()) {
-    status = environmentError(files.error());
-    return std::nullopt;
-  }
+  if (files.ok()) return files.value();
+  status = environmentError(files.error());
+  return std::nullopt;
+}
+
+std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
+                                               driver::CompileRequest request, int& status) {
+  request.dialect = options.dialect;
+  const auto files = addSources(sources, options, request.options, status);
+  if (!files) return std::nullopt;
   Diagnostics diagnostics;
-  std::optional<driver::Compiled> compiled = driver::compile(sources, files.value(), request, diagnostics);
+  std::optional<driver::Compiled> compiled = driver::compile(sources, *files, request, diagnostics);
   printDiagnostics(diagnostics, sources, options);
   status = compiled ? kOk : kWrong;
   return compiled;

@@ -1,8 +1,12 @@
 // Both directions of the canonical decomposition.
 #include "frontend/dialects/gsk/canonical.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
+
+#include "frontend/dialects/gsk/network_builder.h"
+#include "frontend/dialects/gsk/title.h"
 
 namespace rung::gsk {
 namespace {
@@ -73,6 +77,29 @@ SpTree TreeBuilder::copy(uint32_t root) const {
   return tree;
 }
 
+constexpr std::string_view kBlocks = "list:";
+
+bool isBlockCommand(Logic kind) { return kind == Logic::OrBlock || kind == Logic::AndBlock; }
+
+// Canonical; nothing where a command lacks a value.
+std::vector<Logic> canonicalLogic(std::span<const Logic> commands) {
+  std::vector<Logic> result;
+  if (const auto trees = treesOf(commands))
+    for (const SpTree& tree : *trees)
+      for (const CanonicalStep& step : canonicalSteps(tree)) result.push_back(step.kind);
+  return result;
+}
+
+uint32_t depthOf(std::span<const Logic> commands) {
+  uint32_t depth = 0;
+  uint32_t deepest = 0;
+  for (Logic kind : commands) {
+    if (kind == Logic::Load) deepest = std::max(deepest, ++depth);
+    if (isBlockCommand(kind)) --depth;
+  }
+  return deepest;
+}
+
 } // namespace
 
 std::vector<CanonicalStep> canonicalSteps(const SpTree& tree) {
@@ -97,6 +124,52 @@ std::vector<CanonicalStep> canonicalSteps(const SpTree& tree) {
     stack.push_back({node.children[0], Logic::Load});
   }
   return steps;
+}
+
+std::vector<std::string_view> wordsIn(std::string_view comment) {
+  std::vector<std::string_view> words;
+  for (std::string_view text = trimmed(comment); !text.empty(); text = trimmed(text)) {
+    const size_t end = std::min(text.find_first_of(" \t"), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
+std::string blocksHint(std::span<const Logic> commands) {
+  const std::vector<Logic> canonical = canonicalLogic(commands);
+  if (std::equal(canonical.begin(), canonical.end(), commands.begin(), commands.end())) return {};
+  std::string text(kBlocks);
+  for (Logic kind : commands) (text += ' ') += nameOf(commandOf(kind, false));
+  return text;
+}
+
+std::optional<std::vector<Logic>> parseBlocksHint(std::string_view comment) {
+  constexpr Logic kLogic[] = {Logic::Load, Logic::And, Logic::Or, Logic::OrBlock, Logic::AndBlock};
+  if (!comment.starts_with(kBlocks)) return std::nullopt;
+  std::vector<Logic> commands;
+  for (std::string_view word : wordsIn(comment.substr(kBlocks.size()))) {
+    const auto* const at = std::find_if(std::begin(kLogic), std::end(kLogic),
+                                        [&](Logic kind) { return equalNoCase(nameOf(commandOf(kind, false)), word); });
+    if (at == std::end(kLogic)) return std::nullopt;
+    commands.push_back(*at);
+  }
+  return commands;
+}
+
+std::optional<std::vector<CanonicalStep>> withBlocks(const std::vector<CanonicalStep>& steps,
+                                                     std::span<const Logic> blocks) {
+  std::vector<Logic> own;
+  std::vector<ladder::ElementId> contacts;
+  for (const CanonicalStep& step : steps) {
+    own.push_back(step.kind);
+    if (!isBlockCommand(step.kind)) contacts.push_back(step.contact);
+  }
+  if (canonicalLogic(blocks) != own || depthOf(blocks) > kStackDepth) return std::nullopt;
+  std::vector<CanonicalStep> result;
+  size_t next = 0;
+  for (Logic kind : blocks) result.push_back({kind, isBlockCommand(kind) ? ladder::ElementId{} : contacts[next++]});
+  return result;
 }
 
 std::optional<std::vector<SpTree>> treesOf(std::span<const Logic> commands) {

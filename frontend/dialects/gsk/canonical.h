@@ -3,6 +3,8 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "frontend/dialects/gsk/program.h"
@@ -22,5 +24,17 @@ std::vector<CanonicalStep> canonicalSteps(const SpTree& tree);
 // The values on the stack behind the commands, the one of the first LD in front. Contacts are numbered in the order of
 // the commands. Nullopt where a command lacks a value.
 std::optional<std::vector<SpTree>> treesOf(std::span<const Logic> commands);
+
+// `list: LD LD ORB`, a comment at the top of a drawing: its logic commands where they are not the canonical ones. Both
+// say the same, but the commands are what steps are counted by and what the memory of a network is known by.
+std::string blocksHint(std::span<const Logic> commands);
+std::optional<std::vector<Logic>> parseBlocksHint(std::string_view comment);
+
+// The steps of a drawing as the hint has them; nothing where the hint does not say the same, or needs too deep a stack.
+std::optional<std::vector<CanonicalStep>> withBlocks(const std::vector<CanonicalStep>& steps,
+                                                     std::span<const Logic> blocks);
+
+// The words of a comment.
+std::vector<std::string_view> wordsIn(std::string_view comment);
 
 } // namespace rung::gsk

@@ -80,6 +80,15 @@ std::optional<uint32_t> slotStepsOf(const frontend::CompileOptions& options) {
   return static_cast<uint32_t>(parseDigits(at->second).value_or(1));
 }
 
+Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  const auto at = options.config.find("machine");
+  if (at == options.config.end()) return Machine::Any;
+  if (at->second == "mill") return Machine::Mill;
+  if (at->second == "turn") return Machine::Turn;
+  diagnostics.report(Diag::ConstantOutOfRange) << "machine " + at->second << "mill, turn";
+  return Machine::Any;
+}
+
 std::vector<Preset> presetsOf(const frontend::CompileOptions& options) {
   std::vector<Preset> result;
   for (const auto& [key, text] : options.config) {

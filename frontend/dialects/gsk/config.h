@@ -7,6 +7,7 @@
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/address.h"
+#include "frontend/dialects/gsk/signals.h"
 
 namespace rung::gsk {
 
@@ -22,6 +23,8 @@ void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnosti
 std::optional<uint32_t> partsOf(const frontend::CompileOptions& options);
 // The steps that fit into one slot of 8 ms, Level 1 included, when that is given: n follows (man. l.434-444).
 std::optional<uint32_t> slotStepsOf(const frontend::CompileOptions& options);
+// Any where it is not given, or wrong and reported.
+Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics);
 std::vector<Preset> presetsOf(const frontend::CompileOptions& options);
 
 // Timers 1-20 count in 48 ms, the others in 8 ms (man. l.1114).

@@ -10,15 +10,6 @@
 namespace rung::gsk {
 namespace {
 
-Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
-  const auto at = options.config.find("machine");
-  if (at == options.config.end()) return Machine::Any;
-  if (at->second == "mill") return Machine::Mill;
-  if (at->second == "turn") return Machine::Turn;
-  diagnostics.report(Diag::ConstantOutOfRange) << "machine " + at->second << "mill, turn";
-  return Machine::Any;
-}
-
 std::vector<ir::MessageText> configuredMessages(SourceManager& sources, FileId program,
                                                 const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   const auto at = options.config.find("messages");

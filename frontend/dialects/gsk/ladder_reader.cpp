@@ -51,7 +51,8 @@ private:
   bool checkCoils();
   bool decomposeInputs();
   std::string nameOf(const Element& element) const;
-  void emit(const SpTree& tree);
+  void emitInputs();
+  std::optional<std::vector<Logic>> hint() const;
   void emitBox();
 
   Context& context_;
@@ -238,9 +239,16 @@ bool RungReader::decomposeInputs() {
   return true;
 }
 
-void RungReader::emit(const SpTree& tree) {
+void RungReader::emitInputs() {
+  std::vector<CanonicalStep> steps;
+  for (const SpTree& input : inputs_) {
+    const std::vector<CanonicalStep> own = canonicalSteps(input);
+    steps.insert(steps.end(), own.begin(), own.end());
+  }
+  if (const auto blocks = hint())
+    if (auto other = withBlocks(steps, *blocks)) steps = std::move(*other);
   Place last;
-  for (const CanonicalStep& step : canonicalSteps(tree)) {
+  for (const CanonicalStep& step : steps) {
     if (!step.contact.valid()) {
       builder_.block(step.kind, last);
       continue;
@@ -249,6 +257,14 @@ void RungReader::emit(const SpTree& tree) {
     last = placeOf(contact);
     builder_.contact(step.kind, contact.negated, rung_.operandOf(contact), last);
   }
+}
+
+// Behind the line with the word `rung`.
+std::optional<std::vector<Logic>> RungReader::hint() const {
+  const SourceManager& sources = context_.sources;
+  const std::string_view line = trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
+  if (!line.starts_with(';')) return std::nullopt;
+  return parseBlocksHint(trimmed(line.substr(1)));
 }
 
 void RungReader::emitBox() {
@@ -268,7 +284,7 @@ void RungReader::emitBox() {
 bool RungReader::read() {
   if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs()) return false;
   builder_.title(title_);
-  for (const SpTree& input : inputs_) emit(input);
+  emitInputs();
   if (box_ != nullptr) emitBox();
   for (const Element* coil : coils_) builder_.coil(coilOf(coil->coil), rung_.operandOf(*coil), placeOf(*coil));
   builder_.finish();

@@ -11,13 +11,6 @@
 namespace rung::gsk {
 namespace {
 
-std::optional<Command> commandOf(std::string_view text) {
-  const auto at = std::find_if(kCommandNames.begin(), kCommandNames.end(),
-                               [&](std::string_view name) { return equalNoCase(name, text); });
-  if (at == kCommandNames.end()) return std::nullopt;
-  return static_cast<Command>(at - kCommandNames.begin());
-}
-
 std::string_view wantedOperand(Command command) {
   switch (command) {
   case Command::Func: return "the number or name of a function";
@@ -137,7 +130,7 @@ void ListReader::readStatement(std::span<const Word> words) {
   title_.statement();
   const Place at{join(words.front().range, words.back().range), line_.number};
   const bool readable = checkCharacters(words);
-  const auto command = commandOf(words[0].text);
+  const auto command = findCommand(words[0].text);
   if (!command) {
     if (readable) reportUnknownCommand(context_, words[0], kCommandNames);
     return builder_.garbage(at);
@@ -200,6 +193,13 @@ void ListReader::dispatch(Command command, std::span<const Word> words, Place at
 
 } // namespace
 
+std::optional<Command> findCommand(std::string_view text) {
+  const auto at = std::find_if(kCommandNames.begin(), kCommandNames.end(),
+                               [&](std::string_view name) { return equalNoCase(name, text); });
+  if (at == kCommandNames.end()) return std::nullopt;
+  return static_cast<Command>(at - kCommandNames.begin());
+}
+
 // The words behind the step number (the S/N column).
 std::span<const Word> statementOf(const LineWords& line) {
   std::span<const Word> words(line.words);
@@ -214,7 +214,7 @@ void readListSymbols(Context& context, FileId file) {
   while (lines.next(line)) {
     splitWords(line, kListRules, words);
     const auto statement = statementOf(words);
-    const auto command = statement.empty() ? std::nullopt : commandOf(statement[0].text);
+    const auto command = statement.empty() ? std::nullopt : findCommand(statement[0].text);
     if (!command || !isDeclaration(*command)) continue;
     const bool readable = std::all_of(statement.begin(), statement.end(), [](const Word& word) {
       return std::all_of(word.text.begin(), word.text.end(), isPlain);

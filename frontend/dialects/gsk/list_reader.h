@@ -1,5 +1,6 @@
 // Command lists, `*.pmc` (P12): one statement a line.
 #pragma once
+#include <optional>
 #include <span>
 
 #include "frontend/dialects/gsk/context.h"
@@ -9,6 +10,7 @@ namespace rung::gsk {
 
 // Comments begin with ';', there are no quoted texts.
 inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
+std::optional<Command> findCommand(std::string_view name);
 // The words behind the step number.
 std::span<const Word> statementOf(const LineWords& line);
 

@@ -22,17 +22,18 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
-std::string_view sectionIn(std::string_view comment) {
+std::optional<std::string_view> sectionIn(std::string_view comment) {
   constexpr std::string_view kBegin = "section \"";
-  if (!comment.starts_with(kBegin)) return {};
+  if (!comment.starts_with(kBegin)) return std::nullopt;
   const std::string_view text = comment.substr(kBegin.size());
-  return text.find('"') + 1 == text.size() && text.size() > 1 ? text.substr(0, text.size() - 1) : std::string_view();
+  if (text.find('"') + 1 != text.size()) return std::nullopt;
+  return text.substr(0, text.size() - 1);
 }
 
 bool isTitle(std::string_view comment) { return !isDecoration(comment) && comment[0] != ';'; }
 
 void TitleRule::comment(std::string_view text) {
-  if (!sectionIn(text).empty()) return statement();
+  if (sectionIn(text)) return statement();
   if (!isTitle(text)) return;
   if (!inBlock_) title_ = text;
   inBlock_ = true;

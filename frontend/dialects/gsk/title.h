@@ -2,14 +2,15 @@
 // front of it. Lines without letters or digits are decoration; a comment that begins with a further ';' and a section
 // are no titles; any statement in between begins anew.
 #pragma once
+#include <optional>
 #include <string_view>
 
 #include "ir/support/source.h"
 
 namespace rung::gsk {
 
-// `section "text"` in a comment of a command list stands for ladder text's statement: the text, else an empty view.
-std::string_view sectionIn(std::string_view comment);
+// `section "text"` in a comment of a command list stands for ladder text's statement: its text.
+std::optional<std::string_view> sectionIn(std::string_view comment);
 // Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 // Whether a comment can be a title.

@@ -1,0 +1,279 @@
+// Ladder text to the source model. The ladder parser has no use for comments, so the lines are walked beside what it
+// found; comments of a drawing go to the commands that its elements stand for.
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/convert/collector.h"
+#include "frontend/dialects/gsk/convert/hints.h"
+#include "frontend/dialects/gsk/title.h"
+#include "ir/support/check.h"
+
+namespace rung::gsk::convert {
+namespace {
+
+struct LineComment {
+  uint32_t line = 0;
+  std::string text;
+};
+
+// The comments of one rung.
+struct RungText {
+  uint32_t firstDrawn = 0;          // line
+  std::vector<LineComment> lines;   // lines of their own
+  std::vector<LineComment> remarks; // behind a line of the drawing
+};
+
+// A rung and the network that it stands for, to commands with their comments.
+class RungCollector {
+public:
+  RungCollector(const Network& network, Gap& gap) : network_(network), gap_(gap) {}
+
+  SourceNetwork run(const RungText& text);
+
+private:
+  void copy();
+  bool isBlocksHint(const LineComment& comment) const;
+  void index();
+  void remark(const LineComment& comment);
+  void ownLine(const LineComment& comment, uint32_t firstDrawn);
+  bool byTag(const LineComment& comment);
+  void before(uint32_t command, const std::string& text);
+  void toGap(const std::string& text) { gap_.push_back({Item::Kind::Comment, text}); }
+
+  const Network& network_;
+  Gap& gap_;
+  SourceNetwork result_;
+  struct Ends {
+    uint32_t first = kNone;
+    uint32_t last = kNone;
+  };
+  std::map<uint32_t, Ends> ends_; // by line: the commands of its first and last element
+  std::map<std::string, uint32_t, std::less<>> tags_;
+};
+
+void RungCollector::copy() {
+  for (const Written& written : network_.written)
+    result_.commands.push_back({written.command, written.operand, {}, {}});
+}
+
+void RungCollector::index() {
+  const auto column = [&](uint32_t command) { return network_.written[command].range.begin; };
+  for (uint32_t i = 0; i < result_.commands.size(); ++i) {
+    const Command command = result_.commands[i].command;
+    if (isBlock(command) || command == Command::Prm || command == Command::Table) continue;
+    Ends& ends = ends_[network_.written[i].line];
+    if (ends.first == kNone || column(i) < column(ends.first)) ends.first = i;
+    if (ends.last == kNone || column(i) > column(ends.last)) ends.last = i;
+  }
+}
+
+void RungCollector::before(uint32_t command, const std::string& text) {
+  if (command == 0)
+    toGap(text);
+  else
+    result_.commands[command].before.push_back(text);
+}
+
+void RungCollector::remark(const LineComment& comment) {
+  const auto at = ends_.find(comment.line);
+  if (at == ends_.end()) return toGap(comment.text);
+  std::string& own = result_.commands[at->second.last].comment;
+  if (own.empty())
+    own = comment.text;
+  else
+    before(at->second.last, comment.text);
+}
+
+bool RungCollector::byTag(const LineComment& comment) {
+  const auto tag = parseTag(comment.text);
+  if (!tag) return false;
+  if (tags_.empty()) {
+    const auto tags = tagsOf(result_);
+    for (uint32_t i = 0; i < tags.size(); ++i) tags_.emplace(tags[i], i);
+  }
+  const auto at = tags_.find(tag->tag);
+  if (at == tags_.end()) return false;
+  std::string& own = result_.commands[at->second].comment;
+  if (tag->before || !own.empty() || tag->text.empty())
+    before(at->second, std::string(tag->text));
+  else
+    own = tag->text;
+  return true;
+}
+
+void RungCollector::ownLine(const LineComment& comment, uint32_t firstDrawn) {
+  if (byTag(comment)) return;
+  const auto at = ends_.upper_bound(comment.line);
+  if (comment.line < firstDrawn || at == ends_.end())
+    toGap(comment.text);
+  else
+    before(at->second.first, comment.text);
+}
+
+// One that was heeded: the commands are what it says.
+bool RungCollector::isBlocksHint(const LineComment& comment) const {
+  const auto blocks = parseBlocksHint(comment.text);
+  return blocks && *blocks == logicOf(result_.commands);
+}
+
+SourceNetwork RungCollector::run(const RungText& text) {
+  result_.row = network_.function.row;
+  result_.range = network_.range;
+  result_.title = clean(network_.title);
+  copy();
+  index();
+  for (const LineComment& comment : text.remarks) remark(comment);
+  for (const LineComment& comment : text.lines)
+    if (!isBlocksHint(comment)) ownLine(comment, text.firstDrawn);
+  return std::move(result_);
+}
+
+class LadderCollector {
+public:
+  LadderCollector(Collector& collector, const ladder::LadderFile& file) : out_(collector), file_(file) {}
+
+  void run() {
+    LineReader lines(out_.context.sources, file_.file);
+    for (SourceLine line; lines.next(line);) read(line);
+    closeCondition();
+  }
+
+private:
+  void read(const SourceLine& line);
+  void statement(const SourceLine& line);
+  void comment(const SourceLine& line, std::string_view text);
+  void drawn(const SourceLine& line);
+  void module();
+  void openRung();
+  void insertTitle(std::string text);
+  void closeCondition();
+  bool isCondition() const;
+
+  Collector& out_;
+  const ladder::LadderFile& file_;
+  LineWords words_;
+  size_t nextRung_ = 0;
+  const ladder::Rung* rung_ = nullptr; // whose drawing has not ended
+  RungText text_;
+  uint32_t unit_ = 0;
+  bool inCondition_ = false;                // behind `module SUB Pn`
+  std::vector<std::string_view> condition_; // comments that may be it
+};
+
+void LadderCollector::read(const SourceLine& line) {
+  const std::string_view text = trimmed(line.text);
+  const bool isComment = !text.empty() && text[0] == ';';
+  if (!isComment) closeCondition();
+  if (text.empty())
+    out_.blank();
+  else if (isComment)
+    comment(line, trimmed(text.substr(1)));
+  else if (std::string_view("|+-[({").find(text[0]) != std::string_view::npos)
+    drawn(line);
+  else
+    statement(line);
+}
+
+void LadderCollector::comment(const SourceLine& line, std::string_view text) {
+  if (inCondition_ && parseConditionHint(text)) {
+    condition_.push_back(text);
+    return;
+  }
+  closeCondition();
+  if (rung_ != nullptr)
+    text_.lines.push_back({line.number, clean(text)});
+  else
+    out_.comment(text);
+}
+
+// No operand of this dialect has a ';' in it.
+void LadderCollector::drawn(const SourceLine& line) {
+  RUNG_CHECK(rung_ != nullptr, "a drawing belongs to a rung");
+  if (text_.firstDrawn == 0) text_.firstDrawn = line.number;
+  const size_t remark = line.text.find(';');
+  if (remark != std::string_view::npos) {
+    std::string text = clean(line.text.substr(remark + 1));
+    if (!text.empty()) text_.remarks.push_back({line.number, std::move(text)});
+  }
+  if (line.number < rung_->lastLine) return;
+  SourceNetwork network = RungCollector(out_.takeNetwork(), out_.gap).run(text_);
+  network.gap = out_.takeGap();
+  out_.program.units[unit_].networks.push_back(std::move(network));
+  rung_ = nullptr;
+}
+
+void LadderCollector::statement(const SourceLine& line) {
+  splitWords(line, {}, words_);
+  const std::string_view keyword = words_.words[0].text;
+  if (keyword == "rung") return openRung();
+  if (keyword == "module") return module();
+  if (keyword == "dialect") return out_.statement(Item::Kind::Dialect, {}, words_.comment);
+  if (keyword == "symbol") return out_.statement(Item::Kind::Symbol, words_.words, words_.comment);
+  if (keyword == "const") return out_.statement(Item::Kind::Const, words_.words, words_.comment);
+  RUNG_CHECK(keyword == "section", "no other statement is without errors");
+  out_.gap.push_back({Item::Kind::Section, clean(words_.words[1].text)});
+  if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
+}
+
+// In a list the title is the first line of the last block of comment lines.
+void LadderCollector::insertTitle(std::string text) {
+  auto at = out_.gap.end();
+  while (at != out_.gap.begin() && std::prev(at)->kind == Item::Kind::Comment) --at;
+  out_.gap.insert(at, {Item::Kind::Comment, std::move(text)});
+}
+
+void LadderCollector::openRung() {
+  rung_ = &file_.rungs[nextRung_++];
+  text_ = {};
+  std::string title = clean(rung_->comment);
+  if (!title.empty()) insertTitle(std::move(title));
+  if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
+}
+
+void LadderCollector::module() {
+  const std::string_view name = words_.words[1].text;
+  SourceUnit unit;
+  unit.kind = words_.words.size() > 2       ? UnitKind::Subprogram
+              : equalNoCase(name, "LEVEL1") ? UnitKind::Level1
+                                            : UnitKind::Level2;
+  if (unit.kind == UnitKind::Subprogram) unit.number = words_.words[2].text;
+  unit.lead = out_.takeGap();
+  unit.comment = clean(words_.comment);
+  inCondition_ = unit.kind == UnitKind::Subprogram;
+  unit_ = static_cast<uint32_t>(out_.program.units.size());
+  out_.program.units.push_back(std::move(unit));
+}
+
+bool LadderCollector::isCondition() const {
+  Diagnostics unheard;
+  Context context{.sources = out_.context.sources, .diagnostics = unheard, .names = out_.context.names};
+  context.machine = out_.context.machine;
+  const SourceRange somewhere = out_.context.sources.range(file_.file, 0, 0);
+  std::vector<Logic> logic;
+  for (std::string_view text : condition_) {
+    const auto command = parseConditionHint(text);
+    logic.push_back(logicOf(command->command));
+    if (!isBlock(command->command) && !bitOperand(context, Word{command->operand, somewhere, false})) return false;
+  }
+  const auto trees = treesOf(logic);
+  return trees && trees->size() == 1;
+}
+
+void LadderCollector::closeCondition() {
+  inCondition_ = false;
+  if (condition_.empty()) return;
+  if (isCondition()) {
+    for (std::string_view text : condition_) out_.program.units[unit_].condition.push_back(*parseConditionHint(text));
+  } else {
+    for (std::string_view text : condition_) out_.comment(text);
+  }
+  condition_.clear();
+}
+
+} // namespace
+
+void collectLadder(Collector& collector, const ladder::LadderFile& file) { LadderCollector(collector, file).run(); }
+
+} // namespace rung::gsk::convert

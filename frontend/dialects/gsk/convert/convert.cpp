@@ -1,0 +1,89 @@
+// Checks the program as the compiler does, converts it, and reads the result back: a text that says anything else is
+// never handed out.
+#include "frontend/dialects/gsk/convert/convert.h"
+
+#include <algorithm>
+
+#include "frontend/dialects/gsk/config.h"
+#include "frontend/dialects/gsk/convert/collect.h"
+#include "frontend/dialects/gsk/convert/drawing.h"
+#include "frontend/dialects/gsk/convert/writers.h"
+#include "frontend/dialects/gsk/gsk.h"
+#include "ir/support/check.h"
+
+namespace rung::gsk {
+namespace {
+
+using convert::SourceCommand;
+using convert::SourceNetwork;
+using convert::SourceProgram;
+using convert::SourceUnit;
+
+std::optional<SourceProgram> readModel(SourceManager& sources, std::span<const FileId> files, Machine machine,
+                                       Diagnostics& diagnostics) {
+  Context context{.sources = sources, .diagnostics = diagnostics, .names = {}};
+  context.machine = machine;
+  std::vector<Network> networks;
+  context.onNetwork = [&networks](const Network& network) { networks.push_back(network); };
+  Program program;
+  Reading reading(context, program);
+  for (FileId file : files) reading.add(file);
+  reading.read();
+  if (diagnostics.hasErrors()) return std::nullopt;
+  return convert::collect(context, reading, networks);
+}
+
+bool sameCommand(const SourceCommand& a, const SourceCommand& b) {
+  return a.command == b.command && a.operand == b.operand;
+}
+
+bool sameNetwork(const SourceNetwork& a, const SourceNetwork& b) {
+  return a.title == b.title &&
+         std::equal(a.commands.begin(), a.commands.end(), b.commands.begin(), b.commands.end(), sameCommand);
+}
+
+bool sameUnit(const SourceUnit& a, const SourceUnit& b) {
+  return a.kind == b.kind && a.number == b.number &&
+         std::equal(a.condition.begin(), a.condition.end(), b.condition.begin(), b.condition.end(), sameCommand) &&
+         std::equal(a.networks.begin(), a.networks.end(), b.networks.begin(), b.networks.end(), sameNetwork);
+}
+
+void checkSame(const SourceProgram& model, const std::string& text, convert::Form form, Machine machine) {
+  SourceManager sources;
+  Diagnostics diagnostics;
+  const FileId file = sources.addBuffer(form == convert::Form::List ? "converted.pmc" : "converted.lad", text);
+  const auto again = readModel(sources, std::span(&file, 1), machine, diagnostics);
+  RUNG_CHECK(again.has_value(), "a converted program has no errors");
+  RUNG_CHECK(std::equal(model.units.begin(), model.units.end(), again->units.begin(), again->units.end(), sameUnit),
+             "a converted program is the same program");
+}
+
+// False when a network is too large to be drawn.
+bool checkDrawings(const SourceProgram& model, Diagnostics& diagnostics) {
+  for (const SourceUnit& unit : model.units) {
+    for (const SourceNetwork& network : unit.networks) {
+      const convert::DrawingSize size = sizeOf(network);
+      if (size.lines * size.columns > convert::kMaxDrawing)
+        diagnostics.report(Diag::DrawingTooLarge, network.range) << size.lines << size.columns;
+    }
+  }
+  return !diagnostics.hasErrors();
+}
+
+} // namespace
+
+std::optional<std::string> convertProgram(SourceManager& sources, std::span<const FileId> files,
+                                          const frontend::CompileOptions& options, convert::Form to,
+                                          Diagnostics& diagnostics) {
+  if (kGsk.compile(sources, files, options, diagnostics) == nullptr) return std::nullopt;
+  Diagnostics heard; // reported already
+  const Machine machine = configuredMachine(options, heard);
+  const auto model = readModel(sources, files, machine, heard);
+  RUNG_CHECK(model.has_value(), "the program has no errors");
+  if (to == convert::Form::Ladder && !checkDrawings(*model, diagnostics)) return std::nullopt;
+  std::string text = to == convert::Form::List ? writeList(*model) : writeLadder(*model);
+  checkSame(*model, text, to, machine);
+  return text;
+}
+
+} // namespace rung::gsk

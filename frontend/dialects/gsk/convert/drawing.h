@@ -1,0 +1,29 @@
+// A network as a drawing of ladder text: one line a branch, upper branch first, boxes and coils on the right.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frontend/dialects/gsk/convert/source_model.h"
+
+namespace rung::gsk::convert {
+
+struct Drawing {
+  std::vector<std::string> lines;
+  // By command: the line that its element stands on; kNone for blocks, parameters and table rows.
+  std::vector<uint32_t> lineOf;
+  // By line: the first and last element as commands, kNone where there is none. A box counts on its first line only.
+  std::vector<uint32_t> firstOn;
+  std::vector<uint32_t> lastOn;
+};
+
+struct DrawingSize {
+  uint64_t lines = 0;
+  uint64_t columns = 0;
+};
+// A branch that spans many elements is as long as they are: lines times columns of one drawing have a limit.
+inline constexpr uint64_t kMaxDrawing = 200'000'000;
+DrawingSize sizeOf(const SourceNetwork& network);
+Drawing draw(const SourceNetwork& network);
+
+} // namespace rung::gsk::convert

@@ -1,0 +1,109 @@
+// Tags and hints to text and back.
+#include "frontend/dialects/gsk/convert/hints.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/list_reader.h"
+#include "frontend/dialects/gsk/title.h"
+
+namespace rung::gsk::convert {
+namespace {
+
+constexpr std::string_view kCondition = "condition:";
+constexpr std::string_view kBefore = "->";
+
+// PRM by the name of its operand, TABLE by its number.
+std::string parameterText(const SourceNetwork& network, Command command, size_t index) {
+  const std::string_view mnemonic = network.row->info.mnemonic;
+  if (command == Command::Table) return fmt::format("{{{} TABLE {}}}", mnemonic, index);
+  return fmt::format("{{{} {}}}", mnemonic, network.row->info.operands[index].name);
+}
+
+} // namespace
+
+std::string elementText(Command command, std::string_view operand) {
+  switch (command) {
+  case Command::Ld:
+  case Command::And:
+  case Command::Or: return fmt::format("[{}]", operand);
+  case Command::Ldi:
+  case Command::Ani:
+  case Command::Ori: return fmt::format("[/{}]", operand);
+  case Command::Orb:
+  case Command::Anb: return fmt::format("[{}]", nameOf(command));
+  case Command::Out: return fmt::format("({})", operand);
+  case Command::Outi: return fmt::format("(/{})", operand);
+  case Command::Set: return fmt::format("(S {})", operand);
+  case Command::Rst: return fmt::format("(R {})", operand);
+  case Command::Func:
+  case Command::Prm:
+  case Command::Table:
+  case Command::Dialect:
+  case Command::Symbol:
+  case Command::Const: break;
+  }
+  return fmt::format("{{{}}}", operand);
+}
+
+std::vector<std::string> tagsOf(const SourceNetwork& network) {
+  std::vector<std::string> tags;
+  std::unordered_map<std::string, uint32_t> seen;
+  size_t parameters = 0;
+  size_t rows = 0;
+  for (const SourceCommand& command : network.commands) {
+    const bool isParameter = command.command == Command::Prm || command.command == Command::Table;
+    size_t& count = command.command == Command::Table ? rows : parameters;
+    std::string tag =
+        isParameter ? parameterText(network, command.command, count++) : elementText(command.command, command.operand);
+    const uint32_t number = ++seen[tag];
+    if (number > 1) tag += fmt::format("#{}", number);
+    tags.push_back(std::move(tag));
+  }
+  return tags;
+}
+
+std::optional<Tagged> parseTag(std::string_view comment) {
+  Tagged result;
+  std::string_view rest = comment;
+  if (rest.starts_with(kBefore)) {
+    result.before = true;
+    rest = trimmed(rest.substr(kBefore.size()));
+  }
+  constexpr std::string_view kOpen = "[({";
+  const size_t kind = rest.empty() ? std::string_view::npos : kOpen.find(rest[0]);
+  if (kind == std::string_view::npos) return std::nullopt;
+  size_t end = rest.find("])}"[kind]);
+  if (end == std::string_view::npos) return std::nullopt;
+  ++end;
+  if (end < rest.size() && rest[end] == '#') end = std::min(rest.find_first_not_of("0123456789", end + 1), rest.size());
+  if (end < rest.size() && rest[end] != ' ') return std::nullopt;
+  result.tag = rest.substr(0, end);
+  result.text = trimmed(rest.substr(end));
+  return result;
+}
+
+std::string tagged(bool before, std::string_view tag, std::string_view text) {
+  return fmt::format("{}{}{}{}", before ? "-> " : "", tag, text.empty() ? "" : " ", text);
+}
+
+std::string conditionHint(const SourceCommand& command) {
+  return fmt::format("{} {}{}{}", kCondition, nameOf(command.command), command.operand.empty() ? "" : " ",
+                     command.operand);
+}
+
+std::optional<SourceCommand> parseConditionHint(std::string_view comment) {
+  if (!comment.starts_with(kCondition)) return std::nullopt;
+  const auto words = wordsIn(comment.substr(kCondition.size()));
+  const auto command = words.empty() ? std::nullopt : findCommand(words[0]);
+  if (!command || !isLogic(*command) || words.size() != (isBlock(*command) ? 1 : 2)) return std::nullopt;
+  SourceCommand result;
+  result.command = *command;
+  if (words.size() == 2) result.operand = words[1];
+  return result;
+}
+
+} // namespace rung::gsk::convert

@@ -1,0 +1,35 @@
+// Comments of a drawing that say where in a command list something belongs (docs/dialects/gsk.md):
+//   ; [A] text               behind the command of contact [A]; its second one is [A]#2
+//   ; -> {TMRB preset} text  a comment line in front of the parameter `preset`
+//   ; condition: LD X1.3     behind `module SUB Pn`: the condition in front of SP, which has no effect
+// Beside these, canonical.h has the hint of other blocks. A comment that only looks like one, naming nothing that is
+// there, is a comment like any other.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/gsk/convert/source_model.h"
+
+namespace rung::gsk::convert {
+
+// The element of a drawing, "[/A]", "(S B)"; blocks are "[ORB]", functions "{TMRB}".
+std::string elementText(Command command, std::string_view operand);
+
+// A tag for every command of a network, no two the same.
+std::vector<std::string> tagsOf(const SourceNetwork& network);
+
+struct Tagged {
+  bool before = false;
+  std::string_view tag;
+  std::string_view text;
+};
+std::optional<Tagged> parseTag(std::string_view comment);
+std::string tagged(bool before, std::string_view tag, std::string_view text);
+
+std::string conditionHint(const SourceCommand& command);
+// Views into the comment.
+std::optional<SourceCommand> parseConditionHint(std::string_view comment);
+
+} // namespace rung::gsk::convert

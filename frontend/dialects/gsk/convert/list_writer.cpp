@@ -1,0 +1,88 @@
+// The source model as a command list.
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/convert/gap_writer.h"
+#include "frontend/dialects/gsk/convert/writers.h"
+
+namespace rung::gsk::convert {
+namespace {
+
+class ListWriter {
+public:
+  std::string run(const SourceProgram& program);
+
+private:
+  void command(const SourceCommand& command);
+  void function(std::string_view mnemonic, std::string_view comment = {}) {
+    page_.line(fmt::format("FUNC {}", mnemonic), comment);
+  }
+  void begin(const SourceUnit& unit);
+  void network(const SourceNetwork& network);
+  // Something with comments in front stands apart.
+  void lead(const Gap& gap) {
+    if (!gap.empty()) page_.blank();
+    page_.gap(gap);
+  }
+
+  Page page_{Form::List};
+  Gap pending_; // what Level 1 begins with: it has no command of its own
+};
+
+void ListWriter::command(const SourceCommand& command) {
+  for (const std::string& text : command.before) page_.comment(text);
+  if (command.operand.empty())
+    page_.line(nameOf(command.command), command.comment);
+  else
+    page_.line(fmt::format("{:<4} {}", nameOf(command.command), command.operand), command.comment);
+}
+
+void ListWriter::network(const SourceNetwork& network) {
+  Gap gap = std::exchange(pending_, {});
+  gap.insert(gap.end(), network.gap.begin(), network.gap.end());
+  lead(tidy(protect(std::move(gap), network.title)));
+  for (const SourceCommand& command : network.commands) this->command(command);
+}
+
+void ListWriter::begin(const SourceUnit& unit) {
+  Gap gap = std::exchange(pending_, {});
+  gap.insert(gap.end(), unit.lead.begin(), unit.lead.end());
+  switch (unit.kind) {
+  case UnitKind::Level1:
+    pending_ = std::move(gap);
+    if (!unit.comment.empty()) pending_.push_back({Item::Kind::Comment, unit.comment});
+    return;
+  case UnitKind::Level2:
+    page_.blank();
+    page_.gap(tidy(gap));
+    function("END1", unit.comment);
+    break;
+  case UnitKind::Subprogram:
+    page_.blank();
+    page_.gap(tidy(gap));
+    for (const SourceCommand& command : unit.condition) this->command(command);
+    function("SP", unit.comment);
+    page_.line(fmt::format("PRM  {}", unit.number));
+    break;
+  }
+  page_.blank();
+}
+
+std::string ListWriter::run(const SourceProgram& program) {
+  page_.gap(tidy(program.preamble));
+  page_.blank();
+  for (const SourceUnit& unit : program.units) {
+    begin(unit);
+    for (const SourceNetwork& network : unit.networks) this->network(network);
+    if (unit.kind == UnitKind::Level1) continue;
+    page_.blank();
+    function(unit.kind == UnitKind::Level2 ? "END2" : "SPE");
+  }
+  lead(tidy(program.tail));
+  return page_.take();
+}
+
+} // namespace
+
+std::string writeList(const SourceProgram& program) { return ListWriter().run(program); }
+
+} // namespace rung::gsk::convert

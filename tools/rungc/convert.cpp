@@ -1,0 +1,77 @@
+// rungc convert: a GSK program in its other source form.
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+
+#include "frontend/dialects/gsk/convert/convert.h"
+#include "frontend/dialects/gsk/gsk.h"
+#include "tools/rungc/commands.h"
+
+namespace rung::rungc {
+namespace {
+
+struct ConvertOptions {
+  SourceOptions source;
+  std::string to;
+  std::string out;
+};
+
+int write(const std::string& text, const std::string& out) {
+  if (out.empty() || out == "-") {
+    std::cout << text << std::flush;
+    return std::cout ? kOk : environmentError("cannot write to standard output");
+  }
+  std::ofstream file(out, std::ios::binary);
+  file << text << std::flush;
+  return file ? kOk : environmentError(fmt::format("cannot write '{}'", out));
+}
+
+std::optional<std::string> convert(SourceManager& sources, std::span<const FileId> files, const ConvertOptions& options,
+                                   const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
+  const frontend::Dialect* dialect = driver::chooseDialect(sources, files, options.source.dialect, diagnostics);
+  if (dialect == nullptr) return std::nullopt;
+  if (dialect != &gsk::kGsk) {
+    diagnostics.report(Diag::NoConversion, sources.range(files[0], 0, 0)) << dialect->title;
+    return std::nullopt;
+  }
+  const auto form = options.to == "list" ? gsk::convert::Form::List : gsk::convert::Form::Ladder;
+  return gsk::convertProgram(sources, files, compile, form, diagnostics);
+}
+
+// The compiler tells the two forms by their extensions: a list in a .lad file could not be read again.
+bool checkExtension(const ConvertOptions& options) {
+  const std::string_view wrong = options.to == "list" ? ".lad" : ".pmc";
+  if (!options.out.ends_with(wrong)) return true;
+  fmt::print(stderr, "rungc: '{}' is no name for a {}; files in this form end in {}\n", options.out,
+             options.to == "list" ? "command list" : "ladder text", options.to == "list" ? ".pmc" : ".lad");
+  return false;
+}
+
+int run(const ConvertOptions& options) {
+  if (!checkExtension(options)) return kUsage;
+  SourceManager sources;
+  frontend::CompileOptions compile;
+  int status = kOk;
+  const auto files = addSources(sources, options.source, compile, status);
+  if (!files) return status;
+  Diagnostics diagnostics;
+  const auto text = convert(sources, *files, options, compile, diagnostics);
+  // With --json the diagnostics go to standard output: behind a program there they would spoil it.
+  if (!options.source.json || !text || !options.out.empty()) printDiagnostics(diagnostics, sources, options.source);
+  return text ? write(*text, options.out) : kWrong;
+}
+
+} // namespace
+
+void addConvert(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("convert", "Write a GSK program in its other form: command list, ladder text");
+  auto options = std::make_shared<ConvertOptions>();
+  addSourceOptions(*command, options->source);
+  command->add_option("--to", options->to, "list: command list (.pmc), ladder: ladder text (.lad)")
+      ->required()
+      ->check(CLI::IsMember({"list", "ladder"}));
+  command->add_option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace rung::rungc

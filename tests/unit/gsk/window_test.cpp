@@ -27,7 +27,9 @@ TEST(GskWindow, TheListHas32Functions) {
   for (uint64_t code = 0; code < 40; ++code) {
     const WindowFunction* found = findWindowFunction(code);
     EXPECT_EQ(found != nullptr, code <= 32 && code != 27) << code;
-    if (found != nullptr) EXPECT_EQ(found->code, code);
+    if (found != nullptr) {
+      EXPECT_EQ(found->code, code);
+    }
   }
   EXPECT_EQ(findWindowFunction(65536), nullptr);
   EXPECT_EQ(findWindowFunction(65537), nullptr);
@@ -35,7 +37,7 @@ TEST(GskWindow, TheListHas32Functions) {
 
 TEST(GskWindow, WritingIsAlwaysLowSpeed) { // man. l.3152
   for (const WindowFunction& function : windowFunctions())
-    if (function.access == WindowAccess::Write) EXPECT_EQ(function.speed, WindowSpeed::Low) << function.code;
+    EXPECT_TRUE(function.access == WindowAccess::Read || function.speed == WindowSpeed::Low) << function.code;
 }
 
 TEST(GskAxis, TheTableHas16Commands) {

@@ -44,20 +44,19 @@ void dropDialects(Gap& gap) {
 
 // One dialect statement, in front of all other statements.
 void settleDialect(SourceProgram& program) {
-  Gap& gap = program.preamble;
+  Gap& gap = firstGap(program);
   const auto at = std::find_if(gap.begin(), gap.end(), [](const Item& item) { return item.kind == Kind::Dialect; });
   Item own{Kind::Dialect};
   if (at != gap.end()) own.comment = std::exchange(at->comment, {});
   const bool leads = at != gap.end() && std::all_of(gap.begin(), at, isSpace);
   const auto place = leads ? at - gap.begin() : 0;
   if (at != gap.end()) gap.erase(at);
-  dropDialects(gap);
-  gap.insert(gap.begin() + place, std::move(own));
   for (SourceUnit& unit : program.units) {
     dropDialects(unit.lead);
     for (SourceNetwork& network : unit.networks) dropDialects(network.gap);
   }
   dropDialects(program.tail);
+  gap.insert(gap.begin() + place, std::move(own));
 }
 
 void addLevel(SourceProgram& program, UnitKind kind) {
@@ -73,8 +72,8 @@ SourceProgram collect(Context& context, const Reading& reading, const std::vecto
   for (const ladder::LadderFile& file : reading.ladders()) collectLadder(collector, file);
   RUNG_CHECK(collector.networks.empty(), "every network stands in a file");
   collector.program.tail = collector.takeGap();
-  splitPreamble(collector.program);
   settleDialect(collector.program);
+  splitPreamble(collector.program);
   addLevel(collector.program, UnitKind::Level1);
   addLevel(collector.program, UnitKind::Level2);
   std::stable_sort(collector.program.units.begin(), collector.program.units.end(),

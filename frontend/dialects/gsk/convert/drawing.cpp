@@ -227,10 +227,10 @@ void Painter::paintParallel(Tree& tree, uint32_t node, std::vector<Spot>& spots)
   uint32_t line = spot.line;
   for (size_t i = 0; i < children.size(); ++i) {
     if (i > 0) {
-      const uint32_t next =
-          line + tree.extents[children[i - 1]].height + (separated(tree, children[i - 1], children[i]) ? 1 : 0);
+      const uint32_t end = line + tree.extents[children[i - 1]].height;
+      const uint32_t next = end + (separated(tree, children[i - 1], children[i]) ? 1 : 0);
       for (++line; line < next; ++line) {
-        if (!extent.onRail) put(line, spot.column, "|");
+        if (!extent.onRail || line == end) put(line, extent.onRail ? 0 : spot.column, "|");
         put(line, right, "|");
       }
     }

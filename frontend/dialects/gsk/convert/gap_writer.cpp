@@ -80,6 +80,7 @@ Gap tidy(const Gap& gap) {
     result.push_back(item);
     wanted = section;
   }
+  if (!result.empty() && result.back().kind == Kind::Section) result.push_back({Kind::Blank});
   return result;
 }
 

@@ -13,7 +13,7 @@
 namespace rung::gsk::convert {
 namespace {
 
-constexpr std::string_view kCondition = "condition:";
+constexpr std::string_view kCondition = "; condition:"; // with a further ';' it is no title
 constexpr std::string_view kBefore = "->";
 
 // PRM by the name of its operand, TABLE by its number.

@@ -1,0 +1,122 @@
+// Generated programs there and back: the same commands, the same module, the same comments, and nothing moves twice.
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "frontend/dialects/gsk/list_reader.h"
+#include "ir/text/text.h"
+#include "tests/unit/gsk/convert.h"
+#include "tests/unit/gsk/program_generator.h"
+
+namespace rung::gsk::test {
+namespace {
+
+constexpr uint64_t kPrograms = 2000;
+
+// Commands of a list, one a line; functions by their mnemonic.
+std::string commandsOf(const std::string& list) {
+  SourceManager sources;
+  const FileId file = sources.addBuffer("list", list);
+  LineReader lines(sources, file);
+  LineWords words;
+  std::string result;
+  for (SourceLine line; lines.next(line);) {
+    splitWords(line, kListRules, words);
+    const auto statement = statementOf(words);
+    if (statement.empty() || *findCommand(statement[0].text) >= Command::Dialect) continue;
+    const Command command = *findCommand(statement[0].text);
+    result += nameOf(command);
+    for (const Word& word : statement.subspan(1)) {
+      const auto number = command == Command::Func ? parseDigits(word.text) : std::nullopt;
+      result += ' ';
+      result += number ? findFunction(*number)->info.mnemonic : word.text;
+    }
+    result += '\n';
+  }
+  return result;
+}
+
+// What is said in comments of a list, without the ';' that keeps one from being a title.
+std::multiset<std::string> commentsOf(const std::string& list) {
+  std::multiset<std::string> result;
+  std::istringstream stream(list);
+  for (std::string line; std::getline(stream, line);) {
+    const size_t at = line.find(';');
+    if (at == std::string::npos) continue;
+    std::string text = line.substr(at);
+    std::replace(text.begin(), text.end(), '\t', ' ');
+    text.erase(0, std::min(text.find_first_not_of("; "), text.size()));
+    text.erase(text.find_last_not_of(' ') + 1);
+    if (!text.empty()) result.insert(text);
+  }
+  return result;
+}
+
+// A line of the module without its places in the source; ladder text has blanks for the tabs of titles.
+std::string withoutPlaces(std::string line) {
+  const size_t location = line.find(" loc(");
+  if (location != std::string::npos) line.erase(location, line.find(')', location) + 1 - location);
+  const size_t place = line.rfind(" @");
+  if (place != std::string::npos && place + 2 < line.size() && line[place + 2] >= '0' && line[place + 2] <= '9')
+    line.erase(place, line.find_first_not_of("0123456789", place + 2) - place);
+  for (size_t tab = line.find("\\t"); tab != std::string::npos; tab = line.find("\\t")) line.replace(tab, 2, " ");
+  std::replace(line.begin(), line.end(), '\t', ' ');
+  return line;
+}
+
+std::string moduleOf(const std::string& name, const std::string& text) {
+  const auto compiled = compileFiles({{name, text}});
+  EXPECT_TRUE(compiled->module) << compiled->text() << text;
+  if (!compiled->module) return {};
+  std::istringstream stream(ir::print(*compiled->module));
+  std::string result;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.starts_with("    source ") && !line.starts_with("file ")) result += withoutPlaces(line) + '\n';
+  return result;
+}
+
+void checkThereAndBack(const std::string& list) {
+  const std::string ladder = toLadder(list);
+  ASSERT_FALSE(::testing::Test::HasFailure());
+  const std::string again = toList(ladder);
+  ASSERT_EQ(commandsOf(again), commandsOf(list)) << ladder;
+  ASSERT_EQ(commentsOf(again), commentsOf(list)) << list << "\n=====\n" << ladder << "\n=====\n" << again;
+  const std::string module = moduleOf("test.pmc", list);
+  ASSERT_TRUE(moduleOf("test.lad", ladder) == module) << list << "\n=====\n" << ladder;
+  ASSERT_TRUE(moduleOf("test.pmc", again) == module) << list << "\n=====\n" << again;
+  ASSERT_EQ(toLadder(again), ladder) << list << "\n=====\n" << again;
+}
+
+TEST(GskConvertProperty, ListsThereAndBack) {
+  for (uint64_t seed = 0; seed < kPrograms && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    checkThereAndBack(ProgramGenerator(seed).list());
+  }
+}
+
+TEST(GskConvertProperty, LaddersThereAndBack) {
+  for (uint64_t seed = 0; seed < kPrograms && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    ProgramGenerator generator(seed + kPrograms);
+    const std::string ladder = generator.decorated(toLadder(generator.list()));
+    const std::string list = toList(ladder);
+    ASSERT_TRUE(moduleOf("test.pmc", list) == moduleOf("test.lad", ladder)) << ladder << "\n=====\n" << list;
+    checkThereAndBack(list);
+  }
+}
+
+TEST(GskConvertProperty, AFormInItselfIsANormalForm) {
+  for (uint64_t seed = 0; seed < kPrograms / 10 && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    const std::string list = ProgramGenerator(seed).list();
+    const auto normal = convertFiles({{"test.pmc", list}}, Form::List);
+    ASSERT_TRUE(normal.text);
+    EXPECT_EQ(commandsOf(*normal.text), commandsOf(list));
+    EXPECT_EQ(convertFiles({{"test.pmc", *normal.text}}, Form::List).text, normal.text);
+    const std::string ladder = toLadder(list);
+    EXPECT_EQ(convertFiles({{"test.lad", ladder}}, Form::Ladder).text, ladder);
+  }
+}
+
+} // namespace
+} // namespace rung::gsk::test

@@ -287,6 +287,53 @@ class Products(Cli):
         self.assertEqual(rungc("doc", "klingon").returncode, USAGE)
 
 
+class Convert(Cli):
+    MILL = "examples/gsk-mill/mill.pmc"
+
+    def test_there_and_back(self):
+        ladder, back, again = (str(Path(self.folder.name) / name) for name in ("mill.lad", "mill.pmc", "again.lad"))
+        self.assertEqual(rungc("convert", self.MILL, "--to", "ladder", "-o", ladder).returncode, OK)
+        self.assertEqual(rungc("convert", ladder, "--to", "list", "-o", back).returncode, OK)
+        self.assertEqual(rungc("convert", back, "--to", "ladder", "-o", again).returncode, OK)
+        self.assertEqual(Path(ladder).read_text(), Path(again).read_text())
+        words = lambda path: [line.split() for line in Path(path).read_text().splitlines() if line.split(";")[0].strip()]
+        self.assertEqual(len(words(self.MILL)), len(words(back)))
+        for comment in ("springs clamp", "brake of the vertical axis"):
+            self.assertIn(comment, Path(ladder).read_text())
+
+    def test_the_drawing_runs_as_the_list_does(self):
+        done = rungc("convert", self.MILL, "--to", "ladder")
+        self.assertEqual(done.returncode, OK)
+        self.file("mill.lad", done.stdout)
+        self.file("mill.msg", Path("examples/gsk-mill/mill.msg").read_bytes())
+        for scenario in ("spindle", "tool-change"):
+            text = Path(f"examples/gsk-mill/{scenario}.scn").read_text().replace("program mill.pmc", "program mill.lad")
+            done = rungc("test", self.file(f"{scenario}.scn", text))
+            self.assertEqual(done.returncode, OK, done.stdout[-800:])
+
+    def test_a_program_with_mistakes(self):
+        done = rungc("convert", self.file("wrong.pmc", GSK), "--to", "ladder")
+        self.assertEqual((done.returncode, done.stdout), (WRONG, b""))
+        self.assertIn(b"missing-end2", done.stderr)
+
+    def test_other_dialects_have_one_form(self):
+        done = rungc("convert", self.file("lamp.lad", LAMP), "--to", "list")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn(b"no-conversion", done.stderr)
+
+    def test_what_nobody_could_read_is_not_drawn(self):
+        # Branches in branches: each is drawn as long as all that it spans.
+        depth = 5900
+        text = "FUNC 0\nLD R0.0\n" + "AND R0.1\nOR R0.2\n" * depth + "OUT R1.0\nFUNC 1\n"
+        done = rungc("convert", self.file("deep.pmc", text), "--to", "ladder")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn(b"drawing-too-large", done.stderr)
+
+    def test_wrong_usage(self):
+        self.assertEqual(rungc("convert", self.MILL).returncode, USAGE)
+        self.assertEqual(rungc("convert", self.MILL, "--to", "list", "-o", "x.lad").returncode, USAGE)
+
+
 class HostileInput(Cli):
     def test_unknown_dialect(self):
         done = rungc("check", self.file("lamp.lad", LAMP), "--dialect", "klingon")

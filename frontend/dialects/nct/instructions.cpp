@@ -5,6 +5,8 @@
 #include <array>
 
 #include "frontend/dialects/nct/rows_control.h"
+#include "frontend/dialects/nct/rows_message.h"
+#include "frontend/dialects/nct/rows_nc.h"
 #include "ir/support/check.h"
 
 namespace rung::nct {
@@ -13,8 +15,8 @@ namespace {
 using frontend::InstructionInfo;
 using frontend::OperandKindInfo;
 
-constexpr size_t kRowCount =
-    std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) + std::size(kControlRows);
+constexpr size_t kRowCount = std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) +
+                             std::size(kMessageRows) + std::size(kControlRows) + std::size(kNcRows);
 
 constexpr std::array<NctInstruction, kRowCount> joinRows() {
   std::array<NctInstruction, kRowCount> rows{};
@@ -22,7 +24,9 @@ constexpr std::array<NctInstruction, kRowCount> joinRows() {
   for (const NctInstruction& row : kBitRows) rows[n++] = row;
   for (const NctInstruction& row : kWordRows) rows[n++] = row;
   for (const NctInstruction& row : kFloatRows) rows[n++] = row;
+  for (const NctInstruction& row : kMessageRows) rows[n++] = row;
   for (const NctInstruction& row : kControlRows) rows[n++] = row;
+  for (const NctInstruction& row : kNcRows) rows[n++] = row;
   return rows;
 }
 constexpr std::array<NctInstruction, kRowCount> kRows = joinRows();

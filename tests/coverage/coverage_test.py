@@ -7,6 +7,8 @@ import sys
 import unittest
 from pathlib import Path
 
+from nct_rows import NctRows
+
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
@@ -177,5 +179,5 @@ class GskRows(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    RUNGC = sys.argv.pop(1)
+    RUNGC = NctRows.RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -1,51 +1,114 @@
-// The NC beside an NCT PLC: constant and clock signals, and the hardware side of the NC area (the time-slice memory).
+// The NC beside an NCT PLC: constant and clock signals, the hardware side of the NC area (the time-slice memory), and in
+// simulated mode the control itself (nct/simulator.h).
+#include <algorithm>
+
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
+#include "rtlib/nc/model/nct/simulator.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nc {
 namespace {
 
+using nct::BitSignal;
+using nct::SignalMemory;
+
 // Clock signals with their periods, 50 % duty (man. 7.12, l.7892-7896).
 struct Clock {
-  const char* symbol;
+  BitSignal signal;
   int64_t periodUs;
 };
-constexpr Clock kClocks[] = {{"N_P100MS", 100'000}, {"N_P1S", 1'000'000}, {"N_P1M", 60'000'000}};
-constexpr const char* kAlwaysOn[] = {"N_ON", "N_SIMU", "N_NCREADY", "N_NVRAMOK"};
-constexpr const char* kAxisOn[] = {"AN_BEPTY", "AN_IEPTY"};
+
+// The signals that the model itself writes, in both modes.
+struct CommonSignals {
+  BitSignal on{"N_ON"};
+  BitSignal simulator{"N_SIMU"};
+  BitSignal ready{"N_NCREADY"};
+  BitSignal nvramOk{"N_NVRAMOK"};
+  BitSignal nvramByEthercat{"N_NVECAT"};
+  BitSignal firstCycle{"N_FIRSTCC"};
+  BitSignal timeSliceClock{"N_P2MS"};
+  BitSignal cycleClock{"N_P2T"};
+  Clock clocks[3] = {{BitSignal("N_P100MS"), 100'000}, {BitSignal("N_P1S"), 1'000'000}, {BitSignal("N_P1M"), 60'000'000}};
+  BitSignal message{"N_MSGA"};
+  BitSignal plcMessage{"N_MSG0"};
+  BitSignal bufferEmpty{"AN_BEPTY"};
+  BitSignal motionDone{"AN_IEPTY"};
+  BitSignal plcAxisRequest{"AP_PLCR"};
+  BitSignal plcAxis{"AN_PLCA"};
+};
+
+uint32_t hooksOf(const rung_program& program) {
+  uint32_t hooks = 0;
+  for (uint32_t i = 0; i < program.scan_count; ++i)
+    if (program.scan[i].op == RUNG_STEP_HOOK) ++hooks;
+  return hooks;
+}
 
 class NctModel final : public NcModel {
 public:
-  // The compiler takes PLCNVRAM, PLCRAM and timeslice; nothing is left for the NC.
-  std::string config(std::string_view key, std::string_view value) override { return NcModel::config(key, value); }
+  std::string config(std::string_view key, std::string_view value) override;
 
   void powerOn(host::Instance& instance, PowerOn kind) override {
     NcModel::powerOn(instance, kind);
-    timeSlices_ = cycles_ = 0;
-    for (const char* symbol : kAlwaysOn) setBoth(instance, symbol, 0, true);
-    for (const char* symbol : kAxisOn)
-      if (const Signal* axis = findSignal(nctSignals(), symbol))
-        for (uint32_t i = 0; i < axis->count; ++i) setBoth(instance, symbol, i, true);
-    setBoth(instance, "N_FIRSTCC", 0, true);
+    if (kind == PowerOn::Warm && byEthercat_) loseRetained(instance);
+    ts_ = SignalMemory(instance);
+    slicesOfCycle_ = hooksOf(instance.program());
+    timeSlices_ = cycles_ = slice_ = 0;
+    requested_ = 0;
+    writeConstants();
+    if (simulated_) simulator_.powerOn(instance, kind);
+    showInputs(instance);
   }
 
-  // In front of every time slice, while NC inputs go to the time-slice memory.
+  // In front of every time slice, while NC inputs go to the time-slice memory. The first one of a scan begins a PLC
+  // cycle; a time slice that the scenario runs by itself (`fast`) belongs to none.
   void onHook(host::Instance& instance, uint32_t) override {
-    ++timeSlices_;
-    set(instance, "N_P2MS", timeSlices_ % 2 != 0);
-    set(instance, "N_P2T", cycles_ % 2 != 0);
-    for (const Clock& clock : kClocks)
-      set(instance, clock.symbol, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
+    const bool first = !instance.atListStart() && slice_++ % std::max(slicesOfCycle_, 1u) == 0;
+    if (first) beginCycle();
+    ts_.set(common_.timeSliceClock, ++timeSlices_ % 2 != 0);
+    for (const Clock& clock : common_.clocks)
+      ts_.set(clock.signal, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
     board_.take(instance);
-    set(instance, "N_MSGA", !board_.shown().empty());
-    set(instance, "N_MSG0", !board_.shown().empty());
+    ts_.set(common_.message, !board_.shown().empty());
+    ts_.set(common_.plcMessage, !board_.shown().empty());
+    if (simulated_) simulator_.timeSlice(instance, first);
   }
 
   void scan(host::Instance& instance) override {
     NcModel::scan(instance);
-    ++cycles_;
-    set(instance, "N_FIRSTCC", false);
+    answer(instance);
+  }
+  void slot(host::Instance& instance) override {
+    NcModel::slot(instance);
+    answer(instance);
+  }
+  void fast(host::Instance& instance) override {
+    NcModel::fast(instance);
+    answer(instance);
+  }
+  void betweenSlices(host::Instance& instance) override {
+    simulator_.setRealTime();
+    answer(instance);
+  }
+
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    return simulated_ && simulator_.respond(instance, request, reply);
+  }
+
+  std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
+    if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
+    if (nct::Handled handled = simulator_.event(name, keys)) return *handled;
+    return NcModel::event(instance, name, keys);
+  }
+
+  std::string setQuantity(std::string_view name, double value) override {
+    if (!simulated_) return NcModel::setQuantity(name, value);
+    if (nct::Handled handled = simulator_.setQuantity(name, value)) return *handled;
+    return "the simulated NC has no quantity 'NC." + std::string(name) + "' to be set";
+  }
+  std::optional<double> quantity(std::string_view name) const override {
+    return simulated_ ? simulator_.quantity(name) : NcModel::quantity(name);
   }
 
   // The NC and the hardware write the time-slice memory; the program sees it at the next synchronisation.
@@ -72,24 +135,76 @@ protected:
   }
 
 private:
-  static void write(host::Instance& instance, const char* space, const char* symbol, uint32_t index, bool value) {
-    const Signal* found = findSignal(nctSignals(), symbol);
-    const uint32_t area = host::findSpace(instance.program(), space);
-    if (found == nullptr || area == RUNG_NONE) return;
-    const uint32_t byte = found->byteOffset + index * found->strideBytes;
-    if (byte + 4 <= instance.program().spaces[area].byte_count)
-      instance.write(host::bitRef(area, byte, found->bit), value ? 1 : 0);
-  }
-  static void set(host::Instance& instance, const char* symbol, bool value) { write(instance, "TS", symbol, 0, value); }
-  // At power-on both memories hold what the NC says.
-  static void setBoth(host::Instance& instance, const char* symbol, uint32_t index, bool value) {
-    write(instance, "TS", symbol, index, value);
-    write(instance, "M", symbol, index, value);
+  void writeConstants() {
+    for (const BitSignal& signal : {common_.on, common_.simulator, common_.ready, common_.nvramOk, common_.firstCycle})
+      ts_.set(signal, true);
+    if (nvramLost_) ts_.set(common_.nvramOk, false);
+    ts_.set(common_.nvramByEthercat, byEthercat_);
+    for (uint32_t i = 0; i < common_.bufferEmpty.count(); ++i) {
+      ts_.set(common_.bufferEmpty, i, true);
+      ts_.set(common_.motionDone, i, true);
+    }
   }
 
+  // At power-on both memories hold what the NC says.
+  static void showInputs(host::Instance& instance) {
+    const uint32_t memory = host::findSpace(instance.program(), "M");
+    const uint32_t slice = host::findSpace(instance.program(), "TS");
+    if (memory == RUNG_NONE || slice == RUNG_NONE) return;
+    for (uint32_t byte = 8; byte < areaBytes(nctSignals(), "M"); ++byte)
+      instance.memory().writeByte(memory, byte, instance.memory().readByte(slice, byte));
+  }
+
+  // Controls whose non-volatile memory lies on EtherCAT do not keep PLCNVRAM (man. l.8061).
+  static void loseRetained(host::Instance& instance) {
+    std::vector<uint8_t> nothing(instance.retainedSize());
+    instance.restoreRetained(nothing);
+  }
+
+  void beginCycle() {
+    ts_.set(common_.firstCycle, cycles_ == 0);
+    ts_.set(common_.cycleClock, cycles_++ % 2 != 0);
+    if (simulated_) return;
+    // Scripted, an axis goes to the PLC on request, unless the scenario says otherwise afterwards (inventory 8).
+    for (uint32_t i = 0; i < common_.plcAxis.count(); ++i) {
+      const bool request = ts_.get(common_.plcAxisRequest, i);
+      if (request == ((requested_ >> i & 1) != 0)) continue;
+      requested_ ^= uint32_t{1} << i;
+      ts_.set(common_.plcAxis, i, request);
+    }
+  }
+
+  void answer(host::Instance& instance) {
+    if (simulated_ && !instance.faulted()) simulator_.betweenScans(instance);
+  }
+
+  bool simulated_ = false;
+  bool byEthercat_ = false;
+  bool nvramLost_ = false;
+  CommonSignals common_;
+  SignalMemory ts_;
+  nct::Simulator simulator_;
   uint64_t timeSlices_ = 0;
   uint64_t cycles_ = 0;
+  uint32_t slice_ = 0;         // of all PLC cycles
+  uint32_t slicesOfCycle_ = 0; // of one
+  uint32_t requested_ = 0;     // AP_PLCR of the cycle before, a bit an axis
 };
+
+std::string NctModel::config(std::string_view key, std::string_view value) {
+  const auto choose = [&](std::string_view yes, std::string_view no, bool& choice) -> std::string {
+    if (value != yes && value != no)
+      return std::string(key) + ": expected " + std::string(yes) + " or " + std::string(no) + ", found '" +
+             std::string(value) + "'";
+    choice = value == yes;
+    return {};
+  };
+  if (key == "nc") return choose("simulated", "scripted", simulated_);
+  if (key == "nvecat") return choose("on", "off", byEthercat_);
+  if (key == "nvram") return choose("lost", "ok", nvramLost_);
+  if (nct::Handled handled = simulator_.config(key, value)) return *handled;
+  return NcModel::config(key, value);
+}
 
 } // namespace
 

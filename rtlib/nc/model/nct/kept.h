@@ -1,0 +1,53 @@
+// The part of the simulated NC that outlives its power: every topic names its non-volatile fields once, in `keep`, and
+// a Kept measures, saves or restores them. The image has a fixed size, so that saving allocates nothing.
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace rung::nc::nct {
+
+class Kept {
+public:
+  enum class Mode : uint8_t { Measure, Save, Restore };
+
+  static Kept measure() { return Kept(Mode::Measure, {}); }
+  static Kept save(std::span<uint8_t> image) { return Kept(Mode::Save, image); }
+  // Nothing is written to `image`.
+  static Kept restore(std::span<const uint8_t> image) {
+    return Kept(Mode::Restore, {const_cast<uint8_t*>(image.data()), image.size()});
+  }
+
+  bool restoring() const { return mode_ == Mode::Restore; }
+  uint32_t size() const { return at_; }
+
+  template <class T> void value(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes(&value, sizeof value);
+  }
+  // Elements of a table whose size is that of the configuration.
+  template <class T> void values(std::span<T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes(values.data(), values.size_bytes());
+  }
+
+private:
+  Kept(Mode mode, std::span<uint8_t> image) : mode_(mode), image_(image) {}
+
+  void bytes(void* data, size_t size) {
+    if (mode_ != Mode::Measure && at_ + size <= image_.size() && size != 0) {
+      if (mode_ == Mode::Save)
+        std::memcpy(image_.data() + at_, data, size);
+      else
+        std::memcpy(data, image_.data() + at_, size);
+    }
+    at_ += static_cast<uint32_t>(size);
+  }
+
+  Mode mode_;
+  std::span<uint8_t> image_;
+  uint32_t at_ = 0;
+};
+
+} // namespace rung::nc::nct

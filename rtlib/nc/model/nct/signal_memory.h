@@ -1,0 +1,104 @@
+// What the simulated NC sees of a program's memory: the NC's side of the NC area (the time-slice memory TS) by signals
+// that were looked up once, and the words of the PLC memory M. Nothing here allocates after construction.
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+#include "rtlib/host/instance.h"
+
+namespace rung::nc::nct {
+
+// The place of a signal of signals.csv, found when its owner is made. A name that is not there ends the program: the
+// names stand in this code alone.
+class SignalPlace {
+public:
+  uint32_t count() const { return count_; }
+
+protected:
+  explicit SignalPlace(std::string_view name);
+  friend class SignalMemory;
+
+  uint32_t byte_ = 0;
+  uint32_t stride_ = 0; // from axis to axis, from channel to channel …
+  uint32_t count_ = 0;
+  uint8_t bit_ = 0;
+};
+
+struct BitSignal : SignalPlace {
+  explicit BitSignal(std::string_view name) : SignalPlace(name) {}
+};
+struct WordSignal : SignalPlace {
+  explicit WordSignal(std::string_view name) : SignalPlace(name) {}
+};
+struct RealSignal : SignalPlace {
+  explicit RealSignal(std::string_view name) : SignalPlace(name) {}
+};
+
+// `index` counts axes, spindles, channels … from 0. Outside the table reads give 0 and writes do nothing.
+class SignalMemory {
+public:
+  SignalMemory() = default;
+  explicit SignalMemory(host::Instance& instance);
+
+  bool get(const BitSignal& signal, uint32_t index = 0) const {
+    return ((load<uint32_t>(signal, index) >> signal.bit_) & 1) != 0;
+  }
+  int32_t get(const WordSignal& signal, uint32_t index = 0) const { return load<int32_t>(signal, index); }
+  double get(const RealSignal& signal, uint32_t index = 0) const { return load<double>(signal, index); }
+
+  void set(const BitSignal& signal, uint32_t index, bool value) const {
+    const uint32_t mask = uint32_t{1} << signal.bit_;
+    const uint32_t word = load<uint32_t>(signal, index);
+    store(signal, index, value ? word | mask : word & ~mask);
+  }
+  void set(const BitSignal& signal, bool value) const { set(signal, 0, value); }
+  void set(const WordSignal& signal, uint32_t index, int32_t value) const { store(signal, index, value); }
+  void set(const RealSignal& signal, uint32_t index, double value) const { store(signal, index, value); }
+
+  uint32_t words() const { return size_ / 4; } // of the NC area: PLCNVRAM
+  int32_t word(uint32_t address) const;        // as SCP's DirectPlcInt reads it
+  double real(uint32_t address) const;
+
+private:
+  template <class T> T load(const SignalPlace& signal, uint32_t index) const {
+    T value{};
+    const uint32_t at = signal.byte_ + index * signal.stride_;
+    if (index < signal.count_ && at + sizeof value <= size_) std::memcpy(&value, area_ + at, sizeof value);
+    return value;
+  }
+  template <class T> void store(const SignalPlace& signal, uint32_t index, T value) const {
+    const uint32_t at = signal.byte_ + index * signal.stride_;
+    if (index < signal.count_ && at + sizeof value <= size_) std::memcpy(area_ + at, &value, sizeof value);
+  }
+
+  uint8_t* area_ = nullptr;
+  uint32_t size_ = 0; // bytes
+};
+
+// The words 0000 to 9999 as the program sees them. Bulk data of MR and MW go here directly, between two scans.
+class PlcMemory {
+public:
+  static constexpr uint32_t kWords = 10000;
+
+  PlcMemory() = default;
+  explicit PlcMemory(host::Instance& instance);
+
+  uint32_t plcNvram() const { return plcNvram_; } // where the user's words begin
+  bool contains(int64_t address, int64_t words) const { return address >= 0 && words >= 0 && address + words <= kWords; }
+  int32_t word(uint32_t address) const;
+  void setWord(uint32_t address, int32_t value) const;
+  double real(uint32_t address) const;
+  bool bit(uint32_t address, uint32_t bit) const;
+
+private:
+  uint64_t read(uint32_t address, uint32_t bytes) const;
+
+  const rung_program* program_ = nullptr;
+  uint8_t* block_ = nullptr;
+  uint32_t space_ = RUNG_NONE;
+  uint32_t plcNvram_ = 0;
+};
+
+} // namespace rung::nc::nct

@@ -1,0 +1,150 @@
+// The dispatcher of the simulated NCT control (see simulator.h).
+#include "rtlib/nc/model/nct/simulator.h"
+
+#include <cstring>
+
+#include "rtlib/host/program_info.h"
+
+namespace rung::nc::nct {
+
+Simulator::Simulator() : topics_{&parameters_, &nvram_}, waiting_(rt::ServiceQueue::kMaxPending) {
+  control_.parameters = &parameters_;
+}
+
+Handled Simulator::config(std::string_view key, std::string_view value) {
+  for (Topic* topic : topics_)
+    if (Handled handled = topic->config(key, value)) return handled;
+  return std::nullopt;
+}
+
+Handled Simulator::event(std::string_view name, const std::vector<NcArgument>& keys) {
+  for (Topic* topic : topics_)
+    if (Handled handled = topic->event(name, keys)) return handled;
+  return std::nullopt;
+}
+
+std::optional<double> Simulator::quantity(std::string_view name) const {
+  for (const Topic* topic : topics_)
+    if (const auto value = topic->quantity(name)) return value;
+  return std::nullopt;
+}
+
+Handled Simulator::setQuantity(std::string_view name, double value) {
+  for (Topic* topic : topics_)
+    if (Handled handled = topic->setQuantity(name, value)) return handled;
+  return std::nullopt;
+}
+
+void Simulator::keep(Kept& kept) {
+  for (Topic* topic : topics_) topic->keep(kept);
+}
+
+// ---- time --------------------------------------------------------------------------------------------------------
+
+void Simulator::attach(host::Instance& instance) {
+  control_.signals = SignalMemory(instance);
+  control_.memory = PlcMemory(instance);
+  blocks_ = {};
+  const uint32_t space = host::findSpace(instance.program(), kBlockSpace);
+  if (space == RUNG_NONE) return;
+  const rung_space& blocks = instance.program().spaces[space];
+  if (blocks.range_count == 1 && blocks.ranges[0].repr == RUNG_REPR_PACKED)
+    blocks_ = instance.block().subspan(blocks.ranges[0].offset, blocks.byte_count);
+}
+
+void Simulator::powerOn(host::Instance& instance, PowerOn kind) {
+  attach(instance);
+  findServices(instance.program());
+  waitingCount_ = 0;
+  control_.nowUs = instance.nowUs();
+  control_.sliceUs = 0;
+  for (Topic* topic : topics_) {
+    topic->dropRequests();
+    topic->powerOn(kind);
+  }
+}
+
+void Simulator::timeSlice(host::Instance& instance, bool cycle) {
+  control_.sliceUs = instance.nowUs() - control_.nowUs;
+  control_.nowUs = instance.nowUs();
+  if (cycle)
+    for (Topic* topic : topics_) topic->cycle();
+  for (Topic* topic : topics_) topic->timeSlice();
+}
+
+// ---- services ----------------------------------------------------------------------------------------------------
+
+// "MR function address block -> code": the name stands before its arguments.
+void Simulator::findServices(const rung_program& program) {
+  constexpr std::pair<std::string_view, Service> kNames[] = {
+      {"MR", Service::Mr},     {"MW", Service::Mw},   {"MACR", Service::Macr},
+      {"MACW", Service::Macw}, {"SCP", Service::Scp}, {"MOVCMND", Service::Movcmnd}};
+  services_.assign(program.service_count, Service::Other);
+  for (uint32_t i = 0; i < program.service_count; ++i) {
+    std::string_view name = host::serviceName(program, i);
+    name = name.substr(0, name.find(' '));
+    for (const auto& [known, service] : kNames)
+      if (name == known) services_[i] = service;
+  }
+}
+
+Simulator::Service Simulator::serviceOf(const rt::ServiceRequest& request) const {
+  return request.service < services_.size() ? services_[request.service] : Service::Other;
+}
+
+bool Simulator::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  reply = {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  (void)instance;
+  switch (serviceOf(request)) {
+  case Service::Other:
+  case Service::Mr:
+  case Service::Mw: return false;
+  case Service::Macr:
+  case Service::Macw:
+  case Service::Scp:
+  case Service::Movcmnd: return true;
+  }
+  return false;
+}
+
+std::optional<int32_t> Simulator::execute(const rt::ServiceRequest& request) {
+  const bool write = serviceOf(request) == Service::Mw;
+  const auto function = static_cast<uint32_t>(request.args[0]);
+  const uint64_t first = static_cast<uint64_t>(request.args[2]) * 4;
+  if (first > blocks_.size() || sizeof words_ > blocks_.size() - first) return 1;
+  uint8_t* buffer = blocks_.data() + first;
+  std::memcpy(words_.data(), buffer, sizeof words_);
+  Block block(words_);
+  for (Topic* topic : topics_) {
+    if (!topic->serves(write, function)) continue;
+    const std::optional<int32_t> code = topic->service(function, block);
+    std::memcpy(buffer, words_.data(), sizeof words_);
+    return code;
+  }
+  return 1; // man. l.3465
+}
+
+void Simulator::betweenScans(host::Instance& instance) {
+  rt::ServiceRequest request;
+  while (waitingCount_ < waiting_.size() && instance.services().take(request)) {
+    const Service service = serviceOf(request);
+    if (service == Service::Mr || service == Service::Mw)
+      waiting_[waitingCount_++] = request;
+    else
+      instance.services().complete({.ticket = request.ticket, .state = RUNG_SERVICE_ERROR});
+  }
+  uint32_t left = 0;
+  for (uint32_t i = 0; i < waitingCount_; ++i) {
+    const std::optional<int32_t> code = execute(waiting_[i]);
+    if (!code) {
+      waiting_[left++] = waiting_[i];
+      continue;
+    }
+    rt::ServiceReply reply{.ticket = waiting_[i].ticket, .resultCount = 1};
+    reply.results[0] = *code;
+    instance.services().complete(reply);
+  }
+  waitingCount_ = left;
+}
+
+} // namespace rung::nc::nct

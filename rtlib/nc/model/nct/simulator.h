@@ -1,0 +1,56 @@
+// The simulated NCT control beside a PLC program (`config nc simulated`): it holds the topics, gives each request of MR
+// and MW to the one that serves it, between two scans, and answers MACR, MACW, SCP and MOVCMND within the cycle.
+// A new topic is a member here and an entry of topics_, in the order in which they work.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "rtlib/nc/model/nct/nvram.h"
+#include "rtlib/nc/model/nct/parameters.h"
+
+namespace rung::nc::nct {
+
+class Simulator {
+public:
+  Simulator();
+
+  // Nothing: no topic knows it.
+  Handled config(std::string_view key, std::string_view value);
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys);
+  std::optional<double> quantity(std::string_view name) const;
+  Handled setQuantity(std::string_view name, double value);
+
+  // The program's memory has been started.
+  void powerOn(host::Instance& instance, PowerOn kind);
+  // In front of every time slice; `cycle`: it is the first one of a PLC cycle.
+  void timeSlice(host::Instance& instance, bool cycle);
+  // MACR, MACW, SCP, MOVCMND; false: another service.
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+  // Takes the requests of MR and MW and answers what can be answered, oldest first; one that is still at work does not
+  // hold up the others.
+  void betweenScans(host::Instance& instance);
+  void setRealTime() { control_.realTime = true; }
+
+  void keep(Kept& kept);
+
+private:
+  enum class Service : uint8_t { Other, Mr, Mw, Macr, Macw, Scp, Movcmnd };
+  void attach(host::Instance& instance);
+  void findServices(const rung_program& program);
+  Service serviceOf(const rt::ServiceRequest& request) const;
+  // The execution code of a request; nothing: still at work.
+  std::optional<int32_t> execute(const rt::ServiceRequest& request);
+
+  Control control_;
+  Parameters parameters_{control_};
+  Nvram nvram_{control_};
+  std::array<Topic*, 2> topics_;
+
+  std::vector<Service> services_; // by rung_program::services
+  std::span<uint8_t> blocks_;     // the space @MB
+  std::vector<rt::ServiceRequest> waiting_; // MR and MW, oldest first; room for all that can be pending
+  uint32_t waitingCount_ = 0;
+  std::array<uint32_t, kBlockStride> words_{}; // the block that is being worked on
+};
+
+} // namespace rung::nc::nct

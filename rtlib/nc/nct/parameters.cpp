@@ -99,7 +99,7 @@ constexpr ParameterRow kRows[] = {
     {2305, 1, W, kChannel, 30, "Part Count M", 9613},
     {2900, 1, B, kGlobal, 1, "Tool M. Config", 8929},
     {2901, 1, B, kGlobal, 0, "Search Config", 9273},
-    {2922, 1, B, kGlobal, 0, "Spindle Magazines", 10744},
+    {2922, 1, B, kSpindle, 3, "Spindle Magazines", 10744},
     {3012, 1, W, kChannel, 0, "Sensor Input of Tool Setter S1", 10064},
     {3013, 1, W, kChannel, 0, "Sensor Input of Tool Setter S2", 10066},
     {3014, 1, W, kChannel, 0, "Sensor Input of Workpiece Setter S1", 10084},
@@ -109,7 +109,7 @@ constexpr ParameterRow kRows[] = {
     {3201, 1, W, kChannel, 0, "Tool Axis Direction", 9813},
     {3204, 1, W, kChannel, 0, "No. of the First Rot. Ax.", 9813},
     {3208, 1, W, kChannel, 0, "No. of the Second Rot. Ax.", 9813},
-    {3300, 1, B, kGlobal, 1, "Pallet Contr.", 5289},
+    {3300, 1, B, kGlobal, 3, "Pallet Contr.", 5289},
     {3301, 1, W, kGlobal, 8, "Pallet Pool Length", 5337},
     {3302, 1, W, kGlobal, 4, "No. of Custom Columns", 5418},
 };

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "rtlib/nc/nct/axis_codes.h"
+
 namespace rung::nc::nct {
 
 // A bit parameter is a double word with bits 0…7 (man. l.3653).
@@ -13,7 +15,6 @@ enum class ParameterIndex : uint8_t { Global, MachineGroup, Channel, Axis, Spind
 
 inline constexpr uint32_t kMachineGroups = 8;
 inline constexpr uint32_t kChannels = 8;
-inline constexpr uint32_t kAxes = 32;
 inline constexpr uint32_t kSpindles = 16;
 
 struct ParameterRow {

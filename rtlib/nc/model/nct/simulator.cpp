@@ -7,8 +7,9 @@
 
 namespace rung::nc::nct {
 
-Simulator::Simulator() : topics_{&parameters_, &nvram_}, waiting_(rt::ServiceQueue::kMaxPending) {
+Simulator::Simulator() : topics_{&parameters_, &nvram_, &channels_, &programSelection_}, waiting_(rt::ServiceQueue::kMaxPending) {
   control_.parameters = &parameters_;
+  control_.channels = &channels_;
 }
 
 Handled Simulator::config(std::string_view key, std::string_view value) {

@@ -5,8 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "rtlib/nc/model/nct/channels.h"
 #include "rtlib/nc/model/nct/nvram.h"
 #include "rtlib/nc/model/nct/parameters.h"
+#include "rtlib/nc/model/nct/program_selection.h"
 
 namespace rung::nc::nct {
 
@@ -44,7 +46,9 @@ private:
   Control control_;
   Parameters parameters_{control_};
   Nvram nvram_{control_};
-  std::array<Topic*, 2> topics_;
+  Channels channels_{control_};
+  ProgramSelection programSelection_{control_};
+  std::array<Topic*, 4> topics_;
 
   std::vector<Service> services_; // by rung_program::services
   std::span<uint8_t> blocks_;     // the space @MB

@@ -21,8 +21,10 @@ class Axes;
 class Channels;
 class Drives;
 class Macros;
+class PalletManagement;
 class Parameters;
 class Spindles;
+class ToolManagement;
 
 // What topics share. The pointers hold from the making of the Simulator on.
 struct Control {
@@ -37,6 +39,8 @@ struct Control {
   Spindles* spindles = nullptr;
   Macros* macros = nullptr;
   Drives* drives = nullptr;
+  ToolManagement* tools = nullptr;
+  PalletManagement* pallets = nullptr;
 };
 
 // "" done, a text: what is wrong, nothing: not this topic's.

@@ -26,10 +26,11 @@ namespace {
 
 // The bitcode was made for another machine and with other options: nothing of that may stand in the way of inlining.
 void adopt(llvm::Function& function) {
+  const bool shared = function.hasFnAttribute(llvm::Attribute::NoInline);
   function.setComdat(nullptr);
   function.setLinkage(llvm::GlobalValue::InternalLinkage);
   function.setAttributes({});
-  function.addFnAttr(llvm::Attribute::AlwaysInline);
+  function.addFnAttr(shared ? llvm::Attribute::NoInline : llvm::Attribute::AlwaysInline);
   function.addFnAttr("frame-pointer", "all");
   function.setDoesNotThrow();
   for (llvm::Instruction& instruction : llvm::instructions(function))
@@ -41,9 +42,9 @@ Result<void> linkSem(llvm::Module& module) {
   const llvm::MemoryBufferRef buffer(semBitcode(), "sem");
   llvm::Expected<std::unique_ptr<llvm::Module>> sem = llvm::getLazyBitcodeModule(buffer, module.getContext());
   if (!sem) return failure(fmt::format("LLVM cannot read its own bitcode: {}", llvm::toString(sem.takeError())));
-  std::unordered_set<const llvm::Function*> own;
-  for (const llvm::Function& function : module)
-    if (!function.isDeclaration()) own.insert(&function);
+  std::unordered_set<const llvm::GlobalValue*> own;
+  for (const llvm::GlobalObject& object : module.global_objects())
+    if (!object.isDeclaration()) own.insert(&object);
   (*sem)->setTargetTriple(module.getTargetTriple());
   (*sem)->setDataLayout(module.getDataLayout());
   // Its notes on the machine it was made for would contradict ours.
@@ -53,6 +54,11 @@ Result<void> linkSem(llvm::Module& module) {
     return failure("LLVM cannot link its own bitcode");
   for (llvm::Function& function : module)
     if (!function.isDeclaration() && !own.contains(&function)) adopt(function);
+  for (llvm::GlobalVariable& table : module.globals()) {
+    if (table.isDeclaration() || own.contains(&table)) continue;
+    table.setComdat(nullptr);
+    table.setLinkage(llvm::GlobalValue::InternalLinkage);
+  }
   return {};
 }
 

@@ -61,6 +61,16 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   case OpCode::FSub:
   case OpCode::FMul:
   case OpCode::FDiv:
+  case OpCode::FSqrt:
+  case OpCode::FPow:
+  case OpCode::FSin:
+  case OpCode::FCos:
+  case OpCode::FTan:
+  case OpCode::FAsin:
+  case OpCode::FAcos:
+  case OpCode::FAtan:
+  case OpCode::FExp:
+  case OpCode::FLog:
   case OpCode::FToInt:
   case OpCode::FToIntNearest: return callSem(op);
   case OpCode::Load: return load(op);

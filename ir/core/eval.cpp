@@ -78,6 +78,16 @@ uint64_t evalPure(OpCode code, Type type, Type first, const uint64_t* args) {
   case OpCode::FDiv: return sem::toBits(sem::fdiv(real(0), real(1)));
   case OpCode::FNeg: return sem::toBits(sem::fneg(real(0)));
   case OpCode::FAbs: return sem::toBits(sem::fabs(real(0)));
+  case OpCode::FSqrt: return sem::toBits(sem::fsqrt(real(0)));
+  case OpCode::FPow: return sem::toBits(sem::fpow(real(0), real(1)));
+  case OpCode::FSin: return sem::toBits(sem::fsin(real(0)));
+  case OpCode::FCos: return sem::toBits(sem::fcos(real(0)));
+  case OpCode::FTan: return sem::toBits(sem::ftan(real(0)));
+  case OpCode::FAsin: return sem::toBits(sem::fasin(real(0)));
+  case OpCode::FAcos: return sem::toBits(sem::facos(real(0)));
+  case OpCode::FAtan: return sem::toBits(sem::fatan(real(0)));
+  case OpCode::FExp: return sem::toBits(sem::fexp(real(0)));
+  case OpCode::FLog: return sem::toBits(sem::flog(real(0)));
   case OpCode::FEq: return real(0) == real(1) ? 1 : 0;
   case OpCode::FLt: return real(0) < real(1) ? 1 : 0;
   case OpCode::FLe: return real(0) <= real(1) ? 1 : 0;

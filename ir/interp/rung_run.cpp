@@ -195,6 +195,16 @@ size_t RungRun::step(const Op& op, size_t index) {
   case OpCode::FDiv:
   case OpCode::FNeg:
   case OpCode::FAbs:
+  case OpCode::FSqrt:
+  case OpCode::FPow:
+  case OpCode::FSin:
+  case OpCode::FCos:
+  case OpCode::FTan:
+  case OpCode::FAsin:
+  case OpCode::FAcos:
+  case OpCode::FAtan:
+  case OpCode::FExp:
+  case OpCode::FLog:
   case OpCode::FEq:
   case OpCode::FLt:
   case OpCode::FLe:

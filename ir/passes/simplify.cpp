@@ -257,6 +257,16 @@ bool Simplifier::run() {
     case OpCode::FSub:
     case OpCode::FMul:
     case OpCode::FDiv:
+    case OpCode::FSqrt:
+    case OpCode::FPow:
+    case OpCode::FSin:
+    case OpCode::FCos:
+    case OpCode::FTan:
+    case OpCode::FAsin:
+    case OpCode::FAcos:
+    case OpCode::FAtan:
+    case OpCode::FExp:
+    case OpCode::FLog:
     case OpCode::FEq:
     case OpCode::FLt:
     case OpCode::FLe:

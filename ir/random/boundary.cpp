@@ -33,6 +33,8 @@ constexpr uint64_t kF64[] = {
     0x7FE1CCF385EBC8A0, 0x0000000000000001, // 1e308, the smallest
     0x7FF0000000000000, 0xFFF0000000000000, // infinities
     0x7FF8000000000000, 0xFFF8000000000001, // NaN, another one
+    0x3FF921FB54442D18, 0x4480F0CF064DD592, // pi/2, 1e22
+    0xC0874910D52D3053, 0x000FFFFFFFFFFFFF, // -745.13..., whose exponential is the smallest; the greatest subnormal
 };
 constexpr uint64_t kCounts[] = {0, 1, 3, 7, 8, 15, 16, 31, 32, 63, 64, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF};
 

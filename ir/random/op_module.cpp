@@ -102,6 +102,16 @@ private:
     case OpCode::FDiv:
     case OpCode::FNeg:
     case OpCode::FAbs:
+    case OpCode::FSqrt:
+    case OpCode::FPow:
+    case OpCode::FSin:
+    case OpCode::FCos:
+    case OpCode::FTan:
+    case OpCode::FAsin:
+    case OpCode::FAcos:
+    case OpCode::FAtan:
+    case OpCode::FExp:
+    case OpCode::FLog:
     case OpCode::FEq:
     case OpCode::FLt:
     case OpCode::FLe:

@@ -62,13 +62,11 @@ private:
 
   // The outputs of the NC: the words from the first output signal to the last (they follow the inputs).
   void addSafes() {
-    uint32_t first = UINT32_MAX;
+    const uint32_t first = config_.firstOutput * 4;
     uint32_t end = 0;
-    for (const nc::Signal& signal : nc::nctSignals()) {
-      if (signal.direction != nc::Direction::Out) continue;
-      first = std::min(first, signal.byteOffset);
-      end = std::max(end, signal.byteOffset + signal.count * signal.strideBytes);
-    }
+    for (const nc::Signal& signal : nc::nctSignals())
+      if (signal.direction == nc::Direction::Out)
+        end = std::max(end, signal.byteOffset + signal.count * signal.strideBytes);
     for (ir::SpaceId space : {spaces_.m, spaces_.ts}) module_.safes.push_back({space, first, end - first});
   }
 

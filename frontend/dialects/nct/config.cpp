@@ -1,6 +1,7 @@
 // Reading the configuration (see config.h).
 #include "frontend/dialects/nct/config.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -56,10 +57,19 @@ void readWord(const Options& options, const char* key, uint32_t least, uint32_t&
         << std::string(key) + " " + entry->second << std::to_string(least) + " to " + std::to_string(kWords - 1);
 }
 
+// The words of the inputs come first (rtlib/nc/nct/signals.h).
+uint32_t firstOutputWord() {
+  uint32_t first = UINT32_MAX;
+  for (const nc::Signal& signal : nc::nctSignals())
+    if (signal.direction == nc::Direction::Out) first = std::min(first, signal.byteOffset / 4);
+  return first;
+}
+
 } // namespace
 
 Config readConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   Config config;
+  config.firstOutput = firstOutputWord();
   const uint32_t userMemory = config.plcRam - config.plcNvram;
   readWord(options.config, "PLCNVRAM", nc::areaBytes(nc::nctSignals(), "M") / 4, config.plcNvram, diagnostics);
   config.plcRam = config.plcNvram + userMemory < kWords ? config.plcNvram + userMemory : kWords - 1;

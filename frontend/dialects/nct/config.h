@@ -16,6 +16,7 @@ struct Config {
   uint32_t plcRam = 5024;       // first word of the volatile user memory: 1024 words further, l.290
   uint32_t periodUs = 10'000;   // T_PLC, l.536
   uint32_t timesliceUs = 2'000; // l.540
+  uint32_t firstOutput = 0;     // first word of the NC's outputs; they follow its inputs
   uint32_t slices() const { return timesliceUs < periodUs ? periodUs / timesliceUs : 1; }
 };
 

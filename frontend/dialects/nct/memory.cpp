@@ -84,18 +84,20 @@ Place Memory::twoWords(const Address& address, Reach reach) {
   return p;
 }
 
-// Word 0001 is reserved; what is written there goes nowhere.
+// Only outputs go to the time-slice memory (l.548): inputs are the NC's, and what is written to them, or to the reserved
+// word 0001, is lost at the next synchronisation.
 bool Memory::masked(const Place& place) const {
   if (place.space != spaces_.m) return false;
-  return !place.fixed || (place.word >= kFirstNcWord && place.word < config_.plcNvram);
+  if (!place.fixed && place.window.count != 1) return true; // an index may lead anywhere
+  return place.word >= config_.firstOutput && place.word < config_.plcNvram;
 }
 
-// For masks of computed places: the index is the word's own number.
+// For masks of computed places: the index is the word's own number. Bits of inputs are set there, and nobody reads them.
 ir::Window Memory::maskWindow(const Place& place) {
   if (place.window.count == 1)
     written_.add(place.word, place.word + 1);
   else
-    written_.add(kFirstNcWord, config_.plcNvram);
+    written_.add(config_.firstOutput, config_.plcNvram);
   return {.space = spaces_.written, .byte = 0, .count = config_.plcNvram};
 }
 
@@ -168,7 +170,7 @@ void Memory::storeDouble(const Place& place, ValueId value) {
   if (place.fixed) {
     b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
     for (uint32_t word = place.word; word < place.word + 2; ++word) {
-      if (word < kFirstNcWord || word >= config_.plcNvram) continue;
+      if (word < config_.firstOutput || word >= config_.plcNvram) continue;
       b_.store({.space = spaces_.written, .byte = word * 4, .bit = 0}, b_.i32(-1));
       written_.add(word, word + 1);
     }
@@ -224,7 +226,7 @@ void Memory::storeIn(const WordRange& range, ValueId i, ValueId value) {
   if (begin >= config_.plcNvram) return;
   const uint32_t count = std::min(range.window.count, config_.plcNvram - begin);
   b_.storeAt({.space = spaces_.written, .byte = begin * 4, .count = count}, index, b_.i32(-1));
-  written_.add(std::max(begin, kFirstNcWord), std::max(begin + count, kFirstNcWord));
+  if (begin + count > config_.firstOutput) written_.add(std::max(begin, config_.firstOutput), begin + count);
 }
 
 ValueId Memory::loadScratch(ValueId index) {

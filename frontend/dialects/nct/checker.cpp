@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/operand_parser.h"
+#include "ir/support/similar.h"
 
 namespace rung::nct {
 namespace {
@@ -120,8 +121,18 @@ const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const O
   case ElementKind::Box: break;
   }
   const NctInstruction* row = findBox(element.mnemonic);
-  if (row == nullptr) diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange) << element.mnemonic;
+  if (row == nullptr) reportUnknown(element);
   return row;
+}
+
+void RungChecker::reportUnknown(const ladder::Element& element) {
+  DiagBuilder report = diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange);
+  report << element.mnemonic;
+  if (diagnostics_.errorCount() > kMostSuggestions) return;
+  Similar similar(element.mnemonic);
+  for (const NctInstruction& row : allInstructions())
+    if (row.shape == Shape::Box) similar.offer(row.info.mnemonic);
+  if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
 }
 
 void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {
@@ -132,7 +143,13 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   if (element.kind != ElementKind::Box) {
     typed.operands.push_back(parseOperand(rung.operandOf(element), symbols_, diagnostics_));
     added.operandCount = 1;
-    if (element.edge != 0) typed.operands.back().edge = element.edge;
+    Operand& operand = typed.operands.back();
+    if (element.edge != 0 && operand.edge != 0) {
+      diagnostics_.report(Diag::ModifierNotAllowed, operand.source->range)
+          << std::string(1, operand.edge) << fmt::format("a contact with '{}'", element.edge);
+      operand.form = Form::Bad;
+    }
+    if (element.edge != 0) operand.edge = element.edge;
   }
   added.row = rowOf(element, typed.operands.empty() ? nullptr : &typed.operands.back());
   if (added.row == nullptr) {
@@ -249,7 +266,8 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
       diagnostics_.report(Diag::SymbolKindMismatch, range)
           << text << "a constant" << (info.kind == "bit" ? "a bit" : "an address");
     else
-      diagnostics_.report(Diag::OperandNotRegister, range) << static_cast<int>(index + 1) << row.info.mnemonic;
+      diagnostics_.report(Diag::OperandNotRegister, range)
+          << static_cast<int>(index + 1) << (row.shape == Shape::Contact ? "a contact" : row.shape == Shape::Coil ? "a coil" : row.info.mnemonic);
     return false;
   }
   const Form needed = classOf(info.kind) == Class::Bit ? Form::Bit : Form::Word;

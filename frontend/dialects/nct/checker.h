@@ -28,6 +28,7 @@ public:
 
 private:
   const NctInstruction* rowOf(const ladder::Element& element, const Operand* first);
+  void reportUnknown(const ladder::Element& element);
   void checkElement(TypedRung& typed, const ladder::Element& element);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);

@@ -63,7 +63,7 @@ public:
   void check() {
     for (const ladder::LadderFile& file : files_) checkFile(file);
     for (TypedModule* module : {&program_.main, &program_.int0})
-      if (module->exists) checkStructure(*module, diagnostics_);
+      if (module->exists) checkStructure(*module, sources_, diagnostics_);
     if (!program_.main.exists && !program_.main.range.valid() && !nameless_) {
       const SourceRange range = files_.empty() ? SourceRange{} : files_[0].dialectRange;
       diagnostics_.report(Diag::MissingMain, range);
@@ -91,23 +91,25 @@ private:
     }
   }
 
-  // The module that a statement opens; null when it was reported.
-  TypedModule* open(const ladder::Module& statement) {
+  // The module that a statement opens. What stands in an unknown one, or in the second of a name, is looked at rung by
+  // rung, but for nothing else.
+  TypedModule& open(const ladder::Module& statement) {
     const std::string_view name = statement.name[0].text;
     TypedModule* module = name == "MAIN" ? &program_.main : name == "INT0" ? &program_.int0 : nullptr;
     if (module == nullptr || statement.name.size() > 1) {
       diagnostics_.report(Diag::UnknownModule, join(statement.name.front().range, statement.name.back().range))
           << sources_.text(join(statement.name.front().range, statement.name.back().range)) << "MAIN or INT0";
       nameless_ = true;
-      return nullptr;
+      return reported_;
     }
     if (module->exists) {
       diagnostics_.report(Diag::DuplicateModule, statement.range).note(module->range, "here") << name;
-      return nullptr;
+      module->partial = true;
+      return reported_;
     }
     module->exists = true;
     module->range = statement.range;
-    return module;
+    return *module;
   }
 
   void checkFile(const ladder::LadderFile& file) {
@@ -116,8 +118,8 @@ private:
     for (const ladder::Statement& statement : file.statements) {
       switch (statement.kind) {
       case ladder::StatementKind::Module:
-        module = open(file.modules[statement.index]);
-        checker.emplace(symbols_, claims_, diagnostics_, module == &program_.int0);
+        module = &open(file.modules[statement.index]);
+        checker.emplace(symbols_, claims_, diagnostics_, file.modules[statement.index].name[0].text != "MAIN");
         break;
       case ladder::StatementKind::Rung:
         if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
@@ -135,6 +137,7 @@ private:
   OutputClaims claims_;
   std::vector<ladder::LadderFile> files_;
   Program program_;
+  TypedModule reported_; // rungs of modules that are none
   Texts texts_;
   std::unordered_set<uint32_t> numbers_; // of the texts
   bool nameless_ = false;                // rungs stand in no known module: MAIN may be what was meant

@@ -114,8 +114,16 @@ private:
       return nullptr;
     }
     const Symbol* found = symbols_.find(name);
-    if (found == nullptr) diagnostics_.report(Diag::UndeclaredSymbol, rangeOf(word_, name)) << name;
+    if (found == nullptr) reportUndeclared(name);
     return found == nullptr || found->kind == SymbolKind::Bad ? nullptr : found;
+  }
+
+  void reportUndeclared(std::string_view name) {
+    DiagBuilder report = diagnostics_.report(Diag::UndeclaredSymbol, rangeOf(word_, name));
+    report << name;
+    if (diagnostics_.errorCount() > kMostSuggestions) return;
+    const std::string_view similar = symbols_.similarTo(name);
+    if (!similar.empty()) report.note("did you mean " + std::string(similar) + "?");
   }
 
   bool mismatch(std::string_view name, SymbolKind is, std::string_view needed) {

@@ -44,6 +44,7 @@ struct TypedModule {
   std::string_view name;
   SourceRange range;
   bool exists = false;
+  bool partial = false; // a second one of its name was reported
   std::vector<TypedRung> rungs;
   std::vector<Body> bodies;                                   // [0] is the main part
   std::array<std::optional<uint32_t>, kLabels> labels{};      // JME: its rung
@@ -51,8 +52,8 @@ struct TypedModule {
 };
 
 struct Program {
-  TypedModule main{.name = "MAIN", .range = {}, .exists = false, .rungs = {}, .bodies = {}};
-  TypedModule int0{.name = "INT0", .range = {}, .exists = false, .rungs = {}, .bodies = {}};
+  TypedModule main{.name = "MAIN", .range = {}, .exists = false, .partial = false, .rungs = {}, .bodies = {}};
+  TypedModule int0{.name = "INT0", .range = {}, .exists = false, .partial = false, .rungs = {}, .bodies = {}};
 };
 
 } // namespace rung::nct

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/similar.h"
+
 namespace rung::nct {
 namespace {
 
@@ -15,23 +17,39 @@ struct Reference {
   SourceRange range;
 };
 
-// Something in the rung could not be read that might have been an END, a label or a subroutine's beginning or end.
-bool hidesStructure(const TypedRung& rung) {
+constexpr std::string_view kStructural[] = {"END", "JMP", "JME", "SBS", "SBN", "RET"};
+
+bool looksStructural(std::string_view mnemonic) {
+  return std::ranges::any_of(kStructural, [&](std::string_view name) {
+    Similar similar(mnemonic);
+    similar.offer(name);
+    return !similar.best().empty();
+  });
+}
+
+// Something in the rung could not be read that might have been an END, a jump, a label or a subroutine's beginning or
+// end. `text` is the rung's drawing.
+bool hidesStructure(const TypedRung& rung, std::string_view text) {
   const auto hides = [](const TypedElement& element) {
-    if (element.row == nullptr) return true;
+    if (element.row == nullptr) return looksStructural(element.element->mnemonic);
     return element.row->info.operands.size() == 1 && element.row->info.operands[0].kind == "label" && !element.label;
   };
-  return rung.rung->bad || std::ranges::any_of(rung.elements, hides);
+  if (std::ranges::any_of(rung.elements, hides)) return true;
+  if (!rung.rung->bad) return false;
+  return std::ranges::any_of(kStructural,
+                             [&](std::string_view name) { return text.find(name) != std::string_view::npos; });
 }
 
 class StructureChecker {
 public:
-  StructureChecker(TypedModule& module, Diagnostics& diagnostics) : module_(module), diagnostics_(diagnostics) {}
+  StructureChecker(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics)
+      : module_(module), sources_(sources), diagnostics_(diagnostics) {}
 
   void run() {
+    incomplete_ = module_.partial;
     module_.bodies.push_back({.first = 0, .end = 0, .number = {}});
     for (uint32_t i = 0; i < module_.rungs.size(); ++i) {
-      incomplete_ |= hidesStructure(module_.rungs[i]);
+      incomplete_ |= hides(module_.rungs[i]);
       rungBegins(i);
       for (const TypedElement& element : module_.rungs[i].elements)
         if (element.row != nullptr) visit(i, element);
@@ -47,6 +65,10 @@ public:
   }
 
 private:
+  bool hides(const TypedRung& rung) const {
+    return rung.bad && hidesStructure(rung, sources_.text(rung.rung->range));
+  }
+
   void rungBegins(uint32_t rung) {
     const auto& elements = module_.rungs[rung].elements;
     const bool startsBody =
@@ -64,7 +86,7 @@ private:
     switch (element.row->flow) {
     case Flow::None:
     case Flow::Section: return;
-    case Flow::End: return end(range);
+    case Flow::End: return end(range, module_.rungs[rung].bad);
     case Flow::Return: return ret(range);
     case Flow::Label:
       if (element.label) label(*element.label, rung, range);
@@ -94,12 +116,14 @@ private:
     diagnostics_.report(Diag::LabelConflict, range).note(other, "the other use") << number;
   }
 
-  void end(SourceRange range) {
+  // An END that must not stand where it does ends nothing for sure: what follows it is not looked at.
+  void end(SourceRange range, bool bad) {
     if (ended_) {
       diagnostics_.report(Diag::DuplicateEnd, range).note(endRange_, "the first one");
       return;
     }
     ended_ = true;
+    reportedAfterEnd_ = bad;
     endRange_ = range;
   }
 
@@ -122,7 +146,7 @@ private:
 
   void subroutine(uint32_t number, uint32_t rung, SourceRange range) {
     claim(number, true, range);
-    if (!ended_ && !inSubroutine() && !incomplete_) diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
+    if (!ended_ && !incomplete_) diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
     closeBody(rung);
     module_.bodies.push_back({.first = rung, .end = rung, .number = number});
     bodyRange_ = range;
@@ -140,7 +164,7 @@ private:
     body.end = rung;
     if (!body.number) return;
     const auto rungs = std::span(module_.rungs).subspan(body.first, body.end - body.first);
-    if (!hasRet_ && std::ranges::none_of(rungs, hidesStructure))
+    if (!hasRet_ && std::ranges::none_of(rungs, [&](const TypedRung& r) { return hides(r); }))
       diagnostics_.report(Diag::MissingRet, bodyRange_) << *body.number;
   }
 
@@ -217,6 +241,7 @@ private:
   };
 
   TypedModule& module_;
+  const SourceManager& sources_;
   Diagnostics& diagnostics_;
   std::vector<Reference> jumps_;
   std::vector<Reference> calls_;
@@ -233,6 +258,8 @@ private:
 
 } // namespace
 
-void checkStructure(TypedModule& module, Diagnostics& diagnostics) { StructureChecker(module, diagnostics).run(); }
+void checkStructure(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics) {
+  StructureChecker(module, sources, diagnostics).run();
+}
 
 } // namespace rung::nct

@@ -5,6 +5,6 @@
 
 namespace rung::nct {
 
-void checkStructure(TypedModule& module, Diagnostics& diagnostics);
+void checkStructure(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics);
 
 } // namespace rung::nct

@@ -2,6 +2,7 @@
 #include "frontend/dialects/nct/symbols.h"
 
 #include "frontend/dialects/nct/operand_parser.h"
+#include "ir/support/similar.h"
 
 namespace rung::nct {
 namespace {
@@ -80,6 +81,15 @@ const Symbol* SymbolTable::find(std::string_view name) {
   if (found == byName_.end()) return enterSignal(name);
   if (found->second->pending) resolve(*found->second);
   return found->second;
+}
+
+std::string_view SymbolTable::similarTo(std::string_view name) const {
+  Similar similar(name);
+  for (const Symbol& symbol : symbols_) similar.offer(symbol.name);
+  // Names of the program come first.
+  if (similar.best().empty())
+    for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
+  return similar.best();
 }
 
 void SymbolTable::declare(const ladder::Declaration& declaration) {

@@ -13,6 +13,9 @@
 
 namespace rung::nct {
 
+// Looking for likeness in a file of rubbish would take long and help nobody.
+inline constexpr size_t kMostSuggestions = 100;
+
 enum class SymbolKind : uint8_t { Bad, Word, Bit, Constant };
 
 struct Symbol {
@@ -40,6 +43,8 @@ public:
   // Null when there is no such name. Symbols of the NC enter the table when they are looked up first. The result
   // stays where it is.
   const Symbol* find(std::string_view name);
+  // The known name that is most like a misspelt one; empty when none is close.
+  std::string_view similarTo(std::string_view name) const;
   // All names but those of the NC that nothing mentions, in the order of entering.
   const std::deque<Symbol>& all() const { return symbols_; }
 

@@ -150,6 +150,8 @@ INSTANTIATE_TEST_SUITE_P(Modifiers, MainRung, ::testing::ValuesIn(std::vector<Ru
     {"EdgeOnWordContact", "|--[@APPLE]--(7000.00)", {}},
     {"HandwheelInMain", "|--[PEAR]--{MOV 7000 HWMOVE}", {"4:22 int0-only-signal (w)"}},
     {"FastClockInMain", "|--[N_P2MS]--(7000.00)", {"4:5 int0-only-signal (w)"}},
+    {"TwoEdges", "|--[@%PEAR]--(7000.00)", {"4:6 modifier-not-allowed"}},
+    {"EdgeTwice", "|--[/@@PEAR]--(7000.00)", {"4:7 modifier-not-allowed"}},
     {"AddressErrorComesFirst", "|--[!NOWHERE]--(7000.00)", {"4:6 undeclared-symbol"}},
 }), titleOf);
 
@@ -343,6 +345,38 @@ TEST(NctDiagnostics, Modules) {
 TEST(NctDiagnostics, BrokenRungCausesNoFurtherErrors) {
   const Compiled c = compileMain(rungs({"|--[7000.00]--{JMP #1}", "|--{JME #1", "|--[NOWHERE]--{JMP #1}", "|--[7000.00]--{SBS #3}"}));
   EXPECT_THAT(c.codes(), ElementsAre("7:4 unclosed-element", "10:5 undeclared-symbol"));
+}
+
+// Only one that might have held an END, a label or the like hides what others refer to.
+TEST(NctDiagnostics, OtherBrokenRungsHideNothing) {
+  const Compiled c = compileMain(rungs({"|--[7000.00]--{JMP #1}", "|--[7000.00", "|--[7000.00]--{FOO 7001}", "|--[7000.00]--{MOV}"}));
+  EXPECT_THAT(c.codes(), ElementsAre("4:15 undefined-label", "7:4 unclosed-element", "10:16 unknown-instruction", "13:16 operand-count"));
+  EXPECT_THAT(compileMain(rungs({"|--[7000.00]--{JMP #1}", "|--{JNE #1}"})).codes(), ElementsAre("7:5 unknown-instruction"));
+}
+
+// What follows an END that must not stand where it does is no code behind END.
+TEST(NctDiagnostics, MisplacedEndCausesNoFurtherErrors) {
+  const Compiled c = compileMain(rungs({"|--[7000.00]--{END}", "|--[7000.00]--(7000.01)", "|--[7000.00]--{SBS #1}", "|--{SBN #1}", "|--[7000.00]--{RET}"}));
+  EXPECT_THAT(c.codes(), ElementsAre("4:15 first-column-required"));
+}
+
+// Rungs of a module that is reported are looked at, but their labels belong to nobody.
+TEST(NctDiagnostics, RungsOfWrongModulesAreChecked) {
+  EXPECT_THAT(compileFile("dialect nct\nmodule MIAN\nrung\n|--[NOWHERE]--{JMP #1}\n").codes(),
+              ElementsAre("2:8 unknown-module", "4:5 undeclared-symbol"));
+  EXPECT_THAT(compileFile("dialect nct\nmodule MAIN\nrung\n|--[N_ON]--{JMP #1}\n\nmodule MAIN\nrung\n|--{JME #1}\n").codes(),
+              ElementsAre("6:1 duplicate-module"));
+}
+
+TEST(NctDiagnostics, Suggestions) {
+  const auto note = [](const char* drawing) { return compileMain(std::string("symbol SPEED 7001\nrung\n") + drawing + "\n").rendered(); };
+  EXPECT_NE(note("|--[N_ON]--{MOV SPEDE #1}").find("did you mean SPEED?"), std::string::npos);
+  EXPECT_NE(note("|--[N_ON]--{MOV speed #1}").find("did you mean SPEED?"), std::string::npos);
+  EXPECT_NE(note("|--[N_ONN]--{MOV SPEED #1}").find("did you mean N_ON?"), std::string::npos);
+  EXPECT_NE(note("|--[AN_PLAC]--{MOV SPEED #1}").find("did you mean AN_PLCA?"), std::string::npos);
+  EXPECT_NE(note("|--[N_ON]--{MOVE SPEED #1}").find("did you mean MOV?"), std::string::npos);
+  EXPECT_NE(note("|--[N_ON]--{mov SPEED #1}").find("did you mean MOV?"), std::string::npos);
+  EXPECT_EQ(note("|--[XYZZY]--{PLUGH SPEED #1}").find("did you mean"), std::string::npos);
 }
 
 TEST(NctDiagnostics, Configuration) {

@@ -68,6 +68,44 @@ ValueId lowerFloatArithmetic(Lowering& box) {
   });
 }
 
+// The operations give NaN where there is no value; what the manual forbids besides that is no logarithm of 0 and no
+// power of a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
+// the range of doubles.
+ValueId lowerFloatFunction(Lowering& box) {
+  constexpr OpCode kCodes[] = {OpCode::FPow,  OpCode::FSqrt, OpCode::FSin,  OpCode::FCos, OpCode::FTan,
+                               OpCode::FAsin, OpCode::FAcos, OpCode::FAtan, OpCode::FExp, OpCode::FLog};
+  RungBuilder& b = box.b;
+  const auto variant = static_cast<FunctionVariant>(box.variant);
+  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  const ValueId x = box.memory.real(box.operands[1], valid);
+  const ValueId y = variant == kPower ? box.memory.real(box.operands[2], valid) : ValueId{};
+  return execute(box, valid, [&] {
+    const ValueId zero = b.real(0);
+    const ValueId result =
+        variant == kPower ? b.op(OpCode::FPow, Type::F64, {x, y}) : b.op(kCodes[variant], Type::F64, {x});
+    ValueId ok = isNumber(b, result);
+    if (variant == kLogarithm) ok = b.op(OpCode::FLt, Type::F64, {zero, x});
+    if (variant == kPower) {
+      const ValueId pole = b.and_(isZero(b, x), b.op(OpCode::FLt, Type::F64, {y, zero}));
+      ok = b.and_(b.and_(isNumber(b, y), b.op(OpCode::FLe, Type::F64, {zero, x})), b.not_(pole));
+    }
+    return when(box, ok, [&] {
+      box.memory.storeDouble(target, result);
+      const auto flag = [&](uint8_t value) { return b.constant(Type::I8, value); };
+      ValueId flags = flag(0);
+      if (variant == kPower || variant == kExponential) {
+        const ValueId finite = y.valid() ? b.and_(isFinite(b, x), isFinite(b, y)) : isFinite(b, x);
+        const ValueId over = b.and_(finite, b.not_(isFinite(b, result)));
+        ValueId under = b.and_(finite, isZero(b, result));
+        if (variant == kPower) under = b.and_(under, b.not_(isZero(b, x)));
+        flags = b.select(over, flag(kFlagOf), b.select(under, flag(kFlagUf), flags));
+      }
+      box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf, flags);
+    });
+  });
+}
+
 namespace {
 
 // Word to word; `convert` gives the result and whether it exists.

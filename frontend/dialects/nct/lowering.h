@@ -100,6 +100,19 @@ ir::ValueId lowerCounter(Lowering& box);
 
 enum FloatVariant : int { kFloatAdd, kFloatSub, kFloatMul, kFloatDiv };
 ir::ValueId lowerFloatArithmetic(Lowering& box);
+enum FunctionVariant : int {
+  kPower,
+  kSquareRoot,
+  kSine,
+  kCosine,
+  kTangent,
+  kArcSine,
+  kArcCosine,
+  kArcTangent,
+  kExponential,
+  kLogarithm
+};
+ir::ValueId lowerFloatFunction(Lowering& box); // PWR to LOG
 ir::ValueId lowerBin(Lowering& box);
 ir::ValueId lowerBcd(Lowering& box);
 ir::ValueId lowerFlt(Lowering& box);

@@ -21,7 +21,9 @@ constexpr NctInstruction floatBinaryRow(RowText text, std::string_view first, st
           .variant = variant};
 }
 
-constexpr NctInstruction floatRow(RowText text) { return convertRow(text, "float", "double", "float", nullptr, 0); }
+constexpr NctInstruction floatRow(RowText text, int variant) {
+  return convertRow(text, "float", "double", "float", lowerFloatFunction, variant);
+}
 
 constexpr NctInstruction compareRow(RowText text, std::string_view valueKind, std::string_view dataKind, Lower lower) {
   return {.info = {.mnemonic = text.mnemonic,
@@ -74,28 +76,41 @@ inline constexpr NctInstruction kFloatRows[] = {
                     "Result := 1st / 2nd. By 0: FL_ER, not executed.", "|--[N_ON]--{/F 7000 7002 *1.5}"},
                    "1st Operand", "2nd Operand", lowerFloatArithmetic, kFloatDiv),
     floatBinaryRow({"PWR", "power", "6.10.5, l.2233",
-                    "Result := Base to the power of Exponent. A negative base: FL_ER, not executed.",
+                    "Result := Base to the power of Exponent; anything to the power of 0 is 1. A negative base, or 0 "
+                    "to a negative "
+                    "exponent: FL_ER, not executed.",
                     "|--[N_ON]--{PWR 7000 7002 *2.0}"},
-                   "Base", "Exponent"),
+                   "Base", "Exponent", lowerFloatFunction, kPower),
     floatRow({"SQRT", "square root", "6.10.6, l.2257", "Result := square root. Negative: FL_ER, not executed.",
-              "|--[N_ON]--{SQRT 7000 7002}"}),
+              "|--[N_ON]--{SQRT 7000 7002}"},
+             kSquareRoot),
     floatRow(
-        {"SIN", "sine", "6.10.7, l.2273", "Result := sine of the operand in radians.", "|--[N_ON]--{SIN 7000 7002}"}),
+        {"SIN", "sine", "6.10.7, l.2273", "Result := sine of the operand in radians.", "|--[N_ON]--{SIN 7000 7002}"},
+        kSine),
     floatRow({"COS", "cosine", "6.10.8, l.2285", "Result := cosine of the operand in radians.",
-              "|--[N_ON]--{COS 7000 7002}"}),
-    floatRow({"TAN", "tangent", "6.10.9, l.2297",
-              "Result := tangent of the operand in radians. At odd multiples of pi/2: FL_ER, not executed.",
-              "|--[N_ON]--{TAN 7000 7002}"}),
-    floatRow({"ASIN", "arc sine", "6.10.10, l.2315",
-              "Result := arc sine in radians. Outside -1 to 1: FL_ER, not executed.", "|--[N_ON]--{ASIN 7000 7002}"}),
-    floatRow({"ACOS", "arc cosine", "6.10.11, l.2335",
-              "Result := arc cosine in radians. Outside -1 to 1: FL_ER, not executed.", "|--[N_ON]--{ACOS 7000 7002}"}),
+              "|--[N_ON]--{COS 7000 7002}"},
+             kCosine),
     floatRow(
-        {"ATAN", "arc tangent", "6.10.12, l.2356", "Result := arc tangent in radians.", "|--[N_ON]--{ATAN 7000 7002}"}),
+        {"TAN", "tangent", "6.10.9, l.2297",
+         "Result := tangent of the operand in radians. Where an odd multiple of pi/2 is at most the distance of two "
+         "neighbouring doubles away: FL_ER, not executed.",
+         "|--[N_ON]--{TAN 7000 7002}"},
+        kTangent),
+    floatRow({"ASIN", "arc sine", "6.10.10, l.2315",
+              "Result := arc sine in radians. Outside -1 to 1: FL_ER, not executed.", "|--[N_ON]--{ASIN 7000 7002}"},
+             kArcSine),
+    floatRow({"ACOS", "arc cosine", "6.10.11, l.2335",
+              "Result := arc cosine in radians. Outside -1 to 1: FL_ER, not executed.", "|--[N_ON]--{ACOS 7000 7002}"},
+             kArcCosine),
+    floatRow(
+        {"ATAN", "arc tangent", "6.10.12, l.2356", "Result := arc tangent in radians.", "|--[N_ON]--{ATAN 7000 7002}"},
+        kArcTangent),
     floatRow({"EXP", "natural exponential", "6.10.13, l.2371", "Result := e to the power of the operand.",
-              "|--[N_ON]--{EXP 7000 7002}"}),
+              "|--[N_ON]--{EXP 7000 7002}"},
+             kExponential),
     floatRow({"LOG", "natural logarithm", "6.10.14, l.2385",
-              "Result := natural logarithm. Of 0 or less: FL_ER, not executed.", "|--[N_ON]--{LOG 7000 7002}"}),
+              "Result := natural logarithm. Of 0 or less: FL_ER, not executed.", "|--[N_ON]--{LOG 7000 7002}"},
+             kLogarithm),
 
     convertRow({"BIN", "BCD to binary", "6.11.1, l.2449",
                 "Eight BCD digits become an integer. A digit above 9: FL_ER, not executed.",

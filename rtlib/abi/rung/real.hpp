@@ -260,8 +260,8 @@ struct Reduced {
 // needs (Payne and Hanek).
 RUNG_SHARED Reduced reduced(const Wide& x) noexcept {
   if (x.e < -1 || (x.e == -1 && x.m.hi < kHalfPi.m.hi)) return {x, 0};
-  const u64 m = x.m.hi >> 11;                     // |x| = m * 2^(e - 52)
-  const u32 first = static_cast<u32>(x.e + 10);   // of the bits that count, as an index into the table
+  const u64 m = x.m.hi >> 11;                   // |x| = m * 2^(e - 52)
+  const u32 first = static_cast<u32>(x.e + 10); // of the bits that count, as an index into the table
   const u32 word = first / 64;
   const u32 shift = first % 64;
   u64 y[4] = {}; // |x| * 2 / pi modulo 4, Q2.254, the highest word first
@@ -370,8 +370,8 @@ RUNG_SHARED double fpow(double x, double y) noexcept {
   }
   if (x == 0 || isInfinite(x)) return fromBits(sign | ((x == 0) == grows ? 0 : kInfinity));
   if (x < 0 && !whole) return fromBits(kNanBits);
-  wide::Wide result = wide::exponential(
-      wide::mul(wide::fromDouble(y), wide::logarithm(wide::magnitude(wide::fromDouble(x)))));
+  wide::Wide result =
+      wide::exponential(wide::mul(wide::fromDouble(y), wide::logarithm(wide::magnitude(wide::fromDouble(x)))));
   result.negative = sign != 0;
   return wide::toDouble(result, true);
 }
@@ -421,8 +421,8 @@ RUNG_SHARED double facos(double x) noexcept {
 RUNG_SHARED double fatan(double x) noexcept {
   if (x == 0) return x;
   if (x != x) return fromBits(kNanBits);
-  wide::Wide angle = isInfinite(x) ? wide::kHalfPi
-                                   : wide::arcTangent(wide::magnitude(wide::fromDouble(x)), {wide::kOne, 0, false});
+  wide::Wide angle =
+      isInfinite(x) ? wide::kHalfPi : wide::arcTangent(wide::magnitude(wide::fromDouble(x)), {wide::kOne, 0, false});
   angle.negative = x < 0;
   return wide::toDouble(angle);
 }

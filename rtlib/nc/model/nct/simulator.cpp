@@ -7,9 +7,10 @@
 
 namespace rung::nc::nct {
 
-Simulator::Simulator() : topics_{&parameters_, &nvram_, &channels_, &programSelection_}, waiting_(rt::ServiceQueue::kMaxPending) {
+Simulator::Simulator() : topics_{&parameters_, &nvram_, &channels_, &programSelection_, &tools_}, waiting_(rt::ServiceQueue::kMaxPending) {
   control_.parameters = &parameters_;
   control_.channels = &channels_;
+  control_.tools = &tools_;
 }
 
 Handled Simulator::config(std::string_view key, std::string_view value) {

@@ -9,6 +9,7 @@
 #include "rtlib/nc/model/nct/nvram.h"
 #include "rtlib/nc/model/nct/parameters.h"
 #include "rtlib/nc/model/nct/program_selection.h"
+#include "rtlib/nc/model/nct/tool_management.h"
 
 namespace rung::nc::nct {
 
@@ -48,7 +49,8 @@ private:
   Nvram nvram_{control_};
   Channels channels_{control_};
   ProgramSelection programSelection_{control_};
-  std::array<Topic*, 4> topics_;
+  ToolManagement tools_{control_};
+  std::array<Topic*, 5> topics_;
 
   std::vector<Service> services_; // by rung_program::services
   std::span<uint8_t> blocks_;     // the space @MB

@@ -15,20 +15,6 @@ constexpr uint32_t kMostPots = 999;
 constexpr uint32_t kMostRows = 9999;
 constexpr uint32_t kMostHalfPots = 40; // of a figure, in one direction
 
-const BitSignal kSearching("N_TLSRCH");
-const BitSignal kModified("N_TLMD");
-const BitSignal kSaving("N_TLSV");
-const BitSignal kEditing("N_TLEDT");
-const BitSignal kLocked("P_TLTAB");
-const BitSignal kIndividual("SN_TLCHI");
-const BitSignal kGroup("SN_TLCH");
-const BitSignal kSkipDone("SN_TLSKPA");
-const BitSignal kNotice("SN_TLNL");
-const BitSignal kIndividualDone("SP_TLCHIA");
-const BitSignal kGroupDone("SP_TLCHA");
-const BitSignal kSkip("SP_TLSKP");
-const BitSignal kCountDisabled("SP_TLCD");
-
 uint32_t spindleOf(uint32_t cartridge) { return cartridge / 10 - 1; }
 
 // NUMBER of PREFIX.NUMBER.REST and the rest.
@@ -84,7 +70,7 @@ void ToolManagement::keep(Kept& kept) {
 
 bool ToolManagement::managed() const { return control().parameters->bit(toolConfig_, 0); }
 
-bool ToolManagement::locked() const { return control().signals.get(kLocked); }
+bool ToolManagement::locked() const { return control().signals.get(signals_.locked); }
 
 // Cartridges of spindles exist as N2922 says: bit 0 that of the spindle, bit 1 the standby cartridge (l.10744).
 bool ToolManagement::exists(uint32_t cartridge) const {
@@ -107,15 +93,15 @@ void ToolManagement::cycle() {
   const bool operates = managed();
   for (uint32_t i = 0; i < kSpindles; ++i) {
     const ToolRequests& requests = life_.cycle(i,
-                                               {.individualDone = signals.get(kIndividualDone, i),
-                                                .groupDone = signals.get(kGroupDone, i),
-                                                .skip = signals.get(kSkip, i),
-                                                .countDisabled = signals.get(kCountDisabled, i)},
+                                               {.individualDone = signals.get(signals_.individualDone, i),
+                                                .groupDone = signals.get(signals_.groupDone, i),
+                                                .skip = signals.get(signals_.skip, i),
+                                                .countDisabled = signals.get(signals_.countDisabled, i)},
                                                operates);
-    signals.set(kIndividual, i, requests.individual);
-    signals.set(kGroup, i, requests.group);
-    signals.set(kSkipDone, i, requests.skipDone);
-    signals.set(kNotice, i, requests.notice);
+    signals.set(signals_.individual, i, requests.individual);
+    signals.set(signals_.group, i, requests.group);
+    signals.set(signals_.skipDone, i, requests.skipDone);
+    signals.set(signals_.notice, i, requests.notice);
   }
   showBusy();
 }
@@ -123,10 +109,10 @@ void ToolManagement::cycle() {
 // Why the tables are occupied (l.8041-8049): a search and a modification show for one PLC cycle, then the saving.
 void ToolManagement::showBusy() {
   const SignalMemory& signals = control().signals;
-  signals.set(kSearching, searching_);
-  signals.set(kModified, modified_);
-  signals.set(kSaving, saving_);
-  signals.set(kEditing, editing_);
+  signals.set(signals_.searching, searching_);
+  signals.set(signals_.modified, modified_);
+  signals.set(signals_.saving, saving_);
+  signals.set(signals_.editing, editing_);
   saving_ = modified_;
   searching_ = modified_ = false;
 }

@@ -12,6 +12,22 @@
 
 namespace rung::nc::nct {
 
+struct ToolSignals {
+  BitSignal searching{"N_TLSRCH"};
+  BitSignal modified{"N_TLMD"};
+  BitSignal saving{"N_TLSV"};
+  BitSignal editing{"N_TLEDT"};
+  BitSignal locked{"P_TLTAB"};
+  BitSignal individual{"SN_TLCHI"};
+  BitSignal group{"SN_TLCH"};
+  BitSignal skipDone{"SN_TLSKPA"};
+  BitSignal notice{"SN_TLNL"};
+  BitSignal individualDone{"SP_TLCHIA"};
+  BitSignal groupDone{"SP_TLCHA"};
+  BitSignal skip{"SP_TLSKP"};
+  BitSignal countDisabled{"SP_TLCD"};
+};
+
 class ToolManagement final : public Topic {
 public:
   explicit ToolManagement(Control& control);
@@ -72,6 +88,7 @@ private:
   ToolLife life_{tables_};
   PotFinder finder_;
 
+  ToolSignals signals_;
   ParameterPlace programConfig_{1274};
   ParameterPlace toolConfig_{2900};
   ParameterPlace spindleMagazines_{2922};

@@ -15,13 +15,14 @@ using frontend::Output;
 using frontend::Placement;
 using ladder::ElementKind;
 
-enum class Class : uint8_t { Bit, Word, Double, Label, Other };
+enum class Class : uint8_t { Bit, Word, Double, Label, Scope, Other };
 
 Class classOf(std::string_view kind) {
   if (kind == "bit") return Class::Bit;
   if (kind == "label") return Class::Label;
   if (kind == "double" || kind == "udouble" || kind == "float") return Class::Double;
-  if (kind == "scope" || kind == "text") return Class::Other;
+  if (kind == "scope") return Class::Scope;
+  if (kind == "text") return Class::Other;
   return Class::Word;
 }
 bool takesConstant(std::string_view kind) { return kind == "int" || kind == "dec" || kind == "hex" || kind == "float"; }
@@ -230,6 +231,11 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
       typedElement.label = parseLabel(words[i], symbols_, diagnostics_);
       ok = typedElement.label.has_value() && ok;
       continue;
+    case Class::Scope:
+      typed.operands.push_back(parseScopeSymbol(words[i], diagnostics_));
+      ++typedElement.operandCount;
+      ok = typed.operands.back().form != Form::Bad && ok;
+      continue;
     case Class::Other: continue;
     case Class::Bit:
     case Class::Word:
@@ -246,7 +252,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   const std::span<const Operand> operands = typed.operandsOf(typedElement);
   if (row.check != nullptr) {
     const size_t before = diagnostics_.errorCount();
-    row.check(operands, diagnostics_);
+    row.check(operands, symbols_.config(), diagnostics_);
     if (diagnostics_.errorCount() != before) return false;
   }
   for (const Operand& operand : operands) warnInt0Only(operand);

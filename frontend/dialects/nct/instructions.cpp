@@ -75,7 +75,7 @@ constexpr OperandKindInfo kKinds[] = {
     {"hex", "#$FF or a word.", "#$FF", "#14", "operand-type-mismatch"},
     {"float", "*3.5 or a double.", "*3.5", "#3", "operand-type-mismatch"},
     {"label", "#0 to #99.", "#5", "#100", "label-out-of-range"},
-    {"scope", "The name of a quantity of the NC.", "", "", ""},
+    {"scope", "The name of a quantity of the NC.", "ActPosAx", "ActPosXx", "unknown-scope-symbol"},
     {"text", "A text in quotes.", "\"Spindle\"", "", ""},
 };
 
@@ -92,6 +92,9 @@ std::span<const InstructionInfo* const> allInfos() { return kInfos; }
 std::span<const OperandKindInfo> operandKinds() { return kKinds; }
 
 const NctInstruction* findBox(std::string_view mnemonic) {
+  // The contents print MOVCMND (l.135), the chapter also MOVCMO and MOVCMMD (l.3052, l.3155).
+  for (const std::string_view spelling : {"MOVCMD", "MOVCMMD", "MOVCMO"})
+    if (mnemonic == spelling) mnemonic = "MOVCMND";
   const auto found =
       std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
   if (found == kByMnemonic.end()) return nullptr;

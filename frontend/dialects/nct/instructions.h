@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/operand.h"
 #include "frontend/table/instruction.h"
 #include "ir/core/builder.h"
@@ -16,7 +17,7 @@ struct Lowering; // lowering.h
 // Gives the power at the output; nothing for a row without output.
 using Lower = ir::ValueId (*)(Lowering& box);
 // What a row's data cannot say about the operands; all of them are of the right kinds.
-using Check = void (*)(std::span<const Operand> operands, Diagnostics& diagnostics);
+using Check = void (*)(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 
 // What "each output once" (l.233) means for the row's first operand.
 enum class Claim : uint8_t { None, Once, SetReset };
@@ -43,7 +44,8 @@ std::span<const NctInstruction> allInstructions();
 std::span<const frontend::InstructionInfo* const> allInfos();
 std::span<const frontend::OperandKindInfo> operandKinds();
 
-// A box by its mnemonic, also section (SEC); null for contacts and coils, and when there is none.
+// A box by its mnemonic or one of its other spellings, also section (SEC); null for contacts and coils, and when there
+// is none.
 const NctInstruction* findBox(std::string_view mnemonic);
 // Row of a contact: on a bit or a word, closed or open.
 const NctInstruction& contactRow(bool onBit, bool closed);

@@ -32,7 +32,8 @@ public:
   BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines,
                uint32_t body)
       : context_(context), source_(module), routines_(routines), body_(module.bodies[body]),
-        routine_(context.module.routines[routines[body].index]), slots_(context.module, routine_.name) {}
+        routine_(context.module.routines[routines[body].index]), slots_(context.module, routine_.name),
+        shared_(context.module) {}
 
   void run() {
     routine_.rungs.reserve(body_.end - body_.first);
@@ -59,6 +60,7 @@ private:
   const Body& body_;
   ir::Routine& routine_;
   SlotMaker slots_;
+  Shared shared_;
   std::vector<uint32_t> place_; // IR rung of each rung of the body
   std::vector<OpenJump> jumps_;
   // Of the rung at hand.
@@ -94,6 +96,7 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
     Lowering box{.b = b,
                  .memory = memory,
                  .slots = slots_,
+                 .shared = shared_,
                  .operands = operands,
                  .pins = pins_,
                  .variant = row.variant,

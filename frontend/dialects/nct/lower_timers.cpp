@@ -96,7 +96,7 @@ ValueId lowerTimer(Lowering& box) {
 }
 
 // The limit of the set value depends on the basis.
-void checkTimer(std::span<const Operand> operands, Diagnostics& diagnostics) {
+void checkTimer(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
   const Operand& set = operands[1];
   const Operand& basis = operands[2];
   if (set.form != Form::Constant || basis.form != Form::Constant) return;

@@ -25,10 +25,34 @@ private:
   size_t element_ = 0;
 };
 
+// Words of a hidden space, unit 4.
+struct SharedWords {
+  ir::SpaceId space;
+  uint32_t first = 0;
+  // `count` words behind the first `skip`, for a computed index.
+  ir::Window window(uint32_t skip, uint32_t count) const {
+    return {.space = space, .byte = (first + skip) * 4, .count = count};
+  }
+};
+
+// What boxes share with the NC: the services of the program, and words in hidden spaces that the host knows by name.
+class Shared {
+public:
+  explicit Shared(ir::Module& module) : module_(module) {}
+  // "NAME arguments -> results", see docs/scenario-format.md.
+  ir::ServiceId service(std::string_view signature);
+  // Words of this box alone. The space is made when it is asked for first.
+  SharedWords words(std::string_view space, uint32_t count);
+
+private:
+  ir::Module& module_;
+};
+
 struct Lowering {
   ir::RungBuilder& b;
   Memory& memory;
   SlotMaker& slots;
+  Shared& shared;
   std::span<const Operand> operands;
   std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
   int variant = 0;
@@ -68,6 +92,17 @@ ir::ValueId execute(Lowering& box, ir::ValueId valid, Body body) {
     b.endIf();
     return enable;
   }
+  b.else_(std::span(&output, 1));
+  const ir::ValueId off = b.bit(false);
+  return b.endIf(std::span(&off, 1)).front();
+}
+
+// Runs `body`, which gives the output, while the first pin has power; without it the output is 0.
+template <class Body>
+ir::ValueId whenEnabled(Lowering& box, Body body) {
+  ir::RungBuilder& b = box.b;
+  b.if_(box.power());
+  const ir::ValueId output = body();
   b.else_(std::span(&output, 1));
   const ir::ValueId off = b.bit(false);
   return b.endIf(std::span(&off, 1)).front();
@@ -131,8 +166,18 @@ enum CompareVariant : int { kLess, kLessEqual, kEqual, kNotEqual, kGreaterEqual,
 ir::ValueId lowerCompareContact(Lowering& box);
 ir::ValueId lowerFloatContact(Lowering& box);
 
+enum ArrayServiceVariant : int { kReadArray, kWriteArray };
+ir::ValueId lowerArrayService(Lowering& box); // MR, MW
+enum MacroVariant : int { kReadMacro, kWriteMacro };
+ir::ValueId lowerMacro(Lowering& box); // MACR, MACW
+ir::ValueId lowerScope(Lowering& box); // SCP
+ir::ValueId lowerAxisCommand(Lowering& box); // MOVCMND
+
 // --- checks
 // -----------------------------------------------------------------------------------------------------------
-void checkTimer(std::span<const Operand> operands, Diagnostics& diagnostics);
+void checkTimer(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkReadFunction(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkWriteFunction(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkScope(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 
 } // namespace rung::nct

@@ -24,9 +24,9 @@ public:
     }
   }
   std::optional<std::span<const std::string_view>> operator()(std::string_view mnemonic) const {
-    const auto found = names_.find(mnemonic);
-    if (found == names_.end()) return std::nullopt;
-    return std::span(found->second).subspan(1);
+    const NctInstruction* row = findBox(mnemonic);
+    if (row == nullptr) return std::nullopt;
+    return std::span(names_.find(row->info.mnemonic)->second).subspan(1);
   }
 
 private:

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <string>
 
+#include "ir/support/similar.h"
+#include "rtlib/nc/nct/scope_symbols.h"
+
 namespace rung::nct {
 namespace {
 
@@ -286,6 +289,24 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
   operand.address = parsed->address;
   operand.address.immediate = immediate;
   operand.form = parsed->address.isBit ? Form::Bit : Form::Word;
+  return operand;
+}
+
+Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
+  Operand operand;
+  operand.source = &word;
+  const std::span<const nc::nct::ScopeSymbol> symbols = nc::nct::scopeSymbols();
+  const auto found = std::ranges::find(symbols, word.text, &nc::nct::ScopeSymbol::name);
+  if (found != symbols.end()) {
+    operand.form = Form::Constant;
+    operand.constant.integer = found - symbols.begin();
+    return operand;
+  }
+  Similar similar(word.text);
+  for (const nc::nct::ScopeSymbol& symbol : symbols) similar.offer(symbol.name);
+  DiagBuilder report = diagnostics.report(Diag::UnknownScopeSymbol, word.range);
+  report << word.text;
+  if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
   return operand;
 }
 

@@ -25,6 +25,9 @@ std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view tex
 // An operand of a contact, coil or box, with its modifiers. A quoted word is Form::Text.
 Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);
 
+// The name of a quantity that SCP queries: a constant, its index in the list.
+Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics);
+
 // The number of a label or subroutine: #12, 12, or a constant's name (man. l.2942).
 std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);
 

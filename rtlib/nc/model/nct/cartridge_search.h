@@ -3,14 +3,12 @@
 // none of its cells is another tool's; half a pot that is left over takes no tool, but it takes the half of a neighbour.
 #pragma once
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "rtlib/nc/model/nct/ring_search.h"
 #include "rtlib/nc/model/nct/tool_tables.h"
 
 namespace rung::nc::nct {
-
-enum class SearchDirection : uint8_t { Both, Positive, Negative };
 
 struct PotSearch {
   uint32_t cartridge = 0;
@@ -37,18 +35,5 @@ private:
 
   std::vector<uint8_t> taken_; // cells
 };
-
-// Steps from `start` in the order of the search: the nearest of `count` places (from 0, a ring) that `fits`.
-template <class Fits>
-std::optional<std::pair<uint32_t, SearchDirection>> nearestPlace(uint32_t start, uint32_t count,
-                                                                 SearchDirection direction, Fits fits) {
-  for (uint32_t step = 0; step < count; ++step) {
-    const uint32_t up = (start + step) % count;
-    const uint32_t down = (start + count - step) % count;
-    if (direction != SearchDirection::Negative && fits(up)) return std::pair{up, SearchDirection::Positive};
-    if (direction != SearchDirection::Positive && fits(down)) return std::pair{down, SearchDirection::Negative};
-  }
-  return std::nullopt;
-}
 
 } // namespace rung::nc::nct

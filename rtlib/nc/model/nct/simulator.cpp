@@ -7,10 +7,11 @@
 
 namespace rung::nc::nct {
 
-Simulator::Simulator() : topics_{&parameters_, &nvram_, &channels_, &programSelection_, &tools_}, waiting_(rt::ServiceQueue::kMaxPending) {
+Simulator::Simulator() : topics_{&parameters_, &nvram_, &channels_, &programSelection_, &tools_, &pallets_}, waiting_(rt::ServiceQueue::kMaxPending) {
   control_.parameters = &parameters_;
   control_.channels = &channels_;
   control_.tools = &tools_;
+  control_.pallets = &pallets_;
 }
 
 Handled Simulator::config(std::string_view key, std::string_view value) {

@@ -7,6 +7,7 @@
 
 #include "rtlib/nc/model/nct/channels.h"
 #include "rtlib/nc/model/nct/nvram.h"
+#include "rtlib/nc/model/nct/pallet_management.h"
 #include "rtlib/nc/model/nct/parameters.h"
 #include "rtlib/nc/model/nct/program_selection.h"
 #include "rtlib/nc/model/nct/tool_management.h"
@@ -50,7 +51,8 @@ private:
   Channels channels_{control_};
   ProgramSelection programSelection_{control_};
   ToolManagement tools_{control_};
-  std::array<Topic*, 5> topics_;
+  PalletManagement pallets_{control_};
+  std::array<Topic*, 6> topics_;
 
   std::vector<Service> services_; // by rung_program::services
   std::span<uint8_t> blocks_;     // the space @MB

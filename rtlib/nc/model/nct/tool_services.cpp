@@ -98,15 +98,12 @@ int32_t ToolManagement::searchPot(Block& block) {
   if (const int32_t code = checkPlace(target, kNoCartridge); code != kExecuted) return code;
   if (const int32_t code = checkPlace(source, kNoSecondCartridge); code != kExecuted) return code;
   searching_ = true;
-  const int32_t direction = block.word(4);
   const auto found = finder_.find(tables_, {.cartridge = target.cartridge,
                                             .start = target.pot,
-                                            .direction = direction == 1   ? SearchDirection::Positive
-                                                         : direction == 2 ? SearchDirection::Negative
-                                                                          : SearchDirection::Both,
+                                            .direction = searchDirection(block.word(4)),
                                             .tool = tables_.cartridges.dataNumber(source)});
   block.setWord(7, found ? static_cast<int32_t>(found->pot) : 0);
-  block.setWord(8, !found ? 0 : found->rotation == SearchDirection::Negative ? 2 : 1);
+  block.setWord(8, found ? rotationWord(found->rotation) : 0);
   return found ? kExecuted : kNoEmptyPot;
 }
 

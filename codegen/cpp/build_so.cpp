@@ -77,7 +77,7 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
   appendWords(options.compiler, words);
   // Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
   appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off "
-              "-fno-strict-aliasing -fno-tree-slp-vectorize -w",
+              "-fno-math-errno -fno-strict-aliasing -fno-tree-slp-vectorize -w",
               words);
   words.push_back(options.optimisation);
   if (options.debugInfo) words.push_back("-g");

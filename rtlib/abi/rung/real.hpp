@@ -1,4 +1,4 @@
-// Elementary functions of doubles: square root, power, sine and the rest. They are computed in integers, with 120 bits
+// Elementary functions of doubles: square root, power, sine and the rest. They are computed in integers, with 110 bits
 // and more, and rounded once: no library, no optimiser and no machine can make them differ, and all but one in 2^50
 // results are the double nearest to the exact value. Part of sem.hpp, which includes it; nobody else does.
 //
@@ -344,11 +344,13 @@ constexpr Wide magnitude(const Wide& x) noexcept { return {x.m, x.e, false}; }
 constexpr bool isInfinite(double x) noexcept { return toBits(x) << 1 == 0x7FFull << 53; }
 constexpr bool isFinite(double x) noexcept { return (toBits(x) >> 52 & 0x7FF) != 0x7FF; }
 
-// The root of -0 is -0; of less there is none: NaN.
-RUNG_SHARED double fsqrt(double x) noexcept {
+// The root of -0 is -0; of less there is none: NaN. Every machine's own root is exact (IEEE 754), so it is taken; a
+// compiler that has to know the value computes it.
+constexpr double fsqrt(double x) noexcept {
   if (x == 0) return x;
   if (!(x > 0)) return fromBits(kNanBits);
   if (isInfinite(x)) return x;
+  if (!__builtin_is_constant_evaluated()) return __builtin_sqrt(x);
   return wide::toDouble(wide::squareRoot(wide::fromDouble(x)));
 }
 

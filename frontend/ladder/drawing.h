@@ -1,5 +1,5 @@
-// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring and the order of evaluation.
-// Internal to frontend/ladder.
+// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring, the order of evaluation, and who
+// draws a rung again (readDrawing); all else is internal to frontend/ladder.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +48,9 @@ struct Drawing {
   }
   bool isPinLine(uint32_t element) const { return headOf[element] != kNone; }
 };
+
+/// The drawing of a rung of this file that is not bad, once more, with its pin lines found.
+Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, const FurtherPins& furtherPins);
 
 /// Adds a line to the drawing. Reports at most one error; drawing.bad is set then.
 void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics);

@@ -44,5 +44,6 @@ void addTest(CLI::App& app, int& status);
 void addProfile(CLI::App& app, int& status);
 void addExplain(CLI::App& app, int& status);
 void addDoc(CLI::App& app, int& status);
+void addView(CLI::App& app, int& status);
 
 } // namespace rung::rungc

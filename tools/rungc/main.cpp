@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   addBuild(app, status);
   addEmit(app, status);
   addConvert(app, status);
+  addView(app, status);
   addRun(app, status);
   addTest(app, status);
   addProfile(app, status);

@@ -5,7 +5,6 @@
 #include "frontend/dialects/gsk/list_reader.h"
 
 namespace rung::gsk {
-namespace {
 
 // By the name; where it does not tell, ladder text is what has modules or rungs.
 bool isLadder(const SourceManager& sources, FileId file) {
@@ -20,8 +19,6 @@ bool isLadder(const SourceManager& sources, FileId file) {
   }
   return false;
 }
-
-} // namespace
 
 void Reading::add(FileId file) {
   if (isLadder(context_.sources, file))

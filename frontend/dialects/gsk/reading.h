@@ -9,6 +9,9 @@
 
 namespace rung::gsk {
 
+// Ladder text; the others are command lists.
+bool isLadder(const SourceManager& sources, FileId file);
+
 class Reading {
 public:
   Reading(Context& context, Program& program) : context_(context), units_(context, program) {}

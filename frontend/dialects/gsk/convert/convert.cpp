@@ -86,4 +86,19 @@ std::optional<std::string> convertProgram(SourceManager& sources, std::span<cons
   return text;
 }
 
+std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const FileId> files,
+                                     const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  if (std::all_of(files.begin(), files.end(), [&](FileId file) { return isLadder(sources, file); }))
+    return LadderForm{{files.begin(), files.end()}, {}};
+  Diagnostics heard; // reported already
+  const auto model = readModel(sources, files, configuredMachine(options, heard), heard);
+  RUNG_CHECK(model.has_value(), "the program has no errors");
+  if (!checkDrawings(*model, diagnostics)) return std::nullopt;
+  LadderForm form;
+  for (const SourceUnit& unit : model->units)
+    for (const SourceNetwork& network : unit.networks) form.networks.push_back(network.range);
+  form.files.push_back(sources.addBuffer("converted.lad", writeLadder(*model)));
+  return form;
+}
+
 } // namespace rung::gsk

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/convert/gap_writer.h"
@@ -14,5 +15,16 @@ namespace rung::gsk {
 std::optional<std::string> convertProgram(SourceManager& sources, std::span<const FileId> files,
                                           const frontend::CompileOptions& options, convert::Form to,
                                           Diagnostics& diagnostics);
+
+// A program as ladder text alone.
+struct LadderForm {
+  std::vector<FileId> files;
+  std::vector<SourceRange> networks; // of a conversion: where each rung of its one file stands in the author's files
+};
+
+// Of a program that was compiled without errors: its own files, or what they are converted to when there is a list among
+// them. Nothing when a network is too large to be drawn; that stands in `diagnostics`.
+std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const FileId> files,
+                                     const frontend::CompileOptions& options, Diagnostics& diagnostics);
 
 } // namespace rung::gsk

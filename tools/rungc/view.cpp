@@ -1,0 +1,87 @@
+// rungc view: draws a ladder program as a page or a picture.
+#include <cstdio>
+#include <fmt/format.h>
+#include <fstream>
+
+#include "frontend/dialects/gsk/convert/convert.h"
+#include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/nct/nct.h"
+#include "tools/rungc/commands.h"
+#include "tools/view/html.h"
+#include "tools/view/program.h"
+#include "tools/view/svg.h"
+
+namespace rung::rungc {
+namespace {
+
+struct ViewOptions {
+  SourceOptions source;
+  std::string out;
+};
+
+std::optional<gsk::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
+                                         std::span<const FileId> files, const frontend::CompileOptions& compile,
+                                         Diagnostics& diagnostics) {
+  if (&dialect == &gsk::kGsk) return gsk::ladderForm(sources, files, compile, diagnostics);
+  return gsk::LadderForm{{files.begin(), files.end()}, {}};
+}
+
+// Nothing for a program with errors: a drawing of its sound parts would look like the program.
+std::optional<view::Program> read(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
+                                  const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
+  const frontend::Dialect* dialect = driver::chooseDialect(sources, files, options.source.dialect, diagnostics);
+  if (dialect == nullptr) return std::nullopt;
+  if (dialect != &gsk::kGsk && dialect != &nct::kNct) {
+    diagnostics.report(Diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
+    return std::nullopt;
+  }
+  const auto module = dialect->compile(sources, files, compile, diagnostics);
+  if (module == nullptr || diagnostics.hasErrors()) return std::nullopt;
+  const auto ladders = laddersOf(*dialect, sources, files, compile, diagnostics);
+  if (!ladders) return std::nullopt;
+  std::string title;
+  for (FileId file : files) title += (title.empty() ? "" : ", ") + std::string(sources.name(file));
+  return view::readProgram(sources, {dialect, module.get(), ladders->files, ladders->networks, title});
+}
+
+// The file is there when it is whole: what a failure leaves behind goes.
+int write(const std::string& text, const std::string& out) {
+  const std::string part = out + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  if (file && std::rename(part.c_str(), out.c_str()) == 0) return kOk;
+  std::remove(part.c_str());
+  return environmentError(fmt::format("cannot write '{}'", out));
+}
+
+int run(const ViewOptions& options) {
+  const bool page = options.out.ends_with(".html");
+  if (!page && !options.out.ends_with(".svg")) {
+    fmt::print(stderr, "rungc: '{}' is no name for a drawing; pages end in .html, pictures in .svg\n", options.out);
+    return kUsage;
+  }
+  SourceManager sources;
+  frontend::CompileOptions compile;
+  int status = kOk;
+  const auto files = addSources(sources, options.source, compile, status);
+  if (!files) return status;
+  Diagnostics diagnostics;
+  const auto program = read(sources, *files, options, compile, diagnostics);
+  printDiagnostics(diagnostics, sources, options.source);
+  if (!program) return kWrong;
+  return write(page ? view::renderHtml(*program) : view::renderSvg(*program), options.out);
+}
+
+} // namespace
+
+void addView(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("view", "Draw the ladder of a program, as a page or a picture");
+  auto options = std::make_shared<ViewOptions>();
+  addSourceOptions(*command, options->source);
+  command->add_option("-o,--output", options->out, "The file to write: .html, a page for screen and paper; .svg")
+      ->required();
+  command->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace rung::rungc

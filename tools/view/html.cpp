@@ -1,0 +1,148 @@
+// The page (see html.h).
+#include "tools/view/html.h"
+
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "tools/view/html_parts.h"
+#include "tools/view/layout.h"
+#include "tools/view/svg.h"
+
+namespace rung::view {
+namespace {
+
+template <class... Args>
+void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+constexpr int kWide = 1200; // pixels: drawings that get a page across
+
+class Page {
+public:
+  explicit Page(const Program& program) : program_(program), rail_(commonRail(program)) {}
+  std::string run();
+
+private:
+  void head();
+  void contents();
+  void block(const Block& block, size_t index);
+  void heading(int level, const Block& block, size_t index, std::string_view prefix);
+  void figure(const Figure& figure);
+  void table(const NameTable& table, size_t index);
+  void row(const NameRow& row, bool uses);
+  void uses(const NameRow& row, bool writes);
+
+  const Program& program_;
+  int rail_;
+  size_t rows_ = 0;
+  std::string out_;
+};
+
+void Page::head() {
+  const std::string title = escaped(program_.title);
+  put(out_, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+  put(out_, "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n", title);
+  put(out_, "<style>{}{}</style>\n</head>\n<body>\n", kPageStyle, pictureStyle());
+  put(out_, "<h1>{}</h1>\n<p>{}, {} rung{}</p>\n", title, escaped(program_.control), program_.figures.size(),
+      program_.figures.size() == 1 ? "" : "s");
+}
+
+void Page::contents() {
+  out_ += "<nav aria-label=\"Contents\"><ul>\n";
+  for (size_t i = 0; i < program_.blocks.size(); ++i) {
+    const Block& block = program_.blocks[i];
+    const bool module = block.kind == Block::Kind::Module;
+    if (module || block.kind == Block::Kind::Section)
+      put(out_, "<li><a href=\"#b{}\">{}{}</a></li>\n", i, module ? "Module " : "", escaped(block.text));
+  }
+  for (size_t i = 0; i < program_.tables.size(); ++i)
+    put(out_, "<li><a href=\"#t{}\">{}</a></li>\n", i, escaped(program_.tables[i].title));
+  out_ += "</ul></nav>\n";
+}
+
+void Page::heading(int level, const Block& block, size_t index, std::string_view prefix) {
+  put(out_, "<h{} id=\"b{}\">{}{}", level, index, prefix, escaped(block.text));
+  const std::string place = textOf(block.place);
+  if (!place.empty()) put(out_, " <small>{}</small>", escaped(place));
+  put(out_, "</h{}>\n", level);
+  if (!block.comment.empty()) put(out_, "<p class=\"C\">{}</p>\n", escaped(block.comment));
+}
+
+void Page::block(const Block& block, size_t index) {
+  switch (block.kind) {
+  case Block::Kind::File: return heading(2, block, index, "");
+  case Block::Kind::Module: return heading(2, block, index, "Module ");
+  case Block::Kind::Section: return heading(3, block, index, "");
+  case Block::Kind::Comment: {
+    out_ += "<p class=\"C\">";
+    for (char c : block.text) c == '\n' ? void(out_ += '\n') : appendEscaped(out_, std::string_view(&c, 1));
+    out_ += "</p>\n";
+    return;
+  }
+  case Block::Kind::Rung: return figure(program_.figures[block.figure]);
+  }
+}
+
+void Page::figure(const Figure& figure) {
+  const Picture picture = layOut(figure.sheet, rail_);
+  const bool wide = picture.width > kWide;
+  const int height = picture.height + 40 + static_cast<int>(figure.comments.size()) * 20;
+  put(out_, "<figure class=\"R{}\" id=\"r{}\" style=\"contain-intrinsic-size:auto {}px auto {}px\"><figcaption><b>{}</b>",
+      wide ? " L" : "", figure.number, picture.width, height, figure.number);
+  put(out_, "<span>{}</span><i class=\"f\">{}</i></figcaption>", escaped(figure.title), escaped(textOf(figure.place)));
+  for (const std::string& comment : figure.comments) put(out_, "<p>{}</p>", escaped(comment));
+  put(out_, "<svg role=\"img\" aria-label=\"{0}\" width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\">",
+      escaped(nameOf(figure)), picture.width, picture.height);
+  appendPicture(out_, picture);
+  out_ += "</svg></figure>\n";
+}
+
+void Page::uses(const NameRow& row, bool writes) {
+  out_ += "<td>";
+  bool first = true;
+  for (const Use& use : row.uses) {
+    if (use.writes != writes) continue;
+    put(out_, "{}<a href=\"#r{}\">{}</a>", first ? "" : ", ", use.rung, use.rung);
+    first = false;
+  }
+  out_ += "</td>";
+}
+
+void Page::row(const NameRow& row, bool withWrites) {
+  if (row.name.empty()) {
+    put(out_, "<tr><td class=\"q\" colspan=\"5\">{}</td></tr>\n", escaped(row.comment));
+    return;
+  }
+  put(out_, "<tr id=\"n{}\"><th scope=\"row\">{}</th><td class=\"v\">{}</td><td>{}</td>", rows_++, escaped(row.name),
+      escaped(row.address), escaped(row.comment));
+  if (withWrites) uses(row, true);
+  uses(row, false);
+  out_ += "</tr>\n";
+}
+
+void Page::table(const NameTable& table, size_t index) {
+  put(out_, "<h2 id=\"t{}\">{}</h2>\n<table><thead><tr>", index, escaped(table.title));
+  out_ += table.texts ? "<th>Number</th><th>Text</th><th>Comment</th><th>Shown in rung</th>"
+                : "<th>Name</th><th>Address</th><th>Comment</th><th>Written in rung</th><th>Read in rung</th>";
+  out_ += "</tr></thead><tbody>\n";
+  for (const NameRow& one : table.rows) row(one, !table.texts);
+  out_ += "</tbody></table>\n";
+}
+
+std::string Page::run() {
+  head();
+  contents();
+  out_ += "<main>\n";
+  for (size_t i = 0; i < program_.blocks.size(); ++i) block(program_.blocks[i], i);
+  for (size_t i = 0; i < program_.tables.size(); ++i) table(program_.tables[i], i);
+  put(out_, "</main>\n<script>{}</script>\n</body>\n</html>\n", kPageScript);
+  return std::move(out_);
+}
+
+} // namespace
+
+std::string renderHtml(const Program& program) { return Page(program).run(); }
+
+} // namespace rung::view

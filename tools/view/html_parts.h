@@ -1,0 +1,93 @@
+// What stands in every page: its style and its script. The page is complete without the script, which adds the search
+// and leads from a name in a drawing to its row in the tables.
+#pragma once
+#include <string_view>
+
+namespace rung::view {
+
+inline constexpr std::string_view kPageStyle = R"(
+body{margin:0;padding:0 24px 48px;background:#fff;color:#111;font:15px/1.45 Arial,Helvetica,"DejaVu Sans",sans-serif}
+h1{font-size:26px;margin:24px 0 4px}
+h2{font-size:22px;margin:40px 0 8px;border-bottom:2px solid #111}
+h3{font-size:17px;margin:32px 0 8px}
+h2 small,h3 small{font-weight:normal;font-size:13px;color:#555}
+a{color:#0a4a86;text-decoration:none}
+a:hover{text-decoration:underline}
+nav ul{margin:4px 0;padding-left:20px;columns:16em}
+p.C{white-space:pre-line;margin:12px 0 4px}
+.f{font-size:12px;color:#555}
+.R{margin:0;padding:14px 0 0;content-visibility:auto;overflow-x:auto}
+.R:target{background:#fff7d6}
+figcaption{display:flex;gap:12px;align-items:baseline;max-width:60em;font-size:15px}
+figcaption b{min-width:28px}
+figcaption span{font-weight:bold;flex:1}
+figcaption .f{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace}
+.R p{margin:2px 0 0 40px;font-size:13px;color:#333}
+.R svg{display:block;margin-top:4px}
+table{border-collapse:collapse;margin:8px 0}
+th,td{text-align:left;vertical-align:top;padding:3px 14px 3px 0;border-bottom:1px solid #ddd;font-size:13px}
+tbody th,td.v{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace;white-space:nowrap}
+td.q{padding-top:12px;color:#333;font-style:italic}
+tr:target{background:#fff7d6}
+#find{position:sticky;top:0;z-index:1;background:#fff;padding:8px 0;border-bottom:1px solid #bbb;display:flex;gap:8px}
+#find input{font:inherit;width:22em;padding:3px 6px}
+#find button{font:inherit;padding:2px 12px}
+.R,h2,h3,tr{scroll-margin-top:56px}
+.J .n text{cursor:pointer}
+@media print{
+@page{margin:12mm}
+@page wide{size:landscape}
+body{padding:0;font-size:12px}
+#find,nav{display:none}
+.R{content-visibility:visible;break-inside:avoid;overflow:visible}
+.R svg{max-width:100%;max-height:245mm;height:auto}
+.L{page:wide}
+.L svg{max-height:165mm}
+h2,h3,p.C{break-after:avoid}
+tr{break-inside:avoid}
+thead{display:table-header-group}
+}
+)";
+
+inline constexpr std::string_view kPageScript = R"(
+(function(){
+var doc=document,rungs=doc.getElementsByClassName('R'),rows=null,texts=null,at=-1;
+doc.body.classList.add('J');
+function rowOf(name){
+ if(!rows){rows=new Map();doc.querySelectorAll('tbody th').forEach(function(th){
+  if(!rows.has(th.textContent))rows.set(th.textContent,th.parentNode.id);});}
+ return rows.get(name)||rows.get(name.replace(/^[@%!]+/,''))||rows.get(name.replace(/^[@%!]+/,'').split(/[.,:]/)[0]);
+}
+doc.addEventListener('click',function(e){
+ var t=e.target;
+ if(t.tagName!=='text'||!t.closest('.n'))return;
+ var id=rowOf(t.textContent);
+ if(id)location.hash=id;
+});
+var bar=doc.createElement('form'),input=doc.createElement('input'),note=doc.createElement('span');
+bar.id='find';bar.setAttribute('role','search');
+input.type='search';input.placeholder='Rung number, name, address or text';
+input.setAttribute('aria-label',input.placeholder);note.setAttribute('aria-live','polite');
+function button(text,step){var b=doc.createElement('button');b.type='button';b.textContent=text;
+ b.onclick=function(){find(step);};return b;}
+bar.append(input,button('Next',1),button('Previous',-1),note);
+doc.querySelector('h1').after(bar);
+input.oninput=function(){at=-1;note.textContent='';};
+bar.onsubmit=function(e){e.preventDefault();find(1);};
+function find(step){
+ var what=input.value.trim().toLowerCase();
+ if(!what)return;
+ if(/^\d+$/.test(what)&&doc.getElementById('r'+what)){at=what-1;show('');return;}
+ if(!texts){texts=[];for(var i=0;i<rungs.length;i++)texts.push(rungs[i].textContent.toLowerCase());}
+ var n=texts.length,i=at<0&&step<0?0:at;
+ for(var k=0;k<n;k++){
+  i=(i+step+n)%n;
+  if(texts[i].includes(what)){at=i;show('rung '+(i+1));return;}
+ }
+ note.textContent='not found';
+}
+function show(text){note.textContent=text;history.replaceState(null,'','#r'+(at+1));location.replace('#r'+(at+1));}
+})();
+)";
+
+} // namespace rung::view

@@ -1,0 +1,332 @@
+// Measure, place from left to right, place from top to bottom, draw (see layout.h).
+#include "tools/view/layout.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+
+namespace rung::view {
+namespace {
+
+using Kind = Cell::Kind;
+
+constexpr int kCellWidth = 96;  // of a contact, at least
+constexpr int kCoilWidth = 128; // so that coils stand below each other
+constexpr int kGrid = 16;
+constexpr int kNoteWidth = 112; // of the comment at a contact
+constexpr int kSide = 14;       // between the texts of neighbours
+constexpr int kPad = 8;         // in boxes
+constexpr int kHead = 20;       // bar of a box
+constexpr int kBoxNoteWidth = 230;
+constexpr int kRowGap = 8;
+constexpr int kRemarkGap = 14;
+constexpr int kEnd = 16; // between what closes a branch and the right rail
+
+constexpr Style kLabel = Style::Label;
+
+
+// What is known of a cell before it has a place.
+struct Measure {
+  int width = 0;
+  int symbol = 0; // width of the contact or coil itself
+  int above = 0;  // of the wire in its first row
+  int below = 0;
+  int labels = 0; // boxes: widths of their columns
+  int pins = 0;
+  int body = 0; // boxes: height below the bar
+  std::vector<std::string> note;
+  std::vector<std::vector<std::string>> notes; // by operand
+};
+
+struct Height {
+  int above = 0;
+  int below = 0;
+};
+
+int roundUp(int value, int step) { return (value + step - 1) / step * step; }
+
+int noteWidth(const std::vector<std::string>& lines, Style style) {
+  int width = 0;
+  for (const std::string& line : lines) width = std::max(width, widthOf(line, style));
+  return width;
+}
+
+class Layout {
+public:
+  explicit Layout(const Sheet& sheet) : sheet_(sheet), left_(sheet.cells.size()) {
+    for (const Cell& cell : sheet.cells) measures_.push_back(measure(cell));
+    placeColumns();
+  }
+
+  int rail() const { return rail_; }
+  Picture run(int rail);
+
+private:
+  Measure measure(const Cell& cell) const;
+  Measure measureSymbol(const Cell& cell) const;
+  Measure measureBox(const Cell& cell) const;
+  int gap(const Cell& left, const Cell& right) const;
+  void placeColumns();
+  void alignRight();
+  void placeRows();
+  Height rowHeight(const Row& row, uint32_t index) const;
+
+  void draw();
+  void drawRow(uint32_t row);
+  void drawRemark(uint32_t row);
+  void drawJoint(uint32_t cell);
+  void drawSymbol(uint32_t cell);
+  void drawBox(uint32_t cell);
+  int drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y);
+  void text(int x, int y, Anchor anchor, Style style, std::string_view text);
+
+  int leftPort(uint32_t cell) const;
+  int rightPort(uint32_t cell) const;
+  std::vector<std::string> remarkLines(const Row& row) const { return wrap(row.remark, Style::Remark, kMargin - 20); }
+  std::vector<std::string> useLines(const Row& row) const { return wrap(row.uses, Style::Uses, kMargin - 20); }
+
+  const Sheet& sheet_;
+  std::vector<Measure> measures_;
+  std::vector<int> left_; // by cell
+  std::vector<int> wire_; // by row: y
+  int rail_ = 0;
+  Picture picture_;
+};
+
+Measure Layout::measureSymbol(const Cell& cell) const {
+  Measure m;
+  const bool letters = cell.mark.size() > 1 || (cell.mark.size() == 1 && cell.mark != "/");
+  m.symbol = cell.kind == Kind::Coil ? 24 : 18;
+  if (letters) m.symbol = std::max(m.symbol, widthOf(cell.mark, Style::Mark) + (cell.kind == Kind::Coil ? 14 : 8));
+  const int name = widthOf(cell.operand.name, Style::Name);
+  m.note = wrap(cell.operand.note, Style::Note, std::max(kNoteWidth, name));
+  const int texts =
+      std::max({name, widthOf(cell.operand.address, Style::Address), noteWidth(m.note, Style::Note), m.symbol + 12});
+  const int least = cell.kind == Kind::Coil ? kCoilWidth : kCellWidth;
+  m.width = std::max(least, roundUp(texts + kSide, kGrid));
+  m.above = kSymbolHalf + 5 + lineHeight(Style::Name) + static_cast<int>(m.note.size()) * lineHeight(Style::Note);
+  m.below = kSymbolHalf + 4 + (cell.operand.address.empty() ? 0 : lineHeight(Style::Address));
+  return m;
+}
+
+Measure Layout::measureBox(const Cell& cell) const {
+  Measure m;
+  for (const std::string& pin : cell.pins) m.pins = std::max(m.pins, widthOf(pin, Style::Pin));
+  if (m.pins > 0) m.pins += kPad;
+  int values = 0;
+  for (const Operand& operand : cell.operands) {
+    m.labels = std::max(m.labels, widthOf(operand.label, kLabel) + (operand.label.empty() ? 0 : kPad));
+    const int address = operand.address.empty() ? 0 : kPad + widthOf(operand.address, Style::Address);
+    m.notes.push_back(wrap(operand.note, Style::Note, kBoxNoteWidth));
+    values = std::max({values, widthOf(operand.name, Style::Name) + address, noteWidth(m.notes.back(), Style::Note)});
+    m.body += lineHeight(Style::Name) + 2 + static_cast<int>(m.notes.back().size()) * lineHeight(Style::Note);
+  }
+  m.body += kPad;
+  const int body = kPad + m.pins + m.labels + values + kPad;
+  m.width = roundUp(std::max({64, widthOf(cell.title, Style::Title) + 2 * kPad, body}), kGrid);
+  m.above = kHead + 14;
+  return m;
+}
+
+Measure Layout::measure(const Cell& cell) const {
+  switch (cell.kind) {
+  case Kind::Rail:
+  case Kind::Joint: return {};
+  case Kind::Contact:
+  case Kind::Coil: return measureSymbol(cell);
+  case Kind::Box: return measureBox(cell);
+  }
+  return {};
+}
+
+// Contacts and coils bring their own wires.
+int Layout::gap(const Cell& left, const Cell& right) const {
+  const auto narrow = [](const Cell& cell) { return cell.kind == Kind::Joint || cell.kind == Kind::Rail; };
+  if (narrow(left) && narrow(right)) return 24;
+  if (left.kind == Kind::Box && right.kind == Kind::Box) return 32;
+  if (left.kind == Kind::Box || right.kind == Kind::Box) return 16;
+  return narrow(left) || narrow(right) ? 4 : 0;
+}
+
+// Every cell as far left as the cells in front of it in its rows allow.
+void Layout::placeColumns() {
+  std::vector<uint32_t> order(sheet_.cells.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return sheet_.cells[a].column < sheet_.cells[b].column; });
+  std::vector<uint32_t> last(sheet_.rows.size(), 0); // by row: the cell on the left
+  left_[0] = kLeft;
+  for (uint32_t cell : order) {
+    const Cell& here = sheet_.cells[cell];
+    if (cell == 0) continue;
+    for (uint32_t row = here.firstRow; row <= here.lastRow; ++row) {
+      const uint32_t before = last[row];
+      const int end = left_[before] + measures_[before].width + gap(sheet_.cells[before], here);
+      left_[cell] = std::max(left_[cell], end);
+      last[row] = cell;
+    }
+    rail_ = std::max(rail_, left_[cell] + measures_[cell].width + (here.kind == Kind::Coil ? 0 : kEnd));
+  }
+  rail_ = roundUp(rail_, kGrid);
+}
+
+void Layout::alignRight() {
+  for (uint32_t cell = 0; cell < sheet_.cells.size(); ++cell) {
+    const Cell& here = sheet_.cells[cell];
+    if (here.closing) left_[cell] = rail_ - measures_[cell].width - (here.kind == Kind::Coil ? 0 : kEnd);
+  }
+}
+
+Height Layout::rowHeight(const Row& row, uint32_t index) const {
+  Height height{kSymbolHalf, kSymbolHalf};
+  for (const Stop& stop : row.stops) {
+    const Cell& cell = sheet_.cells[stop.cell];
+    const Measure& m = measures_[stop.cell];
+    if (cell.firstRow == index) height.above = std::max(height.above, m.above);
+    height.below = std::max(height.below, m.below);
+    if (cell.kind == Kind::Box && cell.lastRow == index) {
+      const int done = index == cell.firstRow ? 0 : wire_[index] - wire_[cell.firstRow];
+      height.below = std::max(height.below, m.body + kHead - m.above - done);
+    }
+  }
+  const int remark = static_cast<int>(remarkLines(row).size()) * lineHeight(Style::Remark) +
+                     static_cast<int>(useLines(row).size()) * lineHeight(Style::Uses);
+  height.below = std::max(height.below, remark);
+  return height;
+}
+
+// The wire of a row is known before the height below it, which depends on where the boxes that end there begin.
+void Layout::placeRows() {
+  int y = 2;
+  for (uint32_t row = 0; row < sheet_.rows.size(); ++row) {
+    wire_.push_back(0);
+    const int above = rowHeight(sheet_.rows[row], row).above;
+    wire_[row] = y + above;
+    y = wire_[row] + rowHeight(sheet_.rows[row], row).below + kRowGap;
+  }
+  picture_.height = y;
+}
+
+int Layout::leftPort(uint32_t cell) const {
+  const Measure& m = measures_[cell];
+  return m.symbol == 0 ? left_[cell] : left_[cell] + (m.width - m.symbol) / 2;
+}
+
+int Layout::rightPort(uint32_t cell) const {
+  const Measure& m = measures_[cell];
+  return m.symbol == 0 ? left_[cell] + m.width : leftPort(cell) + m.symbol;
+}
+
+void Layout::text(int x, int y, Anchor anchor, Style style, std::string_view text) {
+  if (!text.empty()) picture_.texts.push_back({{x, y}, anchor, style, std::string(text)});
+}
+
+void Layout::drawRow(uint32_t row) {
+  const std::vector<Stop>& stops = sheet_.rows[row].stops;
+  const int y = wire_[row];
+  for (size_t i = 0; i < stops.size(); ++i) {
+    const Cell& cell = sheet_.cells[stops[i].cell];
+    if (stops[i].joined) picture_.wires.push_back({{rightPort(stops[i - 1].cell), y}, {leftPort(stops[i].cell), y}});
+    if (cell.closing && cell.firstRow == row)
+      picture_.wires.push_back({{rightPort(stops[i].cell), y}, {rail_, y}});
+    if (cell.kind != Kind::Joint) continue;
+    const bool right = i + 1 < stops.size() && stops[i + 1].joined;
+    const int ways = stops[i].joined + right + (row > cell.firstRow) + (row < cell.lastRow);
+    if (ways > 2) picture_.dots.push_back({left_[stops[i].cell], y});
+  }
+}
+
+void Layout::drawRemark(uint32_t row) {
+  const int x = rail_ + kRemarkGap;
+  int y = wire_[row] + 4;
+  for (const std::string& line : remarkLines(sheet_.rows[row])) {
+    text(x, y, Anchor::Start, Style::Remark, line);
+    y += lineHeight(Style::Remark);
+  }
+  for (const std::string& line : useLines(sheet_.rows[row])) {
+    text(x, y, Anchor::Start, Style::Uses, line);
+    y += lineHeight(Style::Uses);
+  }
+}
+
+void Layout::drawJoint(uint32_t cell) {
+  const Cell& here = sheet_.cells[cell];
+  picture_.wires.push_back({{left_[cell], wire_[here.firstRow]}, {left_[cell], wire_[here.lastRow]}});
+}
+
+void Layout::drawSymbol(uint32_t cell) {
+  const Cell& here = sheet_.cells[cell];
+  const Measure& m = measures_[cell];
+  const int y = wire_[here.firstRow];
+  const int middle = left_[cell] + m.width / 2;
+  const bool slash = here.mark == "/";
+  picture_.symbols.push_back(
+      {here.kind == Kind::Coil ? Glyph::Coil : Glyph::Contact, slash, {leftPort(cell), y}, m.symbol});
+  if (!slash) text(middle, y + 4, Anchor::Middle, Style::Mark, here.mark);
+  int up = y - kSymbolHalf - 5;
+  text(middle, up, Anchor::Middle, Style::Name, here.operand.name);
+  up -= lineHeight(Style::Name);
+  for (size_t i = m.note.size(); i-- > 0; up -= lineHeight(Style::Note))
+    text(middle, up, Anchor::Middle, Style::Note, m.note[i]);
+  text(middle, y + kSymbolHalf + lineHeight(Style::Address), Anchor::Middle, Style::Address, here.operand.address);
+}
+
+int Layout::drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y) {
+  text(label, y, Anchor::Start, kLabel, operand.label);
+  text(value, y, Anchor::Start, Style::Name, operand.name);
+  text(value + widthOf(operand.name, Style::Name) + kPad, y, Anchor::Start, Style::Address, operand.address);
+  for (const std::string& line : note) {
+    y += lineHeight(Style::Note);
+    text(value, y, Anchor::Start, Style::Note, line);
+  }
+  return y + lineHeight(Style::Name) + 2;
+}
+
+void Layout::drawBox(uint32_t cell) {
+  const Cell& here = sheet_.cells[cell];
+  const Measure& m = measures_[cell];
+  const int top = wire_[here.firstRow] - m.above;
+  const int x = left_[cell];
+  const int bottom = std::max(top + kHead + m.body, wire_[here.lastRow] + kSymbolHalf);
+  picture_.frames.push_back({{x, top}, m.width, bottom - top, kHead});
+  text(x + m.width / 2, top + 15, Anchor::Middle, Style::Title, here.title);
+  for (uint32_t i = 0; i < here.pins.size(); ++i)
+    text(x + 5, wire_[here.firstRow + i] + 4, Anchor::Start, Style::Pin, here.pins[i]);
+  int y = top + kHead + lineHeight(Style::Name);
+  const int label = x + kPad + m.pins;
+  for (size_t i = 0; i < here.operands.size(); ++i)
+    y = drawOperand(here.operands[i], m.notes[i], label, label + m.labels, y);
+}
+
+void Layout::draw() {
+  for (uint32_t row = 0; row < sheet_.rows.size(); ++row) {
+    drawRow(row);
+    drawRemark(row);
+  }
+  for (uint32_t cell = 0; cell < sheet_.cells.size(); ++cell) {
+    switch (sheet_.cells[cell].kind) {
+    case Kind::Rail: break;
+    case Kind::Joint: drawJoint(cell); break;
+    case Kind::Contact:
+    case Kind::Coil: drawSymbol(cell); break;
+    case Kind::Box: drawBox(cell); break;
+    }
+  }
+}
+
+Picture Layout::run(int rail) {
+  rail_ = std::max(rail_, rail);
+  alignRight();
+  placeRows();
+  draw();
+  picture_.rail = rail_;
+  picture_.width = rail_ + kMargin;
+  return std::move(picture_);
+}
+
+} // namespace
+
+int neededRail(const Sheet& sheet) { return Layout(sheet).rail(); }
+Picture layOut(const Sheet& sheet, int rail) { return Layout(sheet).run(rail); }
+
+} // namespace rung::view

@@ -1,0 +1,70 @@
+// The geometry of a rung: a sheet of cells to lines, symbols and texts at places. Pure functions, linear in the cells (but
+// for a sort); the writers only print what they give.
+//
+// Rows keep the order of the source and are as high as what stands in them. Cells go from left to right as far as the cells
+// on their left make room; a joint stands in one place in all its rows. What closes a branch stands at the right rail.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/view/sheet.h"
+#include "tools/view/text.h"
+
+namespace rung::view {
+
+struct Point {
+  int x = 0;
+  int y = 0;
+};
+
+struct Line {
+  Point from;
+  Point to; // right of or below `from`
+};
+
+enum class Glyph : uint8_t { Contact, Coil };
+
+struct Symbol {
+  Glyph glyph = Glyph::Contact;
+  bool slash = false;
+  Point left; // where its wires end
+  int width = 0;
+};
+
+struct Frame {
+  Point corner;
+  int width = 0;
+  int height = 0;
+  int head = 0; // height of the bar with the mnemonic
+};
+
+enum class Anchor : uint8_t { Start, Middle, End };
+
+struct Text {
+  Point at; // on the base line
+  Anchor anchor = Anchor::Middle;
+  Style style = Style::Name;
+  std::string text;
+};
+
+struct Picture {
+  int width = 0; // of everything
+  int height = 0;
+  int rail = 0; // x of the right rail; the left one is at kLeft
+  std::vector<Line> wires;
+  std::vector<Point> dots; // where three wires meet
+  std::vector<Symbol> symbols;
+  std::vector<Frame> frames;
+  std::vector<Text> texts;
+};
+
+inline constexpr int kLeft = 8;        // x of the left rail
+inline constexpr int kSymbolHalf = 11; // half the height of a contact or coil
+inline constexpr int kMargin = 190;    // for remarks, right of the right rail
+
+// The place of the right rail that the sheet needs.
+int neededRail(const Sheet& sheet);
+// `rail`: where the right rail should be; it goes further to the right when the sheet needs it.
+Picture layOut(const Sheet& sheet, int rail);
+
+} // namespace rung::view

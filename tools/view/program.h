@@ -1,0 +1,77 @@
+// A program as it is printed: headings, comments and rungs in the order of the source, then its names with the rungs
+// that use them. What writers print; nothing here has a place on paper yet.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/dialect.h"
+#include "frontend/ladder/ladder.h"
+#include "tools/view/sheet.h"
+
+namespace rung::view {
+
+struct Place {
+  std::string file;
+  uint32_t line = 0;
+};
+
+struct Figure {
+  uint32_t number = 0; // from 1
+  std::string title;   // the rung's comment
+  std::vector<std::string> comments;
+  Place place;
+  Sheet sheet;
+};
+
+struct Block {
+  enum class Kind : uint8_t { File, Module, Section, Comment, Rung };
+  Kind kind = Kind::Comment;
+  std::string text;    // Comment: its lines
+  std::string comment; // behind the statement
+  Place place;
+  uint32_t figure = 0; // Rung: index into Program::figures
+};
+
+struct Use {
+  uint32_t rung = 0; // its number
+  bool writes = false;
+};
+
+// A row of the list of names; one without a name is a comment between declarations.
+struct NameRow {
+  std::string name;
+  std::string address; // a constant's value, a message's text
+  std::string comment;
+  std::vector<Use> uses; // by rung
+};
+
+struct NameTable {
+  std::string title;
+  bool texts = false; // of messages and buttons, by number: they are only read
+  std::vector<NameRow> rows;
+};
+
+struct Program {
+  std::string title;
+  std::string control;
+  std::vector<Block> blocks;
+  std::vector<Figure> figures;
+  std::vector<NameTable> tables;
+};
+
+// Where the rungs of a converted file stood, in its order; empty for one that is as its author wrote it.
+using Origins = std::span<const SourceRange>;
+
+struct Input {
+  const frontend::Dialect* dialect = nullptr;
+  const ir::Module* module = nullptr; // what the files compile to
+  std::vector<FileId> files;          // ladder text without errors
+  Origins origins;
+  std::string title; // names of the author's files
+};
+
+Program readProgram(const SourceManager& sources, const Input& input);
+
+} // namespace rung::view

@@ -1,0 +1,48 @@
+// A rung as a sheet of cells, ready to be laid out: its rows are the lines of the drawing in the source, what stands in
+// them is in the order of the source, and all texts are what the reader shall see.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rung::view {
+
+struct Operand {
+  std::string label; // what it is, by the instruction's row
+  std::string name;  // as written
+  std::string address;
+  std::string note;
+};
+
+struct Cell {
+  enum class Kind : uint8_t { Rail, Joint, Contact, Coil, Box };
+  Kind kind = Kind::Joint;
+  uint32_t column = 0; // in the source: left and right of each other
+  uint32_t firstRow = 0;
+  uint32_t lastRow = 0;
+  bool closing = false; // nothing stands on its right: it leads to the right rail
+  std::string mark;     // contacts and coils: "/" negated, "P" and "N" edges, "I" immediate, "S", "R"
+  Operand operand;      // contacts and coils
+  std::string title;    // boxes
+  std::vector<std::string> pins;
+  std::vector<Operand> operands;
+};
+
+// A cell where a row meets it; a joint or a box stands in all its rows.
+struct Stop {
+  uint32_t cell = 0;
+  bool joined = false; // by a wire to the stop on its left
+};
+
+struct Row {
+  std::vector<Stop> stops;
+  std::string remark;
+  std::string uses;
+};
+
+struct Sheet {
+  std::vector<Cell> cells; // the first is the left rail
+  std::vector<Row> rows;
+};
+
+} // namespace rung::view

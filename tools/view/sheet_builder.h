@@ -1,0 +1,38 @@
+// From the drawing of a rung in its source to a sheet of cells, and what its operands name.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "frontend/ladder/drawing.h"
+#include "tools/view/names.h"
+#include "tools/view/rows.h"
+#include "tools/view/sheet.h"
+
+namespace rung::view {
+
+struct OperandUse {
+  const Named& named;
+  std::string_view operand; // as written
+  bool writes = false;
+  bool coil = false;
+  uint32_t row = 0; // of its element
+};
+using OnUse = std::function<void(const OperandUse& use)>;
+
+// Texts of messages by number (NCT) or bit (GSK).
+using Texts = std::unordered_map<std::string, std::string>;
+
+struct SheetContext {
+  const Rows& rows;
+  const Names& names;
+  const Texts& texts;
+};
+
+// A message's number as its key in the list of uses.
+std::string messageKey(std::string_view number);
+
+Sheet buildSheet(const SheetContext& context, const ladder::Drawing& drawing, const OnUse& onUse);
+
+} // namespace rung::view

@@ -1,0 +1,230 @@
+// Shapes to SVG (see svg.h).
+#include "tools/view/svg.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace rung::view {
+namespace {
+
+constexpr int kLeastRail = 560;
+constexpr int kMostRail = 800; // wider drawings are wide alone
+constexpr int kIndent = 24;    // of rungs below their captions
+
+template <class... Args>
+void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+void appendRails(std::string& out, const Picture& picture) {
+  put(out, "<path class=\"e\" d=\"M{} 0v{}M{} 0v{}\"/>", kLeft, picture.height, picture.rail, picture.height);
+}
+
+void appendWires(std::string& out, const Picture& picture) {
+  out += "<path class=\"w\" d=\"";
+  for (const Line& line : picture.wires) {
+    put(out, "M{} {}", line.from.x, line.from.y);
+    if (line.from.y == line.to.y)
+      put(out, "h{}", line.to.x - line.from.x);
+    else
+      put(out, "v{}", line.to.y - line.from.y);
+  }
+  out += "\"/>";
+  if (picture.dots.empty()) return;
+  out += "<path class=\"d\" d=\"";
+  for (Point dot : picture.dots) put(out, "M{} {}h0", dot.x, dot.y);
+  out += "\"/>";
+}
+
+void appendSymbols(std::string& out, const Picture& picture) {
+  if (picture.symbols.empty()) return;
+  out += "<path class=\"s\" d=\"";
+  for (const Symbol& symbol : picture.symbols) {
+    const int x = symbol.left.x;
+    const int top = symbol.left.y - kSymbolHalf;
+    const int height = 2 * kSymbolHalf;
+    if (symbol.glyph == Glyph::Contact) {
+      put(out, "M{} {}v{}M{} {}v{}", x, top, height, x + symbol.width, top, height);
+    } else {
+      put(out, "M{} {}a14.6 14.6 0 0 0 0 {}", x + 5, top, height);
+      put(out, "M{} {}a14.6 14.6 0 0 1 0 {}", x + symbol.width - 5, top, height);
+    }
+    const int in = symbol.glyph == Glyph::Contact ? 1 : 5;
+    if (symbol.slash) put(out, "M{} {}l{} {}", x + in, top + height - 3, symbol.width - 2 * in, 6 - height);
+  }
+  out += "\"/>";
+}
+
+void appendFrames(std::string& out, const Picture& picture) {
+  for (const Frame& frame : picture.frames) {
+    put(out, R"(<path class="h" d="M{} {}h{}v{}h-{}z"/>)", frame.corner.x, frame.corner.y, frame.width, frame.head,
+        frame.width);
+    put(out, R"(<path class="b" d="M{} {}h{}v{}h-{}z"/>)", frame.corner.x, frame.corner.y, frame.width, frame.height,
+        frame.width);
+  }
+}
+
+// Texts of one style and anchor stand in one group.
+void appendTexts(std::string& out, const Picture& picture) {
+  std::array<std::array<std::string, kStyles>, 3> groups;
+  for (const Text& text : picture.texts) {
+    std::string& group = groups[static_cast<size_t>(text.anchor)][static_cast<size_t>(text.style)];
+    put(group, "<text x=\"{}\" y=\"{}\">", text.at.x, text.at.y);
+    appendEscaped(group, text.text);
+    group += "</text>";
+  }
+  constexpr std::string_view kAnchors[] = {"", " am", " ae"};
+  for (size_t anchor = 0; anchor < groups.size(); ++anchor)
+    for (size_t style = 0; style < kStyles; ++style)
+      if (!groups[anchor][style].empty())
+        put(out, "<g class=\"{}{}\">{}</g>", infoOf(static_cast<Style>(style)).cssClass, kAnchors[anchor],
+            groups[anchor][style]);
+}
+
+// One drawing of everything, from top to bottom.
+class Poster {
+public:
+  explicit Poster(const Program& program) : program_(program), rail_(commonRail(program)) {}
+  std::string run();
+
+private:
+  void text(Style style, int x, std::string_view text, int space);
+  void lines(Style style, int x, std::string_view text);
+  void block(const Block& block);
+  void figure(const Figure& figure);
+
+  const Program& program_;
+  int rail_;
+  int y_ = 8;
+  int width_ = 0;
+  std::string body_;
+};
+
+void Poster::text(Style style, int x, std::string_view text, int space) {
+  y_ += space + static_cast<int>(infoOf(style).size);
+  put(body_, "<text class=\"{}\" x=\"{}\" y=\"{}\">", infoOf(style).cssClass, x, y_);
+  appendEscaped(body_, text);
+  body_ += "</text>\n";
+  y_ += 3;
+  width_ = std::max(width_, x + widthOf(text, style));
+}
+
+void Poster::lines(Style style, int x, std::string_view whole) {
+  while (!whole.empty()) {
+    const size_t end = std::min(whole.find('\n'), whole.size());
+    for (const std::string& line : wrap(whole.substr(0, end), style, rail_ + kMargin - x)) text(style, x, line, 0);
+    whole.remove_prefix(std::min(end + 1, whole.size()));
+  }
+}
+
+void Poster::figure(const Figure& figure) {
+  const std::string number = std::to_string(figure.number);
+  y_ += 18;
+  const int base = y_;
+  text(Style::Caption, 8, number, 0);
+  const int x = std::max(kIndent + 16, 8 + widthOf(number, Style::Caption) + 12);
+  const std::string place = textOf(figure.place);
+  const int left = rail_ + kMargin - widthOf(place, Style::Place) - 8;
+  y_ = base;
+  text(Style::Place, left, place, 2);
+  y_ = base;
+  const std::vector<std::string> title = wrap(figure.title, Style::Caption, left - x - 16);
+  for (const std::string& line : title) text(Style::Caption, x, line, 0);
+  if (title.empty()) y_ = base + static_cast<int>(infoOf(Style::Caption).size) + 3;
+  for (const std::string& comment : figure.comments) lines(Style::Comment, x, comment);
+  const Picture picture = layOut(figure.sheet, rail_);
+  y_ += 4;
+  put(body_, "<g id=\"r{}\" transform=\"translate(0 {})\"><title>", figure.number, y_);
+  appendEscaped(body_, nameOf(figure));
+  body_ += "</title>";
+  appendPicture(body_, picture);
+  body_ += "</g>\n";
+  y_ += picture.height;
+  width_ = std::max(width_, picture.width);
+}
+
+void Poster::block(const Block& block) {
+  switch (block.kind) {
+  case Block::Kind::File: text(Style::Section, 8, block.text, 24); break;
+  case Block::Kind::Module: text(Style::Module, 8, "Module " + block.text, 28); break;
+  case Block::Kind::Section: text(Style::Section, 8, block.text, 22); break;
+  case Block::Kind::Comment: y_ += 12; return lines(Style::Comment, 8, block.text);
+  case Block::Kind::Rung: return figure(program_.figures[block.figure]);
+  }
+  lines(Style::Comment, 8, block.comment);
+}
+
+std::string Poster::run() {
+  text(Style::Module, 8, program_.title, 4);
+  text(Style::Comment, 8, program_.control, 2);
+  for (const Block& one : program_.blocks) block(one);
+  std::string out;
+  const int width = width_ + 8;
+  const int height = y_ + 12;
+  put(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
+      width, height);
+  put(out, "<title>{}</title>\n<style>{}</style>\n", escaped(program_.title), pictureStyle());
+  put(out, "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n{}</svg>\n", width, height, body_);
+  return out;
+}
+
+} // namespace
+
+void appendEscaped(std::string& out, std::string_view text) {
+  for (char c : text) {
+    switch (c) {
+    case '&': out += "&amp;"; break;
+    case '<': out += "&lt;"; break;
+    case '>': out += "&gt;"; break;
+    case '"': out += "&quot;"; break;
+    default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  appendEscaped(out, text);
+  return out;
+}
+
+void appendPicture(std::string& out, const Picture& picture) {
+  appendFrames(out, picture);
+  appendWires(out, picture);
+  appendSymbols(out, picture);
+  appendRails(out, picture);
+  appendTexts(out, picture);
+}
+
+std::string pictureStyle() {
+  std::string css = "path{fill:none;stroke:#111;stroke-width:1.5}.e{stroke-width:3}.s{stroke-width:2}"
+                    ".d{stroke-width:6;stroke-linecap:round}.h{fill:#e8edf3;stroke:none}.am{text-anchor:middle}"
+                    ".ae{text-anchor:end}";
+  for (size_t i = 0; i < kStyles; ++i) {
+    const StyleInfo& info = infoOf(static_cast<Style>(i));
+    put(css, ".{}{{font:{}{}{}px {};fill:{}}}", info.cssClass, info.italic ? "italic " : "", info.bold ? "bold " : "",
+        info.size, info.mono ? "DejaVu Sans Mono,Consolas,Menlo,monospace" : "Arial,Helvetica,DejaVu Sans,sans-serif",
+        info.colour);
+  }
+  return css;
+}
+
+int commonRail(const Program& program) {
+  std::vector<int> rails;
+  for (const Figure& figure : program.figures) rails.push_back(neededRail(figure.sheet));
+  std::erase_if(rails, [](int rail) { return rail > kMostRail; });
+  return rails.empty() ? kLeastRail : std::max(kLeastRail, *std::max_element(rails.begin(), rails.end()));
+}
+
+std::string nameOf(const Figure& figure) {
+  return fmt::format("Rung {}", figure.number) + (figure.title.empty() ? "" : ": " + figure.title);
+}
+
+std::string textOf(const Place& place) { return place.line == 0 ? "" : fmt::format("{}:{}", place.file, place.line); }
+
+std::string renderSvg(const Program& program) { return Poster(program).run(); }
+
+} // namespace rung::view

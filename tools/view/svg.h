@@ -1,0 +1,28 @@
+// Pictures as SVG: one of them as a part of a page, or a whole program as one drawing.
+#pragma once
+#include <string>
+
+#include "tools/view/layout.h"
+#include "tools/view/program.h"
+
+namespace rung::view {
+
+// With <, &, quotes and what XML does not allow made harmless; good between tags and in attributes.
+void appendEscaped(std::string& out, std::string_view text);
+std::string escaped(std::string_view text);
+
+// Lines and texts of a rung, for a <g> or <svg>.
+void appendPicture(std::string& out, const Picture& picture);
+// The rules of style that pictures need.
+std::string pictureStyle();
+
+// Where the right rail of most rungs stands.
+int commonRail(const Program& program);
+// "Rung 3: start/stop latch".
+std::string nameOf(const Figure& figure);
+// "main.lad:12", or nothing.
+std::string textOf(const Place& place);
+
+std::string renderSvg(const Program& program);
+
+} // namespace rung::view

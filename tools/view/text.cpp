@@ -1,0 +1,81 @@
+// Widths of characters (see text.h).
+#include "tools/view/text.h"
+
+#include <algorithm>
+#include <array>
+
+#include "ir/support/utf8.h"
+
+namespace rung::view {
+namespace {
+
+constexpr std::string_view kDark = "#111";
+constexpr std::string_view kGrey = "#555";
+
+constexpr std::array<StyleInfo, kStyles> kInfos = {{
+    {"n", 12, true, true, false, kDark},
+    {"a", 11, true, false, false, kGrey},
+    {"c", 11, false, false, false, kGrey},
+    {"m", 12, true, true, false, kDark},
+    {"t", 13, true, true, false, kDark},
+    {"p", 11, true, false, false, kDark},
+    {"l", 11, false, false, false, kGrey},
+    {"r", 12, false, false, true, "#333"},
+    {"u", 11, false, false, false, "#0a4a86"},
+    {"k", 14, false, true, false, kDark},
+    {"M", 22, false, true, false, kDark},
+    {"S", 17, false, true, false, kDark},
+    {"C", 13, false, false, false, "#333"},
+    {"f", 12, true, false, false, kGrey},
+}};
+
+// Thousandths of the size of the font.
+int sansWidth(uint32_t c) {
+  if (c >= 0x80) return displayWidth(c) == 2 ? 1020 : displayWidth(c) == 0 ? 0 : 700;
+  const char ch = static_cast<char>(c);
+  if (std::string_view(" .,:;'|!ijlI/\\()[]").find(ch) != std::string_view::npos) return 395;
+  if (std::string_view("mwMW@%#+=<>~^").find(ch) != std::string_view::npos) return 995;
+  if (ch >= 'A' && ch <= 'Z') return 790;
+  return 640;
+}
+
+int monoWidth(uint32_t c) { return 605 * static_cast<int>(displayWidth(c)); }
+
+} // namespace
+
+const StyleInfo& infoOf(Style style) { return kInfos[static_cast<size_t>(style)]; }
+
+int lineHeight(Style style) { return static_cast<int>(infoOf(style).size) + 3; }
+
+int widthOf(std::string_view text, Style style) {
+  const StyleInfo& info = infoOf(style);
+  int64_t sum = 0;
+  for (size_t at = 0; at < text.size();) {
+    const CodePoint c = decodeUtf8(text, at);
+    sum += info.mono ? monoWidth(c.value) : sansWidth(c.value) * (info.bold ? 110 : 100) / 100;
+    at += c.length;
+  }
+  return static_cast<int>((sum * info.size + 999) / 1000);
+}
+
+std::vector<std::string> wrap(std::string_view text, Style style, int width) {
+  std::vector<std::string> lines;
+  int used = 0;
+  const int blank = widthOf(" ", style);
+  for (size_t at = text.find_first_not_of(' '); at < text.size();) {
+    const size_t end = std::min(text.find(' ', at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    const int wide = widthOf(word, style);
+    if (lines.empty() || used + blank + wide > width) {
+      lines.emplace_back(word);
+      used = wide;
+    } else {
+      lines.back().append(" ").append(word);
+      used += blank + wide;
+    }
+    at = std::min(text.find_first_not_of(' ', end), text.size());
+  }
+  return lines;
+}
+
+} // namespace rung::view

@@ -92,8 +92,8 @@ public:
     answer(instance);
   }
 
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    return simulated_ && simulator_.respond(instance, request, reply);
+  bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    return simulated_ && simulator_.respond(request, reply);
   }
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {

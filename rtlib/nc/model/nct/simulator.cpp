@@ -1,17 +1,29 @@
 // The dispatcher of the simulated NCT control (see simulator.h).
 #include "rtlib/nc/model/nct/simulator.h"
 
+#include <bit>
 #include <cstring>
 
 #include "rtlib/host/program_info.h"
 
 namespace rung::nc::nct {
 
-Simulator::Simulator() : topics_{&parameters_, &nvram_, &channels_, &programSelection_, &tools_, &pallets_}, waiting_(rt::ServiceQueue::kMaxPending) {
-  control_.parameters = &parameters_;
-  control_.channels = &channels_;
-  control_.tools = &tools_;
-  control_.pallets = &pallets_;
+Simulator::Simulator()
+    : topics_{&parameters_, &nvram_,    &spindles_,         &axes_,  &macros_, &screen_,
+              &drives_,     &channels_, &programSelection_, &tools_, &pallets_},
+      waiting_(rt::ServiceQueue::kMaxPending) {}
+
+Control Simulator::links() {
+  Control control;
+  control.parameters = &parameters_;
+  control.channels = &channels_;
+  control.axes = &axes_;
+  control.spindles = &spindles_;
+  control.macros = &macros_;
+  control.drives = &drives_;
+  control.tools = &tools_;
+  control.pallets = &pallets_;
+  return control;
 }
 
 Handled Simulator::config(std::string_view key, std::string_view value) {
@@ -95,19 +107,39 @@ Simulator::Service Simulator::serviceOf(const rt::ServiceRequest& request) const
   return request.service < services_.size() ? services_[request.service] : Service::Other;
 }
 
-bool Simulator::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
-  reply = {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
-  (void)instance;
-  switch (serviceOf(request)) {
+// MACR, MACW, SCP, MOVCMND (man. 6.15-6.17). A refusal is FL_ER=1 in the box.
+Simulator::Outcome Simulator::answer(Service service, const int64_t* args, rt::ServiceReply& reply) {
+  const auto give = [&](std::optional<double> value) {
+    if (!value) return Outcome::Refused;
+    reply.resultCount = 1;
+    reply.results[0] = std::bit_cast<int64_t>(*value);
+    return Outcome::Done;
+  };
+  switch (service) {
   case Service::Other:
   case Service::Mr:
-  case Service::Mw: return false;
-  case Service::Macr:
+  case Service::Mw: return Outcome::Refused;
+  case Service::Macr: return give(macros_.read(args[0], args[1]));
   case Service::Macw:
-  case Service::Scp:
-  case Service::Movcmnd: return true;
+    return macros_.write(args[0], args[1], std::bit_cast<double>(args[2])) ? Outcome::Done : Outcome::Refused;
+  case Service::Scp: return give(scope_.read(args[0], args[1], args[2]));
+  case Service::Movcmnd:
+    switch (axes_.load(args[0], args[1], std::bit_cast<double>(args[2]), std::bit_cast<double>(args[3]))) {
+    case Axes::Load::Accepted: return Outcome::Done;
+    case Axes::Load::Full: return Outcome::Later;
+    case Axes::Load::Refused: return Outcome::Refused;
+    }
   }
-  return false;
+  return Outcome::Refused;
+}
+
+bool Simulator::respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  const Service service = serviceOf(request);
+  if (service == Service::Other || service == Service::Mr || service == Service::Mw) return false;
+  reply = {.ticket = request.ticket};
+  const Outcome outcome = answer(service, request.args, reply);
+  if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
+  return outcome != Outcome::Later;
 }
 
 std::optional<int32_t> Simulator::execute(const rt::ServiceRequest& request) {
@@ -128,24 +160,25 @@ std::optional<int32_t> Simulator::execute(const rt::ServiceRequest& request) {
 }
 
 void Simulator::betweenScans(host::Instance& instance) {
-  rt::ServiceRequest request;
-  while (waitingCount_ < waiting_.size() && instance.services().take(request)) {
-    const Service service = serviceOf(request);
-    if (service == Service::Mr || service == Service::Mw)
-      waiting_[waitingCount_++] = request;
-    else
-      instance.services().complete({.ticket = request.ticket, .state = RUNG_SERVICE_ERROR});
-  }
+  while (waitingCount_ < waiting_.size() && instance.services().take(waiting_[waitingCount_])) ++waitingCount_;
   uint32_t left = 0;
   for (uint32_t i = 0; i < waitingCount_; ++i) {
-    const std::optional<int32_t> code = execute(waiting_[i]);
-    if (!code) {
-      waiting_[left++] = waiting_[i];
-      continue;
+    rt::ServiceReply reply{.ticket = waiting_[i].ticket};
+    Outcome outcome = Outcome::Done;
+    const Service service = serviceOf(waiting_[i]);
+    if (service == Service::Mr || service == Service::Mw) {
+      const std::optional<int32_t> code = execute(waiting_[i]);
+      reply.resultCount = 1;
+      reply.results[0] = code.value_or(0);
+      if (!code) outcome = Outcome::Later;
+    } else {
+      outcome = answer(service, waiting_[i].args, reply);
     }
-    rt::ServiceReply reply{.ticket = waiting_[i].ticket, .resultCount = 1};
-    reply.results[0] = *code;
-    instance.services().complete(reply);
+    if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
+    if (outcome == Outcome::Later)
+      waiting_[left++] = waiting_[i];
+    else
+      instance.services().complete(reply);
   }
   waitingCount_ = left;
 }

@@ -5,11 +5,17 @@
 #include <array>
 #include <vector>
 
+#include "rtlib/nc/model/nct/axes.h"
 #include "rtlib/nc/model/nct/channels.h"
+#include "rtlib/nc/model/nct/drives.h"
+#include "rtlib/nc/model/nct/macros.h"
 #include "rtlib/nc/model/nct/nvram.h"
 #include "rtlib/nc/model/nct/pallet_management.h"
 #include "rtlib/nc/model/nct/parameters.h"
 #include "rtlib/nc/model/nct/program_selection.h"
+#include "rtlib/nc/model/nct/scope.h"
+#include "rtlib/nc/model/nct/screen.h"
+#include "rtlib/nc/model/nct/spindles.h"
 #include "rtlib/nc/model/nct/tool_management.h"
 
 namespace rung::nc::nct {
@@ -29,7 +35,7 @@ public:
   // In front of every time slice; `cycle`: it is the first one of a PLC cycle.
   void timeSlice(host::Instance& instance, bool cycle);
   // MACR, MACW, SCP, MOVCMND; false: another service.
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+  bool respond(const rt::ServiceRequest& request, rt::ServiceReply& reply);
   // Takes the requests of MR and MW and answers what can be answered, oldest first; one that is still at work does not
   // hold up the others.
   void betweenScans(host::Instance& instance);
@@ -44,19 +50,30 @@ private:
   Service serviceOf(const rt::ServiceRequest& request) const;
   // The execution code of a request; nothing: still at work.
   std::optional<int32_t> execute(const rt::ServiceRequest& request);
+  // The services of one cycle; nothing: not now.
+  enum class Outcome : uint8_t { Done, Refused, Later };
+  Outcome answer(Service service, const int64_t* args, rt::ServiceReply& reply);
 
-  Control control_;
+  Control links();
+
+  Control control_ = links(); // before all topics: they use it when they are made
   Parameters parameters_{control_};
   Nvram nvram_{control_};
+  Spindles spindles_{control_};
+  Axes axes_{control_};
+  Macros macros_{control_};
+  Screen screen_{control_};
+  Drives drives_{control_};
+  Scope scope_{control_};
   Channels channels_{control_};
   ProgramSelection programSelection_{control_};
   ToolManagement tools_{control_};
   PalletManagement pallets_{control_};
-  std::array<Topic*, 6> topics_;
+  std::vector<Topic*> topics_; // in the order in which they work
 
   std::vector<Service> services_; // by rung_program::services
   std::span<uint8_t> blocks_;     // the space @MB
-  std::vector<rt::ServiceRequest> waiting_; // MR and MW, oldest first; room for all that can be pending
+  std::vector<rt::ServiceRequest> waiting_; // oldest first; room for all that can be pending
   uint32_t waitingCount_ = 0;
   std::array<uint32_t, kBlockStride> words_{}; // the block that is being worked on
 };

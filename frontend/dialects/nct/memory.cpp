@@ -25,8 +25,8 @@ ValueId Memory::loadRegister(uint32_t word) {
 }
 
 // An unsigned comparison of the distance from the first word covers both ends: the sum wraps, and no sum that wraps
-// falls into 0000 to 9999 by accident.
-void Memory::compute(Place& place, const Address& address, uint32_t first, uint32_t count) {
+// falls into 0000 to 9999 by accident. The window of a write leaves the reserved word out, though it is within reach.
+void Memory::compute(Place& place, const Address& address, Reach reach, uint32_t words) {
   place.fixed = false;
   if (address.indexRegister == kNoRegister) { // only the bit's number is computed
     place.window = {.space = place.space, .byte = address.word * 4, .count = 1};
@@ -34,19 +34,6 @@ void Memory::compute(Place& place, const Address& address, uint32_t first, uint3
     place.wordNo = b_.i32(address.word);
     return;
   }
-  const ValueId offset = loadRegister(address.indexRegister);
-  place.window = {.space = place.space, .byte = first * 4, .count = count};
-  place.index = b_.add(offset, b_.i32(static_cast<int64_t>(address.word) - first));
-  place.wordNo = first == 0 ? place.index : b_.add(place.index, b_.i32(first));
-  place.valid = b_.ltU(place.index, b_.i32(count));
-}
-
-Place Memory::place(const Address& address, Reach reach, uint32_t words) {
-  Place place;
-  place.space = address.immediate ? spaces_.ts : spaces_.m;
-  place.word = address.word;
-  place.bit = address.bit;
-  if (address.isFixed()) return place;
   uint32_t first = 0;
   uint32_t end = kWords;
   switch (reach) {
@@ -58,7 +45,23 @@ Place Memory::place(const Address& address, Reach reach, uint32_t words) {
     first = kFirstNcWord;
     end = config_.plcNvram;
   }
-  compute(place, address, first, end - first - (words - 1));
+  const ValueId offset = loadRegister(address.indexRegister);
+  const uint32_t start = first == kReserved ? kReserved + 1 : first;
+  const uint32_t count = end - start - (words - 1);
+  place.window = {.space = place.space, .byte = start * 4, .count = count};
+  const auto from = [&](uint32_t word) { return b_.add(offset, b_.i32(static_cast<int64_t>(address.word) - word)); };
+  place.index = from(start);
+  place.wordNo = start == 0 ? place.index : b_.add(place.index, b_.i32(start));
+  place.valid = start == first ? b_.ltU(place.index, b_.i32(count)) : b_.ltU(from(first), b_.i32(count + start - first));
+}
+
+Place Memory::place(const Address& address, Reach reach, uint32_t words) {
+  Place place;
+  place.space = address.immediate ? spaces_.ts : spaces_.m;
+  place.word = address.word;
+  place.bit = address.bit;
+  if (address.isFixed()) return place;
+  compute(place, address, reach, words);
   return place;
 }
 
@@ -84,8 +87,12 @@ Place Memory::twoWords(const Address& address, Reach reach) {
   return p;
 }
 
-// Only outputs go to the time-slice memory (l.548): inputs are the NC's, and what is written to them, or to the reserved
-// word 0001, is lost at the next synchronisation.
+bool Memory::dropped(const Place& place) const {
+  return place.space == spaces_.m && (place.fixed || place.window.count == 1) && place.word == kReserved;
+}
+
+// Only outputs go to the time-slice memory (l.548): inputs are the NC's, and what is written to them is lost
+// at the next synchronisation.
 bool Memory::masked(const Place& place) const {
   if (place.space != spaces_.m) return false;
   if (!place.fixed && place.window.count != 1) return true; // an index may lead anywhere
@@ -107,6 +114,7 @@ ValueId Memory::loadWord(const Place& place) {
 }
 
 void Memory::storeWord(const Place& place, ValueId value) {
+  if (dropped(place)) return;
   if (place.fixed)
     b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
   else
@@ -128,6 +136,7 @@ ValueId Memory::loadBit(const Place& place) {
 }
 
 void Memory::storeBit(const Place& place, ValueId value) {
+  if (dropped(place)) return;
   const ir::Place bit{.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8};
   if (place.fixed)
     b_.store(bit, value);
@@ -145,6 +154,7 @@ void Memory::storeBit(const Place& place, ValueId value) {
 
 // A fixed bit takes a load, a logic operation and a store; the mask remembers only a bit that was really written.
 void Memory::forceBit(const Place& place, ValueId cond, bool value) {
+  if (dropped(place)) return;
   if (!place.fixed) {
     b_.if_(cond);
     storeBit(place, b_.bit(value));
@@ -167,6 +177,7 @@ ValueId Memory::loadDouble(const Place& place, Type type) {
 
 void Memory::storeDouble(const Place& place, ValueId value) {
   RUNG_CHECK(place.space == spaces_.m, "doubles have no immediate form");
+  if (dropped(place)) return;
   if (place.fixed) {
     b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
     for (uint32_t word = place.word; word < place.word + 2; ++word) {
@@ -220,11 +231,17 @@ ValueId Memory::loadIn(const WordRange& range, ValueId i) {
 
 // The mask's window begins where the range's does and ends with the NC area.
 void Memory::storeIn(const WordRange& range, ValueId i, ValueId value) {
-  const ValueId index = range.first.valid() ? b_.add(range.first, i) : i;
-  b_.storeAt(range.window, index, value);
-  const uint32_t begin = range.window.byte / 4;
+  ValueId index = range.first.valid() ? b_.add(range.first, i) : i;
+  uint32_t begin = range.window.byte / 4;
+  const uint32_t end = begin + range.window.count;
+  if (begin <= kReserved) { // neither FLAGS nor the reserved word
+    index = b_.sub(index, b_.i32(kReserved + 1 - begin));
+    begin = kReserved + 1;
+  }
+  if (end <= begin) return;
+  b_.storeAt({.space = range.window.space, .byte = begin * 4, .count = end - begin}, index, value);
   if (begin >= config_.plcNvram) return;
-  const uint32_t count = std::min(range.window.count, config_.plcNvram - begin);
+  const uint32_t count = std::min(end, config_.plcNvram) - begin;
   b_.storeAt({.space = spaces_.written, .byte = begin * 4, .count = count}, index, b_.i32(-1));
   if (begin + count > config_.firstOutput) written_.add(std::max(begin, config_.firstOutput), begin + count);
 }

@@ -38,7 +38,7 @@ struct WrittenRange {
 // Where an operand may lead at run time.
 enum class Reach : uint8_t {
   Read,  // 0000 to 9999
-  Write, // 0001 to 9999: FLAGS is the instructions' own (l.723)
+  Write, // 0001 to 9999: FLAGS is the instructions' own (l.723); what goes to the reserved word 0001 is lost
   User,  // PLCNVRAM to 9999: timers and counters (l.1335, l.1463)
 };
 
@@ -108,8 +108,9 @@ public:
 
 private:
   Place place(const Address& address, Reach reach, uint32_t words);
-  void compute(Place& place, const Address& address, uint32_t first, uint32_t count);
+  void compute(Place& place, const Address& address, Reach reach, uint32_t words);
   ir::ValueId loadRegister(uint32_t word);
+  bool dropped(const Place& place) const;
   bool masked(const Place& place) const;
   ir::Window maskWindow(const Place& place);
 

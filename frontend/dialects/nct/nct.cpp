@@ -46,6 +46,7 @@ public:
           files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, std::cref(pins)));
       if (!parsed.dialect.empty() && parsed.dialect != "nct")
         diagnostics_.report(Diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
+      if (parsed.dialect.empty()) nameless_ = true; // the file could not be read
     }
   }
 
@@ -91,9 +92,9 @@ private:
     }
   }
 
-  // The module that a statement opens. What stands in an unknown one, or in the second of a name, is looked at rung by
-  // rung, but for nothing else.
-  TypedModule& open(const ladder::Module& statement) {
+  // The module that a statement opens; the same name in another file continues it. What stands in an unknown module, or
+  // in the second of a name in one file, is looked at rung by rung, but for nothing else.
+  TypedModule& open(const ladder::LadderFile& file, const ladder::Module& statement) {
     const std::string_view name = statement.name[0].text;
     TypedModule* module = name == "MAIN" ? &program_.main : name == "INT0" ? &program_.int0 : nullptr;
     if (module == nullptr || statement.name.size() > 1) {
@@ -102,13 +103,14 @@ private:
       nameless_ = true;
       return reported_;
     }
-    if (module->exists) {
+    if (module->exists && module->lastFile == &file) {
       diagnostics_.report(Diag::DuplicateModule, statement.range).note(module->range, "here") << name;
       module->partial = true;
       return reported_;
     }
     module->exists = true;
     module->range = statement.range;
+    module->lastFile = &file;
     return *module;
   }
 
@@ -118,7 +120,7 @@ private:
     for (const ladder::Statement& statement : file.statements) {
       switch (statement.kind) {
       case ladder::StatementKind::Module:
-        module = &open(file.modules[statement.index]);
+        module = &open(file, file.modules[statement.index]);
         checker.emplace(symbols_, claims_, diagnostics_, file.modules[statement.index].name[0].text != "MAIN");
         break;
       case ladder::StatementKind::Rung:
@@ -140,7 +142,7 @@ private:
   TypedModule reported_; // rungs of modules that are none
   Texts texts_;
   std::unordered_set<uint32_t> numbers_; // of the texts
-  bool nameless_ = false;                // rungs stand in no known module: MAIN may be what was meant
+  bool nameless_ = false;                // rungs stand in no known module, or were not read: MAIN may be among them
 };
 
 std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,

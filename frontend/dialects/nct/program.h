@@ -42,7 +42,8 @@ inline constexpr uint32_t kLabels = 100; // numbers 0 to 99, l.2942
 
 struct TypedModule {
   std::string_view name;
-  SourceRange range;
+  SourceRange range;                            // of its last `module` statement
+  const ladder::LadderFile* lastFile = nullptr; // where that stands
   bool exists = false;
   bool partial = false; // a second one of its name was reported
   std::vector<TypedRung> rungs;
@@ -52,8 +53,15 @@ struct TypedModule {
 };
 
 struct Program {
-  TypedModule main{.name = "MAIN", .range = {}, .exists = false, .partial = false, .rungs = {}, .bodies = {}};
-  TypedModule int0{.name = "INT0", .range = {}, .exists = false, .partial = false, .rungs = {}, .bodies = {}};
+  TypedModule main = named("MAIN");
+  TypedModule int0 = named("INT0");
+
+private:
+  static TypedModule named(std::string_view name) {
+    TypedModule module;
+    module.name = name;
+    return module;
+  }
 };
 
 } // namespace rung::nct

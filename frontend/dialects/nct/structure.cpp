@@ -76,7 +76,7 @@ private:
     const bool isEnd = !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::End;
     if (!ended_ || inSubroutine() || startsBody || isEnd || reportedAfterEnd_) return;
     reportedAfterEnd_ = true;
-    diagnostics_.report(Diag::CodeAfterEnd, module_.rungs[rung].rung->statement);
+    diagnostics_.report(Diag::CodeAfterEnd, module_.rungs[rung].rung->statement).note(endRange_, "the module's END");
   }
 
   bool inSubroutine() const { return module_.bodies.size() > 1; }

@@ -1,15 +1,19 @@
 // The scenario runner (see runner.h).
 #include "tools/scenario/runner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "rtlib/host/compare.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "tools/scenario/compile_step.h"
+#include "tools/scenario/services.h"
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
@@ -23,9 +27,28 @@ struct Lane {
   std::unique_ptr<host::Engine> engine;
   std::unique_ptr<nc::NcModel> nc;
   std::unique_ptr<Instance> instance;
-  std::vector<std::string> unreadLog;    // since the last expect_log
-  std::vector<rt::ServiceRequest> taken; // requests that expect_call consumed, oldest first
-  std::vector<Prepared> prepared;        // answers that wait for their request
+  std::vector<std::string> unreadLog;      // since the last expect_log
+  std::vector<rt::ServiceRequest> waiting; // requests that nobody has looked at, oldest first
+  std::vector<rt::ServiceRequest> taken;   // requests that expect_call consumed, oldest first
+  std::vector<Prepared> prepared;          // answers that wait for their request
+  bool calledOneWay = false;               // the last request that expect_call consumed takes no answer
+
+  // The answer prepared for the request, taken out; nothing when there is none.
+  std::optional<Prepared> takePrepared(const ServiceSignature& signature, const rt::ServiceRequest& request) {
+    for (size_t i = 0; i < prepared.size(); ++i) {
+      if (!requestDifference(signature, request, prepared[i].service, prepared[i].keys, instance.get()).empty())
+        continue;
+      const Prepared found = std::move(prepared[i]);
+      prepared.erase(prepared.begin() + static_cast<std::ptrdiff_t>(i));
+      return found;
+    }
+    return std::nullopt;
+  }
+  void answer(const ServiceSignature& signature, const rt::ServiceRequest& request,
+              const std::vector<KeyValue>& results) {
+    answerBlock(*instance, signature, request, results);
+    instance->services().complete(replyOf(signature, request.ticket, results));
+  }
 };
 
 // Lends the NC model's hooks and adds the scenario's prepared answers.
@@ -35,14 +58,13 @@ public:
   void onHook(Instance& instance, uint32_t work) override { lane_.nc->onHook(instance, work); }
   void onFault(Instance& instance) override { lane_.nc->onFault(instance); }
   bool respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    if (lane_.prepared.empty()) return lane_.nc->respond(instance, request, reply);
     const ServiceSignature signature(host::serviceName(instance.program(), request.service));
-    for (size_t i = 0; i < lane_.prepared.size(); ++i) {
-      if (!matches(signature, request, lane_.prepared[i].service, lane_.prepared[i].keys)) continue;
-      reply = replyOf(signature, request.ticket, lane_.prepared[i].results);
-      lane_.prepared.erase(lane_.prepared.begin() + static_cast<std::ptrdiff_t>(i));
-      return true;
-    }
-    return lane_.nc->respond(instance, request, reply);
+    // Operand blocks are read and answered between two scans.
+    const auto prepared = signature.hasBlock() ? std::nullopt : lane_.takePrepared(signature, request);
+    if (!prepared) return lane_.nc->respond(instance, request, reply);
+    reply = replyOf(signature, request.ticket, prepared->results);
+    return true;
   }
 
 private:
@@ -132,7 +154,24 @@ private:
       for (std::string& line : lane.nc->board().takeLog()) lane.unreadLog.push_back(std::move(line));
     }
     ++result_.scans;
-    return compare(s);
+    if (!compare(s)) return false;
+    for (Lane& lane : lanes_) takeRequests(lane);
+    return true;
+  }
+
+  // The requests that the NC model left in the queue. Prepared answers to operand blocks are given here, and what takes
+  // no answer is complete.
+  static void takeRequests(Lane& lane) {
+    rt::ServiceRequest request;
+    while (lane.instance->services().take(request)) {
+      const ServiceSignature signature(host::serviceName(lane.instance->program(), request.service));
+      if (signature.takesNoAnswer()) lane.answer(signature, request, {});
+      const auto prepared = signature.hasBlock() ? lane.takePrepared(signature, request) : std::nullopt;
+      if (prepared)
+        lane.answer(signature, request, prepared->results);
+      else
+        lane.waiting.push_back(request);
+    }
   }
 
   void advance(const Statement& s, Advance how) {
@@ -156,6 +195,7 @@ private:
       if (kind == nc::PowerOn::Warm) lane.nc->powerOff(*lane.instance);
       lane.nc->powerOn(*lane.instance, kind);
       lane.unreadLog.clear();
+      lane.waiting.clear();
       lane.taken.clear();
       lane.prepared.clear();
     }
@@ -272,37 +312,43 @@ std::string Runner::expectLog(Lane& lane, const Statement& s) {
 }
 
 std::string Runner::expectCall(Lane& lane, const Statement& s) {
-  rt::ServiceRequest request;
-  const rt::ServiceRequest* next = lane.instance->services().peek();
-  if (next == nullptr) return fmt::format("no request waits; expected {}", s.name);
-  const ServiceSignature signature(host::serviceName(lane.instance->program(), next->service));
-  const std::string difference = requestDifference(signature, *next, s.name, s.keys);
+  takeRequests(lane);
+  if (lane.waiting.empty()) return fmt::format("no request waits; expected {}", s.name);
+  const rt::ServiceRequest next = lane.waiting.front();
+  const ServiceSignature signature(host::serviceName(lane.instance->program(), next.service));
+  const std::string difference = requestDifference(signature, next, s.name, s.keys, lane.instance.get());
   if (!difference.empty()) return difference;
-  lane.instance->services().take(request);
-  lane.taken.push_back(request);
+  lane.waiting.erase(lane.waiting.begin());
+  lane.calledOneWay = signature.takesNoAnswer();
+  if (!lane.calledOneWay) lane.taken.push_back(next);
   return {};
 }
 
 std::string Runner::expectNoCall(Lane& lane, const Statement& s) {
-  for (uint32_t i = 0; const rt::ServiceRequest* waiting = lane.instance->services().peek(i); ++i) {
-    const ServiceSignature signature(host::serviceName(lane.instance->program(), waiting->service));
+  takeRequests(lane);
+  for (const rt::ServiceRequest& waiting : lane.waiting) {
+    const ServiceSignature signature(host::serviceName(lane.instance->program(), waiting.service));
     if (s.name.empty() || signature.isNamed(s.name)) return fmt::format("a request {} waits", signature.name());
   }
   return {};
 }
 
 std::string Runner::replyTo(Lane& lane, const Statement& s) {
-  rt::ServiceRequest request;
-  if (!lane.taken.empty()) {
-    request = lane.taken.front();
-    lane.taken.erase(lane.taken.begin());
-  } else if (!lane.instance->services().take(request)) {
-    return "no request is pending";
-  }
-  const ServiceSignature signature(host::serviceName(lane.instance->program(), request.service));
+  takeRequests(lane);
+  if (std::exchange(lane.calledOneWay, false) && s.results.empty()) return {}; // it is complete
+  const auto signatureOf = [&](const rt::ServiceRequest& request) {
+    return ServiceSignature(host::serviceName(lane.instance->program(), request.service));
+  };
+  std::vector<rt::ServiceRequest>& pending = lane.taken.empty() ? lane.waiting : lane.taken;
+  const auto next =
+      std::ranges::find_if(pending, [&](const auto& request) { return !signatureOf(request).takesNoAnswer(); });
+  if (next == pending.end()) return "no request is pending";
+  const rt::ServiceRequest request = *next;
+  const ServiceSignature signature = signatureOf(request);
   const std::string problem = keyProblem(signature, {}, s.results);
   if (!problem.empty()) return problem;
-  lane.instance->services().complete(replyOf(signature, request.ticket, s.results));
+  pending.erase(next);
+  lane.answer(signature, request, s.results);
   return {};
 }
 

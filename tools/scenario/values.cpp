@@ -1,12 +1,9 @@
 // Values of scenarios (see values.h).
 #include "tools/scenario/values.h"
 
-#include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
 namespace rung::scenario {
 
@@ -38,21 +35,6 @@ std::string show(const Reading& reading) {
 
 std::string show(const Value& value) {
   return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text;
-}
-
-bool sameName(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-int indexOf(const std::vector<std::string>& names, std::string_view key) {
-  for (size_t i = 0; i < names.size(); ++i)
-    if (sameName(names[i], key)) return static_cast<int>(i);
-  return -1;
-}
-
-int64_t rawOf(const Value& value) {
-  return value.kind == ValueKind::Real ? std::bit_cast<int64_t>(value.real) : value.integer;
 }
 
 } // namespace
@@ -163,79 +145,6 @@ std::vector<nc::NcArgument> arguments(const std::vector<KeyValue>& keys) {
     out.push_back({key.key, key.value.kind == ValueKind::Text, key.value.kind == ValueKind::Real, key.value.integer,
                    key.value.real, key.value.text});
   return out;
-}
-
-ServiceSignature::ServiceSignature(std::string_view text) {
-  std::istringstream in{std::string(text)};
-  in >> name_;
-  bool results = false;
-  for (std::string word; in >> word;) {
-    if (word == "->")
-      results = true;
-    else
-      (results ? results_ : arguments_).push_back(word);
-  }
-}
-
-bool ServiceSignature::isNamed(std::string_view name) const { return sameName(name_, name); }
-int ServiceSignature::argument(std::string_view key) const { return indexOf(arguments_, key); }
-int ServiceSignature::result(std::string_view key) const { return indexOf(results_, key); }
-
-std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyValue>& arguments,
-                       const std::vector<KeyValue>& results) {
-  for (const KeyValue& key : arguments)
-    if (signature.argument(key.key) < 0) return fmt::format("{} has no argument '{}'", signature.name(), key.key);
-  for (const KeyValue& key : results)
-    if (key.key != "error" && signature.result(key.key) < 0)
-      return fmt::format("{} has no result '{}'", signature.name(), key.key);
-  return {};
-}
-
-namespace {
-
-// Bits of an argument that count.
-uint64_t maskOf(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view key) {
-  const int length = signature.argument("length");
-  if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !sameName(key, "data")) return UINT64_MAX;
-  const int64_t bytes = request.args[length];
-  return bytes > 0 && bytes < 8 ? (uint64_t{1} << (8 * bytes)) - 1 : UINT64_MAX;
-}
-
-} // namespace
-
-std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
-                              std::string_view service, const std::vector<KeyValue>& keys) {
-  if (!signature.isNamed(service)) return fmt::format("the next request is {}, expected {}", signature.name(), service);
-  for (const KeyValue& key : keys) {
-    const int index = signature.argument(key.key);
-    if (index < 0 || static_cast<uint32_t>(index) >= request.argCount)
-      return fmt::format("{} has no argument '{}'", signature.name(), key.key);
-    const uint64_t difference = static_cast<uint64_t>(request.args[index]) ^ static_cast<uint64_t>(rawOf(key.value));
-    if ((difference & maskOf(signature, request, key.key)) != 0)
-      return fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, request.args[index], key.value.text);
-  }
-  return {};
-}
-
-bool matches(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view service,
-             const std::vector<KeyValue>& keys) {
-  return requestDifference(signature, request, service, keys).empty();
-}
-
-rt::ServiceReply replyOf(const ServiceSignature& signature, uint32_t ticket, const std::vector<KeyValue>& results) {
-  rt::ServiceReply reply;
-  reply.ticket = ticket;
-  for (const KeyValue& key : results) {
-    if (key.key == "error") {
-      if (key.value.integer != 0) reply.state = RUNG_SERVICE_ERROR;
-      continue;
-    }
-    const int index = signature.result(key.key);
-    if (index < 0 || index >= static_cast<int>(RUNG_MAX_SERVICE_ARGS)) continue;
-    reply.results[index] = rawOf(key.value);
-    reply.resultCount = std::max(reply.resultCount, static_cast<uint32_t>(index) + 1);
-  }
-  return reply;
 }
 
 } // namespace rung::scenario

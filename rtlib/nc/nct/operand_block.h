@@ -1,8 +1,8 @@
 // The buffer through which an MR or MW box and the NC hand each other an operand block (man. l.3440-3465, 3510-3540).
 // Every box owns one in the space "@MB": kBlockWords words as the manual numbers them (0 the execution code, 1 the
 // amount of data, from 2 on what the function says), and behind them a mask with one bit a word, set for every word
-// that the NC answered. The box copies its block here and clears the mask when it asks; the NC answers here before it
-// completes the request; the box takes word 0 and the masked words back.
+// that the NC answered. The box copies its block here, whatever its amount says, and clears the mask when it asks; the
+// NC answers here before it completes the request; the box takes word 0 and the masked words back.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -17,9 +17,6 @@ inline constexpr const char* kBlockSpace = "@MB";
 inline constexpr uint32_t kBlockWords = 512;
 inline constexpr uint32_t kMaskWords = kBlockWords / 32;
 inline constexpr uint32_t kBlockStride = kBlockWords + kMaskWords; // words that a box owns
-// Copied whatever the amount says, as far as memory reaches: MR 62 and MW 63 count to word 6 and use word 7 (l.4029,
-// l.4075), MR 101 need not give its amount (l.4680).
-inline constexpr uint32_t kLeastWords = 9;
 
 inline constexpr uint32_t kCodeWord = 0;
 inline constexpr uint32_t kAmountWord = 1;

@@ -1,4 +1,4 @@
-// Values of scenarios: integers modulo their width, tolerances, ranges; services by the names of their arguments.
+// Values of scenarios: integers modulo their width, tolerances, ranges.
 #include <gtest/gtest.h>
 
 #include "tools/scenario/values.h"
@@ -43,58 +43,6 @@ TEST(ScenarioValues, MessagesCompareTheirProperties) {
   EXPECT_NE(messageDifference(message, statement("expect_message 20 channel=2").keys), "");
   EXPECT_NE(messageDifference(message, statement("expect_message 20 colour=2").keys).find("no property"),
             std::string::npos);
-}
-
-TEST(ScenarioServices, ArgumentsGoByName) {
-  const ServiceSignature windr("WINDR function length -> end data");
-  rt::ServiceRequest request;
-  request.argCount = 2;
-  request.args[0] = 5;
-  request.args[1] = 4;
-  EXPECT_EQ(requestDifference(windr, request, "windr", statement("expect_call windr length=4").keys), "");
-  EXPECT_NE(requestDifference(windr, request, "windr", statement("expect_call windr length=2").keys), "");
-  EXPECT_NE(requestDifference(windr, request, "windw", {}), "");
-  EXPECT_NE(
-      requestDifference(windr, request, "windr", statement("expect_call windr colour=2").keys).find("no argument"),
-      std::string::npos);
-  const rt::ServiceReply reply = replyOf(windr, 9, statement("reply data=77").results);
-  EXPECT_EQ(reply.ticket, 9u);
-  EXPECT_EQ(reply.resultCount, 2u);
-  EXPECT_EQ(reply.results[1], 77);
-  EXPECT_EQ(replyOf(windr, 9, statement("reply error=1").results).state, uint32_t{RUNG_SERVICE_ERROR});
-}
-
-TEST(ScenarioServices, DataCompareModuloTheLength) {
-  const ServiceSignature windw("windw function length data -> end");
-  rt::ServiceRequest request;
-  request.argCount = 3;
-  request.args[0] = 0x105;
-  request.args[1] = 2;
-  request.args[2] = -2;
-  const auto difference = [&](const char* keys) {
-    return requestDifference(windw, request, "windw", statement(std::string("expect_call windw ") + keys).keys);
-  };
-  EXPECT_EQ(difference("data=-2"), "");
-  EXPECT_EQ(difference("data=0xFFFE"), "");
-  EXPECT_NE(difference("data=0xFFFF"), "");
-  EXPECT_NE(difference("function=5"), "") << "the others compare as they are";
-  request.args[1] = 4;
-  EXPECT_NE(difference("data=0xFFFE"), "");
-  EXPECT_EQ(difference("data=4294967294"), "");
-  request.args[1] = 0;
-  EXPECT_NE(difference("data=4294967294"), "") << "no length";
-  request.args[1] = 8;
-  EXPECT_EQ(difference("data=-2"), "");
-}
-
-TEST(ScenarioServices, KeysAreThoseOfTheService) {
-  const ServiceSignature windr("windr function length -> end data");
-  const Statement good = statement("prepare windr function=1 LENGTH=2 -> end=0 error=1");
-  EXPECT_EQ(keyProblem(windr, good.keys, good.results), "");
-  const Statement argument = statement("prepare windr data=1 -> end=0");
-  EXPECT_EQ(keyProblem(windr, argument.keys, argument.results), "windr has no argument 'data'");
-  const Statement result = statement("prepare windr function=1 -> function=1");
-  EXPECT_EQ(keyProblem(windr, result.keys, result.results), "windr has no result 'function'");
 }
 
 } // namespace

@@ -9,7 +9,7 @@
 namespace rung::nc::nct {
 
 Simulator::Simulator()
-    : topics_{&parameters_, &nvram_,    &spindles_,         &axes_,  &macros_, &screen_,
+    : topics_{&parameters_, &nvram_,    &spindles_,         &axes_,  &macros_, &screen_, &network_, &mailbox_,
               &drives_,     &channels_, &programSelection_, &tools_, &pallets_},
       waiting_(rt::ServiceQueue::kMaxPending) {}
 
@@ -71,7 +71,7 @@ void Simulator::powerOn(host::Instance& instance, PowerOn kind) {
   attach(instance);
   findServices(instance.program());
   waitingCount_ = 0;
-  control_.nowUs = instance.nowUs();
+  control_.nowUs = sliceUs_ = instance.nowUs();
   control_.sliceUs = 0;
   for (Topic* topic : topics_) {
     topic->dropRequests();
@@ -80,8 +80,8 @@ void Simulator::powerOn(host::Instance& instance, PowerOn kind) {
 }
 
 void Simulator::timeSlice(host::Instance& instance, bool cycle) {
-  control_.sliceUs = instance.nowUs() - control_.nowUs;
-  control_.nowUs = instance.nowUs();
+  control_.sliceUs = instance.nowUs() - sliceUs_;
+  control_.nowUs = sliceUs_ = instance.nowUs();
   if (cycle)
     for (Topic* topic : topics_) topic->cycle();
   for (Topic* topic : topics_) topic->timeSlice();
@@ -160,19 +160,23 @@ std::optional<int32_t> Simulator::execute(const rt::ServiceRequest& request) {
 }
 
 void Simulator::betweenScans(host::Instance& instance) {
-  while (waitingCount_ < waiting_.size() && instance.services().take(waiting_[waitingCount_])) ++waitingCount_;
+  control_.nowUs = instance.nowUs();
+  while (waitingCount_ < waiting_.size() && instance.services().take(waiting_[waitingCount_].request))
+    waiting_[waitingCount_++].sinceUs = control_.nowUs;
   uint32_t left = 0;
   for (uint32_t i = 0; i < waitingCount_; ++i) {
-    rt::ServiceReply reply{.ticket = waiting_[i].ticket};
+    const rt::ServiceRequest& request = waiting_[i].request;
+    control_.requestAgeUs = control_.nowUs - waiting_[i].sinceUs;
+    rt::ServiceReply reply{.ticket = request.ticket};
     Outcome outcome = Outcome::Done;
-    const Service service = serviceOf(waiting_[i]);
+    const Service service = serviceOf(request);
     if (service == Service::Mr || service == Service::Mw) {
-      const std::optional<int32_t> code = execute(waiting_[i]);
+      const std::optional<int32_t> code = execute(request);
       reply.resultCount = 1;
       reply.results[0] = code.value_or(0);
       if (!code) outcome = Outcome::Later;
     } else {
-      outcome = answer(service, waiting_[i].args, reply);
+      outcome = answer(service, request.args, reply);
     }
     if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
     if (outcome == Outcome::Later)

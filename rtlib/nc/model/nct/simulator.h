@@ -9,6 +9,8 @@
 #include "rtlib/nc/model/nct/channels.h"
 #include "rtlib/nc/model/nct/drives.h"
 #include "rtlib/nc/model/nct/macros.h"
+#include "rtlib/nc/model/nct/mailbox.h"
+#include "rtlib/nc/model/nct/network.h"
 #include "rtlib/nc/model/nct/nvram.h"
 #include "rtlib/nc/model/nct/pallet_management.h"
 #include "rtlib/nc/model/nct/parameters.h"
@@ -65,6 +67,8 @@ private:
   Screen screen_{control_};
   Drives drives_{control_};
   Scope scope_{control_};
+  Network network_{control_};
+  Mailbox mailbox_{control_};
   Channels channels_{control_};
   ProgramSelection programSelection_{control_};
   ToolManagement tools_{control_};
@@ -73,8 +77,13 @@ private:
 
   std::vector<Service> services_; // by rung_program::services
   std::span<uint8_t> blocks_;     // the space @MB
-  std::vector<rt::ServiceRequest> waiting_; // oldest first; room for all that can be pending
+  struct Waiting {
+    rt::ServiceRequest request;
+    int64_t sinceUs = 0;
+  };
+  std::vector<Waiting> waiting_; // oldest first; room for all that can be pending
   uint32_t waitingCount_ = 0;
+  int64_t sliceUs_ = 0; // the clock at the last time slice
   std::array<uint32_t, kBlockStride> words_{}; // the block that is being worked on
 };
 

@@ -52,7 +52,7 @@ ValueId lowerAxisCommand(Lowering& box) {
     return guarded(box, valid, [&] {
       const ValueId empty = axisSignal(box, "AN_BEPTY", axis);
       b.if_(empty);
-      const auto bits = [&](ValueId real) { return b.op(OpCode::FToBits, Type::F64, {real}); };
+      const auto bits = [&](ValueId real) { return b.op(OpCode::FToBits, Type::I64, {real}); };
       const ValueId args[] = {b.zextOrTrunc(Type::I64, axis), b.zextOrTrunc(Type::I64, code), bits(speed),
                               bits(distance)};
       const ValueId ticket = b.serviceRequest(box.shared.service("MOVCMND axis code speed:f distance:f"), args);

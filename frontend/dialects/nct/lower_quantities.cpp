@@ -194,7 +194,7 @@ ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
   }
   const bool isBit = source == ScopeSource::PlcBit || source == ScopeSource::DirectPlcBit;
   const ValueId integer = isBit ? b.zextOrTrunc(Type::I32, box.memory.loadBit(place)) : box.memory.loadWord(place);
-  return b.op(OpCode::IntToF, Type::I32, {integer});
+  return b.op(OpCode::IntToF, Type::F64, {integer});
 }
 
 } // namespace

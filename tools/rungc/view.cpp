@@ -39,9 +39,8 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
   if (module == nullptr || diagnostics.hasErrors()) return std::nullopt;
   const auto ladders = laddersOf(*dialect, sources, files, compile, diagnostics);
   if (!ladders) return std::nullopt;
-  std::string title;
-  for (FileId file : files) title += (title.empty() ? "" : ", ") + std::string(sources.name(file));
-  return view::readProgram(sources, {dialect, module.get(), ladders->files, ladders->networks, title});
+  return view::readProgram(sources,
+                           {dialect, module.get(), ladders->files, ladders->networks, {files.begin(), files.end()}});
 }
 
 // The file is there when it is whole: what a failure leaves behind goes.

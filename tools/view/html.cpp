@@ -17,8 +17,6 @@ void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-constexpr int kWide = 1200; // pixels: drawings that get a page across
-
 class Page {
 public:
   explicit Page(const Program& program) : program_(program), rail_(commonRail(program)) {}
@@ -44,7 +42,8 @@ void Page::head() {
   const std::string title = escaped(program_.title);
   put(out_, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
   put(out_, "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n", title);
-  put(out_, "<style>{}{}</style>\n</head>\n<body>\n", kPageStyle, pictureStyle());
+  put(out_, "<style>{}{}figcaption{{max-width:{}px}}</style>\n</head>\n<body>\n", kPageStyle, pictureStyle(),
+      rail_ + kMargin);
   put(out_, "<h1>{}</h1>\n<p>{}, {} rung{}</p>\n", title, escaped(program_.control), program_.figures.size(),
       program_.figures.size() == 1 ? "" : "s");
 }
@@ -87,10 +86,9 @@ void Page::block(const Block& block, size_t index) {
 
 void Page::figure(const Figure& figure) {
   const Picture picture = layOut(figure.sheet, rail_);
-  const bool wide = picture.width > kWide;
   const int height = picture.height + 40 + static_cast<int>(figure.comments.size()) * 20;
-  put(out_, "<figure class=\"R{}\" id=\"r{}\" style=\"contain-intrinsic-size:auto {}px auto {}px\"><figcaption><b>{}</b>",
-      wide ? " L" : "", figure.number, picture.width, height, figure.number);
+  put(out_, "<figure class=\"R\" id=\"r{}\" style=\"contain-intrinsic-size:auto {}px auto {}px\"><figcaption><b>{}</b>",
+      figure.number, picture.width, height, figure.number);
   put(out_, "<span>{}</span><i class=\"f\">{}</i></figcaption>", escaped(figure.title), escaped(textOf(figure.place)));
   for (const std::string& comment : figure.comments) put(out_, "<p>{}</p>", escaped(comment));
   put(out_, "<svg role=\"img\" aria-label=\"{0}\" width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\">",
@@ -125,7 +123,7 @@ void Page::row(const NameRow& row, bool withWrites) {
 void Page::table(const NameTable& table, size_t index) {
   put(out_, "<h2 id=\"t{}\">{}</h2>\n<table><thead><tr>", index, escaped(table.title));
   out_ += table.texts ? "<th>Number</th><th>Text</th><th>Comment</th><th>Shown in rung</th>"
-                : "<th>Name</th><th>Address</th><th>Comment</th><th>Written in rung</th><th>Read in rung</th>";
+                      : "<th>Name</th><th>Address</th><th>Comment</th><th>Written in rung</th><th>Read in rung</th>";
   out_ += "</tr></thead><tbody>\n";
   for (const NameRow& one : table.rows) row(one, !table.texts);
   out_ += "</tbody></table>\n";

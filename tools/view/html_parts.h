@@ -18,7 +18,7 @@ p.C{white-space:pre-line;margin:12px 0 4px}
 .f{font-size:12px;color:#555}
 .R{margin:0;padding:14px 0 0;content-visibility:auto;overflow-x:auto}
 .R:target{background:#fff7d6}
-figcaption{display:flex;gap:12px;align-items:baseline;max-width:60em;font-size:15px}
+figcaption{display:flex;gap:12px;align-items:baseline;font-size:15px}
 figcaption b{min-width:28px}
 figcaption span{font-weight:bold;flex:1}
 figcaption .f{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace}
@@ -36,13 +36,10 @@ tr:target{background:#fff7d6}
 .J .n text{cursor:pointer}
 @media print{
 @page{margin:12mm}
-@page wide{size:landscape}
 body{padding:0;font-size:12px}
 #find,nav{display:none}
 .R{content-visibility:visible;break-inside:avoid;overflow:visible}
 .R svg{max-width:100%;max-height:245mm;height:auto}
-.L{page:wide}
-.L svg{max-height:165mm}
 h2,h3,p.C{break-after:avoid}
 tr{break-inside:avoid}
 thead{display:table-header-group}

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string_view>
 
+#include "tools/view/cuts.h"
+
 namespace rung::view {
 namespace {
 
@@ -13,17 +15,21 @@ using Kind = Cell::Kind;
 constexpr int kCellWidth = 96;  // of a contact, at least
 constexpr int kCoilWidth = 128; // so that coils stand below each other
 constexpr int kGrid = 16;
-constexpr int kNoteWidth = 112; // of the comment at a contact
-constexpr int kSide = 14;       // between the texts of neighbours
-constexpr int kPad = 8;         // in boxes
-constexpr int kHead = 20;       // bar of a box
+constexpr int kNoteWidth = 112;  // of the comment at a contact
+constexpr size_t kManyLines = 3; // of a comment, then it becomes wider
+constexpr int kWideNote = 160;
+constexpr int kSide = 14; // between the texts of neighbours
+constexpr int kPad = 8;   // in boxes
+constexpr int kHead = 20; // bar of a box
 constexpr int kBoxNoteWidth = 230;
+constexpr int kAlignedBox = 400; // wider ones do not pull the others along
 constexpr int kRowGap = 8;
 constexpr int kRemarkGap = 14;
+constexpr int kBare = 2; // half the height of a row with nothing but vertical wires
+constexpr int kBandGap = 14;
 constexpr int kEnd = 16; // between what closes a branch and the right rail
 
 constexpr Style kLabel = Style::Label;
-
 
 // What is known of a cell before it has a place.
 struct Measure {
@@ -43,6 +49,12 @@ struct Height {
   int below = 0;
 };
 
+// A row in one of the bands that it has a part in.
+struct BandRow {
+  uint32_t band = 0;
+  int wire = 0; // y
+};
+
 int roundUp(int value, int step) { return (value + step - 1) / step * step; }
 
 int noteWidth(const std::vector<std::string>& lines, Style style) {
@@ -53,8 +65,9 @@ int noteWidth(const std::vector<std::string>& lines, Style style) {
 
 class Layout {
 public:
-  explicit Layout(const Sheet& sheet) : sheet_(sheet), left_(sheet.cells.size()) {
+  explicit Layout(const Sheet& sheet) : sheet_(sheet), left_(sheet.cells.size()), bands_(sheet.cells.size()) {
     for (const Cell& cell : sheet.cells) measures_.push_back(measure(cell));
+    alignBoxes();
     placeColumns();
   }
 
@@ -65,14 +78,24 @@ private:
   Measure measure(const Cell& cell) const;
   Measure measureSymbol(const Cell& cell) const;
   Measure measureBox(const Cell& cell) const;
+  bool isClosingBox(size_t cell) const { return sheet_.cells[cell].closing && sheet_.cells[cell].kind == Kind::Box; }
   int gap(const Cell& left, const Cell& right) const;
+  void alignBoxes();
   void placeColumns();
+  void cut(int rail);
+  std::vector<int> widths() const;
   void alignRight();
   void placeRows();
-  Height rowHeight(const Row& row, uint32_t index) const;
+  void addBandRows(uint32_t row);
+  Height rowHeight(uint32_t row, uint32_t band, int wire) const;
+  int boxBelow(uint32_t cell, uint32_t row, int wire) const;
+  size_t bandIndex(uint32_t row, uint32_t band) const;
+  int wireIn(uint32_t band, uint32_t row) const { return rows_[row][bandIndex(row, band)].wire; }
+  int wireOf(uint32_t cell, uint32_t row) const { return wireIn(bands_[cell], row); }
 
   void draw();
   void drawRow(uint32_t row);
+  void drawWire(uint32_t row, uint32_t left, uint32_t right);
   void drawRemark(uint32_t row);
   void drawJoint(uint32_t cell);
   void drawSymbol(uint32_t cell);
@@ -87,9 +110,13 @@ private:
 
   const Sheet& sheet_;
   std::vector<Measure> measures_;
-  std::vector<int> left_; // by cell
-  std::vector<int> wire_; // by row: y
+  std::vector<int> left_;       // by cell
+  std::vector<uint32_t> bands_; // by cell
+  uint32_t bandCount_ = 1;
+  std::vector<std::vector<BandRow>> rows_; // by row, its bands from left to right
   int rail_ = 0;
+  int y_ = 2;
+  int jumps_ = 0;
   Picture picture_;
 };
 
@@ -100,6 +127,7 @@ Measure Layout::measureSymbol(const Cell& cell) const {
   if (letters) m.symbol = std::max(m.symbol, widthOf(cell.mark, Style::Mark) + (cell.kind == Kind::Coil ? 14 : 8));
   const int name = widthOf(cell.operand.name, Style::Name);
   m.note = wrap(cell.operand.note, Style::Note, std::max(kNoteWidth, name));
+  if (m.note.size() > kManyLines) m.note = wrap(cell.operand.note, Style::Note, std::max(kWideNote, name));
   const int texts =
       std::max({name, widthOf(cell.operand.address, Style::Address), noteWidth(m.note, Style::Note), m.symbol + 12});
   const int least = cell.kind == Kind::Coil ? kCoilWidth : kCellWidth;
@@ -148,6 +176,15 @@ int Layout::gap(const Cell& left, const Cell& right) const {
   return narrow(left) || narrow(right) ? 4 : 0;
 }
 
+// Boxes at the right rail are as wide as the widest of them, so that their left sides stand below each other.
+void Layout::alignBoxes() {
+  int widest = 0;
+  for (size_t i = 0; i < measures_.size(); ++i)
+    if (isClosingBox(i) && measures_[i].width <= kAlignedBox) widest = std::max(widest, measures_[i].width);
+  for (size_t i = 0; i < measures_.size(); ++i)
+    if (isClosingBox(i)) measures_[i].width = std::max(measures_[i].width, widest);
+}
+
 // Every cell as far left as the cells in front of it in its rows allow.
 void Layout::placeColumns() {
   std::vector<uint32_t> order(sheet_.cells.size());
@@ -170,6 +207,31 @@ void Layout::placeColumns() {
   rail_ = roundUp(rail_, kGrid);
 }
 
+std::vector<int> Layout::widths() const {
+  std::vector<int> result;
+  for (const Measure& m : measures_) result.push_back(m.width);
+  return result;
+}
+
+// Cuts what is too wide, from left to right.
+void Layout::cut(int rail) {
+  if (rail_ <= rail) {
+    rail_ = rail;
+    return;
+  }
+  const Cuts cuts = chooseCuts(sheet_, left_, widths(), rail_, rail);
+  int needed = rail;
+  for (uint32_t cell = 1; cell < left_.size(); ++cell) {
+    const auto at = std::upper_bound(cuts.begin(), cuts.end(), left_[cell]);
+    bands_[cell] = static_cast<uint32_t>(at - cuts.begin());
+    if (bands_[cell] > 0) left_[cell] += kBandStart - cuts[bands_[cell] - 1];
+    const bool coil = sheet_.cells[cell].kind == Kind::Coil;
+    needed = std::max(needed, left_[cell] + measures_[cell].width + (coil ? 0 : kEnd));
+  }
+  bandCount_ = static_cast<uint32_t>(cuts.size() + 1);
+  rail_ = roundUp(needed, kGrid);
+}
+
 void Layout::alignRight() {
   for (uint32_t cell = 0; cell < sheet_.cells.size(); ++cell) {
     const Cell& here = sheet_.cells[cell];
@@ -177,34 +239,69 @@ void Layout::alignRight() {
   }
 }
 
-Height Layout::rowHeight(const Row& row, uint32_t index) const {
-  Height height{kSymbolHalf, kSymbolHalf};
-  for (const Stop& stop : row.stops) {
+size_t Layout::bandIndex(uint32_t row, uint32_t band) const {
+  const std::vector<BandRow>& bands = rows_[row];
+  const auto at = std::lower_bound(bands.begin(), bands.end(), band,
+                                   [](const BandRow& one, uint32_t wanted) { return one.band < wanted; });
+  return static_cast<size_t>(at - bands.begin());
+}
+
+// The bands that the row has stops or wires in.
+void Layout::addBandRows(uint32_t row) {
+  std::vector<BandRow>& bands = rows_.emplace_back();
+  uint32_t before = 0;
+  for (const Stop& stop : sheet_.rows[row].stops) {
+    const uint32_t band = bands_[stop.cell];
+    for (uint32_t i = stop.joined ? before + 1 : band; i < band; ++i) bands.push_back({i, 0});
+    if (bands.empty() || bands.back().band != band) bands.push_back({band, 0});
+    before = band;
+  }
+}
+
+// What a box needs below the wire of its last row.
+int Layout::boxBelow(uint32_t cell, uint32_t row, int wire) const {
+  const Cell& box = sheet_.cells[cell];
+  const int done = row == box.firstRow ? 0 : wire - wireOf(cell, box.firstRow);
+  return measures_[cell].body + kHead - measures_[cell].above - done;
+}
+
+// `wire` is known for the height below only.
+Height Layout::rowHeight(uint32_t row, uint32_t band, int wire) const {
+  Height height{kBare, kBare};
+  for (const Stop& stop : sheet_.rows[row].stops) {
+    if (bands_[stop.cell] != band) continue;
     const Cell& cell = sheet_.cells[stop.cell];
     const Measure& m = measures_[stop.cell];
-    if (cell.firstRow == index) height.above = std::max(height.above, m.above);
-    height.below = std::max(height.below, m.below);
-    if (cell.kind == Kind::Box && cell.lastRow == index) {
-      const int done = index == cell.firstRow ? 0 : wire_[index] - wire_[cell.firstRow];
-      height.below = std::max(height.below, m.body + kHead - m.above - done);
-    }
+    const bool solid = stop.joined || (cell.kind != Kind::Joint && cell.kind != Kind::Rail);
+    height.above = std::max({height.above, solid ? kSymbolHalf : 0, cell.firstRow == row ? m.above : 0});
+    height.below = std::max({height.below, solid ? kSymbolHalf : 0, m.below});
+    if (cell.kind == Kind::Box && cell.lastRow == row)
+      height.below = std::max(height.below, boxBelow(stop.cell, row, wire));
   }
-  const int remark = static_cast<int>(remarkLines(row).size()) * lineHeight(Style::Remark) +
-                     static_cast<int>(useLines(row).size()) * lineHeight(Style::Uses);
+  if (rows_[row].back().band != band) return height;
+  const int remark = static_cast<int>(remarkLines(sheet_.rows[row]).size()) * lineHeight(Style::Remark) +
+                     static_cast<int>(useLines(sheet_.rows[row]).size()) * lineHeight(Style::Uses);
+  height.above = std::max(height.above, remark > 0 ? kSymbolHalf : 0);
   height.below = std::max(height.below, remark);
   return height;
 }
 
 // The wire of a row is known before the height below it, which depends on where the boxes that end there begin.
 void Layout::placeRows() {
-  int y = 2;
+  std::vector<std::vector<uint32_t>> rowsOf(bandCount_);
   for (uint32_t row = 0; row < sheet_.rows.size(); ++row) {
-    wire_.push_back(0);
-    const int above = rowHeight(sheet_.rows[row], row).above;
-    wire_[row] = y + above;
-    y = wire_[row] + rowHeight(sheet_.rows[row], row).below + kRowGap;
+    addBandRows(row);
+    for (const BandRow& part : rows_[row]) rowsOf[part.band].push_back(row);
   }
-  picture_.height = y;
+  for (uint32_t band = 0; band < bandCount_; ++band) {
+    if (band > 0) y_ += kBandGap;
+    for (uint32_t row : rowsOf[band]) {
+      const int wire = y_ + rowHeight(row, band, 0).above;
+      rows_[row][bandIndex(row, band)].wire = wire;
+      y_ = wire + rowHeight(row, band, wire).below + kRowGap;
+    }
+  }
+  picture_.height = y_;
 }
 
 int Layout::leftPort(uint32_t cell) const {
@@ -221,14 +318,30 @@ void Layout::text(int x, int y, Anchor anchor, Style style, std::string_view tex
   if (!text.empty()) picture_.texts.push_back({{x, y}, anchor, style, std::string(text)});
 }
 
+// From cell to cell, over the ends of bands.
+void Layout::drawWire(uint32_t row, uint32_t left, uint32_t right) {
+  int x = rightPort(left);
+  for (uint32_t band = bands_[left]; band < bands_[right]; ++band) {
+    const Point end{rail_ - kBandEnd, wireIn(band, row)};
+    const Point start{kBandWire, wireIn(band + 1, row)};
+    const std::string number = std::to_string(++jumps_);
+    picture_.wires.push_back({{x, end.y}, end});
+    picture_.jumps.push_back({end, start});
+    text(end.x + 3, end.y + 4, Anchor::Start, Style::Pin, "\u2192" + number);
+    text(start.x - 3, start.y + 4, Anchor::End, Style::Pin, number + "\u2192");
+    x = start.x;
+  }
+  const int y = wireOf(right, row);
+  picture_.wires.push_back({{x, y}, {leftPort(right), y}});
+}
+
 void Layout::drawRow(uint32_t row) {
   const std::vector<Stop>& stops = sheet_.rows[row].stops;
-  const int y = wire_[row];
   for (size_t i = 0; i < stops.size(); ++i) {
     const Cell& cell = sheet_.cells[stops[i].cell];
-    if (stops[i].joined) picture_.wires.push_back({{rightPort(stops[i - 1].cell), y}, {leftPort(stops[i].cell), y}});
-    if (cell.closing && cell.firstRow == row)
-      picture_.wires.push_back({{rightPort(stops[i].cell), y}, {rail_, y}});
+    const int y = wireOf(stops[i].cell, row);
+    if (stops[i].joined) drawWire(row, stops[i - 1].cell, stops[i].cell);
+    if (cell.closing && cell.firstRow == row) picture_.wires.push_back({{rightPort(stops[i].cell), y}, {rail_, y}});
     if (cell.kind != Kind::Joint) continue;
     const bool right = i + 1 < stops.size() && stops[i + 1].joined;
     const int ways = stops[i].joined + right + (row > cell.firstRow) + (row < cell.lastRow);
@@ -237,8 +350,9 @@ void Layout::drawRow(uint32_t row) {
 }
 
 void Layout::drawRemark(uint32_t row) {
+  if (rows_[row].empty()) return;
   const int x = rail_ + kRemarkGap;
-  int y = wire_[row] + 4;
+  int y = rows_[row].back().wire + 4;
   for (const std::string& line : remarkLines(sheet_.rows[row])) {
     text(x, y, Anchor::Start, Style::Remark, line);
     y += lineHeight(Style::Remark);
@@ -251,13 +365,13 @@ void Layout::drawRemark(uint32_t row) {
 
 void Layout::drawJoint(uint32_t cell) {
   const Cell& here = sheet_.cells[cell];
-  picture_.wires.push_back({{left_[cell], wire_[here.firstRow]}, {left_[cell], wire_[here.lastRow]}});
+  picture_.wires.push_back({{left_[cell], wireOf(cell, here.firstRow)}, {left_[cell], wireOf(cell, here.lastRow)}});
 }
 
 void Layout::drawSymbol(uint32_t cell) {
   const Cell& here = sheet_.cells[cell];
   const Measure& m = measures_[cell];
-  const int y = wire_[here.firstRow];
+  const int y = wireOf(cell, here.firstRow);
   const int middle = left_[cell] + m.width / 2;
   const bool slash = here.mark == "/";
   picture_.symbols.push_back(
@@ -285,13 +399,13 @@ int Layout::drawOperand(const Operand& operand, const std::vector<std::string>& 
 void Layout::drawBox(uint32_t cell) {
   const Cell& here = sheet_.cells[cell];
   const Measure& m = measures_[cell];
-  const int top = wire_[here.firstRow] - m.above;
+  const int top = wireOf(cell, here.firstRow) - m.above;
   const int x = left_[cell];
-  const int bottom = std::max(top + kHead + m.body, wire_[here.lastRow] + kSymbolHalf);
+  const int bottom = std::max(top + kHead + m.body, wireOf(cell, here.lastRow) + kSymbolHalf);
   picture_.frames.push_back({{x, top}, m.width, bottom - top, kHead});
   text(x + m.width / 2, top + 15, Anchor::Middle, Style::Title, here.title);
   for (uint32_t i = 0; i < here.pins.size(); ++i)
-    text(x + 5, wire_[here.firstRow + i] + 4, Anchor::Start, Style::Pin, here.pins[i]);
+    text(x + 5, wireOf(cell, here.firstRow + i) + 4, Anchor::Start, Style::Pin, here.pins[i]);
   int y = top + kHead + lineHeight(Style::Name);
   const int label = x + kPad + m.pins;
   for (size_t i = 0; i < here.operands.size(); ++i)
@@ -315,7 +429,7 @@ void Layout::draw() {
 }
 
 Picture Layout::run(int rail) {
-  rail_ = std::max(rail_, rail);
+  cut(rail);
   alignRight();
   placeRows();
   draw();

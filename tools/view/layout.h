@@ -1,8 +1,10 @@
-// The geometry of a rung: a sheet of cells to lines, symbols and texts at places. Pure functions, linear in the cells (but
-// for a sort); the writers only print what they give.
+// The geometry of a rung: a sheet of cells to lines, symbols and texts at places. Pure functions, linear in the cells
+// (but for a sort); the writers only print what they give.
 //
-// Rows keep the order of the source and are as high as what stands in them. Cells go from left to right as far as the cells
-// on their left make room; a joint stands in one place in all its rows. What closes a branch stands at the right rail.
+// Rows keep the order of the source and are as high as what stands in them. Cells go from left to right as far as the
+// cells on their left make room; a joint stands in one place in all its rows. What closes a branch stands at the right
+// rail. A rung that is wider than the rails allow is cut between its cells into bands, one below the other; a wire that
+// was cut ends at a number and goes on behind the same number.
 #pragma once
 #include <string>
 #include <vector>
@@ -47,11 +49,18 @@ struct Text {
   std::string text;
 };
 
+// A wire that was cut: its end, and where it goes on.
+struct Jump {
+  Point from;
+  Point to;
+};
+
 struct Picture {
   int width = 0; // of everything
   int height = 0;
   int rail = 0; // x of the right rail; the left one is at kLeft
   std::vector<Line> wires;
+  std::vector<Jump> jumps;
   std::vector<Point> dots; // where three wires meet
   std::vector<Symbol> symbols;
   std::vector<Frame> frames;
@@ -62,9 +71,9 @@ inline constexpr int kLeft = 8;        // x of the left rail
 inline constexpr int kSymbolHalf = 11; // half the height of a contact or coil
 inline constexpr int kMargin = 190;    // for remarks, right of the right rail
 
-// The place of the right rail that the sheet needs.
+// The place of the right rail that the sheet needs when it is not cut.
 int neededRail(const Sheet& sheet);
-// `rail`: where the right rail should be; it goes further to the right when the sheet needs it.
+// `rail`: where the right rail should be; it goes further to the right where no cut helps.
 Picture layOut(const Sheet& sheet, int rail);
 
 } // namespace rung::view

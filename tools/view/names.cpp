@@ -24,8 +24,7 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 } // namespace
 
-Names::Names(const frontend::Dialect& dialect, const ir::Module& module,
-             const std::vector<ladder::LadderFile>& files)
+Names::Names(const frontend::Dialect& dialect, const ir::Module& module, const std::vector<ladder::LadderFile>& files)
     : gsk_(&dialect == &gsk::kGsk) {
   for (const ladder::LadderFile& file : files)
     for (const ladder::Declaration& declaration : file.declarations)

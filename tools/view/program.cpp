@@ -31,6 +31,18 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
+// Without the ruling lines that authors frame comments with, `--- inputs -------`.
+std::string_view plain(std::string_view text) {
+  constexpr std::string_view kRuling = "-=*#~_+";
+  const auto isRuling = [&](std::string_view run) { return run.size() > 2; };
+  const size_t first = std::min(text.find_first_not_of(kRuling), text.size());
+  if (isRuling(text.substr(0, first))) text.remove_prefix(first);
+  const size_t last = text.find_last_not_of(kRuling);
+  const size_t end = last == std::string_view::npos ? 0 : last + 1;
+  if (isRuling(text.substr(end))) text = text.substr(0, end);
+  return trimmed(text);
+}
+
 // A number as messages are counted by, without leading zeros.
 std::string plainNumber(std::string_view text) {
   const size_t first = text.find_first_not_of('0');
@@ -93,6 +105,8 @@ private:
   void add(Block::Kind kind, std::string text, std::string_view remark, Place place) {
     program_.blocks.push_back({kind, std::move(text), std::string(remark), std::move(place), 0});
   }
+  void nameFiles();
+  std::string nameOf(FileId file) const;
   Place placeOf(const LadderFile& file, uint32_t line) const;
   Place placeOfRung(const LadderFile& file, const ladder::Rung& rung) const;
   bool converted() const { return !input_.origins.empty(); }
@@ -103,6 +117,7 @@ private:
   std::vector<LadderFile> files_;
   std::optional<Names> names_;
   Texts texts_;
+  std::vector<std::string> fileNames_; // of the author's files, as short as they are told apart
   Program program_;
   UseList uses_;
   std::vector<CoilRow> coils_;
@@ -128,21 +143,41 @@ void Reader::readTexts() {
   }
 }
 
+void Reader::nameFiles() {
+  std::map<std::string, int> known;
+  const auto baseOf = [&](FileId file) {
+    const std::string_view name = sources_.name(file);
+    return std::string(name.substr(name.find_last_of('/') + 1)); // all of it without a '/'
+  };
+  for (FileId file : input_.authors) ++known[baseOf(file)];
+  for (FileId file : input_.authors) {
+    std::string& name = fileNames_.emplace_back(baseOf(file));
+    if (known[name] > 1) name = sources_.name(file);
+    program_.title += (program_.title.empty() ? "" : ", ") + name;
+  }
+}
+
+std::string Reader::nameOf(FileId file) const {
+  const auto at = std::find(input_.authors.begin(), input_.authors.end(), file);
+  return fileNames_[static_cast<size_t>(at - input_.authors.begin())];
+}
+
 Place Reader::placeOf(const LadderFile& file, uint32_t line) const {
   if (converted()) return {};
-  return {std::string(sources_.name(file.file)), line};
+  return {nameOf(file.file), line};
 }
 
 Place Reader::placeOfRung(const LadderFile& file, const ladder::Rung& rung) const {
   if (!converted()) return placeOf(file, rung.firstLine);
-  const LineCol at = sources_.lineCol(input_.origins[program_.figures.size()].begin);
-  return {std::string(at.file), at.line};
+  const SourcePos at = input_.origins[program_.figures.size()].begin;
+  return {nameOf(sources_.fileOf(at)), sources_.lineCol(at).line};
 }
 
 // A conversion's hint at what only a command list can say is no comment of the author.
 void Reader::comment(std::string_view text) {
   if (converted() && gsk::parseBlocksHint(text)) return;
-  comments_.append(text).push_back('\n');
+  text = plain(text);
+  if (!text.empty()) comments_.append(text).push_back('\n');
 }
 
 void Reader::flushComments(const Place& place) {
@@ -221,7 +256,7 @@ void Reader::readFile(const LadderFile& file) {
   nextStatement_ = 0;
   nextRung_ = 0;
   comments_.clear();
-  if (input_.files.size() > 1) add(Block::Kind::File, std::string(sources_.name(file.file)), {}, {});
+  if (input_.files.size() > 1) add(Block::Kind::File, nameOf(file.file), {}, {});
   LineReader lines(sources_, file.file);
   for (SourceLine line; lines.next(line);) readLine(file, line);
   flushComments({});
@@ -235,7 +270,7 @@ void Reader::fillCoils() {
     size_t count = 0;
     for (const Use& use : entry->uses) {
       if (use.writes) continue;
-      if (++count <= kUsesShown) text.append(text.empty() ? "\u2192 " : ", ").append(std::to_string(use.rung));
+      if (++count <= kUsesShown) text.append(text.empty() ? "read in " : ", ").append(std::to_string(use.rung));
     }
     if (count > kUsesShown) text += fmt::format(" and {} more", count - kUsesShown);
     program_.figures[coil.figure].sheet.rows[coil.row].uses = std::move(text);
@@ -247,8 +282,10 @@ void Reader::addMessageTable(DeclarationKind kind, std::string_view title) {
   for (const LadderFile& file : files_) {
     for (const Declaration& declaration : file.declarations) {
       if (declaration.kind != kind) continue;
-      NameRow row{std::string(declaration.name.text), std::string(declaration.value.text),
-                  std::string(declaration.comment), {}};
+      NameRow row{std::string(declaration.name.text),
+                  std::string(declaration.value.text),
+                  std::string(declaration.comment),
+                  {}};
       const bool message = kind == DeclarationKind::Message;
       if (const auto* entry = message ? uses_.find(messageKey(plainNumber(declaration.name.text))) : nullptr)
         row.uses = entry->uses;
@@ -274,16 +311,14 @@ void Reader::addNameTables() {
     if (taken.contains(entry.named.key) || entry.named.key.starts_with("message ")) continue;
     others.rows.push_back({entry.name, entry.named.address, entry.named.comment, entry.uses});
   }
-  std::sort(others.rows.begin(), others.rows.end(),
-            [](const NameRow& a, const NameRow& b) { return a.name < b.name; });
+  std::sort(others.rows.begin(), others.rows.end(), [](const NameRow& a, const NameRow& b) { return a.name < b.name; });
   if (!others.rows.empty()) program_.tables.push_back(std::move(others));
 }
 
 Program Reader::run() {
   Diagnostics unheard; // reported when the program was compiled
-  for (FileId file : input_.files)
-    files_.push_back(ladder::parseLadder(sources_, file, unheard, rows_.furtherPins()));
-  program_.title = input_.title;
+  for (FileId file : input_.files) files_.push_back(ladder::parseLadder(sources_, file, unheard, rows_.furtherPins()));
+  nameFiles();
   RUNG_CHECK(!unheard.hasErrors(), "the program has been compiled");
   program_.control = input_.dialect->title;
   names_.emplace(*input_.dialect, *input_.module, files_);

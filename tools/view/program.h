@@ -69,7 +69,7 @@ struct Input {
   const ir::Module* module = nullptr; // what the files compile to
   std::vector<FileId> files;          // ladder text without errors
   Origins origins;
-  std::string title; // names of the author's files
+  std::vector<FileId> authors; // the files that the reader knows
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);

@@ -219,7 +219,8 @@ Operand SheetDrawing::operandOf(const Word& word, const frontend::OperandInfo* i
     if (!text.empty()) operand.note = fmt::format("“{}”", text);
     onUse_({.named = {{}, {}, messageKey(number)}, .operand = word.text, .row = row});
   }
-  if (info->access == Access::Write || info->access == Access::ReadWrite) onUse_({.named = named, .operand = word.text, .writes = true, .row = row});
+  if (info->access == Access::Write || info->access == Access::ReadWrite)
+    onUse_({.named = named, .operand = word.text, .writes = true, .row = row});
   if (info->access != Access::Write) onUse_({.named = named, .operand = word.text, .row = row});
   return operand;
 }
@@ -240,7 +241,9 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
       continue;
     }
     const bool more = place >= known && known > 0 && info->operands[known - 1].repeated;
-    const frontend::OperandInfo* of = place < known ? &info->operands[place] : more ? &info->operands[known - 1] : nullptr;
+    const frontend::OperandInfo* of = place < known ? &info->operands[place]
+                                      : more        ? &info->operands[known - 1]
+                                                    : nullptr;
     Operand operand = operandOf(word, table ? nullptr : of, cell.firstRow);
     ++place;
     // Values of a table follow each other.

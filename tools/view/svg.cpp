@@ -11,7 +11,7 @@ namespace rung::view {
 namespace {
 
 constexpr int kLeastRail = 560;
-constexpr int kMostRail = 800; // wider drawings are wide alone
+constexpr int kMostRail = 800; // wider drawings are cut
 constexpr int kIndent = 24;    // of rungs below their captions
 
 template <class... Args>
@@ -164,7 +164,8 @@ std::string Poster::run() {
   std::string out;
   const int width = width_ + 8;
   const int height = y_ + 12;
-  put(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
+  put(out,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
       width, height);
   put(out, "<title>{}</title>\n<style>{}</style>\n", escaped(program_.title), pictureStyle());
   put(out, "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n{}</svg>\n", width, height, body_);
@@ -213,10 +214,9 @@ std::string pictureStyle() {
 }
 
 int commonRail(const Program& program) {
-  std::vector<int> rails;
-  for (const Figure& figure : program.figures) rails.push_back(neededRail(figure.sheet));
-  std::erase_if(rails, [](int rail) { return rail > kMostRail; });
-  return rails.empty() ? kLeastRail : std::max(kLeastRail, *std::max_element(rails.begin(), rails.end()));
+  int rail = kLeastRail;
+  for (const Figure& figure : program.figures) rail = std::max(rail, neededRail(figure.sheet));
+  return std::min(rail, kMostRail);
 }
 
 std::string nameOf(const Figure& figure) {

@@ -16,7 +16,7 @@ void appendPicture(std::string& out, const Picture& picture);
 // The rules of style that pictures need.
 std::string pictureStyle();
 
-// Where the right rail of most rungs stands.
+// Where the right rail of all rungs stands that can be cut to it.
 int commonRail(const Program& program);
 // "Rung 3: start/stop latch".
 std::string nameOf(const Figure& figure);

@@ -132,8 +132,11 @@ INSTANTIATE_TEST_SUITE_P(Operands, MainRung, ::testing::ValuesIn(std::vector<Run
     {"ConstantContact", "|--[#5]--(7001.00)", {"4:5 operand-not-register"}},
     {"UnknownInstruction", "|--[PEAR]--{FOO 7000}", {"4:13 unknown-instruction"}},
     {"ContactNameAsBox", "|--[PEAR]--{SET 7000.00}", {"4:13 unknown-instruction"}},
-    {"NotBuilt", "|--[PEAR]--{SIN 7000 *1.0}", {"4:13 not-built-yet"}},
-    {"NotBuiltButWrong", "|--[PEAR]--{SIN 7000 #1}", {"4:22 operand-type-mismatch"}},
+    {"DecimalForReal", "|--[PEAR]--{SIN 7000 #1}", {"4:22 operand-type-mismatch"}},
+    {"NoSuchQuantity", "|--[PEAR]--{SCP 7000 ActPos #1 #0}", {"4:22 unknown-scope-symbol"}},
+    {"AxisNumberOfQuantity", "|--[PEAR]--{SCP 7000 ActPosAx #33 #0}", {"4:31 constant-out-of-range"}},
+    {"FunctionOfTheOther", "|--[PEAR]--{MR 7000 #11}", {"4:21 unknown-function-code (w)"}},
+    {"BlockIsFlags", "|--[PEAR]--{MW FLAGS #11}", {"4:16 write-to-flags"}},
     {"AllWrong", "|--[PEAR]--{ADD #1 *2.0 NOWHERE}", {"4:17 operand-not-register", "4:20 operand-not-register", "4:25 undeclared-symbol"}},
 }), titleOf);
 

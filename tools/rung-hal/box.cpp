@@ -136,8 +136,10 @@ void Box::clearPins() noexcept {
 
 void Box::passMessages() noexcept {
   rung_message message;
-  for (uint32_t i = 0; i < rt::kMessageCapacity && instance_.messages().pop(message); ++i)
+  for (uint32_t i = 0; i < rt::kMessageCapacity && instance_.messages().pop(message); ++i) {
+    nc_->accept(message);
     if (sink_ != nullptr) sink_(instance_.program(), message);
+  }
 }
 
 } // namespace rung::hal

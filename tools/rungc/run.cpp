@@ -120,7 +120,7 @@ public:
   void realTime() {
     nc_.betweenSlices(instance_);
     const host::RealTimeStats stats = host::runRealTime(instance_, {}, [this] {
-      nc_.board().take(instance_);
+      nc_.takeMessages(instance_);
       scans_ += instance_.atListStart() ? 1 : 0;
       nc_.betweenSlices(instance_);
       look();

@@ -287,17 +287,21 @@ std::string Runner::expectValue(Lane& lane, const Statement& s) {
   return s.kind == Kind::ExpectRange ? checkRange(reading, s) : checkValue(reading, s);
 }
 
+// Of several messages with this number one must (or none may) have the properties.
 std::string Runner::expectMessage(Lane& lane, const Statement& s) {
   std::string seen;
+  std::string difference;
   for (const nc::ShownMessage& message : lane.nc->messages(*lane.instance)) {
     seen += fmt::format("{}{}", seen.empty() ? "" : ", ", message.number);
     if (message.number != s.number) continue;
-    const std::string difference = s.on ? messageDifference(message, s.keys) : std::string();
-    if (!difference.empty()) return difference;
-    return s.on ? std::string() : fmt::format("message {} is displayed", s.number);
+    std::string own = messageDifference(message, s.keys);
+    if (own.empty()) return s.on ? std::string() : fmt::format("message {} is displayed", s.number);
+    if (difference.empty()) difference = std::move(own);
   }
-  return s.on ? fmt::format("message {} is not displayed; there is {}", s.number, seen.empty() ? "none" : seen)
-              : std::string();
+  if (!s.on) return {};
+  return difference.empty()
+             ? fmt::format("message {} is not displayed; there is {}", s.number, seen.empty() ? "none" : seen)
+             : difference;
 }
 
 std::string Runner::expectLog(Lane& lane, const Statement& s) {

@@ -148,6 +148,12 @@ enum FunctionVariant : int {
   kLogarithm
 };
 ir::ValueId lowerFloatFunction(Lowering& box); // PWR to LOG
+
+// Bits of the variant.
+inline constexpr int kMessageOnScreen = 1;
+inline constexpr int kMessageToLog = 2;
+inline constexpr int kMessageOfReal = 4;
+ir::ValueId lowerMessage(Lowering& box);
 ir::ValueId lowerBin(Lowering& box);
 ir::ValueId lowerBcd(Lowering& box);
 ir::ValueId lowerFlt(Lowering& box);

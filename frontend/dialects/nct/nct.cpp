@@ -6,7 +6,9 @@
 
 #include "frontend/dialects/nct/build_module.h"
 #include "frontend/dialects/nct/checker.h"
+#include "frontend/dialects/nct/message_texts.h"
 #include "frontend/dialects/nct/structure.h"
+#include "rtlib/nc/nct/messages.h"
 
 namespace rung::nct {
 namespace {
@@ -55,7 +57,7 @@ public:
       for (const ladder::Declaration& declaration : file.declarations) switch (declaration.kind) {
         case ladder::DeclarationKind::Symbol:
         case ladder::DeclarationKind::Const: symbols_.declare(declaration); break;
-        case ladder::DeclarationKind::Message: addText(declaration, 999, 0); break;
+        case ladder::DeclarationKind::Message: addMessage(declaration); break;
         case ladder::DeclarationKind::Button: addText(declaration, 32, kButtonTexts); break;
         }
     symbols_.resolveAll();
@@ -63,8 +65,11 @@ public:
 
   void check() {
     for (const ladder::LadderFile& file : files_) checkFile(file);
-    for (TypedModule* module : {&program_.main, &program_.int0})
-      if (module->exists) checkStructure(*module, sources_, diagnostics_);
+    for (TypedModule* module : {&program_.main, &program_.int0}) {
+      if (!module->exists) continue;
+      checkStructure(*module, sources_, diagnostics_);
+      checkMessages(*module, textKinds_, diagnostics_);
+    }
     if (!program_.main.exists && !program_.main.range.valid() && !nameless_) {
       const SourceRange range = files_.empty() ? SourceRange{} : files_[0].dialectRange;
       diagnostics_.report(Diag::MissingMain, range);
@@ -76,8 +81,13 @@ public:
   }
 
 private:
-  // `message 20 "text"` and `button 23 "title"`.
-  void addText(const ladder::Declaration& declaration, uint32_t most, uint32_t offset) {
+  void addMessage(const ladder::Declaration& declaration) {
+    if (const auto number = addText(declaration, nc::nct::kMessages, 0))
+      textKinds_[*number] = {.kind = checkText(declaration.value, diagnostics_), .range = declaration.value.range};
+  }
+
+  // `message 20 "text"` and `button 23 "title"`. Gives the number, when it is a good one.
+  std::optional<uint32_t> addText(const ladder::Declaration& declaration, uint32_t most, uint32_t offset) {
     const std::string_view digits = declaration.name.text;
     uint32_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -89,7 +99,9 @@ private:
       diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range) << digits;
     } else {
       texts_.messages.push_back({number + offset, std::string(declaration.value.text)});
+      return number;
     }
+    return std::nullopt;
   }
 
   // The module that a statement opens; the same name in another file continues it. What stands in an unknown module, or
@@ -141,6 +153,7 @@ private:
   Program program_;
   TypedModule reported_; // rungs of modules that are none
   Texts texts_;
+  TextKinds textKinds_;
   std::unordered_set<uint32_t> numbers_; // of the texts
   bool nameless_ = false;                // rungs stand in no known module, or were not read: MAIN may be among them
 };

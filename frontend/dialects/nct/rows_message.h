@@ -4,7 +4,7 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction messageRow(RowText text, std::string_view variableKind) {
+constexpr NctInstruction messageRow(RowText text, std::string_view variableKind, int variant) {
   return {.info = {.mnemonic = text.mnemonic,
                    .title = text.title,
                    .group = "message",
@@ -20,29 +20,37 @@ constexpr NctInstruction messageRow(RowText text, std::string_view variableKind)
                    .stateful = true,
                    .ref = text.ref,
                    .doc = text.doc,
-                   .example = text.example}};
+                   .example = text.example},
+          .lower = lowerMessage,
+          .variant = variant};
 }
 
 inline constexpr NctInstruction kMessageRows[] = {
-    messageRow({"MSG", "integer message, screen", "6.13.1, l.2775", "Shows a message while the input is TRUE.",
-                "|--[FAULT]--{MSG #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
-               "dec"),
+    messageRow(
+        {"MSG", "integer message, screen", "6.13.1, l.2775",
+         "The rising edge of the input shows the message, the falling edge deletes it. The output is TRUE while it is "
+         "on the screen, from the next cycle on.",
+         "|--[FAULT]--{MSG #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
+        "dec", kMessageOnScreen),
     messageRow({"MSGF", "floating-point message, screen", "6.13.1, l.2775", "As MSG, with a double.",
                 "|--[FAULT]--{MSGF #20 #0 #0 *1.5}--[N_CLRMSG]--(R FAULT)"},
-               "float"),
+               "float", kMessageOnScreen | kMessageOfReal),
     messageRow({"ALR", "integer message, screen and log", "6.13.1, l.2775",
-                "As MSG, and the rising edge writes to the log.",
+                "As MSG, and the rising edge writes code and text to the log.",
                 "|--[FAULT]--{ALR #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
-               "dec"),
+               "dec", kMessageOnScreen | kMessageToLog),
     messageRow({"ALRF", "floating-point message, screen and log", "6.13.1, l.2775", "As ALR, with a double.",
                 "|--[FAULT]--{ALRF #20 #0 #0 *1.5}--[N_CLRMSG]--(R FAULT)"},
-               "float"),
-    messageRow({"REM", "integer message, log", "6.13.1, l.2775", "The rising edge writes to the log; nothing is shown.",
+               "float", kMessageOnScreen | kMessageToLog | kMessageOfReal),
+    messageRow({"REM", "integer message, log", "6.13.1, l.2775",
+                "The rising edge writes code and text to the log; nothing is shown. The output is TRUE when that is "
+                "done, until the "
+                "input turns FALSE.",
                 "|--[FAULT]--{REM #20 #0 #0 #0}--(R FAULT)"},
-               "dec"),
+               "dec", kMessageToLog),
     messageRow({"REMF", "floating-point message, log", "6.13.1, l.2775", "As REM, with a double.",
                 "|--[FAULT]--{REMF #20 #0 #0 *1.5}--(R FAULT)"},
-               "float"),
+               "float", kMessageToLog | kMessageOfReal),
 };
 
 } // namespace rung::nct

@@ -21,17 +21,17 @@ void NcModel::powerOff(host::Instance&) {}
 
 void NcModel::scan(host::Instance& instance) {
   instance.scan();
-  board_.take(instance);
+  takeMessages(instance);
 }
 
 void NcModel::slot(host::Instance& instance) {
   instance.slot();
-  board_.take(instance);
+  takeMessages(instance);
 }
 
 void NcModel::fast(host::Instance& instance) {
   instance.fast();
-  board_.take(instance);
+  takeMessages(instance);
 }
 
 std::optional<host::Ref> NcModel::readPlace(const host::Instance& instance, std::string_view name) const {

@@ -58,6 +58,10 @@ public:
   virtual std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(host::Instance& instance, std::string_view command);
 
+  // Empties the program's message queue.
+  virtual void takeMessages(host::Instance& instance) { board_.take(instance); }
+  // For a host that empties it itself and cannot allocate: what the program must learn of this message.
+  virtual void accept(const rung_message& message) { (void)message; }
   // Messages on the screen now.
   virtual std::vector<ShownMessage> messages(const host::Instance& instance) const;
   MessageBoard& board() { return board_; }

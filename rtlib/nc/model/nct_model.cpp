@@ -4,6 +4,7 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
+#include "rtlib/nc/model/nct/messages.h"
 #include "rtlib/nc/model/nct/simulator.h"
 #include "rtlib/nc/nct/signals.h"
 
@@ -30,8 +31,6 @@ struct CommonSignals {
   BitSignal timeSliceClock{"N_P2MS"};
   BitSignal cycleClock{"N_P2T"};
   Clock clocks[3] = {{BitSignal("N_P100MS"), 100'000}, {BitSignal("N_P1S"), 1'000'000}, {BitSignal("N_P1M"), 60'000'000}};
-  BitSignal message{"N_MSGA"};
-  BitSignal plcMessage{"N_MSG0"};
   BitSignal bufferEmpty{"AN_BEPTY"};
   BitSignal motionDone{"AN_IEPTY"};
   BitSignal plcAxisRequest{"AP_PLCR"};
@@ -56,8 +55,8 @@ public:
     slicesOfCycle_ = hooksOf(instance.program());
     timeSlices_ = cycles_ = slice_ = 0;
     requested_ = 0;
+    messages_.powerOn(instance);
     writeConstants();
-    if (simulated_) simulator_.powerOn(instance, kind);
     showInputs(instance);
   }
 
@@ -69,18 +68,21 @@ public:
     ts_.set(common_.timeSliceClock, ++timeSlices_ % 2 != 0);
     for (const Clock& clock : common_.clocks)
       ts_.set(clock.signal, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
-    board_.take(instance);
-    ts_.set(common_.message, !board_.shown().empty());
-    ts_.set(common_.plcMessage, !board_.shown().empty());
+    takeMessages(instance);
+    using Slice = nct::Messages::Slice;
+    messages_.timeSlice(ts_, instance.atListStart() ? Slice::Alone : first ? Slice::First : Slice::Further,
+                        instance.messages().lost());
     if (simulated_) simulator_.timeSlice(instance, first);
   }
 
   void scan(host::Instance& instance) override {
     NcModel::scan(instance);
+    messages_.endCycle();
     answer(instance);
   }
   void slot(host::Instance& instance) override {
     NcModel::slot(instance);
+    messages_.endCycle();
     answer(instance);
   }
   void fast(host::Instance& instance) override {
@@ -96,8 +98,22 @@ public:
     return simulated_ && simulator_.respond(request, reply);
   }
 
+  void takeMessages(host::Instance& instance) override {
+    rung_message message;
+    while (instance.messages().pop(message)) {
+      if (message.op == RUNG_MESSAGE_SHOW_LOG || message.op == RUNG_MESSAGE_LOG)
+        board_.log(nct::logLine(instance.program(), message));
+      messages_.accept(message);
+    }
+  }
+  void accept(const rung_message& message) override { messages_.accept(message); }
+  std::vector<ShownMessage> messages(const host::Instance& instance) const override {
+    return messages_.shown(instance.program());
+  }
+
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
-    if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
+    if (name == "cancel") return messages_.cancel(keys);
+    if (!simulated_) return NcModel::event(instance, name, keys) + "; most events need 'config nc simulated'";
     if (nct::Handled handled = simulator_.event(name, keys)) return *handled;
     return NcModel::event(instance, name, keys);
   }
@@ -184,6 +200,7 @@ private:
   CommonSignals common_;
   SignalMemory ts_;
   nct::Simulator simulator_;
+  nct::Messages messages_;
   uint64_t timeSlices_ = 0;
   uint64_t cycles_ = 0;
   uint32_t slice_ = 0;         // of all PLC cycles

@@ -135,10 +135,11 @@ private:
       for (const ir::Rung& rung : routine.rungs)
         for (const ir::Op& op : rung.ops) {
           const ir::Attr attr = ir::opInfo(op.code).attr;
-          if (attr == ir::Attr::Window && op.ref == spaces_.m.index) return nvram; // an index may lead anywhere
-          if (attr != ir::Attr::Place || op.ref != spaces_.m.index) continue;
-          const uint32_t last = static_cast<uint32_t>(op.imm / 8) + std::max(1u, ir::byteWidth(op.type));
-          if (last <= nvram) end = std::max(end, last);
+          if ((attr != ir::Attr::Window && attr != ir::Attr::Place) || op.ref != spaces_.m.index) continue;
+          const auto first = static_cast<uint32_t>(op.imm / 8);
+          if (first >= nvram) continue;
+          if (attr == ir::Attr::Window && op.count > 1) return nvram; // an index may lead anywhere
+          end = std::max(end, first + std::max(4u, ir::byteWidth(op.type)));
         }
     return std::min(end, nvram);
   }

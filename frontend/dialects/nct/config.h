@@ -8,7 +8,7 @@ namespace rung::nct {
 
 inline constexpr uint32_t kWords = 10000;   // addresses 0000 to 9999, l.283
 inline constexpr uint32_t kFlagsWord = 0;   // FLAGS, l.723
-inline constexpr uint32_t kReserved = 1;   // reads 0, takes nothing
+inline constexpr uint32_t kReserved = 1;    // reads 0, takes nothing
 inline constexpr uint32_t kFirstNcWord = 2; // the time-slice memory begins here, l.544
 
 // The limits depend on the control and the manual does not print them (l.293); these are the project's defaults.

@@ -52,7 +52,8 @@ void Memory::compute(Place& place, const Address& address, Reach reach, uint32_t
   const auto from = [&](uint32_t word) { return b_.add(offset, b_.i32(static_cast<int64_t>(address.word) - word)); };
   place.index = from(start);
   place.wordNo = start == 0 ? place.index : b_.add(place.index, b_.i32(start));
-  place.valid = start == first ? b_.ltU(place.index, b_.i32(count)) : b_.ltU(from(first), b_.i32(count + start - first));
+  place.valid =
+      start == first ? b_.ltU(place.index, b_.i32(count)) : b_.ltU(from(first), b_.i32(count + start - first));
 }
 
 Place Memory::place(const Address& address, Reach reach, uint32_t words) {
@@ -99,7 +100,8 @@ bool Memory::masked(const Place& place) const {
   return place.word >= config_.firstOutput && place.word < config_.plcNvram;
 }
 
-// For masks of computed places: the index is the word's own number. Bits of inputs are set there, and nobody reads them.
+// For masks of computed places: the index is the word's own number. Bits of inputs are set there, and nobody reads
+// them.
 ir::Window Memory::maskWindow(const Place& place) {
   if (place.window.count == 1)
     written_.add(place.word, place.word + 1);

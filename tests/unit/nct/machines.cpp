@@ -1,0 +1,72 @@
+// See machines.h.
+#include "tests/unit/nct/machines.h"
+
+#include <bit>
+
+#include "ir/support/check.h"
+#include "ir/support/diag_render.h"
+#include "rtlib/host/compare.h"
+
+namespace rung::nct::test {
+
+using driver::EngineKind;
+
+Machine::Machine(const driver::Compiled& compiled, EngineKind kind) : name_(driver::engineName(kind)) {
+  auto engine = driver::makeEngine(kind, compiled, {});
+  RUNG_CHECK(engine.ok(), engine.error().c_str());
+  engine_ = std::move(engine.value());
+  instance_ = driver::makeInstance(*engine_, nullptr);
+  memory_ = host::findSpace(instance_->program(), "M");
+  slice_ = host::findSpace(instance_->program(), "TS");
+}
+
+uint32_t Machine::word(uint32_t number) const {
+  return static_cast<uint32_t>(instance_->read(host::intRef(memory_, number * 4, 32)));
+}
+
+uint32_t Machine::slice(uint32_t number) const {
+  return static_cast<uint32_t>(instance_->read(host::intRef(slice_, number * 4, 32)));
+}
+
+void Machine::setWord(uint32_t number, uint32_t value) {
+  instance_->write(host::intRef(memory_, number * 4, 32), value);
+  if (number >= 2 && number < kNcEnd) instance_->write(host::intRef(slice_, number * 4, 32), value);
+}
+
+double Machine::real(uint32_t number) const {
+  return std::bit_cast<double>(uint64_t{word(number + 1)} << 32 | word(number));
+}
+
+void Machine::setReal(uint32_t number, double value) {
+  const uint64_t bits = std::bit_cast<uint64_t>(value);
+  setWord(number, static_cast<uint32_t>(bits));
+  setWord(number + 1, static_cast<uint32_t>(bits >> 32));
+}
+
+void Machine::run() { RUNG_CHECK(instance_->runTask("MAIN"), "MAIN stopped with a fault"); }
+
+Machines::Machines(const std::string& body, std::vector<EngineKind> kinds) {
+  SourceManager sources;
+  Diagnostics diagnostics;
+  const FileId file = sources.addBuffer("test.lad", "dialect nct\nmodule MAIN\n" + body);
+  auto compiled = driver::compile(sources, {&file, 1}, {}, diagnostics);
+  RUNG_CHECK(compiled.has_value(), renderText(diagnostics, sources).c_str());
+  compiled_ = std::move(*compiled);
+  for (EngineKind kind : kinds) machines_.emplace_back(compiled_, kind);
+}
+
+std::vector<EngineKind> Machines::everyEngine() {
+  const auto kinds = driver::allEngines();
+  return {kinds.begin(), kinds.end()};
+}
+
+std::vector<EngineKind> Machines::interpreterAndJit() { return {EngineKind::Interp, EngineKind::Jit}; }
+
+std::string Machines::difference() const {
+  for (const Machine& machine : machines_)
+    if (const auto found = host::firstDifference(machines_.front().instance(), machine.instance()))
+      return machine.name() + ": " + *found;
+  return {};
+}
+
+} // namespace rung::nct::test

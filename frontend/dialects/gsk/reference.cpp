@@ -2,7 +2,6 @@
 #include "frontend/dialects/gsk/reference.h"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "frontend/dialects/gsk/context.h"
 #include "frontend/dialects/gsk/instructions.h"
 #include "frontend/dialects/gsk/signals.h"
+#include "frontend/table/markdown.h"
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/signals.h"
@@ -21,34 +21,8 @@
 namespace rung::gsk {
 namespace {
 
-class Page {
-public:
-  template <class... Args>
-  void line(fmt::format_string<Args...> text, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), text, std::forward<Args>(args)...);
-    text_ += '\n';
-  }
-  void heading(std::string_view title) { line("\n{}\n", title); }
-  void table(std::string_view columns) {
-    text_ += columns;
-    text_ += "\n|";
-    for (auto n = std::count(columns.begin(), columns.end(), '|'); n > 1; --n) text_ += " --- |";
-    text_ += '\n';
-  }
-  std::string take() { return std::move(text_); }
-
-private:
-  std::string text_;
-};
-
-std::string cell(std::string_view text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '|') out += '\\';
-    out += c;
-  }
-  return out;
-}
+using frontend::cell;
+using frontend::Page;
 
 std::string_view accessOf(Area area) {
   if (area == Area::T) return "read; presets";

@@ -7,6 +7,7 @@
 #include "frontend/dialects/nct/build_module.h"
 #include "frontend/dialects/nct/checker.h"
 #include "frontend/dialects/nct/message_texts.h"
+#include "frontend/dialects/nct/reference.h"
 #include "frontend/dialects/nct/structure.h"
 #include "rtlib/nc/nct/messages.h"
 
@@ -191,6 +192,8 @@ const frontend::Dialect kNct = {
     .operandKinds = operandKinds(),
     .isBuilt = isBuilt,
     .compile = compile,
+    .reference = referenceSections,
+    .explain = explainWord,
 };
 
 } // namespace rung::nct

@@ -101,10 +101,19 @@ public:
       return std::nullopt;
     }
     result_.address.word = static_cast<uint32_t>(word64_);
+    if (signal_ != nullptr && comma != std::string_view::npos) checkElement(text);
     return result_;
   }
 
 private:
+  // A constant index that leads from one signal into another: nothing the manual forbids, and hardly meant (l.6438).
+  void checkElement(std::string_view text) {
+    const int64_t words = int64_t{signal_->count} * signal_->strideBytes / 4;
+    const int64_t offset = word64_ - signal_->byteOffset / 4;
+    if (words < 2 || (offset >= 0 && offset < words)) return;
+    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text)) << text << signal_->symbol << words - 1;
+  }
+
   std::optional<uint32_t> number(std::string_view text) {
     if (text.size() == 4 && allDigits(text)) return static_cast<uint32_t>(decimalValue(text));
     diagnostics_.report(Diag::AddressFormat, rangeOf(word_, text)) << text;
@@ -150,6 +159,7 @@ private:
       result_.address.bit = found->bit;
     }
     word64_ = found->word;
+    signal_ = found->signal;
     return true;
   }
 
@@ -210,6 +220,7 @@ private:
   SymbolTable& symbols_;
   Diagnostics& diagnostics_;
   ParsedAddress result_;
+  const nc::Signal* signal_ = nullptr; // that the base is
   int64_t word64_ = 0;
 };
 

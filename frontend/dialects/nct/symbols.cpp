@@ -10,9 +10,6 @@ namespace {
 // Declarations that refer to each other, one behind the other; bounds the recursion.
 constexpr int kMaxDepth = 200;
 
-// Bits of FLAGS; the order of the manual's chapter 5 (l.725-777).
-constexpr std::string_view kFlagNames[] = {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"};
-
 struct Alias {
   std::string_view misprint;
   std::string_view name;
@@ -34,6 +31,12 @@ Symbol word(std::string_view name, uint32_t address) {
 }
 
 } // namespace
+
+std::string_view aliasOf(std::string_view name) {
+  for (const Alias& alias : kAliases)
+    if (alias.misprint == name) return alias.name;
+  return name;
+}
 
 SymbolTable::SymbolTable(const Config& config, Diagnostics& diagnostics) : config_(config), diagnostics_(diagnostics) {
   enter(word("FLAGS", kFlagsWord));
@@ -61,10 +64,7 @@ Symbol* SymbolTable::enter(Symbol symbol) {
 }
 
 Symbol* SymbolTable::enterSignal(std::string_view name) {
-  std::string_view row = name;
-  for (const Alias& alias : kAliases)
-    if (alias.misprint == name) row = alias.name;
-  const nc::Signal* signal = nc::findSignal(nc::nctSignals(), row);
+  const nc::Signal* signal = nc::findSignal(nc::nctSignals(), aliasOf(name));
   if (signal == nullptr) return nullptr;
   Symbol symbol = word(name, signal->byteOffset / 4);
   if (signal->type == nc::SignalType::Bit) {

@@ -1,0 +1,210 @@
+// Sections of the reference page behind the instructions.
+#include "frontend/dialects/nct/reference.h"
+
+#include "frontend/dialects/nct/config.h"
+#include "frontend/dialects/nct/instructions.h"
+#include "frontend/dialects/nct/signal_text.h"
+#include "frontend/table/markdown.h"
+#include "ir/support/diagnostics.h"
+#include "rtlib/nc/nct/axis_codes.h"
+#include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/nct/service_functions.h"
+#include "rtlib/nc/nct/windows.h"
+
+namespace rung::nct {
+namespace {
+
+using frontend::cell;
+using frontend::Page;
+
+void memory(Page& page) {
+  const Config limits;
+  page.heading("## Memory");
+  page.line("One array of {} double words, 0000 to {}. A word is written with four digits or as a symbol, a bit "
+            "`0056.17`; `,#3` or `,REG` moves either by words, `:REG` takes the bit's number from a word. A double is "
+            "two words, the lower half first. Manual: l.281-522.\n",
+            kWords, kWords - 1);
+  page.table("| words | name | what | through power-off |");
+  page.line("| 0000 | `FLAGS` | flags of the instructions: FL_ER, FL_UF, FL_OF, FL_CY, FL_GT, FL_EQ, FL_LT from bit 0 "
+            "on; read only | |");
+  page.line("| {:04} to PLCNVRAM-1 | | signals of the NC, twice: synchronised, and for `!` in INT0 the time-slice memory "
+            "| |",
+            kFirstNcWord);
+  page.line("| PLCNVRAM to PLCRAM-1 | `PLCNVRAM` = {} | user memory | kept |", limits.plcNvram);
+  page.line("| PLCRAM to {} | `PLCRAM` = {} | user memory | cleared |", kWords - 1, limits.plcRam);
+}
+
+void pins(Page& page) {
+  page.heading("## Pins of boxes");
+  page.line("The first line of a box carries mnemonic and operands and is its first pin; each further line names its "
+            "pin.\n");
+  page.table("| box | pins from top to bottom |");
+  for (const NctInstruction& row : allInstructions()) {
+    if (row.info.pins.size() < 2) continue;
+    std::string names;
+    for (const auto& pin : row.info.pins.all()) (names += names.empty() ? "" : " ") += pin.name;
+    page.line("| {} | {} |", row.info.mnemonic, names);
+  }
+}
+
+void configuration(Page& page) {
+  const Config defaults;
+  page.heading("## Configuration");
+  page.line("`config KEY VALUE` in a scenario, `--config KEY=VALUE` on the command line.\n");
+  page.table("| key | value |");
+  page.line("| `PLCNVRAM`, `PLCRAM` | first words of the user memory, {} and {} without it |", defaults.plcNvram,
+            defaults.plcRam);
+  page.line("| `timeslice` | period of INT0, a fifth of MAIN's without it; MAIN's is `period`, {} ms without it |",
+            defaults.periodUs / 1000);
+  page.line("| `nc` | `scripted` (default): the scenario plays the NC; `simulated`: the simulated NC does, see "
+            "[simulated-nc-nct.md](../simulated-nc-nct.md) for its keys |");
+}
+
+void warnings(Page& page) {
+  page.heading("## Warnings");
+  page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
+  page.table("| code | meaning |");
+  for (const Diag id :
+       {Diag::WriteToInput, Diag::SymbolInNcArea, Diag::UnknownFunctionCode, Diag::Int0OnlySignal, Diag::SignalIndex, Diag::MixedOutput,
+        Diag::BackwardJump, Diag::LabelUnused, Diag::SubroutineUnused})
+    page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
+}
+
+void executionCodes(Page& page) {
+  page.heading("## Execution codes of MR and MW");
+  page.line("Word 0 of the block, written when the NC has answered. Manual: l.6324-6414.\n");
+  page.table("| code | meaning | manual |");
+  for (const nc::nct::ExecutionCode& code : nc::nct::executionCodes())
+    page.line("| {} | {} | l.{} |", code.code, cell(code.meaning), code.line);
+}
+
+std::string amountsOf(const nc::nct::ServiceFunction& function) {
+  std::string text;
+  for (const nc::nct::NumberRange& amount : function.amounts) {
+    if (amount.first == 0) continue;
+    if (!text.empty()) text += ", ";
+    text += amount.first == amount.last ? fmt::format("{}", amount.first)
+            : amount.step == 1          ? fmt::format("{} to {}", amount.first, amount.last)
+                                        : fmt::format("{}, {}, … {}", amount.first, amount.first + amount.step, amount.last);
+  }
+  return text;
+}
+
+std::string_view useText(nc::nct::WordUse use) {
+  switch (use) {
+  case nc::nct::WordUse::Input: return "set by the program";
+  case nc::nct::WordUse::Output: return "written by the NC";
+  case nc::nct::WordUse::Optional: return "may be set";
+  }
+  return "";
+}
+
+std::string codesOf(const nc::nct::ServiceFunction& function) {
+  std::string text;
+  for (const nc::nct::ExecutionCode& code : nc::nct::executionCodes())
+    if (function.hasCode(code.code)) text += fmt::format("{}{}", text.empty() ? "" : ", ", code.code);
+  return text;
+}
+
+void functions(Page& page) {
+  page.heading("## Functions of MR and MW");
+  page.line("The block: word 0 execution code, word 1 amount of data, the words behind it. `MR 104` may be asked of "
+            "`rungc explain`, too. Manual: l.3390-6320.");
+  for (const nc::nct::ServiceFunction& function : nc::nct::serviceFunctions()) {
+    page.heading(fmt::format("### {} {}", mnemonicOf(function.access), function.code));
+    page.line("{}. Amount of data: {}. Execution codes: {}. Manual: {}, l.{}.\n", function.title, amountsOf(function),
+              codesOf(function), function.section, function.line);
+    page.table("| word | use | meaning |");
+    for (const nc::nct::BlockWord& word : function.words)
+      page.line("| {} | {} | {} |",
+                word.first == word.last ? fmt::format("{}", word.first) : fmt::format("{} to {}", word.first, word.last),
+                useText(word.use), cell(word.meaning));
+  }
+}
+
+std::string_view speedText(nc::nct::AxisSpeed speed) {
+  switch (speed) {
+  case nc::nct::AxisSpeed::Unused: return "-";
+  case nc::nct::AxisSpeed::PerMinute: return "feed per minute, not 0";
+  case nc::nct::AxisSpeed::PerRevolution: return "feed per revolution, not 0";
+  case nc::nct::AxisSpeed::Jog: return "feed per minute; 0: parameter N0316";
+  }
+  return "";
+}
+
+std::string_view distanceText(nc::nct::AxisDistance distance) {
+  switch (distance) {
+  case nc::nct::AxisDistance::Unused: return "-";
+  case nc::nct::AxisDistance::Absolute: return "position in the current coordinate system";
+  case nc::nct::AxisDistance::Incremental: return "distance";
+  case nc::nct::AxisDistance::Machine: return "position in the machine coordinate system";
+  case nc::nct::AxisDistance::Seconds: return "seconds";
+  case nc::nct::AxisDistance::Revolutions: return "revolutions of the spindle";
+  }
+  return "";
+}
+
+void axisCodes(Page& page) {
+  page.heading("## Codes of MOVCMND");
+  page.line("Axis index 0 to {}; units by parameter N0104 bit IND. Manual: l.3126-3145.\n", nc::nct::kAxes - 1);
+  page.table("| code | as in a part program | what | speed | distance | manual |");
+  for (const nc::nct::AxisCode& code : nc::nct::axisCodes())
+    page.line("| {} | {} | {} | {} | {} | l.{} |", code.code, cell(code.equivalent), cell(code.title),
+              speedText(code.speed), distanceText(code.distance), code.line);
+}
+
+void scopeSymbols(Page& page) {
+  page.heading("## Quantities of SCP");
+  page.line("Axes, spindles and channels are given by their numbers, from 1 on. Manual: l.3323-3388.\n");
+  page.table("| name | value | parameter 1 | parameter 2 | manual |");
+  for (const nc::nct::ScopeSymbol& symbol : nc::nct::scopeSymbols())
+    page.line("| `{}` | {} | {} | {} | l.{} |", symbol.name, cell(symbol.meaning), cell(parameterText(symbol.param1)),
+              cell(parameterText(symbol.param2)), symbol.line);
+}
+
+void windows(Page& page) {
+  page.heading("## Windows of MW 70");
+  page.table("| identifier | window | parameter 1 | parameter 2 | manual |");
+  for (const nc::nct::ScreenWindow& window : nc::nct::screenWindows())
+    page.line("| {} | {} | {} | {} | l.{} |", window.identifier, cell(window.title), cell(window.parameter1),
+              cell(window.parameter2), window.line);
+}
+
+void signals(Page& page) {
+  page.heading("## Signals");
+  page.line("{} names that need no declaration, in the order of the manual. The name alone is the first panel, axis, "
+            "spindle, channel, …; the others are reached by an index from 0 on, `AN_PLCA,#1` or `AN_PLCA,REG`, of a "
+            "double by an even one. Inputs are written by the NC, outputs by the program. Where the manual does not "
+            "print the bit of a word it follows from the order of its table. `rungc explain NAME` shows one entry.",
+            nc::nctSignals().size());
+  std::string_view group;
+  for (const nc::Signal& signal : nc::nctSignals()) {
+    if (signal.group != group) {
+      page.heading(fmt::format("### Group {}", signal.group));
+      page.table("| signal | type | direction | index | bit of | meaning | manual |");
+    }
+    group = signal.group;
+    page.line("| `{}` | {} | {} | {} | {} | {} | l.{} |", signal.symbol, typeText(signal),
+              signal.direction == nc::Direction::In ? "input" : "output", indexText(signal), placeText(signal),
+              cell(signal.meaning), signal.manualLine);
+  }
+}
+
+} // namespace
+
+std::string referenceSections() {
+  Page page;
+  memory(page);
+  pins(page);
+  configuration(page);
+  warnings(page);
+  functions(page);
+  executionCodes(page);
+  windows(page);
+  scopeSymbols(page);
+  axisCodes(page);
+  signals(page);
+  return page.take();
+}
+
+} // namespace rung::nct

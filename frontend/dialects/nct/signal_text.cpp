@@ -1,0 +1,124 @@
+// Predefined names in words (see signal_text.h, reference.h).
+#include "frontend/dialects/nct/signal_text.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/nct/reference.h"
+#include "frontend/dialects/nct/symbols.h"
+#include "rtlib/nc/nct/service_functions.h"
+
+namespace rung::nct {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool equalNoCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
+// What the elements of a signal belong to; groups are those of signals.csv.
+std::string_view unitOf(const nc::Signal& signal) {
+  struct Unit {
+    std::string_view group, unit;
+  };
+  constexpr Unit kUnits[] = {{"machine-panel", "panel"}, {"handwheel", "handwheel"},       {"sensor", "card"},
+                             {"analog", "analog input"}, {"drive", "drive or card"},       {"position-switches", "switch"},
+                             {"axis", "axis"},           {"spindle", "spindle"},           {"channel", "channel"},
+                             {"plc-parameters", "parameter"}};
+  for (const Unit& unit : kUnits)
+    if (std::string_view(signal.group).starts_with(unit.group)) return unit.unit;
+  return "element";
+}
+
+std::string explainSignal(std::string_view name) {
+  for (const nc::Signal& signal : nc::nctSignals()) {
+    if (!equalNoCase(signal.symbol, name)) continue;
+    std::string text = fmt::format("[nct] {}: {}, {}", signal.symbol, typeText(signal),
+                                   signal.direction == nc::Direction::In ? "NC to PLC" : "PLC to NC");
+    if (placeText(signal) != "-") text += fmt::format(", bit {}", placeText(signal));
+    text += fmt::format("\n  {}\n", signal.meaning);
+    if (signal.count > 1) text += fmt::format("  Index: {}.\n", indexText(signal));
+    return text + fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
+  }
+  return "";
+}
+
+std::string explainFlag(std::string_view name) {
+  constexpr std::string_view kMeanings[] = {
+      "the instruction was not executed: address or operand out of range, wrong format, NaN", "result too small",
+      "result too large", "carry of an addition, borrow of a subtraction", "compared value greater", "values equal",
+      "compared value lower"};
+  for (size_t bit = 0; bit < std::size(kFlagNames); ++bit)
+    if (equalNoCase(kFlagNames[bit], name))
+      return fmt::format("[nct] {}: flag, bit 0000.{:02}, read only\n  {}\n  Manual: l.721-777.\n", kFlagNames[bit], bit,
+                         kMeanings[bit]);
+  return "";
+}
+
+std::string explainQuantity(std::string_view name) {
+  const auto index = nc::nct::findScopeSymbol(name);
+  if (!index) return "";
+  const nc::nct::ScopeSymbol& symbol = nc::nct::scopeSymbols()[*index];
+  return fmt::format("[nct] {}: quantity of SCP\n  {}\n  Parameter 1: {}. Parameter 2: {}.\n  Manual: l.{}.\n", symbol.name,
+                     symbol.meaning, parameterText(symbol.param1), parameterText(symbol.param2), symbol.line);
+}
+
+// "MW 70", "mr104".
+std::string explainFunction(std::string_view word) {
+  for (const nc::nct::FunctionAccess access : {nc::nct::FunctionAccess::Read, nc::nct::FunctionAccess::Write}) {
+    if (!equalNoCase(word.substr(0, 2), mnemonicOf(access)) || word.size() < 3) continue;
+    std::string_view digits = word.substr(2);
+    digits.remove_prefix(std::min(digits.find_first_not_of(" #"), digits.size()));
+    uint32_t code = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
+    if (error != std::errc() || end != digits.data() + digits.size()) return "";
+    const nc::nct::ServiceFunction* function = nc::nct::findServiceFunction(code);
+    if (function == nullptr || function->access != access) return "";
+    std::string text = fmt::format("[nct] {} {}: {}\n", mnemonicOf(access), code, function->title);
+    for (const nc::nct::BlockWord& w : function->words)
+      text += fmt::format("  Word {}{}: {}.\n", w.first, w.first == w.last ? "" : fmt::format(" to {}", w.last), w.meaning);
+    text += "  Execution codes:";
+    for (const nc::nct::ExecutionCode& c : nc::nct::executionCodes())
+      if (function->hasCode(c.code)) text += fmt::format("\n    {} {}", c.code, c.meaning);
+    return text + fmt::format("\n  Manual: {}, l.{}.\n", function->section, function->line);
+  }
+  return "";
+}
+
+} // namespace
+
+std::string_view typeText(const nc::Signal& signal) {
+  if (signal.type == nc::SignalType::Bit) return "bit";
+  return nc::elementBytes(signal.type) == 8 ? "double" : "double word";
+}
+
+std::string indexText(const nc::Signal& signal) {
+  if (signal.count < 2) return "-";
+  const uint32_t step = signal.strideBytes / 4;
+  const uint32_t last = (signal.count - 1) * step;
+  return step == 1 ? fmt::format("#0 to #{} ({})", last, unitOf(signal))
+                   : fmt::format("#0, #{} to #{} ({})", step, last, unitOf(signal));
+}
+
+std::string placeText(const nc::Signal& signal) {
+  std::string_view address = signal.address;
+  if (signal.type != nc::SignalType::Bit || address.starts_with('(')) return "-";
+  if (address.ends_with('?')) address.remove_suffix(1);
+  return std::string(address);
+}
+
+std::string parameterText(const nc::nct::ScopeParameter& parameter) {
+  if (parameter.limit == nc::nct::ScopeLimit::PlcNvram)
+    return fmt::format("{}, {} to PLCNVRAM-{}", parameter.meaning, parameter.min, parameter.max);
+  if (parameter.min == parameter.max || parameter.min < 0) return std::string(parameter.meaning);
+  return fmt::format("{}, {} to {}", parameter.meaning, parameter.min, parameter.max);
+}
+
+std::string explainWord(std::string_view word) {
+  const std::string_view name = word.substr(0, word.find_first_of(",."));
+  return explainSignal(aliasOf(name)) + explainFlag(name) + explainQuantity(name) + explainFunction(word);
+}
+
+} // namespace rung::nct

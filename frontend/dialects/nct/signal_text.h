@@ -1,0 +1,16 @@
+// Signals and other predefined names in words, for the reference and for `rungc explain`.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/nct/signals.h"
+
+namespace rung::nct {
+
+std::string_view typeText(const nc::Signal& signal); // "bit", "double word", "double"
+std::string indexText(const nc::Signal& signal);     // "#0 to #31 (axis)"; "-" when there is one only
+std::string placeText(const nc::Signal& signal);     // "MKBTNS0.05"; "-" for words and bits of words without name
+std::string parameterText(const nc::nct::ScopeParameter& parameter);
+
+} // namespace rung::nct

@@ -203,9 +203,14 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
   return true;
 }
 
-RetainSaver::RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll)
-    : store_(std::move(store)), map_(std::move(map)), buffer_(map_.rawSize()), image_(map_.size()), poll_(poll),
+RetainSaver::RetainSaver(RetainStore store, uint32_t rawSize, uint32_t imageSize, Pack pack,
+                         std::chrono::milliseconds poll)
+    : store_(std::move(store)), pack_(std::move(pack)), buffer_(rawSize), image_(imageSize), poll_(poll),
       thread_([this] { work(); }) {}
+
+RetainSaver::RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll)
+    : RetainSaver(std::move(store), map.rawSize(), map.size(),
+                  [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, poll) {}
 
 RetainSaver::~RetainSaver() {
   {
@@ -216,24 +221,13 @@ RetainSaver::~RetainSaver() {
   thread_.join();
 }
 
-bool RetainSaver::offer(const Instance& instance) noexcept {
-  if (full_.load(std::memory_order_acquire)) return false;
-  instance.copyRetained(buffer_);
-  full_.store(true, std::memory_order_release);
-  return true;
-}
-
-void RetainSaver::finish(const Instance& instance) {
-  bool offered = offer(instance);
-  while (!offered || full_.load(std::memory_order_acquire)) {
-    {
-      const std::lock_guard lock(mutex_);
-      hurry_ = true;
-    }
-    wake_.notify_one();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    offered = offered || offer(instance);
+void RetainSaver::hurry() {
+  {
+    const std::lock_guard lock(mutex_);
+    hurry_ = true;
   }
+  wake_.notify_one();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 std::string RetainSaver::lastError() const {
@@ -243,7 +237,7 @@ std::string RetainSaver::lastError() const {
 
 void RetainSaver::saveOffered() {
   if (!full_.load(std::memory_order_acquire)) return;
-  map_.pack(buffer_, image_);
+  pack_(buffer_, image_);
   std::string error;
   const bool good = image_ == onDisk_ || store_.save(image_, error);
   if (good && image_ != onDisk_) saved_.fetch_add(1);

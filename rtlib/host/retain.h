@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
@@ -46,13 +47,38 @@ private:
 // while the last image is still being written. An image like the last one is not written again.
 class RetainSaver {
 public:
+  // How the bytes that were copied in the scan become the image; runs on the saver's thread.
+  using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
+
+  RetainSaver(RetainStore store, uint32_t rawSize, uint32_t imageSize, Pack pack,
+              std::chrono::milliseconds poll = std::chrono::milliseconds(20));
+  // For the retained memory of an instance.
   RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll = std::chrono::milliseconds(20));
   ~RetainSaver(); // writes what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
 
-  bool offer(const Instance& instance) noexcept; // scan thread
-  void finish(const Instance& instance);         // instead of the last `offer`; waits until it is written
+  // Scan thread. `copy` fills a span of rawSize bytes; it allocates nothing and does not throw.
+  template <class Copy> bool offerFrom(Copy copy) noexcept {
+    if (full_.load(std::memory_order_acquire)) return false;
+    copy(std::span<uint8_t>(buffer_));
+    full_.store(true, std::memory_order_release);
+    return true;
+  }
+  // Instead of the last `offerFrom`; waits until it is written.
+  template <class Copy> void finishFrom(Copy copy) {
+    bool offered = offerFrom(copy);
+    while (!offered || full_.load(std::memory_order_acquire)) {
+      hurry();
+      offered = offered || offerFrom(copy);
+    }
+  }
+  bool offer(const Instance& instance) noexcept {
+    return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
+  }
+  void finish(const Instance& instance) {
+    finishFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
+  }
   uint64_t saved() const { return saved_.load(); }
   uint64_t failed() const { return failed_.load(); }
   std::string lastError() const;
@@ -60,10 +86,11 @@ public:
 private:
   void work();
   void saveOffered();
+  void hurry(); // a moment's wait while the saver works
 
   RetainStore store_;
-  RetainMap map_;
-  std::vector<uint8_t> buffer_; // as the memory block holds it
+  Pack pack_;
+  std::vector<uint8_t> buffer_; // as it was copied in the scan
   std::vector<uint8_t> image_;  // of buffer_
   std::vector<uint8_t> onDisk_;
   std::atomic<bool> full_{false}; // true: buffer_ belongs to the saver, else to the scan thread

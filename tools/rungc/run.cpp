@@ -9,6 +9,7 @@
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/refuse.h"
+#include "rtlib/nc/model/retained_tables.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/compile_step.h"
@@ -92,15 +93,28 @@ bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const
   return true;
 }
 
-// Switches the program on, warm with the file of --retain. Nothing but an error when the file cannot be used.
-std::optional<std::string> switchOn(nc::NcModel& nc, host::Instance& instance, host::RetainedMemory* retained) {
+// What --retain keeps: the program's retained memory, and the tables of the NC beside it.
+struct Retained {
+  Retained(const rung_program& program, nc::NcModel& nc, const std::string& file)
+      : memory(program, file), tables(nc, file) {}
+  host::RetainedMemory memory;
+  nc::RetainedTables tables;
+};
+
+// Switches the program on, warm with the files of --retain. Nothing but an error when they cannot be used.
+std::optional<std::string> switchOn(nc::NcModel& nc, host::Instance& instance, Retained* retained) {
   if (retained == nullptr) {
     nc.powerOn(instance, nc::PowerOn::Cold);
     return std::nullopt;
   }
   std::string report;
   std::string error;
-  const bool found = retained->load(instance, report, error);
+  const bool found = retained->memory.load(instance, report, error);
+  if (!error.empty()) return error;
+  if (!report.empty()) fmt::print(stderr, "rungc: {}\n", report);
+  if (!found && !report.empty()) nc.reportRetainedLost();
+  report.clear();
+  retained->tables.load(report, error);
   if (!error.empty()) return error;
   if (!report.empty()) fmt::print(stderr, "rungc: {}\n", report);
   nc.powerOn(instance, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
@@ -111,7 +125,7 @@ std::optional<std::string> switchOn(nc::NcModel& nc, host::Instance& instance, h
 class Run {
 public:
   Run(const RunOptions& options, int64_t forUs, nc::NcModel& nc, host::Instance& instance,
-      host::RetainedMemory* retained, std::vector<Watched> watched)
+      Retained* retained, std::vector<Watched> watched)
       : options_(options), forUs_(forUs), nc_(nc), instance_(instance), retained_(retained),
         watched_(std::move(watched)) {}
 
@@ -141,7 +155,10 @@ private:
   void look() {
     rt::ServiceRequest request; // here is nobody who could answer later
     while (instance_.services().take(request)) instance_.services().complete(nc::refuse(instance_.program(), request));
-    if (retained_ != nullptr) retained_->offer(instance_);
+    if (retained_ != nullptr) {
+      retained_->memory.offer(instance_);
+      retained_->tables.offer();
+    }
     printChanges(instance_, watched_);
     printMessages(instance_, nc_.messages(instance_), shown_);
   }
@@ -154,7 +171,7 @@ private:
   int64_t forUs_;
   nc::NcModel& nc_;
   host::Instance& instance_;
-  host::RetainedMemory* retained_;
+  Retained* retained_;
   std::vector<Watched> watched_;
   std::vector<nc::ShownMessage> shown_;
   uint64_t scans_ = 0;
@@ -179,8 +196,8 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs, 
     return kUsage;
   }
   const std::unique_ptr<host::Instance> instance = driver::makeInstance(engine, nc.get());
-  std::unique_ptr<host::RetainedMemory> retained;
-  if (!options.retain.empty()) retained = std::make_unique<host::RetainedMemory>(engine.program(), options.retain);
+  std::unique_ptr<Retained> retained;
+  if (!options.retain.empty()) retained = std::make_unique<Retained>(engine.program(), *nc, options.retain);
   if (const auto error = switchOn(*nc, *instance, retained.get())) return environmentError(*error);
   std::vector<Watched> watched;
   if (!resolveWatched(*nc, *instance, options.watch, watched)) return kUsage;
@@ -195,7 +212,8 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs, 
              static_cast<double>(instance->nowUs()) / 1000.0, engine.name());
   if (retained) {
     if (!instance->faulted()) nc->powerOff(*instance);
-    if (const std::string error = retained->finish(*instance); !error.empty()) return environmentError(error);
+    if (const std::string error = retained->memory.finish(*instance); !error.empty()) return environmentError(error);
+    if (const std::string error = retained->tables.finish(); !error.empty()) return environmentError(error);
   }
   if (!instance->faulted()) return kOk;
   fmt::print(stderr, "rungc: the program stopped with a fault: {}\n", instance->faultText());

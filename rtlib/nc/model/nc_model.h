@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,15 @@ public:
   virtual void powerOn(host::Instance& instance, PowerOn kind);
   // What the control runs before a regular power-off.
   virtual void powerOff(host::Instance& instance);
+
+  // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it is
+  // configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` stands before powerOn, whose kind is then the
+  // program's alone; an empty image is that of an NC as it was delivered.
+  virtual uint32_t keptSize() { return 0; }
+  virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
+  virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
+  // The program's retained memory was there but could not be restored: stands before powerOn.
+  virtual void reportRetainedLost() {}
 
   virtual void scan(host::Instance& instance);
   virtual void slot(host::Instance& instance);

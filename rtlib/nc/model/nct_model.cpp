@@ -1,6 +1,7 @@
 // The NC beside an NCT PLC: constant and clock signals, the hardware side of the NC area (the time-slice memory), and in
 // simulated mode the control itself (nct/simulator.h).
 #include <algorithm>
+#include <utility>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
@@ -57,8 +58,28 @@ public:
     requested_ = 0;
     messages_.powerOn(instance);
     writeConstants();
+    if (simulated_) simulator_.powerOn(instance, std::exchange(keptRestored_, false) ? PowerOn::Warm : kind);
+    retainedLost_ = false;
     showInputs(instance);
   }
+
+  uint32_t keptSize() override {
+    nct::Kept size = nct::Kept::measure();
+    if (simulated_) simulator_.keep(size);
+    return size.size();
+  }
+  void copyKept(std::span<uint8_t> image) noexcept override {
+    nct::Kept save = nct::Kept::save(image);
+    simulator_.keep(save);
+  }
+  void restoreKept(std::span<const uint8_t> image) override {
+    simulator_.deliver();
+    if (image.empty()) return;
+    nct::Kept restore = nct::Kept::restore(image);
+    simulator_.keep(restore);
+    keptRestored_ = true;
+  }
+  void reportRetainedLost() override { retainedLost_ = true; }
 
   // In front of every time slice, while NC inputs go to the time-slice memory. The first one of a scan begins a PLC
   // cycle; a time slice that the scenario runs by itself (`fast`) belongs to none.
@@ -154,7 +175,7 @@ private:
   void writeConstants() {
     for (const BitSignal& signal : {common_.on, common_.simulator, common_.ready, common_.nvramOk, common_.firstCycle})
       ts_.set(signal, true);
-    if (nvramLost_) ts_.set(common_.nvramOk, false);
+    if (nvramLost_ || retainedLost_) ts_.set(common_.nvramOk, false);
     ts_.set(common_.nvramByEthercat, byEthercat_);
     for (uint32_t i = 0; i < common_.bufferEmpty.count(); ++i) {
       ts_.set(common_.bufferEmpty, i, true);
@@ -196,7 +217,9 @@ private:
 
   bool simulated_ = false;
   bool byEthercat_ = false;
-  bool nvramLost_ = false;
+  bool nvramLost_ = false;    // by configuration
+  bool retainedLost_ = false; // the image on disk
+  bool keptRestored_ = false;
   CommonSignals common_;
   SignalMemory ts_;
   nct::Simulator simulator_;

@@ -54,6 +54,10 @@ void Simulator::keep(Kept& kept) {
   for (Topic* topic : topics_) topic->keep(kept);
 }
 
+void Simulator::deliver() {
+  for (Topic* topic : topics_) topic->powerOn(PowerOn::Cold);
+}
+
 // ---- time --------------------------------------------------------------------------------------------------------
 
 void Simulator::attach(host::Instance& instance) {

@@ -44,6 +44,8 @@ public:
   void setRealTime() { control_.realTime = true; }
 
   void keep(Kept& kept);
+  // The tables of a control as it is delivered, with the configuration.
+  void deliver();
 
 private:
   enum class Service : uint8_t { Other, Mr, Mw, Macr, Macw, Scp, Movcmnd };

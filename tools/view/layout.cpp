@@ -221,6 +221,8 @@ void Layout::cut(int rail) {
   }
   const Cuts cuts = chooseCuts(sheet_, left_, widths(), rail_, rail);
   int needed = rail;
+  for (size_t i = 0; i < cuts.size(); ++i)
+    needed = std::max(needed, cuts[i] - (i == 0 ? 0 : cuts[i - 1] - kBandStart) + kBandEnd);
   for (uint32_t cell = 1; cell < left_.size(); ++cell) {
     const auto at = std::upper_bound(cuts.begin(), cuts.end(), left_[cell]);
     bands_[cell] = static_cast<uint32_t>(at - cuts.begin());

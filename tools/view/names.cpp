@@ -26,34 +26,41 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 Names::Names(const frontend::Dialect& dialect, const ir::Module& module, const std::vector<ladder::LadderFile>& files)
     : gsk_(&dialect == &gsk::kGsk) {
-  for (const ladder::LadderFile& file : files)
-    for (const ladder::Declaration& declaration : file.declarations)
+  std::unordered_map<std::string_view, const ir::Symbol*> symbols;
+  for (const ir::Symbol& symbol : module.symbols) symbols.emplace(symbol.name, &symbol);
+  for (const ladder::LadderFile& file : files) {
+    for (const ladder::Declaration& declaration : file.declarations) {
+      const auto at = symbols.find(declaration.name.text);
       if (declaration.kind == ladder::DeclarationKind::Const)
         constants_.emplace(declaration.name.text, declaration.value.text);
-  for (const ir::Symbol& symbol : module.symbols) {
-    if (!symbol.space.valid()) continue; // a constant
-    const std::string_view space = module.spaces[symbol.space.index].name;
-    const bool isBit = symbol.type == RUNG_TYPE_BIT;
-    add({{space, symbol.byte, symbol.bit, isBit}, symbol.name, symbol.comment}, true);
+      else if (at != symbols.end())
+        addSymbol(module, *at->second);
+    }
   }
+  for (const ir::Symbol& symbol : module.symbols) addSymbol(module, symbol); // those that the dialect declares
   addSignals();
 }
 
-// Declared names go before those of the control.
-void Names::add(const Known& known, bool declared) {
+void Names::addSymbol(const ir::Module& module, const ir::Symbol& symbol) {
+  if (!symbol.space.valid()) return; // a constant
+  const std::string_view space = module.spaces[symbol.space.index].name;
+  const bool isBit = symbol.type == RUNG_TYPE_BIT;
+  add({{space, symbol.byte, symbol.bit, isBit}, symbol.name, symbol.comment});
+}
+
+// The first name of a place is the one that its address is told by, and declared names come first.
+void Names::add(const Known& known) {
   const auto index = static_cast<uint32_t>(known_.size());
   if (!byName_.emplace(known.name, index).second) return;
   known_.push_back(known);
-  const bool isSignal = declared && !gsk_ && nc::findSignal(nc::nctSignals(), known.name) != nullptr;
-  if (!isSignal) byAddress_.emplace(textOf(known.place), index);
+  byAddress_.emplace(textOf(known.place), index);
 }
 
 void Names::addSignals() {
   const nc::SignalTable& table = gsk_ ? nc::gskSignals() : nc::nctSignals();
   for (const nc::Signal& signal : table) {
     const bool isBit = signal.type == nc::SignalType::Bit;
-    add({{signal.area, signal.byteOffset + signal.bit / 8, signal.bit % 8u, isBit}, signal.symbol, signal.meaning},
-        false);
+    add({{signal.area, signal.byteOffset + signal.bit / 8, signal.bit % 8u, isBit}, signal.symbol, signal.meaning});
   }
 }
 

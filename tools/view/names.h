@@ -41,7 +41,8 @@ private:
     std::string_view comment;
   };
 
-  void add(const Known& known, bool declared);
+  void add(const Known& known);
+  void addSymbol(const ir::Module& module, const ir::Symbol& symbol);
   void addSignals();
   std::string textOf(const Place& place) const;
   Named findNct(std::string_view operand) const;

@@ -109,7 +109,7 @@ private:
   std::string nameOf(FileId file) const;
   Place placeOf(const LadderFile& file, uint32_t line) const;
   Place placeOfRung(const LadderFile& file, const ladder::Rung& rung) const;
-  bool converted() const { return !input_.origins.empty(); }
+  bool converted() const { return input_.files != input_.authors; }
 
   const SourceManager& sources_;
   const Input& input_;

@@ -61,15 +61,15 @@ struct Program {
   std::vector<NameTable> tables;
 };
 
-// Where the rungs of a converted file stood, in its order; empty for one that is as its author wrote it.
+// Where the rungs of a converted file stood, in its order.
 using Origins = std::span<const SourceRange>;
 
 struct Input {
   const frontend::Dialect* dialect = nullptr;
   const ir::Module* module = nullptr; // what the files compile to
   std::vector<FileId> files;          // ladder text without errors
-  Origins origins;
-  std::vector<FileId> authors; // the files that the reader knows
+  Origins origins;                    // where `files` is a conversion
+  std::vector<FileId> authors;        // the files that the reader knows
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);

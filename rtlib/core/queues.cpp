@@ -59,13 +59,14 @@ uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t c
   record = {};
   record.ticket = request.ticket;
   ServiceReply reply;
-  if (responder_.respond != nullptr && responder_.respond(responder_.data, request, reply)) {
+  const bool claimed = responder_.respond != nullptr && responder_.respond(responder_.data, request, reply);
+  if (claimed && reply.state != RUNG_SERVICE_PENDING) {
     fill(record, reply);
     return request.ticket;
   }
   record.state = RUNG_SERVICE_PENDING;
   ++pending_;
-  requests_.push(request); // as many places as pending requests: it fits
+  if (!claimed) requests_.push(request); // as many places as pending requests: it fits
   return request.ticket;
 }
 

@@ -29,8 +29,9 @@ struct ServiceReply {
   int64_t results[RUNG_MAX_SERVICE_ARGS] = {};
 };
 
-// Asked before a request is queued; true: the reply is filled in and the request does not enter the queue. It runs
-// inside the task, so it must be bounded and must not run tasks itself.
+// Asked before a request is queued; true: the reply is filled in and the request does not enter the queue. With the
+// state Pending in the reply the responder has kept the request and completes it later. It runs inside the task, so it
+// must be bounded and must not run tasks itself.
 struct ServiceResponder {
   bool (*respond)(void* data, const ServiceRequest& request, ServiceReply& reply) = nullptr;
   void* data = nullptr;

@@ -27,15 +27,23 @@ struct Lane {
   std::unique_ptr<host::Engine> engine;
   std::unique_ptr<nc::NcModel> nc;
   std::unique_ptr<Instance> instance;
-  std::vector<std::string> unreadLog;      // since the last expect_log
+  std::vector<std::string> unreadLog; // since the last expect_log
+  struct Claimed {
+    rt::ServiceRequest request;
+    Prepared answer;
+  };
+  std::vector<Claimed> claimed;            // requests with an operand block, answered when the scan is over
   std::vector<rt::ServiceRequest> waiting; // requests that nobody has looked at, oldest first
   std::vector<rt::ServiceRequest> taken;   // requests that expect_call consumed, oldest first
   std::vector<Prepared> prepared;          // answers that wait for their request
   bool calledOneWay = false;               // the last request that expect_call consumed takes no answer
 
-  // The answer prepared for the request, taken out; nothing when there is none.
-  std::optional<Prepared> takePrepared(const ServiceSignature& signature, const rt::ServiceRequest& request) {
+  // The answer prepared for the request, taken out; nothing when there is none. A running task has its memory for
+  // itself: then only answers that ask for no word of the block are looked at.
+  std::optional<Prepared> takePrepared(const ServiceSignature& signature, const rt::ServiceRequest& request,
+                                       bool running = false) {
     for (size_t i = 0; i < prepared.size(); ++i) {
+      if (running && namesWords(signature, prepared[i].keys)) continue;
       if (!requestDifference(signature, request, prepared[i].service, prepared[i].keys, instance.get()).empty())
         continue;
       const Prepared found = std::move(prepared[i]);
@@ -60,10 +68,14 @@ public:
   bool respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     if (lane_.prepared.empty()) return lane_.nc->respond(instance, request, reply);
     const ServiceSignature signature(host::serviceName(instance.program(), request.service));
-    // Operand blocks are read and answered between two scans.
-    const auto prepared = signature.hasBlock() ? std::nullopt : lane_.takePrepared(signature, request);
+    const auto prepared = lane_.takePrepared(signature, request, true);
     if (!prepared) return lane_.nc->respond(instance, request, reply);
-    reply = replyOf(signature, request.ticket, prepared->results);
+    if (signature.hasBlock()) {
+      lane_.claimed.push_back({request, *prepared});
+      reply.state = RUNG_SERVICE_PENDING;
+    } else {
+      reply = replyOf(signature, request.ticket, prepared->results);
+    }
     return true;
   }
 
@@ -163,6 +175,10 @@ private:
   // no answer is complete.
   static void takeRequests(Lane& lane) {
     rt::ServiceRequest request;
+    for (const Lane::Claimed& claimed : lane.claimed)
+      lane.answer(ServiceSignature(host::serviceName(lane.instance->program(), claimed.request.service)),
+                  claimed.request, claimed.answer.results);
+    lane.claimed.clear();
     while (lane.instance->services().take(request)) {
       const ServiceSignature signature(host::serviceName(lane.instance->program(), request.service));
       if (signature.takesNoAnswer()) lane.answer(signature, request, {});
@@ -195,6 +211,7 @@ private:
       if (kind == nc::PowerOn::Warm) lane.nc->powerOff(*lane.instance);
       lane.nc->powerOn(*lane.instance, kind);
       lane.unreadLog.clear();
+      lane.claimed.clear();
       lane.waiting.clear();
       lane.taken.clear();
       lane.prepared.clear();

@@ -174,6 +174,11 @@ std::string ServiceSignature::resultNames() const {
   return names.empty() ? "error" : names + ", error";
 }
 
+bool namesWords(const ServiceSignature& signature, const std::vector<KeyValue>& keys) {
+  return std::ranges::any_of(
+      keys, [&](const KeyValue& key) { return signature.argument(key.key) < 0 && blockKey(signature, key.key); });
+}
+
 std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyValue>& arguments,
                        const std::vector<KeyValue>& results) {
   for (const KeyValue& key : arguments) {

@@ -50,6 +50,9 @@ struct Prepared {
   std::vector<KeyValue> results;
 };
 
+// Some key is a word of the operand block.
+bool namesWords(const ServiceSignature& signature, const std::vector<KeyValue>& keys);
+
 // "" when the service knows these arguments and results; a result may also be `error`.
 std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyValue>& arguments,
                        const std::vector<KeyValue>& results);

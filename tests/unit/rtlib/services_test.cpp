@@ -151,6 +151,27 @@ TEST_F(Services, ResponderAnswersInTheSameScan) {
   EXPECT_EQ(queue->waiting(), 1u);
 }
 
+TEST_F(Services, ResponderMayKeepARequestAndAnswerLater) {
+  queue->setResponder({[](void*, const ServiceRequest& request, ServiceReply& r) {
+                         r.state = RUNG_SERVICE_PENDING;
+                         return request.service == 1;
+                       },
+                       nullptr});
+  const uint32_t ticket = queue->request(1, nullptr, 0);
+  EXPECT_EQ(queue->poll(ticket), RUNG_SERVICE_PENDING);
+  EXPECT_EQ(queue->waiting(), 0u);
+  EXPECT_EQ(queue->pending(), 1u);
+  ServiceReply reply;
+  reply.ticket = ticket;
+  reply.resultCount = 1;
+  reply.results[0] = 7;
+  EXPECT_TRUE(queue->complete(reply));
+  queue->deliver();
+  EXPECT_EQ(queue->poll(ticket), RUNG_SERVICE_DONE);
+  EXPECT_EQ(queue->result(ticket, 0), 7);
+  EXPECT_EQ(queue->pending(), 0u);
+}
+
 TEST_F(Services, TooManyArgumentsAreCut) {
   const int64_t args[RUNG_MAX_SERVICE_ARGS + 4] = {1};
   queue->request(0, args, RUNG_MAX_SERVICE_ARGS + 4);

@@ -57,7 +57,10 @@ uint32_t ChannelMotion::spindle() const {
   return number >= 1 && number <= static_cast<int32_t>(kSpindles) ? static_cast<uint32_t>(number) - 1 : 0;
 }
 
+// The address of an auxiliary function is no axis'.
 int32_t ChannelMotion::axisOf(char letter) const {
+  for (const ParameterPlace& place : parameters_.auxiliary)
+    if (control_.parameters->dword(place, channel_) == letter) return -1;
   for (uint32_t axis = 0; axis < kAxes; ++axis)
     if (control_.parameters->dword(parameters_.axisName, axis) == letter && control_.axes->exists(axis) &&
         control_.axes->channelOf(axis) == channel_)

@@ -1,18 +1,19 @@
 """NCT: each row of the inventory, each service, each diagnostic has scenarios of its own. Run by coverage_test.py."""
 import csv
 import re
+import subprocess
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests/scenarios/nct"
 
-# What the compiler must reject in an NCT program; (w) is a warning. Each has an errors-*.scn that tells its line.
+# What the compiler must reject in an NCT program; (w) is a warning. Each is told with its line.
 CODES = """
 address-format bit-format bit-out-of-range undeclared-symbol duplicate-symbol symbol-kind-mismatch address-out-of-range double-at-9999
 odd-double-index user-area-required write-to-flags write-to-input(w) symbol-in-nc-area(w)
 constant-format constant-out-of-range operand-count operand-type-mismatch operand-not-register unknown-instruction unknown-scope-symbol
-unknown-function-code(w) message-format edge-with-immediate immediate-outside-int0 immediate-not-allowed modifier-not-allowed int0-only-signal(w)
+unknown-function-code(w) message-format edge-with-immediate immediate-outside-int0 immediate-not-allowed modifier-not-allowed int0-only-signal(w) signal-index(w)
 first-column-not-allowed first-column-required element-after-closing missing-closing-element missing-pin unknown-pin misaligned-box
 dangling-wire unclosed-element tab-character empty-rung
 duplicate-output mixed-output(w) label-out-of-range duplicate-label duplicate-subroutine label-conflict undefined-label undefined-subroutine
@@ -143,25 +144,17 @@ class NctRows(unittest.TestCase):
         cls.running = [scenario for scenario in cls.scenarios if scenario.runs]
         cls.operands = {m: [Operand(o) for o in split_outside(row["operands"], ";")] for m, row in cls.rows.items() if row["operands"] != "-"}
 
-    def nothing_is_missing(self, kind, missing, hint):
-        """`missing` holds names. What nct_missing.txt lists as `kind NAME` is being written."""
-        listed = set()
-        path = Path(__file__).with_name("nct_missing.txt")
-        if path.exists():
-            listed = {line.split(" ", 1)[1].strip() for line in read(path).splitlines() if line.startswith(kind + " ")}
-        self.assertEqual(sorted(set(missing) - listed), [], hint)
-
     def own(self, mnemonic):
         name = FILE_NAMES.get(mnemonic, mnemonic)
         return [s for s in self.scenarios if s.path.parent == FOLDER and (s.path.stem == name or s.path.stem.startswith(name + "-"))]
 
     def test_every_row_has_a_scenario_of_its_own_that_runs(self):
         missing = [m for m in self.rows if not any(s.runs and m in {e[1] for e in s.elements()} for s in self.own(m))]
-        self.nothing_is_missing("scenario", missing, "no tests/scenarios/nct/MNEMONIC.scn or MNEMONIC-*.scn runs a program that uses it")
+        self.assertEqual(sorted(missing), [], "no tests/scenarios/nct/MNEMONIC.scn or MNEMONIC-*.scn runs a program that uses it")
 
     def test_every_row_has_a_wrong_use(self):
         told = {e[1] for s in self.scenarios for e in s.elements() if s.told.get(e[0], set()) - {"not-built-yet"}}
-        self.nothing_is_missing("wrong-use", set(self.rows) - told, "no expect_error or expect_warning points at a line of these")
+        self.assertEqual(sorted(set(self.rows) - told), [], "no expect_error or expect_warning points at a line of these")
 
     def test_the_ends_of_every_operand_are_tried(self):
         """The last address and both ends of a range in a program that runs, one step further in one that is refused."""
@@ -180,7 +173,7 @@ class NctRows(unittest.TestCase):
                 if operand.writes_user_memory and self.rows[mnemonic]["category"] in ("timer", "counter", "nc-service"):
                     missing += [f"{mnemonic} {i + 1} refuses 3999"] if (mnemonic, i, "3999") not in refused else []
                     missing += [f"{mnemonic} {i + 1} runs 4000"] if not {(mnemonic, i, "4000"), (mnemonic, i, "PLCNVRAM")} & used else []
-        self.nothing_is_missing("end", missing, "see class Operand for what is looked for")
+        self.assertEqual(sorted(missing), [], "see class Operand for what is looked for")
 
     OUTSIDE = {"address-out-of-range", "double-at-9999", "user-area-required", "constant-out-of-range", "label-out-of-range"}
 
@@ -194,20 +187,53 @@ class NctRows(unittest.TestCase):
                     if looks & set(range(line + 1, line + 10)) or mnemonic in ("MR", "MW"):
                         tried.update((mnemonic, i) for i, text in enumerate(operands) if re.search(r",[0-9A-Za-z]", text))
         missing = [f"{m} {i + 1}" for m, operands in self.operands.items() for i, o in enumerate(operands) if o.kind and (m, i) not in tried]
-        self.nothing_is_missing("computed", missing, "no scenario that runs has a register as index there")
+        self.assertEqual(sorted(missing), [], "no scenario that runs has a register as index there")
 
     def test_every_code_is_told_by_its_line(self):
-        told = {(code, is_error) for s in self.scenarios if s.path.stem.startswith("errors") for is_error, code in
-                ((m[1] == "error", m[2]) for m in re.finditer(r"^expect_(error|warning) \d+ (\S+)", s.text, re.MULTILINE))}
+        told = {(code, kind == "error") for s in self.scenarios for kind, code in re.findall(r"^expect_(error|warning) \d+ (\S+)", s.text, re.MULTILINE)
+                if kind == "warning" or s.path.stem.startswith("errors")}
         missing = [code for code in CODES if (code.removesuffix("(w)"), not code.endswith("(w)")) not in told]
-        self.nothing_is_missing("code", missing, "no errors-*.scn expects it with its line")
+        self.assertEqual(sorted(missing), [], "no errors-*.scn (for a warning: no scenario) expects it with its line")
 
     def test_every_scope_symbol_and_axis_code_is_used(self):
         used = {(e[1], i, text) for s in self.running for e in s.elements() for i, text in enumerate(e[2])}
         missing = [name for name in self.scope_symbols() if ("SCP", 1, name) not in used]
         codes = {int(code) for s in self.running for code in re.findall(r"^(?:expect_call|prepare) MOVCMND\b.*\bcode=(\d+)", s.text, re.MULTILINE)}
         missing += [f"axis code {code}" for code in range(15) if code not in codes and ("MOVCMND", 1, f"#{code}") not in used]
-        self.nothing_is_missing("nc", missing, "no scenario that runs uses it")
+        self.assertEqual(sorted(missing), [], "no scenario that runs uses it")
+
+    def test_every_execution_code_of_every_function_is_brought_about(self):
+        """services/{mr,mw}-F.scn has a line `expect PLACE CODE  # execution code CODE` for each code of the function."""
+        functions = re.findall(r"^### (MR|MW) (\d+)\n\n.*Execution codes: ([\d, ]+)\.", self.reference(), re.MULTILINE)
+        self.assertEqual(len(functions), 33)
+        missing = []
+        for mnemonic, number, codes in functions:
+            path = FOLDER / f"services/{mnemonic.lower()}-{number}.scn"
+            text = read(path) if path.exists() else ""
+            told = {code for code, said in re.findall(r"^expect \S+ (\d+)\s+# execution code (\d+)\b", text, re.MULTILINE) if code == said}
+            missing += [f"{mnemonic} {number} code {code}" for code in codes.split(", ") if code not in told]
+        self.assertEqual(sorted(missing), [], "the function's own scenario does not expect this execution code")
 
     def scope_symbols(self):
-        return []
+        names = re.findall(r"^\| `(\w+)` \|", self.reference().split("## Quantities of SCP")[1].split("\n## ")[0], re.MULTILINE)
+        self.assertEqual(len(names), 46)
+        return names
+
+    def test_the_reference_has_every_signal(self):
+        text = self.reference().split("\n## Signals")[1]
+        self.assertEqual(sorted(re.findall(r"^\| `(\w+)` \|", text, re.MULTILINE)), sorted(s["symbol"] for s in self.signals))
+
+    def test_every_group_of_signals_is_used_in_both_directions(self):
+        """A scenario that runs writes a signal of each group and direction by `set`, or reads it by `expect`, or its program names it."""
+        used = {re.split(r"[.,:]", text.lstrip("!@%/"))[0] for s in self.running for e in s.elements() for text in e[2]}
+        for scenario in self.running:
+            used.update(re.split(r"[.,:]", name)[0] for name in re.findall(r"^(?:set|expect) !?(\S+)", scenario.text, re.MULTILINE))
+        groups = {(s["group"], s["direction"]) for s in self.signals}
+        touched = {(s["group"], s["direction"]) for s in self.signals if s["symbol"] in used}
+        self.assertEqual(sorted([f"{g} {d}" for g, d in groups - touched]), [], "no scenario that runs touches a signal of the group")
+
+    @classmethod
+    def reference(cls):
+        if not hasattr(cls, "page"):
+            cls.page = subprocess.run([cls.RUNGC, "doc", "nct"], capture_output=True, check=True).stdout.decode()
+        return cls.page

@@ -111,7 +111,7 @@ private:
     const int64_t words = int64_t{signal_->count} * signal_->strideBytes / 4;
     const int64_t offset = word64_ - signal_->byteOffset / 4;
     if (words < 2 || (offset >= 0 && offset < words)) return;
-    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text)) << text << signal_->symbol << words - 1;
+    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text)) << text << signal_->symbol << (signal_->count - 1) * signal_->strideBytes / 4;
   }
 
   std::optional<uint32_t> number(std::string_view text) {

@@ -28,6 +28,29 @@ void Runner::beginStack() noexcept {
   ctx_->sp = 1;
 }
 
+namespace {
+
+template <class Unit>
+void copyUnit(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
+  Unit bits, old, fresh;
+  std::memcpy(&bits, mask, sizeof bits);
+  if (bits == 0) return;
+  std::memcpy(&old, to, sizeof old);
+  std::memcpy(&fresh, from, sizeof fresh);
+  old = static_cast<Unit>((old & ~bits) | (fresh & bits));
+  std::memcpy(to, &old, sizeof old);
+  std::memset(mask, 0, sizeof bits);
+}
+
+// Eight bytes at a time: masks are long and nearly empty.
+void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) noexcept {
+  uint32_t b = 0;
+  for (; b + 8 <= size; b += 8) copyUnit<uint64_t>(to + b, from + b, mask + b);
+  for (; b < size; ++b) copyUnit<uint8_t>(to + b, from + b, mask + b);
+}
+
+} // namespace
+
 void Runner::copy(uint32_t first, uint32_t count) noexcept {
   for (uint32_t i = first; i < first + count; ++i) {
     const rung_copy& c = program_->copies[i];
@@ -35,12 +58,7 @@ void Runner::copy(uint32_t first, uint32_t count) noexcept {
       std::memcpy(memory_ + c.to, memory_ + c.from, c.size);
       continue;
     }
-    for (uint32_t b = 0; b < c.size; ++b) {
-      uint8_t& to = memory_[c.to + b];
-      uint8_t& mask = memory_[c.mask + b];
-      to = static_cast<uint8_t>((to & ~mask) | (memory_[c.from + b] & mask));
-      mask = 0;
-    }
+    copyMasked(memory_ + c.to, memory_ + c.from, memory_ + c.mask, c.size);
   }
 }
 

@@ -30,7 +30,7 @@ std::optional<double> Macros::read(int64_t variable, int64_t channel) const {
 }
 
 bool Macros::write(int64_t variable, int64_t channel, double value) {
-  if (!read(variable, channel) || control().signals.get(locked_)) return false;
+  if (!read(variable, channel)) return false;
   place(static_cast<uint32_t>(variable), static_cast<uint32_t>(channel)) = value;
   return true;
 }

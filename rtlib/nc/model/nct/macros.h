@@ -12,8 +12,8 @@ class Macros final : public Topic {
 public:
   using Topic::Topic;
 
-  // MACR and MACW: variables 100 to 999, channels from 0. Nothing, false: wrong variable or channel, or writing is
-  // forbidden (P_MAC, l.8121).
+  // MACR and MACW: variables 100 to 999, channels from 0. Nothing, false: wrong variable or channel. That P_MAC forbids
+  // writing (l.8121) is the instruction's own check: it sees the bit of this very cycle.
   std::optional<double> read(int64_t variable, int64_t channel) const;
   bool write(int64_t variable, int64_t channel, double value);
 
@@ -39,7 +39,6 @@ private:
 
   std::array<std::array<double, kVolatile>, kChannels> volatile_{};
   std::array<std::array<double, kKeptVariables>, kChannels> kept_{};
-  BitSignal locked_{"P_MAC"};
   WordSignal bitsToProgram_{"CP_1032"};
   RealSignal toProgram_[3] = {RealSignal("CP_1033"), RealSignal("CP_1034"), RealSignal("CP_1035")};
   WordSignal bitsToPlc_{"CN_1132"};

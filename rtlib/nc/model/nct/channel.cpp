@@ -26,7 +26,7 @@ void Channel::powerOn() {
   startBefore_ = machineOn_ = false;
   start_ = stop_ = interrupted_ = restart_ = return_ = fresh_ = false;
   sequence_ = 0;
-  entered_ = {};
+  hasEntered_ = false;
 }
 
 void Channel::clear(Run& run) {
@@ -39,6 +39,7 @@ void Channel::clear(Run& run) {
 
 void Channel::reset() {
   start_ = stop_ = interrupted_ = restart_ = return_ = false;
+  hasEntered_ = false;
   handover_.dropStrobes();
   clear(automaticRun_);
   clear(otherRun_);
@@ -63,7 +64,7 @@ bool Channel::rising(const BitSignal& signal, bool& before) const {
 
 const ChannelProgram* Channel::program() const {
   if (automatic()) return selected_;
-  return (mode_ == Mode::Mdi || manual()) && !entered_.blocks.empty() ? &entered_ : nullptr;
+  return (mode_ == Mode::Mdi || manual()) && hasEntered_ ? &entered_ : nullptr;
 }
 
 std::string Channel::enter(std::string_view blocks) {
@@ -75,6 +76,7 @@ std::string Channel::enter(std::string_view blocks) {
   if (std::string wrong = check(program); !wrong.empty()) return wrong;
   if (mode_ == Mode::Mdi && control_.signals.get(signals_.mdiForbidden)) return {}; // l.8137
   entered_ = std::move(program);
+  hasEntered_ = true;
   return {};
 }
 
@@ -114,7 +116,7 @@ void Channel::followModes() {
 
 void Channel::changeMode(Mode mode) {
   if (running()) leave();
-  if (mode_ == Mode::Mdi || manual()) entered_ = {};
+  hasEntered_ = false;
   mode_ = mode;
 }
 

@@ -101,7 +101,8 @@ private:
   Run otherRun_;
 
   const ChannelProgram* selected_ = nullptr;
-  ChannelProgram entered_;
+  ChannelProgram entered_; // its memory stays until the next one is entered
+  bool hasEntered_ = false;
   Mode mode_ = Mode::Jog;
   Mode wanted_ = Mode::Jog;
   std::array<bool, kToggles> toggles_{};

@@ -145,7 +145,7 @@ void Channel::endBlock(const ChannelProgram& program) {
 void Channel::finish() {
   start_ = stop_ = false;
   clear(run());
-  if (manual()) entered_ = {};
+  if (manual()) hasEntered_ = false;
 }
 
 } // namespace rung::nc::nct

@@ -67,6 +67,7 @@ Handled Channels::event(std::string_view name, const std::vector<NcArgument>& ke
     if (!channel) return "channels are 1 to 8";
     for (uint32_t i = 0; i < kChannels; ++i)
       if (!one || i == *channel) channels_[i]->reset();
+    resetPressed_ = true;
     return std::string();
   }
   return std::nullopt;
@@ -145,6 +146,7 @@ Handled Channels::setQuantity(std::string_view name, double value) {
 
 void Channels::powerOn(PowerOn kind) {
   cycleUs_ = control().nowUs;
+  resetPressed_ = pulsing_ = resetBefore_ = false;
   for (const auto& channel : channels_) {
     channel->powerOn();
     if (kind == PowerOn::Cold) channel->parts = channel->partsWanted = 0;
@@ -173,7 +175,22 @@ void Channels::releaseWaiting() {
   }
 }
 
+// The RESET key (l.6558), pressed by an event or by whoever writes the signal: then for all channels.
+void Channels::followResetKey() {
+  const SignalMemory& signals = control().signals;
+  const bool down = signals.get(resetKey_);
+  if (down && !resetBefore_)
+    for (const auto& channel : channels_) channel->reset();
+  const bool release = !resetPressed_ && pulsing_;
+  if (resetPressed_) signals.set(resetKey_, true);
+  if (release) signals.set(resetKey_, false);
+  pulsing_ = resetPressed_;
+  resetPressed_ = false;
+  resetBefore_ = signals.get(resetKey_);
+}
+
 void Channels::cycle() {
+  followResetKey();
   const int64_t us = control().nowUs - cycleUs_;
   cycleUs_ = control().nowUs;
   releaseWaiting();

@@ -32,6 +32,7 @@ private:
   std::string load(const std::vector<NcArgument>& keys);
   std::string checkGroups(const ChannelProgram& program, uint32_t channel) const;
   void releaseWaiting();
+  void followResetKey();
 
   ChannelSignals signals_;
   ChannelParameters parameters_;
@@ -40,6 +41,10 @@ private:
   std::array<int32_t, kChannels> selected_{};
   std::array<std::unique_ptr<Channel>, kChannels> channels_;
   int64_t cycleUs_ = 0; // time of the last cycle
+  BitSignal resetKey_{"NB_RESET"};
+  bool resetPressed_ = false; // by an event: the key shows for one cycle
+  bool pulsing_ = false;
+  bool resetBefore_ = false;
 };
 
 } // namespace rung::nc::nct

@@ -134,9 +134,9 @@ bool makePins(Component& c) {
 
 void printMessage(const rung_program& program, const rung_message& message) {
   if (message.op == RUNG_MESSAGE_CLEAR) return;
-  // The text stands in the program's table, so it ends with 0; a number without one has none.
-  const std::string_view text = host::messageText(program, message.number);
-  rtapi_print("%s: message %u %s\n", kModule, message.number, text.empty() ? "" : text.data());
+  char line[400];
+  line[nc::describeMessage(program, message, std::span(line).first(sizeof line - 1))] = '\0';
+  rtapi_print("%s: message %s\n", kModule, line);
 }
 
 // The fault in one line, from the program's tables alone: this runs in the scan and must not allocate.

@@ -2,11 +2,30 @@
 #include "rtlib/nc/model/message_board.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/nct/messages.h"
 
 namespace rung::nc {
+
+size_t describeMessage(const rung_program& program, const rung_message& message, std::span<char> out) {
+  const std::string_view text = host::messageText(program, message.number);
+  const bool nct = std::string_view(program.dialect) == "nct";
+  const uint32_t number = nct ? nct::messageCode(message.number, static_cast<uint32_t>(message.channel),
+                                                 static_cast<uint32_t>(message.index))
+                              : message.number;
+  char digits[16];
+  const auto length = static_cast<size_t>(std::snprintf(digits, sizeof digits, nct ? "%08u " : "%u ", number));
+  const size_t head = std::min(length, out.size());
+  std::copy_n(digits, head, out.data());
+  const std::span<char> rest = out.subspan(head);
+  if (nct) return head + nct::fillText(text, message, rest);
+  const size_t plain = std::min(text.size(), rest.size());
+  std::copy_n(text.data(), plain, rest.data());
+  return head + plain;
+}
 
 void MessageBoard::take(host::Instance& instance) {
   rung_message message;

@@ -2,6 +2,7 @@
 // their message queue.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,10 @@ struct ShownMessage {
   std::string text;
   bool operator==(const ShownMessage&) const = default;
 };
+
+// The line of a log: the message's number (NCT: its code of 8 digits) and its text, with its number where the dialect
+// prints one. Gives the characters written; what does not fit is cut off. Allocates nothing.
+size_t describeMessage(const rung_program& program, const rung_message& message, std::span<char> out);
 
 class MessageBoard {
 public:

@@ -210,6 +210,35 @@ TEST(Box, MessagesAreHandedOn) {
   EXPECT_THAT(shown, ElementsAre(7u, 7u));
 }
 
+// The NC's part of messages works here too: the program learns what is on the screen, and CANCEL is a pin.
+TEST(Box, NctMessages) {
+  Bench b(testing::nctProgram(), "in bit show 0056.18\nin bit cancel N_CLRMSG\nout bit on 0400.01\nout bit any N_MSGA\n"
+                                 "out u32 code N_ACTMSG\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  shown.clear();
+  b.box->setMessageSink([](const rung_program&, const rung_message& message) { shown.push_back(message.op); });
+  const auto cycle = [&] { b.box->step(10 * kMs); };
+  b["show"].bit = true;
+  cycle();
+  EXPECT_FALSE(b["on"].bit);
+  cycle();
+  EXPECT_TRUE(b["on"].bit && b["any"].bit);
+  EXPECT_EQ(b["code"].u32, 3000705u);
+  b["cancel"].bit = true;
+  cycle();
+  EXPECT_TRUE(b["on"].bit) << "with N_CLRMSG at once";
+  cycle();
+  EXPECT_FALSE(b["on"].bit || b["any"].bit);
+  b["show"].bit = b["cancel"].bit = false;
+  cycle();
+  b["show"].bit = true;
+  cycle();
+  cycle();
+  EXPECT_TRUE(b["on"].bit);
+  EXPECT_THAT(shown, ElementsAre(uint32_t{RUNG_MESSAGE_SHOW_LOG}, uint32_t{RUNG_MESSAGE_CLEAR},
+                                 uint32_t{RUNG_MESSAGE_SHOW_LOG}));
+}
+
 TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
   EXPECT_THAT(Bench(testing::gskProgram(), "in bit a Y0.0\nin bit").errors,
               ElementsAre("m.map:2: the form is: in TYPE PIN NAME [SCALE]",
@@ -324,8 +353,12 @@ TEST(Box, AStepAllocatesNothing) {
   EXPECT_EQ(allocationsOf(busy, 8), 0);
   EXPECT_EQ(busy.box->fault().code, 0u);
 
-  Bench nct(testing::nctProgram(), "in bit i 0056.17\nout bit o 0400.00\n");
-  EXPECT_EQ(allocationsOf(nct, 2000), 0);
+  Bench nct(testing::nctProgram(), "in bit i 0056.17\nout bit o 0400.00\nin bit show 0056.18\n");
+  EXPECT_EQ(allocationsOf(nct, 1000), 0);
+  nct["show"].bit = true;
+  EXPECT_EQ(allocationsOf(nct, 500), 0);
+  nct["show"].bit = false;
+  EXPECT_EQ(allocationsOf(nct, 500), 0);
   EXPECT_EQ(nct.box->scans(), 200u);
 
   Bench technol(testing::technolProgram(), "out float r realcell\n");

@@ -8,6 +8,7 @@ namespace {
 
 constexpr uint32_t kX = 0, kY = 16, kF = 32, kG = 96, kR = 160, kD = 192, kPositions = 256, kGskSize = 288;
 constexpr uint32_t kSlice = 8192; // bytes of NCT's M and TS
+constexpr uint32_t kMessages = 2 * kSlice;
 
 bool bit(const uint8_t* mem, uint32_t byte, uint32_t number) { return ((mem[byte] >> number) & 1) != 0; }
 void setBit(uint8_t* mem, uint32_t byte, uint32_t number, bool value) {
@@ -42,9 +43,24 @@ uint32_t gskScan(uint8_t* mem, rung_ctx* ctx) {
   return RUNG_PC_DONE;
 }
 
-uint32_t nctScan(uint8_t* mem, rung_ctx*) {
+// A message box as the compiler makes it: the code that was sent, and what the NC says of it.
+void nctMessage(uint8_t* mem, rung_ctx* ctx, bool input) {
+  uint32_t box[2];
+  std::memcpy(box, mem + kMessages, sizeof box);
+  if (input != (box[0] != 0)) {
+    box[0] = input ? 3000705 : 0;
+    box[1] = 0;
+    std::memcpy(mem + kMessages, box, sizeof box);
+    const rung_message message = {input ? RUNG_MESSAGE_SHOW_LOG : RUNG_MESSAGE_CLEAR, 7, 3, 5, 42, 0, 0};
+    ctx->host->message(ctx, &message);
+  }
+  setBit(mem, 400 * 4, 1, box[1] != 0);
+}
+
+uint32_t nctScan(uint8_t* mem, rung_ctx* ctx) {
   std::memcpy(mem, mem + kSlice, kSlice);
   setBit(mem, 400 * 4, 0, bit(mem, 56 * 4 + 2, 1)); // bit 17 of word 56
+  nctMessage(mem, ctx, bit(mem, 56 * 4 + 2, 2));
   std::memcpy(mem + kSlice, mem, kSlice);
   return RUNG_PC_DONE;
 }
@@ -71,9 +87,10 @@ constexpr rung_symbol kGskSymbols[] = {
 };
 constexpr rung_span kGskRetains[] = {{kD, 64}};
 constexpr rung_span kGskSafes[] = {{kY, 16}, {kG, 64}};
-constexpr rung_range kNctRanges[] = {packed(kSlice, 0), packed(kSlice, kSlice)};
+constexpr rung_range kNctRanges[] = {packed(kSlice, 0), packed(kSlice, kSlice), packed(8, kMessages)};
 constexpr rung_space kNctSpaces[] = {{"M", 4, kSlice, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT, 1, &kNctRanges[0]},
-                                     {"TS", 4, kSlice, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT, 1, &kNctRanges[1]}};
+                                     {"TS", 4, kSlice, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT, 1, &kNctRanges[1]},
+                                     {"@SHOWN", 4, 8, RUNG_SPACE_HIDDEN, 1, &kNctRanges[2]}};
 constexpr rung_range kTechnolRanges[] = {packed(32, 0), packed(64, 64)};
 constexpr rung_space kTechnolSpaces[] = {{"NCI", 1, 32, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT, 1, &kTechnolRanges[0]},
                                          {"DATA", 1, 64, 0, 1, &kTechnolRanges[1]}};
@@ -158,7 +175,7 @@ const rung_program& gskProgram() {
 
 const rung_program& nctProgram() {
   static const rung_program program =
-      withMemory(common("nct", kTasks10ms, kNctCode), 2 * kSlice, kNctSpaces, kScan10ms);
+      withMemory(common("nct", kTasks10ms, kNctCode), 2 * kSlice + 8, kNctSpaces, kScan10ms);
   return program;
 }
 

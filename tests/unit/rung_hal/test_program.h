@@ -10,7 +10,8 @@ namespace rung::hal::testing {
 // D20 (4 bytes each) are the positions of axes 1 and 2. D is retained.
 const rung_program& gskProgram();
 
-// NCT, 10 ms, spaces M and TS (words 0 to 2047); main copies the time slice both ways, M0400.00 := M0056.17.
+// NCT, 10 ms, spaces M and TS (words 0 to 2047); main copies the time slice both ways, M0400.00 := M0056.17. M0056.18
+// shows message 7 of channel 3 with index 5, its output is M0400.01.
 const rung_program& nctProgram();
 
 // TECHNOL, 20 ms, spaces NCI and DATA with the cells REALCELL (8 bytes), COUNT (2 bytes), NAME (a text).

@@ -2,7 +2,7 @@
 #include "rtlib/nc/model/nct/messages.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstring>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nct/topic.h"
@@ -14,10 +14,15 @@ uint32_t codeOf(const rung_message& message) {
   return messageCode(message.number, static_cast<uint32_t>(message.channel), static_cast<uint32_t>(message.index));
 }
 
+// Room for a text with its numbers.
+size_t roomFor(std::string_view text) {
+  constexpr size_t kNumber = 340; // the longest one
+  return text.size() + kNumber * static_cast<size_t>(std::ranges::count(text, '{'));
+}
+
 std::string filled(const rung_program& program, const rung_message& message) {
   const std::string_view text = host::messageText(program, message.number);
-  constexpr size_t kNumber = 340; // the longest one
-  std::string out(text.size() + kNumber * static_cast<size_t>(std::ranges::count(text, '{')), '\0');
+  std::string out(roomFor(text), '\0');
   out.resize(fillText(text, message, out));
   return out;
 }
@@ -25,9 +30,9 @@ std::string filled(const rung_program& program, const rung_message& message) {
 } // namespace
 
 std::string logLine(const rung_program& program, const rung_message& message) {
-  char code[16];
-  std::snprintf(code, sizeof code, "%08u ", codeOf(message));
-  return code + filled(program, message);
+  std::string out(16 + roomFor(host::messageText(program, message.number)), '\0');
+  out.resize(describeMessage(program, message, out));
+  return out;
 }
 
 // ---- cells -------------------------------------------------------------------------------------------------------

@@ -145,7 +145,7 @@ std::vector<std::string> goodOperands(const NctInstruction& row) {
   std::vector<std::string> good;
   for (const OperandInfo& info : row.info.operands.all()) {
     const std::string_view kind = info.kind;
-    good.push_back(info.min <= info.max ? "#" + std::to_string(info.min) : kind == "scope" ? "AXPOS" : std::string(kindOf(kind).good));
+    good.push_back(info.min <= info.max ? "#" + std::to_string(info.min) : kind == "scope" ? "Measured" : std::string(kindOf(kind).good));
   }
   return good;
 }
@@ -179,6 +179,86 @@ TEST(NctTable, GeneratedOperandErrors) {
         EXPECT_TRUE(has(withOperands(row, changed), "constant-out-of-range")) << name << ' ' << changed[i];
       }
     }
+  }
+}
+
+// --- where it stands, made from the rows -----------------------------------------------------------------------------------
+struct Drawn {
+  bool atRail = false;      // the first line touches the left rail
+  bool output = false;      // a coil stands behind it
+  size_t railPin = SIZE_MAX; // this further pin touches the rail
+  size_t pins = SIZE_MAX;   // lines that are drawn
+  std::string modifier;     // in front of the first operand that is an address
+};
+
+std::string elementOf(const NctInstruction& row, const std::string& modifier) {
+  std::vector<std::string> operands = goodOperands(row);
+  for (size_t i = 0; i < operands.size(); ++i) {
+    const std::string_view kind = row.info.operands[i].kind;
+    if (kind == "label" || kind == "scope" || kind == "text" || modifier.empty()) continue;
+    operands[i] = modifier + (kind == "bit" ? "7000.05" : "7000");
+    break;
+  }
+  const std::string name(row.info.mnemonic);
+  if (name.ends_with("-contact-bit") || name.ends_with("-contact-dword")) return (name[0] == 'c' ? "[/" : "[") + operands[0] + "]";
+  if (name == "coil" || name == "negated-coil") return (name[0] == 'n' ? "(/" : "(") + operands[0] + ")";
+  if (name == "SET" || name == "RST") return "(" + name.substr(0, 1) + " " + operands[0] + ")";
+  std::string box = "{" + name;
+  for (const std::string& operand : operands) box += ' ' + operand;
+  return box + "}";
+}
+
+Compiled drawn(const NctInstruction& row, const Drawn& shape) {
+  const auto front = [](bool rail) { return rail ? "|-------------" : "|--[7900.00]--"; };
+  std::string drawing = std::string(front(shape.atRail)) + elementOf(row, shape.modifier) + (shape.output ? "--(7901.00)" : "");
+  for (size_t i = 1; i < row.info.pins.size() && i < shape.pins; ++i)
+    drawing += std::string("\n") + front(i == shape.railPin) + "{" + std::string(row.info.pins[i].name) + "}";
+  return compileMain("rung\n" + drawing + "\n");
+}
+
+// Man. l.1172-1180: every row at the rail and behind a contact, with and without something behind it.
+TEST(NctTable, FirstColumnAndClosingElement) {
+  for (const NctInstruction& row : allInstructions()) {
+    if (row.flow == Flow::Section) continue;
+    const bool always = row.info.output == Output::Always, none = row.info.output == Output::None;
+    const bool atRail = row.info.placement == Placement::AtRail, behind = row.info.placement == Placement::BehindContact;
+    EXPECT_EQ(has(drawn(row, {.atRail = true, .output = always}), "first-column-not-allowed"), behind) << row.info.mnemonic;
+    EXPECT_EQ(has(drawn(row, {.atRail = false, .output = always}), "first-column-required"), atRail) << row.info.mnemonic;
+    EXPECT_EQ(has(drawn(row, {.atRail = atRail, .output = true}), "element-after-closing"), none) << row.info.mnemonic;
+    EXPECT_EQ(has(drawn(row, {.atRail = atRail, .output = false}), "missing-closing-element"), always) << row.info.mnemonic;
+    const auto shapeErrors = {"first-column-not-allowed", "first-column-required", "element-after-closing", "missing-closing-element"};
+    const Compiled good = drawn(row, {.atRail = atRail, .output = always});
+    for (const std::string& code : good.codes())
+      for (const char* wrong : shapeErrors) EXPECT_EQ(code.find(wrong), std::string::npos) << row.info.mnemonic << ' ' << code;
+  }
+}
+
+TEST(NctTable, EveryPinIsDrawnAndHasACondition) {
+  size_t boxes = 0;
+  for (const NctInstruction& row : allInstructions()) {
+    if (row.info.pins.size() < 2) continue;
+    ++boxes;
+    for (size_t pin = 1; pin < row.info.pins.size(); ++pin) {
+      EXPECT_TRUE(has(drawn(row, {.output = true, .railPin = pin}), "first-column-not-allowed")) << row.info.mnemonic << ' ' << pin;
+      EXPECT_TRUE(has(drawn(row, {.output = true, .pins = pin}), "missing-pin")) << row.info.mnemonic << ' ' << pin;
+    }
+    EXPECT_TRUE(drawn(row, {.output = true}).codes().empty()) << drawn(row, {.output = true}).rendered();
+  }
+  EXPECT_EQ(boxes, 4u);
+}
+
+// Edges belong to contacts, `!` to bits of the NC in INT0 (man. l.546, l.596, l.930, l.1063).
+TEST(NctTable, ModifiersBelongToContactsAndCoils) {
+  for (const NctInstruction& row : allInstructions()) {
+    const auto& operands = row.info.operands.all();
+    const bool addressable = std::ranges::any_of(operands, [](const OperandInfo& o) { return o.kind != "label" && o.kind != "scope" && o.kind != "text"; });
+    if (!addressable) continue;
+    const bool always = row.info.output == Output::Always;
+    for (const char* edge : {"@", "%"})
+      EXPECT_EQ(has(drawn(row, {.output = always, .modifier = edge}), "modifier-not-allowed"), row.shape != Shape::Contact) << row.info.mnemonic << edge;
+    EXPECT_TRUE(has(drawn(row, {.output = always, .modifier = "!"}), "immediate-outside-int0")) << row.info.mnemonic;
+    for (const char* both : {"@!", "!@", "%!", "!%"})
+      EXPECT_TRUE(has(drawn(row, {.output = always, .modifier = both}), "edge-with-immediate")) << row.info.mnemonic << both;
   }
 }
 

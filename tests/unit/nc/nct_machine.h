@@ -1,0 +1,91 @@
+// An NCT program of nothing but its memory, beside its simulated control: tests play the PLC. The memory begins like
+// that of a compiled program: PLCNVRAM 4000, PLCRAM 5024.
+#pragma once
+#include <gtest/gtest.h>
+
+#include "rtlib/nc/model/nc_model.h"
+#include "rtlib/nc/nct/operand_block.h"
+#include "tests/unit/rtlib/test_program.h"
+
+namespace rung::nc::test {
+
+class NctMachine {
+public:
+  explicit NctMachine(const std::vector<std::pair<std::string, std::string>>& config = {}) : model_(makeNctModel()) {
+    program_.dialect = "nct";
+    program_.services = {"MR function address block -> code",         "MW function address block -> code",
+                         "MACR variable channel -> value:f",          "MACW variable channel value:f ->",
+                         "MOVCMND axis code speed:f distance:f",      "SCP symbol p1 p2 -> value:f"};
+    constexpr uint32_t kMemory = 40000;
+    constexpr uint32_t kSlice = 16000;
+    constexpr uint32_t kBlocks = 4 * nct::kBlockStride;
+    program_.memorySize = kMemory + kSlice + kBlocks;
+    program_.addPacked("M", 4, kMemory, 0);
+    program_.addPacked("TS", 4, kSlice, kMemory);
+    blocks_ = program_.addPacked(nct::kBlockSpace, 4, kBlocks, kMemory + kSlice);
+    program_.retains = {{16000, 4096}};
+    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
+    program_.addBeginCopy(0, {RUNG_COPY_ALL, kMemory + 4, 4, 0, kSlice - 4});
+    program_.scan.clear();
+    for (int i = 0; i < 5; ++i) {
+      program_.scan.push_back({RUNG_STEP_ADVANCE, RUNG_NONE, 2000});
+      program_.scan.push_back({RUNG_STEP_HOOK, RUNG_NONE, 0});
+    }
+    program_.scan.push_back({RUNG_STEP_RUN, 0, 1});
+    program_.scan.push_back({RUNG_STEP_SLOT, RUNG_NONE, 0});
+    program_.fast = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000}, {RUNG_STEP_HOOK, RUNG_NONE, 0}};
+    EXPECT_EQ(model_->config("nc", "simulated"), "");
+    for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "") << key;
+    instance_ = std::make_unique<host::Instance>(program_.link(), model_.get());
+    model_->powerOn(*instance_, PowerOn::Cold);
+  }
+
+  void set(const char* name, uint64_t value) { instance_->write(place(name, true), value); }
+  uint64_t get(const char* name) { return instance_->read(place(name, false)); }
+  void scan(int count = 1) {
+    for (int i = 0; i < count; ++i) model_->scan(*instance_);
+  }
+
+  // A request of MR or MW with words 1, 2…; its answer, -1 while it is pending.
+  uint32_t request(bool write, int64_t function, const std::vector<int32_t>& words) {
+    for (uint32_t i = 0; i < nct::kBlockStride; ++i) instance_->memory().write(blocks_, 4 * i, 4, 0);
+    for (uint32_t i = 0; i < words.size(); ++i)
+      instance_->memory().write(blocks_, 4 * (i + 1), 4, static_cast<uint32_t>(words[i]));
+    const int64_t args[] = {function, 7000, 0};
+    return instance_->services().request(write ? 1 : 0, args, 3);
+  }
+  int64_t answer(uint32_t ticket) {
+    instance_->services().deliver();
+    return instance_->services().poll(ticket) == RUNG_SERVICE_DONE ? instance_->services().result(ticket, 0) : -1;
+  }
+  int64_t ask(bool write, int64_t function, const std::vector<int32_t>& words, int scans = 1) {
+    const uint32_t ticket = request(write, function, words);
+    scan(scans);
+    return answer(ticket);
+  }
+  int32_t blockWord(uint32_t n) {
+    return static_cast<int32_t>(instance_->memory().read(blocks_, 4 * n, 4));
+  }
+
+  int32_t word(uint32_t address) { return static_cast<int32_t>(instance_->memory().read(0, 4 * address, 4)); }
+  void setWord(uint32_t address, int32_t value) {
+    instance_->memory().write(0, 4 * address, 4, static_cast<uint32_t>(value));
+  }
+
+  NcModel& nc() { return *model_; }
+  host::Instance& instance() { return *instance_; }
+
+private:
+  host::Ref place(const char* name, bool write) {
+    const auto found = write ? model_->writePlace(*instance_, name) : model_->readPlace(*instance_, name);
+    EXPECT_TRUE(found) << name;
+    return found.value_or(host::Ref{});
+  }
+
+  rung::test::TestProgram program_;
+  uint32_t blocks_ = 0;
+  std::unique_ptr<NcModel> model_;
+  std::unique_ptr<host::Instance> instance_;
+};
+
+} // namespace rung::nc::test

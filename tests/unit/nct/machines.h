@@ -21,6 +21,7 @@ public:
   bool bit(uint32_t number, uint32_t bit) const { return (word(number) >> bit & 1) != 0; }
   void run(); // MAIN, and its transfers
   const host::Instance& instance() const { return *instance_; }
+  host::Instance& instance() { return *instance_; }
   const std::string& name() const { return name_; }
 
 private:

@@ -152,7 +152,8 @@ private:
                   .budget = kMainBudget,
                   .budgetFault = timeout,
                   .begin = {},
-                  .end = {}};
+                  .end = {},
+                  .borders = {}};
     const std::vector<ir::Copy> transfer = writtenToTimeSlice();
     // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; nobody reads the time-slice
     // memory between here and the end of the run.
@@ -170,7 +171,8 @@ private:
                   .budget = kInt0Budget,
                   .budgetFault = timeout,
                   .begin = {},
-                  .end = {}};
+                  .end = {},
+                  .borders = {}};
     fast.begin = {copy(spaces_.m, 0, flags_, 0, 4), copy(flags_, 4, spaces_.m, 0, 4)};
     fast.end = {copy(spaces_.m, 0, flags_, 4, 4), copy(flags_, 0, spaces_.m, 0, 4)};
     module_.fastTask = {1};

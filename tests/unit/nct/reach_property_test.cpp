@@ -172,8 +172,12 @@ void check(const Machine& machine, const Form& form, const Words& before) {
         << machine.name() << ": " << form.text << " changed the time-slice word " << i;
   ASSERT_EQ(machine.word(1), 0u);
   const bool edge = std::string_view(form.text).starts_with("SHTR") || std::string_view(form.text).starts_with("ROT");
-  if (may.error && (power || !form.enabled) && !edge) ASSERT_EQ(machine.word(0) & 1, 1u) << form.text;
-  if (!power && form.enabled) ASSERT_EQ(machine.word(0), before[0]) << form.text;
+  if (may.error && (power || !form.enabled) && !edge) {
+    ASSERT_EQ(machine.word(0) & 1, 1u) << form.text;
+  }
+  if (!power && form.enabled) {
+    ASSERT_EQ(machine.word(0), before[0]) << form.text;
+  }
 }
 
 uint32_t wildIndex(std::mt19937& random, uint32_t operand) {

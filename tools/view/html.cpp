@@ -1,7 +1,10 @@
 // The page (see html.h).
 #include "tools/view/html.h"
 
+#include <algorithm>
 #include <iterator>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,10 @@ void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
+constexpr size_t kTableRows = 100;
+constexpr size_t kGroup = 40;
+constexpr int kHeading = 60;
+
 class Page {
 public:
   explicit Page(const Program& program) : program_(program), rail_(commonRail(program)) {}
@@ -25,6 +32,7 @@ public:
 private:
   void head();
   void contents();
+  void group(size_t first);
   void block(const Block& block, size_t index);
   void heading(int level, const Block& block, size_t index, std::string_view prefix);
   void figure(const Figure& figure);
@@ -35,6 +43,7 @@ private:
   const Program& program_;
   int rail_;
   size_t rows_ = 0;
+  int height_ = 0; // of the group at hand
   std::string out_;
 };
 
@@ -62,6 +71,7 @@ void Page::contents() {
 }
 
 void Page::heading(int level, const Block& block, size_t index, std::string_view prefix) {
+  height_ += kHeading;
   put(out_, "<h{} id=\"b{}\">{}{}", level, index, prefix, escaped(block.text));
   const std::string place = textOf(block.place);
   if (!place.empty()) put(out_, " <small>{}</small>", escaped(place));
@@ -86,9 +96,8 @@ void Page::block(const Block& block, size_t index) {
 
 void Page::figure(const Figure& figure) {
   const Picture picture = layOut(figure.sheet, rail_);
-  const int height = picture.height + 40 + static_cast<int>(figure.comments.size()) * 20;
-  put(out_, "<figure class=\"R\" id=\"r{}\" style=\"contain-intrinsic-size:auto {}px auto {}px\"><figcaption><b>{}</b>",
-      figure.number, picture.width, height, figure.number);
+  height_ += picture.height + 44 + static_cast<int>(figure.comments.size()) * 20;
+  put(out_, "<figure class=\"R\" id=\"r{0}\"><figcaption><b>{0}</b>", figure.number);
   put(out_, "<span>{}</span><i class=\"f\">{}</i></figcaption>", escaped(figure.title), escaped(textOf(figure.place)));
   for (const std::string& comment : figure.comments) put(out_, "<p>{}</p>", escaped(comment));
   put(out_, "<svg role=\"img\" aria-label=\"{0}\" width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\">",
@@ -120,20 +129,35 @@ void Page::row(const NameRow& row, bool withWrites) {
   out_ += "</tr>\n";
 }
 
+// Several tables of the same columns, so that a browser lays out those in sight only.
 void Page::table(const NameTable& table, size_t index) {
-  put(out_, "<h2 id=\"t{}\">{}</h2>\n<table><thead><tr>", index, escaped(table.title));
-  out_ += table.texts ? "<th>Number</th><th>Text</th><th>Comment</th><th>Shown in rung</th>"
-                      : "<th>Name</th><th>Address</th><th>Comment</th><th>Written in rung</th><th>Read in rung</th>";
-  out_ += "</tr></thead><tbody>\n";
-  for (const NameRow& one : table.rows) row(one, !table.texts);
-  out_ += "</tbody></table>\n";
+  put(out_, "<h2 id=\"t{}\">{}</h2>\n", index, escaped(table.title));
+  for (size_t first = 0; first < table.rows.size(); first += kTableRows) {
+    const auto rows = std::span(table.rows).subspan(first, std::min(kTableRows, table.rows.size() - first));
+    put(out_, "<div class=\"T{}\" style=\"contain-intrinsic-size:auto 1100px auto {}px\"><table><thead><tr>",
+        table.texts ? " V" : "", (rows.size() + 1) * 25);
+    out_ += table.texts ? "<th>Number</th><th>Text</th><th>Comment</th><th>Shown in rung</th>"
+                        : "<th>Name</th><th>Address</th><th>Comment</th><th>Written in rung</th><th>Read in rung</th>";
+    out_ += "</tr></thead><tbody>\n";
+    for (const NameRow& one : rows) row(one, !table.texts);
+    out_ += "</tbody></table></div>\n";
+  }
+}
+
+// Blocks that a browser lays out when they come in sight; their height must be known before.
+void Page::group(size_t first) {
+  std::string before = std::exchange(out_, {});
+  height_ = 0;
+  for (size_t i = first; i < std::min(first + kGroup, program_.blocks.size()); ++i) block(program_.blocks[i], i);
+  put(before, "<div class=\"G\" style=\"contain-intrinsic-size:auto 1000px auto {}px\">\n{}</div>\n", height_, out_);
+  out_ = std::move(before);
 }
 
 std::string Page::run() {
   head();
   contents();
   out_ += "<main>\n";
-  for (size_t i = 0; i < program_.blocks.size(); ++i) block(program_.blocks[i], i);
+  for (size_t first = 0; first < program_.blocks.size(); first += kGroup) group(first);
   for (size_t i = 0; i < program_.tables.size(); ++i) table(program_.tables[i], i);
   put(out_, "</main>\n<script>{}</script>\n</body>\n</html>\n", kPageScript);
   return std::move(out_);

@@ -16,7 +16,7 @@ a:hover{text-decoration:underline}
 nav ul{margin:4px 0;padding-left:20px;columns:16em}
 p.C{white-space:pre-line;margin:12px 0 4px}
 .f{font-size:12px;color:#555}
-.R{margin:0;padding:14px 0 0;content-visibility:auto;overflow-x:auto}
+.R{margin:0;padding:14px 0 0;overflow-x:auto}
 .R:target{background:#fff7d6}
 figcaption{display:flex;gap:12px;align-items:baseline;font-size:15px}
 figcaption b{min-width:28px}
@@ -24,9 +24,17 @@ figcaption span{font-weight:bold;flex:1}
 figcaption .f{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace}
 .R p{margin:2px 0 0 40px;font-size:13px;color:#333}
 .R svg{display:block;margin-top:4px}
-table{border-collapse:collapse;margin:8px 0}
+.G,.T{content-visibility:auto}
+table{border-collapse:collapse;table-layout:fixed;width:100%;max-width:1100px}
 th,td{text-align:left;vertical-align:top;padding:3px 14px 3px 0;border-bottom:1px solid #ddd;font-size:13px}
-tbody th,td.v{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace;white-space:nowrap}
+th:nth-child(1){width:20%}
+th:nth-child(2){width:14%}
+th:nth-child(3){width:32%}
+.V th:nth-child(1){width:10%}
+.V th:nth-child(2){width:50%}
+.V th:nth-child(3){width:20%}
+td,tbody th{overflow-wrap:anywhere}
+tbody th,td.v{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace}
 td.q{padding-top:12px;color:#333;font-style:italic}
 tr:target{background:#fff7d6}
 #find{position:sticky;top:0;z-index:1;background:#fff;padding:8px 0;border-bottom:1px solid #bbb;display:flex;gap:8px}
@@ -38,7 +46,8 @@ tr:target{background:#fff7d6}
 @page{margin:12mm}
 body{padding:0;font-size:12px}
 #find,nav{display:none}
-.R{content-visibility:visible;break-inside:avoid;overflow:visible}
+.G,.T{content-visibility:visible}
+.R{break-inside:avoid;overflow:visible}
 .R svg{max-width:100%;max-height:245mm;height:auto}
 h2,h3,p.C{break-after:avoid}
 tr{break-inside:avoid}

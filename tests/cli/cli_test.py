@@ -273,6 +273,29 @@ class Products(Cli):
         self.assertEqual(done.returncode, OK, done.stderr)
         self.assertIn(b'message 1 "EMERGENCY STOP"', done.stdout)
 
+    def test_run_shows_nct_messages(self):
+        source = self.file("tool.lad", 'dialect nct\nmodule MAIN\nmessage 20 "Tool {#0:F0} missing"\nrung\n'
+                           '|--[N_P100MS]--{MSG #20 #1 #3 #5}--(7100.00)\n')
+        done = rungc("run", source, "--scans", "10", "--watch", "7100.00", "N_ACTMSG")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn(b'50.000 ms  message 20 (channel 1, index 3) "Tool 5 missing"\n', done.stdout)
+        self.assertIn(b"60.000 ms  7100.00 = 1", done.stdout)
+        self.assertIn(b"60.000 ms  N_ACTMSG = 1002003", done.stdout)
+        self.assertIn(b'"Tool 5 missing" is gone', done.stdout)
+        on_the_clock = rungc("run", source, "--for", "80ms", "--realtime", "--watch", "7100.00")
+        self.assertEqual(on_the_clock.returncode, OK, on_the_clock.stderr)
+        self.assertIn(b"7100.00 = 1", on_the_clock.stdout)
+
+    def test_profile_shows_what_used_up_the_budget(self):
+        scenarios = Path(__file__).resolve().parents[1] / "scenarios/nct"
+        program = str(scenarios / "int0-timeout.lad")
+        for engine in ("jit", "interp"):
+            done = rungc("profile", program, "--scenario", str(scenarios / "int0-timeout.scn"), "--engine", engine, "--json")
+            self.assertEqual(done.returncode, OK, done.stderr)
+            rungs = sorted(json.loads(done.stdout)["rungs"], key=lambda rung: -rung["count"])
+            self.assertEqual(rungs[0]["title"], "its loop")
+            self.assertEqual({rung["line"] for rung in rungs[2:5]}, {14, 17, 20})
+
     def test_explain_signals(self):
         for word in ("MF", "mf", "F7.0", "F007.0"):
             self.assertIn(b"[gsk] MF: F7.0", rungc("explain", word).stdout)

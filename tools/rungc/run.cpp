@@ -61,8 +61,11 @@ void printChanges(const host::Instance& instance, std::vector<Watched>& watched)
 }
 
 std::string messageText(const nc::ShownMessage& message) {
-  return message.text.empty() ? fmt::format("message {}", message.number)
-                              : fmt::format("message {} \"{}\"", message.number, message.text);
+  std::string text = fmt::format("message {}", message.number);
+  if (message.channel != 0 || message.index != 0)
+    text += fmt::format(" (channel {}, index {})", message.channel, message.index);
+  if (!message.text.empty()) text += fmt::format(" \"{}\"", message.text);
+  return text;
 }
 
 // Prints which messages have come to the screen or gone from it, behind the time.

@@ -7,6 +7,7 @@
 #include "frontend/table/markdown.h"
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/nct/axis_codes.h"
+#include "rtlib/nc/nct/messages.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "rtlib/nc/nct/windows.h"
@@ -27,9 +28,10 @@ void memory(Page& page) {
   page.table("| words | name | what | through power-off |");
   page.line("| 0000 | `FLAGS` | flags of the instructions: FL_ER, FL_UF, FL_OF, FL_CY, FL_GT, FL_EQ, FL_LT from bit 0 "
             "on; read only | |");
-  page.line("| {:04} to PLCNVRAM-1 | | signals of the NC, twice: synchronised, and for `!` in INT0 the time-slice memory "
-            "| |",
-            kFirstNcWord);
+  page.line(
+      "| {:04} to PLCNVRAM-1 | | signals of the NC, twice: synchronised, and for `!` in INT0 the time-slice memory "
+      "| |",
+      kFirstNcWord);
   page.line("| PLCNVRAM to PLCRAM-1 | `PLCNVRAM` = {} | user memory | kept |", limits.plcNvram);
   page.line("| PLCRAM to {} | `PLCRAM` = {} | user memory | cleared |", kWords - 1, limits.plcRam);
 }
@@ -54,8 +56,9 @@ void configuration(Page& page) {
   page.table("| key | value |");
   page.line("| `PLCNVRAM`, `PLCRAM` | first words of the user memory, {} and {} without it |", defaults.plcNvram,
             defaults.plcRam);
-  page.line("| `timeslice` | period of INT0, a fifth of MAIN's without it; MAIN's is `period`, {} ms without it |",
-            defaults.periodUs / 1000);
+  page.line("| `timeslice` | period of INT0, a fifth of MAIN's without it |");
+  page.line("| `period_us` | period of MAIN in microseconds, in a scenario `period`; {} without it |",
+            defaults.periodUs);
   page.line("| `nc` | `scripted` (default): the scenario plays the NC; `simulated`: the simulated NC does, see "
             "[simulated-nc-nct.md](../simulated-nc-nct.md) for its keys |");
 }
@@ -65,8 +68,8 @@ void warnings(Page& page) {
   page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
   page.table("| code | meaning |");
   for (const Diag id :
-       {Diag::WriteToInput, Diag::SymbolInNcArea, Diag::UnknownFunctionCode, Diag::Int0OnlySignal, Diag::SignalIndex, Diag::MixedOutput,
-        Diag::BackwardJump, Diag::LabelUnused, Diag::SubroutineUnused})
+       {Diag::WriteToInput, Diag::SymbolInNcArea, Diag::UnknownFunctionCode, Diag::Int0OnlySignal, Diag::SignalIndex,
+        Diag::MixedOutput, Diag::BackwardJump, Diag::LabelUnused, Diag::SubroutineUnused, Diag::SharedState})
     page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
 }
 
@@ -85,7 +88,7 @@ std::string amountsOf(const nc::nct::ServiceFunction& function) {
     if (!text.empty()) text += ", ";
     text += amount.first == amount.last ? fmt::format("{}", amount.first)
             : amount.step == 1          ? fmt::format("{} to {}", amount.first, amount.last)
-                                        : fmt::format("{}, {}, … {}", amount.first, amount.first + amount.step, amount.last);
+                               : fmt::format("{}, {}, … {}", amount.first, amount.first + amount.step, amount.last);
   }
   return text;
 }
@@ -117,7 +120,8 @@ void functions(Page& page) {
     page.table("| word | use | meaning |");
     for (const nc::nct::BlockWord& word : function.words)
       page.line("| {} | {} | {} |",
-                word.first == word.last ? fmt::format("{}", word.first) : fmt::format("{} to {}", word.first, word.last),
+                word.first == word.last ? fmt::format("{}", word.first)
+                                        : fmt::format("{} to {}", word.first, word.last),
                 useText(word.use), cell(word.meaning));
   }
 }
@@ -162,6 +166,38 @@ void scopeSymbols(Page& page) {
               cell(parameterText(symbol.param2)), symbol.line);
 }
 
+void messages(Page& page) {
+  page.heading("## Messages");
+  page.line(
+      "MSG, MSGF, ALR, ALRF, REM and REMF send a message with the rising edge of their input and delete it from the "
+      "screen with the falling edge, whatever their operands are by then; its number is the variable's value at "
+      "the rising edge. A number, channel or index out of range at run time sets FL_ER, and nothing is sent until "
+      "the next rising edge. Manual: l.2667-2913.\n");
+  page.table("| box | screen | log | variable |");
+  page.line("| MSG, MSGF | yes | no | integer, double |");
+  page.line("| ALR, ALRF | yes | yes | integer, double |");
+  page.line("| REM, REMF | no | yes | integer, double |");
+  page.heading("### Code and text");
+  page.line(
+      "The code AA0CCCDD has the channel index, the number 1 to {} and the arbitrary index. One code is one message "
+      "on the screen: sent again, by whatever box, it comes to the top with its new number, and each of its boxes "
+      "deletes it. `message 20 \"Tool {{#0:F0}} is missing\"` gives the text: `{{#0:F0}}` prints an integer, "
+      "`{{*0:Fi}}` a double with i decimals, rounded. The kind must be the box's (`message-format`); a box whose "
+      "number is in a register prints what it has. A log entry is the code with 8 digits and the text.",
+      nc::nct::kMessages);
+  page.heading("### What the program sees");
+  page.line(
+      "The output is TRUE while the code is on the screen (REM, REMF: since it is in the log), from the cycle behind "
+      "the one in which it was sent, in INT0 from the next time slice on; FALSE while the input is. The last message "
+      "sent is on top: N_ACTMSG holds its code, N_MSGA and N_MSG0 are 1 while there is one. A message that found no "
+      "room in the queue of its cycle is neither shown nor logged, and the output stays FALSE.\n");
+  page.line(
+      "CANCEL sets N_CLRMSG for one cycle; at the end of that cycle the message that was on top goes. So the output is "
+      "still TRUE when N_CLRMSG is, FALSE from the next cycle on; the message comes back with the next rising edge "
+      "only. In a scenario `set N_CLRMSG 1` does it (one message for each rising edge of N_CLRMSG), or `event cancel`, "
+      "which also takes `all=1` (Clear all) or `number=20 channel=0 index=1` (CLEAR of a selected message).");
+}
+
 void windows(Page& page) {
   page.heading("## Windows of MW 70");
   page.table("| identifier | window | parameter 1 | parameter 2 | manual |");
@@ -199,6 +235,7 @@ std::string referenceSections() {
   configuration(page);
   warnings(page);
   functions(page);
+  messages(page);
   executionCodes(page);
   windows(page);
   scopeSymbols(page);

@@ -10,6 +10,7 @@
 
 #include "tools/view/html_parts.h"
 #include "tools/view/layout.h"
+#include "tools/view/pieces.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {
@@ -23,6 +24,7 @@ void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
 constexpr size_t kTableRows = 100;
 constexpr size_t kGroup = 40;
 constexpr int kHeading = 60;
+constexpr int kPieceHeight = 800; // higher drawings may be torn by the end of a page, between rows
 
 class Page {
 public:
@@ -97,13 +99,18 @@ void Page::block(const Block& block, size_t index) {
 void Page::figure(const Figure& figure) {
   const Picture picture = layOut(figure.sheet, rail_);
   height_ += picture.height + 44 + static_cast<int>(figure.comments.size()) * 20;
-  put(out_, "<figure class=\"R\" id=\"r{0}\"><figcaption><b>{0}</b>", figure.number);
+  put(out_, "<figure class=\"R{1}\" id=\"r{0}\"><figcaption><b>{0}</b>", figure.number,
+      picture.height > kPieceHeight ? " D" : "");
   put(out_, "<span>{}</span><i class=\"f\">{}</i></figcaption>", escaped(figure.title), escaped(textOf(figure.place)));
   for (const std::string& comment : figure.comments) put(out_, "<p>{}</p>", escaped(comment));
-  put(out_, "<svg role=\"img\" aria-label=\"{0}\" width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\">",
-      escaped(nameOf(figure)), picture.width, picture.height);
-  appendPicture(out_, picture);
-  out_ += "</svg></figure>\n";
+  const std::string name = escaped(nameOf(figure));
+  for (const Picture& piece : piecesOf(picture, kPieceHeight)) {
+    put(out_, "<svg role=\"img\" aria-label=\"{0}\" width=\"{1}\" height=\"{2}\" viewBox=\"0 {3} {1} {2}\">", name,
+        piece.width, piece.height, piece.top);
+    appendPicture(out_, piece);
+    out_ += "</svg>";
+  }
+  out_ += "</figure>\n";
 }
 
 void Page::uses(const NameRow& row, bool writes) {

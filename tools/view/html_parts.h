@@ -18,12 +18,12 @@ p.C{white-space:pre-line;margin:12px 0 4px}
 .f{font-size:12px;color:#555}
 .R{margin:0;padding:14px 0 0;overflow-x:auto}
 .R:target{background:#fff7d6}
-figcaption{display:flex;gap:12px;align-items:baseline;font-size:15px}
+figcaption{margin-bottom:4px;display:flex;gap:12px;align-items:baseline;font-size:15px}
 figcaption b{min-width:28px}
 figcaption span{font-weight:bold;flex:1}
 figcaption .f{font-family:"DejaVu Sans Mono",Consolas,Menlo,monospace}
 .R p{margin:2px 0 0 40px;font-size:13px;color:#333}
-.R svg{display:block;margin-top:4px}
+.R svg{display:block}
 .G,.T{content-visibility:auto}
 table{border-collapse:collapse;table-layout:fixed;width:100%;max-width:1100px}
 th,td{text-align:left;vertical-align:top;padding:3px 14px 3px 0;border-bottom:1px solid #ddd;font-size:13px}
@@ -48,6 +48,9 @@ body{padding:0;font-size:12px}
 #find,nav{display:none}
 .G,.T{content-visibility:visible}
 .R{break-inside:avoid;overflow:visible}
+.D{break-inside:auto}
+.D svg{break-inside:avoid}
+figcaption{break-after:avoid}
 .R svg{max-width:100%;max-height:245mm;height:auto}
 h2,h3,p.C{break-after:avoid}
 tr{break-inside:avoid}

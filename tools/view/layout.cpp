@@ -25,6 +25,7 @@ constexpr int kBoxNoteWidth = 230;
 constexpr int kAlignedBox = 400; // wider ones do not pull the others along
 constexpr int kRowGap = 8;
 constexpr int kRemarkGap = 14;
+constexpr int kTop = 2;
 constexpr int kBare = 2; // half the height of a row with nothing but vertical wires
 constexpr int kBandGap = 14;
 constexpr int kEnd = 16; // between what closes a branch and the right rail
@@ -115,7 +116,8 @@ private:
   uint32_t bandCount_ = 1;
   std::vector<std::vector<BandRow>> rows_; // by row, its bands from left to right
   int rail_ = 0;
-  int y_ = 2;
+  std::vector<bool> inBox_; // by row: a box goes on from the row above
+  int y_ = kTop;
   int jumps_ = 0;
   Picture picture_;
 };
@@ -291,6 +293,9 @@ Height Layout::rowHeight(uint32_t row, uint32_t band, int wire) const {
 // The wire of a row is known before the height below it, which depends on where the boxes that end there begin.
 void Layout::placeRows() {
   std::vector<std::vector<uint32_t>> rowsOf(bandCount_);
+  inBox_.assign(sheet_.rows.size(), false);
+  for (const Cell& cell : sheet_.cells)
+    if (cell.kind == Kind::Box) std::fill_n(inBox_.begin() + cell.firstRow + 1, cell.lastRow - cell.firstRow, true);
   for (uint32_t row = 0; row < sheet_.rows.size(); ++row) {
     addBandRows(row);
     for (const BandRow& part : rows_[row]) rowsOf[part.band].push_back(row);
@@ -298,6 +303,7 @@ void Layout::placeRows() {
   for (uint32_t band = 0; band < bandCount_; ++band) {
     if (band > 0) y_ += kBandGap;
     for (uint32_t row : rowsOf[band]) {
+      if (y_ > kTop && !inBox_[row]) picture_.breaks.push_back(y_ - kRowGap / 2);
       const int wire = y_ + rowHeight(row, band, 0).above;
       rows_[row][bandIndex(row, band)].wire = wire;
       y_ = wire + rowHeight(row, band, wire).below + kRowGap;

@@ -57,8 +57,10 @@ struct Jump {
 
 struct Picture {
   int width = 0; // of everything
+  int top = 0;   // y of its upper side: not 0 in a piece of a drawing
   int height = 0;
-  int rail = 0; // x of the right rail; the left one is at kLeft
+  std::vector<int> breaks; // heights at which only vertical wires are cut, from top to bottom
+  int rail = 0;            // x of the right rail; the left one is at kLeft
   std::vector<Line> wires;
   std::vector<Jump> jumps;
   std::vector<Point> dots; // where three wires meet

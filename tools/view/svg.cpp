@@ -20,7 +20,7 @@ void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
 }
 
 void appendRails(std::string& out, const Picture& picture) {
-  put(out, "<path class=\"e\" d=\"M{} 0v{}M{} 0v{}\"/>", kLeft, picture.height, picture.rail, picture.height);
+  put(out, R"(<path class="e" d="M{0} {1}v{3}M{2} {1}v{3}"/>)", kLeft, picture.top, picture.rail, picture.height);
 }
 
 void appendWires(std::string& out, const Picture& picture) {

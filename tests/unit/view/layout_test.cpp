@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/view/drawn.h"
+#include "tools/view/pieces.h"
 #include "tools/view/svg.h"
 
 namespace rung::view::test {
@@ -108,6 +109,36 @@ TEST(ViewLayout, DepthAndWidthAreLinear) {
   const Picture picture = layOut(wide->program.figures[0].sheet, 560);
   EXPECT_EQ(picture.rail, 560);
   EXPECT_GT(picture.jumps.size(), 3000u);
+}
+
+TEST(ViewLayout, AHighRungIsCutBetweenRows) {
+  std::string drawing = "|--[7000.00]--+--(7001.00)\n";
+  for (int i = 0; i < 30; ++i) drawing += "|--[7000.01]--+\n";
+  drawing += "|--[7000.02]--+--{CNT 7002 #0 #10 #10}--(7001.01)\n"
+             "|--[7000.03]-----{U/D                }\n"
+             "|--[7000.04]-----{R                  }\n";
+  const auto drawn = drawRung(drawing);
+  const Picture picture = layOut(drawn->program.figures[0].sheet, 800);
+  const std::vector<Picture> pieces = piecesOf(picture, 300);
+  ASSERT_GT(pieces.size(), 5u);
+  Picture whole = picture; // put together again
+  whole.wires.clear();
+  size_t texts = 0;
+  int top = 0;
+  for (const Picture& piece : pieces) {
+    EXPECT_EQ(piece.top, top);
+    EXPECT_LE(piece.height, 300);
+    top += piece.height;
+    texts += piece.texts.size();
+    EXPECT_EQ(overlaps(piece), "");
+    for (const Text& text : piece.texts) EXPECT_TRUE(text.at.y > piece.top && text.at.y < top) << text.text;
+    for (const Frame& frame : piece.frames) EXPECT_LT(frame.corner.y + frame.height, top);
+    whole.wires.insert(whole.wires.end(), piece.wires.begin(), piece.wires.end());
+  }
+  EXPECT_EQ(top, picture.height);
+  EXPECT_EQ(texts, picture.texts.size());
+  EXPECT_EQ(wrongWires(drawn->rung(0), whole), "");
+  EXPECT_EQ(piecesOf(picture, picture.height).size(), 1u);
 }
 
 TEST(ViewNames, AddressesAndCommentsOfSymbols) {

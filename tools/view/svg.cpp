@@ -11,7 +11,7 @@ namespace rung::view {
 namespace {
 
 constexpr int kLeastRail = 560;
-constexpr int kMostRail = 800; // wider drawings are cut
+constexpr int kMostRail = 880; // wider drawings are cut
 constexpr int kIndent = 24;    // of rungs below their captions
 
 template <class... Args>

@@ -67,6 +67,12 @@ const ChannelProgram* Channel::program() const {
   return (mode_ == Mode::Mdi || manual()) && hasEntered_ ? &entered_ : nullptr;
 }
 
+uint32_t Channel::blocksAhead() const {
+  const ChannelProgram* under = running() ? program() : nullptr;
+  const size_t blocks = under == nullptr ? 0 : under->blocks.size();
+  return blocks > run().next ? static_cast<uint32_t>(blocks) - run().next : 0;
+}
+
 std::string Channel::enter(std::string_view blocks) {
   if (mode_ != Mode::Mdi && !manual()) return "blocks are entered in MDI, jog, incremental jog and handwheel mode";
   if (running()) return "the channel is executing";

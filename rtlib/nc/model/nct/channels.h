@@ -15,6 +15,7 @@ public:
 
   // Channels count from 0. A program runs or is interrupted: CN_START, CN_STOP or CN_INTD.
   bool busy(uint32_t channel) const { return channels_[channel]->busy(); }
+  uint32_t blocksAhead(uint32_t channel) const { return channels_[channel]->blocksAhead(); }
   bool hasProgram(int32_t number) const { return find(number) != nullptr; }
   void select(uint32_t channel, int32_t number);
 

@@ -55,6 +55,8 @@ double slaveSpeed(const Control& c, uint32_t n, uint32_t) {
 }
 double phaseError(const Control& c, uint32_t n, uint32_t) { return c.spindles->synchronousError(n - 1); }
 
+double blocksAhead(const Control& c, uint32_t channel, uint32_t) { return c.channels->blocksAhead(channel - 1); }
+
 double driveDatum(const Control& c, uint32_t drive, uint32_t datum) { return c.drives->datum(drive, datum); }
 
 // The time of the control's threads is not simulated: the same on every machine and engine, in microseconds.
@@ -116,7 +118,7 @@ constexpr Entry kReads[] = {
     {"PlcCycle", threadTime<600>},
     {"CANErr", kZero},
     {"TSliceErr", kZero},
-    {"CNCBufferCount", kZero},
+    {"CNCBufferCount", blocksAhead},
     {"RotaryAx", axisTurned},
     {"TachRealSp", spindlePulses},
     {"NCTDriveMess", driveDatum},

@@ -188,7 +188,8 @@ private:
     const uint32_t memory = host::findSpace(instance.program(), "M");
     const uint32_t slice = host::findSpace(instance.program(), "TS");
     if (memory == RUNG_NONE || slice == RUNG_NONE) return;
-    for (uint32_t byte = 8; byte < areaBytes(nctSignals(), "M"); ++byte)
+    const uint32_t end = areaBytes(nctSignals(), "M");
+    for (uint32_t byte = 8; byte < end; ++byte)
       instance.memory().writeByte(memory, byte, instance.memory().readByte(slice, byte));
   }
 

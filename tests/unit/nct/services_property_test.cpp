@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "rtlib/nc/model/refuse.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nct/machines.h"
@@ -295,6 +296,73 @@ TEST(NctServices, WaitForRoomInTheQueue) {
     for (uint32_t n = 0; n < kMany; ++n) EXPECT_TRUE(machine.bit(7100 + n, 0)) << n;
     instance.scan();
     EXPECT_TRUE(takeAll(instance).empty());
+  }
+}
+
+// A host without an NC: at once, or when it comes to it.
+class Refusing final : public host::ScheduleHooks {
+public:
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    reply = nc::refuse(instance.program(), request);
+    return true;
+  }
+};
+
+TEST(NctServices, EndWhereNobodyAnswers) {
+  const std::string text =
+      "rung\n|--[7000.00]--{MR 7100 #10}--(7001.00)\nrung\n|--[7000.01]--{MACR 7200 #500 #0}--(7001.01)\n"
+      "rung\n|--[7000.02]--{MACW #500 7200 #0}--(7001.02)\n"
+      "rung\n|--[7000.03]--{SCP 7200 ActPosAx #1 #0}--(7001.03)\n";
+  Refusing hooks;
+  for (const bool later : {false, true}) {
+    Machines machines(text, Machines::interpreterAndJit());
+    for (Machine& machine : machines.all()) {
+      if (!later) machine.instance().setHooks(&hooks);
+      const auto scan = [&] {
+        machine.instance().scan();
+        for (const rt::ServiceRequest& request : takeAll(machine.instance()))
+          machine.instance().services().complete(nc::refuse(machine.instance().program(), request));
+      };
+      machine.setWord(7101, 3);
+      machine.setReal(7200, 1.5);
+      machine.setWord(7000, 1);
+      scan();
+      EXPECT_EQ(machine.word(7001), 0u);
+      scan();
+      EXPECT_EQ(machine.word(7001), 1u);
+      EXPECT_EQ(machine.word(7100), 1u);
+      EXPECT_FALSE(machine.bit(0, 0));
+      for (const uint32_t box : {1u, 2u, 3u}) {
+        machine.setWord(7000, 1u << box);
+        scan();
+        scan();
+        EXPECT_EQ(machine.word(7001), 0u) << box;
+        EXPECT_TRUE(machine.bit(0, 0)) << box;
+        EXPECT_EQ(machine.real(7200), 1.5) << box;
+        machine.setWord(0, 0);
+        machine.setWord(7000, 0);
+        scan();
+      }
+    }
+  }
+}
+
+// The command is written or not, there and then.
+TEST(NctServices, AxisCommandsAreRefusedAtOnce) {
+  const std::string text =
+      "rung\n|--[7000.00]--(AP_PLCR)\nrung\n|--[7000.01]--(AN_PLCA)\nrung\n|--[7000.01]--(AN_BEPTY)\n"
+      "rung\n|--[7000.00]--{MOVCMND #0 #0 *0.0 *1.0}--(7001.00)\n";
+  Refusing hooks;
+  Machines machines(text, Machines::interpreterAndJit());
+  for (Machine& machine : machines.all()) {
+    machine.setWord(7000, 3);
+    machine.instance().scan();
+    EXPECT_TRUE(machine.bit(7001, 0));
+    EXPECT_FALSE(machine.bit(0, 0));
+    machine.instance().setHooks(&hooks);
+    machine.instance().scan();
+    EXPECT_FALSE(machine.bit(7001, 0));
+    EXPECT_TRUE(machine.bit(0, 0));
   }
 }
 

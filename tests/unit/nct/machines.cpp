@@ -45,6 +45,9 @@ void Machine::setReal(uint32_t number, double value) {
 
 void Machine::run() { RUNG_CHECK(instance_->runTask("MAIN"), "MAIN stopped with a fault"); }
 
+void Machine::scan() { instance_->scan(); }
+void Machine::fast() { instance_->fast(); }
+
 Machines::Machines(const std::string& body, std::vector<EngineKind> kinds) {
   SourceManager sources;
   Diagnostics diagnostics;

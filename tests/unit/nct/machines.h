@@ -19,7 +19,10 @@ public:
   // The time-slice memory's copy of an NC word.
   uint32_t slice(uint32_t number) const;
   bool bit(uint32_t number, uint32_t bit) const { return (word(number) >> bit & 1) != 0; }
-  void run(); // MAIN, and its transfers
+  void run();  // MAIN, and its transfers; no time passes
+  void scan(); // a cycle: T_PLC passes
+  void fast(); // a time slice: INT0 alone
+  int64_t nowUs() const { return instance_->nowUs(); }
   const host::Instance& instance() const { return *instance_; }
   host::Instance& instance() { return *instance_; }
   const std::string& name() const { return name_; }

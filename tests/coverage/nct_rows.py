@@ -18,7 +18,7 @@ first-column-not-allowed first-column-required element-after-closing missing-clo
 dangling-wire unclosed-element tab-character empty-rung
 duplicate-output mixed-output(w) label-out-of-range duplicate-label duplicate-subroutine label-conflict undefined-label undefined-subroutine
 subroutine-before-end missing-ret ret-outside-subroutine recursive-call code-after-end duplicate-end jump-across-subroutine backward-jump(w)
-label-unused(w) subroutine-unused(w) unknown-module duplicate-module missing-main
+label-unused(w) subroutine-unused(w) shared-state(w) unknown-module duplicate-module missing-main
 """.split()
 
 FILE_NAMES = {"+F": "ADDF", "-F": "SUBF", "*F": "MULF", "/F": "DIVF"}

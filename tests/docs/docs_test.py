@@ -46,13 +46,14 @@ class Docs(unittest.TestCase):
         self.assertEqual(len(wanted), 2147)
         self.assertEqual(sorted(found), sorted(wanted))
 
-    def test_gsk_configuration_keys_are_told(self):
-        page = (ROOT / "docs" / "reference" / "gsk.md").read_text()
-        keys = re.findall(r"^- `(\S+)`$", page.split("## Configuration keys of the compiler")[1].split("\n## ")[0], re.MULTILINE)
-        told = page.split("\n## Configuration\n")[1].split("\n## ")[0]
-        self.assertIn("tmr.*", keys)
-        for key in keys:
-            self.assertIn(f"`{key.replace('*', 'N')}`", told)
+    def test_configuration_keys_are_told(self):
+        for dialect in ("gsk", "nct"):
+            page = (ROOT / "docs" / "reference" / f"{dialect}.md").read_text()
+            keys = re.findall(r"^- `(\S+)`$", page.split("## Configuration keys of the compiler")[1].split("\n## ")[0], re.MULTILINE)
+            told = page.split("\n## Configuration\n")[1].split("\n## ")[0]
+            self.assertIn("tmr.*" if dialect == "gsk" else "PLCNVRAM", keys)
+            for key in keys:
+                self.assertIn(f"`{key.replace('*', 'N')}`", told)
 
     def test_links_lead_somewhere(self):
         for page in PAGES:

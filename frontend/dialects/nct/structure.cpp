@@ -61,6 +61,7 @@ public:
       for (const Reference& call : calls_) checkCall(call);
       warnUnused();
       checkRecursion();
+      warnShared();
     }
   }
 
@@ -231,6 +232,45 @@ private:
       through = fmt::format("{}{}", *module_.bodies[path[i]].number, through.empty() ? "" : ", ") + through;
     diagnostics_.report(Diag::RecursiveCall, call.range) << fmt::format("subroutine {}", *module_.bodies[callee].number)
                                                          << (through.empty() ? "" : " through " + through);
+  }
+
+  // A body that is reached by several calls, or from such a body, has its boxes' states once.
+  void warnShared() {
+    std::vector<const Reference*> second(module_.bodies.size(), nullptr);
+    std::vector<uint32_t> callers(module_.bodies.size(), 0);
+    for (const Reference& call : calls_) {
+      if (!module_.subroutines[call.number]) continue;
+      const uint32_t callee = *module_.subroutines[call.number];
+      if (++callers[callee] == 2) second[callee] = &call;
+    }
+    // Calls of a shared body share what they call; each round reaches one level further.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Reference& call : calls_) {
+        if (!module_.subroutines[call.number]) continue;
+        const uint32_t caller = bodyOf(call.rung), callee = *module_.subroutines[call.number];
+        if (second[caller] == nullptr || second[callee] != nullptr) continue;
+        second[callee] = &call;
+        changed = true;
+      }
+    }
+    for (uint32_t body = 1; body < module_.bodies.size(); ++body)
+      if (second[body] != nullptr) warnShared(module_.bodies[body], *second[body]);
+  }
+
+  // One warning for a body, at the first thing that has a state.
+  void warnShared(const Body& body, const Reference& call) {
+    for (uint32_t i = body.first; i < body.end; ++i) {
+      const TypedRung& rung = module_.rungs[i];
+      for (const TypedElement& element : rung.elements) {
+        if (element.row == nullptr) continue;
+        const bool edge = element.row->shape == Shape::Contact;
+        if (edge ? rung.operandsOf(element)[0].edge == 0 : !element.row->info.stateful) continue;
+        diagnostics_.report(Diag::SharedState, element.element->range).note(call.range, "one of the calls")
+            << (edge ? "the edge" : element.row->info.mnemonic) << *body.number;
+        return;
+      }
+    }
   }
 
   struct Use {

@@ -50,8 +50,8 @@ protected:
     set(magazine, place, "PRIORITY", priority);
   }
   void program(int32_t number) {
-    EXPECT_EQ(channels_.event("program", {{.key = "number", .integer = number},
-                                          {.key = "blocks", .isText = true, .text = "M30"}}),
+    EXPECT_EQ(channels_.event("program",
+                              {{.key = "number", .integer = number}, {.key = "blocks", .isText = true, .text = "M30"}}),
               "");
   }
 
@@ -298,8 +298,8 @@ TEST_F(Pallets, SearchForExchange) {
 }
 
 TEST_F(Pallets, SearchOfOtherData) {
-  EXPECT_EQ(ask(308, {6, 1, 12, 1, 0}), 339);    // no pallet at all
-  EXPECT_EQ(ask(308, {6, 2, 4, 1, 0}), 341);     // but places with a status
+  EXPECT_EQ(ask(308, {6, 1, 12, 1, 0}), 339); // no pallet at all
+  EXPECT_EQ(ask(308, {6, 2, 4, 1, 0}), 341);  // but places with a status
   TestBlock empty{6, 2, 1, 3, 0};
   EXPECT_EQ(ask(308, empty), 0);
   EXPECT_EQ(empty[6], 3);
@@ -407,7 +407,8 @@ protected:
     switch (function) {
     case 300: return {3, m, p, magazine()};
     case 303:
-      return {number(2, 10), m, p, number(0, 9), number(0, 10), number(0, 130), number(0, 3), number(0, 66), number(0, 300)};
+      return {number(2, 10), m, p, number(0, 9), number(0, 10), number(0, 130), number(0, 3), number(0, 66),
+              number(0, 300)};
     case 304: return {number(2, 15), m, p};
     case 306: return {number(4, 6), m, p, number(0, 8), number(0, 12), number(0, 12), number(0, 12)};
     case 307: return {number(4, 6), m, p, number(0, 11)};

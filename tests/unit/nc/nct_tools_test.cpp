@@ -288,9 +288,10 @@ TEST_F(Tools, WrongValues) {
     ToolColumn column;
     int32_t word;
     double real;
-  } kWrong[] = {{1, 0, 0},   {1, 100'000'000, 0}, {1, -5, 0},  {2, 32, 0},  {2, -1, 0},   {3, 21, 0}, {4, 5, 0},
-                {4, -1, 0},  {5, -1, 0},          {6, -1, 0},  {7, -1, 0},  {8, 201, 0},  {9, 201, 0}, {10, 201, 0},
-                {11, -1, 0}, {12, -1, 0},         {13, 0, -1}, {13, 0, HUGE_VAL}, {14, 256, 0}, {15, 0, NAN}};
+  } kWrong[] = {{1, 0, 0},   {1, 100'000'000, 0}, {1, -5, 0},        {2, 32, 0},   {2, -1, 0},
+                {3, 21, 0},  {4, 5, 0},           {4, -1, 0},        {5, -1, 0},   {6, -1, 0},
+                {7, -1, 0},  {8, 201, 0},         {9, 201, 0},       {10, 201, 0}, {11, -1, 0},
+                {12, -1, 0}, {13, 0, -1},         {13, 0, HUGE_VAL}, {14, 256, 0}, {15, 0, NAN}};
   tool(1, 9);
   put(1, 1, 1);
   for (const auto& c : kWrong) {
@@ -615,7 +616,9 @@ protected:
     constexpr int32_t kNumbers[] = {1, 1, 1, 2, 2, 2, 10, 11, 20, 3, 0};
     return kNumbers[static_cast<size_t>(number(0, 10))];
   }
-  int32_t pot(int32_t c) { return number(0, 9) == 0 ? number(-1, 14) : c >= 10 ? 1 : c == 1 ? number(3, 9) : number(1, 12); }
+  int32_t pot(int32_t c) {
+    return number(0, 9) == 0 ? number(-1, 14) : c >= 10 ? 1 : c == 1 ? number(3, 9) : number(1, 12);
+  }
 
   TestBlock request(uint32_t function) {
     const int32_t c = cartridge(), p = pot(c), d = cartridge();
@@ -624,8 +627,9 @@ protected:
     case 101: return {7, c, p, number(0, 3), d, pot(d)};
     case 102:
     case 103: {
-      TestBlock block{number(3, 14), c, p, number(1, 3), number(0, 31), number(0, 21), number(0, 5), number(0, 20),
-                      number(0, 10), number(0, 3)};
+      TestBlock block{
+          number(3, 14), c,           p, number(1, 3), number(0, 31), number(0, 21), number(0, 5), number(0, 20),
+          number(0, 10), number(0, 3)};
       return block;
     }
     case 104: return {number(2, 20), c, p};
@@ -689,8 +693,10 @@ TEST_P(RandomTools, TablesStayConsistent) {
     ++done;
     if (function == 100) {
       EXPECT_EQ(rows(), rowsBefore);
-      EXPECT_EQ(std::multiset<uint32_t>(potsBefore.begin(), potsBefore.end()),
-                [&] { const auto now = pots(); return std::multiset<uint32_t>(now.begin(), now.end()); }());
+      EXPECT_EQ(std::multiset<uint32_t>(potsBefore.begin(), potsBefore.end()), [&] {
+        const auto now = pots();
+        return std::multiset<uint32_t>(now.begin(), now.end());
+      }());
     }
     if (function == 102) EXPECT_EQ(valid(), validBefore + 1);
     if (function == 101) {

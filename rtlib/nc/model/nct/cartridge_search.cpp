@@ -6,8 +6,8 @@
 namespace rung::nc::nct {
 namespace {
 
-// The cell next to the pot's centre on a side has distance 0. A quarter of an ellipse round the centre of the pot reaches
-// into it when its nearest corner lies inside (geometry B, l.4600-4611).
+// The cell next to the pot's centre on a side has distance 0. A quarter of an ellipse round the centre of the pot
+// reaches into it when its nearest corner lies inside (geometry B, l.4600-4611).
 bool cornerFree(uint32_t across, uint32_t along, uint32_t reachAcross, uint32_t reachAlong) {
   const double x = static_cast<double>(across) / (1.0 + reachAcross);
   const double y = static_cast<double>(along) / (1.0 + reachAlong);
@@ -15,7 +15,8 @@ bool cornerFree(uint32_t across, uint32_t along, uint32_t reachAcross, uint32_t 
 }
 
 // Calls `visit(cell)` for each cell that a tool of the pattern takes around pot `index` (from 0).
-template <class Visit> void forCells(const CartridgeShape& shape, uint32_t index, const ToolPattern& p, Visit visit) {
+template <class Visit>
+void forCells(const CartridgeShape& shape, uint32_t index, const ToolPattern& p, Visit visit) {
   const int64_t width = int64_t{2} * shape.columns;
   const int64_t height = shape.matrix ? int64_t{2} * shape.rows : 1;
   const int64_t column = int64_t{2} * (index % shape.columns);
@@ -27,8 +28,7 @@ template <class Visit> void forCells(const CartridgeShape& shape, uint32_t index
       const bool leftHalf = x <= column, upperHalf = y <= row;
       const auto across = static_cast<uint32_t>(leftHalf ? column - x : x - column - 1);
       const auto along = static_cast<uint32_t>(upperHalf ? row - y : y - row - 1);
-      if (shape.matrix && p.round &&
-          cornerFree(across, along, leftHalf ? p.left : p.right, upperHalf ? p.up : p.down))
+      if (shape.matrix && p.round && cornerFree(across, along, leftHalf ? p.left : p.right, upperHalf ? p.up : p.down))
         continue;
       if (!shape.matrix)
         visit(static_cast<size_t>((x % width + width) % width)); // the ring
@@ -37,7 +37,9 @@ template <class Visit> void forCells(const CartridgeShape& shape, uint32_t index
     }
 }
 
-size_t cells(const CartridgeShape& shape) { return size_t{2} * shape.columns * (shape.matrix ? size_t{2} * shape.rows : 1); }
+size_t cells(const CartridgeShape& shape) {
+  return size_t{2} * shape.columns * (shape.matrix ? size_t{2} * shape.rows : 1);
+}
 
 } // namespace
 
@@ -52,8 +54,7 @@ void PotFinder::markTools(const ToolTables& tables, const CartridgeShape& shape,
   std::ranges::fill(taken_, 0);
   for (uint32_t i = 0; i < shape.pots(); ++i) {
     const uint32_t tool = tables.cartridges.dataNumber({shape.number, shape.firstPot + i});
-    if (tool != 0 && tool != moving)
-      forCells(shape, i, tables.patternOf(tool), [&](size_t cell) { taken_[cell] = 1; });
+    if (tool != 0 && tool != moving) forCells(shape, i, tables.patternOf(tool), [&](size_t cell) { taken_[cell] = 1; });
   }
 }
 

@@ -1,6 +1,7 @@
 // Search of an empty pot for a tool (man. 6.26.3 and 6.26.5, l.4498-4718). Room is counted in cells of half a pot: a
 // chain-type cartridge is a ring of cells, a matrix a field with two cells a pot in either direction. A tool fits where
-// none of its cells is another tool's; half a pot that is left over takes no tool, but it takes the half of a neighbour.
+// none of its cells is another tool's; half a pot that is left over takes no tool, but it takes the half of a
+// neighbour.
 #pragma once
 #include <optional>
 #include <vector>

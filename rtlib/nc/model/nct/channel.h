@@ -1,6 +1,6 @@
-// One channel of the simulated NCT control (man. 7.15): its mode and the conditions of the operator, start and stop, and
-// the execution of part programs: automatic mode, MDI mode, and single blocks in the manual modes. It works once in a
-// PLC cycle, in front of it.
+// One channel of the simulated NCT control (man. 7.15): its mode and the conditions of the operator, start and stop,
+// and the execution of part programs: automatic mode, MDI mode, and single blocks in the manual modes. It works once in
+// a PLC cycle, in front of it.
 //
 // A block is done when its motion has ended and CP_FIN=1, which is looked at one PLC cycle after the strobes.
 #pragma once
@@ -31,7 +31,7 @@ public:
   bool waitsForOthers() const;
 
   // "" or what is wrong.
-  std::string enter(std::string_view blocks);      // MDI mode, or a single block in a manual mode
+  std::string enter(std::string_view blocks); // MDI mode, or a single block in a manual mode
   std::string check(const ChannelProgram& program) const;
   void forgetInterruption(); // another program has been selected
   void setTurning(bool turning) { turning_ = turning; }
@@ -75,8 +75,8 @@ private:
   void followStop();
   void followStart();
   const ChannelProgram* program() const;
-  void goOn(); // after an interruption
-  void leave();  // what runs, by a change of the mode or an emergency stop
+  void goOn();  // after an interruption
+  void leave(); // what runs, by a change of the mode or an emergency stop
   void clear(Run& run);
 
   void advance();

@@ -10,7 +10,7 @@ namespace rung::nc::nct {
 namespace {
 constexpr uint32_t kFunctions = 13;
 constexpr uint32_t kFirstAuxiliary = 10;
-constexpr int32_t kFirstRange = 11; // CN_RNGREQ, l.10666
+constexpr int32_t kFirstRange = 11;    // CN_RNGREQ, l.10666
 constexpr int32_t kOffsetDigits = 100; // a lathe's T is tool and offset number, l.10674
 } // namespace
 
@@ -59,7 +59,8 @@ uint32_t ChannelFunctions::unacknowledged(uint32_t mask) const {
 void ChannelFunctions::giveSpeed(const BlockFunctions& functions) {
   const SignalMemory& signals = control_.signals;
   int32_t range = 0;
-  while (range < 7 && functions.speed > control_.parameters->real(parameters_.rangeEnd[range], functions.spindle - 1)) ++range;
+  while (range < 7 && functions.speed > control_.parameters->real(parameters_.rangeEnd[range], functions.spindle - 1))
+    ++range;
   signals.set(speed_, channel_, functions.speed);
   signals.set(spindle_, channel_, static_cast<int32_t>(functions.spindle));
   signals.set(range_, channel_, kFirstRange + range);

@@ -50,13 +50,15 @@ private:
   uint32_t channel_;
   uint32_t strobes_ = 0;
 
-  BitSignal strobe_[13] = {BitSignal("CN_M1STB"),   BitSignal("CN_M2STB"),   BitSignal("CN_M3STB"),  BitSignal("CN_M4STB"),
-                           BitSignal("CN_M5STB"),   BitSignal("CN_M6STB"),   BitSignal("CN_M7STB"),  BitSignal("CN_M8STB"),
-                           BitSignal("CN_SSTB"),    BitSignal("CN_TSTB"),    BitSignal("CN_AUX1STB"), BitSignal("CN_AUX2STB"),
+  BitSignal strobe_[13] = {BitSignal("CN_M1STB"),  BitSignal("CN_M2STB"),   BitSignal("CN_M3STB"),
+                           BitSignal("CN_M4STB"),  BitSignal("CN_M5STB"),   BitSignal("CN_M6STB"),
+                           BitSignal("CN_M7STB"),  BitSignal("CN_M8STB"),   BitSignal("CN_SSTB"),
+                           BitSignal("CN_TSTB"),   BitSignal("CN_AUX1STB"), BitSignal("CN_AUX2STB"),
                            BitSignal("CN_AUX3STB")};
-  BitSignal acknowledge_[13] = {BitSignal("CP_M1ACK"), BitSignal("CP_M2ACK"),   BitSignal("CP_M3ACK"),   BitSignal("CP_M4ACK"),
-                                BitSignal("CP_M5ACK"), BitSignal("CP_M6ACK"),   BitSignal("CP_M7ACK"),   BitSignal("CP_M8ACK"),
-                                BitSignal("CP_SACK"),  BitSignal("CP_TACK"),    BitSignal("CP_AUX1ACK"), BitSignal("CP_AUX2ACK"),
+  BitSignal acknowledge_[13] = {BitSignal("CP_M1ACK"),  BitSignal("CP_M2ACK"),   BitSignal("CP_M3ACK"),
+                                BitSignal("CP_M4ACK"),  BitSignal("CP_M5ACK"),   BitSignal("CP_M6ACK"),
+                                BitSignal("CP_M7ACK"),  BitSignal("CP_M8ACK"),   BitSignal("CP_SACK"),
+                                BitSignal("CP_TACK"),   BitSignal("CP_AUX1ACK"), BitSignal("CP_AUX2ACK"),
                                 BitSignal("CP_AUX3ACK")};
   WordSignal code_[8] = {WordSignal("CN_M1C"), WordSignal("CN_M2C"), WordSignal("CN_M3C"), WordSignal("CN_M4C"),
                          WordSignal("CN_M5C"), WordSignal("CN_M6C"), WordSignal("CN_M7C"), WordSignal("CN_M8C")};

@@ -19,7 +19,8 @@ constexpr double kMinuteUs = 60e6;
 
 bool isDrilling(int motion) { return motion == 740 || motion == 840 || motion == 842 || motion == 843; }
 
-template <class Visit> void forAxes(uint32_t axes, Visit visit) {
+template <class Visit>
+void forAxes(uint32_t axes, Visit visit) {
   for (uint32_t axis = 0; axis < kAxes; ++axis)
     if ((axes >> axis & 1) != 0) visit(axis);
 }
@@ -70,8 +71,8 @@ int32_t ChannelMotion::axisOf(char letter) const {
 
 bool ChannelMotion::takesSpeed(const ProgramBlock& block) const {
   return surface_ || std::ranges::any_of(block.words, [&](const ProgramWord& word) {
-    return word.letter == 'G' && value(word.value) == 92;
-  });
+           return word.letter == 'G' && value(word.value) == 92;
+         });
 }
 
 // ---- words -------------------------------------------------------------------------------------------------------
@@ -290,7 +291,8 @@ void ChannelMotion::cycle(bool running, int64_t us) {
     if (!started_) {
       start();
     } else if (locked_) {
-      if (!feeds || machining()) restUs_ -= static_cast<double>(us) * (feeds ? control_.signals.get(signals_.feedOverride, channel_) : 1);
+      if (!feeds || machining())
+        restUs_ -= static_cast<double>(us) * (feeds ? control_.signals.get(signals_.feedOverride, channel_) : 1);
     } else if (feeds && !arrived(way_[next_])) {
       command(way_[next_]); // spindle speed, override and rapid key have their say
     }
@@ -350,11 +352,13 @@ void ChannelMotion::showSignals() const {
 // The position of X is a diameter in mm, the surface speed in m/min.
 void ChannelMotion::showSurfaceSpeed() const {
   const int32_t x = axisOf('X');
-  const double diameter = x < 0 ? 0 : std::abs(control_.axes->machinePosition(static_cast<uint32_t>(x)) -
-                                               control_.axes->zeroPoint(static_cast<uint32_t>(x)));
+  const double diameter = x < 0 ? 0
+                                : std::abs(control_.axes->machinePosition(static_cast<uint32_t>(x)) -
+                                           control_.axes->zeroPoint(static_cast<uint32_t>(x)));
   const double most = speedLimit_ > 0 ? speedLimit_ : 99'999'999;
   const double speed = diameter < kNear ? most : surfaceSpeed_ * 1000 / (std::numbers::pi * diameter);
-  control_.signals.set(signals_.surfaceSpindle, channel_, static_cast<int32_t>(std::lround(std::min(speed, 99'999'999.0))));
+  control_.signals.set(signals_.surfaceSpindle, channel_,
+                       static_cast<int32_t>(std::lround(std::min(speed, 99'999'999.0))));
   control_.signals.set(signals_.speedLimit, channel_, static_cast<int32_t>(std::lround(speedLimit_)));
 }
 

@@ -36,8 +36,8 @@ public:
   uint32_t spindle() const; // that machines, from 0: CP_SINP, else N0604
   bool overrideDisabled() const { return overrideOff_ || (under() & kThread) != 0 || (under() & kTap) != 0; }
   bool moving() const { return next_ < count_; }
-  bool machining() const; // with a feed that may move
-  int32_t axisOf(char letter) const; // of the channel, from 0; negative: none
+  bool machining() const;                           // with a feed that may move
+  int32_t axisOf(char letter) const;                // of the channel, from 0; negative: none
   bool takesSpeed(const ProgramBlock& block) const; // S is the surface speed of G96 or the limit of G92
 
 private:

@@ -9,9 +9,9 @@ namespace rung::nc::nct {
 namespace {
 
 // Tenths, since G5.1 is one. What the channel does with them: channel_motion.cpp; the others do nothing here.
-constexpr int kCodes[] = {0,   10,  20,  30,  40,  51,  90,  170, 180, 190, 200, 210, 280, 310, 330, 400, 410, 420,
-                          430, 440, 490, 502, 512, 530, 540, 550, 560, 570, 580, 590, 610, 620, 630, 640, 740, 780,
-                          800, 808, 818, 840, 842, 843, 900, 910, 920, 940, 950, 960, 970};
+constexpr int kCodes[] = {0,   10,  20,  30,  40,  51,  90,  170, 180, 190, 200, 210, 280, 310, 330, 400, 410,
+                          420, 430, 440, 490, 502, 512, 530, 540, 550, 560, 570, 580, 590, 610, 620, 630, 640,
+                          740, 780, 800, 808, 818, 840, 842, 843, 900, 910, 920, 940, 950, 960, 970};
 
 class Reader {
 public:
@@ -28,7 +28,8 @@ public:
     } while (at_++ < text_.size()); // over the ";"
     if (program.blocks.empty()) return "the program has no blocks";
     for (const ProgramBlock& block : program.blocks)
-      if (block.jump && std::ranges::find(program.blocks, block.jump->target, &ProgramBlock::sequence) == program.blocks.end())
+      if (block.jump &&
+          std::ranges::find(program.blocks, block.jump->target, &ProgramBlock::sequence) == program.blocks.end())
         return "there is no block N" + std::to_string(block.jump->target);
     return {};
   }

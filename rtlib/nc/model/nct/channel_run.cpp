@@ -69,8 +69,8 @@ bool Channel::beginBlock(const ChannelProgram& program) {
   current.motion.prepare(block, locked());
   current.functions = collect(block);
   current.issued = functionsLocked() ? 0 : ChannelFunctions::mask(current.functions);
-  current.stopAfter = current.functions.has(kStop) ||
-                      (current.functions.has(kConditionalStop) && get(signals_.conditionalStop));
+  current.stopAfter =
+      current.functions.has(kStop) || (current.functions.has(kConditionalStop) && get(signals_.conditionalStop));
   current.waiting = get(signals_.noWait) ? -1 : waitingCode(block);
   current.endAfter = current.functions.has(kEnd) || current.functions.has(kEndAndRewind);
   if (current.issued != 0) issue(current.issued);
@@ -103,7 +103,8 @@ BlockFunctions Channel::collect(const ProgramBlock& block) const {
   BlockFunctions functions;
   uint32_t codes = 0;
   for (const ProgramWord& word : block.words) {
-    const auto value = static_cast<int32_t>(std::lround(std::clamp(motion.value(word.value), -2147483648.0, 2147483647.0)));
+    const auto value =
+        static_cast<int32_t>(std::lround(std::clamp(motion.value(word.value), -2147483648.0, 2147483647.0)));
     if (word.letter == 'M') {
       const int32_t first = control_.parameters->dword(parameters_.waitingFirst);
       if (first > 0 && value >= first && value <= control_.parameters->dword(parameters_.waitingLast)) continue;
@@ -115,7 +116,8 @@ BlockFunctions Channel::collect(const ProgramBlock& block) const {
       functions.tool = value;
     } else {
       for (uint32_t i = 0; i < 3; ++i)
-        if (control_.parameters->dword(parameters_.auxiliary[i], channel_) == word.letter) functions.auxiliary[i] = value;
+        if (control_.parameters->dword(parameters_.auxiliary[i], channel_) == word.letter)
+          functions.auxiliary[i] = value;
     }
   }
   return functions;

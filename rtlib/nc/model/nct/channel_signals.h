@@ -11,13 +11,15 @@ inline constexpr uint32_t kModes = 7;
 inline constexpr uint32_t kToggles = 4;
 
 struct ChannelSignals {
-  BitSignal modeRequest[kModes] = {BitSignal("CP_JOG"),  BitSignal("CP_INCR"), BitSignal("CP_HNDL"), BitSignal("CP_REFP"),
-                                   BitSignal("CP_EDIT"), BitSignal("CP_AUTO"), BitSignal("CP_MDI")};
+  BitSignal modeRequest[kModes] = {BitSignal("CP_JOG"),  BitSignal("CP_INCR"), BitSignal("CP_HNDL"),
+                                   BitSignal("CP_REFP"), BitSignal("CP_EDIT"), BitSignal("CP_AUTO"),
+                                   BitSignal("CP_MDI")};
   BitSignal mode[kModes] = {BitSignal("CN_JOG"),  BitSignal("CN_INCR"), BitSignal("CN_HNDL"), BitSignal("CN_REFP"),
                             BitSignal("CN_EDIT"), BitSignal("CN_AUTO"), BitSignal("CN_MDI")};
   BitSignal toggleRequest[kToggles] = {BitSignal("CP_TEST"), BitSignal("CP_MLCK"), BitSignal("CP_DRRUN"),
                                        BitSignal("CP_FLCK")};
-  BitSignal toggle[kToggles] = {BitSignal("CN_TEST"), BitSignal("CN_MLCK"), BitSignal("CN_DRRUN"), BitSignal("CN_FLCK")};
+  BitSignal toggle[kToggles] = {BitSignal("CN_TEST"), BitSignal("CN_MLCK"), BitSignal("CN_DRRUN"),
+                                BitSignal("CN_FLCK")};
 
   BitSignal startRequest{"CP_START"}, stopRequest{"CP_STOP"}, start{"CN_START"}, stop{"CN_STOP"};
   BitSignal interrupted{"CN_INTD"}, buffered{"CN_BKBUF"}, waiting{"CN_WTNG"};

@@ -21,8 +21,7 @@ std::optional<uint32_t> channelKey(const std::vector<NcArgument>& keys, int64_t 
 } // namespace
 
 Channels::Channels(Control& control) : Topic(control) {
-  for (uint32_t i = 0; i < kChannels; ++i)
-    channels_[i] = std::make_unique<Channel>(control, i, signals_, parameters_);
+  for (uint32_t i = 0; i < kChannels; ++i) channels_[i] = std::make_unique<Channel>(control, i, signals_, parameters_);
   for (uint32_t i = 0; i < kGroups; ++i) {
     groupFirst_.emplace_back(kFirstGroupStart + i);
     groupLast_.emplace_back(kFirstGroupEnd + i);

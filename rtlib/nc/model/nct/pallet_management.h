@@ -1,6 +1,6 @@
-// Pallet management of the simulated NCT control (man. 6.27): the table, the services MW 300 to MR 309 and MW 41, and what
-// the operator and the configuration write into the table. Parameters: N3300 #0 PAL, MNT (printed as #1, l.5311, and as
-// #2, l.5335: either bit), #3 PRI; N3301 length of the pool; N3302 number of custom columns.
+// Pallet management of the simulated NCT control (man. 6.27): the table, the services MW 300 to MR 309 and MW 41, and
+// what the operator and the configuration write into the table. Parameters: N3300 #0 PAL, MNT (printed as #1, l.5311,
+// and as #2, l.5335: either bit), #3 PRI; N3301 length of the pool; N3302 number of custom columns.
 #pragma once
 #include <string>
 #include <vector>

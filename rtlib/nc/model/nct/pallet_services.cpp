@@ -30,9 +30,8 @@ constexpr int32_t kWorkingSpaceEmpty = 342;
 
 constexpr uint32_t kFirstColumnWord = 4; // of a record: the identifier, l.5506
 // The order of the columns in a record: without the programs (l.5523).
-constexpr std::array<PalletColumn, 9> kRecord = {kPalletId,       kPalletStatus,  kPalletPriority, kPalletExecuted,
-                                                 kPalletAssigned, kPalletCustom1, 8,               9,
-                                                 10};
+constexpr std::array<PalletColumn, 9> kRecord = {
+    kPalletId, kPalletStatus, kPalletPriority, kPalletExecuted, kPalletAssigned, kPalletCustom1, 8, 9, 10};
 
 PalletPlace placeAt(const Block& block, uint32_t word) {
   return {static_cast<uint32_t>(block.word(word)), static_cast<uint32_t>(block.word(word + 1))};

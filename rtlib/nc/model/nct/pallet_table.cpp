@@ -8,12 +8,18 @@
 namespace rung::nc::nct {
 
 PalletColumn palletColumn(std::string_view name) {
-  constexpr std::pair<std::string_view, PalletColumn> kNames[] = {
-      {"ID", kPalletId},           {"STATUS", kPalletStatus},      {"PRIORITY", kPalletPriority}, {"EXECUTED", kPalletExecuted},
-      {"ASSIGNED", kPalletAssigned}, {"CUSTOM1", kPalletCustom1}, {"CUSTOM2", 8},               {"CUSTOM3", 9},
-      {"CUSTOM4", 10}};
+  constexpr std::pair<std::string_view, PalletColumn> kNames[] = {{"ID", kPalletId},
+                                                                  {"STATUS", kPalletStatus},
+                                                                  {"PRIORITY", kPalletPriority},
+                                                                  {"EXECUTED", kPalletExecuted},
+                                                                  {"ASSIGNED", kPalletAssigned},
+                                                                  {"CUSTOM1", kPalletCustom1},
+                                                                  {"CUSTOM2", 8},
+                                                                  {"CUSTOM3", 9},
+                                                                  {"CUSTOM4", 10}};
   const auto same = [&](std::string_view known) {
-    return std::ranges::equal(name, known, [](char c, char k) { return (c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c) == k; });
+    return std::ranges::equal(name, known,
+                              [](char c, char k) { return (c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c) == k; });
   };
   for (const auto& [known, column] : kNames)
     if (same(known)) return column;

@@ -1,5 +1,5 @@
-// Life management of the tools in the spindles (man. 6.26.1, l.4385-4436) and its signals (man. 7.14.1): what is counted,
-// when a tool expires or is reported broken, and the requests SN_TLCHI, SN_TLCH, SN_TLSKPA, SN_TLNL.
+// Life management of the tools in the spindles (man. 6.26.1, l.4385-4436) and its signals (man. 7.14.1): what is
+// counted, when a tool expires or is reported broken, and the requests SN_TLCHI, SN_TLCH, SN_TLSKPA, SN_TLNL.
 //
 // Without tool management (N2900 #0 TMU = 0) nothing is counted and the signals are 0.
 #pragma once
@@ -46,8 +46,8 @@ private:
     ToolAnswers answers;
     ToolRequests requests;
     bool managed = false;
-    bool skipped = false;     // SN_TLCHI follows SN_TLSKPA
-    bool noticeDue = false;   // SN_TLNL in the next cycle
+    bool skipped = false;   // SN_TLCHI follows SN_TLSKPA
+    bool noticeDue = false; // SN_TLNL in the next cycle
     uint32_t timedTool = 0;
     int64_t us = 0; // of timedTool, less than a second
   };

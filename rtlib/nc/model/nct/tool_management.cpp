@@ -228,8 +228,10 @@ Handled ToolManagement::setQuantity(std::string_view name, double value) {
     const PotPlace pot{place->at(0), place->at(1)};
     if (!tables_.cartridges.hasPot(pot)) return "no such pot";
     if (value != 0 && !tables_.tools.has(static_cast<int64_t>(value))) return "no such data number";
-    if (value == 0) tables_.cartridges.take(tables_.cartridges.dataNumber(pot));
-    else tables_.cartridges.put(pot, static_cast<uint32_t>(value));
+    if (value == 0)
+      tables_.cartridges.take(tables_.cartridges.dataNumber(pot));
+    else
+      tables_.cartridges.put(pot, static_cast<uint32_t>(value));
     return std::string();
   }
   if (const auto part = numberAndRest(name, "TOOL.")) {
@@ -243,15 +245,22 @@ Handled ToolManagement::setQuantity(std::string_view name, double value) {
   }
   const auto part = numberAndRest(name, "PATTERN.");
   if (!part) return std::nullopt;
-  if (!PatternTable::has(part->first) || value < 0 || value > kMostHalfPots) return "patterns are 1 to 20, of 0 to 40 half pots";
+  if (!PatternTable::has(part->first) || value < 0 || value > kMostHalfPots)
+    return "patterns are 1 to 20, of 0 to 40 half pots";
   ToolPattern pattern = tables_.patterns.row(part->first);
   const auto halves = static_cast<uint32_t>(value);
-  if (part->second == "LEFT") pattern.left = halves;
-  else if (part->second == "RIGHT") pattern.right = halves;
-  else if (part->second == "UP") pattern.up = halves;
-  else if (part->second == "DOWN") pattern.down = halves;
-  else if (part->second == "ROUND") pattern.round = value != 0;
-  else return "a pattern has LEFT, RIGHT, UP, DOWN, ROUND";
+  if (part->second == "LEFT")
+    pattern.left = halves;
+  else if (part->second == "RIGHT")
+    pattern.right = halves;
+  else if (part->second == "UP")
+    pattern.up = halves;
+  else if (part->second == "DOWN")
+    pattern.down = halves;
+  else if (part->second == "ROUND")
+    pattern.round = value != 0;
+  else
+    return "a pattern has LEFT, RIGHT, UP, DOWN, ROUND";
   tables_.patterns.set(part->first, pattern);
   return std::string();
 }
@@ -269,8 +278,7 @@ Handled ToolManagement::event(std::string_view name, const std::vector<NcArgumen
 }
 
 std::string ToolManagement::editPattern(const std::vector<NcArgument>& keys) {
-  if (std::string wrong =
-          unknownKey("tool", keys, {"pattern", "left", "right", "up", "down", "geometry"});
+  if (std::string wrong = unknownKey("tool", keys, {"pattern", "left", "right", "up", "down", "geometry"});
       !wrong.empty())
     return wrong;
   const int64_t figure = integerKey(keys, "pattern", 0);
@@ -323,8 +331,7 @@ std::string ToolManagement::editRow(uint32_t dataNumber, const std::vector<NcArg
     any = true;
     if (std::string wrong = setColumn(dataNumber, column, valueOf(key)); !wrong.empty()) return key.key + ": " + wrong;
   }
-  if (any && !row.valid() && findKey(keys, "info") == nullptr)
-    row.setWord(kToolInfo, kInfoValid | kInfoSearchable);
+  if (any && !row.valid() && findKey(keys, "info") == nullptr) row.setWord(kToolInfo, kInfoValid | kInfoSearchable);
   if (any && findKey(keys, "status") == nullptr) row.renewStatus();
   life_.written(dataNumber, before);
   return {};

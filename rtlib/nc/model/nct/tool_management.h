@@ -1,5 +1,6 @@
-// Tool management of the simulated NCT control (man. 6.26): the tables, the services MW 100 to MR 108, what the operator
-// and the configuration write into the tables, and the signals of life management. Channels ask it where a tool stands.
+// Tool management of the simulated NCT control (man. 6.26): the tables, the services MW 100 to MR 108, what the
+// operator and the configuration write into the tables, and the signals of life management. Channels ask it where a
+// tool stands.
 #pragma once
 #include <array>
 #include <string>
@@ -43,8 +44,8 @@ public:
   void keep(Kept& kept) override;
 
   // For the channels. `spindle` counts from 0.
-  bool managed() const; // N2900 #0 TMU
-  ToolPick pick(int32_t type); // for a T code; N_TLSRCH is shown in the next cycle
+  bool managed() const;                     // N2900 #0 TMU
+  ToolPick pick(int32_t type);              // for a T code; N_TLSRCH is shown in the next cycle
   bool countsT() const { return countsT_; } // uses are counted at T, not at M06
   void countUse(uint32_t spindle) { life_.countUse(spindle); }
   void countTime(uint32_t spindle, int64_t us) { life_.countTime(spindle, us); }

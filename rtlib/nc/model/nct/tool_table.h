@@ -1,5 +1,5 @@
-// The tool management table (man. 6.26.1, l.4315-4442) and the columns of its rows as the services number them (l.5100).
-// A row is a tool if its info says so (V); all others are free. Time is counted in seconds.
+// The tool management table (man. 6.26.1, l.4315-4442) and the columns of its rows as the services number them
+// (l.5100). A row is a tool if its info says so (V); all others are free. Time is counted in seconds.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -90,8 +90,8 @@ struct ToolLimits {
 // False: execution code 104 + column.
 bool acceptable(ToolColumn column, const ToolDatum& datum, const ToolLimits& limits);
 
-// The columns that a record of so many words (from the type number on) fills; nullopt: no whole number of columns, none,
-// or more than there are (l.4808).
+// The columns that a record of so many words (from the type number on) fills; nullopt: no whole number of columns,
+// none, or more than there are (l.4808).
 std::optional<ToolColumn> columnsOfRecord(int64_t words, uint32_t userColumns);
 
 class ToolTable {

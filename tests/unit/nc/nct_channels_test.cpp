@@ -1,0 +1,179 @@
+// Part programs of the simulated NCT control: the reader, what channels refuse, codes handed over (man. 7.15).
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "rtlib/nc/model/nct/axes.h"
+#include "rtlib/nc/model/nct/channels.h"
+#include "rtlib/nc/model/nct/macros.h"
+#include "rtlib/nc/model/nct/spindles.h"
+#include "rtlib/nc/model/nct/tool_management.h"
+
+namespace rung::nc::test {
+namespace {
+
+using namespace nct;
+
+ChannelProgram read(std::string_view text) {
+  ChannelProgram program;
+  EXPECT_EQ(readChannelProgram(text, program), "") << text;
+  return program;
+}
+
+std::string wrong(std::string_view text) {
+  ChannelProgram program;
+  return readChannelProgram(text, program);
+}
+
+TEST(ChannelProgram, Words) {
+  const ChannelProgram program = read("O12 N1 G0 x-1.5 Y+2;; (nothing) ;\nN20 m3 S3=1000 T#500 P2");
+  ASSERT_EQ(program.blocks.size(), 2U);
+  EXPECT_EQ(program.blocks[0].sequence, 1U);
+  ASSERT_EQ(program.blocks[0].words.size(), 3U);
+  EXPECT_EQ(program.blocks[0].words[1].letter, 'X');
+  EXPECT_EQ(program.blocks[0].words[1].value.number, -1.5);
+  EXPECT_EQ(program.blocks[0].words[2].value.number, 2);
+  EXPECT_EQ(program.blocks[1].words[1].letter, 'S');
+  EXPECT_EQ(program.blocks[1].words[1].spindle, 3U);
+  EXPECT_EQ(program.blocks[1].words[1].value.number, 1000);
+  EXPECT_EQ(program.blocks[1].words[2].value.variable, 500U);
+}
+
+TEST(ChannelProgram, ConditionsAssignmentsJumps) {
+  const ChannelProgram program = read("/ M1; /8 #100 = 2.5 #101=#100; N7 IF #1025 EQ 1 GOTO 7; #5NE#6GOTO7; GOTO 7 M8");
+  EXPECT_EQ(program.blocks[0].condition, 1U);
+  EXPECT_EQ(program.blocks[1].condition, 8U);
+  ASSERT_EQ(program.blocks[1].assignments.size(), 2U);
+  EXPECT_EQ(program.blocks[1].assignments[0].value.number, 2.5);
+  EXPECT_EQ(program.blocks[1].assignments[1].value.variable, 100U);
+  ASSERT_TRUE(program.blocks[2].jump);
+  EXPECT_EQ(program.blocks[2].jump->test, ProgramJump::Test::Eq);
+  EXPECT_EQ(program.blocks[2].jump->variable, 1025U);
+  EXPECT_EQ(program.blocks[3].jump->test, ProgramJump::Test::Ne);
+  EXPECT_EQ(program.blocks[3].jump->value.variable, 6U);
+  EXPECT_EQ(program.blocks[4].jump->test, ProgramJump::Test::Always);
+  EXPECT_EQ(program.blocks[4].jump->target, 7U);
+}
+
+TEST(ChannelProgram, Mistakes) {
+  EXPECT_EQ(wrong(""), "the program has no blocks");
+  EXPECT_EQ(wrong(";;"), "the program has no blocks");
+  EXPECT_EQ(wrong("M1; M"), "block 2: a number is missing behind M");
+  EXPECT_EQ(wrong("M1 M2 M3 M4 M5 M6 M7 M8 M9"), "block 1: more than eight M codes");
+  EXPECT_EQ(wrong("G12"), "block 1: a G code that is not simulated");
+  EXPECT_EQ(wrong("M98 P1"), "block 1: subprograms are not simulated");
+  EXPECT_EQ(wrong("M-1"), "block 1: M takes no such number");
+  EXPECT_EQ(wrong("T100000000"), "block 1: T takes no such number");
+  EXPECT_EQ(wrong("(open"), "block 1: a comment without ')'");
+  EXPECT_EQ(wrong("GOTO 5"), "there is no block N5");
+  EXPECT_EQ(wrong("GOTO"), "block 1: expected the number of a block behind GOTO");
+  EXPECT_EQ(wrong("IF 5"), "block 1: expected a macro variable behind IF");
+  EXPECT_EQ(wrong("IF #5=3"), "block 1: expected '=' or a comparison behind the macro variable");
+  EXPECT_EQ(wrong("#5 EQ 1 M3"), "block 1: expected GOTO");
+  EXPECT_EQ(wrong("#0=1"), "block 1: expected the number of a macro variable");
+  EXPECT_EQ(wrong("S17=100"), "block 1: spindles are S1 to S16");
+  EXPECT_EQ(wrong("N123456789"), "block 1: numbers have up to eight digits");
+  EXPECT_EQ(wrong("M3 * 2"), "block 1: unexpected character '*'");
+}
+
+// No text makes the reader do anything but answer.
+TEST(ChannelProgram, AnyText) {
+  constexpr std::string_view kPieces[] = {"M", "3", "#",  "=", ";", "GOTO", "IF", "EQ",  "(",   ")", "/",
+                                          "9", "N", "G1", "X", "-", ".",    " ",  "S3=", "1e9", "T5"};
+  std::mt19937 random(7);
+  size_t good = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text;
+    for (uint32_t n = random() % 12; n > 0; --n) text += kPieces[random() % std::size(kPieces)];
+    ChannelProgram program;
+    if (readChannelProgram(text, program).empty()) {
+      ++good;
+      EXPECT_FALSE(program.blocks.empty()) << text;
+    }
+  }
+  EXPECT_GT(good, 200U);
+}
+
+class ChannelsTest : public testing::Test {
+protected:
+  ChannelsTest() {
+    parameters_.powerOn(PowerOn::Cold);
+    channels_.powerOn(PowerOn::Cold);
+  }
+  static NcArgument number(std::string key, int64_t value) { return {.key = std::move(key), .integer = value}; }
+  static NcArgument text(std::string key, std::string value) {
+    return {.key = std::move(key), .isText = true, .text = std::move(value)};
+  }
+  std::string load(std::vector<NcArgument> keys) { return channels_.event("program", keys).value_or("not an event"); }
+
+  Control links() {
+    Control control;
+    control.parameters = &parameters_;
+    control.spindles = &spindles_;
+    control.axes = &axes_;
+    control.macros = &macros_;
+    control.tools = &tools_;
+    return control;
+  }
+
+  Control control_ = links(); // topics look at each other when they are made
+  Parameters parameters_{control_};
+  Spindles spindles_{control_};
+  Axes axes_{control_};
+  Macros macros_{control_};
+  ToolManagement tools_{control_};
+  Channels channels_{control_};
+};
+
+TEST_F(ChannelsTest, LoadsAndSelects) {
+  EXPECT_EQ(load({number("number", 100), text("blocks", "M3")}), "");
+  EXPECT_EQ(channels_.quantity("PROGRAM.2"), 0);
+  EXPECT_TRUE(channels_.hasProgram(100));
+  EXPECT_FALSE(channels_.hasProgram(101));
+  EXPECT_EQ(load({number("number", 100), number("channel", 2)}), "");
+  EXPECT_EQ(channels_.quantity("PROGRAM.2"), 100);
+  EXPECT_EQ(load({number("number", 101), number("channel", 2)}),
+            "there is no program of that number; blocks=\"…\" makes one");
+  EXPECT_EQ(load({number("number", 0), text("blocks", "M3")}), "event program takes number=1 to 99999999");
+  EXPECT_EQ(load({number("number", 1), number("channel", 9), text("blocks", "M3")}), "channels are 1 to 8");
+  EXPECT_EQ(load({number("number", 1), text("block", "M3")}), "event program does not know 'block'");
+  EXPECT_EQ(load({number("number", 1), text("blocks", "M")}), "block 1: a number is missing behind M");
+  channels_.powerOn(PowerOn::Warm);
+  EXPECT_TRUE(channels_.hasProgram(100));
+  channels_.powerOn(PowerOn::Cold);
+  EXPECT_FALSE(channels_.hasProgram(100));
+}
+
+TEST_F(ChannelsTest, RefusesUnknownAddressesAndContradictions) {
+  EXPECT_EQ(load({number("number", 1), text("blocks", "K3")}), "the channel has no address K");
+  EXPECT_EQ(load({number("number", 1), number("channel", 2), text("blocks", "X3")}), "the channel has no address X");
+  EXPECT_EQ(parameters_.setQuantity("PARAM.1333.1", 'K'), "");
+  EXPECT_EQ(load({number("number", 1), text("blocks", "K3")}), "");
+  EXPECT_EQ(parameters_.setQuantity("PARAM.1341.1", 51), ""); // l.10875
+  EXPECT_EQ(parameters_.setQuantity("PARAM.1357.1", 53), "");
+  EXPECT_EQ(load({number("number", 1), text("blocks", "M51 M8; M52")}), "");
+  EXPECT_EQ(load({number("number", 1), text("blocks", "M51 M53")}), "contradictory M codes");
+}
+
+TEST_F(ChannelsTest, EntersBlocks) {
+  const auto enter = [&](std::string blocks) {
+    return channels_.event("mdi", {text("blocks", std::move(blocks))}).value_or("not an event");
+  };
+  EXPECT_EQ(enter("M8"), ""); // jog mode after power-on
+  EXPECT_EQ(enter("M8; M9"), "the manual modes execute a single block");
+  EXPECT_EQ(enter("M"), "block 1: a number is missing behind M");
+  EXPECT_EQ(enter("K8"), "the channel has no address K");
+  EXPECT_EQ(channels_.event("mdi", {}), "event mdi takes channel=1 to 8 and blocks=\"…\"");
+  EXPECT_EQ(channels_.event("reset", {number("channel", 0)}), "channels are 1 to 8");
+}
+
+TEST_F(ChannelsTest, CountsParts) {
+  EXPECT_EQ(channels_.setQuantity("PARTS.3", 7), "");
+  EXPECT_EQ(channels_.quantity("PARTS.3"), 7);
+  EXPECT_EQ(channels_.setQuantity("PARTSWANTED.9", 7), "channels are 1 to 8");
+  EXPECT_EQ(channels_.setQuantity("PARTS.1", 0.5), "parts are counted in whole numbers");
+  EXPECT_EQ(channels_.setQuantity("PART.1", 1), std::nullopt);
+}
+
+} // namespace
+} // namespace rung::nc::test

@@ -50,12 +50,21 @@ constexpr u32 leadingZeros(u64 a) noexcept {
 }
 constexpr u32 leadingZeros(U128 a) noexcept { return a.hi != 0 ? leadingZeros(a.hi) : 64 + leadingZeros(a.lo); }
 
-constexpr U128 mulFull(u64 a, u64 b) noexcept {
+constexpr U128 mulByHalves(u64 a, u64 b) noexcept {
   constexpr u64 kLow = 0xFFFFFFFF;
   const u64 low = (a & kLow) * (b & kLow);
   const u64 middle = (a >> 32) * (b & kLow) + (low >> 32);
   const u64 other = (a & kLow) * (b >> 32) + (middle & kLow);
   return {(a >> 32) * (b >> 32) + (middle >> 32) + (other >> 32), (other << 32) | (low & kLow)};
+}
+constexpr U128 mulFull(u64 a, u64 b) noexcept {
+#ifdef __SIZEOF_INT128__ // one instruction
+  __extension__ using Product = unsigned __int128;
+  const Product product = static_cast<Product>(a) * b;
+  return {static_cast<u64>(product >> 64), static_cast<u64>(product)};
+#else
+  return mulByHalves(a, b);
+#endif
 }
 // The upper half of the product, at most 3 too low: of two fixed-point numbers it is the product.
 RUNG_SHARED U128 mul(U128 a, U128 b) noexcept {

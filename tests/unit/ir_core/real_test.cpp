@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "rung/sem.hpp"
 
@@ -183,6 +184,19 @@ TEST(Real, AgreeWithTheLibrary) {
   }
   for (int x = 1; x < 300; ++x)
     for (int y = -40; y < 40; ++y) ASSERT_TRUE(near(fpow(-x, y), std::pow(-x, y))) << x << " to the power of " << y;
+}
+
+// Where a compiler has no numbers of 128 bits.
+TEST(Real, BothMultiplicationsAreTheSame) {
+  Numbers numbers;
+  std::vector<u64> factors = {0, 1, 2, 0xFFFFFFFF, 0x100000000, 1ull << 63, ~0ull, ~0ull - 1};
+  for (int i = 0; i < 1000; ++i) factors.push_back(toBits(numbers(-1022, 1023)));
+  for (u64 a : factors)
+    for (u64 b : factors) {
+      const wide::U128 one = wide::mulFull(a, b);
+      const wide::U128 other = wide::mulByHalves(a, b);
+      ASSERT_TRUE(one.hi == other.hi && one.lo == other.lo) << a << " * " << b;
+    }
 }
 
 TEST(Real, SignsOfZeroAndParity) {

@@ -8,6 +8,7 @@
 #include "rtlib/nc/model/nct/axes.h"
 #include "rtlib/nc/model/nct/channels.h"
 #include "rtlib/nc/model/nct/drives.h"
+#include "rtlib/nc/model/nct/machine_on.h"
 #include "rtlib/nc/model/nct/macros.h"
 #include "rtlib/nc/model/nct/mailbox.h"
 #include "rtlib/nc/model/nct/network.h"
@@ -63,6 +64,7 @@ private:
   Control control_ = links(); // before all topics: they use it when they are made
   Parameters parameters_{control_};
   Nvram nvram_{control_};
+  MachineOn machineOn_{control_};
   Spindles spindles_{control_};
   Axes axes_{control_};
   Macros macros_{control_};

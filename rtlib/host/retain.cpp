@@ -209,8 +209,9 @@ RetainSaver::RetainSaver(RetainStore store, uint32_t rawSize, uint32_t imageSize
       thread_([this] { work(); }) {}
 
 RetainSaver::RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll)
-    : RetainSaver(std::move(store), map.rawSize(), map.size(),
-                  [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, poll) {}
+    : RetainSaver(
+          std::move(store), map.rawSize(), map.size(),
+          [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, poll) {}
 
 RetainSaver::~RetainSaver() {
   {

@@ -59,14 +59,16 @@ public:
   RetainSaver& operator=(const RetainSaver&) = delete;
 
   // Scan thread. `copy` fills a span of rawSize bytes; it allocates nothing and does not throw.
-  template <class Copy> bool offerFrom(Copy copy) noexcept {
+  template <class Copy>
+  bool offerFrom(Copy copy) noexcept {
     if (full_.load(std::memory_order_acquire)) return false;
     copy(std::span<uint8_t>(buffer_));
     full_.store(true, std::memory_order_release);
     return true;
   }
   // Instead of the last `offerFrom`; waits until it is written.
-  template <class Copy> void finishFrom(Copy copy) {
+  template <class Copy>
+  void finishFrom(Copy copy) {
     bool offered = offerFrom(copy);
     while (!offered || full_.load(std::memory_order_acquire)) {
       hurry();

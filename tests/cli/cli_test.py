@@ -168,6 +168,74 @@ class Retained(Cli):
         self.assertEqual(self.read(program, "D0:4"), [scans + 1])
 
 
+class RetainedTables(Cli):
+    """rungc run --retain with a simulated NCT control: its tables stand beside the program's words."""
+
+    # Reads word 0 of the non-volatile memory at its start and then counts it up, scan by scan.
+    PROGRAM = """dialect nct
+module MAIN
+symbol VALUE 6000
+symbol READ  6001.00
+rung
+|--[N_FIRSTCC]--+--{MOV 5001 #3}
+                +--{MOV 5003 #6000}
+                +--{MOV 5004 #1}
+                +--{MOV 5011 #3}
+                +--{MOV 5013 #6000}
+                +--{MOV 5014 #1}
+rung
+|--[/READ]--{MR 5010 #10}--(S READ)
+rung
+|--[READ]--[/6001.01]--{ADD VALUE VALUE #1}--{MW 5000 #11}--(6001.01)
+"""
+
+    def run_it(self, *args):
+        program = self.file("count.lad", self.PROGRAM)
+        return rungc("run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp", "--config",
+                     "nc=simulated", *args)
+
+    def value(self):
+        """What the next start finds."""
+        done = self.run_it("--scans", "2", "--watch", "6000")
+        self.assertEqual((done.returncode, done.stderr), (OK, b""))
+        return int(done.stdout.decode().split("6000 = ")[-1].splitlines()[0])
+
+    def test_tables_come_back(self):
+        self.assertEqual(self.run_it("--scans", "40").returncode, OK)
+        first = self.value()
+        self.assertGreater(first, 5)
+        self.assertGreaterEqual(self.value(), first)
+        names = {path.name for path in Path(self.folder.name).glob("image*")}
+        self.assertTrue({"image.nc.a", "image.nc.b"} <= names, names)
+
+    def test_damaged_tables_start_as_delivered(self):
+        self.run_it("--scans", "40")
+        for end in "ab":
+            (Path(self.folder.name) / f"image.nc.{end}").write_bytes(b"junk")
+        done = self.run_it("--scans", "2", "--watch", "6000")
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(b"starting cold", done.stderr)
+
+    def test_killed_at_any_moment(self):
+        program = self.file("count.lad", self.PROGRAM)
+        before = 0
+        for delay in (0.31, 0.05, 0.5, 0.27):
+            command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
+                       "--config", "nc=simulated", "--realtime", "--for", "3600s"]
+            with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+                for _ in range(600):
+                    if list(Path(self.folder.name).glob("image.nc.?")):
+                        break
+                    time.sleep(0.05)
+                time.sleep(delay)
+                process.kill()
+                self.assertEqual(process.stderr.read(), b"")
+            now = self.value()
+            self.assertGreaterEqual(now, before)
+            before = now
+        self.assertGreater(before, 10)
+
+
 class Statuses(Cli):
     def test_good_program(self):
         done = rungc("check", self.file("lamp.lad", LAMP))

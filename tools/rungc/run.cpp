@@ -127,8 +127,8 @@ std::optional<std::string> switchOn(nc::NcModel& nc, host::Instance& instance, R
 // One run of an instance, to the end that the options set.
 class Run {
 public:
-  Run(const RunOptions& options, int64_t forUs, nc::NcModel& nc, host::Instance& instance,
-      Retained* retained, std::vector<Watched> watched)
+  Run(const RunOptions& options, int64_t forUs, nc::NcModel& nc, host::Instance& instance, Retained* retained,
+      std::vector<Watched> watched)
       : options_(options), forUs_(forUs), nc_(nc), instance_(instance), retained_(retained),
         watched_(std::move(watched)) {}
 

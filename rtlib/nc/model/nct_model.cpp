@@ -1,5 +1,5 @@
-// The NC beside an NCT PLC: constant and clock signals, the hardware side of the NC area (the time-slice memory), and in
-// simulated mode the control itself (nct/simulator.h).
+// The NC beside an NCT PLC: constant and clock signals, the hardware side of the NC area (the time-slice memory), and
+// in simulated mode the control itself (nct/simulator.h).
 #include <algorithm>
 #include <utility>
 
@@ -31,7 +31,8 @@ struct CommonSignals {
   BitSignal firstCycle{"N_FIRSTCC"};
   BitSignal timeSliceClock{"N_P2MS"};
   BitSignal cycleClock{"N_P2T"};
-  Clock clocks[3] = {{BitSignal("N_P100MS"), 100'000}, {BitSignal("N_P1S"), 1'000'000}, {BitSignal("N_P1M"), 60'000'000}};
+  Clock clocks[3] = {
+      {BitSignal("N_P100MS"), 100'000}, {BitSignal("N_P1S"), 1'000'000}, {BitSignal("N_P1M"), 60'000'000}};
   BitSignal bufferEmpty{"AN_BEPTY"};
   BitSignal motionDone{"AN_IEPTY"};
   BitSignal plcAxisRequest{"AP_PLCR"};
@@ -91,7 +92,10 @@ public:
       ts_.set(clock.signal, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
     takeMessages(instance);
     using Slice = nct::Messages::Slice;
-    messages_.timeSlice(ts_, instance.atListStart() ? Slice::Alone : first ? Slice::First : Slice::Further,
+    messages_.timeSlice(ts_,
+                        instance.atListStart() ? Slice::Alone
+                        : first                ? Slice::First
+                                               : Slice::Further,
                         instance.messages().lost());
     if (simulated_) simulator_.timeSlice(instance, first);
   }

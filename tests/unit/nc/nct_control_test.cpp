@@ -114,12 +114,30 @@ TEST(NctControl, EveryParameterIsReadAndWritten) {
 
 TEST(NctControl, WrongConfigurationIsToldAsSuch) {
   const std::unique_ptr<NcModel> model = makeNctModel();
-  for (const auto& [key, value] : std::vector<std::pair<const char*, const char*>>{
-           {"nc", "real"}, {"nvecat", "yes"}, {"nvram", "bad"}, {"network", "internet"}, {"display", "1"},
-           {"axes", ""}, {"axes", "XY1"}, {"encoders", "none"}, {"rapid", "0"}, {"jog", "fast"}, {"spindles", "17"},
-           {"spindles", "1.5"}, {"param.9999", "1"}, {"param.1209.1", "1"}, {"param.0516.33", "1"}, {"param.0516.1", "x"},
-           {"param.1209", "0.5"}, {"param.1201", "256"}, {"ethercat.1", "can"}, {"ethercat.0", "coe"},
-           {"ethercat.9.coe.1.0", "1"}, {"ethercat.1.coe.1", "1"}, {"ethercat.1.coe.1.0", "1/9"}, {"nothing", "1"}})
+  for (const auto& [key, value] : std::vector<std::pair<const char*, const char*>>{{"nc", "real"},
+                                                                                   {"nvecat", "yes"},
+                                                                                   {"nvram", "bad"},
+                                                                                   {"network", "internet"},
+                                                                                   {"display", "1"},
+                                                                                   {"axes", ""},
+                                                                                   {"axes", "XY1"},
+                                                                                   {"encoders", "none"},
+                                                                                   {"rapid", "0"},
+                                                                                   {"jog", "fast"},
+                                                                                   {"spindles", "17"},
+                                                                                   {"spindles", "1.5"},
+                                                                                   {"param.9999", "1"},
+                                                                                   {"param.1209.1", "1"},
+                                                                                   {"param.0516.33", "1"},
+                                                                                   {"param.0516.1", "x"},
+                                                                                   {"param.1209", "0.5"},
+                                                                                   {"param.1201", "256"},
+                                                                                   {"ethercat.1", "can"},
+                                                                                   {"ethercat.0", "coe"},
+                                                                                   {"ethercat.9.coe.1.0", "1"},
+                                                                                   {"ethercat.1.coe.1", "1"},
+                                                                                   {"ethercat.1.coe.1.0", "1/9"},
+                                                                                   {"nothing", "1"}})
     EXPECT_NE(model->config(key, value), "") << key << " " << value;
 }
 
@@ -166,7 +184,8 @@ protected:
     EXPECT_EQ(machine.nc().quantity("MACRO.8.999"), number);
   }
   // Runs `work` between a start from the files and a regular end.
-  template <class Work> void session(bool found, Work work) {
+  template <class Work>
+  void session(bool found, Work work) {
     NctMachine machine;
     RetainedTables tables(machine.nc(), file_);
     std::string error;

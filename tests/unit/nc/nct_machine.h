@@ -13,9 +13,9 @@ class NctMachine {
 public:
   explicit NctMachine(const std::vector<std::pair<std::string, std::string>>& config = {}) : model_(makeNctModel()) {
     program_.dialect = "nct";
-    program_.services = {"MR function address block -> code",         "MW function address block -> code",
-                         "MACR variable channel -> value:f",          "MACW variable channel value:f ->",
-                         "MOVCMND axis code speed:f distance:f",      "SCP symbol p1 p2 -> value:f"};
+    program_.services = {"MR function address block -> code",    "MW function address block -> code",
+                         "MACR variable channel -> value:f",     "MACW variable channel value:f ->",
+                         "MOVCMND axis code speed:f distance:f", "SCP symbol p1 p2 -> value:f"};
     constexpr uint32_t kMemory = 40000;
     constexpr uint32_t kSlice = 16000;
     constexpr uint32_t kBlocks = 4 * nct::kBlockStride;
@@ -63,9 +63,7 @@ public:
     scan(scans);
     return answer(ticket);
   }
-  int32_t blockWord(uint32_t n) {
-    return static_cast<int32_t>(instance_->memory().read(blocks_, 4 * n, 4));
-  }
+  int32_t blockWord(uint32_t n) { return static_cast<int32_t>(instance_->memory().read(blocks_, 4 * n, 4)); }
 
   int32_t word(uint32_t address) { return static_cast<int32_t>(instance_->memory().read(0, 4 * address, 4)); }
   void setWord(uint32_t address, int32_t value) {

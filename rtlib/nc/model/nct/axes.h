@@ -1,6 +1,7 @@
 // The axes of the machine: positions, motions on the commands of MOVCMND (man. 6.15), by hand (jog, increments, hand
-// wheels, reference point) and for part programs, and the signals AN_…, AP_… (man. 7.13). Motions have no ramps: an axis
-// moves with its speed or stands. Positions are in the unit of the machine (mm, degrees), speeds in units per minute.
+// wheels, reference point) and for part programs, and the signals AN_…, AP_… (man. 7.13). Motions have no ramps: an
+// axis moves with its speed or stands. Positions are in the unit of the machine (mm, degrees), speeds in units per
+// minute.
 //
 // A machine position is that of the command; the encoder follows by kLag of the velocity.
 #pragma once
@@ -12,8 +13,8 @@
 
 namespace rung::nc::nct {
 
-inline constexpr double kLag = 0.02;            // s: what the measured position is behind the command
-inline constexpr double kPulsesPerUnit = 1000;  // of an axis' encoder
+inline constexpr double kLag = 0.02;           // s: what the measured position is behind the command
+inline constexpr double kPulsesPerUnit = 1000; // of an axis' encoder
 inline constexpr int32_t kHandwheels = 4;
 
 struct AxisCommand {
@@ -21,10 +22,10 @@ struct AxisCommand {
   Kind kind = Kind::None;
   bool rapid = false;
   bool perRevolution = false;
-  bool machine = false;      // `distance` is a machine position; else in the current coordinate system
-  bool toReference = false;  // ends with AN_RPE=1
-  double distance = 0;       // target, way, seconds or revolutions
-  double speed = 0;          // per minute or revolution; 0 with Jog: by N0316
+  bool machine = false;     // `distance` is a machine position; else in the current coordinate system
+  bool toReference = false; // ends with AN_RPE=1
+  double distance = 0;      // target, way, seconds or revolutions
+  double speed = 0;         // per minute or revolution; 0 with Jog: by N0316
 };
 
 class Axes final : public Topic {
@@ -70,14 +71,14 @@ private:
     double position = 0;
     double zeroPoint = 0;
     double velocity = 0;
-    double target = 0;        // of `active` or `program`, once it has been taken
-    double rest = 0;          // of a dwell: seconds or revolutions
-    double lubrication = 0;   // way since the last request
-    AxisCommand active;       // of the PLC, in the interpolator
-    AxisCommand buffer;       // of the PLC
-    AxisCommand program;      // of a part program
-    double lockedAt = 0;      // measured position under axis lock
-    double steps = 0;         // increments and pulses still to move
+    double target = 0;      // of `active` or `program`, once it has been taken
+    double rest = 0;        // of a dwell: seconds or revolutions
+    double lubrication = 0; // way since the last request
+    AxisCommand active;     // of the PLC, in the interpolator
+    AxisCommand buffer;     // of the PLC
+    AxisCommand program;    // of a part program
+    double lockedAt = 0;    // measured position under axis lock
+    double steps = 0;       // increments and pulses still to move
     bool referenced = false;
     bool referenceEnd = false;
     bool locked = false;
@@ -92,7 +93,9 @@ private:
 
   bool get(const BitSignal& signal, uint32_t axis) const { return control().signals.get(signal, axis); }
   void set(const BitSignal& signal, uint32_t axis, bool value) const { control().signals.set(signal, axis, value); }
-  int32_t parameter(const ParameterPlace& place, uint32_t axis) const { return control().parameters->dword(place, axis); }
+  int32_t parameter(const ParameterPlace& place, uint32_t axis) const {
+    return control().parameters->dword(place, axis);
+  }
   double real(const ParameterPlace& place, uint32_t axis) const { return control().parameters->real(place, axis); }
   bool option(const ParameterPlace& place, uint32_t bit, uint32_t axis) const {
     return control().parameters->bit(place, bit, axis);
@@ -143,9 +146,9 @@ private:
   std::array<bool, kChannels> programHold_{};
   std::array<int32_t, kHandwheels> pulses_{}; // turned since the last time slice
   std::array<int32_t, kHandwheels> turned_{}; // HWMOVE of this one
-  double rapid_ = 10000; // units/min
-  double jog_ = 1000;    // units/min, where N0316 does not take the table
-  bool absolute_ = true; // encoders
+  double rapid_ = 10000;                      // units/min
+  double jog_ = 1000;                         // units/min, where N0316 does not take the table
+  bool absolute_ = true;                      // encoders
   AxisSignals signals_;
   AxisParameters parameters_;
   std::vector<ParameterPlace> switchAxis_, switchLow_, switchHigh_; // N1101…, N1133…, N1165…

@@ -27,7 +27,8 @@ void Axes::acknowledge(uint32_t axis) {
   if (get(signals_.plcOwns, axis) && !get(signals_.plcRequest, axis)) reset(axis);
   set(signals_.plcOwns, axis, get(signals_.plcRequest, axis));
   acknowledge(axis, {signals_.syncRequest, signals_.syncSlave, signals_.syncMaster, parameters_.syncMaster});
-  acknowledge(axis, {signals_.exchangeRequest, signals_.exchangeSlave, signals_.exchangeMaster, parameters_.exchangeMaster});
+  acknowledge(axis,
+              {signals_.exchangeRequest, signals_.exchangeSlave, signals_.exchangeMaster, parameters_.exchangeMaster});
   acknowledge(axis, {signals_.superRequest, signals_.superSlave, signals_.superMaster, parameters_.superMaster});
   // Only an axis of a synchronous control can be parked (l.8608).
   const bool coupled = slave || get(signals_.syncMaster, axis);
@@ -78,7 +79,8 @@ void Axes::writeSwitches() {
   const Parameters& parameters = *control().parameters;
   for (uint32_t i = 0; i < switchAxis_.size(); ++i) {
     const int32_t number = parameters.dword(switchAxis_[i]);
-    const bool there = number >= 1 && number <= static_cast<int32_t>(kAxes) && exists(static_cast<uint32_t>(number) - 1);
+    const bool there =
+        number >= 1 && number <= static_cast<int32_t>(kAxes) && exists(static_cast<uint32_t>(number) - 1);
     const double position = there ? measuredPosition(static_cast<uint32_t>(number) - 1) : 0;
     const double low = parameters.real(switchLow_[i]);
     const double high = parameters.real(switchHigh_[i]);

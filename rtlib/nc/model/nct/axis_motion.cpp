@@ -225,7 +225,8 @@ bool Axes::moveTowards(uint32_t axis, double target, double perMinute, Pace pace
   const double step = perMinute / 60 * seconds;
   double to = std::abs(way) <= step ? target : state.position + (positive ? step : -step);
   const double limit = strokeLimit(axis, positive);
-  if (positive ? to > limit : to < limit) to = positive ? std::max(limit, state.position) : std::min(limit, state.position);
+  if (positive ? to > limit : to < limit)
+    to = positive ? std::max(limit, state.position) : std::min(limit, state.position);
   const double moved = to - state.position;
   shift(axis, moved);
   state.position = to;

@@ -7,7 +7,8 @@
 
 namespace rung::nc::nct {
 
-template <class T> uint32_t checksum(std::span<const T> values) {
+template <class T>
+uint32_t checksum(std::span<const T> values) {
   uint64_t sum = 0xCBF29CE484222325u;
   for (const T& value : values) {
     uint64_t bits = 0;

@@ -9,12 +9,12 @@
 namespace rung::nc::nct {
 namespace {
 
-constexpr int32_t kCurrent = 1;         // transmitted in units of 10 mA (l.4230)
-constexpr double kPitch = 10;           // mm (degrees) that an axis' motor moves in a revolution
-constexpr double kRatedSpeed = 3000;    // 1/min, of load 100 %
-constexpr double kRatedCurrent = 10;    // A
-constexpr double kRatedPower = 5;       // kW
-constexpr double kBusVoltage = 560;     // V
+constexpr int32_t kCurrent = 1;          // transmitted in units of 10 mA (l.4230)
+constexpr double kPitch = 10;            // mm (degrees) that an axis' motor moves in a revolution
+constexpr double kRatedSpeed = 3000;     // 1/min, of load 100 %
+constexpr double kRatedCurrent = 10;     // A
+constexpr double kRatedPower = 5;        // kW
+constexpr double kBusVoltage = 560;      // V
 constexpr double kMotorTemperature = 40; // °C
 
 // What a datum of the motor can be: the manual names code 82 and no limits.

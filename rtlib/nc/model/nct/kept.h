@@ -22,12 +22,14 @@ public:
   bool restoring() const { return mode_ == Mode::Restore; }
   uint32_t size() const { return at_; }
 
-  template <class T> void value(T& value) {
+  template <class T>
+  void value(T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes(&value, sizeof value);
   }
   // Elements of a table whose size is that of the configuration.
-  template <class T> void values(std::span<T> values) {
+  template <class T>
+  void values(std::span<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes(values.data(), values.size_bytes());
   }

@@ -1,5 +1,5 @@
-// The switch of the machine: P_MONREQ switches the MON output on unless N_MONDIS disables it, N_MONST is its state (man.
-// l.8014-8040). N_MONDIS is the hardware's.
+// The switch of the machine: P_MONREQ switches the MON output on unless N_MONDIS disables it, N_MONST is its state
+// (man. l.8014-8040). N_MONDIS is the hardware's.
 #pragma once
 #include "rtlib/nc/model/nct/topic.h"
 

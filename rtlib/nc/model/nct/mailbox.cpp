@@ -58,7 +58,8 @@ bool Mailbox::speaks(const Device& device, Protocol protocol) {
 }
 
 Mailbox::Device* Mailbox::find(int32_t index) {
-  const auto found = std::ranges::find_if(devices_, [&](const Device& d) { return static_cast<int64_t>(d.index) == index; });
+  const auto found =
+      std::ranges::find_if(devices_, [&](const Device& d) { return static_cast<int64_t>(d.index) == index; });
   return found == devices_.end() ? nullptr : &*found;
 }
 
@@ -79,7 +80,8 @@ std::optional<int32_t> Mailbox::service(uint32_t function, Block& block) {
   if (block.word(2) < 0 || block.word(2) > 15 || !speaks(*device, protocol)) return 201;
   const int32_t bytes = block.word(4);
   const int32_t address = block.word(5);
-  if (bytes < 1 || bytes > kMostBytes || address < 1 || !control().memory.contains(address, (bytes + 3) / 4)) return 202;
+  if (bytes < 1 || bytes > kMostBytes || address < 1 || !control().memory.contains(address, (bytes + 3) / 4))
+    return 202;
   if (device->silent) {
     if (control().requestAgeUs < kTimeoutUs) return std::nullopt;
     return write ? 204 : 203;
@@ -114,7 +116,8 @@ int32_t Mailbox::finish(bool write, Block& block, uint32_t error) {
 // ---- protocols ---------------------------------------------------------------------------------------------------
 
 void Mailbox::append(uint64_t value, uint32_t bytes) {
-  for (uint32_t i = 0; i < bytes && size_ < buffer_.size(); ++i) buffer_[size_++] = static_cast<uint8_t>(value >> 8 * i);
+  for (uint32_t i = 0; i < bytes && size_ < buffer_.size(); ++i)
+    buffer_[size_++] = static_cast<uint8_t>(value >> 8 * i);
 }
 
 uint64_t Mailbox::valueOf(std::span<const uint8_t> bytes) {

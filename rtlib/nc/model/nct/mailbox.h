@@ -28,9 +28,9 @@ private:
   struct Device {
     uint32_t index = 0;
     bool coe = false, soe = false, voe = false;
-    bool silent = false;    // answers nothing
-    uint32_t error = 0;     // answers this, if not 0
-    Buffer vendor;          // what VoE wrote last
+    bool silent = false; // answers nothing
+    uint32_t error = 0;  // answers this, if not 0
+    Buffer vendor;       // what VoE wrote last
   };
   struct Object {
     uint32_t device = 0;

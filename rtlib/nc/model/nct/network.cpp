@@ -120,7 +120,8 @@ int32_t Network::failed(Block& block, int32_t error) {
 
 int32_t Network::receive(Block& block) {
   // Word 0000 is the program's flags.
-  if (block.word(3) < 1 || !control().memory.contains(block.word(3), block.word(4))) return failed(block, kWindowsFault);
+  if (block.word(3) < 1 || !control().memory.contains(block.word(3), block.word(4)))
+    return failed(block, kWindowsFault);
   return socket_.isOpen() ? receiveFrom(block, socket_) : 65;
 }
 
@@ -130,8 +131,10 @@ int32_t Network::receiveFrom(Block& block, Socket& socket) {
   const bool stream = protocol_ != Protocol::Udp;
   Socket::Received received = socket.receive(std::span(bytes).first(room), stream);
   // A stream is taken word by word; what is left of a word waits for the rest.
-  if (stream && received.bytes >= 4) received = socket.receive(std::span(bytes).first(received.bytes / 4 * 4));
-  else if (stream && received.bytes > 0) return 65;
+  if (stream && received.bytes >= 4)
+    received = socket.receive(std::span(bytes).first(received.bytes / 4 * 4));
+  else if (stream && received.bytes > 0)
+    return 65;
   if (received.nothing) return 65;
   if (stream && received.error == 0 && received.bytes == 0) received.error = kWindowsDisconnected;
   if (received.error != 0) {
@@ -146,7 +149,8 @@ int32_t Network::receiveFrom(Block& block, Socket& socket) {
                              static_cast<int32_t>(word));
   }
   if (block.amount() >= 4) block.setWord(5, 0);
-  if (block.amount() >= 5) block.setWord(6, static_cast<int32_t>(isolated() || stream ? target_ : received.from.address));
+  if (block.amount() >= 5)
+    block.setWord(6, static_cast<int32_t>(isolated() || stream ? target_ : received.from.address));
   if (block.amount() >= 6) block.setWord(7, stream ? port_ : received.from.port);
   return 0;
 }
@@ -165,7 +169,8 @@ std::optional<int32_t> Network::send(Block& block) {
   const std::span<const uint8_t> message(bytes.data(), size_t{4} * words);
   Endpoint to{target_, port_};
   if (block.amount() >= 5 && block.word(6) != 0) to.address = static_cast<uint32_t>(block.word(6));
-  if (block.amount() >= 6 && block.word(7) > 0 && block.word(7) <= 65535) to.port = static_cast<uint16_t>(block.word(7));
+  if (block.amount() >= 6 && block.word(7) > 0 && block.word(7) <= 65535)
+    to.port = static_cast<uint16_t>(block.word(7));
   const bool udp = protocol_ == Protocol::Udp;
   const Socket::Sent sent = udp ? socket_.sendTo(message, reachable(to)) : socket_.send(message);
   if (sent.error != 0) return failed(block, sent.error);

@@ -17,8 +17,8 @@ Nvram::Nvram(Control& control) : Topic(control), checksum_(sumOf(words_)) {}
 
 bool Nvram::serves(bool write, uint32_t function) const { return function == (write ? kWrite : kRead); }
 
-// The codes in the order of the manual (l.3586-3598, 3627-3636), but for the checksum: a request that is wrong in itself
-// is answered as that. A destination that reaches beyond word 9999 is the PLC address' error (11).
+// The codes in the order of the manual (l.3586-3598, 3627-3636), but for the checksum: a request that is wrong in
+// itself is answered as that. A destination that reaches beyond word 9999 is the PLC address' error (11).
 std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
   if (block.amount() != 3) return 2;
   const int32_t first = block.word(2);

@@ -60,8 +60,8 @@ private:
 
   // A double holds every value of a double word or of bits exactly.
   std::vector<double> values_;
-  std::vector<double> initial_; // as delivered, with the configuration
-  uint32_t checksum_ = 0;       // of values_, made anew by every change
+  std::vector<double> initial_;         // as delivered, with the configuration
+  uint32_t checksum_ = 0;               // of values_, made anew by every change
   std::vector<BitSignal> constantBits_; // N_P00 to N_P77
   WordSignal constantWords_{"N_PDW1"};
   RealSignal constantReals_{"N_PDB1"};

@@ -60,7 +60,10 @@ double blocksAhead(const Control& c, uint32_t channel, uint32_t) { return c.chan
 double driveDatum(const Control& c, uint32_t drive, uint32_t datum) { return c.drives->datum(drive, datum); }
 
 // The time of the control's threads is not simulated: the same on every machine and engine, in microseconds.
-template <int32_t Us> double threadTime(const Control&, uint32_t, uint32_t) { return Us; }
+template <int32_t Us>
+double threadTime(const Control&, uint32_t, uint32_t) {
+  return Us;
+}
 
 double plcBit(const Control& c, uint32_t word, uint32_t bit) { return c.memory.bit(word, bit) ? 1 : 0; }
 double plcInt(const Control& c, uint32_t word, uint32_t) { return c.memory.word(word); }

@@ -41,8 +41,8 @@ double SignalMemory::real(uint32_t address) const {
 }
 
 PlcMemory::PlcMemory(host::Instance& instance)
-    : program_(&instance.program()), block_(instance.block().data()),
-      space_(host::findSpace(instance.program(), "M")), plcNvram_(SignalMemory(instance).words()) {}
+    : program_(&instance.program()), block_(instance.block().data()), space_(host::findSpace(instance.program(), "M")),
+      plcNvram_(SignalMemory(instance).words()) {}
 
 uint64_t PlcMemory::read(uint32_t address, uint32_t bytes) const {
   if (space_ == RUNG_NONE || address >= kWords) return 0;

@@ -62,13 +62,15 @@ public:
   double real(uint32_t address) const;
 
 private:
-  template <class T> T load(const SignalPlace& signal, uint32_t index) const {
+  template <class T>
+  T load(const SignalPlace& signal, uint32_t index) const {
     T value{};
     const uint32_t at = signal.byte_ + index * signal.stride_;
     if (index < signal.count_ && at + sizeof value <= size_) std::memcpy(&value, area_ + at, sizeof value);
     return value;
   }
-  template <class T> void store(const SignalPlace& signal, uint32_t index, T value) const {
+  template <class T>
+  void store(const SignalPlace& signal, uint32_t index, T value) const {
     const uint32_t at = signal.byte_ + index * signal.stride_;
     if (index < signal.count_ && at + sizeof value <= size_) std::memcpy(area_ + at, &value, sizeof value);
   }
@@ -86,7 +88,9 @@ public:
   explicit PlcMemory(host::Instance& instance);
 
   uint32_t plcNvram() const { return plcNvram_; } // where the user's words begin
-  bool contains(int64_t address, int64_t words) const { return address >= 0 && words >= 0 && address + words <= kWords; }
+  bool contains(int64_t address, int64_t words) const {
+    return address >= 0 && words >= 0 && address + words <= kWords;
+  }
   int32_t word(uint32_t address) const;
   void setWord(uint32_t address, int32_t value) const;
   double real(uint32_t address) const;

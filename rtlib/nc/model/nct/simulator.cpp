@@ -9,8 +9,8 @@
 namespace rung::nc::nct {
 
 Simulator::Simulator()
-    : topics_{&parameters_, &nvram_, &machineOn_,   &spindles_,         &axes_,  &macros_, &screen_, &network_, &mailbox_,
-              &drives_,     &channels_, &programSelection_, &tools_, &pallets_},
+    : topics_{&parameters_, &nvram_,  &machineOn_, &spindles_,         &axes_,  &macros_, &screen_, &network_,
+              &mailbox_,    &drives_, &channels_,  &programSelection_, &tools_, &pallets_},
       waiting_(rt::ServiceQueue::kMaxPending) {}
 
 Control Simulator::links() {
@@ -95,9 +95,9 @@ void Simulator::timeSlice(host::Instance& instance, bool cycle) {
 
 // "MR function address block -> code": the name stands before its arguments.
 void Simulator::findServices(const rung_program& program) {
-  constexpr std::pair<std::string_view, Service> kNames[] = {
-      {"MR", Service::Mr},     {"MW", Service::Mw},   {"MACR", Service::Macr},
-      {"MACW", Service::Macw}, {"SCP", Service::Scp}, {"MOVCMND", Service::Movcmnd}};
+  constexpr std::pair<std::string_view, Service> kNames[] = {{"MR", Service::Mr},     {"MW", Service::Mw},
+                                                             {"MACR", Service::Macr}, {"MACW", Service::Macw},
+                                                             {"SCP", Service::Scp},   {"MOVCMND", Service::Movcmnd}};
   services_.assign(program.service_count, Service::Other);
   for (uint32_t i = 0; i < program.service_count; ++i) {
     std::string_view name = host::serviceName(program, i);

@@ -87,7 +87,7 @@ private:
   };
   std::vector<Waiting> waiting_; // oldest first; room for all that can be pending
   uint32_t waitingCount_ = 0;
-  int64_t sliceUs_ = 0; // the clock at the last time slice
+  int64_t sliceUs_ = 0;                        // the clock at the last time slice
   std::array<uint32_t, kBlockStride> words_{}; // the block that is being worked on
 };
 

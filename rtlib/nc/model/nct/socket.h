@@ -15,7 +15,7 @@ struct Endpoint {
 };
 
 enum WindowsError : int32_t {
-  kWindowsFault = 10014,        // a bad address of data
+  kWindowsFault = 10014, // a bad address of data
   kWindowsInvalid = 10022,
   kWindowsUnreachable = 10051,  // not on the loopback
   kWindowsDisconnected = 10101, // the other side has closed the connection

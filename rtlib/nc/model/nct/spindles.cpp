@@ -23,7 +23,8 @@ void Spindles::number(uint32_t count) {
 }
 
 bool Spindles::exists(uint32_t spindle) const {
-  return spindle < kSpindles && control().parameters->bit(parameters_.config, 0, spindle) && !spindles_[spindle].detached;
+  return spindle < kSpindles && control().parameters->bit(parameters_.config, 0, spindle) &&
+         !spindles_[spindle].detached;
 }
 
 uint32_t Spindles::master(uint32_t spindle) const {
@@ -215,7 +216,8 @@ void Spindles::writeSignals(uint32_t i) {
   const uint32_t range = gear(i);
   const double window = real(parameters_.inPosition[range], i);
   const double deviation = std::abs(state.speed - state.set);
-  const double tolerance = std::max(std::abs(state.set) * real(parameters_.percent, i) / 100, real(parameters_.window, i));
+  const double tolerance =
+      std::max(std::abs(state.set) * real(parameters_.percent, i) / 100, real(parameters_.window, i));
   const double fluctuation = std::max(std::abs(state.set) * real(parameters_.fluctuationPercent, i) / 100,
                                       real(parameters_.fluctuationWindow, i));
   const bool ramped = std::abs(state.command - state.set) < kNear;

@@ -79,8 +79,8 @@ private:
     double speed = 0;
     double command = 0;
     double set = 0;
-    double position = 0; // of revolutions, of all time
-    double toGo = 0;     // of an orientation, once it has begun
+    double position = 0;    // of revolutions, of all time
+    double toGo = 0;        // of an orientation, once it has begun
     double disturbance = 0; // added to the measured speed by an event
     Order order = Order::None;
     bool closed = false;
@@ -109,8 +109,12 @@ private:
   double fraction(uint32_t spindle) const;
   double seconds() const { return static_cast<double>(control().sliceUs) * 1e-6; }
   bool get(const BitSignal& signal, uint32_t spindle) const { return control().signals.get(signal, spindle); }
-  void put(const BitSignal& signal, uint32_t spindle, bool value) const { control().signals.set(signal, spindle, value); }
-  double real(const ParameterPlace& place, uint32_t spindle) const { return control().parameters->real(place, spindle); }
+  void put(const BitSignal& signal, uint32_t spindle, bool value) const {
+    control().signals.set(signal, spindle, value);
+  }
+  double real(const ParameterPlace& place, uint32_t spindle) const {
+    return control().parameters->real(place, spindle);
+  }
 
   std::array<Spindle, kSpindles> spindles_{};
   bool absolute_ = true;

@@ -31,9 +31,9 @@ struct Control {
   SignalMemory signals;
   PlcMemory memory;
   int64_t nowUs = 0;
-  int64_t sliceUs = 0;   // since the last time slice
+  int64_t sliceUs = 0;      // since the last time slice
   int64_t requestAgeUs = 0; // in `service`: time since the NC took the request
-  bool realTime = false; // the program runs on the machine's clock: waiting is not allowed even between scans
+  bool realTime = false;    // the program runs on the machine's clock: waiting is not allowed even between scans
   Parameters* parameters = nullptr;
   Channels* channels = nullptr;
   Axes* axes = nullptr;

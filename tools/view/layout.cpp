@@ -53,6 +53,8 @@ struct Height {
 // A row in one of the bands that it has a part in.
 struct BandRow {
   uint32_t band = 0;
+  uint32_t firstStop = 0; // of those in the band
+  uint32_t stopsEnd = 0;
   int wire = 0; // y
 };
 
@@ -211,6 +213,7 @@ void Layout::placeColumns() {
 
 std::vector<int> Layout::widths() const {
   std::vector<int> result;
+  result.reserve(measures_.size());
   for (const Measure& m : measures_) result.push_back(m.width);
   return result;
 }
@@ -253,12 +256,13 @@ size_t Layout::bandIndex(uint32_t row, uint32_t band) const {
 // The bands that the row has stops or wires in.
 void Layout::addBandRows(uint32_t row) {
   std::vector<BandRow>& bands = rows_.emplace_back();
-  uint32_t before = 0;
-  for (const Stop& stop : sheet_.rows[row].stops) {
-    const uint32_t band = bands_[stop.cell];
-    for (uint32_t i = stop.joined ? before + 1 : band; i < band; ++i) bands.push_back({i, 0});
-    if (bands.empty() || bands.back().band != band) bands.push_back({band, 0});
-    before = band;
+  const std::vector<Stop>& stops = sheet_.rows[row].stops;
+  for (uint32_t i = 0; i < stops.size(); ++i) {
+    const uint32_t band = bands_[stops[i].cell];
+    const bool wired = stops[i].joined; // then i > 0
+    for (uint32_t k = wired ? bands_[stops[i - 1].cell] + 1 : band; k < band; ++k) bands.push_back({k, i, i, 0});
+    if (bands.empty() || bands.back().band != band) bands.push_back({band, i, i, 0});
+    bands.back().stopsEnd = i + 1;
   }
 }
 
@@ -272,8 +276,9 @@ int Layout::boxBelow(uint32_t cell, uint32_t row, int wire) const {
 // `wire` is known for the height below only.
 Height Layout::rowHeight(uint32_t row, uint32_t band, int wire) const {
   Height height{kBare, kBare};
-  for (const Stop& stop : sheet_.rows[row].stops) {
-    if (bands_[stop.cell] != band) continue;
+  const BandRow& part = rows_[row][bandIndex(row, band)];
+  for (uint32_t i = part.firstStop; i < part.stopsEnd; ++i) {
+    const Stop& stop = sheet_.rows[row].stops[i];
     const Cell& cell = sheet_.cells[stop.cell];
     const Measure& m = measures_[stop.cell];
     const bool solid = stop.joined || (cell.kind != Kind::Joint && cell.kind != Kind::Rail);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <optional>
+#include <memory>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -63,9 +63,10 @@ public:
     const auto [at, fresh] = byKey_.emplace(named.key, static_cast<uint32_t>(entries_.size()));
     if (fresh) entries_.push_back({std::string(name), named, {}});
     std::vector<Use>& uses = entries_[at->second].uses;
-    for (size_t i = uses.size(); i-- > 0 && uses[i].rung == use.rung;)
-      if (uses[i].writes == use.writes) return;
-    uses.push_back(use);
+    // A rung comes twice at most: it reads and writes.
+    const auto same = [&](const Use& one) { return one.rung == use.rung && one.writes == use.writes; };
+    if (!std::any_of(uses.rbegin(), uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)), same))
+      uses.push_back(use);
   }
   const Entry* find(const std::string& key) const {
     const auto at = byKey_.find(key);
@@ -99,6 +100,7 @@ private:
   void readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark);
   void comment(std::string_view text);
   void flushComments(const Place& place);
+  std::string readersOf(const std::string& key) const;
   void fillCoils();
   void addNameTables();
   void addMessageTable(DeclarationKind kind, std::string_view title);
@@ -115,7 +117,7 @@ private:
   const Input& input_;
   Rows rows_;
   std::vector<LadderFile> files_;
-  std::optional<Names> names_;
+  std::unique_ptr<Names> names_;
   Texts texts_;
   std::vector<std::string> fileNames_; // of the author's files, as short as they are told apart
   Program program_;
@@ -262,18 +264,24 @@ void Reader::readFile(const LadderFile& file) {
   flushComments({});
 }
 
-// A coil tells where its bit is read, at the right rail.
+std::string Reader::readersOf(const std::string& key) const {
+  std::string text;
+  size_t count = 0;
+  for (const Use& use : uses_.find(key)->uses) {
+    if (use.writes) continue;
+    if (++count <= kUsesShown) text.append(text.empty() ? "read in " : ", ").append(std::to_string(use.rung));
+  }
+  if (count > kUsesShown) text += fmt::format(" and {} more", count - kUsesShown);
+  return text;
+}
+
+// A coil tells where its bit is read, at the right rail. Many coils may be of one bit.
 void Reader::fillCoils() {
+  std::unordered_map<std::string, std::string> readers;
   for (const CoilRow& coil : coils_) {
-    const UseList::Entry* entry = uses_.find(coil.key);
-    std::string text;
-    size_t count = 0;
-    for (const Use& use : entry->uses) {
-      if (use.writes) continue;
-      if (++count <= kUsesShown) text.append(text.empty() ? "read in " : ", ").append(std::to_string(use.rung));
-    }
-    if (count > kUsesShown) text += fmt::format(" and {} more", count - kUsesShown);
-    program_.figures[coil.figure].sheet.rows[coil.row].uses = std::move(text);
+    const auto [at, fresh] = readers.emplace(coil.key, std::string());
+    if (fresh) at->second = readersOf(coil.key);
+    program_.figures[coil.figure].sheet.rows[coil.row].uses = at->second;
   }
 }
 
@@ -321,7 +329,7 @@ Program Reader::run() {
   nameFiles();
   RUNG_CHECK(!unheard.hasErrors(), "the program has been compiled");
   program_.control = input_.dialect->title;
-  names_.emplace(*input_.dialect, *input_.module, files_);
+  names_ = std::make_unique<Names>(*input_.dialect, *input_.module, files_);
   readTexts();
   for (const LadderFile& file : files_) readFile(file);
   fillCoils();

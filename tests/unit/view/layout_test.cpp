@@ -104,11 +104,11 @@ TEST(ViewLayout, DepthAndWidthAreLinear) {
   const auto deep = drawRung(drawing);
   EXPECT_EQ(layOut(deep->program.figures[0].sheet, 560).symbols.size(), 20001u);
   drawing = "|";
-  for (int i = 0; i < 20000; ++i) drawing += "--[7000.00]";
+  for (int i = 0; i < 200000; ++i) drawing += "--[7000.00]";
   const auto wide = drawRung(drawing + "--(7001.00)\n");
   const Picture picture = layOut(wide->program.figures[0].sheet, 560);
   EXPECT_EQ(picture.rail, 560);
-  EXPECT_GT(picture.jumps.size(), 3000u);
+  EXPECT_GT(picture.jumps.size(), 30000u);
 }
 
 TEST(ViewLayout, AHighRungIsCutBetweenRows) {

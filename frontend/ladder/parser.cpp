@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frontend/ladder/drawing.h"
+#include "ir/support/similar.h"
 
 namespace rung::ladder {
 namespace {
@@ -45,6 +46,7 @@ private:
   void closeRung();
   void finishRung(Rung& rung);
 
+  void reportUnknown(const Word& keyword);
   void malformed(std::string_view form);
   void add(StatementKind kind, size_t index) { result_.statements.push_back({kind, static_cast<uint32_t>(index)}); }
   SourceRange statementRange() const { return join(words_.words.front().range, words_.words.back().range); }
@@ -97,9 +99,22 @@ void Parser::drawingLine(const SourceLine& source) {
     rung.lastLine = source.number;
     rung.range.end = source.at(source.text.find_last_not_of(' ') + 1);
   } else if (place_ == Place::Outside) {
-    diagnostics_.report(Diag::StrayDrawing, source.range());
+    DiagBuilder report = diagnostics_.report(Diag::StrayDrawing, source.range());
+    if (!result_.rungs.empty()) report.note(result_.rungs.back().statement, "this rung's drawing ended at a blank line or another statement");
     place_ = Place::Skipped;
   }
+}
+
+void Parser::reportUnknown(const Word& keyword) {
+  DiagBuilder report = diagnostics_.report(Diag::UnknownStatement, keyword.range);
+  report << keyword.text;
+  if (keyword.text.starts_with("//") || keyword.text.starts_with('#')) {
+    report.note("a comment begins with ';'");
+    return;
+  }
+  Similar similar(keyword.text);
+  for (std::string_view known : kKeywords) similar.offer(known);
+  if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
 }
 
 /// Splits the line; false when its words are not even words.
@@ -129,7 +144,7 @@ void Parser::statement(const SourceLine& source) {
   const Word& keyword = words_.words.front();
   const bool known = std::find(std::begin(kKeywords), std::end(kKeywords), keyword.text) != std::end(kKeywords);
   if (!known || keyword.quoted) {
-    diagnostics_.report(Diag::UnknownStatement, keyword.range) << keyword.text;
+    reportUnknown(keyword);
     place_ = Place::Skipped;
     return;
   }

@@ -250,6 +250,14 @@ bool LineScanner::box(Element& element) {
   return true;
 }
 
+// What word processors put in the place of an ASCII character; null for anything else.
+const char* asciiFor(uint32_t character) {
+  if ((character >= 0x2010 && character <= 0x2015) || character == 0x2212) return "'-'";
+  if (character >= 0x201C && character <= 0x201F) return "'\"'";
+  if (character == 0x00A0 || character == 0x202F) return "a blank";
+  return nullptr;
+}
+
 } // namespace
 
 void Drawing::clear() {
@@ -271,7 +279,9 @@ void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diag
   const SourceRange range = line.range(offset, offset + character.length);
   std::string name = fmt::format("U+{:04X}", character.value);
   if (character.value > 0x20) name += fmt::format(" '{}'", line.text.substr(offset, character.length));
-  diagnostics.report(Diag::BadCharacter, range) << name;
+  DiagBuilder report = diagnostics.report(Diag::BadCharacter, range);
+  report << name;
+  if (const char* meant = asciiFor(character.value)) report.note(fmt::format("write {}", meant));
 }
 
 size_t findUnprintable(std::string_view text, size_t begin, size_t end) {

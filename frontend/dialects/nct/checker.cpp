@@ -316,7 +316,10 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
   }
   const bool isDouble = classOf(info.kind) == Class::Double;
   if (symbols_.isInputWord(address.word) || (isDouble && symbols_.isInputWord(address.word + 1)))
-    diagnostics_.report(Diag::WriteToInput, range).severity(Severity::Warning) << operand.source->text;
+    diagnostics_.report(Diag::WriteToInput, range)
+            .severity(Severity::Warning)
+            .note("the value stands until the NC writes the input again")
+        << operand.source->text;
   return true;
 }
 
@@ -348,7 +351,8 @@ bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Elemen
     return false;
   }
   if (immediate && !inInt0_) {
-    diagnostics_.report(Diag::ImmediateOutsideInt0, range);
+    DiagBuilder report = diagnostics_.report(Diag::ImmediateOutsideInt0, range);
+    if (element.kind == ElementKind::Contact) report.note("a closed contact is written [/x]");
     return false;
   }
   if (immediate && element.kind == ElementKind::Box) {

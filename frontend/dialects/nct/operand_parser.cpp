@@ -40,7 +40,14 @@ struct ConstantReader {
   Diagnostics& diagnostics;
 
   std::optional<Constant> malformed() {
-    diagnostics.report(Diag::ConstantFormat, rangeOf(word, text)) << text;
+    DiagBuilder report = diagnostics.report(Diag::ConstantFormat, rangeOf(word, text));
+    report << text;
+    std::string fixed(text);
+    std::ranges::replace(fixed, ',', '.');
+    if (text.starts_with('*') && fixed.find('.') == fixed.rfind('.')) {
+      if (fixed != text) report.note("the decimal sign is a point: " + fixed);
+      if (text.size() > 1 && allDigits(text.substr(1))) report.note("write " + fixed + ".0");
+    }
     return std::nullopt;
   }
   std::optional<Constant> tooLarge(std::string_view range) {
@@ -116,13 +123,21 @@ private:
 
   std::optional<uint32_t> number(std::string_view text) {
     if (text.size() == 4 && allDigits(text)) return static_cast<uint32_t>(decimalValue(text));
-    diagnostics_.report(Diag::AddressFormat, rangeOf(word_, text)) << text;
+    DiagBuilder report = diagnostics_.report(Diag::AddressFormat, rangeOf(word_, text));
+    report << text;
+    if (allDigits(text) && text.size() < 4)
+      report.note("an address is written " + std::string(4 - text.size(), '0') + std::string(text) + ", a constant #" +
+                  std::string(text));
+    else if (allDigits(text))
+      report.note("a constant is written #" + std::string(text));
     return std::nullopt;
   }
 
   const Symbol* symbol(std::string_view name) {
     if (name.empty()) {
-      diagnostics_.report(Diag::AddressFormat, word_.range) << word_.text;
+      DiagBuilder report = diagnostics_.report(Diag::AddressFormat, word_.range);
+      report << word_.text;
+      if (word_.text.ends_with(',')) report.note("operands are separated by blanks, without commas");
       return nullptr;
     }
     const Symbol* found = symbols_.find(name);
@@ -136,6 +151,10 @@ private:
     if (diagnostics_.errorCount() > kMostSuggestions) return;
     const std::string_view similar = symbols_.similarTo(name);
     if (!similar.empty()) report.note("did you mean " + std::string(similar) + "?");
+    // (S7001.00) is a coil of the name S7001.
+    const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && &name[0] == &word_.text[0] &&
+                       (isDigit(name[1]) || symbols_.find(name.substr(1)) != nullptr);
+    if (glued) report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(word_.text.substr(1)) + ")");
   }
 
   bool mismatch(std::string_view name, SymbolKind is, std::string_view needed) {
@@ -167,7 +186,11 @@ private:
     result_.address.isBit = true;
     if (mark == ':') return readRegister(text, result_.address.bitRegister);
     if (text.size() != 2 || !allDigits(text)) {
-      diagnostics_.report(Diag::BitFormat, text.empty() ? word_.range : rangeOf(word_, text)) << text;
+      DiagBuilder report = diagnostics_.report(Diag::BitFormat, text.empty() ? word_.range : rangeOf(word_, text));
+      report << text;
+      if (text.size() == 1 && allDigits(text)) report.note("write .0" + std::string(text));
+      const size_t modifier = text.find_first_of("@%!");
+      if (modifier != std::string_view::npos) report.note("'" + std::string(1, text[modifier]) + "' stands in front of the operand");
       return false;
     }
     result_.address.bit = static_cast<uint32_t>(decimalValue(text));

@@ -148,7 +148,10 @@ void SymbolTable::resolve(Symbol& symbol) {
 void SymbolTable::resolveConstant(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
-    diagnostics_.report(Diag::ConstantFormat, value.range) << value.text;
+    DiagBuilder report = diagnostics_.report(Diag::ConstantFormat, value.range);
+    report << value.text;
+    if (!value.text.empty() && value.text.find_first_not_of("0123456789") == std::string_view::npos)
+      report.note("write #" + std::string(value.text));
     return;
   }
   const std::optional<Constant> constant = parseConstant(value, value.text, diagnostics_);

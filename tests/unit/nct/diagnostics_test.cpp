@@ -388,6 +388,36 @@ TEST(NctDiagnostics, Suggestions) {
   EXPECT_EQ(note("|--[XYZZY]--{PLUGH SPEED #1}").find("did you mean"), std::string::npos);
 }
 
+// Slips of the hand, and what they are answered with.
+TEST(NctDiagnostics, HintsHowToMend) {
+  struct Slip {
+    const char* text;
+    const char* hint;
+  };
+  const Slip slips[] = {{"rung\n|--[700.00]--(7001.00)", "0700"},
+                        {"rung\n|--[N_ON]--{MOV 7000 5}", "a constant #5"},
+                        {"rung\n|--[N_ON]--{MOV 7000 12345}", "a constant is written #12345"},
+                        {"rung\n|--[N_ON]--(7001.5)", "write .05"},
+                        {"rung\n|--[7000.00@]--(7001.00)", "'@' stands in front of the operand"},
+                        {"rung\n|--[N_ON]--{MOV 7000, #5}", "without commas"},
+                        {"rung\n|--[N_ON]--(S7001.00)", "(S 7001.00)"},
+                        {"rung\n|--[N_ON]--(RLAMP)", "(R LAMP)"},
+                        {"rung\n|--[!7000.00]--(7001.00)", "a closed contact is written [/x]"},
+                        {"rung\n|--[N_ON]--{MOVF 7000 *3,5}", "*3.5"},
+                        {"rung\n|--[N_ON]--{MOVF 7000 *5}", "write *5.0"},
+                        {"const LIMIT 10", "write #10"},
+                        {"rung\n|--[N_ON]--(INP000.00)", "until the NC writes the input again"},
+                        {"rung \u201cx\u201d", "write '\"'"},
+                        {"rung\n|\u2013[N_ON]--(7001.00)", "write '-'"},
+                        {"// text", "a comment begins with ';'"},
+                        {"RUNG", "did you mean rung?"},
+                        {"rung\n|--[N_ON]--+--(7001.00)\n\n              +--(7001.01)", "this rung's drawing ended"}};
+  for (const Slip& slip : slips) {
+    const std::string text = compileMain(std::string("symbol LAMP 7001.09\n") + slip.text + "\n").rendered();
+    EXPECT_NE(text.find(slip.hint), std::string::npos) << slip.text << '\n' << text;
+  }
+}
+
 TEST(NctDiagnostics, Configuration) {
   Options options;
   options.config = {{"PLCNVRAM", "100"}, {"PLCRAM", "x"}, {"timeslice", "2 apples"}};

@@ -8,6 +8,7 @@
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/nct/axis_codes.h"
 #include "rtlib/nc/nct/messages.h"
+#include "rtlib/nc/nct/parameters.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "rtlib/nc/nct/windows.h"
@@ -166,6 +167,20 @@ void scopeSymbols(Page& page) {
               cell(parameterText(symbol.param2)), symbol.line);
 }
 
+void parameters(Page& page) {
+  page.heading("## Parameters");
+  page.line(
+      "The parameters that the manual names; MR 31, 32, MW 34, 35 reach these in the simulated NC. What indexes a "
+      "parameter and its format follow from its use where the manual does not say; the values are those of a "
+      "new simulated NC (`config axes`, `spindles` set some).\n");
+  page.table("| parameter | name | format | of | value | manual |");
+  for (const nc::nct::ParameterRow& row : nc::nct::parameterRows()) {
+    const std::string last = row.numbers > 1 ? fmt::format(" to N{:04}", row.number + row.numbers - 1) : std::string();
+    page.line("| N{:04}{} | {} | {} | {} | {} | l.{} |", row.number, last, cell(row.name),
+              nc::nct::formatName(row.format), nc::nct::indexName(row.index), row.initial, row.line);
+  }
+}
+
 void messages(Page& page) {
   page.heading("## Messages");
   page.line(
@@ -235,6 +250,7 @@ std::string referenceSections() {
   configuration(page);
   warnings(page);
   functions(page);
+  parameters(page);
   messages(page);
   executionCodes(page);
   windows(page);

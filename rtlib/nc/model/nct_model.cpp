@@ -55,6 +55,7 @@ public:
     if (kind == PowerOn::Warm && byEthercat_) loseRetained(instance);
     ts_ = SignalMemory(instance);
     slicesOfCycle_ = hooksOf(instance.program());
+    if (cycles_ != 0) ownAcknowledge_ = 0; // pins are bound before the first power-on
     timeSlices_ = cycles_ = slice_ = 0;
     requested_ = 0;
     messages_.powerOn(instance);
@@ -160,6 +161,7 @@ public:
     if (place && slice != RUNG_NONE && place->space == memory && place->byte >= 8 &&
         place->byte < instance.program().spaces[slice].byte_count)
       place->space = slice;
+    if (place) noteWritten(*place);
     return place;
   }
 
@@ -212,8 +214,19 @@ private:
       const bool request = ts_.get(common_.plcAxisRequest, i);
       if (request == ((requested_ >> i & 1) != 0)) continue;
       requested_ ^= uint32_t{1} << i;
+      if ((ownAcknowledge_ >> i & 1) != 0) continue;
       ts_.set(common_.plcAxis, i, request);
     }
+  }
+
+  // Whoever writes AN_PLCA of an axis acknowledges it from then on.
+  void noteWritten(const host::Ref& place) const {
+    const Signal& acknowledge = *findSignal(nctSignals(), "AN_PLCA");
+    const uint32_t first = acknowledge.byteOffset + acknowledge.bit / 8;
+    if (place.kind != host::RefKind::Bit || place.bit != acknowledge.bit % 8 || place.byte < first) return;
+    const uint32_t axis = (place.byte - first) / acknowledge.strideBytes;
+    if ((place.byte - first) % acknowledge.strideBytes == 0 && axis < acknowledge.count)
+      ownAcknowledge_ |= uint32_t{1} << axis;
   }
 
   void answer(host::Instance& instance) {
@@ -231,9 +244,10 @@ private:
   nct::Messages messages_;
   uint64_t timeSlices_ = 0;
   uint64_t cycles_ = 0;
-  uint32_t slice_ = 0;         // of all PLC cycles
-  uint32_t slicesOfCycle_ = 0; // of one
-  uint32_t requested_ = 0;     // AP_PLCR of the cycle before, a bit an axis
+  uint32_t slice_ = 0;                  // of all PLC cycles
+  uint32_t slicesOfCycle_ = 0;          // of one
+  mutable uint32_t ownAcknowledge_ = 0; // axes whose AN_PLCA the scenario writes
+  uint32_t requested_ = 0;              // AP_PLCR of the cycle before, a bit an axis
 };
 
 std::string NctModel::config(std::string_view key, std::string_view value) {

@@ -237,7 +237,6 @@ std::optional<double> Network::quantity(std::string_view name) const {
 void Network::powerOn(PowerOn) {
   close();
   device_.close();
-  if (ownAddress_ == 0) claimAddress();
 }
 
 } // namespace rung::nc::nct

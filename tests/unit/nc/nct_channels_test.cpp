@@ -9,10 +9,8 @@
 #include "rtlib/nc/model/nct/spindles.h"
 #include "rtlib/nc/model/nct/tool_management.h"
 
-namespace rung::nc::test {
+namespace rung::nc::nct {
 namespace {
-
-using namespace nct;
 
 ChannelProgram read(std::string_view text) {
   ChannelProgram program;
@@ -46,13 +44,13 @@ TEST(ChannelProgram, ConditionsAssignmentsJumps) {
   ASSERT_EQ(program.blocks[1].assignments.size(), 2U);
   EXPECT_EQ(program.blocks[1].assignments[0].value.number, 2.5);
   EXPECT_EQ(program.blocks[1].assignments[1].value.variable, 100U);
-  ASSERT_TRUE(program.blocks[2].jump);
-  EXPECT_EQ(program.blocks[2].jump->test, ProgramJump::Test::Eq);
-  EXPECT_EQ(program.blocks[2].jump->variable, 1025U);
-  EXPECT_EQ(program.blocks[3].jump->test, ProgramJump::Test::Ne);
-  EXPECT_EQ(program.blocks[3].jump->value.variable, 6U);
-  EXPECT_EQ(program.blocks[4].jump->test, ProgramJump::Test::Always);
-  EXPECT_EQ(program.blocks[4].jump->target, 7U);
+  const auto jump = [&](size_t block) { return program.blocks[block].jump.value_or(ProgramJump{}); };
+  EXPECT_EQ(jump(2).test, ProgramJump::Test::Eq);
+  EXPECT_EQ(jump(2).variable, 1025U);
+  EXPECT_EQ(jump(3).test, ProgramJump::Test::Ne);
+  EXPECT_EQ(jump(3).value.variable, 6U);
+  EXPECT_EQ(jump(4).test, ProgramJump::Test::Always);
+  EXPECT_EQ(jump(4).target, 7U);
 }
 
 TEST(ChannelProgram, Mistakes) {
@@ -104,7 +102,9 @@ protected:
   static NcArgument text(std::string key, std::string value) {
     return {.key = std::move(key), .isText = true, .text = std::move(value)};
   }
-  std::string load(std::vector<NcArgument> keys) { return channels_.event("program", keys).value_or("not an event"); }
+  std::string load(const std::vector<NcArgument>& keys) {
+    return channels_.event("program", keys).value_or("not an event");
+  }
 
   Control links() {
     Control control;
@@ -176,4 +176,4 @@ TEST_F(ChannelsTest, CountsParts) {
 }
 
 } // namespace
-} // namespace rung::nc::test
+} // namespace rung::nc::nct

@@ -9,10 +9,10 @@
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nc/nct_block.h"
 
-namespace rung::nc::test {
+namespace rung::nc::nct {
 namespace {
 
-using namespace nct;
+using test::TestBlock;
 
 class Pallets : public testing::Test {
 protected:
@@ -473,4 +473,4 @@ TEST_P(RandomPallets, TablesStayConsistent) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPallets, testing::Range(1U, 7U));
 
 } // namespace
-} // namespace rung::nc::test
+} // namespace rung::nc::nct

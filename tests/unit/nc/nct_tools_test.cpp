@@ -10,10 +10,10 @@
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nc/nct_block.h"
 
-namespace rung::nc::test {
+namespace rung::nc::nct {
 namespace {
 
-using namespace nct;
+using test::TestBlock;
 
 constexpr int32_t kPlain = 0x11; // V C N E S
 
@@ -712,4 +712,4 @@ TEST_P(RandomTools, TablesStayConsistent) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomTools, testing::Range(1U, 9U));
 
 } // namespace
-} // namespace rung::nc::test
+} // namespace rung::nc::nct

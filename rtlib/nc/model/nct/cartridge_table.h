@@ -57,7 +57,7 @@ public:
 private:
   struct Cartridge {
     CartridgeShape shape;
-    uint32_t first; // of its pots in pots_
+    uint32_t first = 0; // of its pots in pots_
   };
   std::optional<uint32_t> index(PotPlace place) const;
   void write(uint32_t index, uint32_t dataNumber);

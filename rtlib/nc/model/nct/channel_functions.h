@@ -12,11 +12,11 @@ namespace rung::nc::nct {
 
 // What one block hands over; a function that is not in the block is negative.
 struct BlockFunctions {
-  std::array<int32_t, kCodesOfABlock> codes;
+  std::array<int32_t, kCodesOfABlock> codes{};
   int32_t speed = -1;
   uint32_t spindle = 0; // CN_SSEL, from 1
   int32_t tool = -1;
-  std::array<int32_t, 3> auxiliary;
+  std::array<int32_t, 3> auxiliary{};
 
   BlockFunctions() {
     codes.fill(-1);

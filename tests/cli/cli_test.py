@@ -364,6 +364,12 @@ class Products(Cli):
             self.assertEqual({rung["line"] for rung in rungs[:2]}, {35, 38})
             self.assertEqual({rung["line"] for rung in rungs[2:5]}, {14, 17, 20})
 
+    def test_profile_takes_the_files_of_the_scenario(self):
+        example = Path(__file__).resolve().parents[2] / "examples/nct-turning-centre"
+        done = rungc("profile", "--scenario", str(example / "turret.scn"), "--json")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertGreater(len({rung["file"] for rung in json.loads(done.stdout)["rungs"]}), 5)
+
     def test_explain_signals(self):
         for word in ("MF", "mf", "F7.0", "F007.0"):
             self.assertIn(b"[gsk] MF: F7.0", rungc("explain", word).stdout)

@@ -76,7 +76,9 @@ int runTests(const TestOptions& options) {
     fmt::print(stderr, "rungc: {}\n", engines.error());
     return kUsage;
   }
+  scenario::EngineStore store;
   scenario::RunOptions run;
+  run.store = &store;
   run.engines = engines.value();
   run.strict = options.strict;
   run.engine.cppCompiler = options.cxx;
@@ -117,7 +119,7 @@ void addTest(CLI::App& app, int& status) {
 
 void addProfile(CLI::App& app, int& status) {
   struct Options {
-    std::string file;
+    std::vector<std::string> files;
     std::string scenario;
     std::string engine = "jit";
     uint32_t top = 0;
@@ -125,7 +127,7 @@ void addProfile(CLI::App& app, int& status) {
   };
   CLI::App* command = app.add_subcommand("profile", "Time every rung while a scenario runs");
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "The program, instead of the one that the scenario names")->required();
+  command->add_option("FILE", options->files, "The program, instead of the one that the scenario names");
   command->add_option("--scenario", options->scenario, "Scenario that drives it")->required();
   command->add_option("--engine", options->engine, "interp, cpp, llvm or jit")->capture_default_str();
   command->add_option("--top", options->top, "Only the first N rungs");
@@ -140,7 +142,7 @@ void addProfile(CLI::App& app, int& status) {
     scenario::RunOptions run;
     run.engines = engines.value();
     run.instrument = true;
-    run.programs = {options->file};
+    run.programs = options->files;
     const TestCase test = runOne(options->scenario, run);
     if (!test.result.passed) {
       printResult(test);

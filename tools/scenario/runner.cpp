@@ -24,7 +24,7 @@ using host::Ref;
 
 // One engine's run of the scenario.
 struct Lane {
-  std::unique_ptr<host::Engine> engine;
+  host::Engine* engine = nullptr;
   std::unique_ptr<nc::NcModel> nc;
   std::unique_ptr<Instance> instance;
   std::vector<std::string> unreadLog; // since the last expect_log
@@ -91,7 +91,7 @@ public:
     CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
     result_.environment = step.environment;
     result_.problems = step.problems;
-    if (step.program && result_.environment.empty() && result_.problems.empty() && startLanes(*step.program))
+    if (step.program && result_.environment.empty() && result_.problems.empty() && startLanes(store().enter(std::move(*step.program))))
       runStatements();
     if (!lanes_.empty() && options_.instrument)
       result_.profile =
@@ -105,21 +105,23 @@ private:
     result_.problems.push_back({statement.line, std::move(message)});
   }
 
-  bool startLanes(const driver::Compiled& program) {
+  EngineStore& store() { return options_.store != nullptr ? *options_.store : ownStore_; }
+
+  bool startLanes(StoredProgram& program) {
     lanes_.reserve(options_.engines.size());
     hooks_.reserve(options_.engines.size());
     for (driver::EngineKind kind : options_.engines) {
       Lane& lane = lanes_.emplace_back();
-      Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(kind, program, options_.engine);
+      Result<host::Engine*> engine = program.engine(kind, options_.engine);
       if (!engine.ok()) {
         result_.environment = engine.error();
         return false;
       }
-      lane.engine = std::move(engine).value();
+      lane.engine = engine.value();
       lane.nc = nc::makeNcModel(lane.engine->program().dialect);
       hooks_.push_back(std::make_unique<LaneHooks>(lane));
       lane.instance = driver::makeInstance(*lane.engine, hooks_.back().get());
-      if (!configure(lane, *program.dialect)) return false;
+      if (!configure(lane, *program.compiled().dialect)) return false;
       lane.nc->powerOn(*lane.instance, nc::PowerOn::Cold);
     }
     return compare(scenario_.statements[0]);
@@ -243,6 +245,7 @@ private:
   const Scenario& scenario_;
   const RunOptions& options_;
   RunResult result_;
+  EngineStore ownStore_; // when the options bring none; outlives the instances
   std::vector<Lane> lanes_;
   std::vector<std::unique_ptr<LaneHooks>> hooks_;
   bool faultExpected_ = false;

@@ -6,6 +6,7 @@
 
 #include "rtlib/profile/profile.h"
 #include "tools/driver/engines.h"
+#include "tools/scenario/engine_store.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {
@@ -16,6 +17,7 @@ struct RunOptions {
   bool instrument = false; // profile counters are in the result
   bool strict = false;
   std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
+  EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run
 };
 
 struct RunResult {

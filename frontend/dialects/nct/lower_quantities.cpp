@@ -163,12 +163,7 @@ ValueId fits(Lowering& box, const ScopeParameter& parameter, const Operand& oper
   return isBetween(box.b, value, parameter.min, most);
 }
 
-// A place in the PLC's own memory by its parameters: word, and bit.
-struct OwnPlace {
-  bool direct;
-  ValueId word, bit;
-};
-
+// A place in the PLC's own memory: fixed where both parameters are constants.
 ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
   RungBuilder& b = box.b;
   const bool direct = source == ScopeSource::DirectPlcBit || source == ScopeSource::DirectPlcInt ||

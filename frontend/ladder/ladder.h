@@ -139,6 +139,7 @@ struct LadderFile {
   std::vector<Statement> statements;
   std::vector<Module> modules;
   std::vector<Declaration> declarations;
+  std::vector<Word> badNames; ///< of declarations that were reported: uses of them should stay silent
   std::vector<Section> sections;
   std::vector<Rung> rungs;
 };

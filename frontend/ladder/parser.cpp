@@ -191,6 +191,7 @@ void Parser::module() {
 void Parser::declaration(DeclarationKind kind) {
   const bool wantsText = kind == DeclarationKind::Message || kind == DeclarationKind::Button;
   if (words_.words.size() != 3 || isText(1) || isText(2) != wantsText) {
+    if (!wantsText && words_.words.size() > 1 && !isText(1)) result_.badNames.push_back(words_.words[1]);
     switch (kind) {
     case DeclarationKind::Symbol: return malformed("symbol NAME VALUE");
     case DeclarationKind::Const: return malformed("const NAME VALUE");

@@ -61,6 +61,8 @@ public:
         case ladder::DeclarationKind::Message: addMessage(declaration); break;
         case ladder::DeclarationKind::Button: addText(declaration, 32, kButtonTexts); break;
         }
+    for (const ladder::LadderFile& file : files_)
+      for (const Word& name : file.badNames) symbols_.declareBad(name.text);
     symbols_.resolveAll();
   }
 

@@ -117,6 +117,13 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
   enter(symbol);
 }
 
+void SymbolTable::declareBad(std::string_view name) {
+  if (byName_.contains(name) || enterSignal(name) != nullptr) return;
+  Symbol symbol = word(name, 0);
+  symbol.kind = SymbolKind::Bad;
+  enter(symbol);
+}
+
 void SymbolTable::resolveAll() {
   for (size_t i = 0; i < symbols_.size(); ++i)
     if (symbols_[i].pending) resolve(symbols_[i]);

@@ -43,6 +43,8 @@ public:
 
   // Enters a name; a name that is there already is reported.
   void declare(const ladder::Declaration& declaration);
+  // Enters a name whose declaration was reported, unless it is there.
+  void declareBad(std::string_view name);
   // Reads the values of all declarations; afterwards `find` gives complete symbols.
   void resolveAll();
 

@@ -234,6 +234,8 @@ TEST(NctDiagnostics, NcAreaBeginsBehindFlagsAndEndsAtPlcnvram) {
 TEST(NctDiagnostics, WrongSymbolIsReportedOnce) {
   const Compiled c = compileMain("symbol A 756\n\nrung\n|--[A.00]--(7000.00)\n\nrung\n|--[7000.00]--{MOV A #1}\n");
   EXPECT_THAT(c.codes(), ElementsAre("3:10 address-format"));
+  EXPECT_THAT(compileMain("symbol A = 7000.00\nconst B\nsymbol N_ON\n\nrung\n|--[A]--[N_ON]--{MOV 7001 B}\n").codes(),
+              ElementsAre("3:1 malformed-statement", "4:1 malformed-statement", "5:1 malformed-statement"));
 }
 
 TEST(NctDiagnostics, Texts) {

@@ -100,7 +100,8 @@ void Parser::drawingLine(const SourceLine& source) {
     rung.range.end = source.at(source.text.find_last_not_of(' ') + 1);
   } else if (place_ == Place::Outside) {
     DiagBuilder report = diagnostics_.report(Diag::StrayDrawing, source.range());
-    if (!result_.rungs.empty()) report.note(result_.rungs.back().statement, "this rung's drawing ended at a blank line or another statement");
+    if (!result_.rungs.empty())
+      report.note(result_.rungs.back().statement, "this rung's drawing ended at a blank line or another statement");
     place_ = Place::Skipped;
   }
 }

@@ -1,5 +1,5 @@
-// libFuzzer target: any bytes as NCT ladder text; a byte 0x0C begins the next file of the program. What compiles is valid and prints as a text that
-// parses back.
+// libFuzzer target: any bytes as NCT ladder text; a byte 0x0C begins the next file of the program. What compiles is
+// valid and prints as a text that parses back.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

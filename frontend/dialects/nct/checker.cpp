@@ -272,8 +272,10 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
       diagnostics_.report(Diag::SymbolKindMismatch, range)
           << text << "a constant" << (info.kind == "bit" ? "a bit" : "an address");
     else
-      diagnostics_.report(Diag::OperandNotRegister, range)
-          << static_cast<int>(index + 1) << (row.shape == Shape::Contact ? "a contact" : row.shape == Shape::Coil ? "a coil" : row.info.mnemonic);
+      diagnostics_.report(Diag::OperandNotRegister, range) << static_cast<int>(index + 1)
+                                                           << (row.shape == Shape::Contact ? "a contact"
+                                                               : row.shape == Shape::Coil  ? "a coil"
+                                                                                           : row.info.mnemonic);
     return false;
   }
   const Form needed = classOf(info.kind) == Class::Bit ? Form::Bit : Form::Word;

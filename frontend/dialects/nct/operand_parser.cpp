@@ -118,7 +118,8 @@ private:
     const int64_t words = int64_t{signal_->count} * signal_->strideBytes / 4;
     const int64_t offset = word64_ - signal_->byteOffset / 4;
     if (words < 2 || (offset >= 0 && offset < words)) return;
-    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text)) << text << signal_->symbol << (signal_->count - 1) * signal_->strideBytes / 4;
+    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text))
+        << text << signal_->symbol << (signal_->count - 1) * signal_->strideBytes / 4;
   }
 
   std::optional<uint32_t> number(std::string_view text) {
@@ -154,7 +155,9 @@ private:
     // (S7001.00) is a coil of the name S7001.
     const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && &name[0] == &word_.text[0] &&
                        (isDigit(name[1]) || symbols_.find(name.substr(1)) != nullptr);
-    if (glued) report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(word_.text.substr(1)) + ")");
+    if (glued)
+      report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(word_.text.substr(1)) +
+                  ")");
   }
 
   bool mismatch(std::string_view name, SymbolKind is, std::string_view needed) {
@@ -190,7 +193,8 @@ private:
       report << text;
       if (text.size() == 1 && allDigits(text)) report.note("write .0" + std::string(text));
       const size_t modifier = text.find_first_of("@%!");
-      if (modifier != std::string_view::npos) report.note("'" + std::string(1, text[modifier]) + "' stands in front of the operand");
+      if (modifier != std::string_view::npos)
+        report.note("'" + std::string(1, text[modifier]) + "' stands in front of the operand");
       return false;
     }
     result_.address.bit = static_cast<uint32_t>(decimalValue(text));

@@ -23,10 +23,10 @@ std::string_view unitOf(const nc::Signal& signal) {
   struct Unit {
     std::string_view group, unit;
   };
-  constexpr Unit kUnits[] = {{"machine-panel", "panel"}, {"handwheel", "handwheel"},       {"sensor", "card"},
-                             {"analog", "analog input"}, {"drive", "drive or card"},       {"position-switches", "switch"},
-                             {"axis", "axis"},           {"spindle", "spindle"},           {"channel", "channel"},
-                             {"plc-parameters", "parameter"}};
+  constexpr Unit kUnits[] = {
+      {"machine-panel", "panel"}, {"handwheel", "handwheel"},      {"sensor", "card"}, {"analog", "analog input"},
+      {"drive", "drive or card"}, {"position-switches", "switch"}, {"axis", "axis"},   {"spindle", "spindle"},
+      {"channel", "channel"},     {"plc-parameters", "parameter"}};
   for (const Unit& unit : kUnits)
     if (std::string_view(signal.group).starts_with(unit.group)) return unit.unit;
   return "element";
@@ -47,13 +47,17 @@ std::string explainSignal(std::string_view name) {
 
 std::string explainFlag(std::string_view name) {
   constexpr std::string_view kMeanings[] = {
-      "the instruction was not executed: address or operand out of range, wrong format, NaN", "result too small",
-      "result too large", "carry of an addition, borrow of a subtraction", "compared value greater", "values equal",
+      "the instruction was not executed: address or operand out of range, wrong format, NaN",
+      "result too small",
+      "result too large",
+      "carry of an addition, borrow of a subtraction",
+      "compared value greater",
+      "values equal",
       "compared value lower"};
   for (size_t bit = 0; bit < std::size(kFlagNames); ++bit)
     if (equalNoCase(kFlagNames[bit], name))
-      return fmt::format("[nct] {}: flag, bit 0000.{:02}, read only\n  {}\n  Manual: l.721-777.\n", kFlagNames[bit], bit,
-                         kMeanings[bit]);
+      return fmt::format("[nct] {}: flag, bit 0000.{:02}, read only\n  {}\n  Manual: l.721-777.\n", kFlagNames[bit],
+                         bit, kMeanings[bit]);
   return "";
 }
 
@@ -61,8 +65,9 @@ std::string explainQuantity(std::string_view name) {
   const auto index = nc::nct::findScopeSymbol(name);
   if (!index) return "";
   const nc::nct::ScopeSymbol& symbol = nc::nct::scopeSymbols()[*index];
-  return fmt::format("[nct] {}: quantity of SCP\n  {}\n  Parameter 1: {}. Parameter 2: {}.\n  Manual: l.{}.\n", symbol.name,
-                     symbol.meaning, parameterText(symbol.param1), parameterText(symbol.param2), symbol.line);
+  return fmt::format("[nct] {}: quantity of SCP\n  {}\n  Parameter 1: {}. Parameter 2: {}.\n  Manual: l.{}.\n",
+                     symbol.name, symbol.meaning, parameterText(symbol.param1), parameterText(symbol.param2),
+                     symbol.line);
 }
 
 // "MW 70", "mr104".
@@ -78,7 +83,8 @@ std::string explainFunction(std::string_view word) {
     if (function == nullptr || function->access != access) return "";
     std::string text = fmt::format("[nct] {} {}: {}\n", mnemonicOf(access), code, function->title);
     for (const nc::nct::BlockWord& w : function->words)
-      text += fmt::format("  Word {}{}: {}.\n", w.first, w.first == w.last ? "" : fmt::format(" to {}", w.last), w.meaning);
+      text +=
+          fmt::format("  Word {}{}: {}.\n", w.first, w.first == w.last ? "" : fmt::format(" to {}", w.last), w.meaning);
     text += "  Execution codes:";
     for (const nc::nct::ExecutionCode& c : nc::nct::executionCodes())
       if (function->hasCode(c.code)) text += fmt::format("\n    {} {}", c.code, c.meaning);

@@ -66,9 +66,7 @@ public:
   }
 
 private:
-  bool hides(const TypedRung& rung) const {
-    return rung.bad && hidesStructure(rung, sources_.text(rung.rung->range));
-  }
+  bool hides(const TypedRung& rung) const { return rung.bad && hidesStructure(rung, sources_.text(rung.rung->range)); }
 
   void rungBegins(uint32_t rung) {
     const auto& elements = module_.rungs[rung].elements;

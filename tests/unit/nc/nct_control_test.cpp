@@ -137,7 +137,11 @@ TEST(NctControl, WrongConfigurationIsToldAsSuch) {
                                                                                    {"ethercat.9.coe.1.0", "1"},
                                                                                    {"ethercat.1.coe.1", "1"},
                                                                                    {"ethercat.1.coe.1.0", "1/9"},
-                                                                                   {"nothing", "1"}})
+                                                                                   {"follow.INP001", "OUT010.00"},
+           {"follow.INP001.03", "OUT010.40"},
+           {"follow.INP001.03", "OUT010.00@5"},
+           {"follow.MB_NONE", "OUT010.00"},
+           {"nothing", "1"}})
     EXPECT_NE(model->config(key, value), "") << key << " " << value;
 }
 

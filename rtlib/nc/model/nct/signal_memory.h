@@ -57,6 +57,16 @@ public:
   void set(const WordSignal& signal, uint32_t index, int32_t value) const { store(signal, index, value); }
   void set(const RealSignal& signal, uint32_t index, double value) const { store(signal, index, value); }
 
+  // A bit of a word of the NC area by its address.
+  bool bit(uint32_t address, uint32_t bit) const { return ((static_cast<uint32_t>(word(address)) >> bit) & 1) != 0; }
+  void setBit(uint32_t address, uint32_t bit, bool value) const {
+    if (address >= size_ / 4) return;
+    const uint32_t mask = uint32_t{1} << bit;
+    const uint32_t before = static_cast<uint32_t>(word(address));
+    const uint32_t after = value ? before | mask : before & ~mask;
+    std::memcpy(area_ + address * 4, &after, sizeof after);
+  }
+
   uint32_t words() const { return size_ / 4; } // of the NC area: PLCNVRAM
   int32_t word(uint32_t address) const;        // as SCP's DirectPlcInt reads it
   double real(uint32_t address) const;

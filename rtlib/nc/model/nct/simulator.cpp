@@ -9,8 +9,8 @@
 namespace rung::nc::nct {
 
 Simulator::Simulator()
-    : topics_{&parameters_, &nvram_,  &machineOn_, &spindles_,         &axes_,  &macros_, &screen_, &network_,
-              &mailbox_,    &drives_, &channels_,  &programSelection_, &tools_, &pallets_},
+    : topics_{&parameters_, &nvram_,   &machineOn_, &wiring_,   &spindles_,         &axes_,  &macros_, &screen_,
+              &network_,    &mailbox_, &drives_,    &channels_, &programSelection_, &tools_, &pallets_},
       waiting_(rt::ServiceQueue::kMaxPending) {}
 
 Control Simulator::links() {

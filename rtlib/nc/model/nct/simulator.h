@@ -20,6 +20,7 @@
 #include "rtlib/nc/model/nct/screen.h"
 #include "rtlib/nc/model/nct/spindles.h"
 #include "rtlib/nc/model/nct/tool_management.h"
+#include "rtlib/nc/model/nct/wiring.h"
 
 namespace rung::nc::nct {
 
@@ -65,6 +66,7 @@ private:
   Parameters parameters_{control_};
   Nvram nvram_{control_};
   MachineOn machineOn_{control_};
+  Wiring wiring_{control_};
   Spindles spindles_{control_};
   Axes axes_{control_};
   Macros macros_{control_};

@@ -70,6 +70,7 @@ public:
     for (const ladder::LadderFile& file : files_) checkFile(file);
     for (TypedModule* module : {&program_.main, &program_.int0}) {
       if (!module->exists) continue;
+      arrangeParts(*module);
       checkStructure(*module, sources_, diagnostics_);
       checkMessages(*module, textKinds_, diagnostics_);
     }
@@ -124,6 +125,7 @@ private:
       return reported_;
     }
     module->exists = true;
+    module->parts.push_back(static_cast<uint32_t>(module->rungs.size()));
     module->range = statement.range;
     module->lastFile = &file;
     return *module;

@@ -2,6 +2,7 @@
 #include "frontend/dialects/nct/structure.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -47,6 +48,7 @@ public:
 
   void run() {
     incomplete_ = module_.partial;
+    errors_ = diagnostics_.errorCount();
     module_.bodies.push_back({.first = 0, .end = 0, .number = {}});
     for (uint32_t i = 0; i < module_.rungs.size(); ++i) {
       incomplete_ |= hides(module_.rungs[i]);
@@ -60,8 +62,8 @@ public:
       for (const Reference& jump : jumps_) checkJump(jump);
       for (const Reference& call : calls_) checkCall(call);
       warnUnused();
-      checkRecursion();
-      warnShared();
+      if (!misplaced_) checkRecursion();
+      if (diagnostics_.errorCount() == errors_) warnShared();
     }
   }
 
@@ -145,7 +147,10 @@ private:
 
   void subroutine(uint32_t number, uint32_t rung, SourceRange range) {
     claim(number, true, range);
-    if (!ended_ && !incomplete_) diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
+    if (!ended_ && !incomplete_) {
+      misplaced_ = true;
+      diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
+    }
     closeBody(rung);
     module_.bodies.push_back({.first = rung, .end = rung, .number = number});
     bodyRange_ = range;
@@ -178,6 +183,8 @@ private:
     const std::optional<uint32_t> target = module_.labels[jump.number];
     if (!target) {
       diagnostics_.report(Diag::UndefinedLabel, jump.range) << jump.number << "in this module";
+    } else if (misplaced_) {
+      // Where bodies begin and end is not known.
     } else if (bodyOf(*target) != bodyOf(jump.rung)) {
       diagnostics_.report(Diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target")
           << jump.number;
@@ -197,7 +204,7 @@ private:
     for (uint32_t n = 0; n < kLabels; ++n) {
       if (uses_[n].referenced || uses_[n].conflict) continue;
       if (module_.labels[n]) diagnostics_.report(Diag::LabelUnused, labelRange_[n]) << n;
-      if (module_.subroutines[n]) diagnostics_.report(Diag::SubroutineUnused, subroutineRange_[n]) << n;
+      if (module_.subroutines[n] && !misplaced_) diagnostics_.report(Diag::SubroutineUnused, subroutineRange_[n]) << n;
     }
   }
 
@@ -281,12 +288,14 @@ private:
   TypedModule& module_;
   const SourceManager& sources_;
   Diagnostics& diagnostics_;
+  size_t errors_ = 0; // before this check
   std::vector<Reference> jumps_;
   std::vector<Reference> calls_;
   std::array<Use, kLabels> uses_{};
   std::array<SourceRange, kLabels> labelRange_{};
   std::array<SourceRange, kLabels> subroutineRange_{};
-  bool incomplete_ = false;
+  bool incomplete_ = false; // what is missing may stand in a rung that could not be read
+  bool misplaced_ = false;  // a subroutine stands before END
   bool ended_ = false;
   bool reportedAfterEnd_ = false;
   bool hasRet_ = false;
@@ -294,7 +303,27 @@ private:
   SourceRange bodyRange_;
 };
 
+bool begins(const TypedRung& rung, Flow flow) {
+  return !rung.elements.empty() && rung.elements[0].row != nullptr && rung.elements[0].row->flow == flow;
+}
+
 } // namespace
+
+void arrangeParts(TypedModule& module) {
+  std::vector<TypedRung>& rungs = module.rungs;
+  const auto end = std::ranges::find_if(rungs, [](const TypedRung& rung) { return begins(rung, Flow::End); });
+  const auto endAt = static_cast<uint32_t>(end - rungs.begin());
+  std::vector<TypedRung> first, behind;
+  for (size_t part = 0; part < module.parts.size(); ++part) {
+    const uint32_t from = module.parts[part];
+    const auto to = part + 1 < module.parts.size() ? module.parts[part + 1] : static_cast<uint32_t>(rungs.size());
+    const bool moves = from < to && to <= endAt && end != rungs.end() && begins(rungs[from], Flow::Subroutine);
+    std::vector<TypedRung>& target = moves ? behind : first;
+    std::move(rungs.begin() + from, rungs.begin() + to, std::back_inserter(target));
+  }
+  std::ranges::move(behind, std::back_inserter(first));
+  rungs = std::move(first);
+}
 
 void checkStructure(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics) {
   StructureChecker(module, sources, diagnostics).run();

@@ -5,6 +5,10 @@
 
 namespace rung::nct {
 
+// A file's part of a module that begins with a subroutine and stands in front of the part with END goes behind all
+// others: such a file holds subroutines, and files may be named in any order.
+void arrangeParts(TypedModule& module);
+
 void checkStructure(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics);
 
 } // namespace rung::nct

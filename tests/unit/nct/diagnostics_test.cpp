@@ -365,6 +365,13 @@ TEST(NctDiagnostics, OtherBrokenRungsHideNothing) {
   EXPECT_THAT(compileMain(rungs({"|--[7000.00]--{JMP #1}", "|--{JNE #1}"})).codes(), ElementsAre("7:5 unknown-instruction"));
 }
 
+// A subroutine in front of END leaves open where bodies begin and end.
+TEST(NctDiagnostics, MisplacedSubroutineCausesNoFurtherErrors) {
+  const Compiled c = compileMain(rungs({"|--[7000.00]--{JMP #5}", "|--{SBN #1}", "|--[@7000.00]--{SBS #1}", "|--[7000.00]--{RET}",
+                                        "|--{JME #5}", "|--[7000.00]--{SBS #1}", "|--{END}", "|--{SBN #2}", "|--[7000.00]--{RET}"}));
+  EXPECT_THAT(c.codes(), ElementsAre("7:4 subroutine-before-end"));
+}
+
 // What follows an END that must not stand where it does is no code behind END.
 TEST(NctDiagnostics, MisplacedEndCausesNoFurtherErrors) {
   const Compiled c = compileMain(rungs({"|--[7000.00]--{END}", "|--[7000.00]--(7000.01)", "|--[7000.00]--{SBS #1}", "|--{SBN #1}", "|--[7000.00]--{RET}"}));

@@ -60,7 +60,9 @@ class ToolRow {
 public:
   int32_t word(ToolColumn column) const { return words_[column]; }
   double real(ToolColumn column) const { return reals_[column]; }
-  ToolDatum datum(ToolColumn column) const { return {words_[column], reals_[column]}; }
+  ToolDatum datum(ToolColumn column) const {
+    return isRealColumn(column) ? ToolDatum{0, reals_[column]} : ToolDatum{words_[column], 0};
+  }
   void set(ToolColumn column, const ToolDatum& datum) {
     (isRealColumn(column) ? reals_[column] = datum.real : words_[column] = datum.word);
   }

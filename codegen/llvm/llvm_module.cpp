@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <llvm/Bitcode/BitcodeReader.h>
 #include <llvm/IR/InstIterator.h>
+#include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/Linker/Linker.h>
 #include <llvm/Passes/PassBuilder.h>
@@ -25,6 +26,8 @@ namespace rung::codegen {
 namespace {
 
 // The bitcode was made for another machine and with other options: nothing of that may stand in the way of inlining.
+// Intrinsics keep theirs: a copy of memory says there how its places are aligned, and becomes a call where they are
+// not.
 void adopt(llvm::Function& function) {
   const bool shared = function.hasFnAttribute(llvm::Attribute::NoInline);
   function.setComdat(nullptr);
@@ -34,7 +37,9 @@ void adopt(llvm::Function& function) {
   function.addFnAttr("frame-pointer", "all");
   function.setDoesNotThrow();
   for (llvm::Instruction& instruction : llvm::instructions(function))
-    if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction)) call->setAttributes({});
+    if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+        call != nullptr && !llvm::isa<llvm::IntrinsicInst>(call))
+      call->setAttributes({});
 }
 
 // Adds the functions of sem.hpp that the module calls.

@@ -91,7 +91,8 @@ public:
     CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
     result_.environment = step.environment;
     result_.problems = step.problems;
-    if (step.program && result_.environment.empty() && result_.problems.empty() && startLanes(store().enter(std::move(*step.program))))
+    if (step.program && result_.environment.empty() && result_.problems.empty() &&
+        startLanes(store().enter(std::move(*step.program))))
       runStatements();
     if (!lanes_.empty() && options_.instrument)
       result_.profile =

@@ -58,8 +58,8 @@ struct KeyValue {
 struct Statement {
   Kind kind = Kind::Scan;
   uint32_t line = 0; // from 1
-  std::string name; // Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the service or event; Plc:
-                    // the command
+  std::string name;  // Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the service or event; Plc:
+                     // the command
   std::vector<std::string> words; // Program: files; Connect: source and destination
   Value value;                    // Set, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange

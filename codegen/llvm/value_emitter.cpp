@@ -1,6 +1,6 @@
 // Operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
-#include <llvm/IR/MDBuilder.h>
 #include "codegen/llvm/chunk_emitter.h"
+#include <llvm/IR/MDBuilder.h>
 
 #include <fmt/format.h>
 
@@ -171,7 +171,8 @@ ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
 // The runtime keeps these bytes at 0 or 1; knowing it saves a mask an access.
 ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
   llvm::LoadInst* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
-  byte->setMetadata(llvm::LLVMContext::MD_range, llvm::MDBuilder(builder_.getContext()).createRange(llvm::APInt(8, 0), llvm::APInt(8, 2)));
+  byte->setMetadata(llvm::LLVMContext::MD_range,
+                    llvm::MDBuilder(builder_.getContext()).createRange(llvm::APInt(8, 0), llvm::APInt(8, 2)));
   return builder_.CreateTrunc(byte, builder_.getInt1Ty());
 }
 

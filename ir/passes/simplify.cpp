@@ -13,18 +13,25 @@ struct Opposite {
   bool swap;
 };
 bool oppositeOf(OpCode code, Opposite& opposite) {
-  if (code == OpCode::Eq) opposite = {OpCode::Ne, false};
-  else if (code == OpCode::Ne) opposite = {OpCode::Eq, false};
-  else if (code == OpCode::LtS) opposite = {OpCode::LeS, true};
-  else if (code == OpCode::LeS) opposite = {OpCode::LtS, true};
-  else if (code == OpCode::LtU) opposite = {OpCode::LeU, true};
-  else if (code == OpCode::LeU) opposite = {OpCode::LtU, true};
-  else return false;
+  if (code == OpCode::Eq)
+    opposite = {OpCode::Ne, false};
+  else if (code == OpCode::Ne)
+    opposite = {OpCode::Eq, false};
+  else if (code == OpCode::LtS)
+    opposite = {OpCode::LeS, true};
+  else if (code == OpCode::LeS)
+    opposite = {OpCode::LtS, true};
+  else if (code == OpCode::LtU)
+    opposite = {OpCode::LeU, true};
+  else if (code == OpCode::LeU)
+    opposite = {OpCode::LtU, true};
+  else
+    return false;
   return true;
 }
 
 class Simplifier {
- public:
+public:
   Simplifier(const Module& module, RungRewriter& writer, const Op& op) : module_(module), writer_(writer), op_(op) {
     if (op.argCount > 0) a_ = writer.nowArg(op, 0);
     if (op.argCount > 1) b_ = writer.nowArg(op, 1);
@@ -33,7 +40,7 @@ class Simplifier {
 
   bool run();
 
- private:
+private:
   // Whether a value is the constant `bits`; all bits of the operation's type.
   bool is(ValueId value, uint64_t bits) const {
     uint64_t known = 0;
@@ -57,7 +64,9 @@ class Simplifier {
     writer_.replace(op_.result, value);
     return true;
   }
-  bool constant(uint64_t bits) { return same(writer_.putConstant(op_, resultType(opInfo(op_.code).result, op_.type), bits)); }
+  bool constant(uint64_t bits) {
+    return same(writer_.putConstant(op_, resultType(opInfo(op_.code).result, op_.type), bits));
+  }
   bool become(OpCode code, Type type, std::initializer_list<ValueId> args) {
     writer_.put(op_, code, type, args);
     return true;
@@ -204,7 +213,8 @@ bool Simplifier::window() {
   const uint64_t unitBits = uint64_t{module_.spaces[op_.ref].unitBytes} * 8;
   if (index >= op_.count || (bit && bitNumber >= unitBits)) return !load || constant(0);
   const ValueId stored = bit ? c_ : b_;
-  Op& written = load ? writer_.put(op_, OpCode::Load, op_.type, {}) : writer_.put(op_, OpCode::Store, op_.type, {stored});
+  Op& written =
+      load ? writer_.put(op_, OpCode::Load, op_.type, {}) : writer_.put(op_, OpCode::Store, op_.type, {stored});
   written.ref = op_.ref;
   written.imm = op_.imm + static_cast<int64_t>(index * unitBits + bitNumber);
   return true;
@@ -213,83 +223,83 @@ bool Simplifier::window() {
 bool Simplifier::run() {
   if (isEvaluable(opInfo(op_.code)) && evaluate()) return true;
   switch (op_.code) {
-    case OpCode::And: return logic(OpCode::Or, ones(), 0);
-    case OpCode::Or: return logic(OpCode::And, 0, ones());
-    case OpCode::Xor: return exclusiveOr();
-    case OpCode::Not: return complement();
-    case OpCode::Add:
-    case OpCode::Sub:
-    case OpCode::Mul: return arithmetic();
-    case OpCode::DivS:
-    case OpCode::DivU: return quotient();
-    case OpCode::RemS:
-    case OpCode::RemU: return remainder();
-    case OpCode::Neg: return isA(a_, OpCode::Neg) && same(inner(a_));
-    case OpCode::Shl:
-    case OpCode::ShrU:
-    case OpCode::ShrS: return shift();
-    case OpCode::Eq: return equality(true);
-    case OpCode::Ne: return equality(false);
-    case OpCode::LtS:
-    case OpCode::LeS:
-    case OpCode::LtU:
-    case OpCode::LeU: return order();
-    case OpCode::Select: return select();
-    case OpCode::ZExt:
-    case OpCode::SExt: return extend();
-    case OpCode::Trunc: return truncate();
-    case OpCode::FNeg: return isA(a_, OpCode::FNeg) && same(inner(a_));
-    case OpCode::FAbs:
-      if (isA(a_, OpCode::FAbs)) return same(a_);
-      return isA(a_, OpCode::FNeg) && become(OpCode::FAbs, op_.type, {inner(a_)});
-    case OpCode::BitsToF: return isA(a_, OpCode::FToBits) && same(inner(a_));
-    case OpCode::FToBits: return isA(a_, OpCode::BitsToF) && same(inner(a_));
-    case OpCode::LoadAt:
-    case OpCode::StoreAt:
-    case OpCode::LoadBitAt:
-    case OpCode::StoreBitAt: return window();
-    case OpCode::Trap: return is(a_, 0);
-    case OpCode::Const:
-    case OpCode::PopCount:
-    case OpCode::BcdEncode:
-    case OpCode::BcdDecode:
-    case OpCode::FAdd:
-    case OpCode::FSub:
-    case OpCode::FMul:
-    case OpCode::FDiv:
-    case OpCode::FSqrt:
-    case OpCode::FPow:
-    case OpCode::FSin:
-    case OpCode::FCos:
-    case OpCode::FTan:
-    case OpCode::FAsin:
-    case OpCode::FAcos:
-    case OpCode::FAtan:
-    case OpCode::FExp:
-    case OpCode::FLog:
-    case OpCode::FEq:
-    case OpCode::FLt:
-    case OpCode::FLe:
-    case OpCode::FToInt:
-    case OpCode::FToIntNearest:
-    case OpCode::IntToF:
-    case OpCode::Load:
-    case OpCode::Store:
-    case OpCode::SlotLoad:
-    case OpCode::SlotStore:
-    case OpCode::Now:
-    case OpCode::If:
-    case OpCode::Else:
-    case OpCode::EndIf:
-    case OpCode::Loop:
-    case OpCode::EndLoop:
-    case OpCode::Message:
-    case OpCode::ServiceRequest:
-    case OpCode::ServicePoll:
-    case OpCode::ServiceResult:
-    case OpCode::Note:
-    case OpCode::ProfEnter:
-    case OpCode::ProfLeave: return false;
+  case OpCode::And: return logic(OpCode::Or, ones(), 0);
+  case OpCode::Or: return logic(OpCode::And, 0, ones());
+  case OpCode::Xor: return exclusiveOr();
+  case OpCode::Not: return complement();
+  case OpCode::Add:
+  case OpCode::Sub:
+  case OpCode::Mul: return arithmetic();
+  case OpCode::DivS:
+  case OpCode::DivU: return quotient();
+  case OpCode::RemS:
+  case OpCode::RemU: return remainder();
+  case OpCode::Neg: return isA(a_, OpCode::Neg) && same(inner(a_));
+  case OpCode::Shl:
+  case OpCode::ShrU:
+  case OpCode::ShrS: return shift();
+  case OpCode::Eq: return equality(true);
+  case OpCode::Ne: return equality(false);
+  case OpCode::LtS:
+  case OpCode::LeS:
+  case OpCode::LtU:
+  case OpCode::LeU: return order();
+  case OpCode::Select: return select();
+  case OpCode::ZExt:
+  case OpCode::SExt: return extend();
+  case OpCode::Trunc: return truncate();
+  case OpCode::FNeg: return isA(a_, OpCode::FNeg) && same(inner(a_));
+  case OpCode::FAbs:
+    if (isA(a_, OpCode::FAbs)) return same(a_);
+    return isA(a_, OpCode::FNeg) && become(OpCode::FAbs, op_.type, {inner(a_)});
+  case OpCode::BitsToF: return isA(a_, OpCode::FToBits) && same(inner(a_));
+  case OpCode::FToBits: return isA(a_, OpCode::BitsToF) && same(inner(a_));
+  case OpCode::LoadAt:
+  case OpCode::StoreAt:
+  case OpCode::LoadBitAt:
+  case OpCode::StoreBitAt: return window();
+  case OpCode::Trap: return is(a_, 0);
+  case OpCode::Const:
+  case OpCode::PopCount:
+  case OpCode::BcdEncode:
+  case OpCode::BcdDecode:
+  case OpCode::FAdd:
+  case OpCode::FSub:
+  case OpCode::FMul:
+  case OpCode::FDiv:
+  case OpCode::FSqrt:
+  case OpCode::FPow:
+  case OpCode::FSin:
+  case OpCode::FCos:
+  case OpCode::FTan:
+  case OpCode::FAsin:
+  case OpCode::FAcos:
+  case OpCode::FAtan:
+  case OpCode::FExp:
+  case OpCode::FLog:
+  case OpCode::FEq:
+  case OpCode::FLt:
+  case OpCode::FLe:
+  case OpCode::FToInt:
+  case OpCode::FToIntNearest:
+  case OpCode::IntToF:
+  case OpCode::Load:
+  case OpCode::Store:
+  case OpCode::SlotLoad:
+  case OpCode::SlotStore:
+  case OpCode::Now:
+  case OpCode::If:
+  case OpCode::Else:
+  case OpCode::EndIf:
+  case OpCode::Loop:
+  case OpCode::EndLoop:
+  case OpCode::Message:
+  case OpCode::ServiceRequest:
+  case OpCode::ServicePoll:
+  case OpCode::ServiceResult:
+  case OpCode::Note:
+  case OpCode::ProfEnter:
+  case OpCode::ProfLeave: return false;
   }
   return false;
 }

@@ -10,7 +10,11 @@ namespace rung::rungc {
 void addExplain(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("explain", "Explain a diagnostic code, an instruction or a signal");
   auto word = std::make_shared<std::string>();
-  command->add_option("WORD", *word, "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF, its address F7.0, or AN_PLCA")->required();
+  command
+      ->add_option(
+          "WORD", *word,
+          "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF, its address F7.0, or AN_PLCA")
+      ->required();
   command->callback([word, &status] {
     const std::optional<std::string> text = driver::explain(*word);
     if (text)

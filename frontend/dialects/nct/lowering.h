@@ -175,8 +175,8 @@ ir::ValueId lowerFloatContact(Lowering& box);
 enum ArrayServiceVariant : int { kReadArray, kWriteArray };
 ir::ValueId lowerArrayService(Lowering& box); // MR, MW
 enum MacroVariant : int { kReadMacro, kWriteMacro };
-ir::ValueId lowerMacro(Lowering& box); // MACR, MACW
-ir::ValueId lowerScope(Lowering& box); // SCP
+ir::ValueId lowerMacro(Lowering& box);       // MACR, MACW
+ir::ValueId lowerScope(Lowering& box);       // SCP
 ir::ValueId lowerAxisCommand(Lowering& box); // MOVCMND
 
 // --- checks

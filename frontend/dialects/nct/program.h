@@ -47,7 +47,7 @@ struct TypedModule {
   bool exists = false;
   bool partial = false; // a second one of its name was reported
   std::vector<TypedRung> rungs;
-  std::vector<uint32_t> parts; // first rung of each file's part
+  std::vector<uint32_t> parts;                                // first rung of each file's part
   std::vector<Body> bodies;                                   // [0] is the main part
   std::array<std::optional<uint32_t>, kLabels> labels{};      // JME: its rung
   std::array<std::optional<uint32_t>, kLabels> subroutines{}; // SBN: its body

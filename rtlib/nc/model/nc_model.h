@@ -40,9 +40,9 @@ public:
   // What the control runs before a regular power-off.
   virtual void powerOff(host::Instance& instance);
 
-  // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it is
-  // configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` stands before powerOn, whose kind is then the
-  // program's alone; an empty image is that of an NC as it was delivered.
+  // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it
+  // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` stands before powerOn, whose kind is then
+  // the program's alone; an empty image is that of an NC as it was delivered.
   virtual uint32_t keptSize() { return 0; }
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }

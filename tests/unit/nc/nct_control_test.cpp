@@ -138,10 +138,10 @@ TEST(NctControl, WrongConfigurationIsToldAsSuch) {
                                                                                    {"ethercat.1.coe.1", "1"},
                                                                                    {"ethercat.1.coe.1.0", "1/9"},
                                                                                    {"follow.INP001", "OUT010.00"},
-           {"follow.INP001.03", "OUT010.40"},
-           {"follow.INP001.03", "OUT010.00@5"},
-           {"follow.MB_NONE", "OUT010.00"},
-           {"nothing", "1"}})
+                                                                                   {"follow.INP001.03", "OUT010.40"},
+                                                                                   {"follow.INP001.03", "OUT010.00@5"},
+                                                                                   {"follow.MB_NONE", "OUT010.00"},
+                                                                                   {"nothing", "1"}})
     EXPECT_NE(model->config(key, value), "") << key << " " << value;
 }
 

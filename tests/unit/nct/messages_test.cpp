@@ -22,7 +22,9 @@ std::string filled(std::string_view text, int64_t value, bool real = false, size
   out.resize(fillText(text, message, out));
   return out;
 }
-std::string filledReal(std::string_view text, double value) { return filled(text, std::bit_cast<int64_t>(value), true); }
+std::string filledReal(std::string_view text, double value) {
+  return filled(text, std::bit_cast<int64_t>(value), true);
+}
 
 TEST(MessageText, Integers) {
   EXPECT_EQ(filled("Mount the tool No. {#0:F0} to spindle.", 17), "Mount the tool No. 17 to spindle.");

@@ -24,7 +24,8 @@ std::string reads(const nc::Signal& signal, const std::string& operand) {
 }
 std::string writes(const nc::Signal& signal, const std::string& operand) {
   if (isBit(signal)) return fmt::format("rung\n|--[N_ON]--(S {})\n\n", operand);
-  return fmt::format("rung\n|--[N_ON]--{{{} {} {}}}\n\n", isDouble(signal) ? "MOVF" : "MOV", operand, isDouble(signal) ? "*1.0" : "#1");
+  return fmt::format("rung\n|--[N_ON]--{{{} {} {}}}\n\n", isDouble(signal) ? "MOVF" : "MOV", operand,
+                     isDouble(signal) ? "*1.0" : "#1");
 }
 // The name, its last element, a computed one.
 std::vector<std::string> forms(const nc::Signal& signal) {
@@ -56,7 +57,8 @@ TEST(NctSignals, InputsAreNot) {
   size_t count = 0;
   for (const nc::Signal& signal : nc::nctSignals()) {
     if (signal.direction != nc::Direction::In) continue;
-    program += writes(signal, forms(signal).back().find('#') == std::string::npos ? signal.symbol : forms(signal).back());
+    program +=
+        writes(signal, forms(signal).back().find('#') == std::string::npos ? signal.symbol : forms(signal).back());
     ++count;
   }
   const Compiled c = compileMain(program);
@@ -107,14 +109,16 @@ TEST(NctSignals, PlacesAreDistinct) {
         for (uint32_t half = 0; half < step(signal); ++half) words[word + half].insert(&signal);
       }
     }
-  for (const auto& [word, owners] : words) EXPECT_EQ(owners.size(), 1u) << "word " << word << ' ' << (*owners.begin())->symbol;
+  for (const auto& [word, owners] : words)
+    EXPECT_EQ(owners.size(), 1u) << "word " << word << ' ' << (*owners.begin())->symbol;
   for (const auto& [place, signal] : bits) {
     const auto owner = words.find(static_cast<uint32_t>(place / 32));
     if (owner == words.end()) continue;
     const nc::Signal& container = **owner->second.begin();
     EXPECT_EQ(container.direction, signal->direction) << signal->symbol;
     EXPECT_EQ(container.count, signal->count) << signal->symbol;
-    EXPECT_TRUE(std::string_view(signal->address).starts_with(std::string(container.symbol) + ".")) << signal->symbol << ' ' << container.symbol;
+    EXPECT_TRUE(std::string_view(signal->address).starts_with(std::string(container.symbol) + "."))
+        << signal->symbol << ' ' << container.symbol;
   }
 }
 
@@ -124,7 +128,9 @@ TEST(NctSignals, AllAreExplained) {
     EXPECT_TRUE(text.starts_with(fmt::format("[nct] {}: ", signal.symbol))) << signal.symbol;
     EXPECT_NE(text.find(signal.meaning), std::string::npos) << text;
     EXPECT_NE(text.find(fmt::format("l.{}.", signal.manualLine)), std::string::npos) << text;
-    if (signal.count > 1) { EXPECT_NE(text.find(fmt::format("to #{} (", (signal.count - 1) * step(signal))), std::string::npos) << text; }
+    if (signal.count > 1) {
+      EXPECT_NE(text.find(fmt::format("to #{} (", (signal.count - 1) * step(signal))), std::string::npos) << text;
+    }
   }
   EXPECT_EQ(explainWord("AP_DISP"), explainWord("AP_DISPD"));
   EXPECT_EQ(explainWord("an_plca,#1"), explainWord("AN_PLCA"));

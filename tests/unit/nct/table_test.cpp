@@ -23,9 +23,12 @@ std::vector<std::string> columns(const std::string& line) {
   std::vector<std::string> result(1);
   bool quoted = false;
   for (char c : line) {
-    if (c == '"') quoted = !quoted;
-    else if (c == ',' && !quoted) result.emplace_back();
-    else result.back() += c;
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      result.emplace_back();
+    else
+      result.back() += c;
   }
   return result;
 }
@@ -48,7 +51,8 @@ TEST(NctTable, HoldsTheWholeInventory) {
   std::string line;
   std::getline(file, line);
   std::map<std::string_view, const NctInstruction*> rows;
-  for (const NctInstruction& row : allInstructions()) EXPECT_TRUE(rows.emplace(row.info.mnemonic, &row).second) << row.info.mnemonic << " twice";
+  for (const NctInstruction& row : allInstructions())
+    EXPECT_TRUE(rows.emplace(row.info.mnemonic, &row).second) << row.info.mnemonic << " twice";
   while (std::getline(file, line)) {
     const std::vector<std::string> csv = columns(line);
     const auto found = rows.find(csv[0]);
@@ -69,12 +73,16 @@ TEST(NctTable, HoldsTheWholeInventory) {
   for (const auto& [mnemonic, row] : rows) ADD_FAILURE() << mnemonic << " is not in the inventory";
 }
 
-constexpr std::string_view kSymbols =
-    "symbol START 7900.00\nsymbol STOP 7900.01\nsymbol MOTOR 7901.00\nsymbol T_WARM 7902\nsymbol WARMING 7901.01\nsymbol WARM 7901.02\n"
-    "symbol RUNNING 7900.02\nsymbol IDLE 7901.03\nsymbol LATCH 7901.04\nsymbol START_P 7901.05\nsymbol START_N 7901.06\nsymbol STARTED 7901.07\n"
-    "symbol RUN 7900.03\nsymbol FAN 7901.08\nsymbol LUBE 7900.04\nsymbol PUMP 7901.09\nsymbol PART 7900.05\nsymbol FULL 7901.10\nsymbol STEP 7900.06\n"
-    "symbol HOME 7901.11\nsymbol M6 7900.07\nsymbol TOGO 7903\nsymbol POS 7904\nsymbol GOAL 7905\nsymbol NEGATIVE 7901.12\nsymbol OUT 7901.13\n"
-    "symbol PARTS 7906\nsymbol LEFT 7907\nsymbol FAULT 7900.08\nsymbol SKIP 7900.09\nsymbol GO 7900.10\nconst TEN #10\n";
+constexpr std::string_view kSymbols = "symbol START 7900.00\nsymbol STOP 7900.01\nsymbol MOTOR 7901.00\nsymbol T_WARM "
+                                      "7902\nsymbol WARMING 7901.01\nsymbol WARM 7901.02\n"
+                                      "symbol RUNNING 7900.02\nsymbol IDLE 7901.03\nsymbol LATCH 7901.04\nsymbol "
+                                      "START_P 7901.05\nsymbol START_N 7901.06\nsymbol STARTED 7901.07\n"
+                                      "symbol RUN 7900.03\nsymbol FAN 7901.08\nsymbol LUBE 7900.04\nsymbol PUMP "
+                                      "7901.09\nsymbol PART 7900.05\nsymbol FULL 7901.10\nsymbol STEP 7900.06\n"
+                                      "symbol HOME 7901.11\nsymbol M6 7900.07\nsymbol TOGO 7903\nsymbol POS "
+                                      "7904\nsymbol GOAL 7905\nsymbol NEGATIVE 7901.12\nsymbol OUT 7901.13\n"
+                                      "symbol PARTS 7906\nsymbol LEFT 7907\nsymbol FAULT 7900.08\nsymbol SKIP "
+                                      "7900.09\nsymbol GO 7900.10\nconst TEN #10\n";
 
 // The row's example with what belongs around it: pins, labels, subroutines.
 std::string exampleProgram(const NctInstruction& row) {
@@ -89,14 +97,16 @@ std::string exampleProgram(const NctInstruction& row) {
     drawing += fmt::format("\n|--[START]{:->{}}{{{}}}", "", column - 10, info.pins[i].name);
   }
   switch (row.flow) {
-    case Flow::Jump: return text + rung(drawing) + rung("|--{JME #5}");
-    case Flow::Label: return text + rung("|--[SKIP]--{JMP #5}") + rung(drawing);
-    case Flow::Call: return text + rung(drawing) + rung("|--{END}") + rung("|--{SBN #10}") + rung("|--[N_ON]--{RET}");
-    case Flow::Subroutine: return text + rung("|--[N_ON]--{SBS #10}") + rung("|--{END}") + rung(drawing) + rung("|--[N_ON]--{RET}");
-    case Flow::Return: return text + rung("|--[N_ON]--{SBS #10}") + rung("|--{END}") + rung("|--{SBN #10}") + rung(drawing);
-    case Flow::None:
-    case Flow::End:
-    case Flow::Section: break;
+  case Flow::Jump: return text + rung(drawing) + rung("|--{JME #5}");
+  case Flow::Label: return text + rung("|--[SKIP]--{JMP #5}") + rung(drawing);
+  case Flow::Call: return text + rung(drawing) + rung("|--{END}") + rung("|--{SBN #10}") + rung("|--[N_ON]--{RET}");
+  case Flow::Subroutine:
+    return text + rung("|--[N_ON]--{SBS #10}") + rung("|--{END}") + rung(drawing) + rung("|--[N_ON]--{RET}");
+  case Flow::Return:
+    return text + rung("|--[N_ON]--{SBS #10}") + rung("|--{END}") + rung("|--{SBN #10}") + rung(drawing);
+  case Flow::None:
+  case Flow::End:
+  case Flow::Section: break;
   }
   return text + rung(drawing);
 }
@@ -131,7 +141,8 @@ Compiled withOperands(const NctInstruction& row, const std::vector<std::string>&
   const bool rail = row.info.placement == Placement::AtRail;
   const std::string front = rail ? "|--" : "|--[7900.00]--";
   std::string drawing = front + box + (row.info.output == Output::Always ? "--(7901.00)" : "");
-  for (size_t i = 1; i < row.info.pins.size(); ++i) drawing += "\n" + front + "{" + std::string(row.info.pins[i].name) + "}";
+  for (size_t i = 1; i < row.info.pins.size(); ++i)
+    drawing += "\n" + front + "{" + std::string(row.info.pins[i].name) + "}";
   return compileMain("rung\n" + drawing + "\n");
 }
 
@@ -145,7 +156,9 @@ std::vector<std::string> goodOperands(const NctInstruction& row) {
   std::vector<std::string> good;
   for (const OperandInfo& info : row.info.operands.all()) {
     const std::string_view kind = info.kind;
-    good.push_back(info.min <= info.max ? "#" + std::to_string(info.min) : kind == "scope" ? "Measured" : std::string(kindOf(kind).good));
+    good.push_back(info.min <= info.max ? "#" + std::to_string(info.min)
+                   : kind == "scope"    ? "Measured"
+                                        : std::string(kindOf(kind).good));
   }
   return good;
 }
@@ -182,13 +195,14 @@ TEST(NctTable, GeneratedOperandErrors) {
   }
 }
 
-// --- where it stands, made from the rows -----------------------------------------------------------------------------------
+// --- where it stands, made from the rows
+// -----------------------------------------------------------------------------------
 struct Drawn {
-  bool atRail = false;      // the first line touches the left rail
-  bool output = false;      // a coil stands behind it
+  bool atRail = false;       // the first line touches the left rail
+  bool output = false;       // a coil stands behind it
   size_t railPin = SIZE_MAX; // this further pin touches the rail
-  size_t pins = SIZE_MAX;   // lines that are drawn
-  std::string modifier;     // in front of the first operand that is an address
+  size_t pins = SIZE_MAX;    // lines that are drawn
+  std::string modifier;      // in front of the first operand that is an address
 };
 
 std::string elementOf(const NctInstruction& row, const std::string& modifier) {
@@ -200,7 +214,8 @@ std::string elementOf(const NctInstruction& row, const std::string& modifier) {
     break;
   }
   const std::string name(row.info.mnemonic);
-  if (name.ends_with("-contact-bit") || name.ends_with("-contact-dword")) return (name[0] == 'c' ? "[/" : "[") + operands[0] + "]";
+  if (name.ends_with("-contact-bit") || name.ends_with("-contact-dword"))
+    return (name[0] == 'c' ? "[/" : "[") + operands[0] + "]";
   if (name == "coil" || name == "negated-coil") return (name[0] == 'n' ? "(/" : "(") + operands[0] + ")";
   if (name == "SET" || name == "RST") return "(" + name.substr(0, 1) + " " + operands[0] + ")";
   std::string box = "{" + name;
@@ -210,7 +225,8 @@ std::string elementOf(const NctInstruction& row, const std::string& modifier) {
 
 Compiled drawn(const NctInstruction& row, const Drawn& shape) {
   const auto front = [](bool rail) { return rail ? "|-------------" : "|--[7900.00]--"; };
-  std::string drawing = std::string(front(shape.atRail)) + elementOf(row, shape.modifier) + (shape.output ? "--(7901.00)" : "");
+  std::string drawing =
+      std::string(front(shape.atRail)) + elementOf(row, shape.modifier) + (shape.output ? "--(7901.00)" : "");
   for (size_t i = 1; i < row.info.pins.size() && i < shape.pins; ++i)
     drawing += std::string("\n") + front(i == shape.railPin) + "{" + std::string(row.info.pins[i].name) + "}";
   return compileMain("rung\n" + drawing + "\n");
@@ -221,15 +237,21 @@ TEST(NctTable, FirstColumnAndClosingElement) {
   for (const NctInstruction& row : allInstructions()) {
     if (row.flow == Flow::Section) continue;
     const bool always = row.info.output == Output::Always, none = row.info.output == Output::None;
-    const bool atRail = row.info.placement == Placement::AtRail, behind = row.info.placement == Placement::BehindContact;
-    EXPECT_EQ(has(drawn(row, {.atRail = true, .output = always}), "first-column-not-allowed"), behind) << row.info.mnemonic;
-    EXPECT_EQ(has(drawn(row, {.atRail = false, .output = always}), "first-column-required"), atRail) << row.info.mnemonic;
+    const bool atRail = row.info.placement == Placement::AtRail,
+               behind = row.info.placement == Placement::BehindContact;
+    EXPECT_EQ(has(drawn(row, {.atRail = true, .output = always}), "first-column-not-allowed"), behind)
+        << row.info.mnemonic;
+    EXPECT_EQ(has(drawn(row, {.atRail = false, .output = always}), "first-column-required"), atRail)
+        << row.info.mnemonic;
     EXPECT_EQ(has(drawn(row, {.atRail = atRail, .output = true}), "element-after-closing"), none) << row.info.mnemonic;
-    EXPECT_EQ(has(drawn(row, {.atRail = atRail, .output = false}), "missing-closing-element"), always) << row.info.mnemonic;
-    const auto shapeErrors = {"first-column-not-allowed", "first-column-required", "element-after-closing", "missing-closing-element"};
+    EXPECT_EQ(has(drawn(row, {.atRail = atRail, .output = false}), "missing-closing-element"), always)
+        << row.info.mnemonic;
+    const auto shapeErrors = {"first-column-not-allowed", "first-column-required", "element-after-closing",
+                              "missing-closing-element"};
     const Compiled good = drawn(row, {.atRail = atRail, .output = always});
     for (const std::string& code : good.codes())
-      for (const char* wrong : shapeErrors) EXPECT_EQ(code.find(wrong), std::string::npos) << row.info.mnemonic << ' ' << code;
+      for (const char* wrong : shapeErrors)
+        EXPECT_EQ(code.find(wrong), std::string::npos) << row.info.mnemonic << ' ' << code;
   }
 }
 
@@ -239,7 +261,8 @@ TEST(NctTable, EveryPinIsDrawnAndHasACondition) {
     if (row.info.pins.size() < 2) continue;
     ++boxes;
     for (size_t pin = 1; pin < row.info.pins.size(); ++pin) {
-      EXPECT_TRUE(has(drawn(row, {.output = true, .railPin = pin}), "first-column-not-allowed")) << row.info.mnemonic << ' ' << pin;
+      EXPECT_TRUE(has(drawn(row, {.output = true, .railPin = pin}), "first-column-not-allowed"))
+          << row.info.mnemonic << ' ' << pin;
       EXPECT_TRUE(has(drawn(row, {.output = true, .pins = pin}), "missing-pin")) << row.info.mnemonic << ' ' << pin;
     }
     EXPECT_TRUE(drawn(row, {.output = true}).codes().empty()) << drawn(row, {.output = true}).rendered();
@@ -251,14 +274,18 @@ TEST(NctTable, EveryPinIsDrawnAndHasACondition) {
 TEST(NctTable, ModifiersBelongToContactsAndCoils) {
   for (const NctInstruction& row : allInstructions()) {
     const auto& operands = row.info.operands.all();
-    const bool addressable = std::ranges::any_of(operands, [](const OperandInfo& o) { return o.kind != "label" && o.kind != "scope" && o.kind != "text"; });
+    const bool addressable = std::ranges::any_of(
+        operands, [](const OperandInfo& o) { return o.kind != "label" && o.kind != "scope" && o.kind != "text"; });
     if (!addressable) continue;
     const bool always = row.info.output == Output::Always;
     for (const char* edge : {"@", "%"})
-      EXPECT_EQ(has(drawn(row, {.output = always, .modifier = edge}), "modifier-not-allowed"), row.shape != Shape::Contact) << row.info.mnemonic << edge;
+      EXPECT_EQ(has(drawn(row, {.output = always, .modifier = edge}), "modifier-not-allowed"),
+                row.shape != Shape::Contact)
+          << row.info.mnemonic << edge;
     EXPECT_TRUE(has(drawn(row, {.output = always, .modifier = "!"}), "immediate-outside-int0")) << row.info.mnemonic;
     for (const char* both : {"@!", "!@", "%!", "!%"})
-      EXPECT_TRUE(has(drawn(row, {.output = always, .modifier = both}), "edge-with-immediate")) << row.info.mnemonic << both;
+      EXPECT_TRUE(has(drawn(row, {.output = always, .modifier = both}), "edge-with-immediate"))
+          << row.info.mnemonic << both;
   }
 }
 

@@ -22,8 +22,8 @@ struct LadderForm {
   std::vector<SourceRange> networks; // of a conversion: where each rung of its one file stands in the author's files
 };
 
-// Of a program that was compiled without errors: its own files, or what they are converted to when there is a list among
-// them. Nothing when a network is too large to be drawn; that stands in `diagnostics`.
+// Of a program that was compiled without errors: its own files, or what they are converted to when there is a list
+// among them. Nothing when a network is too large to be drawn; that stands in `diagnostics`.
 std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const FileId> files,
                                      const frontend::CompileOptions& options, Diagnostics& diagnostics);
 

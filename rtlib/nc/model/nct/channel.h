@@ -36,7 +36,7 @@ public:
   void forgetInterruption(); // another program has been selected
   void setTurning(bool turning) { turning_ = turning; }
 
-  uint32_t blocksAhead() const; // of the program under way: the records in its buffer
+  uint32_t blocksAhead() const;                   // of the program under way: the records in its buffer
   uint32_t sequence() const { return sequence_; } // N of the block under way
   int32_t parts = 0;                              // machined
   int32_t partsWanted = 0;

@@ -18,7 +18,9 @@ struct Operand {
   uint32_t scale = 1;             // bytes that BX counts
   ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
   ir::Place place;
-  uint32_t size = 0; // of a text or an array, bytes to its end; 0: unknown
+  // Of a text or an array at an address: bytes from there to its end, with a text's terminator; 0 behind the end. Where
+  // indexed, from `value` on: BX takes off more.
+  uint32_t size = 0;
   int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
   double real = 0;
   uint32_t index = kNone; // label, mechanism, procedure

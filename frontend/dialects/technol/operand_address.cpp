@@ -146,6 +146,8 @@ bool OperandParser::addMember(const Token& member, Address& out) {
     out.byte += inside->byte;
     out.type = inside->type;
     out.isBit = inside->kind == SymbolKind::Bit;
+    out.isText = inside->kind == SymbolKind::Text;
+    out.end = out.byte + inside->size;
     out.structure = inside->structure;
     return true;
   }

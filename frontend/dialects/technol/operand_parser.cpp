@@ -279,6 +279,24 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   return false;
 }
 
+namespace {
+
+// TEXT+BX, TEXT+2+BX: the tokens without `+BX`, in `plain`. False when there is none.
+bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
+  const auto isBx = [&](size_t i) {
+    return i + 1 < tokens.size() && tokens[i].is('+') && equalsNoCase(tokens[i + 1].text, "BX") &&
+           (i + 2 == tokens.size() || tokens[i + 2].is('+') || tokens[i + 2].is('-') || tokens[i + 2].is(')'));
+  };
+  size_t at = 1;
+  while (at < tokens.size() && !isBx(at)) ++at;
+  if (at >= tokens.size()) return false;
+  plain.assign(tokens.begin(), tokens.end());
+  plain.erase(plain.begin() + static_cast<std::ptrdiff_t>(at), plain.begin() + static_cast<std::ptrdiff_t>(at) + 2);
+  return true;
+}
+
+} // namespace
+
 bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
                          Operand& out) {
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
@@ -287,18 +305,17 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
     out.text = tokens[0].text;
     return true;
   }
-  // TEXT+BX
-  const bool indexed = tokens.size() > 2 && equalsNoCase(tokens.back().text, "BX") && tokens[tokens.size() - 2].is('+');
-  if (indexed) tokens = tokens.first(tokens.size() - 2);
+  std::vector<Token> plain;
+  const bool indexed = withoutIndex(tokens, plain);
   Address address;
-  if (!this->address(tokens, address)) return false;
+  if (!this->address(indexed ? plain : tokens, address)) return false;
   if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
   const bool wantsText = kind.info.kind != "address";
   if (address.isBit || (wantsText && !address.isText))
     return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
-  out.size = address.end > address.byte ? static_cast<uint32_t>(address.end - address.byte) : 0;
+  out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   return setPlace(address, address.byte, 1, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 

@@ -10,6 +10,7 @@
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/refuse.h"
 #include "rtlib/nc/model/retained_tables.h"
+#include "rtlib/nc/technol/code_page.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/compile_step.h"
@@ -41,7 +42,11 @@ struct Watched {
 
 std::string valueText(const host::Instance& instance, const host::Ref& place) {
   switch (place.kind) {
-  case host::RefKind::Text: return "\"" + instance.readText(place) + "\"";
+  case host::RefKind::Text: {
+    const std::string text = instance.readText(place);
+    const bool oneByte = std::string_view(instance.program().dialect) == "technol";
+    return "\"" + (oneByte ? nc::shownText(text) : text) + "\"";
+  }
   case host::RefKind::Real: return fmt::format("{}", instance.readReal(place));
   case host::RefKind::Bit: return fmt::format("{}", instance.read(place));
   case host::RefKind::Int:

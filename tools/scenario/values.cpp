@@ -4,6 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
+
+#include "rtlib/nc/technol/code_page.h"
 
 namespace rung::scenario {
 
@@ -20,6 +23,9 @@ int64_t asSigned(uint64_t value, uint32_t width) {
   const uint64_t sign = 1ull << (width - 1);
   return static_cast<int64_t>((modulo(value, width) ^ sign) - sign);
 }
+
+// TECHNOL keeps a character in one byte, Windows-1250; scenarios are UTF-8.
+bool oneByteTexts(const Instance& instance) { return std::string_view(instance.program().dialect) == "technol"; }
 
 std::string show(const Reading& reading) {
   switch (reading.kind) {
@@ -51,6 +57,7 @@ Reading readValue(const Instance& instance, const Ref& place, bool wantReal) {
     Reading reading;
     reading.kind = ValueKind::Text;
     reading.text = instance.readText(place);
+    if (oneByteTexts(instance)) reading.text = nc::shownText(reading.text);
     return reading;
   }
   if (wantReal && place.kind == RefKind::Int)
@@ -67,7 +74,7 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
   if (place.kind == RefKind::Constant) return "a constant cannot be set";
   if (place.kind == RefKind::Text) {
     if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
-    instance.writeText(place, value.text);
+    instance.writeText(place, oneByteTexts(instance) ? nc::memoryText(value.text) : value.text);
     return {};
   }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";

@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/declare.h"
 
 #include "frontend/dialects/technol/reader.h"
+#include "rtlib/nc/technol/code_page.h"
 
 #include <algorithm>
 
@@ -205,7 +206,8 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
 }
 
 void Placer::fillText(const Symbol& text, const Token& token) {
-  std::string_view value = token.text;
+  const std::string inMemory = nc::memoryText(token.text);
+  std::string_view value = inMemory;
   if (value.size() > text.size - 1) {
     program_.diagnostics.report(Diag::StringTooLong, token.range()) << value.size() << text.size - 1;
     value = value.substr(0, text.size - 1);

@@ -24,7 +24,7 @@ struct Operand {
   int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
   double real = 0;
   uint32_t index = kNone; // label, mechanism, procedure
-  std::string_view text;  // of a quoted text
+  std::string_view text;  // of a quoted text, as the memory holds it (Windows-1250)
   std::span<const Token> tokens;
   SourceRange range;
 

@@ -2,6 +2,7 @@
 // inventory).
 #include <algorithm>
 
+#include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/operand.h"
 #include "rtlib/nc/technol/signals.h"
 
@@ -81,8 +82,9 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     out.byte = static_cast<int64_t>(static_cast<uint64_t>(out.byte) +
                                     static_cast<uint64_t>(sign) * static_cast<uint64_t>(number->value));
   } else if (head.kind == TokenKind::Text) {
-    if (head.text.size() != 1) return syntax("one character", tokens);
-    out.byte += sign * static_cast<unsigned char>(head.text[0]);
+    const std::optional<uint8_t> character = characterByte(head.text);
+    if (!character) return syntax("one character", tokens);
+    out.byte += sign * *character;
   } else if (head.kind == TokenKind::Name) {
     if (!addSymbol(head, sign, out)) return false;
   } else {

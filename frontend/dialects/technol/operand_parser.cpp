@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/operand.h"
 #include "frontend/dialects/technol/reader.h"
 #include "ir/support/check.h"
+#include "rtlib/nc/technol/code_page.h"
 
 #include <algorithm>
 
@@ -302,7 +303,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
     if (!kind.text) return wrongKind(out, "a text", "a variable");
     out.form = Operand::Form::Text;
-    out.text = tokens[0].text;
+    out.text = program_.madeTexts.emplace_back(nc::memoryText(tokens[0].text));
     return true;
   }
   std::vector<Token> plain;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/symbols.h"
 
 namespace rung::frontend::technol {
@@ -37,6 +38,7 @@ struct Program {
   std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
   uint32_t dataBytes = 0;
   std::vector<ir::Init> inits;
+  Encoding encoding = Encoding::Detect;
   std::string systemFolder; // of included files named without a path; may be empty
 
   std::span<const Token> operandTokens(const Statement& statement) const {

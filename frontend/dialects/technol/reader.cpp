@@ -1,6 +1,7 @@
 // Reads files into statements (see reader.h).
 #include "frontend/dialects/technol/reader.h"
 
+#include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
 
 #include <algorithm>
@@ -308,7 +309,10 @@ void readProgram(Program& program, std::span<const FileId> files) {
     program.symbols.addFile();
   }
   for (uint32_t i = 0; i < files.size(); ++i)
-    if (checkEncoding(program.sources, files[i], program.diagnostics)) FileReader(program, i).read();
+    if (const auto file = readable(program.sources, files[i], program.encoding, program.diagnostics)) {
+      program.files[i].id = *file;
+      FileReader(program, i).read();
+    }
   placeData(program);
 }
 
@@ -365,8 +369,9 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
       if (!number || number->isReal) return fail(Diag::BadNumber, token);
       term = number->value;
     } else if (token.kind == TokenKind::Text) {
-      if (token.text.size() != 1) return fail(Diag::BadNumber, token);
-      term = static_cast<unsigned char>(token.text[0]);
+      const std::optional<uint8_t> character = characterByte(token.text);
+      if (!character) return fail(Diag::BadNumber, token);
+      term = *character;
     } else {
       const uint32_t symbol = program.symbols.require(token, file);
       if (symbol == kNone || program.symbols[symbol].broken) return std::nullopt;

@@ -1,6 +1,7 @@
 // The lines of a file, what it includes, and its macros (see file_reader.h).
 #include <algorithm>
 
+#include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
 
 namespace rung::frontend::technol {
@@ -136,7 +137,8 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   }
   including_.push_back(path);
   includeReported_ = false;
-  if (checkEncoding(program_.sources, file.value(), program_.diagnostics)) readLines(file.value(), depth + 1);
+  const auto text = readable(program_.sources, file.value(), program_.encoding, program_.diagnostics);
+  if (text) readLines(*text, depth + 1);
   including_.pop_back();
   return true;
 }

@@ -4,13 +4,14 @@
 #include <charconv>
 
 #include "frontend/dialects/technol/assemble.h"
+#include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/reader.h"
 
 namespace rung::frontend {
 namespace {
 
 constexpr std::string_view kExtensions[] = {".plc"};
-constexpr std::string_view kConfigKeys[] = {"period_us", "system_folder"};
+constexpr std::string_view kConfigKeys[] = {"encoding", "period_us", "system_folder"};
 
 uint32_t periodOf(const CompileOptions& options) {
   const auto found = options.config.find("period_us");
@@ -32,6 +33,8 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   technol::Program program(sources, diagnostics);
   if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
     program.systemFolder = folder->second;
+  if (const auto encoding = options.config.find("encoding"); encoding != options.config.end())
+    program.encoding = technol::encodingNamed(encoding->second);
   technol::readProgram(program, files);
   if (program.files.empty()) return nullptr;
   auto module = std::make_unique<ir::Module>();

@@ -83,7 +83,12 @@ void Declarations::constant(const Statement& statement) {
           << "the name of a constant" << "something else";
     return;
   }
-  const std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
+  std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
+  if (value && (*value < INT32_MIN || *value > int64_t{UINT32_MAX})) { // a constant is 32 bits wide (man. l.712)
+    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, operands[1], statement.range()))
+        << *value << "-80000000h to 0FFFFFFFFh";
+    value.reset();
+  }
   Symbol symbol = made(name[0], SymbolKind::Constant);
   symbol.value = value.value_or(0);
   symbol.broken = !value;
@@ -94,10 +99,16 @@ void Declarations::beginStructure(const Token& name, const Token& keyword) {
   // Outside every module they are accepted: include files hold them.
   if (structure_.inModule() && !structure_.inData() && !structure_.localOpen())
     program_.diagnostics.report(Diag::DeclarationOutsideData, keyword.range()) << "struc";
+  if (structureOpen_) abandonStructure(name.range(), std::string(name.text) + " struc");
   structureOpen_ = true;
   structureName_ = name.text;
   structureBytes_ = 0;
   program_.symbols.declare(made(name, SymbolKind::Structure));
+}
+
+void Declarations::abandonStructure(SourceRange at, std::string_view found) {
+  program_.diagnostics.report(Diag::SyntaxError, at) << std::string(structureName_) + " ends" << found;
+  structureOpen_ = false;
 }
 
 void Declarations::endStructure(const Token& name) {
@@ -129,6 +140,8 @@ class Placer {
 public:
   explicit Placer(Program& program) : program_(program) {}
   void place(const DataItem& item);
+  // Texts that lie on other memory: last.
+  void placeOverlays();
 
 private:
   void placeBits(const DataItem& item);
@@ -140,6 +153,7 @@ private:
   uint32_t take(int64_t bytes, const Statement& statement);
 
   Program& program_;
+  std::vector<DataItem> overlays_;
   bool full_ = false;
 };
 
@@ -186,22 +200,35 @@ void Placer::placeArray(const DataItem& item, const Statement& statement) {
   cell.type = bytes == 8 ? ir::Type::None : ir::intOfBytes(cell.size);
 }
 
-// STR n, var+xy: the text lies on that memory and reserves nothing (man. l.1690).
+// STR n, var+xy: the text lies on that memory and reserves nothing. A variable of the program stands in the same file
+// (man. l.1695). Done when everything else has its place.
 bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement) {
   const uint32_t index = program_.symbols.require(tokens[0], statement.file);
   if (index == kNone) return false;
   const Symbol base = program_.symbols[index];
-  if (base.kind != SymbolKind::Cell) {
+  if (base.broken) return false;
+  const bool foreign = !base.predeclared && base.file != statement.file;
+  if (base.kind != SymbolKind::Cell || foreign) {
     program_.diagnostics.report(Diag::WrongOperandKind, tokens[0].range())
-        << tokens[0].text << "no variable" << "a variable";
+        << tokens[0].text << (foreign ? "a name of another file" : "no variable") << "a variable of this file";
     return false;
   }
-  int64_t offset = 0;
+  std::optional<int64_t> offset = 0;
   if (tokens.size() > 1)
-    offset = constantValue(program_, statement.file, tokens.subspan(tokens[1].is('+') ? 2 : 1), statement.range())
-                 .value_or(0);
+    offset = constantValue(program_, statement.file, tokens.subspan(tokens[1].is('+') ? 2 : 1), statement.range());
+  if (!offset) return false;
+  // In the interface a text stays on its cell, in the program's data anywhere.
+  const int64_t first = base.predeclared ? base.byte : 0;
+  const int64_t end = base.predeclared ? int64_t{base.byte} + base.size : int64_t{program_.dataBytes};
+  if (*offset < first - base.byte || *offset > end - base.byte - text.size) {
+    program_.diagnostics.report(Diag::AddressOutOfRange, rangeOf(program_.sources, tokens, statement.range()))
+        << std::string(tokens[0].text) + (*offset < 0 ? "" : "+") + std::to_string(*offset)
+        << (base.predeclared ? std::string(base.name) : std::string("the program's data"));
+    return false;
+  }
   text.space = base.space;
-  text.byte = base.byte + static_cast<uint32_t>(offset);
+  text.byte = static_cast<uint32_t>(base.byte + *offset);
+  text.protection = base.protection;
   return true;
 }
 
@@ -228,7 +255,7 @@ void Placer::placeText(const DataItem& item, const Statement& statement) {
   text.size = static_cast<uint32_t>(characters) + 1;
   const bool onMemory = operands.size() == 2 && !operands[1].empty() && operands[1][0].kind == TokenKind::Name;
   if (onMemory) {
-    if (!overlay(text, operands[1], statement)) text.broken = true;
+    overlays_.push_back(item);
     return;
   }
   text.byte = take(text.size, statement);
@@ -250,11 +277,22 @@ void Placer::place(const DataItem& item) {
   }
 }
 
+void Placer::placeOverlays() {
+  for (const DataItem& item : overlays_) {
+    const Statement statement = program_.statements[item.statement];
+    const auto operands = splitOperands(program_.operandTokens(statement));
+    Symbol text = program_.symbols[item.cell]; // finding the base may add symbols
+    text.broken = !overlay(text, operands[1], statement) || text.broken;
+    program_.symbols[item.cell] = text;
+  }
+}
+
 } // namespace
 
 void placeData(Program& program) {
   Placer placer(program);
   for (const DataItem& item : program.items) placer.place(item);
+  placer.placeOverlays();
 }
 
 } // namespace rung::frontend::technol

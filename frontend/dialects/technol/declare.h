@@ -18,6 +18,8 @@ public:
   void beginStructure(const Token& name, const Token& keyword);
   void endStructure(const Token& name);
   void member(const Token* name, const Token& size, uint32_t bytes, std::span<const Token> value);
+  // Something else follows: the structure was not closed.
+  void abandonStructure(SourceRange at, std::string_view found);
   bool inStructure() const { return structureOpen_; }
 
 private:

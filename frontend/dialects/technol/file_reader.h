@@ -17,6 +17,7 @@ public:
 
 private:
   void readLines(FileId id, uint32_t depth);
+  static bool isInclude(std::string_view text);
   bool includes(const SourceLine& line, uint32_t depth);
   bool macroLine(uint32_t first, uint32_t count, uint32_t line);
   void useMacro(const Macro& macro, uint32_t first, uint32_t count, uint32_t line);

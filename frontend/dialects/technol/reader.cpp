@@ -52,6 +52,11 @@ bool FileReader::readStructure(std::span<const Token> tokens) {
     declarations_.member(&tokens[0], tokens[1], bytes, tokens.subspan(2));
     return true;
   }
+  const bool label = tokens.size() > 1 && tokens[1].is(':');
+  if (label || (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr)) {
+    declarations_.abandonStructure(tokens[0].range(), describe(tokens));
+    return false;
+  }
   program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a member or ends" << describe(tokens);
   return true;
 }
@@ -185,7 +190,8 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
     symbol.type = ir::Type::Bit;
   }
   program_.symbols.declare(symbol);
-  if (kind != SymbolKind::Mechanism) return;
+  // Of a longer name nothing is left that tells it from the mechanism.
+  if (kind != SymbolKind::Mechanism || name.text.size() >= kSignificant) return;
   // name_LINE, a WORD (man. l.2210)
   program_.madeTexts.push_back(std::string(name.text) + "_LINE");
   symbol.name = program_.madeTexts.back();

@@ -34,6 +34,7 @@ void FileReader::read() {
   readLines(program_.files[file_].id, 0);
   const SourceFile& file = program_.files[file_];
   macros_.abandon();
+  if (declarations_.inStructure()) declarations_.abandonStructure(file.lastLine, "the end of the file");
   if (!pendingLabels_.empty()) {
     Statement end{.line = file.lineCount, .unit = structure_.unit(), .file = file_};
     end.pos = program_.tokens[pendingLabels_[0]].pos;
@@ -61,6 +62,10 @@ void FileReader::readLines(FileId id, uint32_t depth) {
       textAfterStop_ = textAfterStop_ || (text < commentOf(line.text) && text != std::string_view::npos);
       continue;
     }
+    if (open && isInclude(line.text)) {
+      logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
+      open = false;
+    }
     if (!open && includes(line, depth)) continue;
     if (!open) {
       first = static_cast<uint32_t>(program_.tokens.size());
@@ -83,14 +88,19 @@ void FileReader::readLines(FileId id, uint32_t depth) {
   if (open) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
 }
 
-// Whether the tokens from `first` cannot be operands of the statement above: a label, or a word that names no symbol.
+// Whether the tokens from `first` cannot be operands of the statement above: a label, a structure, the use of a macro, or
+// a word that names no symbol.
 bool FileReader::beginsStatement(uint32_t first) const {
   const std::span<const Token> tokens = std::span(program_.tokens).subspan(first);
   if (tokens[0].kind != TokenKind::Name) return false;
-  return (tokens.size() > 1 && tokens[1].is(':')) || (findRow(tokens[0].text) != nullptr && reservedWord(tokens[0].text) == Reserved::Yes);
+  if (tokens.size() > 1 && (tokens[1].is(':') || equalsNoCase(tokens[1].text, "STRUC"))) return true;
+  if (findRow(tokens[0].text) != nullptr) return reservedWord(tokens[0].text) == Reserved::Yes;
+  return macros_.find(tokens[0].text) != nullptr;
 }
 
 namespace {
+
+constexpr std::string_view kInclude = "T_INCLUDE";
 
 // `text` begins with this word.
 bool startsWith(std::string_view text, std::string_view word) {
@@ -106,12 +116,15 @@ std::string_view trimmed(std::string_view text) {
 
 } // namespace
 
+bool FileReader::isInclude(std::string_view text) {
+  const size_t start = text.find_first_not_of(" \t");
+  return start != std::string_view::npos && startsWith(text.substr(start), kInclude);
+}
+
 // T_INCLUDE path | 'name'. A path is no sequence of tokens, so that the line is looked at as a text (man. l.20313).
 bool FileReader::includes(const SourceLine& line, uint32_t depth) {
-  constexpr std::string_view kWord = "T_INCLUDE";
-  const size_t start = line.text.find_first_not_of(" \t");
-  if (start == std::string_view::npos || !startsWith(line.text.substr(start), kWord)) return false;
-  std::string_view name = trimmed(line.text.substr(start + kWord.size()));
+  if (!isInclude(line.text)) return false;
+  std::string_view name = trimmed(line.text.substr(line.text.find_first_not_of(" \t") + kInclude.size()));
   const SourceRange at = line.range(static_cast<size_t>(name.data() - line.text.data()), static_cast<size_t>(name.data() - line.text.data()) + name.size());
   name = trimmed(name.substr(0, commentOf(name)));
   const bool quoted = name.size() > 1 && name.front() == '\'' && name.back() == '\'';

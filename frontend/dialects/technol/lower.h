@@ -44,6 +44,16 @@ void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int);
 void lowerRloToDr(Lowering& l, std::span<const Operand> o, int);
 void lowerMovBx(Lowering& l, std::span<const Operand> o, int);
 
+// lower_text.cpp
+void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int);
+void lowerClear(Lowering& l, std::span<const Operand> o, int);
+void lowerCopyText(Lowering& l, std::span<const Operand> o, int);
+void lowerAddText(Lowering& l, std::span<const Operand> o, int);
+void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd);
+void lowerCompareText(Lowering& l, std::span<const Operand> o, int);
+void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int);
+void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int);
+
 // lower_count.cpp
 void lowerTimer(Lowering& l, std::span<const Operand> o, int);
 void lowerCounter(Lowering& l, std::span<const Operand> o, int kind);

@@ -23,7 +23,7 @@ Access Lowering::reach(const Operand& operand, ValueId guard) {
   access.index = index;
   ValueId outside = builder.leU(builder.i32(access.window.count), index);
   if (guard.valid()) outside = builder.and_(guard, outside);
-  builder.trap(outside, fault(kProtection));
+  protect(outside);
   return access;
 }
 
@@ -61,14 +61,16 @@ ir::SlotId Lowering::newSlot(Type type, std::string_view what) {
   const uint32_t number = slotNames_[key]++;
   if (number != 0) key += "#" + std::to_string(number);
   module_.slots.push_back({.type = type, .key = std::move(key)});
-  return {static_cast<uint32_t>(module_.slots.size()) - 1};
+  automatic_.push_back({static_cast<uint32_t>(module_.slots.size()) - 1});
+  return automatic_.back();
 }
 
+void Lowering::protect(ValueId bad) { b().trap(bad, fault(kProtection)); }
+
 CountCell Lowering::countCell(const Operand& operand) {
-  if (!operand.given())
-    return {
-        .automatic = true, .slot = newSlot(Type::I16, statement_->row->info.mnemonic), .access = {}, .type = Type::I16};
-  return {.automatic = false, .slot = {}, .access = reach(operand), .type = operand.type};
+  if (operand.given()) return {.automatic = false, .slot = {}, .access = reach(operand), .type = operand.type};
+  timers_.push_back(newSlot(Type::I16, statement_->row->info.mnemonic));
+  return {.automatic = true, .slot = timers_.back(), .access = {}, .type = Type::I16};
 }
 
 ValueId Lowering::loadCount(const CountCell& cell) {

@@ -95,6 +95,7 @@ void Lowering::run() {
   for (int i = 1; i < kModuleKinds; ++i) lowerModule(static_cast<ModuleKind>(i));
   checkRecursion();
   finishProcedures();
+  makeClears();
   makeResets();
   makeStart();
   makeEvents();

@@ -82,6 +82,14 @@ public:
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
   // State of this statement alone, e.g. the former value of an edge.
+  uint32_t bytesOf(ir::SpaceId space) const { return spaceBytes_[space.index]; }
+  // Stops the program where `bad` is 1: an access outside the memory.
+  void protect(ir::ValueId bad);
+  // A hidden space that holds the bytes.
+  ir::SpaceId constantBytes(std::string_view bytes);
+  // CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
+  void clearAll(bool global);
+
   ir::SlotId newSlot(ir::Type type, std::string_view what);
   // EDGE: forgotten at every start.
   void forgetAtStart(ir::SlotId slot) { forgotten_.push_back(slot); }
@@ -142,6 +150,10 @@ private:
   void finishProcedures();
   void makeResets();
   void makeStart();
+  void makeClears();
+  void clearData(bool local);
+  void clearSlots(std::span<const ir::SlotId> slots);
+  void fillTexts();
   void makeEvents();
   void checkRecursion();
   uint32_t procedureNamed(std::string_view name) const;
@@ -189,6 +201,10 @@ private:
   std::vector<std::vector<CountCell>> resetCells_;
   std::vector<ir::SlotId> forgotten_;
   std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
+  std::vector<ir::SlotId> automatic_; // that instructions made for themselves
+  std::vector<ir::SlotId> timers_;    // those of them that count time
+  ir::RoutineId clears_[2];           // CLEAR GLOBAL, CLEAR INTERNAL; invalid where not used
+  std::unordered_map<std::string, ir::SpaceId> constants_;
   std::unordered_map<std::string, uint32_t> slotNames_;
   std::unordered_map<std::string, ir::FaultId> faults_;
   ir::RoutineId start_;

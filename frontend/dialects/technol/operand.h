@@ -9,7 +9,20 @@
 namespace rung::frontend::technol {
 
 struct Operand {
-  enum class Form : uint8_t { NotGiven, Bit, Cell, Text, Integer, Real, Label, Mechanism, Procedure, Width, Register };
+  enum class Form : uint8_t {
+    NotGiven,
+    Bit,
+    Cell,
+    Text,
+    Integer,
+    Real,
+    Label,
+    Mechanism,
+    Procedure,
+    Width,
+    Register,
+    Keyword // value: its place among OperandKind::keywords
+  };
 
   Form form = Form::NotGiven;
   bool negated = false;           // a bit or a value with `-`
@@ -49,6 +62,7 @@ struct OperandKind {
   bool text = false;                   // a text may
   uint8_t types = 0xFF;                // ir::TypeSet of cells
   SymbolKind name = SymbolKind::Label; // class Name
+  std::string_view keywords = {};      // that may stand in the place of an address
 };
 
 std::span<const OperandKind> operandKinds();
@@ -65,6 +79,8 @@ public:
   // False after a report. The operands stand in `out`, one an operand of the source and NotGiven where the row allows
   // more.
   bool parse(const Statement& statement, std::vector<Operand>& out);
+  // The operand as written, without blanks.
+  static std::string spell(const Operand& operand);
 
 private:
   // What an address expression comes to: a place in a space, or a constant.
@@ -105,8 +121,6 @@ private:
   bool addMember(const Token& member, Address& out);
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
-  // The operand as written, without blanks.
-  static std::string spell(const Operand& operand);
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted);
   bool syntax(std::string_view expected, std::span<const Token> tokens);
 

@@ -306,16 +306,32 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
     out.text = program_.madeTexts.emplace_back(nc::memoryText(tokens[0].text));
     return true;
   }
+// One of the words, parted by blanks, that a kind takes in the place of an address.
+bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
+  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
+  for (int64_t at = 0; !words.empty(); ++at) {
+    const size_t end = std::min(words.find(' '), words.size());
+    if (equalsNoCase(tokens[0].text, words.substr(0, end))) {
+      out.form = Operand::Form::Keyword;
+      out.value = at;
+      return true;
+    }
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
   std::vector<Token> plain;
   const bool indexed = withoutIndex(tokens, plain);
   Address address;
   if (!this->address(indexed ? plain : tokens, address)) return false;
   if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
-  const bool wantsText = kind.info.kind != "address";
+  const bool wantsText = kind.info.kind.starts_with("text");
   if (address.isBit || (wantsText && !address.isText))
     return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
+  if (takeKeyword(kind.keywords, tokens, out)) return true;
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   return setPlace(address, address.byte, 1, out) && checkWrite(info, address.protection, address.name, out.range);
 }

@@ -144,8 +144,10 @@ private:
 // A long program without a loop must not run into the watchdog.
 ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast) {
   const uint64_t budget = std::max<uint64_t>(fast ? kFastBudget : kScanBudget, weight * 4);
+  std::string_view where = module_.at(routine).name;
+  if (where.starts_with('@')) where.remove_prefix(1); // the routine around an event procedure
   const std::string fault =
-      fast ? "halt-status 10: fast raster overrun" : "watchdog: endless loop in " + module_.at(routine).name;
+      fast ? "halt-status 10: fast raster overrun" : "watchdog: endless loop in " + std::string(where);
   module_.tasks.push_back({.name = std::move(name),
                            .entry = routine,
                            .periodUs = period,

@@ -1,0 +1,27 @@
+// What the NC of a TECHNOL program reads and writes in it: cells of the program and of the interface, elements of the
+// queue of command blocks, modules with their registers at entry. Names in any case; what the program lacks is left
+// out.
+#pragma once
+#include <optional>
+#include <string_view>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/signal.h"
+
+namespace rung::nc::technol {
+
+// The interface's own names: a cell, `BLK[n].ELEMENT`, `BLK[n].ELEMENT[k]`, a type in front of the element or not.
+std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name);
+std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name);
+std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& signal);
+
+// 0 where there is no such cell.
+uint64_t readCell(const host::Instance& instance, std::string_view name);
+void writeCell(host::Instance& instance, std::string_view name, uint64_t value);
+
+// One run of a module or an event procedure. False: the program has none, or it failed.
+bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo);
+
+bool equalIgnoringCase(std::string_view a, std::string_view b);
+
+} // namespace rung::nc::technol

@@ -1,0 +1,27 @@
+// Start, stop and end of the PLC program: MODULE_INIT, MODULE_DONE, MODULE_CLEAR and the waits for MODULE_x_FINISHED
+// (man. l.2556-2649).
+#pragma once
+#include "rtlib/host/instance.h"
+
+namespace rung::nc::technol {
+
+class ProgramLife {
+public:
+  // Behind the reset of the memory. DR = 0 tells MODULE_INIT that the control was switched on.
+  void powerOn(host::Instance& instance);
+  // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is owed.
+  bool powerOff(host::Instance& instance);
+  bool owesDone(const host::Instance& instance) const;
+
+  // The commands START PLC and STOP PLC, DR = 1; CLEAR.
+  void start(host::Instance& instance);
+  void stop(host::Instance& instance);
+  void clear(host::Instance& instance);
+  // The program stands when it no longer owes the end of its shutdown.
+  void afterScan(host::Instance& instance);
+
+private:
+  bool stopping_ = false;
+};
+
+} // namespace rung::nc::technol

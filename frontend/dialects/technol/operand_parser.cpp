@@ -296,16 +296,6 @@ bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
   return true;
 }
 
-} // namespace
-
-bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
-                         Operand& out) {
-  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
-    if (!kind.text) return wrongKind(out, "a text", "a variable");
-    out.form = Operand::Form::Text;
-    out.text = program_.madeTexts.emplace_back(nc::memoryText(tokens[0].text));
-    return true;
-  }
 // One of the words, parted by blanks, that a kind takes in the place of an address.
 bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
   if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
@@ -321,6 +311,17 @@ bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand&
   return false;
 }
 
+} // namespace
+
+bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                         Operand& out) {
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
+    if (!kind.text) return wrongKind(out, "a text", "a variable");
+    out.form = Operand::Form::Text;
+    out.text = program_.madeTexts.emplace_back(nc::memoryText(tokens[0].text));
+    return true;
+  }
+  if (takeKeyword(kind.keywords, tokens, out)) return true;
   std::vector<Token> plain;
   const bool indexed = withoutIndex(tokens, plain);
   Address address;
@@ -331,7 +332,6 @@ bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand&
     return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
-  if (takeKeyword(kind.keywords, tokens, out)) return true;
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   return setPlace(address, address.byte, 1, out) && checkWrite(info, address.protection, address.name, out.range);
 }

@@ -65,7 +65,7 @@ ir::Symbol madeSymbol(const Symbol& symbol) {
 }
 
 bool isVisible(const Symbol& symbol) {
-  if (symbol.broken) return false;
+  if (symbol.broken || symbol.name.find(kUseMark) != std::string_view::npos) return false;
   switch (symbol.kind) {
   case SymbolKind::Bit:
   case SymbolKind::Cell:
@@ -99,16 +99,17 @@ void addSpaces(const Program& program, ir::Module& module) {
 }
 
 void addSymbols(const Program& program, ir::Module& module) {
-  std::unordered_map<std::string, uint32_t> count;
+  std::unordered_map<std::string, uint32_t> global, local;
   for (const Symbol& symbol : program.symbols.all())
-    if (isVisible(symbol)) {
-      ir::Symbol made = madeSymbol(symbol);
-      ++count[made.name];
-      module.symbols.push_back(std::move(made));
-      // A cell that shares its name with a mechanism is the cell; the mechanism is found in the control's own view.
-    }
-  // A local name is public where no other file has it.
-  std::erase_if(module.symbols, [&](const ir::Symbol& symbol) { return count[symbol.name] > 1; });
+    if (isVisible(symbol)) ++(symbol.local ? local : global)[madeSymbol(symbol).name];
+  // A local name is public where no other file has it. A cell that shares its name with a mechanism is the cell; the
+  // mechanism is found in the control's own view.
+  for (const Symbol& symbol : program.symbols.all()) {
+    if (!isVisible(symbol)) continue;
+    ir::Symbol made = madeSymbol(symbol);
+    const bool other = symbol.local && (local[made.name] > 1 || global.contains(made.name));
+    if (!other && (symbol.local || global[made.name] == 1)) module.symbols.push_back(std::move(made));
+  }
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
     module.symbols.push_back({.name = std::string(cell.name),

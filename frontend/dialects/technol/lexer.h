@@ -18,11 +18,13 @@ struct Token {
   std::string_view text; // of a Text without its apostrophes
   SourcePos pos;
   TokenKind kind = TokenKind::Name;
+  uint32_t written = 0; // characters in the source, where that is not the text
 
   bool is(char c) const { return kind == TokenKind::Punct && text[0] == c; }
   SourceRange range() const {
     const uint32_t quotes = kind == TokenKind::Text ? 2 : 0;
-    return {pos, {pos.value + static_cast<uint32_t>(text.size()) + quotes}};
+    const uint32_t length = written != 0 ? written : static_cast<uint32_t>(text.size()) + quotes;
+    return {pos, {pos.value + length}};
   }
 };
 

@@ -119,10 +119,11 @@ const Macro* MacroSet::find(std::string_view name) const {
   return found == names_.end() ? nullptr : &macros_[found->second];
 }
 
-// A name of T_LOCAL is another one in each use; '@' in front keeps it apart from what a program writes.
+// A name of T_LOCAL is another one in each use: NAME#3 in the third.
 void MacroSet::localName(const Macro& macro, Token token, Macro::Line& out) {
   if (token.kind == TokenKind::Name && contains(macro.locals, token.text)) {
-    program_.madeTexts.push_back("@" + std::to_string(uses_) + "@" + std::string(token.text));
+    token.written = static_cast<uint32_t>(token.text.size());
+    program_.madeTexts.push_back(std::string(token.text) + kUseMark + std::to_string(uses_));
     token.text = program_.madeTexts.back();
   }
   out.tokens.push_back(token);

@@ -1,6 +1,8 @@
 // Names of a program (see symbols.h).
 #include "frontend/dialects/technol/symbols.h"
 
+#include <algorithm>
+
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -102,13 +104,14 @@ Symbol fromSignal(const nc::Signal& signal) {
 } // namespace
 
 std::string symbolKey(std::string_view name) {
-  std::string key(name.substr(0, kSignificant));
+  const size_t mark = std::min(name.find(kUseMark), name.size());
+  std::string key(name.substr(0, std::min(mark, kSignificant)));
   for (char& c : key) c = upper(c);
-  return key;
+  return key.append(name.substr(mark));
 }
 
 void SymbolTable::checkName(const Symbol& symbol) {
-  if (symbol.name.size() > kSignificant) diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
+  if (std::min(symbol.name.find(kUseMark), symbol.name.size()) > kSignificant) diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
   switch (reservedWord(symbol.name)) {
   case Reserved::No: break;
   case Reserved::Warn:

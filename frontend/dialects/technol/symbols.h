@@ -22,6 +22,9 @@ inline constexpr uint32_t kQueuedBlocks = 16;
 inline constexpr uint32_t kMechanismBytes = 3;
 inline constexpr size_t kSignificant = 31;
 
+// Behind a name that is local to one use of a macro; no program can write it.
+inline constexpr char kUseMark = '#';
+
 // Upper case, cut to what counts.
 std::string symbolKey(std::string_view name);
 

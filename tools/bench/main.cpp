@@ -68,6 +68,12 @@ std::vector<Row> rowsFor(const Case& program) {
           row("JIT", "jit", "", true)};
 }
 
+std::string_view unitOf(std::string_view program) {
+  if (program == "gsk") return "step";
+  if (program == "technol") return "line";
+  return program == "bits" ? "rung" : "mechanism";
+}
+
 int printTable(Case program, const std::string& title, const std::string& handCompiler,
                const rung::TemporaryFolder& folder) {
   program.handWritten = (folder / fmt::format("hand-{}{}.so", program.program, program.units)).string();
@@ -80,7 +86,7 @@ int printTable(Case program, const std::string& title, const std::string& handCo
       "## {}\n\n| engine | ns a scan | ns a {} | ratio to hand-written | faster than the interpreter | source to "
       "layout, ms | layout to first scan, ms | resident, MB | code, kB |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-      title, program.program == "gsk" ? "step" : "rung");
+      title, unitOf(program.program));
   int status = 0;
   double interpreter = 0;
   double memory = 0;
@@ -112,10 +118,11 @@ int printDocument() {
 Made by `./dev bench`; do not edit. Programs are generated from a seed (tools/bench). The first two are bit logic: three contacts and
 a coil a rung, the contacts drawn at random among 1,024 inputs and all coils. The third is a GSK program at the limit of the control, 12,000
 steps: seven tenths bit logic, the rest timers, edges, arithmetic, comparisons, transfers and decoding, a tenth of it in Level 1, a fifth in
-subprograms. "Hand-written" is the same logic as straight C++ over an array of `bool` and one of words, compiled by clang++ at -O3; both forms are
+subprograms. Of TECHNOL there are mechanisms of two states, each with its output and its contact, all idle or all waiting in the first state,
+and a program of equations, arithmetic, comparisons and some mechanisms. "Hand-written" is the same logic as straight C++ over an array of `bool` and one of words, compiled by clang++ at -O3; both forms are
 run side by side from the same inputs and compared before they are measured. Ratios are medians of pairs measured in turn in one process;
 absolute times depend on the machine. A scan is one run of the main task through the host's runner, with its copies of the NC area; of GSK Level
-1 and Level 2 with the input latch. Resident memory is the most that the process ever had, compiler included. Code is what a shared object
+1 and Level 2 with the input latch, of TECHNOL MODULE_INPUT and MODULE_MAIN. Resident memory is the most that the process ever had, compiler included. Code is what a shared object
 takes when it is loaded, and the object files of the JIT.
 
 Above 1.5 are the interpreter, which is the definition and not meant to be fast, and fast compilation: LLVM's quick instruction selection
@@ -130,6 +137,14 @@ without passes keeps every value of a rung in memory; it is for trying a change 
   status |=
       printTable({.engine = "", .compiler = "", .program = "gsk", .units = 12000, .optimise = true, .handWritten = ""},
                  "A GSK program of 12000 steps", "clang++-19", folder);
+  const auto technol = [&](const char* program, uint32_t units, const char* title) {
+    status |= printTable(
+        {.engine = "", .compiler = "", .program = program, .units = units, .optimise = true, .handWritten = ""}, title,
+        "clang++-19", folder);
+  };
+  technol("idle", 200, "200 TECHNOL mechanisms, all idle");
+  technol("waiting", 200, "200 TECHNOL mechanisms, all waiting");
+  technol("technol", 10000, "A TECHNOL program of 10000 lines");
   return status;
 }
 
@@ -141,8 +156,9 @@ int main(int argc, char** argv) {
   bool fast = false;
   app.add_option("--engine", which.engine, "interp, cpp, llvm or jit");
   app.add_option("--compiler", which.compiler, "C++ compiler of engine cpp");
-  app.add_option("--program", which.program, "bits or gsk")->check(CLI::IsMember({"bits", "gsk"}));
-  app.add_option("--units", which.units, "Rungs of bits, steps of gsk");
+  app.add_option("--program", which.program, "What to run")
+      ->check(CLI::IsMember({"bits", "gsk", "technol", "idle", "waiting"}));
+  app.add_option("--units", which.units, "Rungs of bits, steps of gsk, lines of technol, mechanisms");
   bool source = false;
   app.add_flag("--source", source, "Print the generated program");
   app.add_option("--hand", which.handWritten, "Shared object with the hand-written form");

@@ -17,6 +17,7 @@
 #include "ir/support/temporary_folder.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "tools/bench/gsk_workload.h"
+#include "tools/bench/technol_workload.h"
 #include "tools/driver/engines.h"
 
 namespace rung::bench {
@@ -57,7 +58,11 @@ double residentMb() {
 }
 
 Workload workloadOf(const Case& which) {
-  return which.program == "gsk" ? gskWorkload(which.units, kSeed) : bitsWorkload(which.units, kSeed);
+  if (which.program == "gsk") return gskWorkload(which.units, kSeed);
+  if (which.program == "technol") return technolWorkload(which.units, kSeed);
+  if (which.program == "idle" || which.program == "waiting")
+    return mechanismsWorkload(which.units, which.program == "waiting");
+  return bitsWorkload(which.units, kSeed);
 }
 
 // The hand-written form, loaded.
@@ -83,6 +88,7 @@ Result<void> settle(host::Instance& instance, const Workload& work, std::vector<
                     RunHand runHand) {
   std::mt19937_64 random(kSeed + 1);
   instance.coldStart();
+  for (const std::string& name : work.ones) instance.write(*instance.resolve(name), 1);
   std::vector<host::Ref> bits;
   std::vector<host::Ref> words;
   for (const std::string& name : work.bits) bits.push_back(*instance.resolve(name));
@@ -185,12 +191,12 @@ Result<Measured> measure(const Case& which) {
   const Hand& hand = loaded.value();
   if (hand.start != nullptr) hand.start();
   std::vector<uint8_t> memory(work.bits.size() + 2 * work.words.size());
-  // NCT's time slices around a scan are the NC's; GSK's scan is Level 1 and Level 2, and no more.
+  // NCT's time slices around a scan are the NC's; a scan of the others is their modules, and no more.
   const auto runEngine = [&] {
-    if (which.program == "gsk")
-      instance->scan();
-    else
+    if (which.program == "bits")
       instance->runTask(instance->program().main_task);
+    else
+      instance->scan();
   };
   const auto runHand = [&] { hand.scan(memory.data()); };
   const Result<void> equal = settle(*instance, work, memory, runEngine, runHand);

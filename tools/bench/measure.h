@@ -10,8 +10,8 @@ namespace rung::bench {
 struct Case {
   std::string engine;           // interp, cpp, llvm or jit
   std::string compiler;         // of engine cpp
-  std::string program = "bits"; // or "gsk"
-  uint32_t units = 0;           // rungs of "bits", steps of "gsk"
+  std::string program = "bits"; // "gsk", "technol", "idle", "waiting"
+  uint32_t units = 0;           // rungs, steps, lines, mechanisms
   bool optimise = true;
   std::string handWritten; // a shared object with the hand-written form
 };

@@ -15,6 +15,7 @@ struct Workload {
   // Where the program keeps what the hand-written form has in one array: a byte a bit, then two bytes a word.
   std::vector<std::string> bits;
   std::vector<std::string> words;
+  std::vector<std::string> ones; // set before the first scan
   // extern "C": void scan(unsigned char *); and void start() where there is state of its own.
   std::string hand;
 };

@@ -86,9 +86,7 @@ Length smaller(Lowering& l, const Length& a, const Length& b) {
   return {.fixed = false, .most = std::min(a.most, b.most), .value = least(l.b(), a.value, b.value)};
 }
 
-Length roomOf(const Text& text) {
-  return {.fixed = text.area.fixed, .most = text.most, .value = text.room};
-}
+Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
 
 // A text whose address lies behind its end is the program's mistake; with BX it shows when the program runs.
 bool textOf(Lowering& l, const Operand& operand, Text& text) {
@@ -253,8 +251,7 @@ void compare(Lowering& l, const Area& left, ValueId leftRoom, const Area& right,
 void copyInside(Lowering& l, const Operand& source, const Area& to, const Area& from, const Length& count) {
   const Length exist = inside(l, source, from, count, false);
   copy(l, to, from, exist);
-  if (exist.most < count.most)
-    clear(l, shifted(l, to, exist.value), fixedCount(l, count.most - exist.most));
+  if (exist.most < count.most) clear(l, shifted(l, to, exist.value), fixedCount(l, count.most - exist.most));
 }
 
 } // namespace
@@ -381,7 +378,8 @@ void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// ---- CLEAR GLOBAL, CLEAR INTERNAL ------------------------------------------------------------------------------------
+// ---- CLEAR GLOBAL, CLEAR INTERNAL
+// ------------------------------------------------------------------------------------
 
 void Lowering::clearAll(bool global) {
   ir::RoutineId& routine = clears_[global ? 0 : 1];
@@ -464,10 +462,8 @@ ir::SpaceId Lowering::constantBytes(std::string_view bytes) {
   const std::string name = "@T" + std::string(number) + "." + std::to_string(bytes.size());
   const auto [at, isNew] = constants_.emplace(name, ir::SpaceId{static_cast<uint32_t>(module_.spaces.size())});
   if (isNew) {
-    module_.spaces.push_back({.name = name,
-                              .unitBytes = 1,
-                              .units = static_cast<uint32_t>(bytes.size()),
-                              .flags = RUNG_SPACE_HIDDEN});
+    module_.spaces.push_back(
+        {.name = name, .unitBytes = 1, .units = static_cast<uint32_t>(bytes.size()), .flags = RUNG_SPACE_HIDDEN});
     module_.inits.push_back({.space = at->second, .byte = 0, .data = {bytes.begin(), bytes.end()}});
   }
   return at->second;

@@ -2,15 +2,20 @@
 #pragma once
 #include "frontend/dialects/technol/instructions.h"
 #include "frontend/dialects/technol/lower.h"
+#include "frontend/dialects/technol/row_parts.h"
 
 namespace rung::frontend::technol {
+
+// A cell has at most 8 bits (man. l.1280).
+inline constexpr OperandInfo kShiftCount = {
+    .name = "n", .kind = "shift count", .doc = "by how many bits", .min = 0, .max = 255};
 
 inline constexpr Row kDataRows[] = {
     // ---- load and store (man. ch. 3.10) ---------------------------------------------------------------------------
     {.info = {.mnemonic = "LOD",
               .title = "load",
               .group = "data",
-              .operands = {OperandInfo{.name = "val", .kind = "signed value", .doc = "is loaded"}},
+              .operands = {in("val", "signed value", "is loaded")},
               .ref = "3.10, l.673",
               .doc = "DR becomes the value, sign-extended to 64 bits. With REAL. or a real constant DR_REAL becomes "
                      "it, and DR its integer.",
@@ -20,7 +25,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "STO",
               .title = "store",
               .group = "data",
-              .operands = {OperandInfo{.name = "val", .kind = "cell", .access = Access::Write, .doc = "becomes DR"}},
+              .operands = {out("val", "cell", "becomes DR")},
               .ref = "3.10, l.740",
               .doc = "The cell becomes the low bits of DR; with REAL. it becomes DR_REAL.",
               .example = "LOD  COUNT\nSTO  LIMIT"},
@@ -30,7 +35,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "STO1",
               .title = "store if 1",
               .group = "data",
-              .operands = {OperandInfo{.name = "val", .kind = "cell", .access = Access::Write, .doc = "becomes DR"}},
+              .operands = {out("val", "cell", "becomes DR")},
               .terminating = true,
               .ref = "3.10, l.771",
               .doc = "As STO, but only while RLO is 1.",
@@ -41,7 +46,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "STO0",
               .title = "store if 0",
               .group = "data",
-              .operands = {OperandInfo{.name = "val", .kind = "cell", .access = Access::Write, .doc = "becomes DR"}},
+              .operands = {out("val", "cell", "becomes DR")},
               .terminating = true,
               .ref = "3.10, l.783",
               .doc = "As STO, but only while RLO is 0.",
@@ -52,9 +57,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "MOVE",
               .title = "move",
               .group = "data",
-              .operands = {OperandInfo{
-                               .name = "dst", .kind = "cell", .access = Access::Write, .doc = "becomes the source"},
-                           OperandInfo{.name = "src", .kind = "cell", .doc = "is read"}},
+              .operands = {out("dst", "cell", "becomes the source"), in("src", "cell", "is read")},
               .ref = "3.10, l.795",
               .doc = "One cell becomes another of the same type; RLO and DR stay.",
               .example = "MOVE LIMIT,COUNT"},
@@ -63,9 +66,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "MOVE1",
               .title = "move if 1",
               .group = "data",
-              .operands = {OperandInfo{
-                               .name = "dst", .kind = "cell", .access = Access::Write, .doc = "becomes the source"},
-                           OperandInfo{.name = "src", .kind = "cell", .doc = "is read"}},
+              .operands = {out("dst", "cell", "becomes the source"), in("src", "cell", "is read")},
               .terminating = true,
               .ref = "3.10, l.797",
               .doc = "As MOVE, but only while RLO is 1.",
@@ -77,7 +78,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "AD",
               .title = "add",
               .group = "arithmetic",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "the second operand"}},
+              .operands = {in("val", "value", "the second operand")},
               .ref = "3.12, l.1006",
               .doc = "The part of DR in the width of the operand becomes the sum; the rest stays. With REAL. or a real "
                      "constant DR_REAL is added to.",
@@ -88,7 +89,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "SU",
               .title = "subtract",
               .group = "arithmetic",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "the second operand"}},
+              .operands = {in("val", "value", "the second operand")},
               .ref = "3.12, l.1008",
               .doc = "The part of DR in the width of the operand becomes the difference; the rest stays. With REAL. or "
                      "a real constant DR_REAL is subtracted from.",
@@ -99,7 +100,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "MULB",
               .title = "multiply",
               .group = "arithmetic",
-              .operands = {OperandInfo{.name = "val", .kind = "narrow value", .doc = "the second operand"}},
+              .operands = {in("val", "narrow value", "the second operand")},
               .ref = "3.12, l.1065",
               .doc = "DR becomes the signed product of its low part and the operand, sign-extended to 64 bits.",
               .example = "LOD  COUNT\nMULB CNST.3\nSTO  COUNT"},
@@ -109,7 +110,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "DIVB",
               .title = "divide",
               .group = "arithmetic",
-              .operands = {OperandInfo{.name = "val", .kind = "narrow value", .doc = "the second operand"}},
+              .operands = {in("val", "narrow value", "the second operand")},
               .ref = "3.12, l.1067",
               .doc = "DR becomes the signed quotient, rounded toward zero. BYTE divides 16 bits of DR, WORD 32, DWORD "
                      "and constants 64. A zero divisor or a quotient beyond 32 bits stops the program.",
@@ -120,7 +121,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "ORB",
               .title = "bitwise or",
               .group = "bitwise",
-              .operands = {OperandInfo{.name = "val", .kind = "bitwise value", .doc = "the second operand"}},
+              .operands = {in("val", "bitwise value", "the second operand")},
               .ref = "3.12, l.1171",
               .doc =
                   "The part of DR in the width of the operand becomes its bitwise OR with the operand; the rest stays.",
@@ -132,7 +133,7 @@ inline constexpr Row kDataRows[] = {
          {.mnemonic = "ANDB",
           .title = "bitwise and",
           .group = "bitwise",
-          .operands = {OperandInfo{.name = "val", .kind = "bitwise value", .doc = "the second operand"}},
+          .operands = {in("val", "bitwise value", "the second operand")},
           .ref = "3.12, l.1172",
           .doc = "The part of DR in the width of the operand becomes its bitwise AND with the operand; the rest stays.",
           .example = "LOD  COUNT\nANDB CNST.0Fh\nSTO  COUNT"},
@@ -142,7 +143,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "XORB",
               .title = "bitwise exclusive or",
               .group = "bitwise",
-              .operands = {OperandInfo{.name = "val", .kind = "bitwise value", .doc = "the second operand"}},
+              .operands = {in("val", "bitwise value", "the second operand")},
               .ref = "3.12, l.1173",
               .doc = "The part of DR in the width of the operand becomes its bitwise EXCLUSIVE OR with the operand; "
                      "the rest stays.",
@@ -154,8 +155,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "INR",
               .title = "increment",
               .group = "DR operation",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("width")},
               .ref = "3.13, l.1201",
               .doc = "DR plus 1 in 16 bits; with DWRD in 32, with QWRD in 64 bits, with REAL on DR_REAL. The rest of "
                      "DR stays.",
@@ -166,8 +166,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "DCR",
               .title = "decrement",
               .group = "DR operation",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("width")},
               .ref = "3.13, l.1202",
               .doc = "DR minus 1 in 16 bits; with DWRD in 32, with QWRD in 64 bits, with REAL on DR_REAL. The rest of "
                      "DR stays.",
@@ -178,8 +177,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "INV",
               .title = "negate",
               .group = "DR operation",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("width")},
               .ref = "3.13, l.1289",
               .doc = "The two's complement of DR in 16 bits; with DWRD in 32, with QWRD in 64 bits, with REAL on "
                      "DR_REAL. The rest of DR stays.",
@@ -190,8 +188,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "ABS",
               .title = "absolute value",
               .group = "DR operation",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("width")},
               .ref = "3.13, l.1290",
               .doc = "The absolute value of DR in 16 bits; with DWRD in 32, with QWRD in 64 bits, with REAL on "
                      "DR_REAL. The rest of DR stays.",
@@ -210,8 +207,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "BIN",
               .title = "BCD to binary",
               .group = "DR operation",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "double width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("double width")},
               .ref = "3.13, l.1233",
               .doc = "The digits in DR become their number. With DWRD bit 31 marks a negative number.",
               .example = "LOD  COUNT\nBIN\nSTO  COUNT"},
@@ -220,8 +216,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "BCD",
               .title = "binary to BCD",
               .group = "DR operation",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "double width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("double width")},
               .ref = "3.13, l.1234",
               .doc = "The number in DR becomes its digits, at most 4, with DWRD 8.",
               .example = "LOD  POS\nBCD  DWRD\nSTO  POS"},
@@ -230,11 +225,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "RL",
               .title = "shift left",
               .group = "DR operation",
-              .operands = {OperandInfo{.name = "n", .kind = "shift count", .doc = "by how many bits"},
-                           OperandInfo{.name = "width",
-                                       .kind = "integer width",
-                                       .doc = "16 bits without it",
-                                       .optional = true}},
+              .operands = {kShiftCount, widthOf("integer width")},
               .ref = "3.13, l.1262",
               .doc = "Logical shift left of 16, 32 or 64 bits of DR; zeros come in.",
               .example = "LOD  COUNT\nRL   2\nSTO  COUNT"},
@@ -244,11 +235,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "RR",
               .title = "shift right",
               .group = "DR operation",
-              .operands = {OperandInfo{.name = "n", .kind = "shift count", .doc = "by how many bits"},
-                           OperandInfo{.name = "width",
-                                       .kind = "integer width",
-                                       .doc = "16 bits without it",
-                                       .optional = true}},
+              .operands = {kShiftCount, widthOf("integer width")},
               .ref = "3.13, l.1264",
               .doc = "Logical shift right of 16, 32 or 64 bits of DR; zeros come in.",
               .example = "LOD  POS\nRR   4,DWRD\nSTO  POS"},
@@ -259,7 +246,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "EQ",
               .title = "equal",
               .group = "comparison",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "compared with DR"}},
+              .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1369",
               .doc = "RLO tells whether DR equals the operand, signed, in the operand's width; with REAL. or a real "
                      "constant DR_REAL.",
@@ -270,7 +257,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "LT",
               .title = "less",
               .group = "comparison",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "compared with DR"}},
+              .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1371",
               .doc = "RLO tells whether DR is less than the operand, signed, in the operand's width; with REAL. or a "
                      "real constant DR_REAL.",
@@ -281,7 +268,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "GT",
               .title = "greater",
               .group = "comparison",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "compared with DR"}},
+              .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1372",
               .doc = "RLO tells whether DR is greater than the operand, signed, in the operand's width; with REAL. or "
                      "a real constant DR_REAL.",
@@ -292,7 +279,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "LE",
               .title = "less or equal",
               .group = "comparison",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "compared with DR"}},
+              .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1373",
               .doc = "RLO tells whether DR is less than or equal to the operand, signed, in the operand's width; with "
                      "REAL. or a real constant DR_REAL.",
@@ -303,7 +290,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "GE",
               .title = "greater or equal",
               .group = "comparison",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "compared with DR"}},
+              .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1374",
               .doc = "RLO tells whether DR is greater than or equal to the operand, signed, in the operand's width; "
                      "with REAL. or a real constant DR_REAL.",
@@ -314,7 +301,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "EQ1",
               .title = "equal if RLO",
               .group = "comparison",
-              .operands = {OperandInfo{.name = "val", .kind = "value", .doc = "compared with DR"}},
+              .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1370",
               .doc = "As EQ while RLO is 1; else RLO stays 0. A chain compares areas.",
               .example = "LOD  COUNT\nEQ   5\nLOD  LIMIT\nEQ1  7\nWR   LAMP"},
@@ -344,8 +331,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "CONRD",
               .title = "RLO to DR",
               .group = "conversion",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "double width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("double width")},
               .terminating = true,
               .ref = "3.15, l.1462",
               .doc = "DR becomes FFFFh for RLO 1 and 0 for 0; with DWRD FFFFFFFFh.",
@@ -355,8 +341,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "REAL",
               .title = "integer to real",
               .group = "conversion",
-              .operands = {OperandInfo{
-                  .name = "width", .kind = "integer width", .doc = "16 bits without it", .optional = true}},
+              .operands = {widthOf("integer width")},
               .ref = "3.15, l.1503",
               .doc = "DR_REAL becomes the signed integer in DR; DR keeps it, sign-extended.",
               .example = "LOD  COUNT\nREAL\nMULB REAL.RATIO\nSTO  REAL.RATIO"},

@@ -28,9 +28,10 @@ inline constexpr Row kTextRows[] = {
               .operands = {out("begin", "beginning", "the first byte, or which data"),
                            out("end", "end", "the first byte that stays, or ALL")},
               .ref = "3.15, l.1521",
-              .doc = "Bytes become 0 from the first address up to the second, which stays. GLOBAL,ALL brings all "
-                     "global data, mechanisms and timers into the state after power-up; INTERNAL,ALL clears the data of "
-                     "DATA_LOCAL and the cells that instructions made for themselves. RLO and DR stay.",
+              .doc =
+                  "Bytes become 0 from the first address up to the second, which stays. GLOBAL,ALL brings all "
+                  "global data, mechanisms and timers into the state after power-up; INTERNAL,ALL clears the data of "
+                  "DATA_LOCAL and the cells that instructions made for themselves. RLO and DR stay.",
               .example = "CLEAR ARRAY,ARRAY+16\nCLEAR GLOBAL,ALL"},
      .lower = lowerClear},
     // ---- texts (man. ch. 3.18) ------------------------------------------------------------------------------------
@@ -56,8 +57,9 @@ inline constexpr Row kTextRows[] = {
               .group = "text",
               .operands = {out("text1", "text", "of 1 to 10 characters"), widthOf("double width")},
               .ref = "3.18, l.1808",
-              .doc = "DR becomes decimal digits, as many as the text has characters, with leading zeros: 16 bits without "
-                     "sign, with DWRD 32. Digits in front of those are lost.",
+              .doc =
+                  "DR becomes decimal digits, as many as the text has characters, with leading zeros: 16 bits without "
+                  "sign, with DWRD 32. Digits in front of those are lost.",
               .example = "LOD    COUNT\nBINSTR TEXT1"},
      .effects = kReadsDr,
      .lower = lowerNumberToText,
@@ -75,7 +77,8 @@ inline constexpr Row kTextRows[] = {
     {.info = {.mnemonic = "STRCMP",
               .title = "compare texts",
               .group = "text",
-              .operands = {in("text1", "text", "is compared"), in("text2", "text or literal", "with this"), kCharacters},
+              .operands = {in("text1", "text", "is compared"), in("text2", "text or literal", "with this"),
+                           kCharacters},
               .ref = "3.18, l.1844",
               .doc = "RLO is 1 when the texts are equal up to and with the second one's terminator, or in as many "
                      "characters as the third operand says.",

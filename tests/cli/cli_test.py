@@ -2,6 +2,7 @@
 """Runs rungc as a user does: exit statuses, streams, diagnostics, hostile input. cli_test.py RUNGC"""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,32 @@ module MAIN
 rung "start/stop latch"
 |--[5100.00]--+--[/5100.01]--(5101.00)
 |--[5101.00]--+
+"""
+
+LISTED = """DATA
+CELL:   DS 1
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_MAIN
+        FL   1,M
+        MECH_BEGIN M
+        EX
+        TIM  -,50           ; waits here
+        MECH_END M
+MODULE_MAIN_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+
+STOP
 """
 GSK = "LD X0.0\nFUNC 0\n"  # a network that is not closed, and no END2
 # Counts its scans in D0 (4 bytes); what stands behind `TAIL` changes how the program uses K, C, T and D.
@@ -321,6 +348,26 @@ class Products(Cli):
             self.assertEqual(done.returncode, OK, done.stderr)
             self.assertIn(mark, done.stdout.decode())
 
+    def test_listing(self):
+        source = self.file("lamp.plc", LISTED)
+        out = str(Path(self.folder.name) / "lamp.so")
+        name = Path(self.folder.name) / "lamp.ls1"
+        done = rungc("build", source, "-o", out, "--listing", str(name))
+        self.assertEqual(done.returncode, OK, done.stderr)
+        lines = name.read_text().splitlines()
+        self.assertEqual(lines[0], "; " + source)
+        self.assertEqual(lines[1], "     1  DATA")
+        self.assertEqual(lines[-1], "    24  STOP")
+        # What name_LINE shows leads to the line of the state.
+        done = rungc("run", out, "--scans", "3", "--watch", "M_LINE")
+        number = re.findall(r"M_LINE = (\d+)", done.stdout.decode())[-1]
+        self.assertIn(f"{number:>6}          TIM  -,50           ; waits here", lines)
+
+    def test_listing_of_a_ladder(self):
+        done = rungc("build", self.file("lamp.lad", LAMP), "-o", str(Path(self.folder.name) / "l.so"), "--listing", str(Path(self.folder.name) / "l.ls1"))
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn(b"no listing", done.stderr)
+
     def test_unwritable_output(self):
         done = rungc("build", self.file("lamp.lad", LAMP), "-o", "/nonexistent/lamp.so")
         self.assertEqual(done.returncode, ENVIRONMENT)
@@ -374,6 +421,11 @@ class Products(Cli):
         for word in ("MF", "mf", "F7.0", "F007.0"):
             self.assertIn(b"[gsk] MF: F7.0", rungc("explain", word).stdout)
         self.assertIn(b"G8.4", rungc("explain", "*ESP").stdout)
+
+    def test_explain_technol(self):
+        self.assertIn(b"[technol] PO_POL: bit", rungc("explain", "po_pol").stdout)
+        self.assertIn(b"[technol] BLOCK_MOVE: constant 2", rungc("explain", "BLOCK_MOVE").stdout)
+        self.assertIn(b"`CELL.", rungc("explain", "CAN_AX_READY").stdout)
 
     def test_explain_and_doc(self):
         self.assertIn(b"multi-level-output", rungc("explain", "multi-level-output").stdout)

@@ -8,6 +8,7 @@ import unittest
 from pathlib import Path
 
 from nct_rows import NctRows
+from technol_rows import TechnolRows
 
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
@@ -179,5 +180,5 @@ class GskRows(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    RUNGC = NctRows.RUNGC = sys.argv.pop(1)
+    RUNGC = NctRows.RUNGC = TechnolRows.RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -53,6 +53,7 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics) {
   Compiled out;
+  out.files.assign(files.begin(), files.end());
   out.dialect = chooseDialect(sources, files, request.dialect, diagnostics);
   if (out.dialect == nullptr) return std::nullopt;
   out.module = out.dialect->compile(sources, files, request.options, diagnostics);

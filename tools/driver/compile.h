@@ -22,6 +22,7 @@ struct CompileRequest {
 };
 
 struct Compiled {
+  std::vector<FileId> files;
   const frontend::Dialect* dialect = nullptr;
   std::unique_ptr<ir::Module> module; // final, optimised
   std::unique_ptr<ir::Layout> layout;

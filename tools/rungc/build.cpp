@@ -1,5 +1,6 @@
 // rungc build and rungc emit: a shared object, or any text on the way to it.
 #include <fmt/format.h>
+#include <fstream>
 #include <iostream>
 
 #include "codegen/cpp/cpp_emitter.h"
@@ -18,6 +19,7 @@ struct BuildOptions {
   std::string target;
   std::string cxx;
   std::string what; // emit only
+  std::string listing;
   std::string level = "2";
   bool debugInfo = false;
   bool profile = false;
@@ -64,6 +66,18 @@ int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
   return built.ok() ? kOk : environmentError(built.error());
 }
 
+int writeListing(const SourceManager& sources, const driver::Compiled& compiled, const std::string& name) {
+  if (compiled.dialect->listing == nullptr) {
+    fmt::print(stderr, "rungc: programs of {} have no listing\n", compiled.dialect->name);
+    return kUsage;
+  }
+  const std::string text = compiled.dialect->listing(sources, compiled.files);
+  std::ofstream file(name, std::ios::binary);
+  file << text;
+  file.close();
+  return file ? kOk : environmentError(fmt::format("cannot write '{}'", name));
+}
+
 int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
   Result<std::string> text = failure("");
   if (options.what == "cpp")
@@ -91,10 +105,13 @@ void addBuild(CLI::App& app, int& status) {
   command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")
       ->check(CLI::IsMember({"llvm", "cpp"}));
   command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
+  command->add_option("--listing", options->listing, "Write the program's numbered lines, to which name_LINE refers (technol)");
   command->callback([options, &status] {
     SourceManager sources;
-    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status))
-      status = buildObject(*compiled, *options);
+    auto compiled = compileSources(sources, options->source, requestOf(*options), status);
+    if (!compiled) return;
+    if (!options->listing.empty()) status = writeListing(sources, *compiled, options->listing);
+    if (status == kOk) status = buildObject(*compiled, *options);
   });
 }
 

@@ -23,11 +23,11 @@ Symbol Declarations::made(const Token& name, SymbolKind kind) const {
   return symbol;
 }
 
-void Declarations::data(const Statement& statement, const Token* name, uint32_t index) {
+void Declarations::data(const Statement& statement, const Token* name, uint32_t index, bool badName) {
   if (statement.row->role != Role::Str) structure_.allowsData(statement);
   DataItem item{.role = statement.row->role, .statement = index};
   const bool needsName = item.role == Role::Str || item.role == Role::Ds;
-  if (needsName && name == nullptr)
+  if (needsName && name == nullptr && !badName)
     program_.diagnostics.report(Diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
   if (name != nullptr) {
     Symbol symbol = made(*name, item.role == Role::Str ? SymbolKind::Text : SymbolKind::Cell);

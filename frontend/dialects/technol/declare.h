@@ -11,7 +11,8 @@ public:
       : program_(program), structure_(structure), file_(file) {}
 
   // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
-  void data(const Statement& statement, const Token* name, uint32_t index);
+  // `badName`: it has one that is no name, which is told already.
+  void data(const Statement& statement, const Token* name, uint32_t index, bool badName);
   void constant(const Statement& statement);
 
   // NAME struc … NAME ends

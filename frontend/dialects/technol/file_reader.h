@@ -29,9 +29,12 @@ private:
   bool beginsStatement(uint32_t first) const;
   uint32_t readLabel(uint32_t& first, uint32_t& count);
   bool readStructure(std::span<const Token> tokens);
+  void reportUnknown(const Token& token);
   const Row* instruction(const Token& token);
   void statement(const Row* row, uint32_t first, uint32_t count, uint32_t line);
   void structural(Statement& statement, uint32_t index);
+  void checkNoOperands(const Statement& statement);
+  void checkSwitch(const Statement& statement);
   void code(Statement& statement);
   void notBuilt(const Statement& statement, Diag code);
   void checkWait(const Statement& statement);
@@ -50,6 +53,7 @@ private:
   uint32_t includeDepth_ = 0;
   bool includeReported_ = false;
   std::vector<uint32_t> pendingLabels_; // tokens; they belong to the next statement
+  bool badLabel_ = false;               // the statement has a label that is no name
   uint32_t passed_ = 0;                 // EX-kind statements and jumps so far
   bool textAfterStop_ = false;
 };

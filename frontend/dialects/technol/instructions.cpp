@@ -119,6 +119,46 @@ Reserved reservedWord(std::string_view name) {
 
 bool isAssembler(std::string_view name) { return isOneOf(name, kAssembler); }
 
+std::string_view insteadOf(std::string_view assembler) {
+  struct Pair {
+    std::string_view assembler, instead;
+  };
+  constexpr Pair kInstead[] = {
+      {"ADD", "AD"},
+      {"AND", "ANDB"},
+      {"BT", "LDR"},
+      {"CALL", "PROC_CALL"},
+      {"CMP", "EQ, LT, GT, LE, GE"},
+      {"DEC", "DCR"},
+      {"DIV", "DIVB"},
+      {"IDIV", "DIVB"},
+      {"IMUL", "MULB"},
+      {"INC", "INR"},
+      {"JE", "EQ and JL1"},
+      {"JMP", "JUM"},
+      {"JNE", "EQ and JL0"},
+      {"JNZ", "LDR and JL1"},
+      {"JZ", "LDR and JL0"},
+      {"MOVSB", "MV"},
+      {"MOVSW", "MV"},
+      {"MOVSX", "LOD"},
+      {"MOVZX", "LOD"},
+      {"MUL", "MULB"},
+      {"NEG", "INV"},
+      {"OR", "ORB"},
+      {"RET", "PROC_END"},
+      {"SHL", "RL"},
+      {"SHR", "RR"},
+      {"SUB", "SU"},
+      {"TEST", "LDR"},
+      {"XCHG", "LOD and STO"},
+      {"XOR", "XORB"},
+  };
+  for (const Pair& pair : kInstead)
+    if (equalsNoCase(assembler, pair.assembler)) return pair.instead;
+  return {};
+}
+
 std::string_view moduleName(ModuleKind kind) {
   for (const Row& row : kRows)
     if (row.role == Role::Module && row.variant == static_cast<int>(kind)) return row.info.mnemonic;

@@ -75,6 +75,8 @@ const Row* findRow(std::string_view mnemonic);
 enum class Reserved : uint8_t { No, Warn, Yes };
 Reserved reservedWord(std::string_view name);
 bool isAssembler(std::string_view name);
+// The instructions that do what an assembler instruction does: "LOD and STO"; "" where there is no such.
+std::string_view insteadOf(std::string_view assembler);
 
 enum class ModuleKind : uint8_t {
   Data,

@@ -114,6 +114,10 @@ void MacroSet::control(std::span<const Token> operands, SourceRange at) {
   else program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at)) << "POS or PRE" << "something else";
 }
 
+void MacroSet::offer(Similar& similar) const {
+  for (const Macro& macro : macros_) similar.offer(macro.name.text);
+}
+
 const Macro* MacroSet::find(std::string_view name) const {
   const auto found = names_.find(symbolKey(name));
   return found == names_.end() ? nullptr : &macros_[found->second];

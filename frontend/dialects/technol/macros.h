@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/program.h"
+#include "ir/support/similar.h"
 
 namespace rung::frontend::technol {
 
@@ -45,6 +46,8 @@ public:
 
   // Null when there is none.
   const Macro* find(std::string_view name) const;
+  // All names, to find the one that was meant.
+  void offer(Similar& similar) const;
   // The lines of one use; nothing after a report.
   bool expand(const Macro& macro, std::span<const Token> operands, SourceRange at, std::vector<Macro::Line>& out);
 

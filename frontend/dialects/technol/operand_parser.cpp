@@ -226,6 +226,7 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   }
   if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of 8 or 16 bits");
   const uint8_t natural = naturalPrefix(out.type);
+    if (address.isText) return wrongKind(out, "a text", "a cell");
   if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) {
     program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
         << std::string(prefixOf(natural).name) + "." << statement_->row->info.mnemonic;
@@ -259,7 +260,8 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
                             Operand& out) {
   if (kind.info.kind == "register") {
     if (tokens.size() == 1 && equalsNoCase(tokens[0].text, info.name)) return out.form = Operand::Form::Register, true;
-    program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()) << statement_->row->info.mnemonic;
+    program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
+        << statement_->row->info.mnemonic;
     return false;
   }
   const PrefixName* width =
@@ -269,7 +271,12 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
     out.type = width->type;
     return true;
   }
-  if (!kind.constant || width) return syntax(kind.info.doc, tokens);
+  if (width) {
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range).note(kind.info.doc)
+        << width->name << statement_->row->info.mnemonic;
+    return false;
+  }
+  if (!kind.constant) return syntax(kind.info.doc.substr(0, kind.info.doc.find(';')), tokens);
   const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range());
   if (!number) return false;
   out.form = Operand::Form::Integer;

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
+#include "ir/support/similar.h"
 
 #include <algorithm>
 
@@ -61,6 +62,23 @@ bool FileReader::readStructure(std::span<const Token> tokens) {
   return true;
 }
 
+// With what was meant, or the way to say it in this language.
+void FileReader::reportUnknown(const Token& token) {
+  if (isAssembler(token.text)) {
+    DiagBuilder report = program_.diagnostics.report(Diag::UnsupportedAssembler, token.range());
+    report << token.text;
+    if (const std::string_view other = insteadOf(token.text); !other.empty())
+      report.note("in this language: " + std::string(other));
+    return;
+  }
+  Similar similar(token.text);
+  for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
+  macros_.offer(similar);
+  DiagBuilder report = program_.diagnostics.report(Diag::UnknownInstruction, token.range());
+  report << token.text;
+  if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
+}
+
 const Row* FileReader::instruction(const Token& token) {
   if (token.kind != TokenKind::Name) {
     program_.diagnostics.report(Diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
@@ -68,8 +86,7 @@ const Row* FileReader::instruction(const Token& token) {
   }
   const Row* row = findRow(token.text);
   if (row == nullptr) {
-    const Diag code = isAssembler(token.text) ? Diag::UnsupportedAssembler : Diag::UnknownInstruction;
-    program_.diagnostics.report(code, token.range()) << token.text;
+    reportUnknown(token);
     return nullptr;
   }
   if (row->info.mnemonic == "JL0" && equalsNoCase(token.text, "JLO"))
@@ -91,7 +108,10 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
     return;
   }
   if (readStructure(std::span(program_.tokens).subspan(first, count))) return;
-  if (const uint32_t label = readLabel(first, count); label != kNone) pendingLabels_.push_back(label);
+  const bool labelled = count >= 2 && program_.tokens[first + 1].is(':') && !program_.tokens[first].is(':');
+  const uint32_t label = readLabel(first, count);
+  if (label != kNone) pendingLabels_.push_back(label);
+  badLabel_ = labelled && label == kNone;
   if (count == 0) return;
   if (program_.tokens[first].is(':')) {
     program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range())
@@ -121,7 +141,7 @@ void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint3
   if (isData && row->role == Role::Dfm && !expanding_.empty()) checkEightBits(made);
   if (isData) {
     const Token* name = pendingLabels_.empty() ? nullptr : &program_.tokens[pendingLabels_.back()];
-    declarations_.data(made, name, index);
+    declarations_.data(made, name, index, badLabel_);
     if (name) pendingLabels_.pop_back();
     program_.statements.push_back(made);
     return;
@@ -189,9 +209,11 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
     symbol.byte = index * kMechanismBytes;
     symbol.type = ir::Type::Bit;
   }
+  const size_t errors = program_.diagnostics.errorCount();
   program_.symbols.declare(symbol);
   // Of a longer name nothing is left that tells it from the mechanism.
   if (kind != SymbolKind::Mechanism || name.text.size() >= kSignificant) return;
+  if (program_.diagnostics.errorCount() > errors) return;
   // name_LINE, a WORD (man. l.2210)
   program_.madeTexts.push_back(std::string(name.text) + "_LINE");
   symbol.name = program_.madeTexts.back();
@@ -203,7 +225,31 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
   program_.symbols.declare(symbol);
 }
 
+// What has no operands at all, and no lowering that would count them.
+void FileReader::checkNoOperands(const Statement& statement) {
+  const Role role = statement.row->role;
+  if (role == Role::Code || role == Role::MacroBegin || role == Role::MacroEnd) return;
+  if (role == Role::NotBuilt || role == Role::NotBuiltService) return; // their operands are not described yet
+  if (!statement.row->info.operands.all().empty() || statement.tokenCount == 0) return;
+  const std::span<const Token> tokens = program_.operandTokens(statement);
+  program_.diagnostics.report(Diag::OperandCount, rangeOf(program_.sources, tokens, statement.range()))
+      << statement.row->info.mnemonic << "no operands" << splitOperands(tokens).size();
+}
+
+// DEBUG [ON|OFF]
+void FileReader::checkSwitch(const Statement& statement) {
+  if (statement.tokenCount == 0 || statement.row->info.operands.all().empty()) return;
+  const std::span<const Token> tokens = program_.operandTokens(statement);
+  const size_t found = splitOperands(tokens).size();
+  if (found > 1)
+    program_.diagnostics.report(Diag::OperandCount, statement.range())
+        << statement.row->info.mnemonic << "at most 1 operand" << found;
+  else if (tokens.size() > 1 || !(equalsNoCase(tokens[0].text, "ON") || equalsNoCase(tokens[0].text, "OFF")))
+    program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
+}
+
 void FileReader::structural(Statement& statement, uint32_t index) {
+  checkNoOperands(statement);
   const auto kind = static_cast<ModuleKind>(statement.row->variant);
   switch (statement.row->role) {
   case Role::Module:
@@ -221,7 +267,7 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::MemberSize:
     program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
     return;
-  case Role::NoCode:
+  case Role::NoCode: checkSwitch(statement); return;
   case Role::MacroBegin:
   case Role::MacroEnd: return;
   case Role::Dfm:
@@ -307,7 +353,7 @@ void FileReader::checkLoop(const Statement& statement) {
 
 void readProgram(Program& program, std::span<const FileId> files) {
   if (files.size() > kMaxFiles) {
-    program.diagnostics.report(Diag::TooManyFiles) << kMaxFiles;
+    program.diagnostics.report(Diag::TooManyFiles, program.sources.range(files[kMaxFiles], 0, 0)) << kMaxFiles;
     return;
   }
   for (uint32_t i = 0; i < files.size(); ++i) {

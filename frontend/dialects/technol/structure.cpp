@@ -71,6 +71,7 @@ void Structure::beginModule(const Statement& statement, ModuleKind kind, uint32_
     reportUnclosed(statement.range());
     closeModule(statement.range(), statement.line, index);
   }
+  closeLocal(statement.range());
   outsideReported_ = false;
   checkPlace(statement, kind);
   push({.kind = UnitKind::Module, .module = kind, .name = moduleName(kind), .begin = statement.range()});
@@ -215,10 +216,7 @@ bool Structure::endProcedure(const Statement& statement, const Token& name) {
 
 void Structure::beginTimed(const Statement& statement, const Token& endLabel) {
   if (unit_ != kNone && program_.units[unit_].kind == UnitKind::Timed)
-    program_.diagnostics.report(Diag::SyntaxError, statement.range())
-        << "label '" + std::string(program_.tokens[program_.units[unit_].endLabel].text) +
-               "', which ends the timed block,"
-        << "a timed block inside it";
+    innerBlocks_.push_back({unit_, statement.range()});
   push({.kind = UnitKind::Timed,
         .name = statement.row->info.mnemonic,
         .endLabel = static_cast<uint32_t>(&endLabel - program_.tokens.data()),
@@ -232,6 +230,13 @@ void Structure::passLabel(std::string_view name) {
     if (symbolKey(program_.tokens[program_.units[at].endLabel].text) == key) found = at;
   if (found == kNone) return;
   while (unit_ != found) closeUnit({});
+  // Blocks inside a block are told when it is certain that it has an end; else its missing end is the mistake.
+  std::erase_if(innerBlocks_, [&](const InnerBlock& inner) {
+    if (inner.outer != found) return false;
+    program_.diagnostics.report(Diag::SyntaxError, inner.at).note(program_.units[found].begin, "it begins here")
+        << "label '" + std::string(name) + "', which ends the timed block," << "a timed block inside it";
+    return true;
+  });
   unit_ = program_.units[found].parent;
 }
 
@@ -276,6 +281,7 @@ void Structure::finish(uint32_t statementCount) {
     const uint32_t symbol = program_.symbols.find(block.label.text, file_);
     const bool later = symbol != kNone && program_.symbols[symbol].kind == SymbolKind::Label &&
                        block.label.pos < program_.symbols[symbol].declared.begin;
+    if (symbol != kNone && program_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
     if (!later)
       program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
     else

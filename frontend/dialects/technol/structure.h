@@ -68,6 +68,11 @@ private:
     Token label;
     uint32_t unit;
   };
+  struct InnerBlock {
+    uint32_t outer; // unit
+    SourceRange at;
+  };
+  std::vector<InnerBlock> innerBlocks_; // timed blocks inside one
   std::vector<OpenBlock> lostBlocks_; // timed blocks whose label did not come in time
 };
 

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 
+#include "ir/support/similar.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
 namespace {
-
-struct Predefined {
-  std::string_view name;
-  int64_t value;
-};
 
 // §24 of the inventory; values of PLCEVENT_* are this project's.
 constexpr Predefined kPredefined[] = {
@@ -102,6 +98,8 @@ Symbol fromSignal(const nc::Signal& signal) {
 }
 
 } // namespace
+
+std::span<const Predefined> predefinedConstants() { return kPredefined; }
 
 std::string symbolKey(std::string_view name) {
   const size_t mark = std::min(name.find(kUseMark), name.size());
@@ -203,9 +201,25 @@ uint32_t SymbolTable::require(const Token& name, uint32_t file) {
   const uint32_t index = find(name.text, file);
   if (index != kNone) return index;
   undefined_.resize(locals_.size());
-  if (undefined_[file].emplace(symbolKey(name.text), 0).second)
-    diagnostics_.report(Diag::UndefinedSymbol, name.range()) << name.text;
+  if (!undefined_[file].emplace(symbolKey(name.text), 0).second) return kNone;
+  const std::string meant = suggestions_++ < kMostSuggestions ? similar(name.text, file) : std::string();
+  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, name.range());
+  report << name.text;
+  if (!meant.empty()) report.note("did you mean " + meant + "?");
   return kNone;
+}
+
+// The name in sight that is most like a misspelt one, the program's own first; "" when none is close.
+std::string SymbolTable::similar(std::string_view name, uint32_t file) const {
+  Similar own(name);
+  for (const Symbol& symbol : symbols_)
+    if (!symbol.predeclared && (!symbol.local || symbol.file == file)) own.offer(symbol.name);
+  if (!own.best().empty()) return std::string(own.best());
+  Similar interface(name);
+  for (const nc::Signal& signal : nc::technolSignals())
+    if (std::string_view(signal.area) == "I") interface.offer(signal.symbol);
+  for (const Predefined& constant : kPredefined) interface.offer(constant.name);
+  return std::string(interface.best());
 }
 
 uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {

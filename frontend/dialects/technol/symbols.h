@@ -3,6 +3,7 @@
 // interface and the predefined constants, which are entered at their first use.
 #pragma once
 
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -27,6 +28,13 @@ inline constexpr char kUseMark = '#';
 
 // Upper case, cut to what counts.
 std::string symbolKey(std::string_view name);
+
+// A constant of the control; the name in upper case.
+struct Predefined {
+  std::string_view name;
+  int64_t value;
+};
+std::span<const Predefined> predefinedConstants();
 
 class SymbolTable {
 public:
@@ -56,6 +64,7 @@ private:
   bool merge(uint32_t earlier, Symbol& symbol);
   void checkName(const Symbol& symbol);
   uint32_t predeclared(std::string_view name, const std::string& key);
+  std::string similar(std::string_view name, uint32_t file) const;
 
   Diagnostics& diagnostics_;
   std::vector<Symbol> symbols_;
@@ -64,6 +73,8 @@ private:
   Scope members_;
   std::vector<Scope> locals_;
   std::vector<Scope> undefined_; // reported, by file
+  static constexpr uint32_t kMostSuggestions = 100; // each looks at all names
+  uint32_t suggestions_ = 0;
 };
 
 } // namespace rung::frontend::technol

@@ -4,8 +4,10 @@
 #include <charconv>
 
 #include "frontend/dialects/technol/assemble.h"
+#include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/reader.h"
+#include "frontend/dialects/technol/reference.h"
 
 namespace rung::frontend {
 namespace {
@@ -68,6 +70,9 @@ const Dialect kTechnol = {
     .operandKinds = technol::operandKindInfos(),
     .isBuilt = isBuilt,
     .compile = compile,
+    .reference = technol::reference,
+    .explain = technol::explainWord,
+    .listing = technol::listing,
 };
 
 } // namespace rung::frontend

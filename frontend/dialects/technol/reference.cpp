@@ -1,0 +1,129 @@
+// The reference's sections (see reference.h).
+#include "frontend/dialects/technol/reference.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "frontend/dialects/technol/symbols.h"
+#include "frontend/table/markdown.h"
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+std::string_view typeText(nc::SignalType type) {
+  switch (type) {
+  case nc::SignalType::Bit: return "bit";
+  case nc::SignalType::Byte: return "BYTE";
+  case nc::SignalType::Word: return "WORD";
+  case nc::SignalType::Dword: return "DWORD";
+  case nc::SignalType::Qword: return "QWORD";
+  case nc::SignalType::Real: return "REAL";
+  case nc::SignalType::Struct: return "structure";
+  case nc::SignalType::String: return "text";
+  }
+  return "";
+}
+
+// What a program may do with it (§4.1 of the inventory).
+std::string_view accessText(const nc::Signal& signal) {
+  switch (signal.direction) {
+  case nc::Direction::In: return std::string_view(signal.group).starts_with("8.") ? "read only" : "read";
+  case nc::Direction::Out: return "write";
+  case nc::Direction::InOut: return "read, write";
+  }
+  return "";
+}
+
+// Where a program uses the name.
+std::string useText(const nc::Signal& signal) {
+  const std::string_view area = signal.area;
+  if (area == "I") return "";
+  if (area == "W") return "a weight, behind an address: `CELL." + std::string(signal.symbol) + "`";
+  if (area == "BLK") return "of the queued block n: `BLK[n]." + std::string(signal.symbol) + "`";
+  if (area.starts_with("RTM.")) return "a logical input or output behind `" + std::string(area) + "[x].`";
+  if (area.starts_with("SHARE") || area == "RtmVar") return "shared with the panel by this name; no name of a program";
+  return "a member of the structure " + std::string(area);
+}
+
+std::string typeOf(const nc::Signal& signal) {
+  std::string text(typeText(signal.type));
+  if (signal.type == nc::SignalType::Struct && *signal.structure != 0) text += " " + std::string(signal.structure);
+  if (*signal.address != 0) text += fmt::format(" [{}]", signal.address);
+  return text;
+}
+
+void signalTables(Page& page) {
+  page.heading("## Signals");
+  page.line("Cells of the CNC-PLC interface, predeclared with their types. A write to one that is `read only` is "
+            "`write-to-readonly`; to one that is `read` the same code as a warning. `rungc explain NAME` shows one "
+            "entry. Manual: chapter 8 and those of the services.");
+  std::string_view group;
+  for (const nc::Signal& signal : nc::technolSignals()) {
+    if (group != signal.group) {
+      group = signal.group;
+      page.heading(fmt::format("### {}", group));
+      page.table("| symbol | type | access | meaning | manual |");
+    }
+    const std::string use = useText(signal);
+    page.line("| `{}` | {} | {} | {}{}{} | l.{} |", signal.symbol, cell(typeOf(signal)), accessText(signal),
+              cell(signal.meaning), use.empty() ? "" : "; ", cell(use), signal.manualLine);
+  }
+}
+
+void constants(Page& page) {
+  page.heading("## Predefined constants");
+  page.table("| name | value |");
+  for (const Predefined& constant : predefinedConstants()) page.line("| `{}` | {} |", constant.name, constant.value);
+}
+
+void listingSection(Page& page) {
+  page.heading("## Control listing");
+  page.line("`rungc build main.plc more.plc -o program.so --listing program.ls1` writes the lines of the program with "
+            "their numbers. `name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
+            "0 when it is not active. The numbers count in each file of the program; a statement of a macro stands in "
+            "the line of its use. Manual: l.2210-2217.");
+}
+
+void warnings(Page& page) {
+  page.heading("## Warnings");
+  page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
+  page.table("| code | meaning |");
+  for (const Diag id : {Diag::CntsPrefix, Diag::JloAlias, Diag::MixedRealInteger, Diag::NameTooLong, Diag::ReservedWord,
+                        Diag::SharedName, Diag::StringTooLong, Diag::TextAfterStop, Diag::TmOutsideDftm,
+                        Diag::UnterminatedEquation, Diag::ValueNotPreserved})
+    page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
+}
+
+} // namespace
+
+std::string reference() {
+  Page page;
+  listingSection(page);
+  constants(page);
+  signalTables(page);
+  warnings(page);
+  return page.take();
+}
+
+std::string explainWord(std::string_view name) {
+  std::string text, word(name);
+  for (char& c : word) c = upper(c);
+  std::vector<std::string> told; // weights and members repeat in many groups
+  for (const nc::Signal& signal : nc::technolSignals()) {
+    if (!equalsNoCase(signal.symbol, word)) continue;
+    std::string entry = fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal),
+                                    signal.meaning);
+    if (const std::string use = useText(signal); !use.empty()) entry += fmt::format("  Use: {}.\n", use);
+    entry += fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
+    if (std::find(told.begin(), told.end(), entry) != told.end()) continue;
+    told.push_back(entry);
+    text += entry;
+  }
+  for (const Predefined& constant : predefinedConstants())
+    if (equalsNoCase(constant.name, word))
+      text += fmt::format("[technol] {}: constant {}\n", constant.name, constant.value);
+  return text;
+}
+
+} // namespace rung::frontend::technol

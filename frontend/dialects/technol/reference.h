@@ -1,0 +1,14 @@
+// Sections of the reference page behind the instructions, and what `rungc explain` says about the names of the interface.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rung::frontend::technol {
+
+// Signals of the CNC-PLC interface by group, predefined constants, the listing, warnings.
+std::string reference();
+// A signal, a member of a structure (TIME_INFOS.HOUR), a predefined constant, of any case; "" when it is none.
+std::string explainWord(std::string_view name);
+
+} // namespace rung::frontend::technol

@@ -71,4 +71,7 @@ void lowerCall(Lowering& l, std::span<const Operand> o, int);
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
 void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
 
+// lower_config.cpp
+void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind);
+
 } // namespace rung::frontend::technol

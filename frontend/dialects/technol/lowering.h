@@ -62,6 +62,7 @@ public:
   const std::vector<LoweredModule>& events() const { return events_; }
   const std::vector<std::string>& eventNames() const { return eventNames_; }
   ir::FaultId fault(std::string_view text);
+  ir::ServiceId service(std::string_view signature);
 
   // ---- for the lowering functions --------------------------------------------------------------------------------
   Program& program() { return program_; }

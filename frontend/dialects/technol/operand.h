@@ -106,6 +106,7 @@ private:
   bool bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool bareBit(const OperandInfo& info, const Token& name, Operand& out);
   bool bitAt(const OperandInfo& info, std::span<const Token> where, const Token& name, Operand& out);
+  bool flag(const Token& number, Operand& out);
   uint32_t bitSymbol(const Token& name);
   bool value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out);

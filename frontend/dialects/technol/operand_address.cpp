@@ -202,9 +202,23 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, tokens[0], out);
-  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) return wrongKind(out, "a number", "a bit");
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
+    return kind.constant ? flag(tokens[0], out) : wrongKind(out, "a number", "a bit");
   Address whole;
   return address(tokens, whole) && wrongKind(out, "an address without a bit", "a bit");
+}
+
+bool OperandParser::flag(const Token& number, Operand& out) {
+  const std::optional<Number> parsed = parseNumber(number.text);
+  if (!parsed) {
+    program_.diagnostics.report(Diag::BadNumber, number.range()) << number.text;
+    return false;
+  }
+  out.form = Operand::Form::Integer;
+  out.value = parsed->value;
+  if (!parsed->isReal && (out.value == 0 || out.value == 1)) return true;
+  program_.diagnostics.report(Diag::OperandRange, out.range) << number.text << "0 or 1";
+  return false;
 }
 
 uint32_t OperandParser::bitSymbol(const Token& name) {

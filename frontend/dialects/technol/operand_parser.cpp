@@ -220,6 +220,9 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   out.form = Operand::Form::Cell;
   out.prefixed = prefix != 0;
   out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
+  // Where only a real may stand, 8 bytes are one.
+  const bool real = (kind.prefixes & ~kCnst) == kReal && address.end - address.byte >= 8;
+  if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
     program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
     return false;

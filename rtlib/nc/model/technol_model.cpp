@@ -1,12 +1,13 @@
 // The NC beside a TECHNOL PLC, composed of the topics in technol/: the life of the program, part-program blocks,
 // events, messages (man. ch. 3.17, 5, 14).
-#include <charconv>
-
+#include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/technol/blocks.h"
 #include "rtlib/nc/model/technol/cells.h"
+#include "rtlib/nc/model/technol/configuration.h"
 #include "rtlib/nc/model/technol/events.h"
 #include "rtlib/nc/model/technol/program_life.h"
+#include "rtlib/nc/technol/configuration.h"
 
 namespace rung::nc {
 namespace {
@@ -48,15 +49,12 @@ public:
     if (instance.atListStart()) life_.afterScan(instance);
   }
 
-  std::string config(std::string_view key, std::string_view value) override {
-    constexpr std::string_view kConstant = "const.";
-    if (!key.starts_with(kConstant)) return NcModel::config(key, value);
-    int64_t number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc() || end != value.data() + value.size())
-      return "'" + std::string(key) + "' needs a number, not '" + std::string(value) + "'";
-    constants_.insert_or_assign(std::string(key.substr(kConstant.size())), number);
-    return {};
+  std::string config(std::string_view key, std::string_view value) override { return configuration_.set(key, value); }
+
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    if (host::serviceName(instance.program(), request.service) != kConfigurationService) return false;
+    configuration_.respond(request, reply);
+    return true;
   }
 
   std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) override {
@@ -69,10 +67,7 @@ public:
       board_.confirmOldest();
       return {};
     }
-    const auto constant = [this](std::string_view id) -> std::optional<int64_t> {
-      const auto found = constants_.find(id);
-      return found == constants_.end() ? std::nullopt : std::optional(found->second);
-    };
+    const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
     if (!answer) return NcModel::event(instance, name, keys);
     takeMessages(instance);
@@ -98,7 +93,7 @@ protected:
 private:
   technol::Blocks blocks_;
   technol::ProgramLife life_;
-  std::map<std::string, int64_t, std::less<>> constants_;
+  technol::Configuration configuration_;
 };
 
 } // namespace

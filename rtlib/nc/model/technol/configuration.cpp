@@ -1,0 +1,198 @@
+// Configuration and constants (see configuration.h).
+#include "rtlib/nc/model/technol/configuration.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+
+#include "rtlib/nc/technol/configuration.h"
+
+namespace rung::nc::technol {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+template <class T, class... Base>
+std::optional<T> parsed(std::string_view text, Base... base) {
+  T value{};
+  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), value, base...);
+  if (error != std::errc() || at != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// 12, -12, 0x0C
+std::optional<int64_t> integerOf(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with("0x") || text.starts_with("0X")) {
+    const auto bits = parsed<uint64_t>(text.substr(2), 16);
+    return bits ? std::optional(static_cast<int64_t>(*bits)) : std::nullopt;
+  }
+  if (text.starts_with('+')) text.remove_prefix(1);
+  return parsed<int64_t>(text, 10);
+}
+
+std::optional<double> realOf(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto value = parsed<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+int digitOf(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+// Gives the bytes that a text stands for, one at a time: its characters, or those of pairs of hexadecimal digits with
+// blanks between them.
+class Bytes {
+public:
+  Bytes(std::string_view text, bool binary) : text_(text), hex_(binary && isHex(trimmed(text))) {
+    if (hex_) text_ = trimmed(text);
+  }
+  bool next(uint8_t& byte) {
+    while (hex_ && at_ < text_.size() && text_[at_] == ' ') ++at_;
+    if (at_ >= text_.size()) return false;
+    if (hex_) {
+      byte = static_cast<uint8_t>(digitOf(text_[at_]) * 16 + digitOf(text_[at_ + 1]));
+      at_ += 2;
+    } else {
+      byte = static_cast<uint8_t>(text_[at_++]);
+    }
+    return true;
+  }
+
+private:
+  static bool isHex(std::string_view text) {
+    for (size_t i = 0; i < text.size();) {
+      if (text[i] == ' ') {
+        ++i;
+        continue;
+      }
+      if (i + 1 >= text.size() || digitOf(text[i]) < 0 || digitOf(text[i + 1]) < 0) return false;
+      i += 2;
+    }
+    return true;
+  }
+
+  std::string_view text_;
+  bool hex_;
+  size_t at_ = 0;
+};
+
+// The length of the whole and the bytes of one part.
+void putText(Bytes bytes, uint64_t part, rt::ServiceReply& reply) {
+  const uint64_t from = part * kConfigurationBytes;
+  uint64_t count = 0;
+  for (uint8_t byte = 0; bytes.next(byte); ++count) {
+    if (count < from || count - from >= kConfigurationBytes) continue;
+    int64_t& word = reply.results[kConfigurationHead + (count - from) / 8];
+    word = static_cast<int64_t>(static_cast<uint64_t>(word) | uint64_t{byte} << (count - from) % 8 * 8);
+  }
+  reply.results[1] = static_cast<int64_t>(count);
+}
+
+struct Identifier {
+  char text[kConfigurationBytes];
+  size_t length = 0;
+  std::string_view view() const { return {text, length}; }
+};
+
+Identifier identifierOf(const rt::ServiceRequest& request) {
+  Identifier id;
+  for (uint32_t i = 0; i < kConfigurationBytes; ++i) {
+    const uint64_t word = static_cast<uint64_t>(request.args[kConfigurationHead + i / 8]);
+    const char c = static_cast<char>(word >> i % 8 * 8);
+    if (c == 0) break;
+    id.text[id.length++] = c;
+  }
+  return id;
+}
+
+} // namespace
+
+std::string Configuration::set(std::string_view key, std::string_view value) {
+  constexpr std::string_view kConstant = "const.";
+  if (key.starts_with(kConstant)) return setConstant(key.substr(kConstant.size()), value);
+  parameters_.insert_or_assign(std::string(key), std::string(value));
+  return {};
+}
+
+// Offsets in shared area 0 and codes of commands are numbered as they come (man. l.16290-16301).
+std::string Configuration::setConstant(std::string_view id, std::string_view value) {
+  int64_t number = 0;
+  if (value == "SA0INT") {
+    number = nextOffset_;
+    nextOffset_ += 4;
+  } else if (value == "SA0REAL") {
+    number = nextOffset_;
+    nextOffset_ += 8;
+  } else if (value == "PLCCOMMAND") {
+    number = nextCommand();
+  } else if (const auto given = integerOf(value)) {
+    number = *given;
+  } else {
+    return "the constant '" + std::string(id) + "' is no number, SA0INT, SA0REAL or PLCCOMMAND: '" +
+           std::string(value) + "'";
+  }
+  constants_.insert_or_assign(std::string(id), number);
+  commands_.insert(number);
+  return {};
+}
+
+int64_t Configuration::nextCommand() {
+  while (commands_.contains(nextCommand_)) ++nextCommand_;
+  return nextCommand_;
+}
+
+std::optional<int64_t> Configuration::constant(std::string_view id) const {
+  const auto found = constants_.find(id);
+  return found == constants_.end() ? std::nullopt : std::optional(found->second);
+}
+
+// What is no value of the wanted kind counts as not found.
+void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const {
+  const Identifier id = identifierOf(request);
+  reply.ticket = request.ticket;
+  reply.state = RUNG_SERVICE_DONE;
+  reply.resultCount = RUNG_MAX_SERVICE_ARGS;
+  int64_t& value = reply.results[kConfigurationHead];
+  const auto answer = [&](bool found) { reply.results[0] = found ? 1 : 0; };
+  const auto kind = static_cast<ConfigurationKind>(request.args[0]);
+  if (kind == ConfigurationKind::Constant) {
+    const auto number = constant(id.view());
+    value = number.value_or(0);
+    return answer(number.has_value());
+  }
+  const auto parameter = parameters_.find(id.view());
+  if (parameter == parameters_.end()) return answer(false);
+  const std::string& text = parameter->second;
+  switch (kind) {
+  case ConfigurationKind::Integer:
+  case ConfigurationKind::Bit: {
+    const auto number = integerOf(text);
+    value = number.value_or(0);
+    if (kind == ConfigurationKind::Bit) value = value != 0 ? 1 : 0;
+    return answer(number.has_value());
+  }
+  case ConfigurationKind::Real: {
+    const auto number = realOf(text);
+    value = std::bit_cast<int64_t>(number.value_or(0));
+    return answer(number.has_value());
+  }
+  case ConfigurationKind::Text:
+  case ConfigurationKind::Binary:
+    putText(Bytes(text, kind == ConfigurationKind::Binary), static_cast<uint64_t>(request.args[1]), reply);
+    return answer(true);
+  case ConfigurationKind::Constant: return;
+  }
+}
+
+} // namespace rung::nc::technol

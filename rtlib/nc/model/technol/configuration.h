@@ -1,0 +1,33 @@
+// The configuration of the machine and the constants of the PLC that a program reads by their identifiers (man. ch.
+// 16).
+#pragma once
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "rtlib/core/queues.h"
+
+namespace rung::nc::technol {
+
+class Configuration {
+public:
+  // `config KEY VALUE`: a parameter, or with `const.` in front of its identifier a constant. "" or what is wrong.
+  std::string set(std::string_view key, std::string_view value);
+  // Answers kConfigurationService. Allocates nothing.
+  void respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const;
+  std::optional<int64_t> constant(std::string_view id) const;
+
+private:
+  std::string setConstant(std::string_view id, std::string_view value);
+  int64_t nextCommand();
+
+  std::map<std::string, std::string, std::less<>> parameters_;
+  std::map<std::string, int64_t, std::less<>> constants_;
+  std::set<int64_t> commands_; // numbers that constants have
+  int64_t nextOffset_ = 0;     // in shared area 0
+  int64_t nextCommand_ = 1;
+};
+
+} // namespace rung::nc::technol

@@ -224,12 +224,12 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   const bool real = (kind.prefixes & ~kCnst) == kReal && address.end - address.byte >= 8;
   if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
+    if (address.isText) return wrongKind(out, "a text", "a cell");
     program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
     return false;
   }
   if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of 8 or 16 bits");
   const uint8_t natural = naturalPrefix(out.type);
-    if (address.isText) return wrongKind(out, "a text", "a cell");
   if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) {
     program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
         << std::string(prefixOf(natural).name) + "." << statement_->row->info.mnemonic;

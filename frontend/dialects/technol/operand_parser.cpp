@@ -201,8 +201,10 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   out.form = Operand::Form::Integer;
   out.prefixed = prefix != 0 && prefix != kCnst;
   out.type = prefix == 0 ? ir::Type::I32 : prefixOf(prefix).type;
-  out.value = out.negated ? -address.byte : address.byte;
-  out.negated = false;
+  // A sign in front of digits is theirs; in front of a type or a name the loaded value is negated (man. l.703).
+  const bool digits = out.negated && out.tokens[1].kind == TokenKind::Number;
+  out.value = digits ? -address.byte : address.byte;
+  out.negated = out.negated && !digits;
   const uint32_t width = ir::bitWidth(out.type);
   const bool ranged = info.min <= info.max;
   const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));

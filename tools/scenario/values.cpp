@@ -74,7 +74,9 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
   if (place.kind == RefKind::Constant) return "a constant cannot be set";
   if (place.kind == RefKind::Text) {
     if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
-    instance.writeText(place, oneByteTexts(instance) ? nc::memoryText(value.text) : value.text);
+    // The last byte of a TECHNOL text is its terminator.
+    const bool oneByte = oneByteTexts(instance);
+    instance.writeText(place, oneByte ? nc::memoryText(value.text).substr(0, place.count - 1u) : value.text);
     return {};
   }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";

@@ -82,7 +82,6 @@ public:
   // A constant or a cell; `guard` as for reach.
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
-  // State of this statement alone, e.g. the former value of an edge.
   uint32_t bytesOf(ir::SpaceId space) const { return spaceBytes_[space.index]; }
   // Stops the program where `bad` is 1: an access outside the memory.
   void protect(ir::ValueId bad);
@@ -91,6 +90,7 @@ public:
   // CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
   void clearAll(bool global);
 
+  // State of this statement alone, e.g. the former value of an edge.
   ir::SlotId newSlot(ir::Type type, std::string_view what);
   // EDGE: forgotten at every start.
   void forgetAtStart(ir::SlotId slot) { forgotten_.push_back(slot); }

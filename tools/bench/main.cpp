@@ -125,8 +125,9 @@ absolute times depend on the machine. A scan is one run of the main task through
 1 and Level 2 with the input latch, of TECHNOL MODULE_INPUT and MODULE_MAIN. Resident memory is the most that the process ever had, compiler included. Code is what a shared object
 takes when it is loaded, and the object files of the JIT.
 
-Above 1.5 are the interpreter, which is the definition and not meant to be fast, and fast compilation: LLVM's quick instruction selection
-without passes keeps every value of a rung in memory; it is for trying a change at once.
+Above 1.5 are the interpreter, which is the definition and not meant to be fast, fast compilation (LLVM's quick instruction selection
+without passes keeps every value of a rung in memory; it is for trying a change at once), and TECHNOL on every engine: each state of a
+mechanism ends a chunk, and registers are written to memory between them. That is to be mended.
 
 )");
   int status = 0;

@@ -1,6 +1,5 @@
 // rungc build and rungc emit: a shared object, or any text on the way to it.
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 
 #include "codegen/cpp/cpp_emitter.h"
@@ -71,11 +70,7 @@ int writeListing(const SourceManager& sources, const driver::Compiled& compiled,
     fmt::print(stderr, "rungc: programs of {} have no listing\n", compiled.dialect->name);
     return kUsage;
   }
-  const std::string text = compiled.dialect->listing(sources, compiled.files);
-  std::ofstream file(name, std::ios::binary);
-  file << text;
-  file.close();
-  return file ? kOk : environmentError(fmt::format("cannot write '{}'", name));
+  return writeFile(compiled.dialect->listing(sources, compiled.files), name);
 }
 
 int emitText(const driver::Compiled& compiled, const BuildOptions& options) {

@@ -34,6 +34,8 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options);
 // Prints "rungc: MESSAGE" and gives kEnvironment.
 int environmentError(const std::string& message);
+// Gives the exit status.
+int writeFile(const std::string& text, const std::string& out);
 
 void addCheck(CLI::App& app, int& status);
 void addBuild(CLI::App& app, int& status);

@@ -1,6 +1,5 @@
 // rungc convert: a GSK program in its other source form.
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 
 #include "frontend/dialects/gsk/convert/convert.h"
@@ -21,9 +20,7 @@ int write(const std::string& text, const std::string& out) {
     std::cout << text << std::flush;
     return std::cout ? kOk : environmentError("cannot write to standard output");
   }
-  std::ofstream file(out, std::ios::binary);
-  file << text << std::flush;
-  return file ? kOk : environmentError(fmt::format("cannot write '{}'", out));
+  return writeFile(text, out);
 }
 
 std::optional<std::string> convert(SourceManager& sources, std::span<const FileId> files, const ConvertOptions& options,

@@ -1,5 +1,6 @@
 // Options and steps that all compiling commands share.
 #include <fmt/format.h>
+#include <fstream>
 #include <iostream>
 #include <unistd.h>
 
@@ -29,6 +30,12 @@ void addLevelOption(CLI::App& command, std::string& level) {
 int environmentError(const std::string& message) {
   fmt::print(stderr, "rungc: {}\n", message);
   return kEnvironment;
+}
+
+int writeFile(const std::string& text, const std::string& out) {
+  std::ofstream file(out, std::ios::binary);
+  file << text << std::flush;
+  return file ? kOk : environmentError(fmt::format("cannot write '{}'", out));
 }
 
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options) {

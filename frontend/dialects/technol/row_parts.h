@@ -15,6 +15,9 @@ constexpr OperandInfo in(std::string_view name, std::string_view kind, std::stri
 constexpr OperandInfo out(std::string_view name, std::string_view kind, std::string_view doc) {
   return {.name = name, .kind = kind, .access = Access::Write, .doc = doc};
 }
+constexpr OperandInfo inout(std::string_view name, std::string_view kind, std::string_view doc) {
+  return {.name = name, .kind = kind, .access = Access::ReadWrite, .doc = doc};
+}
 constexpr OperandInfo optional(OperandInfo operand) {
   operand.optional = true;
   return operand;
@@ -26,6 +29,8 @@ constexpr OperandInfo repeated(OperandInfo operand) {
 constexpr OperandInfo lengthOf(std::string_view name, std::string_view doc, bool optional) {
   return {.name = name, .kind = "length", .doc = doc, .min = 0, .max = kMostBytes, .optional = optional};
 }
+// Where instructions of EX kind stand (man. l.2166-2171).
+inline constexpr std::string_view kSequentialUnits = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE";
 // Which part of DR the instruction works on.
 constexpr OperandInfo widthOf(std::string_view kind) {
   return optional(in("width", kind, "the part of DR; without it 16 bits"));

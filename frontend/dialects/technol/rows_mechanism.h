@@ -1,16 +1,20 @@
 // Rows: mechanisms and their states (man. ch. 4). Included by instructions.cpp only.
 #pragma once
-#include "frontend/dialects/technol/instructions.h"
 #include "frontend/dialects/technol/lower.h"
+#include "frontend/dialects/technol/row_parts.h"
 
 namespace rung::frontend::technol {
+
+inline constexpr decltype(InstructionInfo::operands) kTimedOperands = {
+    inout("count", "timer cell", "counts the cycles"), in("time", "time", "cycles of the PLC"),
+    in("error", "label", "where a time-out leads"), optional(in("code", "constant", "DR at the time-out"))};
 
 inline constexpr Row kMechanismRows[] = {
     // ---- mechanisms (man. ch. 4) ----------------------------------------------------------------------------------
     {.info = {.mnemonic = "MECH_BEGIN",
               .title = "mechanism",
               .group = "mechanism",
-              .operands = {OperandInfo{.name = "mech", .kind = "declaration", .doc = "a new name"}},
+              .operands = {in("mech", "declaration", "a new name")},
               .stateful = true,
               .ref = "4.2, l.2037",
               .doc = "Begins a mechanism: code that is carried out a little further in each cycle while its bit is 1. "
@@ -20,7 +24,7 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "MECH_END",
               .title = "end of a mechanism",
               .group = "mechanism",
-              .operands = {OperandInfo{.name = "mech", .kind = "declaration", .doc = "the name of its MECH_BEGIN"}},
+              .operands = {in("mech", "declaration", "the name of its MECH_BEGIN")},
               .ref = "4.2, l.2038",
               .doc = "Ends a mechanism: its bit becomes 0, and it starts at its beginning the next time.",
               .example = "MECH_BEGIN CLAMP\nFL   1,PUMP\nEX\nLDR  READY\nEX0\nFL   0,PUMP\nMECH_END CLAMP"},
@@ -28,7 +32,7 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "MECH_INIT",
               .title = "initialise a mechanism",
               .group = "mechanism",
-              .operands = {OperandInfo{.name = "mech", .kind = "mechanism", .doc = "is stopped"}},
+              .operands = {in("mech", "mechanism", "is stopped")},
               .ref = "4.2, l.2039",
               .doc = "The mechanism is stopped and starts at its beginning the next time.",
               .example = "MECH_INIT CLAMP"},
@@ -38,7 +42,7 @@ inline constexpr Row kMechanismRows[] = {
               .group = "mechanism state",
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2055",
               .doc = "Stops the unit for this cycle; it goes on behind EX in the next.",
               .example = "FL   1,PUMP\nEX\nFL   0,PUMP"},
@@ -49,7 +53,7 @@ inline constexpr Row kMechanismRows[] = {
               .group = "mechanism state",
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2056",
               .doc =
                   "While RLO is 0 the unit is left; in the next cycle it goes on behind the last state that it passed.",
@@ -62,7 +66,7 @@ inline constexpr Row kMechanismRows[] = {
               .group = "mechanism state",
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2057",
               .doc =
                   "While RLO is 1 the unit is left; in the next cycle it goes on behind the last state that it passed.",
@@ -75,7 +79,7 @@ inline constexpr Row kMechanismRows[] = {
               .group = "mechanism state",
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2058",
               .doc = "Does not wait; a state further on that waits returns here.",
               .example = "BEX\nMOVR LAMP,DOOR\nLDR  READY\nEX0"},
@@ -84,15 +88,10 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "TEX0",
               .title = "wait while 0, with time-out",
               .group = "mechanism state",
-              .operands =
-                  {OperandInfo{
-                       .name = "count", .kind = "timer cell", .access = Access::ReadWrite, .doc = "counts the cycles"},
-                   OperandInfo{.name = "time", .kind = "time", .doc = "cycles of the PLC"},
-                   OperandInfo{.name = "error", .kind = "label", .doc = "where a time-out leads"},
-                   OperandInfo{.name = "code", .kind = "constant", .doc = "DR at the time-out", .optional = true}},
+              .operands = kTimedOperands,
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2092",
               .doc = "As EX0, but at most for the time; then control goes to the label with the code in DR.",
               .example = "LDR  CHAIN_STOPPED\nTEX0 -,250,ERROR,4"},
@@ -102,15 +101,10 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "TEX1",
               .title = "wait while 1, with time-out",
               .group = "mechanism state",
-              .operands =
-                  {OperandInfo{
-                       .name = "count", .kind = "timer cell", .access = Access::ReadWrite, .doc = "counts the cycles"},
-                   OperandInfo{.name = "time", .kind = "time", .doc = "cycles of the PLC"},
-                   OperandInfo{.name = "error", .kind = "label", .doc = "where a time-out leads"},
-                   OperandInfo{.name = "code", .kind = "constant", .doc = "DR at the time-out", .optional = true}},
+              .operands = kTimedOperands,
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2093",
               .doc = "As EX1, but at most for the time; then control goes to the label with the code in DR.",
               .example = "LDR  DOOR\nTEX1 -,250,ERROR,5"},
@@ -120,14 +114,10 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "TIM",
               .title = "wait",
               .group = "mechanism state",
-              .operands = {OperandInfo{.name = "count",
-                                       .kind = "timer cell",
-                                       .access = Access::ReadWrite,
-                                       .doc = "counts the cycles"},
-                           OperandInfo{.name = "time", .kind = "time", .doc = "cycles of the PLC"}},
+              .operands = {inout("count", "timer cell", "counts the cycles"), in("time", "time", "cycles of the PLC")},
               .terminating = true,
               .stateful = true,
-              .tasks = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE",
+              .tasks = kSequentialUnits,
               .ref = "4.2, l.2136",
               .doc = "Waits for the time.",
               .example = "TIM  -,50"},

@@ -1,26 +1,24 @@
 // Rows: messages (man. ch. 14). Included by instructions.cpp only.
 #pragma once
-#include "frontend/dialects/technol/instructions.h"
 #include "frontend/dialects/technol/lower.h"
+#include "frontend/dialects/technol/row_parts.h"
 
 namespace rung::frontend::technol {
+
+inline constexpr decltype(InstructionInfo::operands) kMessageOperands = {
+    optional(in("error", "message value", "number; in DR without it")),
+    optional(in("subid", "message value", "additional number")),
+    optional(in("set", "message value", "of a persistent message: 1 shows, 0 removes")),
+    optional(in("par1", "message value", "value in the text")),
+    optional(in("par2", "message value", "value in the text")),
+    optional(in("par3", "message value", "value in the text"))};
 
 inline constexpr Row kMessageRows[] = {
     // ---- messages (man. ch. 14) and the ends of start and shutdown (man. ch. 5) -----------------------------------
     {.info = {.mnemonic = "ESET",
               .title = "message",
               .group = "message",
-              .operands =
-                  {OperandInfo{
-                       .name = "error", .kind = "message value", .doc = "number; in DR without it", .optional = true},
-                   OperandInfo{.name = "subid", .kind = "message value", .doc = "additional number", .optional = true},
-                   OperandInfo{.name = "set",
-                               .kind = "message value",
-                               .doc = "of a persistent message: 1 shows, 0 removes",
-                               .optional = true},
-                   OperandInfo{.name = "par1", .kind = "message value", .doc = "value in the text", .optional = true},
-                   OperandInfo{.name = "par2", .kind = "message value", .doc = "value in the text", .optional = true},
-                   OperandInfo{.name = "par3", .kind = "message value", .doc = "value in the text", .optional = true}},
+              .operands = kMessageOperands,
               .ref = "14.3.1, l.5090",
               .doc = "Generates a message each time it is carried out.",
               .example = "ESET 12,-,-,BYTE.SPEED"},
@@ -30,17 +28,7 @@ inline constexpr Row kMessageRows[] = {
     {.info = {.mnemonic = "ESET1",
               .title = "message if 1",
               .group = "message",
-              .operands =
-                  {OperandInfo{
-                       .name = "error", .kind = "message value", .doc = "number; in DR without it", .optional = true},
-                   OperandInfo{.name = "subid", .kind = "message value", .doc = "additional number", .optional = true},
-                   OperandInfo{.name = "set",
-                               .kind = "message value",
-                               .doc = "of a persistent message: 1 shows, 0 removes",
-                               .optional = true},
-                   OperandInfo{.name = "par1", .kind = "message value", .doc = "value in the text", .optional = true},
-                   OperandInfo{.name = "par2", .kind = "message value", .doc = "value in the text", .optional = true},
-                   OperandInfo{.name = "par3", .kind = "message value", .doc = "value in the text", .optional = true}},
+              .operands = kMessageOperands,
               .terminating = true,
               .ref = "14.3.1, l.5091",
               .doc = "As ESET, but only while RLO is 1.",

@@ -1,11 +1,16 @@
 // Rows: inputs and outputs, sharing, configuration, constants (man. ch. 10, 16, 18, 27). Included by instructions.cpp
 // only.
 #pragma once
-#include "frontend/dialects/technol/instructions.h"
 #include "frontend/dialects/technol/lower.h"
+#include "frontend/dialects/technol/row_parts.h"
 #include "rtlib/nc/technol/configuration.h"
 
 namespace rung::frontend::technol {
+
+inline constexpr OperandInfo kIdentifier = in("ID", "text or literal", "identifier");
+constexpr OperandInfo defaultOf(std::string_view kind) {
+  return optional(in("default", kind, "value where it is not found"));
+}
 
 inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "MAP_IN",
@@ -73,13 +78,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "CNF_GET_INT",
               .title = "integer of the configuration",
               .group = "configuration",
-              .operands = {OperandInfo{
-                               .name = "val", .kind = "integer cell", .access = Access::Write, .doc = "is read"},
-                           OperandInfo{.name = "ID", .kind = "text or literal", .doc = "identifier"},
-                           OperandInfo{.name = "default",
-                                       .kind = "bitwise value",
-                                       .doc = "value where it is not found",
-                                       .optional = true}},
+              .operands = {out("val", "integer cell", "is read"), kIdentifier, defaultOf("bitwise value")},
               .ref = "16.1, l.16111",
               .doc = "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and "
                      "the default is stored, if there is one.",
@@ -90,12 +89,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "CNF_GET_REAL",
               .title = "real of the configuration",
               .group = "configuration",
-              .operands = {OperandInfo{.name = "val", .kind = "real cell", .access = Access::Write, .doc = "is read"},
-                           OperandInfo{.name = "ID", .kind = "text or literal", .doc = "identifier"},
-                           OperandInfo{.name = "default",
-                                       .kind = "real value",
-                                       .doc = "value where it is not found",
-                                       .optional = true}},
+              .operands = {out("val", "real cell", "is read"), kIdentifier, defaultOf("real value")},
               .ref = "16.1, l.16112",
               .doc = "Reads a real parameter of the configuration. RLO becomes 1 where it is found; else 0, and the "
                      "default is stored, if there is one.",
@@ -106,12 +100,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "CNF_GET_STR",
               .title = "text of the configuration",
               .group = "configuration",
-              .operands = {OperandInfo{.name = "poin", .kind = "text", .access = Access::Write, .doc = "is read"},
-                           OperandInfo{.name = "ID", .kind = "text or literal", .doc = "identifier"},
-                           OperandInfo{.name = "default",
-                                       .kind = "text or literal",
-                                       .doc = "value where it is not found",
-                                       .optional = true}},
+              .operands = {out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")},
               .ref = "16.1, l.16113",
               .doc = "Reads a text of the configuration, as far as there is room. RLO becomes 1 where it is found; "
                      "else 0, and the default is stored, if there is one.",
@@ -122,12 +111,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "CNF_GET_BIN",
               .title = "bytes of the configuration",
               .group = "configuration",
-              .operands = {OperandInfo{.name = "poin", .kind = "text", .access = Access::Write, .doc = "is read"},
-                           OperandInfo{.name = "ID", .kind = "text or literal", .doc = "identifier"},
-                           OperandInfo{.name = "default",
-                                       .kind = "text or literal",
-                                       .doc = "value where it is not found",
-                                       .optional = true}},
+              .operands = {out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")},
               .ref = "16.1, l.16114",
               .doc = "Reads bytes of the configuration, without a terminator. RLO becomes 1 where it is found; else 0, "
                      "and the default is stored, if there is one.",
@@ -138,12 +122,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "CNF_GET_BIT",
               .title = "bit of the configuration",
               .group = "configuration",
-              .operands = {OperandInfo{.name = "bit", .kind = "plain bit", .access = Access::Write, .doc = "is read"},
-                           OperandInfo{.name = "ID", .kind = "text or literal", .doc = "identifier"},
-                           OperandInfo{.name = "default",
-                                       .kind = "bit or flag",
-                                       .doc = "value where it is not found",
-                                       .optional = true}},
+              .operands = {out("bit", "plain bit", "is read"), kIdentifier, defaultOf("bit or flag")},
               .ref = "16.1, l.16115",
               .doc = "Reads a bit of the configuration: 1 unless the integer is 0. RLO becomes 1 where it is found; "
                      "else 0, and the default is stored, if there is one.",
@@ -154,9 +133,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "CONST_GET",
               .title = "constant of the PLC",
               .group = "configuration",
-              .operands = {OperandInfo{
-                               .name = "val", .kind = "integer cell", .access = Access::Write, .doc = "is read"},
-                           OperandInfo{.name = "ID", .kind = "text or literal", .doc = "identifier"}},
+              .operands = {out("val", "integer cell", "is read"), kIdentifier},
               .ref = "16.2, l.16355",
               .doc = "Reads a constant of the PLC into the cell and DR. RLO becomes 1 where it is found; else RLO and "
                      "DR become 0 and the cell stays.",

@@ -1,7 +1,7 @@
 // Rows: timed blocks, timers, counters (man. ch. 3.11). Included by instructions.cpp only.
 #pragma once
-#include "frontend/dialects/technol/instructions.h"
 #include "frontend/dialects/technol/lower.h"
+#include "frontend/dialects/technol/row_parts.h"
 
 namespace rung::frontend::technol {
 
@@ -10,7 +10,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "DFTM01",
               .title = "every 0.1 s",
               .group = "timed block",
-              .operands = {OperandInfo{.name = "end", .kind = "label", .doc = "ends the block"}},
+              .operands = {in("end", "label", "ends the block")},
               .stateful = true,
               .ref = "3.11, l.857",
               .doc =
@@ -21,7 +21,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "DFTM1",
               .title = "every 1 s",
               .group = "timed block",
-              .operands = {OperandInfo{.name = "end", .kind = "label", .doc = "ends the block"}},
+              .operands = {in("end", "label", "ends the block")},
               .stateful = true,
               .ref = "3.11, l.858",
               .doc = "The statements up to the label run only once in 1 s; the first time one period after the start.",
@@ -31,7 +31,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "DFTM10",
               .title = "every 10 s",
               .group = "timed block",
-              .operands = {OperandInfo{.name = "end", .kind = "label", .doc = "ends the block"}},
+              .operands = {in("end", "label", "ends the block")},
               .stateful = true,
               .ref = "3.11, l.859",
               .doc = "The statements up to the label run only once in 10 s; the first time one period after the start.",
@@ -41,7 +41,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "DFTM100",
               .title = "every 100 s",
               .group = "timed block",
-              .operands = {OperandInfo{.name = "end", .kind = "label", .doc = "ends the block"}},
+              .operands = {in("end", "label", "ends the block")},
               .stateful = true,
               .ref = "3.11, l.860",
               .doc =
@@ -52,8 +52,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "TM",
               .title = "timer",
               .group = "timer",
-              .operands = {OperandInfo{
-                  .name = "count", .kind = "timer cell", .access = Access::ReadWrite, .doc = "counts the runs"}},
+              .operands = {inout("count", "timer cell", "counts the runs")},
               .stateful = true,
               .ref = "3.11, l.884",
               .doc = "While RLO is 0 the count is 0. While RLO is 1 it counts up to the preset in DR; RLO is 1 when it "
@@ -65,8 +64,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "CU",
               .title = "counter up",
               .group = "counter",
-              .operands = {OperandInfo{
-                  .name = "count", .kind = "counter cell", .access = Access::ReadWrite, .doc = "is counted"}},
+              .operands = {inout("count", "counter cell", "is counted")},
               .stateful = true,
               .ref = "3.11, l.955",
               .doc = "Counts when RLO goes from 0 to 1. Then RLO tells whether the count equals the preset in DR, and "
@@ -78,8 +76,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "CD",
               .title = "counter down",
               .group = "counter",
-              .operands = {OperandInfo{
-                  .name = "count", .kind = "counter cell", .access = Access::ReadWrite, .doc = "is counted"}},
+              .operands = {inout("count", "counter cell", "is counted")},
               .stateful = true,
               .ref = "3.11, l.956",
               .doc = "Counts when RLO goes from 0 to 1. Then RLO tells whether the count equals the preset in DR, and "
@@ -91,8 +88,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "CUBCD",
               .title = "counter up in BCD",
               .group = "counter",
-              .operands = {OperandInfo{
-                  .name = "count", .kind = "counter cell", .access = Access::ReadWrite, .doc = "is counted"}},
+              .operands = {inout("count", "counter cell", "is counted")},
               .stateful = true,
               .ref = "3.11, l.957",
               .doc = "Counts when RLO goes from 0 to 1. Then RLO tells whether the count equals the preset in DR, and "

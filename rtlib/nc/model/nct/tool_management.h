@@ -61,6 +61,8 @@ private:
   void build();
   bool exists(uint32_t cartridge) const;
   int32_t checkPlace(PotPlace place, int32_t firstCode) const;
+  // The tool in the pot that words 2 and 3 name, as an execution code.
+  int32_t findTool(const Block& block, uint32_t& tool) const;
   bool locked() const; // P_TLTAB
 
   int32_t exchange(Block& block);

@@ -79,6 +79,13 @@ int32_t ToolManagement::checkPlace(PotPlace place, int32_t firstCode) const {
   return tables_.cartridges.hasPot(place) ? kExecuted : firstCode + 1;
 }
 
+int32_t ToolManagement::findTool(const Block& block, uint32_t& tool) const {
+  const PotPlace place = placeAt(block, 2);
+  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
+  tool = tables_.cartridges.dataNumber(place);
+  return tool == 0 ? kNoTool : kExecuted;
+}
+
 int32_t ToolManagement::exchange(Block& block) {
   if (block.amount() != 4) return kBadAmount;
   if (locked()) return kWriteProtected;
@@ -147,10 +154,8 @@ int32_t ToolManagement::writeTool(Block& block) {
   const auto columns = columnsOfRecord(int64_t{block.amount()} - 2, limits_.userColumns);
   if (!columns) return kBadAmount;
   if (locked()) return kWriteProtected;
-  const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
-  const uint32_t tool = tables_.cartridges.dataNumber(place);
-  if (tool == 0) return kNoTool;
+  uint32_t tool = 0;
+  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
   if (tables_.tools.row(tool).info(kInfoDisabled)) return kWriteProtected;
   if (const int32_t code = checkRecord(block, *columns); code != kExecuted) return code;
   writeRecord(block, *columns, tool);
@@ -160,10 +165,8 @@ int32_t ToolManagement::writeTool(Block& block) {
 int32_t ToolManagement::readTool(Block& block) {
   const auto columns = columnsOfRecord(int64_t{block.amount()} - 2, limits_.userColumns);
   if (!columns) return kBadAmount;
-  const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
-  const uint32_t tool = tables_.cartridges.dataNumber(place);
-  if (tool == 0) return kNoTool;
+  uint32_t tool = 0;
+  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
   uint32_t word = kFirstColumnWord;
   for (ToolColumn column = kToolType; column <= *columns; word += columnWords(column), ++column)
     putDatum(block, word, column, tables_.tools.row(tool).datum(column));
@@ -173,10 +176,8 @@ int32_t ToolManagement::readTool(Block& block) {
 int32_t ToolManagement::deleteTool(Block& block) {
   if (block.amount() != 2) return kBadAmount;
   if (locked()) return kWriteProtected;
-  const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
-  const uint32_t tool = tables_.cartridges.dataNumber(place);
-  if (tool == 0) return kNoTool;
+  uint32_t tool = 0;
+  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
   if (tables_.tools.row(tool).info(kInfoDisabled)) return kWriteProtected;
   tables_.remove(tool);
   modified_ = true;
@@ -190,10 +191,8 @@ int32_t ToolManagement::writeDatum(Block& block) {
   const bool known = isColumn(number, limits_.userColumns);
   if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return kBadAmount;
   if (locked()) return kWriteProtected;
-  const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
-  const uint32_t tool = tables_.cartridges.dataNumber(place);
-  if (tool == 0) return kNoTool;
+  uint32_t tool = 0;
+  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
   if (!known) return kWrongNumber;
   ToolRow& row = tables_.tools.row(tool);
   if (row.info(kInfoDisabled) && column != kToolInfo) return kWriteProtected; // the info takes the lock away again
@@ -213,10 +212,8 @@ int32_t ToolManagement::readDatum(Block& block) {
   const auto column = static_cast<ToolColumn>(number);
   const bool known = isColumn(number, limits_.userColumns);
   if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return kBadAmount; // l.5217
-  const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
-  const uint32_t tool = tables_.cartridges.dataNumber(place);
-  if (tool == 0) return kNoTool;
+  uint32_t tool = 0;
+  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
   if (!known) return kWrongNumber;
   putDatum(block, 5, column, tables_.tools.row(tool).datum(column));
   return kExecuted;

@@ -1,0 +1,92 @@
+// Reads the XML files that configure the control and its PLC: the messages (Plc0.PlcErrors, man. l.5241-5330), the
+// constants (*.PlcConstants, man. l.16267-16305) and the channel's configuration with its elements Plc and Connections
+// (ChannelConfig, man. l.5575-5757, l.13255-13291, l.16073-16108).
+//
+// Elements and attributes that the manual does not name are mistakes inside the elements read here; around these, in
+// the channel's configuration, everything else belongs to other parts of the control and is passed over. Texts are
+// UTF-8. Nothing of this runs while a PLC program does.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rung::nc::technol {
+
+// Where something stands, for messages about it: "FILE:LINE:COLUMN".
+using FilePlace = std::string;
+
+enum class MessageKind : uint8_t { ErrCritical, Err, Wrn1, Wrn2, Wrn3, Info, Event };
+enum class Validity : uint8_t { Transient, Persistent };
+
+// <PlcError No="4" Type="Err" Validity="Transient"><Text>... %d</Text></PlcError>
+struct MessageDefinition {
+  uint32_t number = 0; // 0 to 65535
+  MessageKind kind = MessageKind::Err;
+  Validity validity = Validity::Transient;
+  std::string text; // in one line; %d, %x or %X stand for the values of the message, three at most
+  FilePlace place;
+};
+
+// <PlcParam ID="TIM_WATER" Type="Int">4</PlcParam>
+enum class ParameterType : uint8_t { Int, Real, String, Binary };
+struct ParameterDefinition {
+  std::string id;
+  ParameterType type = ParameterType::Int;
+  std::string value;
+  FilePlace place;
+};
+
+// <Constant ID="PUMP_START" Value="12"></Constant>
+struct ConstantDefinition {
+  std::string id;
+  std::string value; // a number, SA0INT, SA0REAL or PLCCOMMAND
+  FilePlace place;
+};
+
+// <Connection Source="PLC.Output.A" Destination="PLC.Input.B" Invert="0" Scale="1.0" Offset="0.0" Connected="1">
+struct ConnectionDefinition {
+  std::string source, destination;
+  bool invert = false;
+  double scale = 1;
+  double offset = 0;
+  bool connected = false;
+  FilePlace place;
+};
+
+// <Input ID="inLimX" Port="1" Bit="2" Invert="0" Default="0" Connected="1">, Output, AnalogInput, AnalogOutput: of
+// MAP_IN, MAP_OUT, MAP_AIN, MAP_AOUT.
+enum class TerminalKind : uint8_t { Input, Output, AnalogInput, AnalogOutput };
+struct TerminalDefinition {
+  TerminalKind kind = TerminalKind::Input;
+  std::string id;
+  uint32_t port = 0; // 0 to 128
+  uint32_t bit = 0;  // 0 to 7
+  bool invert = false;
+  uint32_t physical = 0; // PhysNo, 0 to 99
+  double scale = 1;
+  double offset = 0;
+  std::optional<double> least, most; // MinVal, MaxVal
+  double otherwise = 0;              // Default; 0 or 1 of a bit
+  bool connected = false;
+  FilePlace place;
+};
+
+struct ControlFiles {
+  std::vector<MessageDefinition> messages;
+  std::vector<ParameterDefinition> parameters;
+  std::vector<ConstantDefinition> constants;
+  std::vector<ConnectionDefinition> connections;
+  std::vector<TerminalDefinition> terminals;
+};
+
+enum class ControlFileKind : uint8_t { Messages, Constants, Channel };
+
+// Adds what the file says to `files`. "" or what is wrong with it, a line "FILE:LINE:COLUMN: ..." each; `files` is then
+// as before.
+std::string readControlFile(ControlFileKind kind, const std::string& path, ControlFiles& files);
+// The same of a text; `name` is the file's in messages.
+std::string parseControlFile(ControlFileKind kind, std::string_view name, std::string_view text, ControlFiles& files);
+
+} // namespace rung::nc::technol

@@ -11,7 +11,7 @@ namespace rung::frontend::technol {
 // @DR, @RLO: registers at the start of INIT, DONE and of event procedures. @BLOCK_x.CONT: state of a block module, 0 at
 // its beginning; @BLOCK_x.DONE: it has run through (the host clears it). @INIT.OWED, @DONE.OWED: a bit for each file
 // that has still to execute MODULE_INIT_FINISHED or MODULE_DONE_FINISHED. @ESET.PAR2, @ESET.PAR3: parameters of the
-// last message.
+// last message. @LICENCES: a bit for each licence of the hardware key (rtlib/nc/technol/licences.h).
 enum class HostCell : uint8_t {
   Dr,
   Rlo,
@@ -23,6 +23,7 @@ enum class HostCell : uint8_t {
   DoneOwed,
   MessagePar2,
   MessagePar3,
+  Licences,
 };
 struct HostCellInfo {
   std::string_view name;
@@ -31,6 +32,6 @@ struct HostCellInfo {
 };
 const HostCellInfo& hostCell(HostCell cell);
 inline constexpr uint32_t kRegisterBytes = 64;
-inline constexpr int kHostCells = 10;
+inline constexpr int kHostCells = 11;
 
 } // namespace rung::frontend::technol

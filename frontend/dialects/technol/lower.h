@@ -18,6 +18,7 @@ enum Count { kCountUp, kCountDown, kCountUpBcd };
 
 // lower_bits.cpp
 void lowerLoadBit(Lowering& l, std::span<const Operand> o, int);
+void lowerLicence(Lowering& l, std::span<const Operand> o, int);
 void lowerJoin(Lowering& l, std::span<const Operand> o, int join);
 void lowerComplement(Lowering& l, std::span<const Operand> o, int);
 void lowerEdge(Lowering& l, std::span<const Operand> o, int rising);

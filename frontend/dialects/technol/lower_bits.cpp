@@ -40,6 +40,13 @@ std::vector<Access> reachAll(Lowering& l, std::span<const Operand> bits, ValueId
 
 void lowerLoadBit(Lowering& l, std::span<const Operand> o, int) { l.r().setRlo(l.bit(o[0])); }
 
+void lowerLicence(Lowering& l, std::span<const Operand> o, int) {
+  ir::Place place = l.place(HostCell::Licences);
+  place.byte += static_cast<uint32_t>(o[0].value) / 8;
+  place.bit = static_cast<uint8_t>(o[0].value % 8);
+  l.r().setRlo(l.b().load(Type::Bit, place));
+}
+
 void lowerJoin(Lowering& l, std::span<const Operand> o, int kind) {
   const ValueId rlo = l.r().rlo();
   l.r().setRlo(o[0].given() ? join(l, kind, rlo, l.bit(o[0])) : join(l, kind, l.popped(), rlo));

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "frontend/dialects/technol/operand.h"
+#include "rtlib/nc/technol/licences.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -229,6 +230,13 @@ constexpr OperandKind kKinds[] = {
      .name = SymbolKind::Procedure},
     {.info = {.kind = "register", .doc = "BX or CX.", .good = "BX", .bad = "AX", .badCode = "unsupported-assembler"},
      .parse = C::Keyword},
+    {.info = {.kind = "licence",
+              .doc = "HwKeyConnected, or FeaturePlc0 to FeaturePlc9.",
+              .good = "FeaturePlc1",
+              .bad = "CELL1",
+              .badCode = "wrong-operand-kind"},
+     .parse = C::Keyword,
+     .keywords = nc::kLicences},
     {.info = {.kind = "declaration", .doc = "Part of a declaration: a name, a number, a text; see the instruction."},
      .parse = C::Keyword},
 };

@@ -141,6 +141,16 @@ inline constexpr Row kBitRows[] = {
      .effects = kReadsRlo,
      .lower = lowerMoveBit,
      .variant = kIfRlo},
+    {.info = {.mnemonic = "LDR_LIC",
+              .title = "load a licence",
+              .group = "bit logic",
+              .operands = {in("feature", "licence", "what is asked for")},
+              .ref = "8.4.7, l.7631",
+              .doc = "RLO becomes 1 while the licence is valid, or the hardware key connected. Where an equation is open "
+                     "already, RLO is stored on the stack first.",
+              .example = "LDR_LIC FeaturePlc1\nWR   LAMP"},
+     .effects = kPushes | kSetsRlo,
+     .lower = lowerLicence},
     // ---- jumps (man. ch. 3.8) -------------------------------------------------------------------------------------
     {.info = {.mnemonic = "JUM",
               .title = "jump",
@@ -174,13 +184,6 @@ inline constexpr Row kBitRows[] = {
      .effects = kJumps | kReadsRlo,
      .lower = lowerJump,
      .variant = kIfRlo},
-    // ---- not built ------------------------------------------------------------------------------------------------
-    {.info = {.mnemonic = "LDR_LIC",
-              .title = "a licence becomes RLO",
-              .group = "bit logic",
-              .ref = "8.4.7, l.7631",
-              .doc = "A licence becomes RLO."},
-     .role = Role::NotBuilt},
 };
 
 } // namespace rung::frontend::technol

@@ -8,6 +8,7 @@
 #include "rtlib/nc/model/technol/events.h"
 #include "rtlib/nc/model/technol/program_life.h"
 #include "rtlib/nc/technol/configuration.h"
+#include "rtlib/nc/technol/licences.h"
 
 namespace rung::nc {
 namespace {
@@ -20,6 +21,7 @@ public:
   void powerOn(host::Instance& instance, PowerOn kind) override {
     NcModel::powerOn(instance, kind);
     blocks_.reset(instance);
+    technol::writeCell(instance, kLicenceCell, configuration_.licences());
     life_.powerOn(instance);
     takeMessages(instance);
   }

@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "rtlib/nc/model/technol/cells.h"
 #include "rtlib/nc/technol/configuration.h"
+#include "rtlib/nc/technol/licences.h"
 
 namespace rung::nc::technol {
 namespace {
@@ -119,8 +121,9 @@ Identifier identifierOf(const rt::ServiceRequest& request) {
 } // namespace
 
 std::string Configuration::set(std::string_view key, std::string_view value) {
-  constexpr std::string_view kConstant = "const.";
+  constexpr std::string_view kConstant = "const.", kLicence = "licence.";
   if (key.starts_with(kConstant)) return setConstant(key.substr(kConstant.size()), value);
+  if (key.starts_with(kLicence)) return setLicence(key.substr(kLicence.size()), value);
   parameters_.insert_or_assign(std::string(key), std::string(value));
   return {};
 }
@@ -145,6 +148,20 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
   constants_.insert_or_assign(std::string(id), number);
   commands_.insert(number);
   return {};
+}
+
+std::string Configuration::setLicence(std::string_view name, std::string_view value) {
+  if (value != "0" && value != "1") return "licence '" + std::string(name) + "' is 0 or 1, not '" + std::string(value) + "'";
+  std::string_view rest = kLicences;
+  for (uint32_t bit = 1; !rest.empty(); bit <<= 1) {
+    const size_t end = std::min(rest.find(' '), rest.size());
+    if (equalIgnoringCase(name, rest.substr(0, end))) {
+      licences_ = value == "1" ? licences_ | bit : licences_ & ~bit;
+      return {};
+    }
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return "there is no licence '" + std::string(name) + "'; known are " + std::string(kLicences);
 }
 
 int64_t Configuration::nextCommand() {

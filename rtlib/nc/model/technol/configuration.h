@@ -13,19 +13,24 @@ namespace rung::nc::technol {
 
 class Configuration {
 public:
-  // `config KEY VALUE`: a parameter, or with `const.` in front of its identifier a constant. "" or what is wrong.
+  // `config KEY VALUE`: a parameter, with `const.` in front of its identifier a constant, with `licence.` in front of its
+  // name a licence. "" or what is wrong.
   std::string set(std::string_view key, std::string_view value);
   // Answers kConfigurationService. Allocates nothing.
   void respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const;
   std::optional<int64_t> constant(std::string_view id) const;
+  // A bit for each of kLicences.
+  uint32_t licences() const { return licences_; }
 
 private:
   std::string setConstant(std::string_view id, std::string_view value);
+  std::string setLicence(std::string_view name, std::string_view value);
   int64_t nextCommand();
 
   std::map<std::string, std::string, std::less<>> parameters_;
   std::map<std::string, int64_t, std::less<>> constants_;
   std::set<int64_t> commands_; // numbers that constants have
+  uint32_t licences_ = 0;
   int64_t nextOffset_ = 0;     // in shared area 0
   int64_t nextCommand_ = 1;
 };

@@ -12,6 +12,14 @@ namespace {
 // While the condition fails the unit is left without moving its continuation; the line shows where it stands.
 ValueId waits(Lowering& l, int level) { return level == 0 ? l.b().not_(l.r().rlo()) : l.r().rlo(); }
 
+// The time in the width of the count: the wait ends at the latest when the count can go no further.
+ValueId timeFor(Lowering& l, const CountCell& cell, const Operand& operand) {
+  const ValueId time = l.b().zextOrTrunc(Type::I32, l.value(operand));
+  if (cell.type != Type::I8 || operand.isConstant()) return time;
+  const ValueId most = l.b().i32(UINT8_MAX);
+  return l.b().select(l.b().ltU(most, time), most, time);
+}
+
 void showLineIf(Lowering& l, const Sequence& sequence, ValueId cond) {
   l.b().if_(cond);
   l.storeLine(sequence, l.statement().line);
@@ -66,7 +74,7 @@ void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
   const uint32_t errorState = l.stateOf(*s, error);
   const ValueId wait = waits(l, level);
   const ValueId count = b.add(l.loadCount(cell), b.constant(cell.type, 1));
-  const ValueId time = b.zextOrTrunc(Type::I32, l.value(o[1]));
+  const ValueId time = timeFor(l, cell, o[1]);
   const ValueId late = b.and_(wait, b.leU(time, b.zextOrTrunc(Type::I32, count)));
   const ValueId stays = b.and_(wait, b.not_(late));
   l.storeCount(cell, b.select(stays, count, b.constant(cell.type, 0)));
@@ -94,7 +102,7 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   CountCell cell = arriving;
   if (o[0].given()) cell.access = l.reach(o[0]); // the index belongs to this rung
   const ValueId count = b.add(l.loadCount(cell), b.constant(cell.type, 1));
-  const ValueId time = b.zextOrTrunc(Type::I32, l.value(o[1]));
+  const ValueId time = timeFor(l, cell, o[1]);
   const ValueId runs = b.ltU(b.zextOrTrunc(Type::I32, count), time);
   l.storeCount(cell, b.select(runs, count, b.constant(cell.type, 0)));
   l.storeCont(*s, b.select(runs, b.i32(waiting), b.i32(next)));

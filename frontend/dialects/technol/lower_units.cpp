@@ -40,21 +40,6 @@ uint32_t Lowering::jumpTarget(const Operand& operand) {
   return codeLabels_[operand.index];
 }
 
-// ---- timed blocks
-// -----------------------------------------------------------------------------------------------------
-
-void Lowering::beginTimed() {
-  if (!parser_.parse(*statement_, operands_)) return;
-  const Unit& unit = program_.units[statement_->unit];
-  if (program_.labels[operands_[0].index].unit != unit.parent) return; // reported while reading
-  const auto kind = static_cast<TimedKind>(statement_->row->variant);
-  out_->cut();
-  out_->statement(sourceOf(*statement_));
-  const ValueId due = b().slotLoad(dueSlot(kind));
-  if (codeLabels_[operands_[0].index] == kNone) codeLabels_[operands_[0].index] = out_->newLabel();
-  out_->jump(codeLabels_[operands_[0].index], b().not_(due));
-}
-
 // ---- sequential units
 // ---------------------------------------------------------------------------------------------------
 
@@ -199,7 +184,15 @@ uint32_t Lowering::procedureNamed(std::string_view name) const {
 
 void Lowering::callProcedure(uint32_t procedure, SourceRange at, ValueId cond) {
   if (procedure_ != kNone) program_.procedures[procedure_].calls.push_back({procedure, at});
+  // The stack of the equation in which the call stands stays as it is.
+  std::vector<ir::SlotId> kept;
+  for (uint32_t level = 0; level < depth_; ++level) {
+    kept.push_back({static_cast<uint32_t>(module_.slots.size())});
+    module_.slots.push_back({.type = Type::Bit, .transient = true, .key = "CALL." + std::to_string(kept[level].index)});
+    b().slotStore(kept[level], r().stack(level));
+  }
   out_->call(procedureRoutines_[procedure], cond);
+  for (uint32_t level = 0; level < kept.size(); ++level) r().setStack(level, b().slotLoad(kept[level]));
 }
 
 // Circles in the graph of calls, found by a walk that needs no deep stack; the call that closes a circle is reported.

@@ -1,7 +1,6 @@
 // The walk over a program's modules (see lowering.h).
 #include "frontend/dialects/technol/lowering.h"
 
-#include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -26,7 +25,6 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@DONE.OWED", Type::I64, 40},
     {"@ESET.PAR2", Type::I64, 48},
     {"@ESET.PAR3", Type::I64, 56},
-    {nc::kLicenceCell, Type::I32, 28},
 };
 
 // What the control presets when MODULE_INIT starts (man. l.6186, l.6316).
@@ -85,14 +83,11 @@ RungSource Lowering::sourceOf(const Statement& statement) const {
           .column = here ? at.column : 1};
 }
 
-bool Lowering::inFastTask() const {
-  return kind_ == ModuleKind::Fast || kind_ == ModuleKind::Fastest || kind_ == ModuleKind::Cyclic;
-}
-
 // ---- modules --------------------------------------------------------------------------------------------------------
 
 void Lowering::run() {
   start_ = newRoutine("@START");
+  findTimed();
   onMessage_ = procedureNamed("_ON_ESET");
   for (int i = 1; i < kModuleKinds; ++i) lowerModule(static_cast<ModuleKind>(i));
   checkRecursion();
@@ -105,7 +100,8 @@ void Lowering::run() {
 
 void Lowering::lowerModule(ModuleKind kind) {
   kind_ = kind;
-  bool present = false;
+  // The end of the shutdown may be owed by a program without MODULE_DONE.
+  bool present = kind == ModuleKind::Done && filesOwing(&SourceFile::finishesDone) != 0;
   for (const ModulePart& part : program_.parts) present = present || part.kind == kind;
   if (!present) return;
   const ir::RoutineId routine = newRoutine(std::string(moduleName(kind)));
@@ -113,6 +109,7 @@ void Lowering::lowerModule(ModuleKind kind) {
   prologue(kind);
   for (const ModulePart& part : program_.parts)
     if (part.kind == kind) lowerPart(part, kind);
+  leaveClock(kind);
   out_->finish();
   modules_.push_back({kind, routine, out_->weight()});
   out_.reset();
@@ -132,47 +129,7 @@ void Lowering::prologue(ModuleKind kind) {
     b().store(place(HostCell::DoneOwed), b().constant(Type::I64, filesOwing(&SourceFile::finishesDone)));
     out_->cut();
   }
-  if (kind == ModuleKind::Input || kind == ModuleKind::Fast) advanceClock(kind);
-}
-
-// Counters of the timed blocks: all blocks of one kind run in the same cycle, first one period after the start (man.
-// l.857).
-void Lowering::advanceClock(ModuleKind kind) {
-  constexpr int64_t kPeriodsUs[] = {100'000, 1'000'000, 10'000'000, 100'000'000};
-  bool used[4] = {};
-  const bool fast = kind == ModuleKind::Fast;
-  for (const Unit& unit : program_.units) {
-    if (unit.kind != UnitKind::Timed) continue;
-    const Row* row = findRow(unit.name);
-    if (row) used[row->variant] = true;
-  }
-  for (int i = 0; i < 4; ++i) {
-    if (!used[i]) continue;
-    const int64_t cycleUs = fast ? 1000 : periodUs_;
-    const int64_t cycles = std::max<int64_t>(1, (kPeriodsUs[i] + cycleUs / 2) / cycleUs);
-    const auto timed = static_cast<TimedKind>(i);
-    const auto index = static_cast<uint32_t>(module_.slots.size());
-    module_.slots.push_back(
-        {.type = Type::I32, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(i)});
-    const ir::SlotId counter{index};
-    ir::RungBuilder& b = out_->b();
-    const ValueId next = b.add(b.slotLoad(counter), b.i32(1));
-    const ValueId due = b.leU(b.i32(cycles), next);
-    b.slotStore(counter, b.select(due, b.i32(0), next));
-    b.slotStore(dueSlot(timed), due);
-  }
-  out_->cut();
-}
-
-ir::SlotId Lowering::dueSlot(TimedKind kind) {
-  const bool fast = inFastTask();
-  const auto [entry, isNew] =
-      due_.emplace(std::pair(fast, kind), ir::SlotId{static_cast<uint32_t>(module_.slots.size())});
-  if (isNew)
-    module_.slots.push_back(
-        {.type = Type::Bit,
-         .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(static_cast<int>(kind)) + ".DUE"});
-  return entry->second;
+  enterClock(kind);
 }
 
 void Lowering::enterPart(const ModulePart& part, ModuleKind kind) {
@@ -375,7 +332,8 @@ void Lowering::makeResets() {
   }
 }
 
-// Runs in front of MODULE_INIT: edges are taken over anew (man. l.300), presets of the interface.
+// Runs in front of MODULE_INIT: edges are taken over anew (man. l.300), the periods of timed blocks begin, presets of
+// the interface.
 void Lowering::makeStart() {
   constexpr size_t kStoresPerRung = 64;
   out_ = newBuilder(start_);
@@ -396,6 +354,7 @@ void Lowering::makeStart() {
     if (i % kStoresPerRung == 0) out_->cut();
     b().slotStore(forgotten_[i], b().constant(Type::I8, 0));
   }
+  clearSlots(phases_);
   out_->finish();
 }
 
@@ -409,7 +368,7 @@ void Lowering::makeEvents() {
     r().clear();
     r().setRlo(b().load(Type::Bit, place(HostCell::Rlo)));
     r().setDr(b().load(Type::I64, place(HostCell::Dr)));
-    out_->call(procedureRoutines_[procedure]);
+    callEvent(procedureRoutines_[procedure]);
     out_->finish();
     events_.push_back({ModuleKind::Main, routine, 1});
     eventNames_.emplace_back(name);

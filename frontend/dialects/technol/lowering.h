@@ -3,6 +3,7 @@
 // functions of the rows (lower_*.cpp) use its public part only.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -131,7 +132,13 @@ private:
   void enterPart(const ModulePart& part, ModuleKind kind);
   void prologue(ModuleKind kind);
   int64_t filesOwing(bool SourceFile::* finishes) const;
-  void advanceClock(ModuleKind kind);
+  void findTimed();
+  ModuleKind firstFast() const;
+  void enterClock(ModuleKind kind);
+  void leaveClock(ModuleKind kind);
+  void setClock(int32_t clock);
+  void callEvent(ir::RoutineId procedure);
+  void advanceClock(bool fast);
   void lowerStatement(const Statement& statement, uint32_t index);
   void bindLabels(const Statement& statement, uint32_t index);
   void lowerCode();
@@ -147,7 +154,8 @@ private:
   void beginProcedure();
   void endProcedure();
   void beginTimed();
-  ir::SlotId dueSlot(TimedKind kind);
+  ir::SlotId dueSlot(bool fast, TimedKind kind);
+  ir::ValueId isDue(TimedKind kind);
   void finishProcedures();
   void makeResets();
   void makeStart();
@@ -161,7 +169,6 @@ private:
   ir::RoutineId newRoutine(std::string name);
   std::unique_ptr<RoutineBuilder> newBuilder(ir::RoutineId routine);
   RungSource sourceOf(const Statement& statement) const;
-  bool inFastTask() const;
 
   Program& program_;
   ir::Module& module_;
@@ -201,7 +208,10 @@ private:
   std::vector<ir::RoutineId> resets_;
   std::vector<std::vector<CountCell>> resetCells_;
   std::vector<ir::SlotId> forgotten_;
+  std::array<bool, 4> timedUsed_{}; // by TimedKind
   std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
+  std::vector<ir::SlotId> phases_; // cycles of each period that have passed
+  ir::SlotId clock_;               // of the running module, where procedures have timed blocks
   std::vector<ir::SlotId> automatic_; // that instructions made for themselves
   std::vector<ir::SlotId> timers_;    // those of them that count time
   ir::RoutineId clears_[2];           // CLEAR GLOBAL, CLEAR INTERNAL; invalid where not used

@@ -7,6 +7,7 @@ find_package(GTest REQUIRED CONFIG)
 find_package(benchmark REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
+find_package(EXPAT 2.5 REQUIRED)
 find_package(LLVM 19.1 REQUIRED CONFIG) # plain "19" is rejected by LLVM's version file
 find_package(LLD 19.1 REQUIRED CONFIG)
 

@@ -51,6 +51,7 @@ FOREIGN = {
     "fmt/": ("ir", "frontend", "codegen"),
     "nlohmann/": ("ir/support", "codegen", "rtlib/profile"),
     "CLI/": (),
+    "expat.h": ("rtlib/nc/model/technol",),
     "gtest/": (),
     "gmock/": (),
     "benchmark/": (),

@@ -99,13 +99,12 @@ CodePage guessCodePage(std::string_view text) {
   return balance > 0 ? CodePage::Cp852 : CodePage::Windows1250;
 }
 
+uint32_t unicodeOf(CodePage page, uint8_t byte) { return byte < 0x80 ? byte : tableOf(page)[byte - 0x80u]; }
+
 std::string utf8From(CodePage page, std::string_view bytes) {
   std::string out;
   out.reserve(bytes.size());
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    append(out, byte < 0x80 ? byte : tableOf(page)[byte - 0x80u]);
-  }
+  for (const char c : bytes) append(out, unicodeOf(page, static_cast<uint8_t>(c)));
   return out;
 }
 

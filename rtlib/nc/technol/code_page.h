@@ -14,7 +14,8 @@ enum class CodePage : uint8_t { Windows1250, Cp852 };
 // Which of the two a Czech text is written in, by its letters; Windows-1250 when they do not tell.
 CodePage guessCodePage(std::string_view text);
 
-// Bytes that the code page leaves free keep their number.
+// The character of a byte. Bytes that the code page leaves free keep their number.
+uint32_t unicodeOf(CodePage page, uint8_t byte);
 std::string utf8From(CodePage page, std::string_view bytes);
 
 // The byte of a character in Windows-1250; nothing when it has none there.

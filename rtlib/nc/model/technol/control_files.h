@@ -33,7 +33,7 @@ struct MessageDefinition {
 enum class ParameterType : uint8_t { Int, Real, String, Binary };
 struct ParameterDefinition {
   std::string id;
-  ParameterType type = ParameterType::Int;
+  ParameterType type = ParameterType::String;
   std::string value;
   FilePlace place;
 };

@@ -1,0 +1,299 @@
+// The control's XML files: what they say, and where they are wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "rtlib/nc/model/technol/control_files.h"
+
+namespace rung::nc::technol {
+namespace {
+
+using testing::HasSubstr;
+using Kind = ControlFileKind;
+
+std::string mistakes(Kind kind, std::string_view text) {
+  ControlFiles files;
+  std::string found = parseControlFile(kind, "f", text, files);
+  EXPECT_EQ(found.empty(), !files.messages.empty() || !files.parameters.empty() || !files.constants.empty() ||
+                               !files.connections.empty() || !files.terminals.empty());
+  return found;
+}
+
+std::string message(std::string_view attributes, std::string_view text = "<Text>t</Text>") {
+  return "<PlcErrors>\n<PlcError " + std::string(attributes) + ">" + std::string(text) + "</PlcError></PlcErrors>";
+}
+
+// The examples of the manual (l.5300-5330).
+TEST(ControlFiles, Messages) {
+  ControlFiles files;
+  EXPECT_EQ(parseControlFile(Kind::Messages, "Plc0.PlcErrors", R"(<?xml version="1.0" encoding="utf-8"?>
+<PlcErrors>
+<PlcError No="3" Type="Info" Validity="Persistent">
+<Text>
+Text pro PLC hlášení číslo 3.
+</Text>
+</PlcError>
+<!-- dvě hodnoty -->
+<PlcError No="4" Type="ErrCritical" Validity="Transient">
+  <Text>
+    Text pro chybu číslo 4.
+    (1.hodnota: %d, 2.hodnota %X) 100 % &lt;
+  </Text>
+</PlcError>
+</PlcErrors>
+)",
+                             files),
+            "");
+  ASSERT_EQ(files.messages.size(), 2u);
+  EXPECT_EQ(files.messages[0].number, 3u);
+  EXPECT_EQ(files.messages[0].kind, MessageKind::Info);
+  EXPECT_EQ(files.messages[0].validity, Validity::Persistent);
+  EXPECT_EQ(files.messages[0].text, "Text pro PLC hlášení číslo 3.");
+  EXPECT_EQ(files.messages[0].place, "Plc0.PlcErrors:3:1");
+  EXPECT_EQ(files.messages[1].kind, MessageKind::ErrCritical);
+  EXPECT_EQ(files.messages[1].validity, Validity::Transient);
+  EXPECT_EQ(files.messages[1].text, "Text pro chybu číslo 4. (1.hodnota: %d, 2.hodnota %X) 100 % <");
+}
+
+TEST(ControlFiles, EveryKindAndBothValidities) {
+  const std::string_view kinds[] = {"ErrCritical", "Err", "Wrn1", "Wrn2", "Wrn3", "Info", "Event"};
+  ControlFiles files;
+  for (int i = 0; i < 7; ++i)
+    EXPECT_EQ(parseControlFile(Kind::Messages, "f",
+                               message("No='" + std::to_string(i) + "' Type='" + std::string(kinds[i]) +
+                                       "' Validity='" + (i % 2 ? "Persistent'" : "Transient'")),
+                               files),
+              "");
+  ASSERT_EQ(files.messages.size(), 7u);
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_EQ(static_cast<int>(files.messages[static_cast<size_t>(i)].kind), i);
+    EXPECT_EQ(static_cast<int>(files.messages[static_cast<size_t>(i)].validity), i % 2);
+  }
+}
+
+TEST(ControlFiles, TheNumberOfAMessage) {
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='65535' Type='Err' Validity='Transient'")), "");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='65536' Type='Err' Validity='Transient'")),
+            "f:2:1: attribute No is '65536', expected 0 to 65535");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='-1' Type='Err' Validity='Transient'")),
+            "f:2:1: attribute No is '-1', expected 0 to 65535");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='x' Type='Err' Validity='Transient'")),
+            "f:2:1: attribute No is 'x', expected 0 to 65535");
+}
+
+TEST(ControlFiles, WhatAMessageLacks) {
+  EXPECT_EQ(mistakes(Kind::Messages, message("Type='Err' Validity='Transient'")),
+            "f:2:1: <PlcError> lacks the attribute No");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type=' ' Validity='Transient'")),
+            "f:2:1: <PlcError> lacks the attribute Type");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Error' Validity='Transient'")),
+            "f:2:1: attribute Type is 'Error', expected ErrCritical, Err, Wrn1, Wrn2, Wrn3, Info or Event");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='persistent'")),
+            "f:2:1: attribute Validity is 'persistent', expected Transient or Persistent");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient' Sound='1'")),
+            "f:2:1: <PlcError> has no attribute 'Sound'; expected No, Type or Validity");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient'", "")),
+            "f:2:50: <PlcError> lacks its <Text>");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient'", "words")),
+            "f:2:55: <PlcError> lacks its <Text>\n"
+            "f:2:55: <PlcError> holds the text 'words', expected elements or nothing");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient'", "<Text>a</Text><Text>b</Text>")),
+            "f:2:71: <PlcError> has a second <Text>");
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient'", "<Text><b>a</b></Text>")),
+            "f:2:56: <Text> holds no <b>, but a text");
+  EXPECT_EQ(mistakes(Kind::Messages, "<PlcErrors><PlcEror No='1'/></PlcErrors>"),
+            "f:1:12: <PlcErrors> holds no <PlcEror>, expected <PlcError>");
+}
+
+TEST(ControlFiles, ATextTakesThreeValues) {
+  EXPECT_EQ(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient'", "<Text>%d%x%X</Text>")), "");
+  EXPECT_THAT(mistakes(Kind::Messages, message("No='1' Type='Err' Validity='Transient'", "<Text>%d%x%X%d</Text>")),
+              HasSubstr("the text takes 4 values, a message has 3"));
+}
+
+TEST(ControlFiles, TwiceDefinedIsAMistakeAlsoOverFiles) {
+  ControlFiles files;
+  const std::string one = message("No='7' Type='Err' Validity='Transient'");
+  EXPECT_EQ(parseControlFile(Kind::Messages, "a", one, files), "");
+  EXPECT_EQ(parseControlFile(Kind::Messages, "b", one, files),
+            "b:2:1: message 7 is defined again; the first one stands at a:2:1");
+  EXPECT_EQ(files.messages.size(), 1u);
+}
+
+// l.16294-16305; the files SAVars and Commands.
+TEST(ControlFiles, Constants) {
+  ControlFiles files;
+  EXPECT_EQ(parseControlFile(Kind::Constants, "f", R"(<PlcConstants>
+<Constant ID="OFFS_R_FEED" Value="SA0REAL"></Constant> <!-- Feed -->
+<Constant ID="PUMP_START" Value="12"/>
+</PlcConstants>)",
+                             files),
+            "");
+  ASSERT_EQ(files.constants.size(), 2u);
+  EXPECT_EQ(files.constants[0].id, "OFFS_R_FEED");
+  EXPECT_EQ(files.constants[0].value, "SA0REAL");
+  EXPECT_EQ(files.constants[1].value, "12");
+  EXPECT_EQ(files.constants[1].place, "f:3:1");
+}
+
+TEST(ControlFiles, WrongConstants) {
+  EXPECT_EQ(mistakes(Kind::Constants, "<Constants/>"), "f:1:1: found <Constants>, expected <PlcConstants>");
+  EXPECT_EQ(mistakes(Kind::Constants, "<PlcConstants><Const/></PlcConstants>"),
+            "f:1:15: <PlcConstants> holds no <Const>, expected <Constant>");
+  EXPECT_EQ(mistakes(Kind::Constants, "<PlcConstants><Constant ID='A'/></PlcConstants>"),
+            "f:1:15: <Constant> lacks the attribute Value");
+  EXPECT_EQ(mistakes(Kind::Constants, "<PlcConstants><Constant ID='A' Value='1'/><Constant ID='A' Value='2'/></PlcConstants>"),
+            "f:1:43: constant A is defined again; the first one stands at f:1:15");
+}
+
+// The channel's configuration holds much of other parts of the control (l.5575-5757, l.13280-13291, l.16105).
+TEST(ControlFiles, Channel) {
+  ControlFiles files;
+  EXPECT_EQ(parseControlFile(Kind::Channel, "f", R"(<ChannelConfig>
+ <Axes Count="3"><Axis Name="X"/>text</Axes>
+ <Plc Debug="1">
+  <PlcParam ID="TIM_WATER" Type="Int">4</PlcParam>
+  <PlcParam ID="NAME" Type="String"> Vrtačka &amp; fréza </PlcParam>
+  <Input ID="inLimX" Port="1" Bit="2" Invert="0" Default="0" Connected="1"></Input>
+  <Output ID="outXEn" Port="1" Bit="0" Invert="1" Default="1"/>
+  <AnalogInput ID="PlasmaVoltage" PhysNo="2" Scale="28.82" Offset="0" Default="120.0" MinVal="20.0" Maxval="250.0" Connected="1"/>
+  <AnalogOutput ID="CutFlow"/>
+  <Other><PlcParam ID="x"/></Other>
+ </Plc>
+ <Connections>
+  <Connection Source="PLC.Output.flOut1" Destination="PLC.Input.flIn1" Invert="1" Scale="2.5" Offset="-1" Connected="1"></Connection>
+  <Connection Source="a" Destination="b"/>
+ </Connections>
+</ChannelConfig>)",
+                             files),
+            "");
+  ASSERT_EQ(files.parameters.size(), 2u);
+  EXPECT_EQ(files.parameters[0].id, "TIM_WATER");
+  EXPECT_EQ(files.parameters[0].type, ParameterType::Int);
+  EXPECT_EQ(files.parameters[0].value, "4");
+  EXPECT_EQ(files.parameters[1].value, "Vrtačka & fréza");
+  ASSERT_EQ(files.terminals.size(), 4u);
+  EXPECT_EQ(files.terminals[0].kind, TerminalKind::Input);
+  EXPECT_EQ(files.terminals[0].port, 1u);
+  EXPECT_EQ(files.terminals[0].bit, 2u);
+  EXPECT_TRUE(files.terminals[0].connected);
+  EXPECT_FALSE(files.terminals[0].invert);
+  EXPECT_EQ(files.terminals[1].kind, TerminalKind::Output);
+  EXPECT_TRUE(files.terminals[1].invert);
+  EXPECT_FALSE(files.terminals[1].connected);
+  EXPECT_EQ(files.terminals[1].otherwise, 1.0);
+  EXPECT_EQ(files.terminals[2].kind, TerminalKind::AnalogInput);
+  EXPECT_EQ(files.terminals[2].physical, 2u);
+  EXPECT_EQ(files.terminals[2].scale, 28.82);
+  EXPECT_EQ(files.terminals[2].otherwise, 120.0);
+  EXPECT_EQ(files.terminals[2].least, 20.0);
+  EXPECT_EQ(files.terminals[2].most, 250.0);
+  EXPECT_EQ(files.terminals[3].kind, TerminalKind::AnalogOutput);
+  EXPECT_EQ(files.terminals[3].scale, 1.0);
+  EXPECT_FALSE(files.terminals[3].least.has_value());
+  ASSERT_EQ(files.connections.size(), 2u);
+  EXPECT_TRUE(files.connections[0].invert);
+  EXPECT_EQ(files.connections[0].scale, 2.5);
+  EXPECT_EQ(files.connections[0].offset, -1.0);
+  EXPECT_TRUE(files.connections[0].connected);
+  EXPECT_FALSE(files.connections[1].connected);
+  EXPECT_EQ(files.connections[1].place, "f:14:3");
+}
+
+TEST(ControlFiles, WrongChannel) {
+  const auto plc = [](const std::string& inside) { return mistakes(Kind::Channel, "<Plc>\n" + inside + "</Plc>"); };
+  EXPECT_EQ(plc("<Input ID='a' Port='129'/>"), "f:2:1: attribute Port is '129', expected 0 to 128");
+  EXPECT_EQ(plc("<Input ID='a' Bit='8'/>"), "f:2:1: attribute Bit is '8', expected 0 to 7");
+  EXPECT_EQ(plc("<Output ID='a' Invert='2'/>"), "f:2:1: attribute Invert is '2', expected 0 to 1");
+  EXPECT_EQ(plc("<Input ID='a' Scale='2'/>"),
+            "f:2:1: <Input> has no attribute 'Scale'; expected ID, Port, Bit, Invert, Default or Connected");
+  EXPECT_EQ(plc("<AnalogInput ID='a' PhysNo='100'/>"), "f:2:1: attribute PhysNo is '100', expected 0 to 99");
+  EXPECT_EQ(plc("<AnalogInput ID='a' Scale='1,5'/>"), "f:2:1: attribute Scale is '1,5', expected a number");
+  EXPECT_EQ(plc("<AnalogOutput ID='a' MinVal='2' MaxVal='1'/>"), "f:2:1: MinVal is greater than MaxVal");
+  EXPECT_EQ(plc("<Input ID='a'/><AnalogInput ID='a'/>"),
+            "f:2:16: input or output a is defined again; the first one stands at f:2:1");
+  EXPECT_EQ(plc("<PlcParam ID='a' Type='Int'>1.5</PlcParam>"), "f:2:1: parameter a is '1.5', expected an integer");
+  EXPECT_EQ(plc("<PlcParam ID='a' Type='Real'>x</PlcParam>"), "f:2:1: parameter a is 'x', expected a number");
+  EXPECT_EQ(plc("<PlcParam ID='a' Type='Text'>x</PlcParam>"),
+            "f:2:1: attribute Type is 'Text', expected Int, Real, String or Binary");
+  EXPECT_EQ(mistakes(Kind::Channel, "<Connections>\n  <Connection Source='a'/></Connections>"),
+            "f:2:3: <Connection> lacks the attribute Destination");
+}
+
+TEST(ControlFiles, NotWellFormed) {
+  EXPECT_EQ(mistakes(Kind::Messages, "<PlcErrors>\n <PlcError No='1'></PlcErrors>"),
+            "f:2:2: <PlcError> lacks the attribute Type\n"
+            "f:2:2: <PlcError> lacks the attribute Validity\n"
+            "f:2:21: this is not well-formed XML: mismatched tag, expected the end of <PlcError> of line 2");
+  EXPECT_EQ(mistakes(Kind::Constants, "<PlcConstants>\n"),
+            "f:2:1: this is not well-formed XML: no element found, expected the end of <PlcConstants> of line 1");
+  EXPECT_EQ(mistakes(Kind::Constants, ""), "f:1:1: this is not well-formed XML: no element found");
+  EXPECT_EQ(mistakes(Kind::Constants, "PUMP = 1"), "f:1:1: this is not well-formed XML: syntax error");
+  EXPECT_THAT(mistakes(Kind::Constants, "<PlcConstants><Constant ID='A' ID='B'/></PlcConstants>"),
+              HasSubstr("duplicate attribute"));
+  EXPECT_THAT(mistakes(Kind::Constants, "<?xml version='1.0' encoding='klingon'?><PlcConstants/>"),
+              HasSubstr("unknown encoding, expected utf-8, windows-1250 or cp852"));
+  EXPECT_THAT(mistakes(Kind::Constants, "<PlcConstants>&undefined;</PlcConstants>"), HasSubstr("undefined entity"));
+}
+
+TEST(ControlFiles, EncodingsOfOneByte) {
+  const std::string body = "'?><PlcErrors><PlcError No='1' Type='Err' Validity='Transient'><Text>";
+  for (const auto& [encoding, text] : {std::pair<std::string, std::string>("windows-1250", "P\xF8\xEDli\x9A \x8E"),
+                                       {"Windows-1250", "P\xF8\xEDli\x9A \x8E"},
+                                       {"cp852", "P\xFD\xA1li\xE7 \xA6"},
+                                       {"utf-8", "Příliš Ž"}}) {
+    ControlFiles files;
+    EXPECT_EQ(parseControlFile(Kind::Messages, "f",
+                               "<?xml version='1.0' encoding='" + encoding + body + text + "</Text></PlcError></PlcErrors>",
+                               files),
+              "")
+        << encoding;
+    ASSERT_EQ(files.messages.size(), 1u) << encoding;
+    EXPECT_EQ(files.messages[0].text, "Příliš Ž") << encoding;
+  }
+}
+
+TEST(ControlFiles, ManyMistakesAreCounted) {
+  std::string text = "<PlcErrors>";
+  for (int i = 0; i < 150; ++i) text += "<a/>";
+  const std::string found = mistakes(Kind::Messages, text + "</PlcErrors>");
+  EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 100);
+  EXPECT_THAT(found, HasSubstr("\nf: and 50 more mistakes"));
+}
+
+// Each beginning of a good file is a bad file, or one that says less; nothing else happens.
+TEST(ControlFiles, CutAnywhere) {
+  const std::string whole = "<?xml version='1.0'?><C><Plc><PlcParam ID='A' Type='Int'>4</PlcParam><Input ID='B' "
+                            "Port='1'/></Plc><Connections><Connection Source='a' Destination='b'/></Connections></C>";
+  for (size_t length = 0; length < whole.size(); ++length) {
+    ControlFiles files;
+    EXPECT_NE(parseControlFile(Kind::Channel, "f", std::string_view(whole).substr(0, length), files), "") << length;
+  }
+}
+
+TEST(ControlFiles, ManyMessages) {
+  std::string text = "<PlcErrors>\n";
+  for (int i = 0; i < 60000; ++i)
+    text += "<PlcError No='" + std::to_string(i) + "' Type='Err' Validity='Transient'><Text>t</Text></PlcError>\n";
+  ControlFiles files;
+  EXPECT_EQ(parseControlFile(Kind::Messages, "f", text + "</PlcErrors>", files), "");
+  EXPECT_EQ(files.messages.size(), 60000u);
+}
+
+TEST(ControlFiles, FilesThatCannotBeRead) {
+  ControlFiles files;
+  const std::filesystem::path folder = testing::TempDir();
+  EXPECT_THAT(readControlFile(Kind::Messages, (folder / "there-is-no-such-file").string(), files),
+              HasSubstr("there-is-no-such-file: cannot be read: No such file"));
+  EXPECT_THAT(readControlFile(Kind::Messages, folder.string(), files), HasSubstr("this is a folder"));
+  const std::string path = (folder / "technol_control_files_test.PlcConstants").string();
+  std::ofstream(path) << "<PlcConstants><Constant ID='A' Value='1'/></PlcConstants>";
+  EXPECT_EQ(readControlFile(Kind::Constants, path, files), "");
+  EXPECT_EQ(files.constants.size(), 1u);
+  std::filesystem::remove(path);
+}
+
+} // namespace
+} // namespace rung::nc::technol

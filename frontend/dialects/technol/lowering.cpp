@@ -1,6 +1,7 @@
 // The walk over a program's modules (see lowering.h).
 #include "frontend/dialects/technol/lowering.h"
 
+#include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -25,6 +26,7 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@DONE.OWED", Type::I64, 40},
     {"@ESET.PAR2", Type::I64, 48},
     {"@ESET.PAR3", Type::I64, 56},
+    {nc::kLicenceCell, Type::I32, 28},
 };
 
 // What the control presets when MODULE_INIT starts (man. l.6186, l.6316).

@@ -62,7 +62,7 @@ struct OperandKind {
   bool text = false;                   // a text may
   uint8_t types = 0xFF;                // ir::TypeSet of cells
   SymbolKind name = SymbolKind::Label; // class Name
-  std::string_view keywords = {};      // that may stand in the place of an address
+  std::string_view keywords = {};      // parted by blanks; class Text: that may stand in the place of an address
 };
 
 std::span<const OperandKind> operandKinds();
@@ -114,6 +114,7 @@ private:
   uint8_t takePrefix(std::span<const Token>& tokens);
   bool named(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out);
   bool address(std::span<const Token> tokens, Address& out);

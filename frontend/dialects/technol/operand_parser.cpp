@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/operand.h"
 #include "frontend/dialects/technol/reader.h"
 #include "ir/support/check.h"
+#include "ir/support/similar.h"
 #include "rtlib/nc/technol/code_page.h"
 
 #include <algorithm>
@@ -45,6 +46,29 @@ std::string operandsText(size_t least, size_t most, bool repeated) {
                                    : (least == 0 ? "no" : std::to_string(least)) +
                                          (most == least + 1 ? " or " : " to ") + std::to_string(most);
   return text + (most == 1 ? " operand" : " operands");
+}
+
+// Words that are parted by blanks.
+template <class Visit>
+void forEachWord(std::string_view words, Visit visit) {
+  for (int64_t at = 0; !words.empty(); ++at) {
+    const size_t end = std::min(words.find(' '), words.size());
+    visit(words.substr(0, end), at);
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+}
+
+// One of the words that a kind takes by itself or in the place of an address.
+bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
+  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
+  const std::string_view name = tokens[0].text;
+  const auto sameLetter = [](char a, char b) { return upper(a) == upper(b); };
+  forEachWord(words, [&](std::string_view word, int64_t at) {
+    if (!std::equal(name.begin(), name.end(), word.begin(), word.end(), sameLetter)) return;
+    out.form = Operand::Form::Keyword;
+    out.value = at;
+  });
+  return out.form == Operand::Form::Keyword;
 }
 
 bool isNotGiven(std::span<const Token> tokens) {
@@ -272,6 +296,7 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
         << statement_->row->info.mnemonic;
     return false;
   }
+  if (!kind.keywords.empty()) return chosen(kind, tokens, out);
   const PrefixName* width =
       tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
   if (width && (kind.prefixes & width->prefix)) {
@@ -295,6 +320,22 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   return false;
 }
 
+// One of a kind's own words; other names are known and of another kind, or unknown.
+bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (takeKeyword(kind.keywords, tokens, out)) return true;
+  const std::string wanted(kind.info.kind);
+  if (tokens.size() != 1) return syntax("a " + wanted, tokens);
+  const bool unknown =
+      tokens[0].kind == TokenKind::Name && program_.symbols.find(tokens[0].text, file_) == kNone;
+  if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
+  Similar meant(tokens[0].text);
+  forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
+  DiagBuilder report = program_.diagnostics.report(Diag::UndefinedSymbol, tokens[0].range());
+  report << tokens[0].text;
+  if (!meant.best().empty()) report.note("did you mean " + std::string(meant.best()) + "?");
+  return false;
+}
+
 namespace {
 
 // TEXT+BX, TEXT+2+BX: the tokens without `+BX`, in `plain`. False when there is none.
@@ -309,21 +350,6 @@ bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
   plain.assign(tokens.begin(), tokens.end());
   plain.erase(plain.begin() + static_cast<std::ptrdiff_t>(at), plain.begin() + static_cast<std::ptrdiff_t>(at) + 2);
   return true;
-}
-
-// One of the words, parted by blanks, that a kind takes in the place of an address.
-bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
-  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
-  for (int64_t at = 0; !words.empty(); ++at) {
-    const size_t end = std::min(words.find(' '), words.size());
-    if (equalsNoCase(tokens[0].text, words.substr(0, end))) {
-      out.form = Operand::Form::Keyword;
-      out.value = at;
-      return true;
-    }
-    words.remove_prefix(std::min(end + 1, words.size()));
-  }
-  return false;
 }
 
 } // namespace

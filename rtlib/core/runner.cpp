@@ -147,6 +147,13 @@ void Runner::stopOnFault(uint32_t task) noexcept {
   ctx_->fault = first;
 }
 
+bool Runner::halt(uint32_t fault) noexcept {
+  if (!mayRun()) return false;
+  ctx_->fault = {fault, RUNG_NONE, 0, RUNG_NONE};
+  stopOnFault(RUNG_NONE);
+  return true;
+}
+
 // ---- schedule ----------------------------------------------------------------------------------------------------
 
 void Runner::doStep(const rung_step& step) noexcept {

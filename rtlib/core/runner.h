@@ -56,6 +56,9 @@ public:
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
 
+  // The host stops the program, as a fault of its own would. False: it stands already, or a task is running.
+  bool halt(uint32_t fault) noexcept;
+
   int64_t nowUs() const noexcept { return ctx_->now_us; }
   void advance(int64_t us) noexcept { ctx_->now_us += us; }
   bool atListStart() const noexcept { return position_ == 0; }

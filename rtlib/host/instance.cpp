@@ -135,4 +135,10 @@ bool Instance::runTask(uint32_t task) { return runner_.runTask(task); }
 
 bool Instance::runTask(std::string_view name) { return runner_.runTask(findTask(*program_, name)); }
 
+bool Instance::halt(std::string_view fault) {
+  for (uint32_t i = 0; i < program_->fault_count; ++i)
+    if (fault == program_->faults[i]) return runner_.halt(i);
+  return false;
+}
+
 } // namespace rung::host

@@ -59,6 +59,8 @@ public:
   // One run of a task by itself, outside the schedule. False: fault, unknown task, or called from within a task.
   bool runTask(uint32_t task);
   bool runTask(std::string_view name);
+  // Stops the program with one of its own faults. False: it has no such fault, or stands already.
+  bool halt(std::string_view fault);
   // For a real clock; see rt::Runner.
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
   void slice();

@@ -90,6 +90,7 @@ RungSource Lowering::sourceOf(const Statement& statement) const {
 void Lowering::run() {
   start_ = newRoutine("@START");
   findTimed();
+  fault("halt-status 6: requested"); // by the control (man. l.5361)
   onMessage_ = procedureNamed("_ON_ESET");
   for (int i = 1; i < kModuleKinds; ++i) lowerModule(static_cast<ModuleKind>(i));
   checkRecursion();
@@ -177,7 +178,8 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   if (statement.label != kNone) bindLabels(statement, index);
   if (statement.row == nullptr) return;
   switch (statement.row->role) {
-  case Role::Code: lowerCode(); return;
+  case Role::Code:
+  case Role::NotBuiltService: lowerCode(); return;
   case Role::MechBegin: beginMechanism(); return;
   case Role::MechEnd: endMechanism(); return;
   case Role::ProcBegin: beginProcedure(); return;
@@ -188,7 +190,6 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   case Role::NoCode:
   case Role::Macro:
   case Role::NotBuilt:
-  case Role::NotBuiltService:
   case Role::Module:
   case Role::ModuleEnd:
   case Role::Local:
@@ -273,12 +274,12 @@ void Lowering::checkPreserved(const Row& row) {
 
 void Lowering::settle(const Row& row) {
   if (row.info.terminating) equationOpen_ = false;
-  if (row.effects & kSetsRlo) rloLost_ = false;
-  if (row.effects & kSetsDr) drLost_ = false;
   if (row.effects & kWaits) {
     rloLost_ = true;
     drLost_ = (row.effects & kKeepsDr) == 0;
   }
+  if (row.effects & kSetsRlo) rloLost_ = false;
+  if (row.effects & kSetsDr) drLost_ = false;
 }
 
 void Lowering::checkBalance(SourceRange at, std::string_view where) {

@@ -14,6 +14,7 @@ namespace rung::nc {
 namespace {
 
 constexpr int kShutdownScans = 500;  // at most, while MODULE_DONE_FINISHED is owed
+constexpr std::string_view kHaltRequested = "halt-status 6: requested"; // man. l.5361
 constexpr uint32_t kBehindInput = 1; // hooks of the scan, see assemble.cpp of the dialect
 
 class TechnolModel final : public NcModel {
@@ -67,6 +68,11 @@ public:
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
     if (technol::equalIgnoringCase(name, "CONFIRM")) {
       board_.confirmOldest();
+      return {};
+    }
+    if (technol::equalIgnoringCase(name, "HALT")) {
+      instance.halt(kHaltRequested);
+      takeMessages(instance);
       return {};
     }
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };

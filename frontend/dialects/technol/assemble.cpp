@@ -48,7 +48,7 @@ ir::Symbol madeSymbol(const Symbol& symbol) {
     made.count = symbol.size;
     break;
   case SymbolKind::Cell:
-    if (symbol.type == Type::None && symbol.size == 8)
+    if (symbol.type == Type::None && symbol.size == 8 && symbol.index == kNone)
       made.type = RUNG_TYPE_I64;
     else
       made.count = std::max(1u, symbol.size / std::max(1u, ir::byteWidth(symbol.type)));

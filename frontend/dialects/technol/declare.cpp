@@ -7,12 +7,6 @@
 #include <algorithm>
 
 namespace rung::frontend::technol {
-namespace {
-
-constexpr int64_t kMaxData = 16 << 20; // bytes; the control has far less, an offset must only stay small
-
-} // namespace
-
 Symbol Declarations::made(const Token& name, SymbolKind kind) const {
   Symbol symbol;
   symbol.name = name.text;
@@ -25,19 +19,20 @@ Symbol Declarations::made(const Token& name, SymbolKind kind) const {
 
 void Declarations::data(const Statement& statement, const Token* name, uint32_t index, bool badName) {
   if (statement.row->role != Role::Str) structure_.allowsData(statement);
-  DataItem item{.role = statement.row->role, .statement = index};
+  DataItem item{.role = statement.row->role, .local = structure_.isLocal(), .statement = index};
   const bool needsName = item.role == Role::Str || item.role == Role::Ds;
   if (needsName && name == nullptr && !badName)
     program_.diagnostics.report(Diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
+  if (item.role == Role::Str) item.local = false; // texts are global in all files (man. l.1680)
   if (name != nullptr) {
     Symbol symbol = made(*name, item.role == Role::Str ? SymbolKind::Text : SymbolKind::Cell);
-    if (item.role == Role::Str) symbol.local = false; // texts are global in all files (man. l.1680)
+    symbol.local = item.local;
     if (item.role == Role::Dfm) symbol.type = ir::Type::I8, symbol.size = 1;
     symbol.space = kDataSpace;
     item.cell = program_.symbols.declare(symbol);
   }
   if (item.role == Role::Dfm) bits(statement, item);
-  program_.items.push_back(item);
+  program_.items.push_back(std::move(item));
 }
 
 void Declarations::bits(const Statement& statement, DataItem& item) {
@@ -95,43 +90,18 @@ void Declarations::constant(const Statement& statement) {
   program_.symbols.declare(symbol);
 }
 
-void Declarations::beginStructure(const Token& name, const Token& keyword) {
-  // Outside every module they are accepted: include files hold them.
-  if (structure_.inModule() && !structure_.inData() && !structure_.localOpen())
-    program_.diagnostics.report(Diag::DeclarationOutsideData, keyword.range()) << "struc";
-  if (structureOpen_) abandonStructure(name.range(), std::string(name.text) + " struc");
-  structureOpen_ = true;
-  structureName_ = name.text;
-  structureBytes_ = 0;
-  program_.symbols.declare(made(name, SymbolKind::Structure));
-}
-
-void Declarations::abandonStructure(SourceRange at, std::string_view found) {
-  program_.diagnostics.report(Diag::SyntaxError, at) << std::string(structureName_) + " ends" << found;
-  structureOpen_ = false;
-}
-
-void Declarations::endStructure(const Token& name) {
-  if (!structureOpen_ || symbolKey(name.text) != symbolKey(structureName_))
-    program_.diagnostics.report(Diag::SyntaxError, name.range())
-        << (structureOpen_ ? std::string(structureName_) + " ends" : std::string("a statement"))
-        << std::string(name.text) + " ends";
-  structureOpen_ = false;
-}
-
-// value | ? | n DUP(value)
-void Declarations::member(const Token* name, const Token& size, uint32_t bytes, std::span<const Token> value) {
-  int64_t count = 1;
-  if (value.size() > 1 && value[1].kind == TokenKind::Name && equalsNoCase(value[1].text, "DUP"))
-    count = constantValue(program_, file_, value.first(1), size.range()).value_or(1);
-  if (value.empty())
-    program_.diagnostics.report(Diag::SyntaxError, size.range()) << "a value or ?" << "the end of the line";
+void Declarations::instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type) {
+  structure_.allowsData(statement);
+  DataItem item{.role = Role::MemberSize, .local = structure_.isLocal(), .statement = index};
+  item.image = structures_.instance(type, program_.operandTokens(statement), statement.range());
   if (name != nullptr) {
-    Symbol symbol = made(*name, SymbolKind::Constant);
-    symbol.value = structureBytes_;
-    program_.symbols.declare(symbol);
+    Symbol symbol = made(*name, SymbolKind::Cell);
+    symbol.space = kDataSpace;
+    symbol.size = static_cast<uint32_t>(item.image.size());
+    symbol.index = type;
+    item.cell = program_.symbols.declare(symbol);
   }
-  structureBytes_ += bytes * static_cast<uint32_t>(std::clamp<int64_t>(count, 0, kMaxData));
+  program_.items.push_back(std::move(item));
 }
 
 namespace {
@@ -139,25 +109,26 @@ namespace {
 class Placer {
 public:
   explicit Placer(Program& program) : program_(program) {}
-  void place(const DataItem& item);
+  void place(DataItem& item);
   // Texts that lie on other memory: last.
   void placeOverlays();
 
 private:
-  void placeBits(const DataItem& item);
-  void placeArray(const DataItem& item, const Statement& statement);
-  void placeText(const DataItem& item, const Statement& statement);
+  void placeBits(DataItem& item);
+  void placeArray(DataItem& item, const Statement& statement);
+  void placeText(DataItem& item, const Statement& statement);
+  void placeInstance(DataItem& item, const Statement& statement);
   void fillText(const Symbol& text, const Token& token);
   bool overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement);
   std::optional<int64_t> size(std::span<const Token> tokens, const Statement& statement);
-  uint32_t take(int64_t bytes, const Statement& statement);
+  uint32_t take(DataItem& item, int64_t bytes, const Statement& statement);
 
   Program& program_;
-  std::vector<DataItem> overlays_;
+  std::vector<uint32_t> overlays_; // items
   bool full_ = false;
 };
 
-uint32_t Placer::take(int64_t bytes, const Statement& statement) {
+uint32_t Placer::take(DataItem& item, int64_t bytes, const Statement& statement) {
   const uint32_t at = program_.dataBytes;
   if (at + bytes > kMaxData) {
     if (!full_) program_.diagnostics.report(Diag::TooLarge, statement.range()) << "bytes of data" << kMaxData;
@@ -165,6 +136,8 @@ uint32_t Placer::take(int64_t bytes, const Statement& statement) {
     return 0;
   }
   program_.dataBytes += static_cast<uint32_t>(bytes);
+  item.byte = at;
+  item.bytes = static_cast<uint32_t>(bytes);
   return at;
 }
 
@@ -178,21 +151,21 @@ std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Stateme
   return n;
 }
 
-void Placer::placeBits(const DataItem& item) {
-  const uint32_t at = take(1, program_.statements[item.statement]);
+void Placer::placeBits(DataItem& item) {
+  const uint32_t at = take(item, 1, program_.statements[item.statement]);
   if (item.cell != kNone) program_.symbols[item.cell].byte = at;
   for (uint32_t i = 0; i < 8; ++i)
     if (const uint32_t bit = program_.itemBits[item.firstBit + i]; bit != kNone) program_.symbols[bit].byte = at;
 }
 
-void Placer::placeArray(const DataItem& item, const Statement& statement) {
+void Placer::placeArray(DataItem& item, const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
   if (operands.size() != 1) {
     program_.diagnostics.report(Diag::OperandCount, statement.range()) << "DS" << "1 operand" << operands.size();
     return;
   }
   const int64_t bytes = size(operands[0], statement).value_or(1);
-  const uint32_t at = take(bytes, statement);
+  const uint32_t at = take(item, bytes, statement);
   if (item.cell == kNone) return;
   Symbol& cell = program_.symbols[item.cell];
   cell.byte = at;
@@ -214,8 +187,13 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
     return false;
   }
   std::optional<int64_t> offset = 0;
-  if (tokens.size() > 1)
-    offset = constantValue(program_, statement.file, tokens.subspan(tokens[1].is('+') ? 2 : 1), statement.range());
+  if (tokens.size() > 1) {
+    std::vector<Token> terms(tokens.begin() + 1, tokens.end());
+    for (Token& token : terms)
+      if (token.is('.')) token.text = "+"; // a member is its offset
+    const bool plus = terms.size() > 1 && terms[0].is('+');
+    offset = constantValue(program_, statement.file, std::span<const Token>(terms).subspan(plus), statement.range());
+  }
   if (!offset) return false;
   // In the interface a text stays on its cell, in the program's data anywhere.
   const int64_t first = base.predeclared ? base.byte : 0;
@@ -243,7 +221,7 @@ void Placer::fillText(const Symbol& text, const Token& token) {
     program_.inits.push_back({.space = text.space, .byte = text.byte, .data = {value.begin(), value.end()}});
 }
 
-void Placer::placeText(const DataItem& item, const Statement& statement) {
+void Placer::placeText(DataItem& item, const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
   if (operands.empty() || operands.size() > 2) {
     program_.diagnostics.report(Diag::OperandCount, statement.range()) << "STR" << "1 or 2 operands" << operands.size();
@@ -255,10 +233,10 @@ void Placer::placeText(const DataItem& item, const Statement& statement) {
   text.size = static_cast<uint32_t>(characters) + 1;
   const bool onMemory = operands.size() == 2 && !operands[1].empty() && operands[1][0].kind == TokenKind::Name;
   if (onMemory) {
-    overlays_.push_back(item);
+    overlays_.push_back(static_cast<uint32_t>(&item - program_.items.data()));
     return;
   }
-  text.byte = take(text.size, statement);
+  text.byte = take(item, text.size, statement);
   if (operands.size() == 1) return;
   if (operands[1].size() == 1 && operands[1][0].kind == TokenKind::Text)
     fillText(text, operands[1][0]);
@@ -267,18 +245,27 @@ void Placer::placeText(const DataItem& item, const Statement& statement) {
         << "a text or an address" << "something else";
 }
 
-void Placer::place(const DataItem& item) {
+void Placer::placeInstance(DataItem& item, const Statement& statement) {
+  const uint32_t at = take(item, static_cast<int64_t>(item.image.size()), statement);
+  if (item.cell != kNone) program_.symbols[item.cell].byte = at;
+  const bool zero = std::all_of(item.image.begin(), item.image.end(), [](uint8_t byte) { return byte == 0; });
+  if (!zero && !full_) program_.inits.push_back({.space = kDataSpace, .byte = at, .data = item.image});
+}
+
+void Placer::place(DataItem& item) {
   const Statement statement = program_.statements[item.statement];
   switch (item.role) {
   case Role::Dfm: placeBits(item); break;
   case Role::Ds: placeArray(item, statement); break;
   case Role::Str: placeText(item, statement); break;
+  case Role::MemberSize: placeInstance(item, statement); break;
   default: break;
   }
 }
 
 void Placer::placeOverlays() {
-  for (const DataItem& item : overlays_) {
+  for (const uint32_t index : overlays_) {
+    const DataItem& item = program_.items[index];
     const Statement statement = program_.statements[item.statement];
     const auto operands = splitOperands(program_.operandTokens(statement));
     Symbol text = program_.symbols[item.cell]; // finding the base may add symbols
@@ -291,7 +278,7 @@ void Placer::placeOverlays() {
 
 void placeData(Program& program) {
   Placer placer(program);
-  for (const DataItem& item : program.items) placer.place(item);
+  for (DataItem& item : program.items) placer.place(item);
   placer.placeOverlays();
 }
 

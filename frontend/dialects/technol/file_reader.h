@@ -12,7 +12,8 @@ namespace rung::frontend::technol {
 class FileReader {
 public:
   FileReader(Program& program, uint32_t file)
-      : program_(program), file_(file), structure_(program, file), declarations_(program, structure_, file), macros_(program, file) {}
+      : program_(program), file_(file), structure_(program, file), structures_(program, structure_, file),
+        declarations_(program, structure_, structures_, file), macros_(program, file) {}
   void read();
 
 private:
@@ -28,7 +29,7 @@ private:
   void logicalLine(uint32_t first, uint32_t count, uint32_t line);
   bool beginsStatement(uint32_t first) const;
   uint32_t readLabel(uint32_t& first, uint32_t& count);
-  bool readStructure(std::span<const Token> tokens);
+  bool instance(uint32_t first, uint32_t count, uint32_t line);
   void reportUnknown(const Token& token);
   const Row* instruction(const Token& token);
   void statement(const Row* row, uint32_t first, uint32_t count, uint32_t line);
@@ -46,6 +47,7 @@ private:
   Program& program_;
   uint32_t file_;
   Structure structure_;
+  Structures structures_;
   Declarations declarations_;
   MacroSet macros_;
   std::vector<std::string> expanding_; // macros whose lines are being read

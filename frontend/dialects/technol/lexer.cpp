@@ -31,7 +31,8 @@ size_t numberEnd(std::string_view text, size_t first) {
       while (i < text.size() && isDigit(text[i])) ++i;
     }
   }
-  while (i < text.size() && isNameChar(text[i])) ++i; // 1.5X is one bad number
+  // 1.5X and 1.2.3 are one bad number each.
+  while (i < text.size() && (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && isDigit(text[i + 1])))) ++i;
   return i;
 }
 

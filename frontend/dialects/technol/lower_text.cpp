@@ -1,10 +1,6 @@
-// Memory and texts (man. ch. 3.15, 3.18): loops over bytes whose bounds are known when the program is compiled.
-#include <algorithm>
-#include <cstdio>
-
+// MV and texts (man. ch. 3.15, 3.18).
+#include "frontend/dialects/technol/areas.h"
 #include "frontend/dialects/technol/lower.h"
-#include "frontend/dialects/technol/lowering.h"
-#include "ir/support/hash.h"
 
 namespace rung::frontend::technol {
 
@@ -14,49 +10,7 @@ using ir::ValueId;
 
 namespace {
 
-constexpr uint32_t kChunk = 8;
-// A rung makes a limited number of passes; long ones get a rung of their own.
-constexpr uint32_t kManyPasses = 4096;
 constexpr uint32_t kLongestText = 0xFFFF;
-
-// Bytes of a space from `at` on; where `fixed`, that is the constant `first`.
-struct Area {
-  ir::SpaceId space;
-  uint32_t bytes = 0; // of the whole space
-  bool fixed = true;
-  uint32_t first = 0;
-  ValueId at;
-};
-
-ValueId least(ir::RungBuilder& b, ValueId x, ValueId y) { return b.select(b.ltU(x, y), x, y); }
-
-Area fixedArea(Lowering& l, ir::SpaceId space, uint32_t bytes, uint32_t first) {
-  return {.space = space, .bytes = bytes, .fixed = true, .first = first, .at = l.b().i32(first)};
-}
-
-Area areaOf(Lowering& l, const Operand& operand) {
-  const Access access = l.reach(operand);
-  const uint32_t bytes = l.bytesOf(operand.place.space);
-  if (!access.indexed) return fixedArea(l, access.place.space, bytes, access.place.byte);
-  return {.space = operand.place.space, .bytes = bytes, .fixed = false, .first = 0, .at = access.index};
-}
-
-ValueId loadByte(Lowering& l, const Area& area, ValueId i, Type type = Type::I8) {
-  const ir::Window window{.space = area.space, .byte = 0, .count = area.bytes - ir::byteWidth(type) + 1};
-  return l.b().loadAt(type, window, l.b().add(area.at, i));
-}
-
-void storeByte(Lowering& l, const Area& area, ValueId i, ValueId value) {
-  const uint32_t width = ir::byteWidth(l.b().typeOf(value));
-  const ir::Window window{.space = area.space, .byte = 0, .count = area.bytes - width + 1};
-  l.b().storeAt(window, l.b().add(area.at, i), value);
-}
-
-Area shifted(Lowering& l, Area area, ValueId by) {
-  area.at = l.b().add(area.at, by);
-  area.fixed = false;
-  return area;
-}
 
 // A text, or the characters between apostrophes. `room`: characters it holds from the address on, at most `most`.
 struct Text {
@@ -65,26 +19,6 @@ struct Text {
   ValueId room;
   bool literal = false;
 };
-
-// A number of bytes: a constant, or a cell with at most `most`.
-struct Length {
-  bool fixed = true;
-  uint32_t most = 0;
-  ValueId value;
-};
-
-Length fixedCount(Lowering& l, uint32_t count) { return {.fixed = true, .most = count, .value = l.b().i32(count)}; }
-
-Length countOf(Lowering& l, const Operand& operand) {
-  if (operand.isConstant()) return fixedCount(l, static_cast<uint32_t>(operand.value));
-  const uint32_t most = operand.type == Type::I8 ? 0xFF : 0xFFFF;
-  return {.fixed = false, .most = most, .value = l.b().zextOrTrunc(Type::I32, l.value(operand))};
-}
-
-Length smaller(Lowering& l, const Length& a, const Length& b) {
-  if (a.fixed && b.fixed) return a.most < b.most ? a : b;
-  return {.fixed = false, .most = std::min(a.most, b.most), .value = least(l.b(), a.value, b.value)};
-}
 
 Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
 
@@ -118,95 +52,34 @@ bool textOf(Lowering& l, const Operand& operand, Text& text) {
   return true;
 }
 
-// Characters in front of the terminator; a text without one has as many as it holds.
+// Passes from `start` on that count characters until the terminator or `room`. `state`: characters so far, whether it
+// goes on.
+std::vector<ValueId> countPasses(Lowering& l, const Text& text, uint32_t passes, ValueId start,
+                                 std::span<const ValueId> state) {
+  ir::RungBuilder& b = l.b();
+  const auto pass = b.loop(passes, state);
+  const ValueId i = b.add(start, pass[0]);
+  const ValueId inside = b.and_(pass[2], b.ltU(i, text.room));
+  const ValueId at = b.select(inside, i, b.i32(0));
+  const ValueId goes = b.and_(inside, b.ne(loadByte(l, text.area, at), b.constant(Type::I8, 0)));
+  const ValueId next[] = {b.select(goes, b.add(i, b.i32(1)), pass[1]), goes};
+  return b.endLoop(next);
+}
+
+// Characters in front of the terminator; a text without one has as many as it holds. Blocks behind the end are passed
+// over.
 Length lengthOf(Lowering& l, const Text& text) {
   ir::RungBuilder& b = l.b();
   if (text.literal || text.most == 0) return fixedCount(l, text.most);
   const ValueId none[] = {b.i32(0), b.bit(true)};
-  const auto pass = b.loop(text.most, none);
-  const ValueId inside = b.and_(pass[2], b.ltU(pass[0], text.room));
-  const ValueId at = b.select(inside, pass[0], b.i32(0));
-  const ValueId goes = b.and_(inside, b.ne(loadByte(l, text.area, at), b.constant(Type::I8, 0)));
-  const ValueId next[] = {b.select(goes, b.add(pass[0], b.i32(1)), pass[1]), goes};
-  return {.fixed = false, .most = text.most, .value = b.endLoop(next)[0]};
-}
-
-// One pass copies or clears `type` at i * its width + `offset`, from the last one on if `backward`.
-void copyPasses(Lowering& l, const Area& to, const Area& from, uint32_t passes, Type type, uint32_t offset,
-                bool backward) {
-  if (passes == 0) return;
-  ir::RungBuilder& b = l.b();
-  ValueId i = b.loop(passes)[0];
-  if (backward) i = b.sub(b.i32(passes - 1), i);
-  i = b.add(b.mul(i, b.i32(ir::byteWidth(type))), b.i32(offset));
-  storeByte(l, to, i, loadByte(l, from, i, type));
-  b.endLoop();
-}
-
-void clearPasses(Lowering& l, const Area& area, uint32_t passes, Type type, uint32_t offset) {
-  if (passes == 0) return;
-  ir::RungBuilder& b = l.b();
-  const ValueId i = b.loop(passes)[0];
-  storeByte(l, area, b.add(b.mul(i, b.i32(ir::byteWidth(type))), b.i32(offset)), b.constant(type, 0));
-  b.endLoop();
-}
-
-// Areas and count are constants: eight bytes a pass.
-void copyFixed(Lowering& l, const Area& to, const Area& from, uint32_t count) {
-  const bool backward = to.space == from.space && to.first > from.first;
-  const uint32_t chunks = count / kChunk, rest = count % kChunk;
-  if (!backward) copyPasses(l, to, from, chunks, Type::I64, 0, false);
-  copyPasses(l, to, from, rest, Type::I8, chunks * kChunk, backward);
-  if (backward) copyPasses(l, to, from, chunks, Type::I64, 0, true);
-}
-
-// Copies as if all of the source were read first. The caller has checked both areas.
-void copy(Lowering& l, const Area& to, const Area& from, const Length& count) {
-  if (count.most == 0) return;
-  if (count.fixed && to.fixed && from.fixed) return copyFixed(l, to, from, count.most);
-  ir::RungBuilder& b = l.b();
-  const ValueId backward = to.space == from.space ? b.ltU(from.at, to.at) : b.bit(false);
-  const ValueId last = b.sub(count.value, b.i32(1));
-  const ValueId pass = b.loop(count.most)[0];
-  b.if_(b.ltU(pass, count.value));
-  const ValueId i = b.select(backward, b.sub(last, pass), pass);
-  storeByte(l, to, i, loadByte(l, from, i));
-  b.endIf();
-  b.endLoop();
-}
-
-void clear(Lowering& l, const Area& area, const Length& count) {
-  if (count.most == 0) return;
-  if (count.fixed) {
-    clearPasses(l, area, count.most / kChunk, Type::I64, 0);
-    clearPasses(l, area, count.most % kChunk, Type::I8, count.most / kChunk * kChunk);
-    return;
-  }
-  ir::RungBuilder& b = l.b();
-  const ValueId pass = b.loop(count.most)[0];
-  b.if_(b.ltU(pass, count.value));
-  storeByte(l, area, pass, b.constant(Type::I8, 0));
-  b.endIf();
-  b.endLoop();
-}
-
-// The bytes of `count` that lie in the space. Where area and count are constants the rest is reported: an error where
-// it would be written; read, it is 0 (an example of the manual reads behind its variable, l.13543). Else it is checked
-// when the program runs.
-Length inside(Lowering& l, const Operand& operand, const Area& area, const Length& count, bool written) {
-  if (area.fixed && count.fixed) {
-    const uint32_t exist = area.bytes - area.first;
-    if (count.most <= exist) return count;
-    l.program()
-            .diagnostics.report(Diag::AddressOutOfRange, operand.range)
-            .severity(written ? Severity::Error : Severity::Warning)
-        << OperandParser::spell(operand) + "+" + std::to_string(count.most - 1)
-        << (area.space == kInterfaceSpace ? "the interface" : "the program's data");
-    return fixedCount(l, exist);
-  }
-  ir::RungBuilder& b = l.b();
-  l.protect(b.ltU(b.i32(area.bytes), b.add(area.at, count.value)));
-  return count;
+  const auto length = [&](ValueId value) { return Length{.fixed = false, .most = text.most, .value = value}; };
+  if (text.most <= 2 * kBlock) return length(countPasses(l, text, text.most, b.i32(0), none)[0]);
+  const auto block = b.loop((text.most + kBlock - 1) / kBlock, none);
+  const ValueId state[] = {block[1], block[2]};
+  b.if_(block[2]);
+  const auto counted = countPasses(l, text, kBlock, b.mul(block[0], b.i32(kBlock)), state);
+  b.else_(counted);
+  return length(b.endLoop(b.endIf(state))[0]);
 }
 
 // Long texts have a rung of their own.
@@ -227,24 +100,46 @@ void storeTerminator(Lowering& l, const Area& area, ValueId at, ValueId cond) {
   l.b().endIf();
 }
 
-// Two areas compared byte by byte; behind `room` of a side its bytes count as 0. A common 0 ends texts.
-void compare(Lowering& l, const Area& left, ValueId leftRoom, const Area& right, ValueId rightRoom, const Length& count,
-             bool texts) {
+// One side of a comparison; behind `room` its bytes count as 0.
+struct Side {
+  Area area;
+  ValueId room;
+};
+
+ValueId byteOf(Lowering& l, const Side& side, ValueId i) {
+  ir::RungBuilder& b = l.b();
+  const ValueId zero = b.constant(Type::I8, 0);
+  if (side.area.bytes == 0) return zero;
+  const ValueId inside = b.ltU(i, side.room);
+  return b.select(inside, loadByte(l, side.area, b.select(inside, i, b.i32(0))), zero);
+}
+
+// `state`: equal so far, not ended.
+std::vector<ValueId> comparePasses(Lowering& l, const Side& left, const Side& right, const Length& count,
+                                   bool texts, uint32_t passes, ValueId start, std::span<const ValueId> state) {
+  ir::RungBuilder& b = l.b();
+  const auto pass = b.loop(passes, state);
+  const ValueId i = b.add(start, pass[0]);
+  const ValueId x = byteOf(l, left, i), y = byteOf(l, right, i);
+  const ValueId counts = b.and_(pass[2], b.ltU(i, count.value));
+  const ValueId equal = b.and_(pass[1], b.or_(b.not_(counts), b.eq(x, y)));
+  const ValueId goes = b.and_(counts, equal);
+  const ValueId next[] = {equal, texts ? b.and_(goes, b.ne(x, b.constant(Type::I8, 0))) : goes};
+  return b.endLoop(next);
+}
+
+// Two areas compared byte by byte. A common 0 ends texts.
+void compare(Lowering& l, const Side& left, const Side& right, const Length& count, bool texts) {
   ir::RungBuilder& b = l.b();
   if (count.most == 0) return l.r().setRlo(b.bit(true));
-  const ValueId zero = b.constant(Type::I8, 0);
-  const ValueId begin[] = {b.bit(true), b.bit(true)}; // equal so far, not ended
-  const auto pass = b.loop(count.most, begin);
-  const auto byteOf = [&](const Area& area, ValueId room) {
-    if (area.bytes == 0) return zero;
-    const ValueId inside = b.ltU(pass[0], room);
-    return b.select(inside, loadByte(l, area, b.select(inside, pass[0], b.i32(0))), zero);
-  };
-  const ValueId x = byteOf(left, leftRoom), y = byteOf(right, rightRoom);
-  const ValueId counts = b.and_(pass[2], b.ltU(pass[0], count.value));
-  const ValueId equal = b.and_(pass[1], b.or_(b.not_(counts), b.eq(x, y)));
-  const ValueId next[] = {equal, texts ? b.and_(counts, b.ne(x, zero)) : counts};
-  l.r().setRlo(b.endLoop(next)[0]);
+  const ValueId begin[] = {b.bit(true), b.bit(true)};
+  if (count.most <= 2 * kBlock)
+    return l.r().setRlo(comparePasses(l, left, right, count, texts, count.most, b.i32(0), begin)[0]);
+  const auto block = b.loop((count.most + kBlock - 1) / kBlock, begin);
+  const ValueId state[] = {block[1], block[2]};
+  b.if_(block[2]);
+  b.else_(comparePasses(l, left, right, count, texts, kBlock, b.mul(block[0], b.i32(kBlock)), state));
+  l.r().setRlo(b.endLoop(b.endIf(state))[0]);
 }
 
 // Copies what is there and clears what is not.
@@ -265,30 +160,6 @@ void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
   const Length written = inside(l, o[1], to, count, true);
   copyInside(l, o[0], to, from, written);
   if (isLong) l.out().cut();
-}
-
-// From the first address up to the second, which is not cleared.
-void lowerClear(Lowering& l, std::span<const Operand> o, int) {
-  const bool keywords[] = {o[0].form == Operand::Form::Keyword, o[1].form == Operand::Form::Keyword};
-  if (keywords[0] && keywords[1]) return l.clearAll(o[0].value == 0);
-  const auto wrong = [&](const Operand& operand, std::string_view is, std::string_view wanted) {
-    l.program().diagnostics.report(Diag::WrongOperandKind, operand.range)
-        << OperandParser::spell(operand) << is << wanted;
-  };
-  if (keywords[0]) return wrong(o[1], "an address", "ALL");
-  if (keywords[1]) return wrong(o[1], "a keyword", "an address");
-  if (o[0].place.space != o[1].place.space) return wrong(o[1], "in another memory", "an address behind the first");
-  l.out().cut();
-  const Area begin = areaOf(l, o[0]), end = areaOf(l, o[1]);
-  ir::RungBuilder& b = l.b();
-  if (begin.fixed && end.fixed) {
-    if (end.first < begin.first) return wrong(o[1], "in front of the first", "an address behind the first");
-    clear(l, begin, fixedCount(l, end.first - begin.first));
-  } else {
-    l.protect(b.ltU(end.at, begin.at));
-    clear(l, begin, {.fixed = false, .most = std::min(begin.bytes, 0x10000u), .value = b.sub(end.at, begin.at)});
-  }
-  l.out().cut();
 }
 
 // Ends with the terminator, which is copied too, where the target is full, or behind `num` characters (man.
@@ -353,7 +224,7 @@ void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
     if (!textOf(l, o[0], left) || !textOf(l, o[1], right)) return;
     const Length whole = fixedCount(l, right.most + 1);
     const Length count = o[2].given() ? smaller(l, whole, countOf(l, o[2])) : whole;
-    compare(l, left.area, left.room, right.area, right.room, count, true);
+    compare(l, {left.area, left.room}, {right.area, right.room}, count, true);
   });
 }
 
@@ -374,99 +245,8 @@ void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int) {
     if (!textOf(l, o[0], left) || !textOf(l, o[1], right)) return;
     const Length count = o[2].given() ? countOf(l, o[2]) : roomOf(right);
     const Length there = inside(l, o[0], left.area, count, false), here = inside(l, o[1], right.area, count, false);
-    compare(l, left.area, there.value, right.area, here.value, count, false);
+    compare(l, {left.area, there.value}, {right.area, here.value}, count, false);
   });
-}
-
-// ---- CLEAR GLOBAL, CLEAR INTERNAL
-// ------------------------------------------------------------------------------------
-
-void Lowering::clearAll(bool global) {
-  ir::RoutineId& routine = clears_[global ? 0 : 1];
-  if (!routine.valid()) routine = newRoutine(global ? "@CLEAR GLOBAL" : "@CLEAR INTERNAL");
-  out_->call(routine);
-}
-
-namespace {
-
-// Which bytes of the program's data are declared in DATA_LOCAL.
-std::vector<bool> localBytes(const Program& program) {
-  std::vector<bool> local(program.dataBytes);
-  for (const Symbol& symbol : program.symbols.all()) {
-    if (!symbol.local || !symbol.space.valid() || symbol.space != kDataSpace) continue;
-    if (symbol.kind != SymbolKind::Cell && symbol.kind != SymbolKind::Bit) continue;
-    const uint32_t size = std::max(1u, symbol.size);
-    for (uint32_t i = 0; i < size && symbol.byte + i < local.size(); ++i) local[symbol.byte + i] = true;
-  }
-  return local;
-}
-
-} // namespace
-
-void Lowering::clearData(bool local) {
-  const std::vector<bool> isLocal = localBytes(program_);
-  for (uint32_t first = 0; first < isLocal.size();) {
-    uint32_t end = first;
-    while (end < isLocal.size() && isLocal[end] == isLocal[first] && end - first < (1u << 20)) ++end;
-    if (isLocal[first] == local) {
-      clear(*this, fixedArea(*this, kDataSpace, program_.dataBytes, first), fixedCount(*this, end - first));
-      out_->cut();
-    }
-    first = end;
-  }
-}
-
-// Texts get the contents again that they have when the machine is switched on (man. l.1533-1536).
-void Lowering::fillTexts() {
-  for (const ir::Init& init : program_.inits) {
-    if (init.space != kDataSpace) continue;
-    const std::string_view text(reinterpret_cast<const char*>(init.data.data()), init.data.size());
-    const auto size = static_cast<uint32_t>(text.size());
-    copy(*this, fixedArea(*this, kDataSpace, program_.dataBytes, init.byte),
-         fixedArea(*this, constantBytes(text), size, 0), fixedCount(*this, size));
-    out_->cut();
-  }
-}
-
-void Lowering::clearSlots(std::span<const ir::SlotId> slots) {
-  constexpr size_t kStoresPerRung = 64;
-  for (size_t i = 0; i < slots.size(); ++i) {
-    if (i % kStoresPerRung == 0) out_->cut();
-    b().slotStore(slots[i], b().constant(module_.at(slots[i]).type, 0));
-  }
-}
-
-// GLOBAL: the data of all files, mechanisms and timers. INTERNAL: the data of DATA_LOCAL and the cells that
-// instructions made for themselves (man. l.1533-1539).
-void Lowering::makeClears() {
-  for (const bool global : {true, false}) {
-    if (!clears_[global ? 0 : 1].valid()) continue;
-    out_ = newBuilder(clears_[global ? 0 : 1]);
-    clearData(!global);
-    if (global) {
-      fillTexts();
-      for (uint32_t i = 0; i < program_.mechanisms.size(); ++i) {
-        initMechanism(i);
-        if (i % 16 == 15) out_->cut();
-      }
-    }
-    clearSlots(global ? timers_ : automatic_);
-    out_->finish();
-  }
-}
-
-// A hidden space of its own, named by its contents, so that a program that is exchanged while it runs finds its own.
-ir::SpaceId Lowering::constantBytes(std::string_view bytes) {
-  char number[17];
-  std::snprintf(number, sizeof number, "%016llx", static_cast<unsigned long long>(hashBytes(bytes)));
-  const std::string name = "@T" + std::string(number) + "." + std::to_string(bytes.size());
-  const auto [at, isNew] = constants_.emplace(name, ir::SpaceId{static_cast<uint32_t>(module_.spaces.size())});
-  if (isNew) {
-    module_.spaces.push_back(
-        {.name = name, .unitBytes = 1, .units = static_cast<uint32_t>(bytes.size()), .flags = RUNG_SPACE_HIDDEN});
-    module_.inits.push_back({.space = at->second, .byte = 0, .data = {bytes.begin(), bytes.end()}});
-  }
-  return at->second;
 }
 
 } // namespace rung::frontend::technol

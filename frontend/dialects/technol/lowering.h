@@ -162,7 +162,7 @@ private:
   void makeClears();
   void clearData(bool local);
   void clearSlots(std::span<const ir::SlotId> slots);
-  void fillTexts();
+  void fillData();
   void makeEvents();
   void checkRecursion();
   uint32_t procedureNamed(std::string_view name) const;

@@ -98,6 +98,7 @@ private:
     Protection protection = Protection::None;
     std::string_view name; // of the base
     const char* structure = "";
+    uint32_t own = kNone; // the program's own structure that it is, in Program::structures
   };
 
   bool countFits(const Statement& statement, size_t found);
@@ -121,6 +122,7 @@ private:
   bool term(std::span<const Token> tokens, int sign, Address& out);
   bool addSymbol(const Token& name, int sign, Address& out);
   bool addMember(const Token& member, Address& out);
+  bool addOwnMember(const Token& member, Address& out);
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted);

@@ -139,11 +139,29 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
   out.protection = symbol.protection;
   out.name = name.text;
   out.structure = symbol.structure;
+  out.own = symbol.kind == SymbolKind::Cell ? symbol.index : kNone;
   return true;
 }
 
-// A member of an interface structure brings its type; one of the program's own structures is a constant offset.
+// A member of the structure that the address has brings its type, an array none.
+bool OperandParser::addOwnMember(const Token& member, Address& out) {
+  const std::string key = symbolKey(member.text);
+  for (const StructureMember& m : program_.structures[out.own].members) {
+    if (m.key != key) continue;
+    const bool one = m.structure == kNone && m.bytes == m.elementBytes;
+    out.byte += m.offset;
+    out.end = out.byte + m.bytes;
+    out.type = one ? ir::intOfBytes(m.bytes) : ir::Type::None;
+    if (m.bytes == 8) out.type = ir::Type::None; // a QWORD or a REAL
+    out.own = m.structure;
+    return true;
+  }
+  return false;
+}
+
+// A member of an interface structure brings its type, too; behind any other address a member is a constant offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
+  if (out.own != kNone && addOwnMember(member, out)) return true;
   if (const Symbol* inside = program_.symbols.findMember(out.structure, member.text)) {
     out.byte += inside->byte;
     out.type = inside->type;

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "frontend/dialects/technol/encoding.h"
@@ -13,10 +14,14 @@ namespace rung::frontend::technol {
 // A declaration that takes memory. Addresses are given when all constants are known, in the order of the source over
 // all files, without gaps (man. l.105).
 struct DataItem {
-  Role role = Role::Ds;
+  Role role = Role::Ds; // MemberSize: an instance of a structure
+  bool local = false;   // DATA_LOCAL
   uint32_t statement = 0;
-  uint32_t cell = kNone;     // symbol
-  uint32_t firstBit = kNone; // in Program::itemBits, eight of them; Dfm
+  uint32_t cell = kNone;      // symbol
+  uint32_t firstBit = kNone;  // in Program::itemBits, eight of them; Dfm
+  std::vector<uint8_t> image; // of an instance
+  uint32_t byte = 0;          // in the data, when it is placed; texts on other memory take none
+  uint32_t bytes = 0;
 };
 
 struct Program {
@@ -35,6 +40,8 @@ struct Program {
   std::vector<Procedure> procedures;
   std::vector<ModulePart> parts; // in the order of the sources
   std::vector<DataItem> items;
+  std::vector<StructureType> structures;
+  std::unordered_set<std::string> structureNames; // keys
   std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
   uint32_t dataBytes = 0;
   std::vector<ir::Init> inits;

@@ -35,30 +35,27 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
   return label;
 }
 
-// `NAME struc`, `NAME ends` and the members between them.
-bool FileReader::readStructure(std::span<const Token> tokens) {
-  if (tokens.size() >= 2 && tokens[0].kind == TokenKind::Name && tokens[1].kind == TokenKind::Name) {
-    if (equalsNoCase(tokens[1].text, "STRUC")) return declarations_.beginStructure(tokens[0], tokens[1]), true;
-    if (equalsNoCase(tokens[1].text, "ENDS")) return declarations_.endStructure(tokens[0]), true;
-  }
-  if (!declarations_.inStructure()) return false;
-  const auto sizeOf = [](const Token& token) -> uint32_t {
-    const Row* row = token.kind == TokenKind::Name ? findRow(token.text) : nullptr;
-    return row && row->role == Role::MemberSize ? static_cast<uint32_t>(row->variant) : 0;
-  };
-  if (const uint32_t bytes = sizeOf(tokens[0]))
-    return declarations_.member(nullptr, tokens[0], bytes, tokens.subspan(1)), true;
-  const bool named = tokens.size() > 1 && tokens[0].kind == TokenKind::Name;
-  if (const uint32_t bytes = named ? sizeOf(tokens[1]) : 0) {
-    declarations_.member(&tokens[0], tokens[1], bytes, tokens.subspan(2));
-    return true;
-  }
-  const bool label = tokens.size() > 1 && tokens[1].is(':');
-  if (label || (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr)) {
-    declarations_.abandonStructure(tokens[0].range(), describe(tokens));
-    return false;
-  }
-  program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a member or ends" << describe(tokens);
+// `V NAME <1,2>` or `V: NAME <1,2>` where NAME is a structure.
+bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
+  const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
+  const bool named = count > 1 && pendingLabels_.empty() && tokens[0].kind == TokenKind::Name &&
+                     reservedWord(tokens[0].text) != Reserved::Yes && structures_.find(tokens[1]) != kNone;
+  const uint32_t type = structures_.find(tokens[named ? 1 : 0]);
+  if (type == kNone) return false;
+  const Token word = tokens[named ? 1 : 0];
+  const Statement made{.row = findRow("STRUC"),
+                       .pos = word.pos,
+                       .length = static_cast<uint32_t>(word.text.size()),
+                       .line = line,
+                       .firstToken = first + (named ? 2 : 1),
+                       .tokenCount = count - (named ? 2 : 1),
+                       .unit = structure_.unit(),
+                       .file = file_};
+  const uint32_t label = named ? first : pendingLabels_.empty() ? kNone : pendingLabels_.back();
+  const Token name = label == kNone ? Token() : program_.tokens[label];
+  declarations_.instance(made, label == kNone ? nullptr : &name, static_cast<uint32_t>(program_.statements.size()), type);
+  if (!named && label != kNone) pendingLabels_.pop_back();
+  program_.statements.push_back(made);
   return true;
 }
 
@@ -107,7 +104,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
     macros_.take(std::vector<Token>(program_.tokens.begin() + first, program_.tokens.begin() + first + count), line);
     return;
   }
-  if (readStructure(std::span(program_.tokens).subspan(first, count))) return;
+  if (structures_.line(std::span(program_.tokens).subspan(first, count))) return;
   const bool labelled = count >= 2 && program_.tokens[first + 1].is(':') && !program_.tokens[first].is(':');
   const uint32_t label = readLabel(first, count);
   if (label != kNone) pendingLabels_.push_back(label);
@@ -118,7 +115,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
         << "a name in front of ':'" << "none";
     return;
   }
-  if (macroLine(first, count, line)) return;
+  if (macroLine(first, count, line) || instance(first, count, line)) return;
   statement(instruction(program_.tokens[first]), first, count, line);
 }
 

@@ -34,7 +34,7 @@ void FileReader::read() {
   readLines(program_.files[file_].id, 0);
   const SourceFile& file = program_.files[file_];
   macros_.abandon();
-  if (declarations_.inStructure()) declarations_.abandonStructure(file.lastLine, "the end of the file");
+  if (structures_.isOpen()) structures_.abandon(file.lastLine, "the end of the file");
   if (!pendingLabels_.empty()) {
     Statement end{.line = file.lineCount, .unit = structure_.unit(), .file = file_};
     end.pos = program_.tokens[pendingLabels_[0]].pos;
@@ -93,7 +93,9 @@ void FileReader::readLines(FileId id, uint32_t depth) {
 bool FileReader::beginsStatement(uint32_t first) const {
   const std::span<const Token> tokens = std::span(program_.tokens).subspan(first);
   if (tokens[0].kind != TokenKind::Name) return false;
-  if (tokens.size() > 1 && (tokens[1].is(':') || equalsNoCase(tokens[1].text, "STRUC"))) return true;
+  if (tokens.size() > 1 && tokens[1].is(':')) return true;
+  const Row* second = tokens.size() > 1 && tokens[1].kind == TokenKind::Name ? findRow(tokens[1].text) : nullptr;
+  if (second && second->role == Role::MemberSize) return true; // NAME struc, NAME DB 5
   if (findRow(tokens[0].text) != nullptr) return reservedWord(tokens[0].text) == Reserved::Yes;
   return macros_.find(tokens[0].text) != nullptr;
 }

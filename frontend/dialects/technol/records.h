@@ -81,6 +81,20 @@ struct ModulePart {
 };
 
 enum class SymbolKind : uint8_t { Bit, Cell, Text, Constant, Label, Procedure, Mechanism, Macro, Structure };
+// A member of a program's own structure.
+struct StructureMember {
+  std::string key; // empty: unnamed
+  uint32_t offset = 0;
+  uint32_t bytes = 0;
+  uint32_t elementBytes = 0;  // as `bytes`, but for an array
+  uint32_t structure = kNone; // of each element, in Program::structures
+};
+
+struct StructureType {
+  std::vector<StructureMember> members; // in their order, without gaps
+  std::vector<uint8_t> image;           // what an instance holds at the start
+};
+
 // Protection of interface cells, see §4.1 of the inventory.
 enum class Protection : uint8_t { None, Warn, Error };
 
@@ -97,7 +111,7 @@ struct Symbol {
   uint32_t bit = 0;
   uint32_t size = 0;          // bytes of a cell or a text
   int64_t value = 0;          // of a constant
-  uint32_t index = kNone;     // label, procedure, mechanism
+  uint32_t index = kNone;     // label, procedure, mechanism; of a structure and of a cell that is one: in structures
   uint32_t mechanism = kNone; // of a cell: the mechanism of the same name
   const char* structure = ""; // of an interface cell: where its members are
   uint32_t file = 0;

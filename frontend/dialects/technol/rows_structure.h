@@ -223,8 +223,11 @@ inline constexpr Row kStructureRows[] = {
               .group = "declaration",
               .tasks = "DATA, DATA_LOCAL",
               .ref = "18.1.1, l.13525",
-              .doc = "NAME struc begins a structure: its members become constants, their offsets in bytes.",
-              .example = "TOOL   struc\nNUMBER DW ?\nLIFE   DD 0\nOFFSET DQ ?\nNAME   DB 8 DUP(0)\nTOOL   ends"},
+              .doc = "NAME struc begins a structure: its members become constants, their offsets in bytes, without "
+                     "gaps. Behind it NAME declares data: the values between < and > are those of the members at the "
+                     "start; one that is left out has the value of the structure.",
+              .example = "TOOL   struc\nNUMBER DW ?\nLIFE   DD 0\nOFFSET DQ ?\nNAME   DB 8 DUP(0)\nTOOL   ends\nT1     "
+                         "TOOL <5,1000>\nSPARE  TOOL 4 DUP(<>)"},
      .role = Role::MemberSize,
      .variant = 0},
     {.info = {.mnemonic = "ENDS",

@@ -133,6 +133,8 @@ bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   Symbol& first = symbols_[earlier];
   if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
     return true;
+  if (first.kind == SymbolKind::Structure && symbol.kind == SymbolKind::Structure && first.value == symbol.value)
+    return true;
   if (first.kind == SymbolKind::Cell && symbol.kind == SymbolKind::Mechanism && first.mechanism == kNone) {
     first.mechanism = symbol.index;
   } else if (first.kind == SymbolKind::Mechanism && symbol.kind == SymbolKind::Cell) {
@@ -150,7 +152,7 @@ uint32_t SymbolTable::declare(Symbol symbol) {
   const auto index = static_cast<uint32_t>(symbols_.size());
   if (uint32_t* earlier = inOwnFile(key, symbol)) {
     if (merge(*earlier, symbol)) {
-      if (symbol.kind == SymbolKind::Constant) return *earlier;
+      if (symbol.kind == SymbolKind::Constant || symbol.kind == SymbolKind::Structure) return *earlier;
       if (symbol.kind == SymbolKind::Cell) *earlier = index; // the cell carries both meanings
     } else {
       diagnostics_.report(Diag::DuplicateSymbol, symbol.declared)

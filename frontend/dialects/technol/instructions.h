@@ -35,8 +35,8 @@ enum class Role : uint8_t {
   ProcEnd,
   Timed,      // DFTMxx; variant: TimedKind
   Macro,      // DEF_T_MACRO and its like
-  MacroBegin, // made by the use of a macro that has its own effect on the stack
-  MacroEnd,   // variant: MacroStack
+  MacroBegin, // made by the use of a macro that has its own effect on the stack; variant: MacroStack
+  MacroEnd,
 };
 
 enum Effect : uint16_t {

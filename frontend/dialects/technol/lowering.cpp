@@ -185,7 +185,7 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   case Role::ProcBegin: beginProcedure(); return;
   case Role::ProcEnd: endProcedure(); return;
   case Role::Timed: beginTimed(); return;
-  case Role::MacroBegin: macroStates_.push_back({depth_, equationOpen_}); return;
+  case Role::MacroBegin: beginMacro(static_cast<MacroStack>(statement.row->variant)); return;
   case Role::MacroEnd: endMacro(static_cast<MacroStack>(statement.row->variant)); return;
   case Role::NoCode:
   case Role::Macro:
@@ -203,17 +203,34 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   }
 }
 
-// The flags of a macro override what its statements did (man. l.20536).
+// The flags of a macro override what its statements did (man. l.20536). One that pushes does so in front of them, as LDR
+// in front of its load.
+void Lowering::beginMacro(MacroStack stack) {
+  macroStates_.push_back({depth_, equationOpen_, program_.diagnostics.errorCount()});
+  if (stack != MacroStack::Push) return;
+  if (equationOpen_ && depth_ == kStackDepth)
+    program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
+  else if (equationOpen_)
+    r().setStack(depth_++, r().rlo());
+  else
+    equation_ = statement_->range();
+  equationOpen_ = false;
+}
+
 void Lowering::endMacro(MacroStack stack) {
   if (macroStates_.empty()) return;
-  const auto [depth, open] = macroStates_.back();
+  const auto [depth, open, errors] = macroStates_.back();
   macroStates_.pop_back();
   switch (stack) {
   case MacroStack::Normal: return;
   case MacroStack::Begin: depth_ = 0; return;
   case MacroStack::End: depth_ = depth, equationOpen_ = false; return;
   case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), equationOpen_ = true; return;
-  case MacroStack::Pop: depth_ = depth == 0 ? 0 : depth - 1, equationOpen_ = open; return;
+  case MacroStack::Pop:
+    if (depth == 0 && program_.diagnostics.errorCount() == errors)
+      program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << statement_->row->info.mnemonic;
+    depth_ = depth == 0 ? 0 : depth - 1, equationOpen_ = open;
+    return;
   }
 }
 

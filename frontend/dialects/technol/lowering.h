@@ -142,6 +142,7 @@ private:
   void lowerStatement(const Statement& statement, uint32_t index);
   void bindLabels(const Statement& statement, uint32_t index);
   void lowerCode();
+  void beginMacro(MacroStack stack);
   void endMacro(MacroStack stack);
   void beginRungFor(const Row& row);
   void applyStack(const Row& row);
@@ -193,7 +194,13 @@ private:
   SourceRange equation_;
   uint32_t depth_ = 0;
   ir::ValueId popped_;
-  std::vector<std::pair<uint32_t, bool>> macroStates_; // depth and open equation in front of a macro
+  // In front of a macro with an effect of its own.
+  struct MacroState {
+    uint32_t depth = 0;
+    bool open = false;
+    size_t errors = 0;
+  };
+  std::vector<MacroState> macroStates_;
   bool rloLost_ = false;
   bool drLost_ = false;
   enum class Mixed : uint8_t { No, Real, IntegerOnReal } mixed_ = Mixed::No;

@@ -91,8 +91,13 @@ void MacroSet::abandon() {
 void MacroSet::append(std::span<const Token> operands, SourceRange at) {
   const auto parts = splitOperands(operands);
   const auto isName = [](std::span<const Token> part) { return part.size() == 1 && part[0].kind == TokenKind::Name; };
-  if (parts.size() < 2 || !isName(parts[0]) || !isName(parts[1])) {
+  if (parts.size() < 2) {
     program_.diagnostics.report(Diag::OperandCount, at) << "APPEND_T_MACRO" << "2 or more operands" << parts.size();
+    return;
+  }
+  if (!isName(parts[0]) || !isName(parts[1])) {
+    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, parts[isName(parts[0]) ? 1 : 0], at))
+        << "the name of a macro" << "something else";
     return;
   }
   const auto found = names_.find(symbolKey(parts[0][0].text));
@@ -108,6 +113,11 @@ void MacroSet::append(std::span<const Token> operands, SourceRange at) {
 }
 
 void MacroSet::control(std::span<const Token> operands, SourceRange at) {
+  const size_t count = splitOperands(operands).size();
+  if (count != 1) {
+    program_.diagnostics.report(Diag::OperandCount, at) << "CONTROL_T_MACRO" << "1 operand" << count;
+    return;
+  }
   const bool one = operands.size() == 1 && operands[0].kind == TokenKind::Name;
   if (one && equalsNoCase(operands[0].text, "PRE")) first_ = true;
   else if (one && equalsNoCase(operands[0].text, "POS")) first_ = false;

@@ -1,5 +1,6 @@
 // The lines of a file, what it includes, and its macros (see file_reader.h).
 #include <algorithm>
+#include <array>
 
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
@@ -18,14 +19,16 @@ std::string folderOf(std::string_view path) {
 
 // Stand around the statements of a macro that has its own effect on the stack.
 const Row* markRow(Role role, MacroStack stack) {
-  static constexpr Row kMarks[] = {
-      {.info = {.mnemonic = "macro"}, .role = Role::MacroBegin},
-      {.info = {.mnemonic = "macro"}, .role = Role::MacroEnd, .variant = static_cast<int>(MacroStack::Begin)},
-      {.info = {.mnemonic = "macro"}, .role = Role::MacroEnd, .variant = static_cast<int>(MacroStack::End)},
-      {.info = {.mnemonic = "macro"}, .role = Role::MacroEnd, .variant = static_cast<int>(MacroStack::Push)},
-      {.info = {.mnemonic = "macro"}, .role = Role::MacroEnd, .variant = static_cast<int>(MacroStack::Pop)},
-  };
-  return role == Role::MacroBegin ? &kMarks[0] : &kMarks[static_cast<size_t>(stack)];
+  constexpr int kStacks = 5;
+  static constexpr auto kMarks = [] {
+    std::array<Row, 2 * kStacks> rows{};
+    for (int i = 0; i < 2 * kStacks; ++i)
+      rows[static_cast<size_t>(i)] = {.info = {.mnemonic = "macro"},
+                                      .role = i < kStacks ? Role::MacroBegin : Role::MacroEnd,
+                                      .variant = i % kStacks};
+    return rows;
+  }();
+  return &kMarks[static_cast<size_t>(stack) + (role == Role::MacroBegin ? 0 : kStacks)];
 }
 
 } // namespace

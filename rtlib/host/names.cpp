@@ -120,8 +120,10 @@ private:
 
   std::optional<Ref> widened(std::optional<Ref> ref, std::optional<uint32_t> bytes) const {
     if (!ref || ref->kind != RefKind::Int || !bytes) return std::nullopt;
-    if (*bytes != 1 && *bytes != 2 && *bytes != 4) return std::nullopt;
+    const bool longest = *bytes == 8 && dialect_ == Dialect::Technol;
+    if (*bytes != 1 && *bytes != 2 && *bytes != 4 && !longest) return std::nullopt;
     ref->width = static_cast<uint8_t>(*bytes * 8);
+    ref->count = 1;
     return inSpace(ref);
   }
 
@@ -156,8 +158,11 @@ private:
     return inSpace(ref);
   }
 
-  // NAME[n], CELL.n, CELL.WEIGHT.
+  // TYPE.NAME, NAME:bytes, NAME[n], CELL.n, CELL.WEIGHT, NAME+n.
   std::optional<Ref> technol(std::string_view name) {
+    if (const std::optional<uint32_t> bytes = takeType(name)) return widened(inBytes(resolve(name)), bytes);
+    if (const size_t colon = name.rfind(':'); colon != std::string_view::npos)
+      return widened(inBytes(resolve(name.substr(0, colon))), number(name.substr(colon + 1)));
     const size_t bracket = name.rfind('[');
     if (name.back() == ']' && bracket != std::string_view::npos) {
       const std::optional<Ref> array = resolve(name.substr(0, bracket));
@@ -165,10 +170,40 @@ private:
       return array && index ? inSpace(element(*array, *index)) : std::nullopt;
     }
     const size_t dot = name.rfind('.');
-    if (dot == std::string_view::npos) return std::nullopt;
+    if (dot == std::string_view::npos) return offset(name);
     const std::string_view right = name.substr(dot + 1);
     if (allDigits(right)) return bitIn(name.substr(0, dot), right);
     return weighted(resolve(name.substr(0, dot)), resolve(right));
+  }
+
+  // "WORD." at the beginning of the name, which loses it; its bytes.
+  static std::optional<uint32_t> takeType(std::string_view& name) {
+    constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
+        {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {"REAL.", 8}};
+    for (const auto& [type, bytes] : kTypes) {
+      if (!name.starts_with(type) || name.size() == type.size()) continue;
+      name.remove_prefix(type.size());
+      return bytes;
+    }
+    return std::nullopt;
+  }
+
+  // NAME+n: what begins n bytes behind it, in the width of its cells.
+  std::optional<Ref> offset(std::string_view name) {
+    const size_t plus = name.rfind('+');
+    if (plus == std::string_view::npos) return std::nullopt;
+    std::optional<Ref> ref = inBytes(resolve(name.substr(0, plus)));
+    const std::optional<uint32_t> bytes = number(name.substr(plus + 1));
+    if (!ref || !bytes || *bytes > 0xFFFFFFF) return std::nullopt;
+    ref->byte += *bytes;
+    ref->count = 1;
+    return inSpace(ref);
+  }
+
+  // Texts and reals as integers, the form that has a width; nothing of a bit or a constant.
+  static std::optional<Ref> inBytes(std::optional<Ref> ref) {
+    if (ref && (ref->kind == RefKind::Text || ref->kind == RefKind::Real)) ref->kind = RefKind::Int;
+    return ref && ref->kind == RefKind::Int ? ref : std::nullopt;
   }
 
   // A bit symbol behind the dot stands for its number in its byte (technol.md 4.1).

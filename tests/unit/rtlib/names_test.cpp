@@ -195,6 +195,21 @@ TEST_F(TechnolNames, Arrays) {
   EXPECT_EQ(at("TEXT[2]"), intRef(data, 42, 8));
 }
 
+TEST_F(TechnolNames, WidthsAndOffsets) {
+  EXPECT_EQ(at("CELL:4"), intRef(data, 4, 32));
+  EXPECT_EQ(at("table+6:8"), intRef(data, 22, 64));
+  EXPECT_EQ(at("CELL+3"), intRef(data, 7, 16));
+  EXPECT_EQ(at("CELL+3.2"), bitRef(data, 7, 2));
+  EXPECT_EQ(at("TEXT+9"), intRef(data, 49, 8));
+  EXPECT_EQ(at("WORD.TEXT+4"), intRef(data, 44, 16));
+  EXPECT_EQ(at("BYTE.CELL"), intRef(data, 4, 8));
+  EXPECT_EQ(at("SPEED:8"), intRef(nci, 8, 64));
+  EXPECT_EQ(at("REAL.TABLE+8"), intRef(data, 24, 64));
+  for (const char* name : {"CELL:3", "CELL:", "WEIGHT:1", "CELL+", "CELL+-1", "+1", ":2", "WORD.", "WORD.WEIGHT",
+                           "TABLE+111:2", "TABLE+4294967295", "CELL+2+"})
+    EXPECT_FALSE(at(name)) << name;
+}
+
 TEST_F(TechnolNames, ThirtyOneCharactersCount) {
   const std::string longer = std::string(kLong31) + "XYZ";
   EXPECT_EQ(at(longer), intRef(data, 60, 8));

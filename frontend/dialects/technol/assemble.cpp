@@ -15,6 +15,30 @@ constexpr uint32_t kFastPeriodUs = 1000; // man. l.2660
 constexpr uint32_t kScanBudget = 1'000'000;
 constexpr uint32_t kFastBudget = 100'000;
 
+// What the control presets when it is switched on; MODULE_INIT presets more (see Lowering::makeStart).
+struct Preset {
+  std::string_view signal;
+  uint16_t value;
+};
+constexpr Preset kPresets[] = {
+    {"EN_AUTMAN", 1},               // man. l.6372, l.10879
+    {"FEED_OVR_MULTIPLIER", 1000},  // man. l.6555
+    {"SPEED_OVR_MULTIPLIER", 1000}, // man. l.6592
+    {"NLCSERVOENABLE", 0xFFFF},     // man. l.6667
+    {"SHIFT_ENABLE", 0x3F},         // man. l.11122
+};
+
+void addPresets(const nc::SignalTable& signals, ir::Module& module) {
+  for (const Preset& preset : kPresets) {
+    const nc::Signal* signal = nc::findSignal(signals, preset.signal, "I");
+    if (signal == nullptr) continue;
+    const uint32_t value = static_cast<uint32_t>(preset.value) << (signal->type == nc::SignalType::Bit ? signal->bit : 0);
+    std::vector<uint8_t> data{static_cast<uint8_t>(value)};
+    if (signal->type == nc::SignalType::Word) data.push_back(static_cast<uint8_t>(value >> 8));
+    module.inits.push_back({.space = kInterfaceSpace, .byte = signal->byteOffset, .data = std::move(data)});
+  }
+}
+
 uint32_t abiType(Type type) {
   switch (type) {
   case Type::None:
@@ -93,6 +117,7 @@ void addSpaces(const Program& program, ir::Module& module) {
   add("@REG", kRegisterBytes, RUNG_SPACE_HIDDEN);
   add("BLK", nc::areaBytes(signals, "BLK") * kQueuedBlocks, RUNG_SPACE_INPUT);
   module.inits = program.inits;
+  addPresets(signals, module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).
   if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
     module.retains.push_back({.space = kInterfaceSpace, .byte = backup->byteOffset, .size = backup->count});

@@ -37,7 +37,7 @@ private:
   void checkNoOperands(const Statement& statement);
   void checkSwitch(const Statement& statement);
   void code(Statement& statement);
-  void notBuilt(const Statement& statement, Diag code);
+  void notBuilt(Statement& statement, Diag code);
   void checkWait(const Statement& statement);
   void checkLoop(const Statement& statement);
   void attachLabels(Statement& statement, uint32_t index);

@@ -59,10 +59,12 @@ struct OperandKind {
   bool cell = true;                    // a cell may stand there
   bool constant = false;               // a constant may
   bool notGiven = false;               // `-` or NIL may
+  bool empty = false;                  // nothing may, between commas
   bool text = false;                   // a text may
   uint8_t types = 0xFF;                // ir::TypeSet of cells
   SymbolKind name = SymbolKind::Label; // class Name
-  std::string_view keywords = {};      // parted by blanks; class Text: that may stand in the place of an address
+  std::string_view keywords = {};      // parted by blanks; beside what else may stand there
+  const char* structure = nullptr;     // of the control: class Keyword, one of its members
 };
 
 std::span<const OperandKind> operandKinds();
@@ -115,6 +117,8 @@ private:
   uint8_t takePrefix(std::span<const Token>& tokens);
   bool named(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool wrongPrefix(uint8_t prefix, const Operand& operand);
   bool chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out);

@@ -48,6 +48,12 @@ std::string operandsText(size_t least, size_t most, bool repeated) {
   return text + (most == 1 ? " operand" : " operands");
 }
 
+std::string widthsOf(ir::TypeSet types) {
+  const bool byte = ir::contains(types, ir::Type::I8), word = ir::contains(types, ir::Type::I16);
+  if (ir::contains(types, ir::Type::I32)) return byte ? "at most 32 bits" : "32 bits";
+  return byte && word ? "8 or 16 bits" : byte ? "8 bits" : "16 bits";
+}
+
 // Words that are parted by blanks.
 template <class Visit>
 void forEachWord(std::string_view words, Visit visit) {
@@ -128,12 +134,12 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
   }
   inherited_ = 0;
   while (out.size() < infos.size()) out.emplace_back().range = statement.range();
-  if (ok && (statement.row->effects & kWaits) && out.size() >= 2) ok = waitOperands(out);
+  if (ok && infos.size() >= 2 && infos[0].kind == "timer cell") ok = waitOperands(out);
   return ok;
 }
 
 bool OperandParser::one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  if (tokens.empty()) return (info.optional && kind.notGiven) || syntax("an operand", tokens);
+  if (tokens.empty()) return (info.optional && kind.notGiven) || kind.empty || syntax("an operand", tokens);
   if (kind.notGiven && isNotGiven(tokens)) return true;
   switch (kind.parse) {
   case OperandClass::Bit: return bit(info, kind, tokens, out);
@@ -195,12 +201,9 @@ bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std:
   }
   if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('['))
     return block(info, tokens, false, out);
+  if (ownWord(kind, tokens, out)) return true;
   const uint8_t prefix = takePrefix(tokens);
-  if (prefix != 0 && (kind.prefixes & prefix) == 0) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
-        << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
-    return false;
-  }
+  if (prefix != 0 && (kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
   Address address;
   if (tokens.empty()) return syntax("a value", tokens);
   if (!this->address(tokens, address)) return false;
@@ -257,13 +260,9 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
     program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
     return false;
   }
-  if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of 8 or 16 bits");
+  if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of " + widthsOf(kind.types));
   const uint8_t natural = naturalPrefix(out.type);
-  if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
-        << std::string(prefixOf(natural).name) + "." << statement_->row->info.mnemonic;
-    return false;
-  }
+  if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) return wrongPrefix(natural, out);
   const int64_t byte = address.byte + (prefix == kHigh ? 1 : 0);
   return setPlace(address, byte, ir::byteWidth(out.type), out) &&
          checkWrite(info, address.protection, address.name, out.range);
@@ -296,7 +295,7 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
         << statement_->row->info.mnemonic;
     return false;
   }
-  if (!kind.keywords.empty()) return chosen(kind, tokens, out);
+  if (!kind.keywords.empty() || kind.structure != nullptr) return chosen(kind, tokens, out);
   const PrefixName* width =
       tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
   if (width && (kind.prefixes & width->prefix)) {
@@ -320,9 +319,27 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   return false;
 }
 
+bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
+  program_.diagnostics.report(Diag::InvalidTypePrefix, operand.range)
+      << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
+  return false;
+}
+
+// A word of the kind that is no name of the program.
+bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
+  return program_.symbols.find(tokens[0].text, file_) == kNone && takeKeyword(kind.keywords, tokens, out);
+}
+
 // One of a kind's own words; other names are known and of another kind, or unknown.
 bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (takeKeyword(kind.keywords, tokens, out)) return true;
+  if (kind.structure != nullptr && tokens.size() == 1 && tokens[0].kind == TokenKind::Name)
+    if (const Symbol* member = program_.symbols.findMember(kind.structure, tokens[0].text)) {
+      out.form = Operand::Form::Keyword;
+      out.value = member->byte;
+      return true;
+    }
   const std::string wanted(kind.info.kind);
   if (tokens.size() != 1) return syntax("a " + wanted, tokens);
   const bool unknown =
@@ -363,6 +380,13 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
     return true;
   }
   if (takeKeyword(kind.keywords, tokens, out)) return true;
+  if (kind.prefixes != 0)
+    if (const uint8_t prefix = takePrefix(tokens); prefix != 0) {
+      if ((kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
+      out.prefixed = true;
+      out.type = prefixOf(prefix).type;
+    }
+  if (tokens.empty()) return syntax("a variable", tokens);
   std::vector<Token> plain;
   const bool indexed = withoutIndex(tokens, plain);
   Address address;

@@ -280,8 +280,13 @@ void FileReader::structural(Statement& statement, uint32_t index) {
 }
 
 // What stands in the wrong place is told first: it would stay wrong.
-void FileReader::notBuilt(const Statement& statement, Diag code) {
+void FileReader::notBuilt(Statement& statement, Diag code) {
+  if (!structure_.allowsCode(statement)) {
+    statement.row = nullptr;
+    return;
+  }
   const uint16_t effects = statement.row->effects;
+  if (effects & kWaits) ++passed_;
   const uint32_t owner = program_.owner(statement.unit);
   const bool init = owner != kNone && (program_.units[owner].kind == UnitKind::Procedure ||
                                        program_.units[owner].module == ModuleKind::Init);

@@ -120,6 +120,7 @@ private:
       }
       lane.engine = engine.value();
       lane.nc = nc::makeNcModel(lane.engine->program().dialect);
+      lane.nc->setFolder(std::filesystem::path(scenario_.path).parent_path().string());
       hooks_.push_back(std::make_unique<LaneHooks>(lane));
       lane.instance = driver::makeInstance(*lane.engine, hooks_.back().get());
       if (!configure(lane, *program.compiled().dialect)) return false;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <string_view>
 
 #include "rtlib/nc/technol/code_page.h"
@@ -126,6 +127,19 @@ std::string checkRange(const Reading& reading, const Statement& expect) {
              : fmt::format("{} is {}, expected {}…{}", expect.name, show(reading), expect.value.text, expect.high.text);
 }
 
+namespace {
+
+// Values of 32 bits, compared modulo 2^32.
+std::optional<uint32_t> technolValue(const nc::ShownMessage& message, std::string_view key) {
+  if (key == "subid") return static_cast<uint32_t>(message.index);
+  if (key == "par1") return static_cast<uint32_t>(message.value);
+  if (key == "par2") return message.par2;
+  if (key == "par3") return message.par3;
+  return std::nullopt;
+}
+
+} // namespace
+
 std::string messageDifference(const nc::ShownMessage& message, const std::vector<KeyValue>& keys) {
   for (const KeyValue& key : keys) {
     bool same = true;
@@ -133,11 +147,14 @@ std::string messageDifference(const nc::ShownMessage& message, const std::vector
     if (key.key == "text") {
       same = message.text == key.value.text;
       found = "\"" + message.text + "\"";
-    } else if (key.key == "channel" || key.key == "index" || key.key == "subid") {
-      const int32_t actual = key.key == "index" || key.key == "subid" ? message.index : message.channel;
+    } else if (const auto technol = technolValue(message, key.key)) {
+      same = *technol == static_cast<uint32_t>(key.value.integer) && key.value.kind == ValueKind::Int;
+      found = std::to_string(*technol);
+    } else if (key.key == "channel" || key.key == "index") {
+      const int32_t actual = key.key == "index" ? message.index : message.channel;
       same = actual == key.value.integer;
       found = std::to_string(actual);
-    } else if (key.key == "value" || key.key == "par1") {
+    } else if (key.key == "value") {
       same = message.real ? std::bit_cast<double>(message.value) == key.value.real : message.value == key.value.integer;
       found = message.real ? fmt::format("{}", std::bit_cast<double>(message.value)) : std::to_string(message.value);
     } else {

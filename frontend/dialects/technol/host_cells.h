@@ -10,8 +10,8 @@ namespace rung::frontend::technol {
 
 // @DR, @RLO: registers at the start of INIT, DONE and of event procedures. @BLOCK_x.CONT: state of a block module, 0 at
 // its beginning; @BLOCK_x.DONE: it has run through (the host clears it). @INIT.OWED, @DONE.OWED: a bit for each file
-// that has still to execute MODULE_INIT_FINISHED or MODULE_DONE_FINISHED. @ESET.PAR2, @ESET.PAR3: parameters of the
-// last message. @LICENCES: a bit for each licence of the hardware key (rtlib/nc/technol/licences.h).
+// that has still to execute MODULE_INIT_FINISHED or MODULE_DONE_FINISHED. @LICENCES: a bit for each licence of the
+// hardware key (rtlib/nc/technol/licences.h).
 enum class HostCell : uint8_t {
   Dr,
   Rlo,
@@ -21,8 +21,6 @@ enum class HostCell : uint8_t {
   BlockDoneDone,
   InitOwed,
   DoneOwed,
-  MessagePar2,
-  MessagePar3,
   Licences,
 };
 struct HostCellInfo {
@@ -32,6 +30,6 @@ struct HostCellInfo {
 };
 const HostCellInfo& hostCell(HostCell cell);
 inline constexpr uint32_t kRegisterBytes = 64;
-inline constexpr int kHostCells = 11;
+inline constexpr int kHostCells = 9;
 
 } // namespace rung::frontend::technol

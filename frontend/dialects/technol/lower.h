@@ -69,8 +69,10 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int);
 
 // lower_calls.cpp
 void lowerCall(Lowering& l, std::span<const Operand> o, int);
-void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
 void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
+
+// lower_message.cpp
+void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
 
 // lower_config.cpp
 void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind);

@@ -24,8 +24,6 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@BLOCK_DONE.DONE", Type::Bit, 24},
     {"@INIT.OWED", Type::I64, 32},
     {"@DONE.OWED", Type::I64, 40},
-    {"@ESET.PAR2", Type::I64, 48},
-    {"@ESET.PAR3", Type::I64, 56},
     {nc::kLicenceCell, Type::I32, 28},
 };
 

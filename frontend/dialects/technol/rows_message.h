@@ -5,10 +5,16 @@
 
 namespace rung::frontend::technol {
 
+constexpr OperandInfo bounded(OperandInfo operand, int64_t most) {
+  operand.min = 0;
+  operand.max = most;
+  return operand;
+}
+
 inline constexpr decltype(InstructionInfo::operands) kMessageOperands = {
-    optional(in("error", "message value", "number; in DR without it")),
+    optional(bounded(in("error", "message value", "number; in DR without it"), 65535)),
     optional(in("subid", "message value", "additional number")),
-    optional(in("set", "message value", "of a persistent message: 1 shows, 0 removes")),
+    optional(bounded(in("set", "message switch", "of a persistent message: 1 shows, 0 removes"), 1)),
     optional(in("par1", "message value", "value in the text")),
     optional(in("par2", "message value", "value in the text")),
     optional(in("par3", "message value", "value in the text"))};

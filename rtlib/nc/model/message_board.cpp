@@ -7,10 +7,26 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/messages.h"
+#include "rtlib/nc/technol/messages.h"
 
 namespace rung::nc {
 
+namespace {
+
+size_t describeTechnol(const rung_message& message, std::span<char> out) {
+  const technol::MessageValues m = technol::valuesOf(message);
+  char line[64];
+  const int length =
+      std::snprintf(line, sizeof line, "PLC%05u %u %u %u %u", m.number, m.subId, m.par[0], m.par[1], m.par[2]);
+  const size_t count = std::min(static_cast<size_t>(length), out.size());
+  std::copy_n(line, count, out.data());
+  return count;
+}
+
+} // namespace
+
 size_t describeMessage(const rung_program& program, const rung_message& message, std::span<char> out) {
+  if (std::string_view(program.dialect) == "technol") return describeTechnol(message, out);
   const std::string_view text = host::messageText(program, message.number);
   const bool nct = std::string_view(program.dialect) == "nct";
   const uint32_t number = nct ? nct::messageCode(message.number, static_cast<uint32_t>(message.channel),

@@ -15,14 +15,17 @@ struct ShownMessage {
   uint32_t number = 0;
   int32_t channel = 0;
   int32_t index = 0;
-  int64_t value = 0; // the bits of a double when `real`
+  int64_t value = 0; // the bits of a double when `real`; TECHNOL: par1
   bool real = false;
   std::string text;
+  uint32_t par2 = 0, par3 = 0; // TECHNOL
   bool operator==(const ShownMessage&) const = default;
 };
 
 // The line of a log: the message's number (NCT: its code of 8 digits) and its text, with its number where the dialect
-// prints one. Gives the characters written; what does not fit is cut off. Allocates nothing.
+// prints one; TECHNOL: PLC and five digits, subid and three values, its text is not the program's. Gives the characters
+// written; what does not fit is cut off. Allocates nothing.
+inline constexpr size_t kMessageLine = 400; // is enough
 size_t describeMessage(const rung_program& program, const rung_message& message, std::span<char> out);
 
 class MessageBoard {

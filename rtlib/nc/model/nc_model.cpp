@@ -1,10 +1,16 @@
 // What all simulated NCs have in common (see nc_model.h).
 #include "rtlib/nc/model/nc_model.h"
 
+#include <filesystem>
+
 namespace rung::nc {
 
 std::string NcModel::config(std::string_view key, std::string_view) {
   return "unknown configuration key '" + std::string(key) + "'";
+}
+
+std::string NcModel::inFolder(std::string_view file) const {
+  return (std::filesystem::path(folder_) / file).lexically_normal().string();
 }
 
 std::string NcModel::connect(std::string_view, std::string_view) { return "this dialect has no connections"; }

@@ -30,6 +30,8 @@ struct NcArgument {
 
 class NcModel : public host::ScheduleHooks {
 public:
+  // Files named by `config` without a full path stand in this folder; without one, in the working folder.
+  void setFolder(std::string folder) { folder_ = std::move(folder); }
   // Before the first power-on.
   virtual std::string config(std::string_view key, std::string_view value);
   virtual std::string connect(std::string_view source, std::string_view destination);
@@ -80,6 +82,9 @@ protected:
   // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
   virtual std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const;
 
+  std::string inFolder(std::string_view file) const;
+
+  std::string folder_;
   MessageBoard board_;
   std::map<std::string, double, std::less<>> quantities_;
 };

@@ -1,11 +1,16 @@
 // The NC beside a TECHNOL PLC, composed of the topics in technol/: the life of the program, part-program blocks,
 // events, messages (man. ch. 3.17, 5, 14).
+#include <iterator>
+#include <span>
+
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/technol/blocks.h"
 #include "rtlib/nc/model/technol/cells.h"
 #include "rtlib/nc/model/technol/configuration.h"
+#include "rtlib/nc/model/technol/control_files.h"
 #include "rtlib/nc/model/technol/events.h"
+#include "rtlib/nc/model/technol/messages.h"
 #include "rtlib/nc/model/technol/program_life.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
@@ -21,6 +26,7 @@ class TechnolModel final : public NcModel {
 public:
   void powerOn(host::Instance& instance, PowerOn kind) override {
     NcModel::powerOn(instance, kind);
+    messages_.clear();
     blocks_.reset(instance);
     technol::writeCell(instance, kLicenceCell, configuration_.licences());
     life_.powerOn(instance);
@@ -52,13 +58,21 @@ public:
     if (instance.atListStart()) life_.afterScan(instance);
   }
 
-  std::string config(std::string_view key, std::string_view value) override { return configuration_.set(key, value); }
+  std::string config(std::string_view key, std::string_view value) override {
+    constexpr std::string_view kKeys[] = {"PlcErrors", "PlcConstants", "PlcConfig"}; // of files, by ControlFileKind
+    for (size_t i = 0; i < std::size(kKeys); ++i)
+      if (key == kKeys[i]) return readFile(static_cast<technol::ControlFileKind>(i), value);
+    return configuration_.set(key, value);
+  }
 
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     if (host::serviceName(instance.program(), request.service) != kConfigurationService) return false;
     configuration_.respond(request, reply);
     return true;
   }
+
+  void takeMessages(host::Instance& instance) override { messages_.take(instance, board_); }
+  std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
 
   std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) override {
     return blocks_.start(instance, keys);
@@ -67,7 +81,7 @@ public:
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
     if (technol::equalIgnoringCase(name, "CONFIRM")) {
-      board_.confirmOldest();
+      messages_.confirm();
       return {};
     }
     if (technol::equalIgnoringCase(name, "HALT")) {
@@ -99,9 +113,23 @@ protected:
   }
 
 private:
+  std::string readFile(technol::ControlFileKind kind, std::string_view file) {
+    technol::ControlFiles files = files_;
+    std::string wrong = technol::readControlFile(kind, inFolder(file), files);
+    const auto added = [](const auto& all, const auto& earlier) { return std::span(all).subspan(earlier.size()); };
+    if (wrong.empty())
+      wrong = configuration_.define(added(files.parameters, files_.parameters), added(files.constants, files_.constants));
+    if (!wrong.empty()) return wrong;
+    files_ = std::move(files);
+    messages_.define(files_.messages);
+    return {};
+  }
+
   technol::Blocks blocks_;
   technol::ProgramLife life_;
+  technol::ControlFiles files_;
   technol::Configuration configuration_;
+  technol::Messages messages_;
 };
 
 } // namespace

@@ -239,13 +239,13 @@ TEST(TechnolProcedures, RegistersGoInAndComeOut) {
 
 TEST(TechnolMessages, NumberParametersAndCondition) {
   Machine m(Parts{.data = "DFM GO\nV: DS 2\nSEEN: DS 2\n",
-             .main = "  LDR GO\n  ESET1 12,-,-,V\n  ESET 13,7,1\n  ESET 13,7,0\n  LOD 14\n  ESET\n  STO SEEN\n"});
+             .main = "  LDR GO\n  ESET1 12,-,-,V,-,3\n  ESET 13,7,1\n  ESET 13,7,0\n  LOD 14\n  ESET\n  STO SEEN\n"});
   m.set("V", 300);
   m.scan();
-  EXPECT_EQ(m.messages(), (Lines{"13/1/7/0", "-13/1/7/0", "14/0/0/0"}));
+  EXPECT_EQ(m.messages(), (Lines{"13p/7/0/0/0", "-13p/7/0/0/0", "14/0/0/0/0"}));
   m.set("GO", 1);
   m.scan();
-  EXPECT_EQ(m.messages(), (Lines{"12/0/0/300", "13/1/7/0", "-13/1/7/0", "14/0/0/0"}));
+  EXPECT_EQ(m.messages(), (Lines{"12/0/300/0/3", "13p/7/0/0/0", "-13p/7/0/0/0", "14/0/0/0/0"}));
 }
 
 TEST(TechnolMessages, EventProcedureGetsTheNumberAndKeepsRegisters) {
@@ -253,6 +253,22 @@ TEST(TechnolMessages, EventProcedureGetsTheNumberAndKeepsRegisters) {
   m.scan();
   EXPECT_EQ(m.get("N"), 9);
   EXPECT_EQ(m.get("X"), 77);
+}
+
+TEST(TechnolMessages, EventProcedureIsCalledWhenAMessageComesUp) {
+  Machine m(Parts{.data = "N: DS 2\nCOUNT: DS 2\nSHOW: DS 1\nDFM A\n",
+             .main = "  LDR A\n  ESET1 40000\n  ESET 9,-,SHOW\n  ESET 8,-,0\n"
+                     "  PROC_BEGIN _ON_ESET\n  STO N\n  LOD COUNT\n  INR\n  STO COUNT\n  PROC_END _ON_ESET\n"});
+  m.scan();
+  EXPECT_EQ(m.get("COUNT"), 0);
+  m.set("A", 1);
+  m.scan();
+  EXPECT_EQ(m.get("COUNT"), 1);
+  EXPECT_EQ(m.get("N") & 0xFFFF, 40000);
+  m.set("SHOW", 1);
+  m.scan();
+  EXPECT_EQ(m.get("COUNT"), 3);
+  EXPECT_EQ(m.get("N"), 9);
 }
 
 TEST(TechnolEvents, TaskOfAnEventProcedure) {

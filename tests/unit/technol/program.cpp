@@ -6,6 +6,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "ir/verify/verify.h"
+#include "rtlib/nc/technol/messages.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::technol_test {
@@ -98,8 +99,15 @@ void Machine::setReal(std::string_view name, double value) { instance_->writeRea
 std::vector<std::string> Machine::messages() {
   std::vector<std::string> lines;
   rung_message m;
-  while (instance_->messages().pop(m))
-    lines.push_back((m.op == RUNG_MESSAGE_CLEAR ? "-" : "") + std::to_string(m.number) + "/" + std::to_string(m.channel) + "/" + std::to_string(m.index) + "/" + std::to_string(m.value));
+  while (instance_->messages().pop(m)) {
+    const nc::technol::MessageValues values = nc::technol::valuesOf(m);
+    std::string line = (m.op == RUNG_MESSAGE_CLEAR ? "-" : "") + std::to_string(values.number);
+    if (m.number & nc::technol::kPersistentWanted) line += 'p';
+    if (m.number & nc::technol::kByBit) line += 'b';
+    line += "/" + std::to_string(values.subId);
+    for (const uint32_t par : values.par) line += "/" + std::to_string(par);
+    lines.push_back(std::move(line));
+  }
   return lines;
 }
 

@@ -3,47 +3,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
-#include <cmath>
 
 #include "rtlib/nc/model/technol/cells.h"
+#include "rtlib/nc/model/technol/values.h"
+#include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
 
 namespace rung::nc::technol {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-template <class T, class... Base>
-std::optional<T> parsed(std::string_view text, Base... base) {
-  T value{};
-  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), value, base...);
-  if (error != std::errc() || at != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-// 12, -12, 0x0C
-std::optional<int64_t> integerOf(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with("0x") || text.starts_with("0X")) {
-    const auto bits = parsed<uint64_t>(text.substr(2), 16);
-    return bits ? std::optional(static_cast<int64_t>(*bits)) : std::nullopt;
-  }
-  if (text.starts_with('+')) text.remove_prefix(1);
-  return parsed<int64_t>(text, 10);
-}
-
-std::optional<double> realOf(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto value = parsed<double>(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
 
 int digitOf(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -124,7 +92,20 @@ std::string Configuration::set(std::string_view key, std::string_view value) {
   constexpr std::string_view kConstant = "const.", kLicence = "licence.";
   if (key.starts_with(kConstant)) return setConstant(key.substr(kConstant.size()), value);
   if (key.starts_with(kLicence)) return setLicence(key.substr(kLicence.size()), value);
-  parameters_.insert_or_assign(std::string(key), std::string(value));
+  parameters_.insert_or_assign(memoryText(key), memoryText(value));
+  return {};
+}
+
+// Numbers that a file gives itself are not given to others of its constants.
+std::string Configuration::define(std::span<const ParameterDefinition> parameters,
+                                  std::span<const ConstantDefinition> constants) {
+  for (const ParameterDefinition& parameter : parameters)
+    parameters_.insert_or_assign(memoryText(parameter.id), memoryText(parameter.value));
+  for (const ConstantDefinition& constant : constants)
+    if (const auto number = integerOf(constant.value)) commands_.insert(*number);
+  for (const ConstantDefinition& constant : constants)
+    if (const std::string wrong = setConstant(constant.id, constant.value); !wrong.empty())
+      return constant.place + ": " + wrong;
   return {};
 }
 
@@ -145,7 +126,7 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
     return "the constant '" + std::string(id) + "' is no number, SA0INT, SA0REAL or PLCCOMMAND: '" +
            std::string(value) + "'";
   }
-  constants_.insert_or_assign(std::string(id), number);
+  constants_.insert_or_assign(memoryText(id), number);
   commands_.insert(number);
   return {};
 }
@@ -169,7 +150,9 @@ int64_t Configuration::nextCommand() {
   return nextCommand_;
 }
 
-std::optional<int64_t> Configuration::constant(std::string_view id) const {
+std::optional<int64_t> Configuration::constant(std::string_view id) const { return constantInMemory(memoryText(id)); }
+
+std::optional<int64_t> Configuration::constantInMemory(std::string_view id) const {
   const auto found = constants_.find(id);
   return found == constants_.end() ? std::nullopt : std::optional(found->second);
 }
@@ -184,7 +167,7 @@ void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply&
   const auto answer = [&](bool found) { reply.results[0] = found ? 1 : 0; };
   const auto kind = static_cast<ConfigurationKind>(request.args[0]);
   if (kind == ConfigurationKind::Constant) {
-    const auto number = constant(id.view());
+    const auto number = constantInMemory(id.view());
     value = number.value_or(0);
     return answer(number.has_value());
   }

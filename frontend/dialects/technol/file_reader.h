@@ -1,6 +1,7 @@
 // Reads one file of a program: lines to statements (reader.cpp), included files and macros on the way (reader_lines.cpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,12 @@ public:
 private:
   void readLines(FileId id, uint32_t depth);
   static bool isInclude(std::string_view text);
+  struct IncludedFile {
+    std::string path;
+    std::optional<FileId> id;
+  };
   bool includes(const SourceLine& line, uint32_t depth);
+  IncludedFile findIncluded(std::string_view name, bool quoted, SourcePos at);
   bool macroLine(uint32_t first, uint32_t count, uint32_t line);
   void useMacro(const Macro& macro, uint32_t first, uint32_t count, uint32_t line);
   void mark(Role role, MacroStack stack, const Token& at, uint32_t line);

@@ -206,10 +206,8 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
 void Lowering::beginMacro(MacroStack stack) {
   macroStates_.push_back({depth_, equationOpen_, program_.diagnostics.errorCount()});
   if (stack != MacroStack::Push) return;
-  if (equationOpen_ && depth_ == kStackDepth)
-    program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
-  else if (equationOpen_)
-    r().setStack(depth_++, r().rlo());
+  if (equationOpen_)
+    pushRlo();
   else
     equation_ = statement_->range();
   equationOpen_ = false;
@@ -223,7 +221,7 @@ void Lowering::endMacro(MacroStack stack) {
   case MacroStack::Normal: return;
   case MacroStack::Begin: depth_ = 0; return;
   case MacroStack::End: depth_ = depth, equationOpen_ = false; return;
-  case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), equationOpen_ = true; return;
+  case MacroStack::Push: depth_ = depth + (open ? 1 : 0), equationOpen_ = true; return;
   case MacroStack::Pop:
     if (depth == 0 && program_.diagnostics.errorCount() == errors)
       program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << statement_->row->info.mnemonic;
@@ -250,15 +248,21 @@ void Lowering::beginRungFor(const Row& row) {
   if (begins || (loads && out_->length() >= kLongRung) || out_->length() >= kLongestRung) out_->cut();
 }
 
+// What is too much is counted too, so that it is told once.
+void Lowering::pushRlo() {
+  if (depth_ < kStackDepth)
+    r().setStack(depth_, r().rlo());
+  else if (depth_ == kStackDepth)
+    program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
+  ++depth_;
+}
+
 // Pushing and popping are decided in the order of the source (man. l.225-275).
 void Lowering::applyStack(const Row& row) {
   popped_ = {};
   if (row.effects & kPushes) {
     if (equationOpen_) {
-      if (depth_ == kStackDepth)
-        program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
-      else
-        r().setStack(depth_++, r().rlo());
+      pushRlo();
     } else {
       equation_ = statement_->range();
     }
@@ -269,7 +273,8 @@ void Lowering::applyStack(const Row& row) {
       program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << row.info.mnemonic;
       popped_ = r().rlo();
     } else {
-      popped_ = r().stack(--depth_);
+      --depth_;
+      popped_ = depth_ < kStackDepth ? r().stack(depth_) : r().rlo();
     }
   }
 }

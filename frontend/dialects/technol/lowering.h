@@ -145,6 +145,7 @@ private:
   void beginMacro(MacroStack stack);
   void endMacro(MacroStack stack);
   void beginRungFor(const Row& row);
+  void pushRlo();
   void applyStack(const Row& row);
   void checkPreserved(const Row& row);
   void settle(const Row& row);

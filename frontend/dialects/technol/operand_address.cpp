@@ -187,8 +187,9 @@ bool OperandParser::addMember(const Token& member, Address& out) {
 bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out) {
   out.place.space = address.space;
   out.indexed = address.indexed;
-  const int64_t first = address.indexed ? 0 : byte; // an index is checked when it is used
-  if (first < 0 || first + bytes > spaceBytes_[address.space.index]) {
+  // An index is checked when it is used; only what no index reaches is wrong now.
+  const int64_t slack = address.indexed ? 0xFFFF : 0;
+  if (byte < -slack || byte + bytes > spaceBytes_[address.space.index] + slack) {
     program_.diagnostics.report(Diag::AddressOutOfRange, out.range)
         << spell(out) << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
     return false;

@@ -1,6 +1,7 @@
 // The lines of a file, what it includes, and its macros (see file_reader.h).
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
@@ -119,6 +120,26 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+// The file that `path` names when the case of its last part, `name`, does not count; "" when there is none.
+std::string inAnyCase(const std::string& path, std::string_view name) {
+  std::string found = path.substr(0, path.size() - name.size());
+  while (!name.empty()) {
+    const std::string_view part = name.substr(0, name.find('/'));
+    name.remove_prefix(std::min(part.size() + 1, name.size()));
+    std::string entryName;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(found.empty() ? "." : found, error)) {
+      const std::string candidate = entry.path().filename().string();
+      const bool same = candidate.size() == part.size() &&
+                        std::equal(part.begin(), part.end(), candidate.begin(), [](char a, char b) { return upper(a) == upper(b); });
+      if (same && (entryName.empty() || candidate < entryName)) entryName = candidate;
+    }
+    if (entryName.empty()) return "";
+    found += entryName + (name.empty() ? "" : "/");
+  }
+  return found;
+}
+
 } // namespace
 
 bool FileReader::isInclude(std::string_view text) {
@@ -130,35 +151,60 @@ bool FileReader::isInclude(std::string_view text) {
 bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   if (!isInclude(line.text)) return false;
   std::string_view name = trimmed(line.text.substr(line.text.find_first_not_of(" \t") + kInclude.size()));
-  const SourceRange at = line.range(static_cast<size_t>(name.data() - line.text.data()), static_cast<size_t>(name.data() - line.text.data()) + name.size());
   name = trimmed(name.substr(0, commentOf(name)));
-  const bool quoted = name.size() > 1 && name.front() == '\'' && name.back() == '\'';
-  if (quoted) name = name.substr(1, name.size() - 2);
-  std::string path(name);
-  std::replace(path.begin(), path.end(), '\\', '/');
-  // A bare name in apostrophes lies in the SYSTEM folder.
-  const bool system = quoted && path.find('/') == std::string::npos && !program_.systemFolder.empty();
-  if (system) path = program_.systemFolder + "/" + path;
-  else if (path.empty() || path[0] != '/') path = folderOf(program_.sources.name(program_.sources.fileOf(line.begin))) + path;
-  if (std::find(including_.begin(), including_.end(), path) != including_.end()) {
-    program_.diagnostics.report(Diag::IncludeCycle, at) << path;
-    return true;
-  }
+  const auto column = static_cast<size_t>(name.data() - line.text.data());
+  const SourceRange at = name.empty() ? line.range() : line.range(column, column + name.size());
   if (depth >= kMaxIncludes) {
     program_.diagnostics.report(Diag::TooDeep, at) << "files" << kMaxIncludes;
     return true;
   }
-  const Result<FileId> file = program_.sources.addFile(path);
-  if (!file) {
+  const bool quoted = name.size() > 1 && name.front() == '\'' && name.back() == '\'';
+  if (quoted) name = name.substr(1, name.size() - 2);
+  if (name.empty()) {
+    program_.diagnostics.report(Diag::OperandCount, at) << kInclude << "1 operand" << 0;
+    return true;
+  }
+  const IncludedFile file = findIncluded(name, quoted, line.begin);
+  if (std::find(including_.begin(), including_.end(), file.path) != including_.end()) {
+    program_.diagnostics.report(Diag::IncludeCycle, at) << file.path;
+    return true;
+  }
+  if (!file.id) {
     program_.diagnostics.report(Diag::IncludeNotFound, at) << name;
     return true;
   }
-  including_.push_back(path);
+  including_.push_back(file.path);
   includeReported_ = false;
-  const auto text = readable(program_.sources, file.value(), program_.encoding, program_.diagnostics);
+  const auto text = readable(program_.sources, *file.id, program_.encoding, program_.diagnostics);
   if (text) readLines(*text, depth + 1);
   including_.pop_back();
   return true;
+}
+
+// A name without a drive or root lies in the folder of the program, or else of the file that includes it; a bare one in
+// apostrophes in the SYSTEM folder (man. l.20319-20326). The control's files have names in any case.
+FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool quoted, SourcePos at) {
+  std::string path(name);
+  std::replace(path.begin(), path.end(), '\\', '/');
+  const bool system = quoted && path.find('/') == std::string::npos && !program_.systemFolder.empty();
+  std::vector<std::string> paths;
+  if (system) {
+    paths = {program_.systemFolder + "/" + path};
+  } else if (path[0] == '/') {
+    paths = {path};
+  } else {
+    paths = {folderOf(program_.sources.name(program_.files[file_].id)) + path};
+    const std::string beside = folderOf(program_.sources.name(program_.sources.fileOf(at))) + path;
+    if (beside != paths[0]) paths.push_back(beside);
+  }
+  for (const bool anyCase : {false, true})
+    for (const std::string& candidate : paths) {
+      const std::string real = anyCase ? inAnyCase(candidate, path) : candidate;
+      if (std::find(including_.begin(), including_.end(), real) != including_.end()) return {real, std::nullopt};
+      if (Result<FileId> file = real.empty() ? Result<FileId>(failure("")) : program_.sources.addFile(real); file)
+        return {real, file.value()};
+    }
+  return {paths[0], std::nullopt};
 }
 
 // Included files hold constants, data and macros; what runs stands in macros (man. l.20320).
@@ -191,6 +237,7 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
     if (name == "DEF_T_MACRO") macros_.begin(operands, head.range());
     else if (name == "APPEND_T_MACRO") macros_.append(operands, head.range());
     else if (name == "CONTROL_T_MACRO") macros_.control(operands, head.range());
+    else if (name == kInclude) program_.diagnostics.report(Diag::OperandCount, head.range()) << name << "1 operand" << 0;
     else program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO in front" << name;
     return true;
   }

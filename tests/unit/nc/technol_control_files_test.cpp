@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
+#include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/technol/control_files.h"
 
 namespace rung::nc::technol {
@@ -293,6 +295,20 @@ TEST(ControlFiles, FilesThatCannotBeRead) {
   EXPECT_EQ(readControlFile(Kind::Constants, path, files), "");
   EXPECT_EQ(files.constants.size(), 1u);
   std::filesystem::remove(path);
+}
+
+TEST(ControlFiles, TheModelReadsThemBesideTheScenario) {
+  const std::filesystem::path folder = testing::TempDir();
+  const std::string name = "technol_control_files_test.PlcConstants";
+  std::ofstream(folder / name) << "<PlcConstants>\n<Constant ID='A' Value='x'/></PlcConstants>";
+  const std::unique_ptr<NcModel> model = makeTechnolModel();
+  model->setFolder(folder.string());
+  EXPECT_EQ(model->config("PlcConstants", name),
+            (folder / name).string() + ":2:1: the constant 'A' is no number, SA0INT, SA0REAL or PLCCOMMAND: 'x'");
+  EXPECT_THAT(model->config("PlcErrors", "there-is-no-such-file"), HasSubstr("cannot be read"));
+  EXPECT_THAT(model->config("PlcConfig", name), "");
+  EXPECT_THAT(model->config("PlcErrors", (folder / name).string()), HasSubstr("holds no <Constant>"));
+  std::filesystem::remove(folder / name);
 }
 
 } // namespace

@@ -186,7 +186,7 @@ void Lowering::callProcedure(uint32_t procedure, SourceRange at, ValueId cond) {
   if (procedure_ != kNone) program_.procedures[procedure_].calls.push_back({procedure, at});
   // The stack of the equation in which the call stands stays as it is.
   std::vector<ir::SlotId> kept;
-  for (uint32_t level = 0; level < std::min(depth_, kStackDepth); ++level) {
+  for (uint32_t level = 0; level < depth_; ++level) {
     kept.push_back({static_cast<uint32_t>(module_.slots.size())});
     module_.slots.push_back({.type = Type::Bit, .transient = true, .key = "CALL." + std::to_string(kept[level].index)});
     b().slotStore(kept[level], r().stack(level));

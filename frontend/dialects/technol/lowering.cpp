@@ -221,7 +221,7 @@ void Lowering::endMacro(MacroStack stack) {
   case MacroStack::Normal: return;
   case MacroStack::Begin: depth_ = 0; return;
   case MacroStack::End: depth_ = depth, equationOpen_ = false; return;
-  case MacroStack::Push: depth_ = depth + (open ? 1 : 0), equationOpen_ = true; return;
+  case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), equationOpen_ = true; return;
   case MacroStack::Pop:
     if (depth == 0 && program_.diagnostics.errorCount() == errors)
       program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << statement_->row->info.mnemonic;
@@ -248,13 +248,13 @@ void Lowering::beginRungFor(const Row& row) {
   if (begins || (loads && out_->length() >= kLongRung) || out_->length() >= kLongestRung) out_->cut();
 }
 
-// What is too much is counted too, so that it is told once.
+// Values beyond the stack's end are lost; that is told once, also where they are taken off.
 void Lowering::pushRlo() {
-  if (depth_ < kStackDepth)
-    r().setStack(depth_, r().rlo());
-  else if (depth_ == kStackDepth)
+  if (depth_ < kStackDepth) {
+    r().setStack(depth_++, r().rlo());
+  } else if (lost_++ == 0) {
     program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
-  ++depth_;
+  }
 }
 
 // Pushing and popping are decided in the order of the source (man. l.225-275).
@@ -270,11 +270,13 @@ void Lowering::applyStack(const Row& row) {
   }
   if ((row.effects & kJoins) && statement_->tokenCount == 0) {
     if (depth_ == 0) {
-      program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << row.info.mnemonic;
+      if (lost_ > 0)
+        --lost_;
+      else
+        program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << row.info.mnemonic;
       popped_ = r().rlo();
     } else {
-      --depth_;
-      popped_ = depth_ < kStackDepth ? r().stack(depth_) : r().rlo();
+      popped_ = r().stack(--depth_);
     }
   }
 }
@@ -310,6 +312,7 @@ void Lowering::checkBalance(SourceRange at, std::string_view where) {
   else if (equationOpen_)
     program_.diagnostics.report(Diag::UnterminatedEquation, equation_).note(at, "it is still open here");
   depth_ = 0;
+  lost_ = 0;
 }
 
 void Lowering::endEquation(SourceRange at, std::string_view where) {

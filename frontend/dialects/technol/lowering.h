@@ -194,6 +194,7 @@ private:
   bool equationOpen_ = false;
   SourceRange equation_;
   uint32_t depth_ = 0;
+  uint32_t lost_ = 0; // values that the stack did not hold
   ir::ValueId popped_;
   // In front of a macro with an effect of its own.
   struct MacroState {

@@ -34,6 +34,7 @@ private:
   bool allowedInInclude(const Statement& statement);
   void logicalLine(uint32_t first, uint32_t count, uint32_t line);
   bool beginsStatement(uint32_t first) const;
+  bool splitLabel(uint32_t& first, uint32_t& count);
   uint32_t readLabel(uint32_t& first, uint32_t& count);
   bool instance(uint32_t first, uint32_t count, uint32_t line);
   void reportUnknown(const Token& token);

@@ -45,8 +45,8 @@ void MacroSet::declare(const Token& name, uint32_t macro) {
   symbol.local = true;
   symbol.file = file_;
   symbol.declared = name.range();
-  // With CONTROL_T_MACRO PRE a macro may bear the name of an instruction.
-  if (!first_ || findRow(name.text) == nullptr) program_.symbols.declare(symbol);
+  // A macro may bear the name of an instruction: at its uses CONTROL_T_MACRO tells which of them is meant (man. l.20572).
+  if (findRow(name.text) == nullptr) program_.symbols.declare(symbol);
   names_.emplace(symbolKey(name.text), macro);
 }
 

@@ -83,7 +83,11 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
                                     static_cast<uint64_t>(sign) * static_cast<uint64_t>(number->value));
   } else if (head.kind == TokenKind::Text) {
     const std::optional<uint8_t> character = characterByte(head.text);
-    if (!character) return syntax("one character", tokens);
+    if (!character) {
+      program_.diagnostics.report(Diag::WrongOperandKind, head.range())
+          << "'" + std::string(head.text) + "'" << "a text" << "a value or one character";
+      return false;
+    }
     out.byte += sign * *character;
   } else if (head.kind == TokenKind::Name) {
     if (!addSymbol(head, sign, out)) return false;

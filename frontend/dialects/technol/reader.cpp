@@ -19,8 +19,24 @@ std::string describe(std::span<const Token> tokens) {
 
 } // namespace
 
+// `A-B:` is a label that is no name; a colon has no other meaning.
+bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
+  const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
+  const auto colon = std::find_if(tokens.begin(), tokens.end(), [](const Token& token) { return token.is(':'); });
+  if (colon == tokens.end() || colon - tokens.begin() < 2 || tokens[0].kind == TokenKind::Punct) return false;
+  if (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr) return false;
+  const auto label = tokens.first(static_cast<size_t>(colon - tokens.begin()));
+  std::string name;
+  for (const Token& token : label) name += token.text;
+  program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range())) << name;
+  first += static_cast<uint32_t>(label.size()) + 1;
+  count -= static_cast<uint32_t>(label.size()) + 1;
+  return true;
+}
+
 // Takes `name :` off the front; the token of the name, or kNone.
 uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
+  if (splitLabel(first, count)) return kNone;
   if (count < 2 || !program_.tokens[first + 1].is(':')) return kNone;
   const Token name = program_.tokens[first];
   uint32_t label = first;
@@ -105,8 +121,10 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
     return;
   }
   if (structures_.line(std::span(program_.tokens).subspan(first, count))) return;
-  const bool labelled = count >= 2 && program_.tokens[first + 1].is(':') && !program_.tokens[first].is(':');
+  const uint32_t begin = first;
+  const bool colonFirst = program_.tokens[first].is(':');
   const uint32_t label = readLabel(first, count);
+  const bool labelled = first != begin && !colonFirst;
   if (label != kNone) pendingLabels_.push_back(label);
   badLabel_ = labelled && label == kNone;
   if (count == 0) return;

@@ -73,8 +73,9 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     if (!address(tokens.subspan(1, i - 2), out)) return false;
   } else if (head.kind == TokenKind::Number) {
     const std::optional<Number> number = parseNumber(head.text);
-    if (!number) {
-      program_.diagnostics.report(Diag::BadNumber, head.range()) << head.text;
+    const bool pointBehind = tokens.size() > 1 && tokens[1].is('.'); // 1. and 5.A
+    if (!number || pointBehind) {
+      program_.diagnostics.report(Diag::BadNumber, head.range()) << std::string(head.text) + (pointBehind ? "." : "");
       return false;
     }
     out.isReal = out.isReal || number->isReal;

@@ -97,12 +97,14 @@ public:
   }
 
   std::string plcCommand(host::Instance& instance, std::string_view command) override {
-    if (command == "stop")
+    if (command == "stop") {
       life_.stop(instance);
-    else if (command == "start")
+    } else if (command == "start") {
+      messages_.clear(); // as at power-up
       life_.start(instance);
-    else
+    } else {
       life_.clear(instance);
+    }
     takeMessages(instance);
     return {};
   }

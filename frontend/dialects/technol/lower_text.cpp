@@ -22,7 +22,7 @@ struct Text {
 
 Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
 
-// A text whose address lies behind its end is the program's mistake; with BX it shows when the program runs.
+// A text whose address lies outside it is the program's mistake; with BX it shows when the program runs.
 bool textOf(Lowering& l, const Operand& operand, Text& text) {
   ir::RungBuilder& b = l.b();
   if (operand.form == Operand::Form::Text) {
@@ -33,22 +33,25 @@ bool textOf(Lowering& l, const Operand& operand, Text& text) {
                                : fixedArea(l, l.constantBytes(operand.text), text.most, 0);
     return true;
   }
-  if (operand.size > kLongestText + 1) {
+  if (operand.end - operand.begin > kLongestText + 1) {
     l.program().diagnostics.report(Diag::TooLarge, operand.range) << "characters in a text" << kLongestText;
     return false;
   }
-  if (operand.size == 0) {
+  if (!operand.indexed && (operand.size == 0 || operand.place.byte < operand.begin)) {
     l.program().diagnostics.report(Diag::AddressOutOfRange, operand.range)
         << OperandParser::spell(operand) << "the text";
     return false;
   }
   text.area = areaOf(l, operand);
-  text.most = operand.size - 1;
-  text.room = b.i32(text.most);
-  if (!operand.indexed) return true;
-  const ValueId last = b.i32(operand.value + text.most);
-  l.protect(b.ltU(last, text.area.at));
-  text.room = b.sub(last, text.area.at);
+  if (!operand.indexed) {
+    text.most = operand.size - 1;
+    text.room = b.i32(text.most);
+    return true;
+  }
+  text.most = static_cast<uint32_t>(operand.end - 1 - operand.begin);
+  const ValueId at = b.sub(text.area.at, b.i32(operand.begin));
+  l.protect(b.ltU(b.i32(text.most), at));
+  text.room = b.sub(b.i32(text.most), at);
   return true;
 }
 
@@ -87,7 +90,7 @@ void inOwnRung(Lowering& l, std::span<const Operand> o, auto body) {
   bool isLong = false;
   for (const Operand& operand : o) {
     const bool isText = operand.form == Operand::Form::Cell && operand.type == Type::None;
-    isLong = isLong || (isText && operand.size > kManyPasses);
+    isLong = isLong || (isText && operand.end - operand.begin > kManyPasses);
   }
   if (isLong) l.out().cut();
   body();

@@ -34,6 +34,8 @@ struct Operand {
   // Of a text or an array at an address: bytes from there to its end, with a text's terminator; 0 behind the end. Where
   // indexed, from `value` on: BX takes off more.
   uint32_t size = 0;
+  int64_t begin = 0; // of that text or array, in its space
+  int64_t end = 0;
   int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
   double real = 0;
   uint32_t index = kNone; // label, mechanism, procedure
@@ -96,7 +98,8 @@ private:
     int64_t byte = 0; // with a base: in its space; else the value
     double real = 0;
     ir::Type type = ir::Type::None;
-    int64_t end = 0; // of the base object
+    int64_t begin = 0; // of the base object
+    int64_t end = 0;
     Protection protection = Protection::None;
     std::string_view name; // of the base
     const char* structure = "";

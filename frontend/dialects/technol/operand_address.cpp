@@ -139,6 +139,7 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
   out.isText = symbol.kind == SymbolKind::Text;
   out.space = symbol.space;
   out.byte += symbol.byte;
+  out.begin = symbol.byte;
   out.end = static_cast<int64_t>(symbol.byte) + symbol.size;
   out.type = symbol.kind == SymbolKind::Cell ? symbol.type : ir::Type::None;
   out.protection = symbol.protection;
@@ -172,6 +173,7 @@ bool OperandParser::addMember(const Token& member, Address& out) {
     out.type = inside->type;
     out.isBit = inside->kind == SymbolKind::Bit;
     out.isText = inside->kind == SymbolKind::Text;
+    out.begin = out.byte;
     out.end = out.byte + inside->size;
     out.structure = inside->structure;
     return true;

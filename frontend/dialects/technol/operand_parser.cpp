@@ -398,6 +398,8 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
+  out.begin = address.begin;
+  out.end = address.end;
   return setPlace(address, address.byte, 1, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 

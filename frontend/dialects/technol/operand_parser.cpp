@@ -400,7 +400,8 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   out.begin = address.begin;
   out.end = address.end;
-  return setPlace(address, address.byte, 1, out) && checkWrite(info, address.protection, address.name, out.range);
+  const uint32_t bytes = kind.info.kind == "end" && !address.indexed ? 0 : 1; // an end lies behind its memory
+  return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 
 } // namespace rung::frontend::technol

@@ -55,7 +55,7 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
 bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const bool named = count > 1 && pendingLabels_.empty() && tokens[0].kind == TokenKind::Name &&
-                     reservedWord(tokens[0].text) != Reserved::Yes && structures_.find(tokens[1]) != kNone;
+                     (findRow(tokens[0].text) == nullptr || reservedWord(tokens[0].text) != Reserved::Yes) && structures_.find(tokens[1]) != kNone;
   const uint32_t type = structures_.find(tokens[named ? 1 : 0]);
   if (type == kNone) return false;
   const Token word = tokens[named ? 1 : 0];

@@ -26,7 +26,7 @@ inline constexpr Row kTextRows[] = {
               .title = "clear memory",
               .group = "memory",
               .operands = {out("begin", "beginning", "the first byte, or which data"),
-                           out("end", "end", "the first byte that stays, or ALL")},
+                           in("end", "end", "the first byte that stays, or ALL")},
               .ref = "3.15, l.1521",
               .doc =
                   "Bytes become 0 from the first address up to the second, which stays. GLOBAL,ALL brings all "

@@ -60,8 +60,10 @@ bool Structures::room(int64_t bytes, SourceRange at) {
 
 bool Structures::line(std::span<const Token> tokens) {
   if (tokens.size() >= 2 && tokens[0].kind == TokenKind::Name && tokens[1].kind == TokenKind::Name) {
-    if (isWord(tokens[1], "STRUC")) return begin(tokens[0], tokens[1]), true;
-    if (isWord(tokens[1], "ENDS")) return end(tokens[0]), true;
+    // `DFM struc` and `LDR ends` use the words as names.
+    const Row* row = findRow(tokens[0].text);
+    if (isWord(tokens[1], "STRUC") && !(row && row->role == Role::Dfm)) return begin(tokens[0], tokens[1]), true;
+    if (isWord(tokens[1], "ENDS") && (row == nullptr || open_)) return end(tokens[0]), true;
   }
   if (!open_) return false;
   if (isMember(tokens)) return true;

@@ -15,13 +15,24 @@ namespace {
 constexpr std::string_view kExtensions[] = {".plc"};
 constexpr std::string_view kConfigKeys[] = {"encoding", "period_us", "system_folder"};
 
-uint32_t periodOf(const CompileOptions& options) {
+uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   const auto found = options.config.find("period_us");
   if (found == options.config.end()) return technol::kDefaultPeriodUs;
   uint32_t period = 0;
   const char* end = found->second.data() + found->second.size();
   const auto [at, error] = std::from_chars(found->second.data(), end, period);
-  return error == std::errc() && at == end && period > 0 ? period : technol::kDefaultPeriodUs;
+  if (error == std::errc() && at == end && period > 0) return period;
+  diagnostics.report(Diag::OperandRange) << "period_us " + found->second << "1 to " + std::to_string(UINT32_MAX);
+  return technol::kDefaultPeriodUs;
+}
+
+technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnostics) {
+  const auto found = options.config.find("encoding");
+  if (found == options.config.end()) return technol::Encoding::Detect;
+  const technol::Encoding encoding = technol::encodingNamed(found->second);
+  if (encoding == technol::Encoding::Detect)
+    diagnostics.report(Diag::OperandRange) << "encoding " + found->second << "UTF-8, Windows-1250, CP852";
+  return encoding;
 }
 
 std::string baseName(std::string_view path) {
@@ -35,8 +46,7 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   technol::Program program(sources, diagnostics);
   if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
     program.systemFolder = folder->second;
-  if (const auto encoding = options.config.find("encoding"); encoding != options.config.end())
-    program.encoding = technol::encodingNamed(encoding->second);
+  program.encoding = encodingOf(options, diagnostics);
   technol::readProgram(program, files);
   if (program.files.empty()) return nullptr;
   auto module = std::make_unique<ir::Module>();
@@ -44,7 +54,7 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   module->dialect = "technol";
   for (const FileId file : files) module->files.emplace_back(sources.name(file));
   technol::addSpaces(program, *module);
-  const uint32_t period = periodOf(options);
+  const uint32_t period = periodOf(options, diagnostics);
   technol::Lowering lowering(program, *module, period);
   lowering.run();
   if (diagnostics.hasErrors()) return nullptr;

@@ -1,4 +1,4 @@
-// Macros and included files.
+// Macros, included files and the options of a compilation.
 #include <filesystem>
 #include <fstream>
 
@@ -53,6 +53,34 @@ TEST_F(TechnolInclude, CodeAndCircles) {
   file("b.inc", "T_INCLUDE a.inc\n");
   EXPECT_EQ(codes(compile({programText({.main = "  T_INCLUDE " + path("code.inc") + "\n"})})), (Lines{"code-in-include"}));
   EXPECT_EQ(codes(compile({programText({.data = "T_INCLUDE " + path("a.inc") + "\n"})})), (Lines{"include-cycle"}));
+}
+
+TEST_F(TechnolInclude, IsFoundInAnyCaseAndBesideTheProgramFirst) {
+  std::filesystem::create_directories(path("Sub"));
+  file("Sub/Both.inc", "EQUI WHERE,1\n");
+  file("Sub/outer.inc", "T_INCLUDE BOTH.INC\n");
+  const auto where = [&] {
+    SourceManager sources;
+    Diagnostics diagnostics;
+    file("main.plc", programText({.data = "T_INCLUDE SUB\\OUTER.INC\nA: DS WHERE\n"}));
+    const std::vector<FileId> files = {sources.addFile(path("main.plc")).value()};
+    const auto module = frontend::kTechnol.compile(sources, files, {}, diagnostics);
+    return module ? module->spaces[1].units : 0;
+  };
+  EXPECT_EQ(where(), 1u);
+  file("BOTH.INC", "EQUI WHERE,2\n");
+  EXPECT_EQ(where(), 2u);
+}
+
+TEST(TechnolOptions, OfUnknownValueAreTold) {
+  for (const auto& [key, value] : {std::pair("encoding", "CP437"), std::pair("period_us", "0"), std::pair("period_us", "2ms")}) {
+    frontend::CompileOptions options;
+    options.config[key] = value;
+    EXPECT_EQ(compile({programText({})}, options).errors(), (Lines{"-:0 operand-range"})) << key << " " << value;
+  }
+  frontend::CompileOptions options;
+  options.config["encoding"] = "windows-1250";
+  EXPECT_TRUE(compile({programText({})}, options).module);
 }
 
 TEST(TechnolMacros, OperandsLocalsAndNegation) {

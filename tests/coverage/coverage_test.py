@@ -8,7 +8,9 @@ import unittest
 from pathlib import Path
 
 from nct_rows import NctRows
+from technol_errors import TechnolErrors
 from technol_rows import TechnolRows
+from technol_signals import TechnolSignals
 
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
@@ -180,5 +182,5 @@ class GskRows(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    RUNGC = NctRows.RUNGC = TechnolRows.RUNGC = sys.argv.pop(1)
+    RUNGC = NctRows.RUNGC = TechnolRows.RUNGC = TechnolErrors.RUNGC = TechnolSignals.RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -48,7 +48,7 @@ class Scenario:
         for file in self.files:  # grows: included files stand beside the file that includes them
             for name in re.findall(r"^\s*T_INCLUDE\s+'?([^\s';]+)", read(file), re.MULTILINE | re.IGNORECASE):
                 included = file.parent / name
-                if included.exists() and included not in self.files:
+                if included.is_file() and included not in self.files:
                     self.files.append(included)
         self.lines = [[mnemonics_of(line, known) for line in read(file).splitlines()] for file in self.files]
         self.told = re.findall(r"^expect_(error|warning) (\d+) (\S+)", text, re.MULTILINE)

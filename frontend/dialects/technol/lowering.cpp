@@ -155,7 +155,7 @@ void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
   for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
     lowerStatement(program_.statements[i], i);
   while (procedure_ != kNone) endProcedure(); // not closed: an error
-  endEquation(part.end, std::string(moduleName(kind)));
+  if (!part.cut) endEquation(part.end, std::string(moduleName(kind)));
   if (sequential) endSequence();
   sequences_.clear();
 }
@@ -296,7 +296,7 @@ void Lowering::checkPreserved(const Row& row) {
 
 void Lowering::settle(const Row& row) {
   if (row.info.terminating) equationOpen_ = false;
-  if (row.effects & kWaits) {
+  if ((row.effects & kWaits) && program_.mayWait(statement_->unit)) {
     rloLost_ = true;
     drLost_ = (row.effects & kKeepsDr) == 0;
   }

@@ -120,6 +120,7 @@ private:
   uint8_t takePrefix(std::span<const Token>& tokens);
   bool named(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool misspeltPrefix(std::span<const Token> tokens);
   bool ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool wrongPrefix(uint8_t prefix, const Operand& operand);
   bool chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out);

@@ -178,8 +178,8 @@ bool OperandParser::addMember(const Token& member, Address& out) {
     out.structure = inside->structure;
     return true;
   }
-  const uint32_t index = program_.symbols.require(member, file_);
-  if (index == kNone) return false;
+  const uint32_t index = program_.symbols.find(member.text, file_);
+  if (index == kNone) return program_.symbols.reportUndefined(member, file_, out.structure), false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Constant) {
@@ -276,8 +276,8 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
       own ? where.size() == 1 || this->address(where.subspan(1), address) : this->address(where, address);
   if (!hasBase) return false;
   const Symbol* member = address.hasBase ? program_.symbols.findMember(address.structure, name.text) : nullptr;
-  const uint32_t index = member ? kNone : bitSymbol(name);
-  if (!member && index == kNone) return false;
+  const uint32_t index = member ? kNone : program_.symbols.findWeight(name.text, file_);
+  if (!member && index == kNone) return program_.symbols.reportUndefined(name, file_, address.structure), false;
   const Symbol& symbol = member ? *member : program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) {
@@ -314,10 +314,7 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   }
   if (rest.empty() || rest[0].kind != TokenKind::Name) return syntax("an element of a block", rest);
   const nc::Signal* element = nc::findSignal(nc::technolSignals(), "BLK[]." + std::string(rest[0].text), "BLK");
-  if (!element) {
-    program_.diagnostics.report(Diag::UndefinedSymbol, rest[0].range()) << rest[0].text;
-    return false;
-  }
+  if (!element) return program_.symbols.reportUndefined(rest[0], file_, "BLK"), false;
   if ((element->type == nc::SignalType::Bit) != wantsBit)
     return wrongKind(out, wantsBit ? "no bit" : "a bit", wantsBit ? "a bit" : "a value");
   int64_t k = 0;

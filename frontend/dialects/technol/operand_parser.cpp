@@ -193,6 +193,19 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
   return prefix->prefix;
 }
 
+// WRD.CELL, DWORD.CELL: nothing has this name, but a prefix has nearly.
+bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
+  if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
+  if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
+  Similar meant(tokens[0].text);
+  for (const PrefixName& p : kPrefixes) meant.offer(p.name);
+  if (meant.best().empty()) return false;
+  program_.diagnostics.report(Diag::UndefinedSymbol, tokens[0].range())
+          .note("did you mean " + std::string(meant.best()) + "?")
+      << tokens[0].text;
+  return true;
+}
+
 bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
                           Operand& out) {
   if (kind.sign && tokens[0].is('-')) {
@@ -204,6 +217,7 @@ bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std:
   if (ownWord(kind, tokens, out)) return true;
   const uint8_t prefix = takePrefix(tokens);
   if (prefix != 0 && (kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
+  if (prefix == 0 && misspeltPrefix(tokens)) return false;
   Address address;
   if (tokens.empty()) return syntax("a value", tokens);
   if (!this->address(tokens, address)) return false;
@@ -270,7 +284,7 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
 
 bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) {
-    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) return wrongKind(out, "a number", kind.info.kind);
+    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) return wrongKind(out, "a number", "a " + std::string(kind.info.kind));
     return syntax("the name of a " + std::string(kind.info.kind), tokens);
   }
   const uint32_t index = program_.symbols.require(tokens[0], file_);
@@ -325,10 +339,13 @@ bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
   return false;
 }
 
-// A word of the kind that is no name of the program.
+// A word of the kind that is no number's name in the program.
 bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
-  return program_.symbols.find(tokens[0].text, file_) == kNone && takeKeyword(kind.keywords, tokens, out);
+  const uint32_t found = program_.symbols.find(tokens[0].text, file_);
+  const bool fits = found != kNone && (program_.symbols[found].kind == SymbolKind::Cell ||
+                                       program_.symbols[found].kind == SymbolKind::Constant);
+  return !fits && takeKeyword(kind.keywords, tokens, out);
 }
 
 // One of a kind's own words; other names are known and of another kind, or unknown.
@@ -380,12 +397,11 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
     return true;
   }
   if (takeKeyword(kind.keywords, tokens, out)) return true;
-  if (kind.prefixes != 0)
-    if (const uint8_t prefix = takePrefix(tokens); prefix != 0) {
-      if ((kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
-      out.prefixed = true;
-      out.type = prefixOf(prefix).type;
-    }
+  if (const uint8_t prefix = takePrefix(tokens); prefix != 0) {
+    if ((kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
+    out.prefixed = true;
+    out.type = prefixOf(prefix).type;
+  }
   if (tokens.empty()) return syntax("a variable", tokens);
   std::vector<Token> plain;
   const bool indexed = withoutIndex(tokens, plain);

@@ -78,6 +78,7 @@ struct ModulePart {
   uint32_t endStatement = 0;
   SourceRange end; // of the statement that closes it
   uint32_t endLine = 0;
+  bool cut = false; // the file ends inside it
 };
 
 enum class SymbolKind : uint8_t { Bit, Cell, Text, Constant, Label, Procedure, Mechanism, Macro, Structure };

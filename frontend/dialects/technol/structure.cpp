@@ -272,6 +272,7 @@ void Structure::finish(uint32_t statementCount) {
   const SourceRange last = program_.files[file_].lastLine;
   if (inModule()) {
     reportUnclosed(last);
+    program_.parts[part_].cut = true;
     closeModule(last, program_.files[file_].lineCount, statementCount);
   }
   closeLocal(last);

@@ -202,24 +202,40 @@ uint32_t SymbolTable::find(std::string_view name, uint32_t file) {
 uint32_t SymbolTable::require(const Token& name, uint32_t file) {
   const uint32_t index = find(name.text, file);
   if (index != kNone) return index;
-  undefined_.resize(locals_.size());
-  if (!undefined_[file].emplace(symbolKey(name.text), 0).second) return kNone;
-  const std::string meant = suggestions_++ < kMostSuggestions ? similar(name.text, file) : std::string();
-  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, name.range());
-  report << name.text;
-  if (!meant.empty()) report.note("did you mean " + meant + "?");
+  reportUndefined(name, file, nullptr);
   return kNone;
 }
 
-// The name in sight that is most like a misspelt one, the program's own first; "" when none is close.
-std::string SymbolTable::similar(std::string_view name, uint32_t file) const {
+// Each statement that uses the name is wrong; what was meant is told at the first.
+void SymbolTable::reportUndefined(const Token& name, uint32_t file, const char* structure) {
+  undefined_.resize(locals_.size());
+  const auto [last, isNew] = undefined_[file].emplace(symbolKey(name.text), name.pos);
+  if (!isNew && last->second == name.pos) return; // the body of a macro, or asked for again
+  last->second = name.pos;
+  const std::string meant =
+      isNew && suggestions_++ < kMostSuggestions ? similar(name.text, file, structure) : std::string();
+  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, name.range());
+  report << name.text;
+  if (!meant.empty()) report.note("did you mean " + meant + "?");
+}
+
+// The name in sight that is most like a misspelt one; "" when none is close. Members of the structure come first, then
+// the program's own names, then those of the control, bits of bytes among them.
+std::string SymbolTable::similar(std::string_view name, uint32_t file, const char* structure) const {
+  if (structure != nullptr && *structure != 0) {
+    const std::string_view type(structure), prefix = type == "BLK" ? "BLK[]" : type;
+    Similar member(name);
+    for (const nc::Signal& signal : nc::technolSignals())
+      if (type == signal.area) member.offer(std::string_view(signal.symbol).substr(prefix.size() + 1));
+    if (!member.best().empty()) return std::string(member.best());
+  }
   Similar own(name);
   for (const Symbol& symbol : symbols_)
     if (!symbol.predeclared && (!symbol.local || symbol.file == file)) own.offer(symbol.name);
   if (!own.best().empty()) return std::string(own.best());
   Similar interface(name);
   for (const nc::Signal& signal : nc::technolSignals())
-    if (std::string_view(signal.area) == "I") interface.offer(signal.symbol);
+    if (std::string_view(signal.area) == "I" || std::string_view(signal.area) == "W") interface.offer(signal.symbol);
   for (const Predefined& constant : kPredefined) interface.offer(constant.name);
   return std::string(interface.best());
 }

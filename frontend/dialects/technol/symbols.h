@@ -46,8 +46,10 @@ public:
   uint32_t declare(Symbol symbol);
   // kNone where there is none.
   uint32_t find(std::string_view name, uint32_t file);
-  // As find; where there is none, reports undefined-symbol once a name and file.
+  // As find; where there is none, reports undefined-symbol.
   uint32_t require(const Token& name, uint32_t file);
+  // `structure`: of the control, where a member is looked for; else null.
+  void reportUndefined(const Token& name, uint32_t file, const char* structure);
   // A bit name that may stand behind an address only.
   uint32_t findWeight(std::string_view name, uint32_t file);
   // Where a member of an interface structure lies; null when it has none of this name.
@@ -64,7 +66,7 @@ private:
   bool merge(uint32_t earlier, Symbol& symbol);
   void checkName(const Symbol& symbol);
   uint32_t predeclared(std::string_view name, const std::string& key);
-  std::string similar(std::string_view name, uint32_t file) const;
+  std::string similar(std::string_view name, uint32_t file, const char* structure) const;
 
   Diagnostics& diagnostics_;
   std::vector<Symbol> symbols_;
@@ -72,7 +74,7 @@ private:
   Scope predeclared_; // interface and constants in use, and names known to be none of these
   Scope members_;
   std::vector<Scope> locals_;
-  std::vector<Scope> undefined_; // reported, by file
+  std::vector<std::unordered_map<std::string, SourcePos>> undefined_; // by file: where a name was reported last
   static constexpr uint32_t kMostSuggestions = 100; // each looks at all names
   uint32_t suggestions_ = 0;
 };

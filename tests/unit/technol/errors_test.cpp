@@ -28,7 +28,7 @@ const Case kCases[] = {
     {"Underflow", "DFM A\n", " LDR A\n LA\n WR A\n", {"0:8 stack-underflow"}, {}},
     {"Overflow", "DFM A\n", " LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LO\n LO\n LO\n LO\n LO\n LO\n LO\n LO\n WR A\n", {"0:16 stack-overflow"}, {}},
     {"UnterminatedEquation", "DFM A\n", " LDR A\n LA A\n", {}, {"0:7 unterminated-equation"}},
-    {"UndefinedBit", "DFM A\n", " LDR A\n LA X\n WR A\n LDR X\n WR A\n", {"0:8 undefined-symbol"}, {}},
+    {"UndefinedBit", "DFM A\n", " LDR A\n LA X\n WR A\n LDR X\n WR A\n", {"0:8 undefined-symbol", "0:10 undefined-symbol"}, {}},
     {"UndefinedCell", "", " LOD X\n STO Y\n", {"0:6 undefined-symbol", "0:7 undefined-symbol"}, {}},
     {"UndefinedLabel", "", " JUM L\n", {"0:6 undefined-symbol"}, {}},
     {"UndefinedMechanism", "", " MECH_INIT M\n", {"0:6 undefined-symbol"}, {}},

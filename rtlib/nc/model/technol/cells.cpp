@@ -72,10 +72,30 @@ std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& s
   return place;
 }
 
+// STRUCTURE.MEMBER, and CELL.WEIGHT with a weight of the interface.
+static std::optional<host::Ref> partPlace(const host::Instance& instance, std::string_view name) {
+  const size_t point = name.rfind('.');
+  if (point == std::string_view::npos) return std::nullopt;
+  const std::string_view whole = name.substr(0, point), part = name.substr(point + 1);
+  if (const Signal* weight = findSignal(technolSignals(), part, "W")) {
+    const std::optional<host::Ref> cell = cellPlace(instance, whole);
+    if (!cell || cell->kind != host::RefKind::Int) return std::nullopt;
+    return host::bitRef(cell->space, cell->byte, weight->bit);
+  }
+  const Signal* found = findSignal(technolSignals(), whole, kCells);
+  if (found == nullptr || found->type != SignalType::Struct) return std::nullopt;
+  const Signal* member =
+      findSignal(technolSignals(), std::string(found->structure) + "." + std::string(part), found->structure);
+  if (member == nullptr) return std::nullopt;
+  Signal inside = *member;
+  inside.byteOffset += found->byteOffset;
+  return placeOf(instance, inside);
+}
+
 std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name) {
   if (name.size() > 4 && equalIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(instance, name);
   const Signal* found = findSignal(technolSignals(), name, kCells);
-  return found == nullptr ? std::nullopt : placeOf(instance, *found);
+  return found == nullptr ? partPlace(instance, name) : placeOf(instance, *found);
 }
 
 std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name) {

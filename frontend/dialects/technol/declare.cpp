@@ -35,6 +35,14 @@ void Declarations::data(const Statement& statement, const Token* name, uint32_t 
   program_.items.push_back(std::move(item));
 }
 
+void Declarations::alsoNamed(const Token& name) {
+  DataItem& item = program_.items.back();
+  Symbol symbol = program_.symbols[item.cell];
+  symbol.name = name.text;
+  symbol.declared = name.range();
+  item.also.push_back(program_.symbols.declare(symbol));
+}
+
 void Declarations::bits(const Statement& statement, DataItem& item) {
   item.firstBit = static_cast<uint32_t>(program_.itemBits.size());
   program_.itemBits.resize(program_.itemBits.size() + 8, kNone);
@@ -280,6 +288,13 @@ void placeData(Program& program) {
   Placer placer(program);
   for (DataItem& item : program.items) placer.place(item);
   placer.placeOverlays();
+  for (const DataItem& item : program.items)
+    for (const uint32_t also : item.also) {
+      const Symbol named = program.symbols[also];
+      program.symbols[also] = program.symbols[item.cell];
+      program.symbols[also].name = named.name;
+      program.symbols[also].declared = named.declared;
+    }
 }
 
 } // namespace rung::frontend::technol

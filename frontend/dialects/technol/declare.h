@@ -13,6 +13,8 @@ public:
   // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
   // `badName`: it has one that is no name, which is told already.
   void data(const Statement& statement, const Token* name, uint32_t index, bool badName);
+  // Another name in front of the declaration that was the last one.
+  void alsoNamed(const Token& name);
   void constant(const Statement& statement);
   // Data in the form of a structure; the operands are the value.
   void instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type);

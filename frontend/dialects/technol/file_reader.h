@@ -29,6 +29,7 @@ private:
   bool macroLine(uint32_t first, uint32_t count, uint32_t line);
   void useMacro(const Macro& macro, uint32_t first, uint32_t count, uint32_t line);
   void mark(Role role, MacroStack stack, const Token& at, uint32_t line);
+  void takeDataLabels();
   void checkEightBits(const Statement& statement);
   static bool endsMacros(const Token& head);
   bool allowedInInclude(const Statement& statement);

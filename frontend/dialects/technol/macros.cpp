@@ -160,7 +160,9 @@ void MacroSet::substitute(const Macro& macro, const Macro::Line& line, const std
       continue;
     }
     const std::span<const Token> actual = actuals[static_cast<size_t>(formal - macro.formals.begin())];
-    out.tokens.insert(out.tokens.end(), actual.begin(), actual.end());
+    const bool twice = !actual.empty() && actual[0].is('-') && !out.tokens.empty() && out.tokens.back().is('-');
+    if (twice) out.tokens.pop_back(); // -TMAC.P with -B is B
+    out.tokens.insert(out.tokens.end(), actual.begin() + (twice ? 1 : 0), actual.end());
   }
 }
 

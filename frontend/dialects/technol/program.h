@@ -18,6 +18,7 @@ struct DataItem {
   bool local = false;   // DATA_LOCAL
   uint32_t statement = 0;
   uint32_t cell = kNone;      // symbol
+  std::vector<uint32_t> also; // further symbols of the same memory
   uint32_t firstBit = kNone;  // in Program::itemBits, eight of them; Dfm
   std::vector<uint8_t> image; // of an instance
   uint32_t byte = 0;          // in the data, when it is placed; texts on other memory take none

@@ -70,7 +70,7 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   const uint32_t label = named ? first : pendingLabels_.empty() ? kNone : pendingLabels_.back();
   const Token name = label == kNone ? Token() : program_.tokens[label];
   declarations_.instance(made, label == kNone ? nullptr : &name, static_cast<uint32_t>(program_.statements.size()), type);
-  if (!named && label != kNone) pendingLabels_.pop_back();
+  if (!named) takeDataLabels();
   program_.statements.push_back(made);
   return true;
 }
@@ -157,7 +157,7 @@ void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint3
   if (isData) {
     const Token* name = pendingLabels_.empty() ? nullptr : &program_.tokens[pendingLabels_.back()];
     declarations_.data(made, name, index, badLabel_);
-    if (name) pendingLabels_.pop_back();
+    takeDataLabels();
     program_.statements.push_back(made);
     return;
   }
@@ -165,6 +165,15 @@ void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint3
   if (!keepsLabels) attachLabels(made, index);
   if (row != nullptr) structural(made, index);
   program_.statements.push_back(made);
+}
+
+// Labels in lines of their own belong to the next declaration, too (man. l.27-29); the last one is its name already.
+void FileReader::takeDataLabels() {
+  for (size_t i = 0; i + 1 < pendingLabels_.size(); ++i) {
+    const Token name = program_.tokens[pendingLabels_[i]];
+    declarations_.alsoNamed(name);
+  }
+  pendingLabels_.clear();
 }
 
 // Inside macros a DFM names all eight bits (man. l.20454).

@@ -101,7 +101,7 @@ ir::SlotId Lowering::dueSlot(bool fast, TimedKind kind) {
 }
 
 ValueId Lowering::isDue(TimedKind kind) {
-  if (procedure_ == kNone)
+  if (procedure_ == kNone || !clock_.valid()) // without one the procedure is in error
     return runsOnce(kind_) ? b().bit(false) : b().slotLoad(dueSlot(isFast(kind_), kind));
   const ValueId clock = b().slotLoad(clock_);
   const ValueId inMain = b().and_(b().eq(clock, b().i32(kMainClock)), b().slotLoad(dueSlot(false, kind)));

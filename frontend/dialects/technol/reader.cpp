@@ -54,7 +54,7 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
 // `V NAME <1,2>` or `V: NAME <1,2>` where NAME is a structure.
 bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
-  const bool named = count > 1 && pendingLabels_.empty() && tokens[0].kind == TokenKind::Name &&
+  const bool named = count > 1 && tokens[0].kind == TokenKind::Name &&
                      (findRow(tokens[0].text) == nullptr || reservedWord(tokens[0].text) != Reserved::Yes) && structures_.find(tokens[1]) != kNone;
   const uint32_t type = structures_.find(tokens[named ? 1 : 0]);
   if (type == kNone) return false;
@@ -67,10 +67,11 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
                        .tokenCount = count - (named ? 2 : 1),
                        .unit = structure_.unit(),
                        .file = file_};
-  const uint32_t label = named ? first : pendingLabels_.empty() ? kNone : pendingLabels_.back();
-  const Token name = label == kNone ? Token() : program_.tokens[label];
-  declarations_.instance(made, label == kNone ? nullptr : &name, static_cast<uint32_t>(program_.statements.size()), type);
-  if (!named) takeDataLabels();
+  if (named) pendingLabels_.push_back(first);
+  const Token name = pendingLabels_.empty() ? Token() : program_.tokens[pendingLabels_.back()];
+  const auto index = static_cast<uint32_t>(program_.statements.size());
+  declarations_.instance(made, pendingLabels_.empty() ? nullptr : &name, index, type);
+  takeDataLabels();
   program_.statements.push_back(made);
   return true;
 }

@@ -18,6 +18,18 @@ bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || nam
 // The mode and G00, G33 of a block stay until the next start (man. l.6752-6780).
 constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
 
+// Every program has these cells. A program's own cell of the same name is not the interface's.
+host::Ref hostCell(const host::Instance& instance, std::string_view name) {
+  return cellPlace(instance, name).value_or(host::Ref{});
+}
+host::Ref interfaceCell(const host::Instance& instance, std::string_view name) {
+  return signalPlace(instance, name).value_or(host::Ref{});
+}
+std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name) {
+  const std::optional<host::Ref> place = signalPlace(instance, name);
+  return place ? place : cellPlace(instance, name);
+}
+
 } // namespace
 
 void Blocks::reset(const host::Instance& instance) {
@@ -25,6 +37,15 @@ void Blocks::reset(const host::Instance& instance) {
   reached_ = first_ = false;
   lastOneBlock_.clear();
   motionBits_.clear();
+  const auto task = [&](std::string_view name) { return host::findTask(instance.program(), name); };
+  init_ = {task("BLOCK_INIT"), hostCell(instance, "@BLOCK_INIT.CONT"), hostCell(instance, "@BLOCK_INIT.DONE")};
+  done_ = {task("BLOCK_DONE"), hostCell(instance, "@BLOCK_DONE.CONT"), hostCell(instance, "@BLOCK_DONE.DONE")};
+  initOwed_ = hostCell(instance, "@INIT.OWED");
+  startDisable_ = interfaceCell(instance, "START_DISABLE");
+  startSuspend_ = interfaceCell(instance, "START_SUSPEND");
+  statusRestart_ = interfaceCell(instance, "STATUS_RESTART");
+  blockInProgress_ = interfaceCell(instance, "PO_F");
+  positionReached_ = interfaceCell(instance, "PO_POL");
   for (const Signal& signal : technolSignals()) {
     const std::string_view name = signal.symbol;
     if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
@@ -39,20 +60,20 @@ std::string Blocks::start(host::Instance& instance, std::span<const NcArgument> 
   if (phase_ != Phase::Idle) return "a block is under way already";
   for (const NcArgument& cell : cells) {
     if (cell.isText) return "'" + cell.key + "' is a number, not a text";
-    const auto place = cellPlace(instance, cell.key);
+    const auto place = commandCell(instance, cell.key);
     if (!place) return "unknown signal '" + cell.key + "'";
     if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
       return "'" + cell.key + "' is a bit";
   }
-  for (const std::string_view name : kUntilNextStart) writeCell(instance, name, 0);
+  for (const std::string_view name : kUntilNextStart) instance.write(interfaceCell(instance, name), 0);
   for (const NcArgument& cell : cells) {
-    const host::Ref place = *cellPlace(instance, cell.key);
+    const host::Ref place = *commandCell(instance, cell.key);
     if (cell.isReal || place.kind == host::RefKind::Real)
       instance.writeReal(place, cell.real);
     else
       instance.write(place, static_cast<uint64_t>(cell.integer));
   }
-  writeCell(instance, "PO_POL", 0);
+  instance.write(positionReached_, 0);
   phase_ = Phase::Starting;
   reached_ = false;
   return {};
@@ -68,53 +89,51 @@ std::string Blocks::reached(host::Instance& instance) {
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
 // l.6456-6467).
 bool Blocks::mayStart(const host::Instance& instance) const {
-  return readCell(instance, "@INIT.OWED") == 0 && readCell(instance, "START_DISABLE") == 0 &&
-         readCell(instance, "START_SUSPEND") == 0;
+  return instance.read(initOwed_) == 0 && instance.read(startDisable_) == 0 && instance.read(startSuspend_) == 0;
 }
 
 void Blocks::enter(host::Instance& instance, Phase phase) {
   phase_ = phase;
   first_ = true;
   switch (phase) {
-  case Phase::Idle: writeCell(instance, "STATUS_RESTART", kIdle); return;
+  case Phase::Idle: instance.write(statusRestart_, kIdle); return;
   case Phase::Starting: return;
-  case Phase::Init: writeCell(instance, "STATUS_RESTART", kInit); return;
-  case Phase::Motion: writeCell(instance, "STATUS_RESTART", kMove); return;
-  case Phase::Done: writeCell(instance, "STATUS_RESTART", kDone); return;
+  case Phase::Init: instance.write(statusRestart_, kInit); return;
+  case Phase::Motion: instance.write(statusRestart_, kMove); return;
+  case Phase::Done: instance.write(statusRestart_, kDone); return;
   }
 }
 
 void Blocks::supervise(host::Instance& instance) {
   if (phase_ == Phase::Starting && mayStart(instance)) {
-    writeCell(instance, "PO_F", 1);
+    instance.write(blockInProgress_, 1);
     enter(instance, Phase::Init);
   }
-  if (phase_ == Phase::Init && pass(instance, "BLOCK_INIT")) {
+  if (phase_ == Phase::Init && pass(instance, init_)) {
     enter(instance, Phase::Motion);
     if (reached_) endMotion(instance);
   }
   if (phase_ == Phase::Motion && reached_) enter(instance, Phase::Done);
-  if (phase_ == Phase::Done && pass(instance, "BLOCK_DONE")) finish(instance);
+  if (phase_ == Phase::Done && pass(instance, done_)) finish(instance);
 }
 
 // True when the module ran through. It starts at its beginning with every block.
-bool Blocks::pass(host::Instance& instance, std::string_view module) {
-  const std::string cells = "@" + std::string(module);
+bool Blocks::pass(host::Instance& instance, const Module& module) {
   if (first_) {
-    writeCell(instance, cells + ".CONT", 0);
-    writeCell(instance, cells + ".DONE", 0);
+    instance.write(module.cont, 0);
+    instance.write(module.done, 0);
   }
   first_ = false;
-  return runWith(instance, module, 0, false) && readCell(instance, cells + ".DONE") != 0;
+  return instance.runTask(module.task) && instance.read(module.done) != 0;
 }
 
 void Blocks::endMotion(host::Instance& instance) {
-  writeCell(instance, "PO_POL", 1);
+  instance.write(positionReached_, 1);
   for (const host::Ref& bit : motionBits_) instance.write(bit, 0);
 }
 
 void Blocks::finish(host::Instance& instance) {
-  writeCell(instance, "PO_F", 0);
+  instance.write(blockInProgress_, 0);
   for (const host::Ref& bit : lastOneBlock_) instance.write(bit, 0);
   const uint32_t queue = host::findSpace(instance.program(), "BLK");
   if (queue != RUNG_NONE)

@@ -23,15 +23,23 @@ public:
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Init, Motion, Done };
+  // A block module: its task, the state in which it waits, whether it has run through.
+  struct Module {
+    uint32_t task = RUNG_NONE;
+    host::Ref cont, done;
+  };
 
   bool mayStart(const host::Instance& instance) const;
   void enter(host::Instance& instance, Phase phase);
-  bool pass(host::Instance& instance, std::string_view module);
+  bool pass(host::Instance& instance, const Module& module);
   void endMotion(host::Instance& instance);
   void finish(host::Instance& instance);
 
   Phase phase_ = Phase::Idle;
   bool reached_ = false;
+  // Looked up once, as every scan may need them.
+  Module init_, done_;
+  host::Ref initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_;
   bool first_ = false;                  // pass of the module
   std::vector<host::Ref> lastOneBlock_; // zero again at the end of the block
   std::vector<host::Ref> motionBits_;   // PO_OS...

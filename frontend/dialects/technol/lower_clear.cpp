@@ -73,7 +73,8 @@ void Lowering::fillData() {
   size_t item = 0;
   for (const ir::Init& init : program_.inits) {
     if (init.space != kDataSpace) continue;
-    while (item + 1 < program_.items.size() && program_.items[item].byte + program_.items[item].bytes <= init.byte) ++item;
+    while (item + 1 < program_.items.size() && program_.items[item].byte + program_.items[item].bytes <= init.byte)
+      ++item;
     if (program_.items[item].local) continue;
     const std::string_view bytes(reinterpret_cast<const char*>(init.data.data()), init.data.size());
     for (size_t at = 0; at < bytes.size(); at += kMostCleared) {

@@ -118,8 +118,8 @@ ValueId byteOf(Lowering& l, const Side& side, ValueId i) {
 }
 
 // `state`: equal so far, not ended.
-std::vector<ValueId> comparePasses(Lowering& l, const Side& left, const Side& right, const Length& count,
-                                   bool texts, uint32_t passes, ValueId start, std::span<const ValueId> state) {
+std::vector<ValueId> comparePasses(Lowering& l, const Side& left, const Side& right, const Length& count, bool texts,
+                                   uint32_t passes, ValueId start, std::span<const ValueId> state) {
   ir::RungBuilder& b = l.b();
   const auto pass = b.loop(passes, state);
   const ValueId i = b.add(start, pass[0]);

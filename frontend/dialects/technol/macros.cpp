@@ -13,9 +13,15 @@ struct FlagName {
 };
 // C_x and D_x concern the control's own compiler and its debugger.
 constexpr FlagName kFlags[] = {
-    {"T_NORMAL", true, MacroStack::Normal}, {"T_BEGIN", true, MacroStack::Begin}, {"T_END", true, MacroStack::End},
-    {"T_PUSH", true, MacroStack::Push},     {"T_POP", true, MacroStack::Pop},     {"C_0", false, {}},
-    {"C_1", false, {}},                     {"D_OFF", false, {}},                 {"D_ON", false, {}},
+    {"T_NORMAL", true, MacroStack::Normal},
+    {"T_BEGIN", true, MacroStack::Begin},
+    {"T_END", true, MacroStack::End},
+    {"T_PUSH", true, MacroStack::Push},
+    {"T_POP", true, MacroStack::Pop},
+    {"C_0", false, {}},
+    {"C_1", false, {}},
+    {"D_OFF", false, {}},
+    {"D_ON", false, {}},
 };
 
 bool contains(const std::vector<std::string>& keys, std::string_view name) {
@@ -27,10 +33,12 @@ bool contains(const std::vector<std::string>& keys, std::string_view name) {
 bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
   for (const Token& token : tokens) {
     if (token.is(',')) continue;
-    const auto* flag = std::find_if(std::begin(kFlags), std::end(kFlags), [&](const FlagName& f) { return equalsNoCase(token.text, f.name); });
+    const auto* flag = std::find_if(std::begin(kFlags), std::end(kFlags),
+                                    [&](const FlagName& f) { return equalsNoCase(token.text, f.name); });
     if (flag == std::end(kFlags)) {
-      program_.diagnostics.report(Diag::SyntaxError, token.range()) << "T_NORMAL, T_BEGIN, T_END, T_PUSH, T_POP, C_0, C_1, D_OFF or D_ON"
-                                                                    << "'" + std::string(token.text) + "'";
+      program_.diagnostics.report(Diag::SyntaxError, token.range())
+          << "T_NORMAL, T_BEGIN, T_END, T_PUSH, T_POP, C_0, C_1, D_OFF or D_ON"
+          << "'" + std::string(token.text) + "'";
       return false;
     }
     if (flag->isStack) stack = flag->stack;
@@ -45,14 +53,16 @@ void MacroSet::declare(const Token& name, uint32_t macro) {
   symbol.local = true;
   symbol.file = file_;
   symbol.declared = name.range();
-  // A macro may bear the name of an instruction: at its uses CONTROL_T_MACRO tells which of them is meant (man. l.20572).
+  // A macro may bear the name of an instruction: at its uses CONTROL_T_MACRO tells which of them is meant (man.
+  // l.20572).
   if (findRow(name.text) == nullptr) program_.symbols.declare(symbol);
   names_.emplace(symbolKey(name.text), macro);
 }
 
 void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
   if (operands.empty() || operands[0].kind != TokenKind::Name) {
-    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at)) << "the name of a macro" << "none";
+    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at))
+        << "the name of a macro" << "none";
     operands = {};
   }
   Macro& macro = macros_.emplace_back();
@@ -61,8 +71,11 @@ void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
   if (operands.empty()) return;
   macro.name = operands[0];
   for (const Token& token : operands.subspan(1)) {
-    if (token.kind == TokenKind::Name) macro.formals.push_back(symbolKey(token.text));
-    else if (!token.is(',')) program_.diagnostics.report(Diag::SyntaxError, token.range()) << "the name of a parameter" << "'" + std::string(token.text) + "'";
+    if (token.kind == TokenKind::Name)
+      macro.formals.push_back(symbolKey(token.text));
+    else if (!token.is(','))
+      program_.diagnostics.report(Diag::SyntaxError, token.range())
+          << "the name of a parameter" << "'" + std::string(token.text) + "'";
   }
   declare(operands[0], static_cast<uint32_t>(macros_.size()) - 1);
 }
@@ -119,9 +132,13 @@ void MacroSet::control(std::span<const Token> operands, SourceRange at) {
     return;
   }
   const bool one = operands.size() == 1 && operands[0].kind == TokenKind::Name;
-  if (one && equalsNoCase(operands[0].text, "PRE")) first_ = true;
-  else if (one && equalsNoCase(operands[0].text, "POS")) first_ = false;
-  else program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at)) << "POS or PRE" << "something else";
+  if (one && equalsNoCase(operands[0].text, "PRE"))
+    first_ = true;
+  else if (one && equalsNoCase(operands[0].text, "POS"))
+    first_ = false;
+  else
+    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at))
+        << "POS or PRE" << "something else";
 }
 
 void MacroSet::offer(Similar& similar) const {
@@ -144,17 +161,21 @@ void MacroSet::localName(const Macro& macro, Token token, Macro::Line& out) {
 }
 
 // Operands that begin with TMAC. have their formals replaced, all others are names as they stand (man. l.20410-20431).
-void MacroSet::substitute(const Macro& macro, const Macro::Line& line, const std::vector<std::span<const Token>>& actuals, Macro::Line& out) {
+void MacroSet::substitute(const Macro& macro, const Macro::Line& line,
+                          const std::vector<std::span<const Token>>& actuals, Macro::Line& out) {
   bool inTmac = false;
   for (size_t i = 0; i < line.tokens.size(); ++i) {
     const Token& token = line.tokens[i];
     if (token.is(',')) inTmac = false;
-    if (token.kind == TokenKind::Name && equalsNoCase(token.text, "TMAC") && i + 1 < line.tokens.size() && line.tokens[i + 1].is('.')) {
+    if (token.kind == TokenKind::Name && equalsNoCase(token.text, "TMAC") && i + 1 < line.tokens.size() &&
+        line.tokens[i + 1].is('.')) {
       inTmac = true;
       ++i;
       continue;
     }
-    const auto formal = token.kind == TokenKind::Name && inTmac ? std::find(macro.formals.begin(), macro.formals.end(), symbolKey(token.text)) : macro.formals.end();
+    const auto formal = token.kind == TokenKind::Name && inTmac
+                            ? std::find(macro.formals.begin(), macro.formals.end(), symbolKey(token.text))
+                            : macro.formals.end();
     if (formal == macro.formals.end()) {
       localName(macro, token, out);
       continue;
@@ -166,7 +187,8 @@ void MacroSet::substitute(const Macro& macro, const Macro::Line& line, const std
   }
 }
 
-bool MacroSet::expand(const Macro& macro, std::span<const Token> operands, SourceRange at, std::vector<Macro::Line>& out) {
+bool MacroSet::expand(const Macro& macro, std::span<const Token> operands, SourceRange at,
+                      std::vector<Macro::Line>& out) {
   const auto actuals = splitOperands(operands);
   if (actuals.size() != macro.formals.size()) {
     program_.diagnostics.report(Diag::MacroOperandCount, at).note(macro.name.range(), "it is defined here")

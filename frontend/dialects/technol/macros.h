@@ -1,5 +1,6 @@
-// User instructions: DEF_T_MACRO … END_T_MACRO (man. ch. 22). A macro's lines are kept as tokens; a use gives new tokens in
-// which formal parameters behind TMAC. are replaced by the actual operands and T_LOCAL names by names of their own.
+// User instructions: DEF_T_MACRO … END_T_MACRO (man. ch. 22). A macro's lines are kept as tokens; a use gives new
+// tokens in which formal parameters behind TMAC. are replaced by the actual operands and T_LOCAL names by names of
+// their own.
 #pragma once
 
 #include <string>
@@ -20,7 +21,7 @@ struct Macro {
     uint32_t line = 0;
   };
   Token name;
-  SourceRange at; // of its DEF_T_MACRO
+  SourceRange at;                   // of its DEF_T_MACRO
   std::vector<std::string> formals; // keys
   std::vector<std::string> locals;  // keys
   std::vector<Line> body;
@@ -54,7 +55,8 @@ public:
 private:
   bool flags(std::span<const Token> tokens, MacroStack& stack);
   void declare(const Token& name, uint32_t macro);
-  void substitute(const Macro& macro, const Macro::Line& line, const std::vector<std::span<const Token>>& actuals, Macro::Line& out);
+  void substitute(const Macro& macro, const Macro::Line& line, const std::vector<std::span<const Token>>& actuals,
+                  Macro::Line& out);
   void localName(const Macro& macro, Token token, Macro::Line& out);
 
   Program& program_;

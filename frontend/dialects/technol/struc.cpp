@@ -111,8 +111,7 @@ void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)
     program_.diagnostics.report(Diag::SyntaxError, name.range())
-        << (open_ ? std::string(name_.text) + " ends" : std::string("a statement"))
-        << std::string(name.text) + " ends";
+        << (open_ ? std::string(name_.text) + " ends" : std::string("a statement")) << std::string(name.text) + " ends";
   if (!open_) return;
   open_ = false;
   uint64_t contents = hashBytes({reinterpret_cast<const char*>(made_.image.data()), made_.image.size()});
@@ -189,7 +188,8 @@ bool Structures::value(Element element, std::span<const Token> tokens, SourceRan
     return out.insert(out.end(), image.begin(), image.end()), true;
   }
   if (element.structure != kNone) {
-    if (!tokens[0].is('<') || !tokens.back().is('>') || tokens.size() < 2) return syntax("<values> or ?", tokens, otherwise);
+    if (!tokens[0].is('<') || !tokens.back().is('>') || tokens.size() < 2)
+      return syntax("<values> or ?", tokens, otherwise);
     return fields(element.structure, tokens.subspan(1, tokens.size() - 2), otherwise, out);
   }
   const bool text = tokens.size() == 1 && tokens[0].kind == TokenKind::Text;

@@ -48,14 +48,25 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
   const Routine& routine = module.at(chunk.routine);
   fmt::format_to(std::back_inserter(out), "\nstatic uint32_t chunk_{}(uint8_t *__restrict mem, rung_ctx *ctx) {{\n",
                  number);
-  RungWriter writer(layout, names, options, out);
+  const std::vector<Exit> exits = exitsOf(layout, chunk);
+  const bool extraWeight = hasExtraWeight(exits);
+  if (extraWeight) out += "u32 extra = 0;\n";
+  RungWriter writer(layout, names, options, extraWeight, out);
+  std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung stand above it
+  const auto label = [&](const Destination& to) {
+    if (to.inside()) labels[to.rung - chunk.firstRung] = true;
+  };
   for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i) {
     const Rung& rung = routine.rungs[i];
+    const Exit& exit = exits[i - chunk.firstRung];
+    label(exit.taken);
+    for (const Destination& target : exit.targets) label(target);
     writeRungComment(routine, i, out);
+    if (labels[i - chunk.firstRung]) out += rungLabel(i) + ":\n";
     out += "{\n";
     const std::string file = rung.begin.file.valid() ? cppString(module.files[rung.begin.file.index]) : "\"\"";
     writer.write(rung, layout.rungNumber(chunk.routine, i), std::string_view(file).substr(1, file.size() - 2));
-    if (i + 1 == chunk.firstRung + chunk.rungCount) writer.writeExit(exitOf(layout, number));
+    writer.writeExit(exit);
     out += "}\n";
   }
   out += "}\n";

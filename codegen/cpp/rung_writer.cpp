@@ -54,6 +54,8 @@ std::string_view cppType(Type type) {
   return "void";
 }
 
+std::string rungLabel(uint32_t rung) { return fmt::format("rung_{}", rung); }
+
 PlaceNames::PlaceNames(const Module& module) {
   for (const Symbol& symbol : module.symbols)
     if (symbol.space.valid() && (symbol.flags & RUNG_SYMBOL_CONST) == 0)
@@ -405,33 +407,45 @@ void RungWriter::host(const Op& op) {
 
 // ---- exits -------------------------------------------------------------------------------------------------------
 
+std::string RungWriter::way(const Destination& to) const {
+  const std::string label = to.inside() ? fmt::format("goto {};", rungLabel(to.rung)) : "";
+  if (to.inside()) return to.extra == 0 ? label : fmt::format("{{ extra += {}u; {} }}", to.extra, label);
+  return leaving(to.chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", to.chunk));
+}
+
+// Out of the chunk.
+std::string RungWriter::leaving(const std::string& how) const {
+  return extraWeight_ ? fmt::format("{{ ctx->extra_weight = extra; {} }}", how) : how;
+}
+
 void RungWriter::writeExit(const Exit& exit) {
-  const auto leave = [](uint32_t chunk) {
-    return chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", chunk);
-  };
   const std::string when = exit.cond.valid() ? fmt::format("if ({}) ", v(exit.cond)) : "";
-  const bool always = !exit.cond.valid();
+  const bool falls = exit.otherwise.inside(); // the rung below stands below
+  if (exit.kind == TransferKind::Next && falls) return;
   beginLine(rung_->transferLine != 0 ? rung_->transferLine : rung_->begin.line, true);
   switch (exit.kind) {
-  case TransferKind::Next: statement(leave(exit.otherwise)); break;
-  case TransferKind::Goto: statement(when + leave(exit.taken)); break;
+  case TransferKind::Next: statement(way(exit.otherwise)); break;
+  case TransferKind::Goto: statement(when + way(exit.taken)); break;
   case TransferKind::Call:
     // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
-    statement(exit.otherwise == RUNG_NONE ? when + leave(exit.taken)
-                                          : fmt::format("{}RUNG_CALL({}u, {}u)", when, exit.otherwise, exit.taken));
+    statement(exit.otherwise.chunk == RUNG_NONE
+                  ? when + way(exit.taken)
+                  : when + leaving(fmt::format("RUNG_CALL({}u, {}u)", exit.otherwise.chunk, exit.taken.chunk)));
     break;
-  case TransferKind::Ret: statement(when + "RUNG_RETURN;"); break;
-  case TransferKind::End: statement(when + "return RUNG_PC_DONE;"); break;
+  case TransferKind::Ret: statement(when + leaving("RUNG_RETURN;")); break;
+  case TransferKind::End: statement(when + leaving("return RUNG_PC_DONE;")); break;
   case TransferKind::Switch: {
     statement(fmt::format("switch ({}) {{", v(exit.value)));
-    for (size_t i = 1; i < exit.targets.size(); ++i)
-      statement(fmt::format("  case {}u: return {}u;", i, exit.targets[i]));
-    statement(fmt::format("  default: return {}u;", exit.targets[0]));
+    for (size_t i = 1; i < exit.targets.size(); ++i) statement(fmt::format("  case {}u: {}", i, way(exit.targets[i])));
+    statement(fmt::format("  default: {}", way(exit.targets[0])));
     statement("}");
     break;
   }
   }
-  if (!always && exit.kind != TransferKind::Next && exit.kind != TransferKind::Switch) statement(leave(exit.otherwise));
+  if (exit.cond.valid()) {
+    if (!falls) statement(way(exit.otherwise));
+    if (falls && exit.otherwise.extra != 0) statement(fmt::format("extra += {}u;", exit.otherwise.extra));
+  }
   endLine();
 }
 

@@ -21,12 +21,15 @@ private:
 
 class RungWriter {
 public:
-  RungWriter(const ir::Layout& layout, const PlaceNames& names, const CppOptions& options, std::string& out)
-      : layout_(layout), module_(layout.module()), names_(names), options_(options), out_(out) {}
+  // `extraWeight`: the chunk adds up its extra weight in a variable `extra`.
+  RungWriter(const ir::Layout& layout, const PlaceNames& names, const CppOptions& options, bool extraWeight,
+             std::string& out)
+      : layout_(layout), module_(layout.module()), names_(names), options_(options), extraWeight_(extraWeight),
+        out_(out) {}
 
   // `number` is the rung's number over all routines, `file` its source's name.
   void write(const ir::Rung& rung, uint32_t number, std::string_view file);
-  // How the chunk is left behind its last rung, which is the one written last.
+  // How control leaves the rung that was written last.
   void writeExit(const ir::Exit& exit);
 
 private:
@@ -44,6 +47,8 @@ private:
   void openLoop(const ir::Op& op, size_t index);
   void closeLoop(const ir::Op& op);
   void host(const ir::Op& op);
+  std::string way(const ir::Destination& to) const;
+  std::string leaving(const std::string& how) const;
 
   std::string v(ir::ValueId id) const { return "v" + std::to_string(id.index); }
   std::string a(const ir::Op& op, int i) const { return v(ir::arg(*rung_, op, i)); }
@@ -55,6 +60,7 @@ private:
   const ir::Module& module_;
   const PlaceNames& names_;
   const CppOptions& options_;
+  const bool extraWeight_;
   std::string& out_;
   const ir::Rung* rung_ = nullptr;
   uint32_t number_ = 0;
@@ -71,5 +77,7 @@ private:
 };
 
 std::string_view cppType(ir::Type type);
+// The label of a rung of the routine.
+std::string rungLabel(uint32_t rung);
 
 } // namespace rung::codegen

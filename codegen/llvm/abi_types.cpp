@@ -31,6 +31,7 @@ void AbiTypes::check(const llvm::DataLayout& data) const {
   };
   RUNG_CHECK(at(ctx, kHost) == offsetof(rung_ctx, host) && at(ctx, kProf) == offsetof(rung_ctx, prof) &&
                  at(ctx, kFault) == offsetof(rung_ctx, fault) && at(ctx, kSp) == offsetof(rung_ctx, sp) &&
+                 at(ctx, kExtraWeight) == offsetof(rung_ctx, extra_weight) &&
                  at(ctx, kStack) == offsetof(rung_ctx, stack) && data.getTypeAllocSize(ctx) == sizeof(rung_ctx),
              "rung_ctx lies as in C");
   RUNG_CHECK(at(fault, kFaultTask) == offsetof(rung_fault, task), "rung_fault lies as in C");

@@ -15,7 +15,7 @@ struct AbiTypes {
   // Stops the process when a struct does not lie as in C.
   void check(const llvm::DataLayout& data) const;
 
-  enum CtxField : unsigned { kNow, kHost, kHostData, kProf, kEngine, kFault, kSp, kReserved, kStack };
+  enum CtxField : unsigned { kNow, kHost, kHostData, kProf, kEngine, kFault, kSp, kExtraWeight, kStack };
   enum FaultField : unsigned { kFaultCode, kFaultRung, kFaultLine, kFaultTask };
   enum HostField : unsigned { kHostSize, kHostReserved, kMessage, kServiceRequest, kServicePoll, kServiceResult };
   enum MessageField : unsigned { kMessageOp, kNumber, kChannel, kIndex, kValue, kReal, kRung };

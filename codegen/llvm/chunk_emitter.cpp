@@ -2,6 +2,8 @@
 // value_emitter.cpp.
 #include "codegen/llvm/chunk_emitter.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "ir/support/check.h"
@@ -35,10 +37,32 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   messageSpace_ = argsSpace_ = nullptr;
   if (lines_ != nullptr) lines_->beginFunction(*function_, name, first.begin.file, first.begin.line);
   builder_.SetInsertPoint(block("entry"));
-  for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i)
+  builder_.SetCurrentDebugLocation({}); // that of another function would not do
+  firstRung_ = place.firstRung;
+  rungBlocks_.assign(place.rungCount, nullptr);
+  const std::vector<Exit> exits = exitsOf(layout_, place);
+  extra_ = nullptr;
+  if (hasExtraWeight(exits)) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
+  for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
+    if (!beginRung(i)) continue;
     emitRung(routine.rungs[i], layout_.rungNumber(place.routine, i));
-  emitExit(exitOf(layout_, chunk));
+    emitExit(exits[i - place.firstRung]);
+  }
   return function_;
+}
+
+// False: control never comes here. All jumps to a rung stand above it.
+bool ChunkEmitter::beginRung(uint32_t rung) {
+  llvm::BasicBlock* own = rungBlocks_[rung - firstRung_];
+  const bool falls = builder_.GetInsertBlock()->getTerminator() == nullptr;
+  if (own == nullptr) return falls;
+  if (falls) {
+    builder_.SetCurrentDebugLocation({});
+    builder_.CreateBr(own);
+  }
+  if (own != &function_->back()) own->moveAfter(&function_->back());
+  builder_.SetInsertPoint(own);
+  return true;
 }
 
 void ChunkEmitter::setLine(uint32_t line) {
@@ -229,8 +253,8 @@ ChunkEmitter::Value* ChunkEmitter::profOfRung() {
   return builder_.CreateConstInBoundsGEP1_64(abi_.prof, counters, number_);
 }
 
-// The counter that the host calibrates (rtlib/core/ticks.h): the time stamp counter of x86, cntvct_el0 of ARM64. For other
-// machines the host asks the kernel, which code does not: rungs are counted there and not timed.
+// The counter that the host calibrates (rtlib/core/ticks.h): the time stamp counter of x86, cntvct_el0 of ARM64. For
+// other machines the host asks the kernel, which code does not: rungs are counted there and not timed.
 ChunkEmitter::Value* ChunkEmitter::ticks() {
   const llvm::Triple triple(target_.getTargetTriple());
   if (triple.isX86()) return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readcyclecounter, {});
@@ -268,20 +292,48 @@ void ChunkEmitter::profLeave(const Op& op) {
 
 // ---- exits -------------------------------------------------------------------------------------------------------
 
+void ChunkEmitter::returnValue(Value* chunk) {
+  if (extra_ != nullptr)
+    builder_.CreateStore(builder_.CreateLoad(builder_.getInt32Ty(), extra_), ctxField(AbiTypes::kExtraWeight));
+  builder_.CreateRet(chunk);
+}
+
 void ChunkEmitter::returnToCaller() {
   Value* spField = ctxField(AbiTypes::kSp);
   Value* sp = builder_.CreateSub(builder_.CreateLoad(builder_.getInt32Ty(), spField), num(1));
   builder_.CreateStore(sp, spField);
   Value* index = builder_.CreateZExt(sp, builder_.getInt64Ty());
   Value* entry = builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index);
-  builder_.CreateRet(builder_.CreateLoad(builder_.getInt32Ty(), entry));
+  returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
-void ChunkEmitter::returnTo(uint32_t chunk) {
-  if (chunk == RUNG_NONE)
+void ChunkEmitter::goTo(const Destination& to) {
+  if (to.inside()) {
+    if (to.extra != 0)
+      builder_.CreateStore(builder_.CreateAdd(builder_.CreateLoad(builder_.getInt32Ty(), extra_), num(to.extra)),
+                           extra_);
+    llvm::BasicBlock*& own = rungBlocks_[to.rung - firstRung_];
+    if (own == nullptr) own = block("rung");
+    builder_.CreateBr(own);
+  } else if (to.chunk == RUNG_NONE) {
     returnToCaller();
-  else
-    builder_.CreateRet(num(chunk));
+  } else {
+    returnValue(num(to.chunk));
+  }
+}
+
+// A block from which control goes there.
+llvm::BasicBlock* ChunkEmitter::blockOf(const Destination& to) {
+  if (to.inside() && to.extra == 0) {
+    llvm::BasicBlock*& own = rungBlocks_[to.rung - firstRung_];
+    if (own == nullptr) own = block("rung");
+    return own;
+  }
+  llvm::IRBuilder<>::InsertPointGuard guard(builder_);
+  llvm::BasicBlock* made = block("way");
+  builder_.SetInsertPoint(made);
+  goTo(to);
+  return made;
 }
 
 void ChunkEmitter::pushReturn(uint32_t chunk) {
@@ -293,39 +345,50 @@ void ChunkEmitter::pushReturn(uint32_t chunk) {
   builder_.CreateStore(builder_.CreateAdd(sp, num(1)), spField);
 }
 
-void ChunkEmitter::returnSwitch(const Exit& exit) {
-  llvm::Constant* table = llvm::ConstantDataArray::get(target_.getContext(), exit.targets);
+// Between chunks alone the next one's number comes out of a table.
+void ChunkEmitter::emitSwitch(const Exit& exit) {
+  Value* value = values_[exit.value.index];
+  const auto inside = [](const Destination& to) { return to.inside(); };
+  if (std::any_of(exit.targets.begin(), exit.targets.end(), inside)) {
+    llvm::SwitchInst* jump = builder_.CreateSwitch(value, blockOf(exit.targets[0]));
+    for (uint32_t i = 1; i < exit.targets.size(); ++i) jump->addCase(builder_.getInt32(i), blockOf(exit.targets[i]));
+    return;
+  }
+  std::vector<uint32_t> chunks;
+  for (const Destination& to : exit.targets) chunks.push_back(to.chunk);
+  llvm::Constant* table = llvm::ConstantDataArray::get(target_.getContext(), chunks);
   auto* variable =
       new llvm::GlobalVariable(target_, table->getType(), true, llvm::GlobalValue::PrivateLinkage, table, "targets");
-  Value* value = values_[exit.value.index];
-  Value* index = builder_.CreateSelect(builder_.CreateICmpULT(value, num(exit.targets.size())), value, num(0));
+  Value* index = builder_.CreateSelect(builder_.CreateICmpULT(value, num(chunks.size())), value, num(0));
   Value* entry =
       builder_.CreateInBoundsGEP(builder_.getInt32Ty(), variable, builder_.CreateZExt(index, builder_.getInt64Ty()));
-  builder_.CreateRet(builder_.CreateLoad(builder_.getInt32Ty(), entry));
+  returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
 void ChunkEmitter::emitExit(const Exit& exit) {
   setLine(rung_->transferLine);
-  if (exit.kind == TransferKind::Next) return returnTo(exit.otherwise);
-  if (exit.kind == TransferKind::Switch) return returnSwitch(exit);
+  if (exit.kind == TransferKind::Switch) return emitSwitch(exit);
+  if (exit.kind == TransferKind::Next) {
+    if (!exit.otherwise.inside()) goTo(exit.otherwise);
+    return; // else the rung below follows here
+  }
   if (exit.cond.valid()) {
-    llvm::BasicBlock* leave = block("leave");
-    llvm::BasicBlock* stay = block("stay");
-    builder_.CreateCondBr(values_[exit.cond.index], leave, stay);
-    builder_.SetInsertPoint(stay);
-    returnTo(exit.otherwise);
+    const bool jumps = exit.kind == TransferKind::Goto;
+    llvm::BasicBlock* leave = jumps ? blockOf(exit.taken) : block("leave");
+    builder_.CreateCondBr(values_[exit.cond.index], leave, blockOf(exit.otherwise));
+    if (jumps) return;
     builder_.SetInsertPoint(leave);
   }
   switch (exit.kind) {
   case TransferKind::Next:
   case TransferKind::Switch:
-  case TransferKind::Goto: return returnTo(exit.taken);
+  case TransferKind::Goto: return goTo(exit.taken);
   case TransferKind::Call:
     // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
-    if (exit.otherwise != RUNG_NONE) pushReturn(exit.otherwise);
-    return returnTo(exit.taken);
+    if (exit.otherwise.chunk != RUNG_NONE) pushReturn(exit.otherwise.chunk);
+    return goTo(exit.taken);
   case TransferKind::Ret: return returnToCaller();
-  case TransferKind::End: builder_.CreateRet(num(RUNG_PC_DONE)); return;
+  case TransferKind::End: return returnValue(num(RUNG_PC_DONE));
   }
 }
 

@@ -32,6 +32,7 @@ private:
     std::vector<llvm::PHINode*> phis{};    // loop: number of the pass, carried values
   };
 
+  bool beginRung(uint32_t rung);
   void emitRung(const ir::Rung& rung, uint32_t number);
   void emitOp(const ir::Op& op);
   void emitExit(const ir::Exit& exit);
@@ -70,9 +71,11 @@ private:
   void profLeave(const ir::Op& op);
   Value* ticks();
 
-  void returnTo(uint32_t chunk);
+  void goTo(const ir::Destination& to);
+  llvm::BasicBlock* blockOf(const ir::Destination& to);
   void returnToCaller();
-  void returnSwitch(const ir::Exit& exit);
+  void returnValue(Value* chunk);
+  void emitSwitch(const ir::Exit& exit);
   void pushReturn(uint32_t chunk);
 
   // The value, or a wrong one when this operation is to be sabotaged.
@@ -106,6 +109,9 @@ private:
   Value* ctx_ = nullptr;
   Value* messageSpace_ = nullptr;
   Value* argsSpace_ = nullptr;
+  Value* extra_ = nullptr; // where a chunk adds up its extra weight, if it has any
+  uint32_t firstRung_ = 0;
+  std::vector<llvm::BasicBlock*> rungBlocks_; // of the chunk's rungs, where something jumps to them
   const ir::Rung* rung_ = nullptr;
   uint32_t number_ = 0;
   std::vector<Value*> values_;

@@ -23,39 +23,41 @@ std::vector<uint32_t> partnersOf(const Rung& rung) {
   return partners;
 }
 
-uint32_t doReturn(rung_ctx& ctx) { return ctx.stack[--ctx.sp]; }
-
-// The chunk below, or the caller's when there is none.
-uint32_t fallThrough(const Exit& exit, rung_ctx& ctx) {
-  return exit.otherwise == RUNG_NONE ? doReturn(ctx) : exit.otherwise;
+// Gives the caller's chunk for a destination that is nowhere.
+Destination reach(Destination to, rung_ctx& ctx) {
+  if (to.chunk == RUNG_NONE) to.chunk = ctx.stack[--ctx.sp];
+  return to;
 }
 
-uint32_t leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ctx& ctx) {
-  if (exit.cond.valid() && values[exit.cond.index] == 0) return fallThrough(exit, ctx);
+Destination leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ctx& ctx) {
+  if (exit.cond.valid() && values[exit.cond.index] == 0) return reach(exit.otherwise, ctx);
   switch (exit.kind) {
-  case TransferKind::Next: return fallThrough(exit, ctx);
+  case TransferKind::Next: return reach(exit.otherwise, ctx);
   case TransferKind::Goto: return exit.taken;
   case TransferKind::Call:
     // Behind a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
-    if (exit.otherwise != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise;
+    if (exit.otherwise.chunk != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise.chunk;
     return exit.taken;
-  case TransferKind::Ret: return doReturn(ctx);
-  case TransferKind::End: return RUNG_PC_DONE;
+  case TransferKind::Ret: return reach({}, ctx);
+  case TransferKind::End: break;
   case TransferKind::Switch: {
     const uint64_t value = values[exit.value.index];
     return exit.targets[value < exit.targets.size() ? value : 0];
   }
   }
-  return RUNG_PC_DONE;
+  return {.chunk = RUNG_PC_DONE};
 }
 
 } // namespace
 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash) : layout_(layout), image_(layout, codeHash) {
   image_.program().run_chunk = runChunk;
-  for (uint32_t i = 0; i < layout.chunks().size(); ++i) exits_.push_back(exitOf(layout, i));
-  for (const Routine& routine : layout.module().routines)
-    for (const Rung& rung : routine.rungs) partners_.push_back(partnersOf(rung));
+  const std::vector<Routine>& routines = layout.module().routines;
+  for (uint32_t r = 0; r < routines.size(); ++r)
+    for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {
+      exits_.push_back(exitOf(layout, RoutineId{r}, i));
+      partners_.push_back(partnersOf(routines[r].rungs[i]));
+    }
 }
 
 uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
@@ -66,14 +68,19 @@ uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
 uint32_t InterpEngine::run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
   const Chunk& place = layout_.chunks()[chunk];
   std::vector<uint64_t> values;
-  for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
-    const Rung& rung = layout_.module().at(place.routine).rungs[i];
-    const uint32_t number = layout_.rungNumber(place.routine, i);
+  uint32_t extra = 0;
+  Destination next{.rung = place.firstRung};
+  while (next.inside()) {
+    const Rung& rung = layout_.module().at(place.routine).rungs[next.rung];
+    const uint32_t number = layout_.rungNumber(place.routine, next.rung);
     values.assign(rung.values.size(), 0);
     RungRun run(layout_, rung, number, partners_[number], mem, ctx, values);
     if (!run.run()) return RUNG_PC_FAULT;
+    next = leave(exits_[number], values, ctx);
+    extra += next.extra;
   }
-  return leave(exits_[chunk], values, ctx);
+  ctx.extra_weight = extra;
+  return next.chunk;
 }
 
 } // namespace rung::ir

@@ -28,7 +28,7 @@ private:
 
   const Layout& layout_;
   ProgramImage image_;
-  std::vector<Exit> exits_; // by chunk
+  std::vector<Exit> exits_; // by rung number
   // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:
   // each other). Empty for a rung without regions.
   std::vector<std::vector<uint32_t>> partners_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <numeric>
 
 #include "ir/layout/representation.h"
 #include "ir/support/check.h"
@@ -15,6 +16,10 @@ namespace {
 constexpr uint32_t kBlockAlign = 64;
 
 uint32_t alignUp(uint32_t value, uint32_t align) { return (value + align - 1) / align * align; }
+uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
+bool leavesRoutine(TransferKind kind) {
+  return kind == TransferKind::Call || kind == TransferKind::Ret || kind == TransferKind::End;
+}
 uint32_t slotBytes(const Slot& slot) { return std::max(1u, byteWidth(slot.type)); }
 
 const rung_range& rangeOf(const SpaceLayout& space, uint32_t byte) {
@@ -39,9 +44,7 @@ public:
     placeSpaces();
     layout_.memorySize_ = alignUp(std::max(next_, 1u), kBlockAlign);
     numberRungs();
-    markHeads();
-    markParts();
-    cutChunks();
+    for (uint32_t r = 0; r < module_.routines.size(); ++r) cutRoutine(r);
     findPartEnds();
   }
 
@@ -87,53 +90,97 @@ private:
     layout_.rungCount_ = number;
   }
 
-  void markHeads() {
-    for (const Routine& routine : module_.routines) {
-      std::vector<bool>& heads = heads_.emplace_back(routine.rungs.size(), false);
-      heads[0] = true;
-      for (size_t i = 0; i < routine.rungs.size(); ++i) {
-        const Transfer& transfer = routine.rungs[i].transfer;
-        if (transfer.kind == TransferKind::Next) continue;
-        if (i + 1 < heads.size()) heads[i + 1] = true;
-        if (transfer.kind == TransferKind::Goto) heads[transfer.target] = true;
-        for (uint32_t target : transfer.targets) heads[target] = true;
-      }
+  void cutRoutine(uint32_t routine) {
+    const std::vector<Rung>& rungs = module_.routines[routine].rungs;
+    markHeads(routine);
+    measure(rungs);
+    std::vector<uint32_t>& chunkOf = layout_.chunkOfRung_.emplace_back();
+    layout_.behind_.emplace_back(rungs.size());
+    const auto count = static_cast<uint32_t>(rungs.size());
+    for (uint32_t first = 0; first < count;) {
+      const uint32_t end = chunkEnd(first, count);
+      chunkOf.insert(chunkOf.end(), end - first, static_cast<uint32_t>(layout_.chunks_.size()));
+      layout_.chunks_.push_back({.routine = RoutineId{routine}, .firstRung = first, .rungCount = end - first});
+      for (uint32_t i = first; i < end; ++i)
+        forTargets(rungs[i].transfer, [&](uint32_t target) {
+          if (target >= end) heads_[target] = true;
+        });
+      weigh(rungs, layout_.chunks_.back());
+      first = end;
     }
   }
 
-  // The rungs before which a part of a task ends.
-  void markParts() {
-    for (const Task& task : module_.tasks) {
-      partBorders_.push_back(task.borders);
-      for (const uint32_t rung : task.borders) heads_[task.entry.index][rung] = true;
+  // The rungs of a routine that begin a chunk wherever the others are cut.
+  void markHeads(uint32_t routine) {
+    const std::vector<Rung>& rungs = module_.routines[routine].rungs;
+    heads_.assign(rungs.size() + 1, false);
+    heads_[0] = true;
+    for (const Task& task : module_.tasks) // the rungs before which a part ends
+      if (task.entry.index == routine)
+        for (const uint32_t rung : task.borders) heads_[rung] = true;
+    for (uint32_t i = 0; i < rungs.size(); ++i) {
+      if (rungs[i].transfer.kind == TransferKind::Call) heads_[i + 1] = true;
+      forTargets(rungs[i].transfer, [&](uint32_t target) {
+        if (target <= i) heads_[target] = true;
+      });
     }
   }
 
-  void cutChunks() {
-    for (uint32_t r = 0; r < module_.routines.size(); ++r) {
-      const std::vector<Rung>& rungs = module_.routines[r].rungs;
-      std::vector<uint32_t>& chunkOf = layout_.chunkOfRung_.emplace_back();
-      size_t ops = 0;
-      for (uint32_t i = 0; i < rungs.size(); ++i) {
-        const bool full = i > 0 && (layout_.chunks_.back().rungCount >= options_.maxChunkRungs ||
-                                    ops + rungs[i].ops.size() > options_.maxChunkOps);
-        if (heads_[r][i] || full) {
-          layout_.chunks_.push_back({.routine = RoutineId{r}, .firstRung = i, .rungCount = 0, .weight = 0});
-          ops = 0;
-        }
-        Chunk& chunk = layout_.chunks_.back();
-        ++chunk.rungCount;
-        chunk.weight += std::max(1u, rungs[i].weight);
-        ops += rungs[i].ops.size();
-        chunkOf.push_back(static_cast<uint32_t>(layout_.chunks_.size() - 1));
-      }
+  void weigh(const std::vector<Rung>& rungs, Chunk& chunk) {
+    const uint32_t end = chunk.firstRung + chunk.rungCount;
+    std::vector<uint32_t>& behind = layout_.behind_[chunk.routine.index];
+    for (uint32_t i = end; i-- > chunk.firstRung;) {
+      const Transfer& transfer = rungs[i].transfer;
+      uint32_t least = UINT32_MAX;
+      const auto way = [&](uint32_t to) {
+        least = to <= i || to >= end ? 0 : std::min(least, weightOf(rungs[to]) + behind[to]);
+      };
+      if (transfer.kind == TransferKind::Next || transfer.cond.valid()) way(i + 1);
+      forTargets(transfer, way);
+      behind[i] = least == UINT32_MAX ? 0 : least; // nowhere in the routine: back to the caller, or the run's end
+      if (leavesRoutine(transfer.kind)) behind[i] = 0;
     }
+    chunk.weight = weightOf(rungs[chunk.firstRung]) + behind[chunk.firstRung];
+  }
+
+  // For chunkEnd: operations in front of each rung, and jumps that lead over the border in front of it.
+  void measure(const std::vector<Rung>& rungs) {
+    opsBefore_.assign(1, 0);
+    crossing_.assign(rungs.size() + 2, 0);
+    for (uint32_t i = 0; i < rungs.size(); ++i) {
+      opsBefore_.push_back(opsBefore_.back() + rungs[i].ops.size());
+      forTargets(rungs[i].transfer, [&](uint32_t target) {
+        if (target <= i + 1) return;
+        ++crossing_[i + 1];
+        --crossing_[target];
+      });
+    }
+    std::partial_sum(crossing_.begin(), crossing_.end(), crossing_.begin());
+  }
+
+  // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it.
+  uint32_t chunkEnd(uint32_t first, uint32_t count) const {
+    uint32_t end = first + 1;
+    while (end < count && !heads_[end] && end - first < options_.maxChunkRungs &&
+           opsBefore_[end + 1] - opsBefore_[first] <= options_.maxChunkOps)
+      ++end;
+    if (end == count || heads_[end]) return end;
+    uint32_t best = end;
+    for (uint32_t i = end; i > first + (end - first) / 2; --i)
+      if (crossing_[i] < crossing_[best]) best = i;
+    return best;
+  }
+
+  template <class Visit>
+  static void forTargets(const Transfer& transfer, Visit visit) {
+    if (transfer.kind == TransferKind::Goto) visit(transfer.target);
+    for (uint32_t target : transfer.targets) visit(target);
   }
 
   void findPartEnds() {
     for (size_t t = 0; t < module_.tasks.size(); ++t) {
       std::vector<uint32_t>& ends = layout_.partEnds_.emplace_back();
-      for (uint32_t rung : partBorders_[t]) ends.push_back(layout_.chunkAt(module_.tasks[t].entry, rung));
+      for (uint32_t rung : module_.tasks[t].borders) ends.push_back(layout_.chunkAt(module_.tasks[t].entry, rung));
     }
   }
 
@@ -141,8 +188,10 @@ private:
   const Module& module_;
   const LayoutOptions& options_;
   uint32_t next_ = 0;
-  std::vector<std::vector<bool>> heads_;
-  std::vector<std::vector<uint32_t>> partBorders_;
+  // Of the routine in hand, by rung.
+  std::vector<bool> heads_;
+  std::vector<int32_t> crossing_;
+  std::vector<size_t> opsBefore_;
 };
 
 Layout::Layout(const Module& module, const LayoutOptions& options) : module_(&module) {
@@ -187,22 +236,43 @@ std::string Layout::text() const {
 
 uint64_t Layout::hash() const { return hashBytes(text()); }
 
-Exit exitOf(const Layout& layout, uint32_t chunk) {
-  const Chunk& place = layout.chunks()[chunk];
-  const std::vector<Rung>& rungs = layout.module().at(place.routine).rungs;
-  const uint32_t below = place.firstRung + place.rungCount;
-  const Transfer& transfer = rungs[below - 1].transfer;
+Destination Layout::destination(RoutineId routine, uint32_t from, uint32_t to) const {
+  const std::vector<uint32_t>& chunkOf = chunkOfRung_[routine.index];
+  if (to <= from || chunkOf[to] != chunkOf[from]) return {.chunk = chunkAt(routine, to)};
+  const std::vector<uint32_t>& behind = behind_[routine.index];
+  return {
+      .chunk = chunkOf[to], .rung = to, .extra = weightOf(module_->at(routine).rungs[to]) + behind[to] - behind[from]};
+}
+
+Exit exitOf(const Layout& layout, RoutineId routine, uint32_t rung) {
+  const std::vector<Rung>& rungs = layout.module().at(routine).rungs;
+  const Transfer& transfer = rungs[rung].transfer;
   Exit exit{.kind = transfer.kind,
             .cond = transfer.cond,
             .value = transfer.value,
-            .taken = RUNG_NONE,
-            .otherwise = RUNG_NONE,
+            .taken = {},
+            .otherwise = {},
             .targets = {}};
-  if (below < rungs.size()) exit.otherwise = layout.chunkAt(place.routine, below);
-  if (transfer.kind == TransferKind::Goto) exit.taken = layout.chunkAt(place.routine, transfer.target);
-  if (transfer.kind == TransferKind::Call) exit.taken = layout.entry(transfer.callee);
-  for (uint32_t target : transfer.targets) exit.targets.push_back(layout.chunkAt(place.routine, target));
+  const bool goesOn =
+      transfer.kind == TransferKind::Next || transfer.kind == TransferKind::Call || transfer.cond.valid();
+  if (goesOn && rung + 1 < rungs.size()) exit.otherwise = layout.destination(routine, rung, rung + 1);
+  if (transfer.kind == TransferKind::Goto) exit.taken = layout.destination(routine, rung, transfer.target);
+  if (transfer.kind == TransferKind::Call) exit.taken = {.chunk = layout.entry(transfer.callee)};
+  for (uint32_t target : transfer.targets) exit.targets.push_back(layout.destination(routine, rung, target));
   return exit;
+}
+
+std::vector<Exit> exitsOf(const Layout& layout, const Chunk& chunk) {
+  std::vector<Exit> exits;
+  for (uint32_t i = 0; i < chunk.rungCount; ++i) exits.push_back(exitOf(layout, chunk.routine, chunk.firstRung + i));
+  return exits;
+}
+
+bool hasExtraWeight(const std::vector<Exit>& exits) {
+  return std::any_of(exits.begin(), exits.end(), [](const Exit& exit) {
+    return exit.taken.extra != 0 || exit.otherwise.extra != 0 ||
+           std::any_of(exit.targets.begin(), exit.targets.end(), [](const Destination& to) { return to.extra != 0; });
+  });
 }
 
 } // namespace rung::ir

@@ -7,9 +7,14 @@
 // touches are packed, but for short gaps between expanded ones.
 //
 // Chunks. A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine,
-// entered only at its head. A chunk begins at each routine's start, at every target of a Goto or Switch, behind every
-// rung whose transfer is not Next, and where a part of a task begins. Compile time grows linearly with the number of
-// chunks.
+// entered only at its head. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk
+// stays inside, every other one leaves. So a chunk begins at each routine's start, behind every Call, where a part of a
+// task begins, and at every target that is not below its jump in one chunk. Compile time grows linearly with the number
+// of chunks.
+//
+// The watchdog counts the rungs that are run: a chunk weighs what its lightest way from the head out weighs, and a jump
+// or a step down within it that is not on the lightest way from there costs the difference (Destination::extra). So a
+// jump over something that mostly rests costs nothing to count.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -36,12 +41,14 @@ struct Chunk {
   RoutineId routine;
   uint32_t firstRung = 0; // in the routine
   uint32_t rungCount = 0;
-  uint32_t weight = 1;
+  uint32_t weight = 1; // of the lightest way through it
 };
 
 struct SpaceLayout {
   std::vector<rung_range> ranges; // sorted, cover the space
 };
+
+struct Destination;
 
 class Layout {
 public:
@@ -61,6 +68,8 @@ public:
   // The chunk that begins with this rung; it exists for every place that control can reach from elsewhere.
   uint32_t chunkAt(RoutineId routine, uint32_t rung) const;
   uint32_t entry(RoutineId routine) const { return chunkAt(routine, 0); }
+  // From one rung of a routine to another.
+  Destination destination(RoutineId routine, uint32_t from, uint32_t to) const;
   // Number of a rung over all routines, as rung_program counts them.
   uint32_t rungNumber(RoutineId routine, uint32_t rung) const { return firstRung_[routine.index] + rung; }
   uint32_t rungCount() const { return rungCount_; }
@@ -79,22 +88,33 @@ private:
   std::vector<uint32_t> slotOffsets_;
   std::vector<Chunk> chunks_;
   std::vector<std::vector<uint32_t>> chunkOfRung_; // per routine and rung: the chunk it is in
+  std::vector<std::vector<uint32_t>> behind_; // per routine and rung: the lightest way behind it to the chunk's end
   std::vector<uint32_t> firstRung_;
   uint32_t rungCount_ = 0;
   std::vector<std::vector<uint32_t>> partEnds_;
 };
 
-// How a chunk is left after its last rung, in terms of chunks: what a back end has to return.
-// The walk order and these numbers are all that engines need; they decide nothing themselves.
+// Where control goes behind a rung: further down in its chunk, or to a chunk, whose number the compiled chunk returns.
+struct Destination {
+  uint32_t chunk = RUNG_NONE; // RUNG_NONE: back to the caller
+  uint32_t rung = RUNG_NONE;  // of the routine, when it lies in the same chunk
+  uint32_t extra = 0;         // weight on top of the chunk's; 0 where the chunk is left
+  bool inside() const { return rung != RUNG_NONE; }
+};
+
+// How a rung is left. These places are all that engines need; they decide nothing themselves.
 struct Exit {
   TransferKind kind = TransferKind::Next;
-  ValueId cond;               // invalid: always
-  ValueId value;              // Switch
-  uint32_t taken = RUNG_NONE; // Goto: target chunk; Call: entry of the callee
-  uint32_t otherwise =
-      RUNG_NONE; // where it goes when cond is 0, and the return address of a Call; RUNG_NONE: return to the caller
-  std::vector<uint32_t> targets; // Switch
+  ValueId cond;                     // invalid: always
+  ValueId value;                    // Switch
+  Destination taken;                // Goto: its target; Call: the entry of the callee
+  Destination otherwise;            // where it goes when cond is 0, and where a Call comes back to
+  std::vector<Destination> targets; // Switch
 };
-Exit exitOf(const Layout& layout, uint32_t chunk);
+Exit exitOf(const Layout& layout, RoutineId routine, uint32_t rung);
+// The exits of a chunk's rungs.
+std::vector<Exit> exitsOf(const Layout& layout, const Chunk& chunk);
+// Whether some way through the chunk costs extra weight.
+bool hasExtraWeight(const std::vector<Exit>& exits);
 
 } // namespace rung::ir

@@ -16,6 +16,7 @@ Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, Part
 void Runner::reset() noexcept {
   for (uint32_t t = 0; t < program_->task_count; ++t) parts_[t] = {};
   ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
+  ctx_->extra_weight = 0;
   position_ = 0;
   faulted_ = false;
   stopped_ = false;
@@ -62,6 +63,13 @@ void Runner::copy(uint32_t first, uint32_t count) noexcept {
   }
 }
 
+uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
+  ctx_->fault.code = task.budget_fault;
+  ctx_->fault.rung = chunk.first_rung;
+  ctx_->fault.line = 0;
+  return RUNG_PC_FAULT;
+}
+
 // Runs from `pc` to the end of the run, a fault, or a chunk at or behind `limit` outside every subroutine.
 uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   const rung_chunk* chunks = program_->chunks;
@@ -69,14 +77,15 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
   const uint32_t count = program_->chunk_count;
   while (pc < count) {
     if (pc >= limit && ctx_->sp == 1) return pc;
-    if (chunks[pc].weight > budget) {
-      ctx_->fault.code = task.budget_fault;
-      ctx_->fault.rung = chunks[pc].first_rung;
-      ctx_->fault.line = 0;
-      return RUNG_PC_FAULT;
-    }
-    budget -= chunks[pc].weight;
+    const rung_chunk& chunk = chunks[pc];
+    if (chunk.weight > budget) return overrun(task, chunk);
+    budget -= chunk.weight;
     pc = functions != nullptr ? functions[pc](memory_, ctx_) : program_->run_chunk(memory_, ctx_, pc);
+    if (ctx_->extra_weight == 0) continue;
+    const uint32_t extra = ctx_->extra_weight;
+    ctx_->extra_weight = 0;
+    if (extra > budget) return overrun(task, chunk);
+    budget -= extra;
   }
   return pc;
 }

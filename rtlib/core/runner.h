@@ -71,6 +71,7 @@ public:
 
 private:
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
+  uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;
   void copy(uint32_t first, uint32_t count) noexcept;

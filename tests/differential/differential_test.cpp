@@ -72,6 +72,8 @@ TEST_P(RandomModules, AgreeWithTheInterpreter) {
     ir::LayoutOptions layout;
     layout.expandBits = seed % 3 != 0;
     layout.maxChunkRungs = seed % 5 == 0 ? 1 : 32;
+    if (seed % 4 == 0) // a watchdog that strikes: every engine counts alike
+      for (ir::Task& task : module.tasks) task.budget = 20 + static_cast<uint32_t>(seed % 50);
     const auto difference = disagreement(testing::compiledFrom(std::move(module), layout), GetParam());
     EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
   }

@@ -121,7 +121,7 @@ typedef struct rung_copy {
 typedef struct rung_chunk {
   uint32_t first_rung; /* in `rungs` */
   uint32_t rung_count;
-  uint32_t weight; /* steps, for budgets and for cutting a task into parts; at least 1 */
+  uint32_t weight; /* steps of its lightest way, for budgets; at least 1 */
 } rung_chunk;
 
 typedef struct rung_rung_info {
@@ -224,8 +224,8 @@ struct rung_ctx {
   rung_prof *prof; /* one per rung; only instrumented programs touch it */
   void *engine;    /* the interpreter's own */
   rung_fault fault;
-  uint32_t sp; /* used entries of `stack` */
-  uint32_t reserved;
+  uint32_t sp;           /* used entries of `stack` */
+  uint32_t extra_weight; /* a chunk's way through was heavier by this than its weight; the host takes it off and clears it */
   uint32_t stack[RUNG_STACK_DEPTH];
 };
 

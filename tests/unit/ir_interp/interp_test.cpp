@@ -208,19 +208,23 @@ std::string digit(int n, std::string_view transfer, int number) {
                   "\n%4:i32 = add %2, %3\nstore.i32 D[0], %4\n%5:bit = load B[0.0]\n%6:i32 = load B[4]",
               transfer, number);
 }
-uint64_t digitsOf(std::string_view routines, std::string_view inits = {}, uint32_t chunkRungs = 32) {
-  LayoutOptions options;
-  options.maxChunkRungs = chunkRungs;
-  Machine m(moduleFromText(program(routines, inits)), options);
-  m->scan();
-  EXPECT_FALSE(m->faulted());
-  return m.value("D", 0, 4);
+// Whatever the chunks.
+uint64_t digitsOf(std::string_view routines, std::string_view inits = {}) {
+  uint64_t digits = 0;
+  for (const uint32_t chunkRungs : {1u, 2u, 32u}) {
+    LayoutOptions options;
+    options.maxChunkRungs = chunkRungs;
+    Machine m(moduleFromText(program(routines, inits)), options);
+    m->scan();
+    EXPECT_FALSE(m->faulted());
+    if (chunkRungs == 1) digits = m.value("D", 0, 4);
+    EXPECT_EQ(m.value("D", 0, 4), digits) << chunkRungs << " rungs a chunk";
+  }
+  return digits;
 }
 
-TEST(InterpTransfers, FallThroughWhateverTheChunks) {
-  const std::string rungs = routine(digit(1, "}", 0) + digit(2, "}", 1) + digit(3, "}", 2));
-  EXPECT_EQ(digitsOf(rungs), 123u);
-  EXPECT_EQ(digitsOf(rungs, "", 1), 123u);
+TEST(InterpTransfers, FallThrough) {
+  EXPECT_EQ(digitsOf(routine(digit(1, "}", 0) + digit(2, "}", 1) + digit(3, "}", 2))), 123u);
 }
 
 TEST(InterpTransfers, Goto) {
@@ -267,6 +271,66 @@ TEST(InterpTransfers, EndEndsTheRunFromWithinACall) {
 
 TEST(InterpTransfers, RetAtTheOutermostLevelEndsTheRun) {
   EXPECT_EQ(digitsOf(routine(digit(1, "} ret if %5", 0) + digit(2, "}", 1)), "init B[0] 01\n"), 1u);
+}
+
+// ---- chunks --------------------------------------------------------------------------------------------------------
+
+// A rung without operations but a condition.
+std::string heavy(uint32_t number, uint32_t weight, std::string_view transfer = "}") {
+  return "rung " + std::to_string(number) + " \"\" loc(-:0:0-0) key(0) weight " + std::to_string(weight) +
+         " {\n%0:bit = load B[0.0]\n%1:i32 = load B[4]\n" + std::string(transfer) + "\n";
+}
+std::vector<std::pair<uint32_t, uint32_t>> chunksOf(const std::string& rungs, uint32_t maxRungs) {
+  LayoutOptions options;
+  options.maxChunkRungs = maxRungs;
+  const Machine m(moduleFromText(program(routine(rungs))), options);
+  std::vector<std::pair<uint32_t, uint32_t>> chunks;
+  for (const Chunk& chunk : m.layout().chunks()) chunks.emplace_back(chunk.firstRung, chunk.weight);
+  return chunks;
+}
+using Chunks = std::vector<std::pair<uint32_t, uint32_t>>; // first rung, weight
+
+TEST(InterpChunks, JumpsDownStayInsideAndTheLightestWayWeighs) {
+  const std::string over = heavy(0, 2, "} goto 2 if %0") + heavy(1, 50) + heavy(2, 3);
+  EXPECT_EQ(chunksOf(over, 64), (Chunks{{0, 5}}));
+  const std::string choice = heavy(0, 2, "} switch %1 [1, 2, 3]") + heavy(1, 7, "} goto 3") + heavy(2, 9) + heavy(3, 1);
+  EXPECT_EQ(chunksOf(choice, 64), (Chunks{{0, 3}}));
+  const std::string out = heavy(0, 2, "} ret if %0") + heavy(1, 50);
+  EXPECT_EQ(chunksOf(out, 64), (Chunks{{0, 2}}));
+}
+
+TEST(InterpChunks, BeginAtTargetsOfJumpsBackAndBehindCalls) {
+  EXPECT_EQ(chunksOf(heavy(0, 1) + heavy(1, 2) + heavy(2, 3, "} goto 1 if %0") + heavy(3, 4), 64),
+            (Chunks{{0, 1}, {1, 5}}));
+  const std::string sub = heavy(0, 1) + "}\nroutine SUB2 {\n" + heavy(0, 1, "} call MAIN if %0") + heavy(1, 1);
+  EXPECT_EQ(chunksOf(sub, 64), (Chunks{{0, 1}, {0, 1}, {1, 1}}));
+}
+
+// Rungs 1 to 3 and 4 to 6 belong together.
+TEST(InterpChunks, AreCutWhereTheFewestJumpsLeave) {
+  const std::string rungs = heavy(0, 1) + heavy(1, 1, "} goto 4 if %0") + heavy(2, 1) + heavy(3, 1) +
+                            heavy(4, 1, "} goto 7 if %0") + heavy(5, 1) + heavy(6, 1) + heavy(7, 1);
+  EXPECT_EQ(chunksOf(rungs, 6), (Chunks{{0, 2}, {4, 2}}));
+}
+
+// A pass through the loop costs what it runs: 3 without rung 1, else 53; the chunk in which the budget of 1000 ends
+// runs or does not run as a whole.
+TEST(InterpChunks, TheWatchdogCountsWhatIsRun) {
+  const std::string count = "rung 0 \"\" loc(-:0:0-0) key(0) weight 1 {\n%0:i32 = load D[0]\n%1:i32 = const 1\n"
+                            "%2:i32 = add %0, %1\nstore.i32 D[0], %2\n%3:bit = load B[0.0]\n} goto 2 if %3\n";
+  const std::string rungs = count + heavy(1, 50) + heavy(2, 2, "} goto 0");
+  for (const uint32_t chunkRungs : {1u, 64u}) {
+    LayoutOptions options;
+    options.maxChunkRungs = chunkRungs;
+    Machine light(moduleFromText(program(routine(rungs), "init B[0] 01\n")), options);
+    light->scan();
+    EXPECT_TRUE(light->faulted());
+    EXPECT_NEAR(static_cast<double>(light.value("D", 0, 4)), 1000 / 3.0, 1.0) << chunkRungs;
+    Machine full(moduleFromText(program(routine(rungs))), options);
+    full->scan();
+    EXPECT_TRUE(full->faulted());
+    EXPECT_NEAR(static_cast<double>(full.value("D", 0, 4)), 1000 / 53.0, 1.0) << chunkRungs;
+  }
 }
 
 // ---- host ----------------------------------------------------------------------------------------------------------

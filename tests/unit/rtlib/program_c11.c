@@ -117,7 +117,7 @@ AT(rung_ctx, prof, 24);
 AT(rung_ctx, engine, 32);
 AT(rung_ctx, fault, 40);
 AT(rung_ctx, sp, 56);
-AT(rung_ctx, reserved, 60);
+AT(rung_ctx, extra_weight, 60);
 AT(rung_ctx, stack, 64);
 SIZE(rung_ctx, 576);
 

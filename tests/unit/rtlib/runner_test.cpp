@@ -106,6 +106,22 @@ TEST_F(RunnerTest, BudgetThatIsExactlyUsedUpIsEnough) {
   EXPECT_FALSE(runner->runTask(less));
 }
 
+TEST_F(RunnerTest, ExtraWeightIsTakenOffTheBudget) {
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 0), ctx->extra_weight = 5, 1u; }, 3);
+  test.addChunk(step<1, RUNG_PC_DONE>, 4);
+  const uint32_t enough = test.addTask("A", 0, 12);
+  const uint32_t less = test.addTask("B", 0, 11);
+  const uint32_t least = test.addTask("C", 0, 7);
+  EXPECT_TRUE(start().runTask(enough));
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+  EXPECT_FALSE(runner->runTask(less));
+  EXPECT_EQ(takeTrace(), (Trace{0}));
+  EXPECT_EQ(runner->fault().rung, 1u);
+  runner->reset();
+  EXPECT_FALSE(runner->runTask(least));
+  EXPECT_EQ(runner->fault().rung, 0u);
+}
+
 TEST_F(RunnerTest, FaultOfAChunkIsKept) {
   test.addChunk([](uint8_t*, rung_ctx* ctx) {
     ctx->fault = {1, 0, 12, RUNG_NONE};

@@ -99,7 +99,8 @@ bool FileReader::beginsStatement(uint32_t first) const {
   if (tokens[0].kind != TokenKind::Name) return false;
   if (tokens.size() > 1 && tokens[1].is(':')) return true;
   const Row* second = tokens.size() > 1 && tokens[1].kind == TokenKind::Name ? findRow(tokens[1].text) : nullptr;
-  if (second && second->role == Role::MemberSize) return true; // NAME struc, NAME DB 5
+  if (second && second->role == Role::MemberSize && second->info.mnemonic != "DUP") return true; // NAME struc, NAME DB 5
+  if (structures_.find(tokens[0]) != kNone || (tokens.size() > 1 && structures_.find(tokens[1]) != kNone)) return true;
   if (findRow(tokens[0].text) != nullptr) return reservedWord(tokens[0].text) == Reserved::Yes;
   return macros_.find(tokens[0].text) != nullptr;
 }

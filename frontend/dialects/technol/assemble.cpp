@@ -222,6 +222,9 @@ void TaskMaker::make() {
   run(module_.scan, ModuleKind::Main);
   step(RUNG_STEP_HOOK, 2);
   run(module_.scan, ModuleKind::Cont);
+  if (const LoweredModule& messages = lowering_.bitMessages(); messages.routine.valid())
+    module_.scan.push_back(
+        {.op = RUNG_STEP_RUN, .task = add("EDEF", messages.routine, messages.weight, periodUs_, false), .arg = 1});
   fastSteps(module_.fast, 1);
 }
 

@@ -45,6 +45,7 @@ private:
   void checkNoOperands(const Statement& statement);
   void checkSwitch(const Statement& statement);
   void code(Statement& statement);
+  bool mayStandThere(const Statement& statement) const;
   void notBuilt(Statement& statement, Diag code);
   void checkWait(const Statement& statement);
   void checkLoop(const Statement& statement);

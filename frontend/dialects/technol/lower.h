@@ -73,6 +73,7 @@ void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
 
 // lower_message.cpp
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
+void lowerBitMessage(Lowering& l, std::span<const Operand> o, int);
 
 // lower_config.cpp
 void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind);

@@ -95,6 +95,7 @@ void Lowering::run() {
   finishProcedures();
   makeClears();
   makeResets();
+  makeBitMessages();
   makeStart();
   makeEvents();
 }
@@ -381,6 +382,7 @@ void Lowering::makeStart() {
     b().slotStore(forgotten_[i], b().constant(Type::I8, 0));
   }
   clearSlots(phases_);
+  forgetBitMessages();
   out_->finish();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -47,6 +48,18 @@ struct Sequence {
   std::vector<CountCell> cells; // cleared when the unit ends or is initialised
 };
 
+// A bit that makes a message, as EDEF has tied them. Each execution of the statement that differs in number or index is
+// an entry in the hidden space @EDEF, which outlives CLEAR.
+struct BitMessage {
+  const Statement* statement = nullptr;
+  Operand bit;
+  std::array<Operand, 3> pars;
+  std::array<ir::Window, 4> windows; // of bit and pars where they are indexed
+  uint32_t mode = 0;
+  uint32_t capacity = 1;
+  uint32_t table = 0; // first byte in @EDEF: the number of entries, then these
+};
+
 struct LoweredModule {
   ModuleKind kind;
   ir::RoutineId routine;
@@ -62,6 +75,8 @@ public:
   // Procedures that the control calls by their reserved names (man. l.1609).
   const std::vector<LoweredModule>& events() const { return events_; }
   const std::vector<std::string>& eventNames() const { return eventNames_; }
+  // Makes the messages of EDEF, at the end of each scan; no routine where there are none.
+  const LoweredModule& bitMessages() const { return bitMessageTask_; }
   ir::FaultId fault(std::string_view text);
   ir::ServiceId service(std::string_view signature);
 
@@ -118,6 +133,7 @@ public:
   ir::Place place(HostCell cell) const;
   void saveRegisters();
   void restoreRegisters();
+  void addBitMessage(BitMessage message, ir::ValueId number, ir::ValueId subId);
 
   // The rules on mixing real and integer arithmetic (man. l.1551).
   enum class Arithmetic : uint8_t { LoadInteger, LoadReal, Integer, Real };
@@ -166,6 +182,8 @@ private:
   void clearSlots(std::span<const ir::SlotId> slots);
   void fillData();
   void makeEvents();
+  void makeBitMessages();
+  void forgetBitMessages();
   void checkRecursion();
   uint32_t procedureNamed(std::string_view name) const;
   ir::RoutineId newRoutine(std::string name);
@@ -229,6 +247,9 @@ private:
   std::unordered_map<std::string, ir::FaultId> faults_;
   ir::RoutineId start_;
   std::vector<ir::SlotId> saved_;
+  std::vector<BitMessage> bitMessages_;
+  ir::SpaceId bitMessageSpace_;
+  LoweredModule bitMessageTask_{ModuleKind::Main, {}, 0};
 };
 
 } // namespace rung::frontend::technol

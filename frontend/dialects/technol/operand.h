@@ -63,6 +63,7 @@ struct OperandKind {
   bool notGiven = false;               // `-` or NIL may
   bool empty = false;                  // nothing may, between commas
   bool text = false;                   // a text may
+  bool weight = false;                 // a bit number without an address may: its place has no space
   uint8_t types = 0xFF;                // ir::TypeSet of cells
   SymbolKind name = SymbolKind::Label; // class Name
   std::string_view keywords = {};      // parted by blanks; beside what else may stand there
@@ -110,7 +111,7 @@ private:
   bool one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool waitOperands(std::span<Operand> operands);
   bool bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
-  bool bareBit(const OperandInfo& info, const Token& name, Operand& out);
+  bool bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out);
   bool bitAt(const OperandInfo& info, std::span<const Token> where, const Token& name, Operand& out);
   bool flag(const Token& number, Operand& out);
   uint32_t bitSymbol(const Token& name);

@@ -227,7 +227,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
       return syntax("the name of a bit behind the point", tokens.subspan(point));
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
-  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, tokens[0], out);
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, kind, tokens[0], out);
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
     return kind.constant ? flag(tokens[0], out) : wrongKind(out, "a number", "a bit");
   Address whole;
@@ -252,7 +252,7 @@ uint32_t OperandParser::bitSymbol(const Token& name) {
   return index != kNone ? index : program_.symbols.require(name, file_);
 }
 
-bool OperandParser::bareBit(const OperandInfo& info, const Token& name, Operand& out) {
+bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out) {
   const uint32_t index = bitSymbol(name);
   if (index == kNone) return false;
   const Symbol& symbol = program_.symbols[index];
@@ -263,7 +263,8 @@ bool OperandParser::bareBit(const OperandInfo& info, const Token& name, Operand&
     return true;
   }
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) return wrongKind(out, "no bit", "a bit");
-  if (!symbol.space.valid()) return wrongKind(out, "a bit number", "a bit, with the address of its byte in front");
+  if (!symbol.space.valid() && !kind.weight)
+    return wrongKind(out, "a bit number", "a bit, with the address of its byte in front");
   out.place = {.space = symbol.space, .byte = symbol.byte, .bit = symbol.bit};
   return checkWrite(info, symbol.protection, name.text, out.range);
 }

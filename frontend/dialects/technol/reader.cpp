@@ -307,6 +307,14 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   }
 }
 
+// Some instructions are for MODULE_INIT and procedures, which it may call (man. l.5222).
+bool FileReader::mayStandThere(const Statement& statement) const {
+  const uint32_t owner = program_.owner(statement.unit);
+  if ((statement.row->effects & kInitOnly) == 0 || owner == kNone) return true;
+  const Unit& unit = program_.units[owner];
+  return unit.kind == UnitKind::Procedure || (unit.kind == UnitKind::Module && unit.module == ModuleKind::Init);
+}
+
 // What stands in the wrong place is told first: it would stay wrong.
 void FileReader::notBuilt(Statement& statement, Diag code) {
   if (!structure_.allowsCode(statement)) {
@@ -315,16 +323,18 @@ void FileReader::notBuilt(Statement& statement, Diag code) {
   }
   const uint16_t effects = statement.row->effects;
   if (effects & kWaits) ++passed_;
-  const uint32_t owner = program_.owner(statement.unit);
-  const bool init = owner != kNone && (program_.units[owner].kind == UnitKind::Procedure ||
-                                       program_.units[owner].module == ModuleKind::Init);
-  if ((effects & kInitOnly) && owner != kNone && !init) code = Diag::InitOnlyInstruction;
+  if (!mayStandThere(statement)) code = Diag::InitOnlyInstruction;
   if ((effects & kWaits) && !program_.mayWait(statement.unit)) code = Diag::ExOutsideMechanism;
   program_.diagnostics.report(code, statement.range()) << statement.row->info.mnemonic;
 }
 
 void FileReader::code(Statement& statement) {
   if (!structure_.allowsCode(statement)) {
+    statement.row = nullptr;
+    return;
+  }
+  if (!mayStandThere(statement)) {
+    program_.diagnostics.report(Diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
     statement.row = nullptr;
     return;
   }

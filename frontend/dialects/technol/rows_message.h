@@ -45,10 +45,24 @@ inline constexpr Row kMessageRows[] = {
     {.info = {.mnemonic = "EDEF",
               .title = "ties a bit to a message",
               .group = "message",
+              .operands = {in("val", "status byte", "byte of the bit; not given: the bit has its own place"),
+                           in("bit", "status bit", "state that makes the message"),
+                           bounded(in("error", "message number", "number"), 65535),
+                           in("subid", "message value", "additional number"),
+                           bounded(in("mod", "constant", "bits 0, 1: beginning, bits 2, 3: end; 01 rising, 10 falling "
+                                                         "edge, 00 never"),
+                                   10),
+                           optional(in("par1", "message value", "value in the text, read when the message comes up")),
+                           optional(in("par2", "message value", "value in the text")),
+                           optional(in("par3", "message value", "value in the text"))},
               .ref = "14.3.2, l.5192",
-              .doc = "Ties a bit to a message."},
-     .role = Role::NotBuilt,
-     .effects = kInitOnly},
+              .doc = "Ties a bit to a message: at the end of each scan the control looks whether the bit has changed. "
+                     "The message comes up at the edge that `mod` names as beginning, transient, or persistent where "
+                     "`mod` names an end as well. Number and subid are taken when EDEF is carried out, the values "
+                     "when the message comes up.",
+              .example = "EDEF CELL1,BIT0,1004,-,1001b,CELL4"},
+     .effects = kInitOnly,
+     .lower = lowerBitMessage},
 };
 
 } // namespace rung::frontend::technol

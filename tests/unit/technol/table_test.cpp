@@ -158,11 +158,18 @@ bool isDeclaration(Role role) {
   return role == Role::Dfm || role == Role::Ds || role == Role::Str || role == Role::Equi || role == Role::MemberSize;
 }
 
+// A program with code in the module where the row may stand.
+std::string inItsModule(const Row& row, const std::string& code, const std::string& data) {
+  const std::string framed = frame(code, (row.effects & kWaits) != 0);
+  if (row.effects & kInitOnly) return programText({.data = data, .init = framed});
+  return programText({.data = data, .main = framed});
+}
+
 std::string exampleProgram(const Row& row) {
   const std::string example(row.info.example);
   if (row.role == Role::Module || row.role == Role::ModuleEnd || row.role == Role::Stop) return withModules(example);
   if (isDeclaration(row.role)) return programText({.data = example + "\n"});
-  return programText({.data = dataFor(example), .main = frame(example, (row.effects & kWaits) != 0)});
+  return inItsModule(row, example, dataFor(example));
 }
 
 TEST(TechnolTable, ExamplesCompile) {
@@ -219,7 +226,7 @@ std::string statement(const Row& row, const std::vector<std::string>& operands) 
 }
 
 Compilation with(const Row& row, const std::vector<std::string>& operands) {
-  return compileMain(frame(statement(row, operands), (row.effects & kWaits) != 0), std::string(kData));
+  return compile({inItsModule(row, statement(row, operands), std::string(kData))});
 }
 
 // The codes of the errors, without their places.

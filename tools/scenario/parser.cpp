@@ -195,7 +195,10 @@ const LineParser::Form LineParser::kForms[] = {
     {"config", Kind::Config,
      [](LineParser& p) { return p.takeWord(p.s_.name, "a key") && (p.takeText(), p.error_.empty()); }},
     {"connect", Kind::Connect, [](LineParser& p) { return p.connect(); }},
-    {"period", Kind::Period, [](LineParser& p) { return p.takeDuration(); }},
+    {"period", Kind::Period,
+     [](LineParser& p) {
+       return p.takeDuration() && (p.s_.microseconds > 0 || p.fail("a period is longer than nothing"));
+     }},
     {"set", Kind::Set, [](LineParser& p) { return p.set(); }},
     {"scan", Kind::Scan, [](LineParser& p) { return p.takeCount(); }},
     {"fast", Kind::Fast, [](LineParser& p) { return p.takeCount(); }},
@@ -274,10 +277,21 @@ std::optional<int64_t> parseDuration(std::string_view text) {
   return std::nullopt;
 }
 
+namespace {
+
+bool advances(Kind kind) {
+  return kind == Kind::Scan || kind == Kind::Fast || kind == Kind::Slot || kind == Kind::Run;
+}
+
+bool preparesStart(Kind kind) { return kind == Kind::Config || kind == Kind::Connect || kind == Kind::Period; }
+
+} // namespace
+
 Scenario parse(std::string path, std::string_view text) {
   Scenario scenario;
   scenario.path = std::move(path);
   uint32_t number = 0;
+  bool advanced = false;
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
@@ -289,6 +303,9 @@ Scenario parse(std::string path, std::string_view text) {
     Statement statement;
     statement.line = number;
     if (problem.empty()) problem = LineParser(statement, std::move(words)).run();
+    advanced = advanced || (problem.empty() && advances(statement.kind));
+    if (problem.empty() && advanced && preparesStart(statement.kind))
+      problem = "config, connect and period stand in front of the first scan";
     if (!problem.empty())
       scenario.problems.push_back({number, std::move(problem)});
     else

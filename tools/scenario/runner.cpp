@@ -265,7 +265,10 @@ void Runner::execute(const Statement& s) {
   case Kind::Set: return forLanes(s, [&](Lane& lane) { return setValue(lane, s); });
   case Kind::Scan: return advance(s, &nc::NcModel::scan);
   case Kind::Fast: return advance(s, &nc::NcModel::fast);
-  case Kind::Slot: return advance(s, &nc::NcModel::slot);
+  case Kind::Slot:
+    if (std::string_view(lanes_[0].engine->program().dialect) != "gsk")
+      return fail(s, "only the second level of a GSK program is run in slots (8 ms)");
+    return advance(s, &nc::NcModel::slot);
   case Kind::Run: return runFor(s);
   case Kind::Expect:
   case Kind::ExpectRange: return forLanes(s, [&](Lane& lane) { return expectValue(lane, s); });

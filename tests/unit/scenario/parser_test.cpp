@@ -88,6 +88,16 @@ TEST(ScenarioParser, Mistakes) {
   EXPECT_NE(problemOf("block").find("start or done"), std::string::npos);
   EXPECT_NE(problemOf("prepare windr function=1").find("->"), std::string::npos);
   EXPECT_NE(problemOf("event X Y").find("KEY=VALUE"), std::string::npos);
+  EXPECT_NE(problemOf("period 0ms").find("longer than nothing"), std::string::npos);
+}
+
+TEST(ScenarioParser, WhatPreparesTheStartStandsInFrontOfTheFirstScan) {
+  EXPECT_TRUE(parse("t.scn", "program a\nset A 1\nconfig k 1\nperiod 5ms\nscan\n").problems.empty());
+  for (const char* late : {"config k 1", "connect A B", "period 5ms"}) {
+    const Scenario scenario = parse("t.scn", std::string("program a\nscan\n") + late + "\n");
+    ASSERT_EQ(scenario.problems.size(), 1u) << late;
+    EXPECT_EQ(scenario.problems[0].line, 3u);
+  }
 }
 
 TEST(ScenarioParser, SeveralMistakesAreReportedAtOnce) {

@@ -57,6 +57,7 @@ TEST_F(ScenarioRunner, UnknownNamesAndKeysAreProblems) {
   EXPECT_NE(problemOf("config colour 5\n").find("unknown configuration key"), std::string::npos);
   EXPECT_NE(problemOf("connect A B\n").find("no connections"), std::string::npos);
   EXPECT_NE(problemOf("set 5100.00 7\n").find("a bit takes 0 or 1"), std::string::npos);
+  EXPECT_NE(problemOf("slot\n").find("only the second level of a GSK program"), std::string::npos);
   EXPECT_NE(problemOf("event FIRE\n").find("unknown event"), std::string::npos);
   EXPECT_NE(problemOf("reply x=1\n").find("no request is pending"), std::string::npos);
   EXPECT_NE(problemOf("expect_call windr\n").find("no request waits"), std::string::npos);

@@ -125,8 +125,20 @@ private:
       lane.instance = driver::makeInstance(*lane.engine, hooks_.back().get());
       if (!configure(lane, *program.compiled().dialect)) return false;
       lane.nc->powerOn(*lane.instance, nc::PowerOn::Cold);
+      if (!connected(lane)) return false;
     }
     return compare(scenario_.statements[0]);
+  }
+
+  // The ends of connections are known when the program has started.
+  bool connected(const Lane& lane) {
+    const std::vector<nc::NcProblem> problems = lane.nc->connectionProblems();
+    std::vector<const Statement*> connects;
+    for (const Statement& s : scenario_.statements)
+      if (s.kind == Kind::Connect) connects.push_back(&s);
+    for (const nc::NcProblem& problem : problems)
+      fail(problem.connection < connects.size() ? *connects[problem.connection] : scenario_.statements[0], problem.text);
+    return problems.empty();
   }
 
   bool configure(Lane& lane, const frontend::Dialect& dialect) {
@@ -293,6 +305,7 @@ void Runner::execute(const Statement& s) {
 std::string Runner::setValue(Lane& lane, const Statement& s) {
   if (s.name.starts_with("NC.")) return lane.nc->setQuantity(std::string_view(s.name).substr(3), s.value.real);
   const std::optional<Ref> place = lane.nc->writePlace(*lane.instance, s.name);
+  if (!place && s.value.kind != ValueKind::Text && lane.nc->writeCell(s.name, cellOf(s.value))) return {};
   if (!place) return fmt::format("'{}' is no name of this program", s.name);
   return writeValue(*lane.instance, *place, s.value);
 }
@@ -305,9 +318,10 @@ std::string Runner::expectValue(Lane& lane, const Statement& s) {
     reading = realReading(*quantity);
   } else {
     const std::optional<Ref> place = lane.nc->readPlace(*lane.instance, s.name);
-    if (!place) return fmt::format("'{}' is no name of this program", s.name);
-    reading =
-        readValue(*lane.instance, *place, s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real);
+    const auto cell = place ? std::nullopt : lane.nc->readCell(s.name);
+    if (!place && !cell) return fmt::format("'{}' is no name of this program", s.name);
+    const bool wantReal = s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real;
+    reading = place ? readValue(*lane.instance, *place, wantReal) : cellReading(*cell);
   }
   return s.kind == Kind::ExpectRange ? checkRange(reading, s) : checkValue(reading, s);
 }

@@ -53,6 +53,20 @@ Reading realReading(double value) {
   return reading;
 }
 
+Reading cellReading(const nc::NcCell& cell) {
+  if (cell.isReal) return realReading(std::bit_cast<double>(cell.bits));
+  Reading reading;
+  reading.integer = cell.bits;
+  reading.width = cell.width;
+  reading.real = static_cast<double>(asSigned(cell.bits, cell.width));
+  return reading;
+}
+
+nc::NcCell cellOf(const Value& number) {
+  if (number.kind == ValueKind::Real) return {.isReal = true, .bits = std::bit_cast<uint64_t>(number.real)};
+  return {.bits = static_cast<uint64_t>(number.integer)};
+}
+
 Reading readValue(const Instance& instance, const Ref& place, bool wantReal) {
   if (place.kind == RefKind::Text) {
     Reading reading;

@@ -23,6 +23,8 @@ struct Reading {
 // `wantReal`: two words or eight bytes are read as one double.
 Reading readValue(const host::Instance& instance, const host::Ref& place, bool wantReal);
 Reading realReading(double value);
+Reading cellReading(const nc::NcCell& cell);
+nc::NcCell cellOf(const Value& number);
 
 // Each gives "" or what is wrong.
 std::string writeValue(host::Instance& instance, const host::Ref& place, const Value& value);

@@ -116,12 +116,31 @@ void addSpaces(const Program& program, ir::Module& module) {
   add("MECH", static_cast<uint32_t>(program.mechanisms.size()) * kMechanismBytes, 0);
   add("@REG", kRegisterBytes, RUNG_SPACE_HIDDEN);
   add("BLK", nc::areaBytes(signals, "BLK") * kQueuedBlocks, RUNG_SPACE_INPUT);
+  add("IO", program.exchangedBytes, 0);
   module.inits = program.inits;
   addPresets(signals, module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).
   if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
     module.retains.push_back({.space = kInterfaceSpace, .byte = backup->byteOffset, .size = backup->count});
 }
+
+namespace {
+
+// Elements of an array of bits, a byte each: NAME[0], NAME[1]...
+void addElements(const Program& program, ir::Module& module) {
+  for (const Exchanged& variable : program.exchanged) {
+    if (variable.type != nc::ExchangeType::Bit || variable.count == 1) continue;
+    ir::Symbol made = madeSymbol(program.symbols[variable.symbol]);
+    const std::string name = made.name;
+    for (uint32_t i = 0; i < variable.count; ++i) {
+      made.name = name + "[" + std::to_string(i) + "]";
+      module.symbols.push_back(made);
+      ++made.byte;
+    }
+  }
+}
+
+} // namespace
 
 void addSymbols(const Program& program, ir::Module& module) {
   std::unordered_map<std::string, uint32_t> global, local;
@@ -135,6 +154,7 @@ void addSymbols(const Program& program, ir::Module& module) {
     const bool other = symbol.local && (local[made.name] > 1 || global.contains(made.name));
     if (!other && (symbol.local || global[made.name] == 1)) module.symbols.push_back(std::move(made));
   }
+  addElements(program, module);
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
     module.symbols.push_back({.name = std::string(cell.name),
@@ -186,11 +206,22 @@ void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t time
   if (of(kind).valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = of(kind), .arg = times});
 }
 
+// Fast connections run in front of MODULE_CYCLICOPERATION and MODULE_FAST, the fastest around MODULE_FASTEST (man.
+// l.13455-13482).
 void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
-  if (!of(ModuleKind::Cyclic).valid() && !of(ModuleKind::Fastest).valid()) return run(steps, ModuleKind::Fast, times);
+  const bool others = of(ModuleKind::Cyclic).valid() || of(ModuleKind::Fastest).valid();
+  const bool exchanges = lowering_.program().exchangesFast;
+  if (!others && !exchanges) return run(steps, ModuleKind::Fast, times);
+  const auto exchange = [&](ModuleKind kind, uint32_t hook) {
+    if (exchanges && of(kind).valid()) steps.push_back({.op = RUNG_STEP_HOOK, .task = {RUNG_NONE}, .arg = hook});
+  };
   for (uint32_t i = 0; i < times; ++i) {
+    exchange(ModuleKind::Cyclic, nc::kHookFast);
     run(steps, ModuleKind::Cyclic);
+    exchange(ModuleKind::Fastest, nc::kHookFastest);
     run(steps, ModuleKind::Fastest);
+    exchange(ModuleKind::Fastest, nc::kHookFastest);
+    exchange(ModuleKind::Fast, nc::kHookFast);
     run(steps, ModuleKind::Fast);
   }
 }
@@ -214,13 +245,14 @@ void TaskMaker::make() {
   module_.fastTask = of(ModuleKind::Fast);
   const ir::TaskId none{RUNG_NONE};
   const auto step = [&](uint32_t op, uint32_t arg) { module_.scan.push_back({.op = op, .task = none, .arg = arg}); };
-  // §12.2: the host's hook 1 runs the block modules, hook 2 does what follows MAIN.
+  // The host's hook 1 runs the block modules (§12.2 of the inventory).
   step(RUNG_STEP_ADVANCE, periodUs_);
+  step(RUNG_STEP_HOOK, nc::kHookBeforeInput);
   run(module_.scan, ModuleKind::Input);
   fastSteps(module_.scan, std::max(1u, periodUs_ / kFastPeriodUs));
   step(RUNG_STEP_HOOK, 1);
   run(module_.scan, ModuleKind::Main);
-  step(RUNG_STEP_HOOK, 2);
+  step(RUNG_STEP_HOOK, nc::kHookBehindMain);
   run(module_.scan, ModuleKind::Cont);
   if (const LoweredModule& messages = lowering_.bitMessages(); messages.routine.valid())
     module_.scan.push_back(

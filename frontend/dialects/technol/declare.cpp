@@ -98,6 +98,62 @@ void Declarations::constant(const Statement& statement) {
   program_.symbols.declare(symbol);
 }
 
+namespace {
+
+// The number of a word in a list of words parted by blanks; -1: none.
+int64_t wordNumber(std::string_view words, std::string_view wanted) {
+  for (int64_t number = 0; !words.empty(); ++number) {
+    const size_t end = std::min(words.find(' '), words.size());
+    if (equalsNoCase(wanted, words.substr(0, end))) return number;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return -1;
+}
+
+std::string_view onlyName(std::span<const Token> operand) {
+  return operand.size() == 1 && operand[0].kind == TokenKind::Name ? operand[0].text : std::string_view();
+}
+
+} // namespace
+
+// What is wrong with the operands is told when the statement is lowered; the name is known all the same.
+void Declarations::exchanged(const Statement& statement, uint32_t index) {
+  using nc::ExchangeKind;
+  using nc::ExchangeType;
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  if (operands.empty() || operands[0].empty() || operands[0][0].kind != TokenKind::Name) return;
+  Exchanged made{.kind = static_cast<ExchangeKind>(statement.row->variant), .statement = index};
+  const bool mapped = made.kind != ExchangeKind::DefIn && made.kind != ExchangeKind::DefOut;
+  int64_t word = 0;
+  if (made.kind == ExchangeKind::MapAin || made.kind == ExchangeKind::MapAout) made.type = ExchangeType::Real;
+  if (!mapped) word = operands.size() > 2 ? wordNumber(nc::kExchangeTypeWords, onlyName(operands[2])) : -1;
+  if (!mapped && word >= 0) made.type = nc::exchangeTypeOf(word);
+  const size_t periodAt = mapped ? 3 : 4;
+  const std::string_view period = operands.size() > periodAt ? onlyName(operands[periodAt]) : std::string_view();
+  if (equalsNoCase(period, "FAST") || equalsNoCase(period, "FASTEST")) program_.exchangesFast = true;
+  Symbol symbol = exchangedSymbol(operands[0][0], made.type);
+  symbol.broken = word < 0;
+  symbol.exchanged = static_cast<uint32_t>(program_.exchanged.size());
+  made.symbol = program_.symbols.declare(symbol);
+  program_.exchanged.push_back(made);
+}
+
+Symbol Declarations::exchangedSymbol(const Token& name, nc::ExchangeType type) const {
+  using nc::ExchangeType;
+  Symbol symbol = made(name, type == ExchangeType::Bit    ? SymbolKind::Bit
+                             : type == ExchangeType::Text ? SymbolKind::Text
+                                                          : SymbolKind::Cell);
+  symbol.local = false;
+  symbol.space = kExchangeSpace;
+  if (type == ExchangeType::Bit)
+    symbol.type = ir::Type::Bit;
+  else if (type == ExchangeType::Real)
+    symbol.type = ir::Type::F64;
+  else if (type != ExchangeType::Text && type != ExchangeType::Binary)
+    symbol.type = ir::intOfBytes(nc::bytesOf(type));
+  return symbol;
+}
+
 void Declarations::instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type) {
   structure_.allowsData(statement);
   DataItem item{.role = Role::MemberSize, .local = structure_.isLocal(), .statement = index};
@@ -118,6 +174,8 @@ class Placer {
 public:
   explicit Placer(Program& program) : program_(program) {}
   void place(DataItem& item);
+  // A variable of MAP_* or DEF_*.
+  void place(Exchanged& variable);
   // Texts that lie on other memory: last.
   void placeOverlays();
 
@@ -271,6 +329,33 @@ void Placer::place(DataItem& item) {
   }
 }
 
+// NAME or NAME[n]
+void Placer::place(Exchanged& variable) {
+  const Statement statement = program_.statements[variable.statement];
+  const std::span<const Token> name = splitOperands(program_.operandTokens(statement))[0];
+  const bool isText = variable.type == nc::ExchangeType::Text;
+  const uint32_t bytes = nc::bytesOf(variable.type);
+  int64_t count = isText || variable.type == nc::ExchangeType::Binary ? 0 : 1;
+  if (name.size() > 3 && name[1].is('[') && name.back().is(']')) {
+    const auto inside = name.subspan(2, name.size() - 3);
+    count = constantValue(program_, statement.file, inside, statement.range()).value_or(-1);
+    if (count < 0) program_.symbols[variable.symbol].broken = true;
+    if (count < 0) return;
+  }
+  if (count < 1 || count > kMaxData / bytes || program_.exchangedBytes + count * bytes > kMaxData) {
+    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, name, statement.range()))
+        << count << "1 to " + std::to_string(kMaxData / bytes);
+    program_.symbols[variable.symbol].broken = true;
+    return;
+  }
+  Symbol& symbol = program_.symbols[variable.symbol];
+  variable.count = static_cast<uint32_t>(count) + (isText ? 1 : 0);
+  symbol.byte = program_.exchangedBytes;
+  symbol.size = variable.count * bytes;
+  if (variable.type == nc::ExchangeType::Binary && symbol.size != 8) symbol.type = ir::intOfBytes(symbol.size);
+  program_.exchangedBytes += symbol.size;
+}
+
 void Placer::placeOverlays() {
   for (const uint32_t index : overlays_) {
     const DataItem& item = program_.items[index];
@@ -287,6 +372,7 @@ void Placer::placeOverlays() {
 void placeData(Program& program) {
   Placer placer(program);
   for (DataItem& item : program.items) placer.place(item);
+  for (Exchanged& variable : program.exchanged) placer.place(variable);
   placer.placeOverlays();
   for (const DataItem& item : program.items)
     for (const uint32_t also : item.also) {

@@ -18,10 +18,13 @@ public:
   void constant(const Statement& statement);
   // Data in the form of a structure; the operands are the value.
   void instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type);
+  // The variable of MAP_* or DEF_*; global in all files.
+  void exchanged(const Statement& statement, uint32_t index);
 
 private:
   void bits(const Statement& statement, DataItem& item);
   Symbol made(const Token& name, SymbolKind kind) const;
+  Symbol exchangedSymbol(const Token& name, nc::ExchangeType type) const;
 
   Program& program_;
   Structure& structure_;

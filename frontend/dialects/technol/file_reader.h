@@ -44,7 +44,7 @@ private:
   void structural(Statement& statement, uint32_t index);
   void checkNoOperands(const Statement& statement);
   void checkSwitch(const Statement& statement);
-  void code(Statement& statement);
+  void code(Statement& statement, uint32_t index);
   bool mayStandThere(const Statement& statement) const;
   void notBuilt(Statement& statement, Diag code);
   void checkWait(const Statement& statement);

@@ -52,6 +52,7 @@ enum Effect : uint16_t {
   kInitOnly = 512,
   kEndsInit = 1024,
   kEndsDone = 2048,
+  kDeclares = 4096, // its first operand names a variable that it declares; variant: nc::ExchangeKind
 };
 
 using LowerFn = void (*)(Lowering& lowering, std::span<const Operand> operands, int variant);

@@ -75,6 +75,14 @@ void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
 void lowerBitMessage(Lowering& l, std::span<const Operand> o, int);
 
+// lower_exchange.cpp; `kind` is a nc::ExchangeKind
+void lowerDefine(Lowering& l, std::span<const Operand> o, int kind);
+void lowerUpdate(Lowering& l, std::span<const Operand> o, int);
+
+// lower_share.cpp
+void lowerShareVariable(Lowering& l, std::span<const Operand> o, int);
+void lowerShareBit(Lowering& l, std::span<const Operand> o, int);
+
 // lower_config.cpp
 void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind);
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "frontend/dialects/technol/lower.h"
-#include "frontend/dialects/technol/lowering.h"
+#include "frontend/dialects/technol/lower_identifier.h"
 
 #include "rtlib/nc/technol/configuration.h"
 
@@ -26,66 +26,10 @@ constexpr uint32_t kHead = nc::kConfigurationHead;
 constexpr uint32_t kWords = nc::kConfigurationWords;
 constexpr uint32_t kBytes = nc::kConfigurationBytes;
 
-// A text in memory: its bytes are the elements `first`, `first` + 1... of the window, `room` of them to its end.
-struct TextPlace {
-  ir::Window window;
-  ValueId first;
-  ValueId room;
-};
-
-TextPlace placeOf(Lowering& l, const Operand& text) {
-  ir::RungBuilder& b = l.b();
-  const Access access = l.reach(text);
-  if (!access.indexed)
-    return {{.space = text.place.space, .byte = text.place.byte, .count = text.size}, b.i32(0), b.i32(text.size)};
-  const ValueId bx = l.r().bx();
-  const ValueId left = b.select(b.leS(b.i32(text.size), bx), b.i32(0), b.sub(b.i32(text.size), bx));
-  return {access.window, access.index, b.select(b.ltS(bx, b.i32(0)), b.i32(text.size), left)};
-}
-
-ValueId byteAt(ir::RungBuilder& b, const TextPlace& text, ValueId number) {
-  return b.loadAt(Type::I8, text.window, b.add(text.first, number));
-}
-
 // The identifier, eight characters a word.
-using Words = std::array<ValueId, kWords>;
+using Words = std::vector<ValueId>;
 
-Words quotedWords(ir::RungBuilder& b, std::string_view text) {
-  Words words;
-  for (uint32_t w = 0; w < kWords; ++w) {
-    uint64_t bits = 0;
-    for (uint32_t i = 0; i < 8 && w * 8 + i < text.size(); ++i)
-      bits |= uint64_t{static_cast<uint8_t>(text[w * 8 + i])} << i * 8;
-    words[w] = b.constant(Type::I64, static_cast<int64_t>(bits));
-  }
-  return words;
-}
-
-// Reads bytes up to the end of the text; the control ends it at its terminator.
-Words loadedWords(ir::RungBuilder& b, const TextPlace& text, uint32_t size) {
-  Words words;
-  const ValueId zero = b.constant(Type::I64, 0);
-  for (uint32_t w = 0; w < kWords; ++w) {
-    if (w * 8 >= size) {
-      words[w] = zero;
-      continue;
-    }
-    const auto in = b.loop(std::min(8u, size - w * 8), std::array{zero});
-    const ValueId number = b.add(in[0], b.i32(w * 8));
-    b.if_(b.ltU(number, text.room));
-    const ValueId byte = b.zextOrTrunc(Type::I64, byteAt(b, text, number));
-    const ValueId moved = b.op(ir::OpCode::Shl, Type::I64, {byte, b.mul(in[0], b.i32(8))});
-    b.else_(std::array{b.or_(in[1], moved)});
-    const auto joined = b.endIf(std::array{in[1]});
-    words[w] = b.endLoop(joined)[0];
-  }
-  return words;
-}
-
-Words identifier(Lowering& l, const Operand& id) {
-  if (id.form == Operand::Form::Text) return quotedWords(l.b(), id.text);
-  return loadedWords(l.b(), placeOf(l, id), id.size);
-}
+Words identifier(Lowering& l, const Operand& id) { return identifierWords(l, id, kWords); }
 
 ValueId request(Lowering& l, Kind kind, ValueId part, const Words& id) {
   std::array<ValueId, kHead + kWords> args;

@@ -38,7 +38,7 @@ struct Operand {
   int64_t end = 0;
   int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
   double real = 0;
-  uint32_t index = kNone; // label, mechanism, procedure
+  uint32_t index = kNone; // label, mechanism, procedure, variable of MAP_* or DEF_*
   std::string_view text;  // of a quoted text, as the memory holds it (Windows-1250)
   std::span<const Token> tokens;
   SourceRange range;
@@ -51,7 +51,7 @@ struct Operand {
 // Which type prefixes a kind takes.
 enum Prefix : uint8_t { kByte = 1, kWord = 2, kDword = 4, kQword = 8, kHigh = 16, kReal = 32, kCnst = 64 };
 
-enum class OperandClass : uint8_t { Bit, Value, Label, Name, Keyword, Text };
+enum class OperandClass : uint8_t { Bit, Value, Label, Name, Keyword, Text, Variable };
 
 struct OperandKind {
   OperandKindInfo info;
@@ -74,6 +74,13 @@ std::span<const OperandKind> operandKinds();
 std::span<const OperandKindInfo> operandKindInfos();
 // By its name; null when there is none.
 const OperandKind* findOperandKind(std::string_view kind);
+
+// The classes that name variables of MAP_* and DEF_*, and a bit for its number.
+inline constexpr std::string_view kNewBit = "new bit";
+inline constexpr std::string_view kNewReal = "new real";
+inline constexpr std::string_view kNewVariable = "new variable";
+inline constexpr std::string_view kLogicalInput = "logical input";
+inline constexpr std::string_view kBitName = "name of a bit";
 
 // Parses the operands of one statement; reports everything that is wrong with them.
 class OperandParser {
@@ -124,6 +131,8 @@ private:
   bool misspeltPrefix(std::span<const Token> tokens);
   bool ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool wrongPrefix(uint8_t prefix, const Operand& operand);
+  bool variable(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool exchanged(const OperandKind& kind, const Symbol& symbol, Operand& out);
   bool chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out);

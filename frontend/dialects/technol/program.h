@@ -8,6 +8,7 @@
 
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/symbols.h"
+#include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {
 
@@ -23,6 +24,15 @@ struct DataItem {
   std::vector<uint8_t> image; // of an instance
   uint32_t byte = 0;          // in the data, when it is placed; texts on other memory take none
   uint32_t bytes = 0;
+};
+
+// A variable that MAP_* or DEF_* declares (man. ch. 10, 27), in a space of its own; a bit has a byte of its own.
+struct Exchanged {
+  nc::ExchangeKind kind = nc::ExchangeKind::MapIn;
+  nc::ExchangeType type = nc::ExchangeType::Bit;
+  uint32_t statement = 0;
+  uint32_t symbol = kNone;
+  uint32_t count = 1; // elements; bytes of a text
 };
 
 struct Program {
@@ -45,6 +55,9 @@ struct Program {
   std::unordered_set<std::string> structureNames; // keys
   std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
   uint32_t dataBytes = 0;
+  std::vector<Exchanged> exchanged;
+  uint32_t exchangedBytes = 0;
+  bool exchangesFast = false; // FAST or FASTEST is asked for
   std::vector<ir::Init> inits;
   Encoding encoding = Encoding::Detect;
   std::string systemFolder; // of included files named without a path; may be empty

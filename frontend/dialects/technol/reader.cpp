@@ -303,7 +303,7 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::MechEnd:
   case Role::ProcBegin:
   case Role::ProcEnd:
-  case Role::Timed: code(statement); return;
+  case Role::Timed: code(statement, index); return;
   }
 }
 
@@ -328,11 +328,12 @@ void FileReader::notBuilt(Statement& statement, Diag code) {
   program_.diagnostics.report(code, statement.range()) << statement.row->info.mnemonic;
 }
 
-void FileReader::code(Statement& statement) {
+void FileReader::code(Statement& statement, uint32_t index) {
   if (!structure_.allowsCode(statement)) {
     statement.row = nullptr;
     return;
   }
+  if (statement.row->effects & kDeclares) declarations_.exchanged(statement, index);
   if (!mayStandThere(statement)) {
     program_.diagnostics.report(Diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
     statement.row = nullptr;

@@ -114,6 +114,7 @@ struct Symbol {
   int64_t value = 0;          // of a constant
   uint32_t index = kNone;     // label, procedure, mechanism; of a structure and of a cell that is one: in structures
   uint32_t mechanism = kNone; // of a cell: the mechanism of the same name
+  uint32_t exchanged = kNone; // of a variable of MAP_* or DEF_*: in Program::exchanged
   const char* structure = ""; // of an interface cell: where its members are
   uint32_t file = 0;
   SourceRange declared;

@@ -19,6 +19,7 @@ inline constexpr ir::SpaceId kDataSpace{1};      // "DATA"
 inline constexpr ir::SpaceId kMechanismSpace{2}; // "MECH": a byte with the activation bit, a word with the line
 inline constexpr ir::SpaceId kRegisterSpace{3};  // "@REG": what the host gives and takes
 inline constexpr ir::SpaceId kBlockSpace{4};     // "BLK": the queue of command blocks
+inline constexpr ir::SpaceId kExchangeSpace{5};  // "IO": variables of MAP_* and DEF_*
 inline constexpr uint32_t kQueuedBlocks = 16;
 inline constexpr uint32_t kMechanismBytes = 3;
 inline constexpr size_t kSignificant = 31;

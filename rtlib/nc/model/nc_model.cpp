@@ -48,6 +48,9 @@ std::optional<host::Ref> NcModel::writePlace(const host::Instance& instance, std
   return readPlace(instance, name);
 }
 
+std::optional<NcCell> NcModel::readCell(std::string_view) const { return std::nullopt; }
+bool NcModel::writeCell(std::string_view, const NcCell&) { return false; }
+
 std::string NcModel::setQuantity(std::string_view name, double value) {
   quantities_.insert_or_assign(std::string(name), value);
   return {};

@@ -18,6 +18,19 @@ namespace rung::nc {
 
 enum class PowerOn : uint8_t { Cold, Warm };
 
+// The value of a cell that lies in the NC itself and not in the program's memory.
+struct NcCell {
+  bool isReal = false; // `bits` are those of a double
+  uint32_t width = 64; // bits of an integer
+  uint64_t bits = 0;
+};
+
+// What is wrong with a connection, once the program has started.
+struct NcProblem {
+  uint32_t connection = RUNG_NONE; // in the order of the calls of `connect`; RUNG_NONE: from a file of the control
+  std::string text;
+};
+
 // The NC's part of a statement such as `event NAME KEY=VALUE`. Numbers and texts as the scenario gives them.
 struct NcArgument {
   std::string key;
@@ -35,6 +48,8 @@ public:
   // Before the first power-on.
   virtual std::string config(std::string_view key, std::string_view value);
   virtual std::string connect(std::string_view source, std::string_view destination);
+  // Behind a power-on: the connections whose ends do not exist or do not fit. They are not served.
+  virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
   // Switches the program on: memory, presets, what the control runs before the first scan. Warm keeps what the dialect
   // keeps.
@@ -60,6 +75,10 @@ public:
   // The place that `expect` reads and the one that `set` writes.
   virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
   virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const;
+
+  // Cells of the NC itself by the dialect's identifiers; false and nothing where there is no such cell.
+  virtual std::optional<NcCell> readCell(std::string_view name) const;
+  virtual bool writeCell(std::string_view name, const NcCell& value);
 
   // Quantities of the NC itself, "NC.MPOS.1".
   virtual std::string setQuantity(std::string_view name, double value);

@@ -10,6 +10,7 @@
 #include "rtlib/nc/model/technol/configuration.h"
 #include "rtlib/nc/model/technol/control_files.h"
 #include "rtlib/nc/model/technol/events.h"
+#include "rtlib/nc/model/technol/exchange.h"
 #include "rtlib/nc/model/technol/messages.h"
 #include "rtlib/nc/model/technol/program_life.h"
 #include "rtlib/nc/technol/configuration.h"
@@ -29,7 +30,9 @@ public:
     messages_.clear();
     blocks_.reset(instance);
     technol::writeCell(instance, kLicenceCell, configuration_.licences());
+    exchange_.beforeInit(instance, true);
     life_.powerOn(instance);
+    exchange_.behindInit(instance);
     takeMessages(instance);
   }
 
@@ -39,7 +42,8 @@ public:
   }
 
   void onHook(host::Instance& instance, uint32_t work) override {
-    if (work == kBehindInput) blocks_.supervise(instance);
+    if (work == kBehindInput) return blocks_.supervise(instance);
+    exchange_.onHook(instance, work);
   }
 
   void onFault(host::Instance& instance) override { technol::runWith(instance, "HALT", 0, false); }
@@ -62,10 +66,29 @@ public:
     constexpr std::string_view kKeys[] = {"PlcErrors", "PlcConstants", "PlcConfig"}; // of files, by ControlFileKind
     for (size_t i = 0; i < std::size(kKeys); ++i)
       if (key == kKeys[i]) return readFile(static_cast<technol::ControlFileKind>(i), value);
-    return configuration_.set(key, value);
+    std::string problem = exchange_.configure(key, value);
+    return problem.empty() ? configuration_.set(key, value) : problem;
   }
+  std::string connect(std::string_view source, std::string_view destination) override {
+    exchange_.connect(source, destination);
+    return {};
+  }
+  std::vector<NcProblem> connectionProblems() const override { return exchange_.problems(); }
+
+  // Shared variables have their names beside the program's own; screens write inputs only (man. l.13609).
+  std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const override {
+    const auto place = NcModel::readPlace(instance, name);
+    return place ? place : exchange_.shared().find(name, false);
+  }
+  std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override {
+    const auto place = NcModel::readPlace(instance, name);
+    return place ? place : exchange_.shared().find(name, true);
+  }
+  std::optional<NcCell> readCell(std::string_view name) const override { return exchange_.cells().read(name); }
+  bool writeCell(std::string_view name, const NcCell& value) override { return exchange_.cells().write(name, value); }
 
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    if (exchange_.respond(instance, request, reply)) return true;
     if (host::serviceName(instance.program(), request.service) != kConfigurationService) return false;
     configuration_.respond(request, reply);
     return true;
@@ -101,7 +124,7 @@ public:
       life_.stop(instance);
     } else if (command == "start") {
       messages_.clear(); // as at power-up
-      life_.start(instance);
+      start(instance);
     } else {
       life_.clear(instance);
     }
@@ -122,9 +145,17 @@ private:
     if (wrong.empty())
       wrong = configuration_.define(added(files.parameters, files_.parameters), added(files.constants, files_.constants));
     if (!wrong.empty()) return wrong;
+    exchange_.take(added(files.connections, files_.connections), added(files.terminals, files_.terminals));
     files_ = std::move(files);
     messages_.define(files_.messages);
     return {};
+  }
+
+  // MODULE_INIT tells its variables again.
+  void start(host::Instance& instance) {
+    exchange_.beforeInit(instance, false);
+    life_.start(instance);
+    exchange_.behindInit(instance);
   }
 
   technol::Blocks blocks_;
@@ -132,6 +163,7 @@ private:
   technol::ControlFiles files_;
   technol::Configuration configuration_;
   technol::Messages messages_;
+  technol::Exchange exchange_;
 };
 
 } // namespace

@@ -158,11 +158,12 @@ bool isDeclaration(Role role) {
   return role == Role::Dfm || role == Role::Ds || role == Role::Str || role == Role::Equi || role == Role::MemberSize;
 }
 
-// A program with code in the module where the row may stand.
+// A program with code in the module where the row may stand; INPUT1 is a logical input.
 std::string inItsModule(const Row& row, const std::string& code, const std::string& data) {
   const std::string framed = frame(code, (row.effects & kWaits) != 0);
-  if (row.effects & kInitOnly) return programText({.data = data, .init = framed});
-  return programText({.data = data, .main = framed});
+  const std::string input = " DEF_IN INPUT1,'Input',TYPE_DWORD\n";
+  if (row.effects & kInitOnly) return programText({.data = data, .init = input + framed});
+  return programText({.data = data, .main = framed, .init = input});
 }
 
 std::string exampleProgram(const Row& row) {
@@ -315,9 +316,10 @@ TEST(TechnolTable, EffectsAreThoseOfTheLowering) {
     const auto operands = goodOperands(*row, popsWithoutOperand(*row));
     const std::string label = (row->effects & kJumps) ? "LABEL1:\n" : "";
     const std::string units = " PROC_BEGIN PROC1\n PROC_END PROC1\n MECH_BEGIN MECH1\n MECH_END MECH1\n";
-    const Compilation c =
-        compileMain(units + " PROC_BEGIN ALONE\n" + statement(*row, operands) + "\n" + label + " PROC_END ALONE\n",
-                    std::string(kData));
+    const std::string alone = " PROC_BEGIN ALONE\n" + statement(*row, operands) + "\n" + label + " PROC_END ALONE\n";
+    const Compilation c = compile({programText({.data = std::string(kData),
+                                                .main = units + alone,
+                                                .init = " DEF_IN INPUT1,'Input',TYPE_DWORD\n"})});
     ASSERT_NE(c.module, nullptr) << row->info.mnemonic << '\n' << c.text();
     EXPECT_EQ(effectsOf(*c.module, "PROC ALONE"), row->effects & kRegisters) << row->info.mnemonic;
   }

@@ -1,0 +1,191 @@
+// Mapped and logical inputs and outputs (man. ch. 10, 27): the declared variable takes its default value, and the control
+// learns of it.
+#include <array>
+#include <bit>
+
+#include "frontend/dialects/technol/lower.h"
+#include "frontend/dialects/technol/lower_identifier.h"
+#include "rtlib/nc/technol/exchange.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+using nc::ExchangeKind;
+using nc::ExchangePeriod;
+using nc::ExchangeType;
+
+// An identifier that is written has 1 to kDefineBytes characters; one that is defined ends without an index (man.
+// l.12690).
+bool Lowering::identifierFits(const Operand& id, bool defined) {
+  if (id.form != Operand::Form::Text) return true;
+  if (id.text.empty() || id.text.size() > nc::kDefineBytes) {
+    program_.diagnostics.report(Diag::OperandRange, id.range)
+        << std::to_string(id.text.size()) + " characters" << "1 to " + std::to_string(nc::kDefineBytes);
+    return false;
+  }
+  const size_t bracket = id.text.rfind('[');
+  const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
+  if (!defined || !index || id.text.find_first_not_of("0", bracket + 1) == id.text.size() - 1) return true;
+  program_.diagnostics.report(Diag::WrongOperandKind, id.range)
+      << id.text << "an identifier with an index at its end" << "an identifier without one";
+  return false;
+}
+
+namespace {
+
+bool wrongDefault(Lowering& l, const Operand& given, std::string_view is, std::string_view wanted) {
+  l.program().diagnostics.report(Diag::WrongOperandKind, given.range) << OperandParser::spell(given) << is << wanted;
+  return false;
+}
+
+bool inRange(Lowering& l, const Operand& given, int64_t least, int64_t most) {
+  if (given.value >= least && given.value <= most) return true;
+  l.program().diagnostics.report(Diag::OperandRange, given.range)
+      << given.value << std::to_string(least) + " to " + std::to_string(most);
+  return false;
+}
+
+// Whether the default is a constant of the variable's type. The default of a mapped real has its decimal point (man.
+// l.5880).
+bool defaultFits(Lowering& l, const Exchanged& variable, const Operand& given) {
+  using Form = Operand::Form;
+  if (variable.type == ExchangeType::Text) return given.form == Form::Text || wrongDefault(l, given, "no text", "a text");
+  if (variable.type == ExchangeType::Binary) return wrongDefault(l, given, "a default", "none with TYPE_BIN");
+  if (given.form == Form::Text) return wrongDefault(l, given, "a text", "a number");
+  if (variable.type == ExchangeType::Real) {
+    const bool mapped = variable.kind == ExchangeKind::MapAin || variable.kind == ExchangeKind::MapAout;
+    return given.form == Form::Real || !mapped || wrongDefault(l, given, "an integer", "a real with its decimal point");
+  }
+  if (given.form == Form::Real) return wrongDefault(l, given, "a real", "an integer");
+  if (variable.type == ExchangeType::Bit) return inRange(l, given, 0, 1);
+  const uint32_t bits = nc::bytesOf(variable.type) * 8;
+  return bits == 64 || inRange(l, given, -(int64_t{1} << (bits - 1)), (int64_t{1} << bits) - 1);
+}
+
+ValueId defaultOf(ir::RungBuilder& b, const Operand& given, Type type) {
+  if (type == Type::F64)
+    return b.real(given.form == Operand::Form::Real ? given.real : static_cast<double>(given.value));
+  return b.constant(type, given.value);
+}
+
+ValueId fromBits(ir::RungBuilder& b, ValueId word, Type type) {
+  if (type == Type::F64) return b.op(ir::OpCode::BitsToF, Type::F64, {word});
+  if (type == Type::Bit) return b.ne(word, b.constant(Type::I64, 0));
+  return b.zextOrTrunc(type, word);
+}
+
+// All elements become `value`.
+void fill(ir::RungBuilder& b, const Operand& target, uint32_t count, ValueId value) {
+  if (count == 1) return b.store(target.place, value);
+  const bool bits = target.type == Type::Bit;
+  const uint32_t bytes = bits ? 1 : ir::byteWidth(target.type);
+  const ir::Window window{.space = target.place.space, .byte = target.place.byte, .count = (count - 1) * bytes + 1};
+  const ValueId index = b.mul(b.loop(count)[0], b.i32(bytes));
+  if (bits)
+    b.storeBitAt(window, index, b.i32(0), value);
+  else
+    b.storeAt(window, index, value);
+  b.endLoop();
+}
+
+void fillText(Lowering& l, const Operand& target, const Operand& given) {
+  ir::RungBuilder& b = l.b();
+  std::string_view text = given.text;
+  if (text.size() > target.size - 1) {
+    l.program().diagnostics.report(Diag::StringTooLong, given.range) << text.size() << target.size - 1;
+    text = text.substr(0, target.size - 1);
+  }
+  ir::Place at = target.place;
+  for (const char c : text) {
+    b.store(at, b.constant(Type::I8, static_cast<uint8_t>(c)));
+    ++at.byte;
+  }
+  b.store(at, b.constant(Type::I8, 0));
+}
+
+ExchangePeriod periodOf(ExchangeKind kind, const Operand& given) {
+  if (!given.given()) return ExchangePeriod::Slow;
+  const bool mapped = kind != ExchangeKind::DefIn && kind != ExchangeKind::DefOut;
+  return mapped ? ExchangePeriod::Fast : static_cast<ExchangePeriod>(given.value);
+}
+
+// A value of the configuration goes before the instruction's own; without both the variable stays.
+void setDefault(Lowering& l, const Exchanged& variable, const Operand& target, const Operand& given, ValueId ticket) {
+  ir::RungBuilder& b = l.b();
+  if (variable.type == ExchangeType::Text && given.given()) return fillText(l, target, given);
+  if (variable.type == ExchangeType::Text || variable.type == ExchangeType::Binary) return;
+  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
+  const ValueId found = b.and_(answered, b.ne(b.serviceResult(ticket, 1), b.constant(Type::I64, 0)));
+  const ValueId configured = fromBits(b, b.serviceResult(ticket, 2), target.type);
+  if (given.given())
+    return fill(b, target, variable.count, b.select(found, configured, defaultOf(b, given, target.type)));
+  b.if_(found);
+  fill(b, target, variable.count, configured);
+  b.endIf();
+}
+
+} // namespace
+
+ValueId Lowering::define(std::span<const ValueId> head, const Operand& id) {
+  std::vector<ValueId> args(head.begin(), head.end());
+  const auto words = identifierWords(*this, id, nc::kDefineWords);
+  args.insert(args.end(), words.begin(), words.end());
+  return b().serviceRequest(service(nc::kDefineService), args);
+}
+
+// MAP_xx variable, identifier [, default [, FAST]] and DEF_xx variable, identifier, type [, default [, period]].
+void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
+  const Exchanged& variable = l.program().exchanged[o[0].index];
+  const bool mapped = variable.kind != ExchangeKind::DefIn && variable.kind != ExchangeKind::DefOut;
+  const Operand& given = o[mapped ? 2 : 3];
+  const ExchangePeriod period = periodOf(variable.kind, o[mapped ? 3 : 4]);
+  const bool fits = !given.given() || defaultFits(l, variable, given);
+  if (!l.identifierFits(o[1], true) || !fits) return;
+  ir::RungBuilder& b = l.b();
+  const auto word = [&](int64_t value) { return b.constant(Type::I64, value); };
+  const ir::Place at = o[0].place;
+  const ValueId head[] = {word(nc::exchangeArgument(variable.kind, variable.type, period, variable.count)),
+                          word(nc::placeArgument(at.space.index, at.byte, at.bit)), word(nc::kNoPlace),
+                          word(nc::kNoPlace)};
+  setDefault(l, variable, o[0], given, l.define(head, o[1]));
+}
+
+namespace {
+
+// One element, which begins `offset` bytes behind the variable's place.
+ValueId takeElement(Lowering& l, const Operand& target, uint32_t offset) {
+  ir::RungBuilder& b = l.b();
+  ir::Place at = target.place;
+  at.byte += offset;
+  const ValueId place = b.constant(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit));
+  const ValueId ticket = b.serviceRequest(l.service(nc::kUpdateService), std::array{place});
+  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
+  b.if_(b.and_(answered, b.ne(b.serviceResult(ticket, 0), b.constant(Type::I64, 0))));
+  b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type));
+  b.endIf();
+  return b.ne(b.serviceResult(ticket, 2), b.constant(Type::I64, 0));
+}
+
+} // namespace
+
+// UPDATE_IN input or input[i]. The control reads outputs of this program: everything in front is in memory then, because
+// the jump back, which is never taken, makes this the beginning of a chunk.
+void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
+  const Exchanged& variable = l.program().exchanged[o[0].index];
+  if (variable.type == ExchangeType::Text || variable.type == ExchangeType::Binary) {
+    l.program().diagnostics.report(Diag::WrongOperandKind, o[0].range)
+        << OperandParser::spell(o[0]) << "a text" << "a bit or a number";
+    return;
+  }
+  const uint32_t bytes = nc::bytesOf(variable.type);
+  const auto first = static_cast<uint32_t>(std::max<int64_t>(o[0].value, 0));
+  const uint32_t end = o[0].value < 0 ? variable.count : first + 1;
+  for (uint32_t i = first; i < end; ++i) {
+    const uint32_t start = l.out().newLabel();
+    l.out().bind(start);
+    l.out().jump(start, takeElement(l, o[0], i * bytes));
+  }
+}
+
+} // namespace rung::frontend::technol

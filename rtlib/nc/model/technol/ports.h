@@ -1,0 +1,57 @@
+// The ports of the input and output units: forced bits and shorted outputs (man. l.3498-3609). Inputs are forced in
+// front of the program, outputs behind it; what the machine or the program itself put there comes back in front of the
+// next cycle. Without forcing and errors a cycle looks at half a kilobyte and goes on.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+
+namespace rung::nc::technol {
+
+class Ports {
+public:
+  static constexpr uint32_t kInputs = 128, kOutputs = 96, kUnits = 32;
+
+  // `config CAN[1].INOUT08[i].CONTROL n`: the control byte of a unit, of which IO_DIS_ERPIS counts here. False: another
+  // key. `problem` tells what is wrong with the value.
+  bool configure(std::string_view key, std::string_view value, std::string& problem);
+  void reset(const host::Instance& instance);
+
+  void beforeProgram(host::Instance& instance);
+  void behindProgram(host::Instance& instance);
+
+private:
+  struct Port {
+    uint8_t own = 0;    // what the machine or the program put there
+    uint8_t forced = 0; // what stands there since
+    bool active = false;
+  };
+  struct Family { // of cells that are numbered
+    uint32_t space = RUNG_NONE, first = 0, stride = 0;
+  };
+  struct Span {
+    uint32_t offset, size;
+  };
+  static Family familyOf(const host::Instance& instance, const char* first, const char* second);
+  static uint8_t read(const host::Instance& instance, const Family& family, uint32_t number);
+  static void write(host::Instance& instance, const Family& family, uint32_t number, uint8_t value);
+  static void restore(host::Instance& instance, const Family& family, uint32_t number, Port& port);
+  static void force(host::Instance& instance, const Family& family, uint32_t number, Port& port, uint8_t high,
+                    uint8_t low);
+  void findSwitches(const host::Instance& instance);
+  bool anySwitch(const host::Instance& instance) const;
+  uint8_t shorted(host::Instance& instance, uint32_t output) const;
+
+  Family inputs_, outputs_, lowIn_, highIn_, lowOut_, highOut_, shorts_;
+  std::array<Port, kInputs> in_;
+  std::array<Port, kOutputs> out_;
+  std::array<uint8_t, kUnits> control_{};
+  std::vector<Span> switches_; // of the block: forcing and errors
+  bool active_ = false;
+};
+
+} // namespace rung::nc::technol

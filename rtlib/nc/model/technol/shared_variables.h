@@ -1,0 +1,65 @@
+// The variables of a running program that its control knows by names: mapped and logical inputs and outputs, and what
+// SHARE_VAR and SHARE_BIT share (man. ch. 10, 18.2, 27). The program tells them while it starts.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/technol/exchange.h"
+
+namespace rung::nc::technol {
+
+struct SharedVariable {
+  std::string name; // as the program writes it
+  ExchangeKind kind = ExchangeKind::Variable;
+  ExchangeType type = ExchangeType::Uns8;
+  ExchangePeriod period = ExchangePeriod::Slow;
+  uint32_t count = 1; // elements, or bytes of a text
+  uint32_t space = 0, byte = 0, bit = 0;
+  std::optional<host::Ref> least, most; // of SHARE_VAR: reals
+
+  // What the program takes from the control; a screen may write it.
+  bool isInput() const {
+    return kind == ExchangeKind::MapIn || kind == ExchangeKind::MapAin || kind == ExchangeKind::DefIn;
+  }
+  bool isMapped() const { return kind <= ExchangeKind::MapAout; }
+  bool isLogical() const { return kind == ExchangeKind::DefIn || kind == ExchangeKind::DefOut; }
+  bool isText() const { return type == ExchangeType::Text || type == ExchangeType::Binary; }
+};
+
+// The place of an element.
+host::Ref placeOf(const SharedVariable& variable, uint32_t element);
+
+class SharedVariables {
+public:
+  SharedVariables() { all_.reserve(kUsual); }
+  void clear();
+  // False where the name has another meaning already, or the place is not in the program's memory. `isNew` tells
+  // whether something has changed.
+  bool define(const rung_program& program, SharedVariable variable, bool& isNew);
+
+  const std::vector<SharedVariable>& all() const { return all_; }
+  // By a canonical identifier of a DEF_IN or DEF_OUT.
+  const SharedVariable* logical(ExchangeKind kind, std::string_view identifier) const;
+  // By the name that a screen uses: of any kind, with the index of an element and `.Bit[k]` behind it, as `PLC.Input.`
+  // or `PLC.Output.` identifier or the identifier alone.
+  std::optional<host::Ref> find(std::string_view name, bool toWrite) const;
+  // Of MAP_* and DEF_*: the variable that holds the place, and which of its elements.
+  const SharedVariable* at(const host::Ref& place, uint32_t& element) const;
+
+private:
+  static constexpr size_t kUsual = 1024; // more than that allocate when they are defined
+  const SharedVariable* byName(std::string_view name, bool toWrite) const;
+
+  std::vector<SharedVariable> all_;
+  // By kind (see cpp) and canonical identifier.
+  std::unordered_map<std::string, uint32_t> byKey_;
+};
+
+// What kDefineService tells.
+std::optional<SharedVariable> variableOf(const rt::ServiceRequest& request);
+
+} // namespace rung::nc::technol

@@ -1,0 +1,80 @@
+// How a TECHNOL program tells its control which variables it exchanges with other modules and shows to screens (man. ch.
+// 10, 18.2, 27): two services that the control answers at once.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "rung/program.h"
+
+namespace rung::nc {
+
+enum class ExchangeKind : uint8_t { MapIn, MapOut, MapAin, MapAout, DefIn, DefOut, Variable, Bit };
+enum class ExchangeType : uint8_t { Bit, Int8, Uns8, Int16, Uns16, Int32, Uns32, Int64, Uns64, Real, Text, Binary };
+// Their words in programs, parted by blanks: one a type, then other words (man. l.13331-13346, l.13701).
+inline constexpr std::string_view kExchangeTypeWords =
+    "TYPE_BIT TYPE_INT_8 TYPE_UNS_8 TYPE_INT_16 TYPE_UNS_16 TYPE_INT_32 TYPE_UNS_32 TYPE_INT_64 TYPE_UNS_64 TYPE_REAL "
+    "TYPE_STR TYPE_BIN TYPE_BYTE TYPE_WORD TYPE_DWORD TYPE_QWORD TYPE_INT8 TYPE_UNS8 TYPE_INT16 TYPE_UNS16 TYPE_INT32 "
+    "TYPE_UNS32 TYPE_INT64 TYPE_UNS64";
+// By the number of the word.
+constexpr ExchangeType exchangeTypeOf(int64_t word) {
+  using enum ExchangeType;
+  constexpr ExchangeType kTypes[] = {Bit,   Int8,  Uns8,   Int16,  Uns16, Int32, Uns32, Int64,
+                                     Uns64, Real,  Text,   Binary, Uns8,  Uns16, Uns32, Uns64,
+                                     Int8,  Uns8,  Int16,  Uns16,  Int32, Uns32, Int64, Uns64};
+  return kTypes[word];
+}
+// How often a connection is served (man. l.13349-13366), the fastest first: that of a connection is the greater of its
+// two ends'.
+enum class ExchangePeriod : uint8_t { Fastest, Fast, Slow, OnDemand };
+inline constexpr std::string_view kExchangePeriodWords = "FASTEST FAST SLOW ONDEMAND";
+
+// Bytes of one element; 1 for a bit, which has a byte of its own, and for texts.
+constexpr uint32_t bytesOf(ExchangeType type) {
+  switch (type) {
+  case ExchangeType::Int16:
+  case ExchangeType::Uns16: return 2;
+  case ExchangeType::Int32:
+  case ExchangeType::Uns32: return 4;
+  case ExchangeType::Int64:
+  case ExchangeType::Uns64:
+  case ExchangeType::Real: return 8;
+  case ExchangeType::Bit:
+  case ExchangeType::Int8:
+  case ExchangeType::Uns8:
+  case ExchangeType::Text:
+  case ExchangeType::Binary: return 1;
+  }
+  return 1;
+}
+
+// A place in the program's memory as one argument.
+constexpr int kPlaceSpaceShift = 40, kPlaceByteShift = 8;
+constexpr int64_t placeArgument(uint32_t space, uint32_t byte, uint32_t bit) {
+  return int64_t{space} << kPlaceSpaceShift | int64_t{byte} << kPlaceByteShift | bit;
+}
+inline constexpr int64_t kNoPlace = -1;
+
+// What is exchanged, as one argument; `count` elements, or bytes of a text.
+constexpr int64_t exchangeArgument(ExchangeKind kind, ExchangeType type, ExchangePeriod period, uint32_t count) {
+  return static_cast<int64_t>(kind) | static_cast<int64_t>(type) << 8 | static_cast<int64_t>(period) << 16 |
+         int64_t{count} << 24;
+}
+
+// Results: 1 where it is done; 1 where the configuration has a default value; its bits, in the variable's type.
+inline constexpr std::string_view kDefineService =
+    "@DEFINE what place min max id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 -> done configured value";
+inline constexpr uint32_t kDefineHead = 4; // words in front of the identifier, eight characters each
+inline constexpr uint32_t kDefineWords = RUNG_MAX_SERVICE_ARGS - kDefineHead;
+inline constexpr uint32_t kDefineBytes = kDefineWords * 8; // longest identifier
+
+// The connected value of one element of an input, converted to its type. Results: 1 where there is a connection; the
+// bits of the value; always 0: asking again is not needed.
+inline constexpr std::string_view kUpdateService = "@UPDATE_IN place -> found value again";
+
+// Hooks of the schedule at which connections run.
+inline constexpr uint32_t kHookBehindMain = 2;
+inline constexpr uint32_t kHookBeforeInput = 3;
+inline constexpr uint32_t kHookFast = 4;    // in front of MODULE_FAST and MODULE_CYCLICOPERATION
+inline constexpr uint32_t kHookFastest = 5; // in front of and behind MODULE_FASTEST
+
+} // namespace rung::nc

@@ -157,7 +157,10 @@ void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
     lowerStatement(program_.statements[i], i);
   while (procedure_ != kNone) endProcedure(); // not closed: an error
   if (!part.cut) endEquation(part.end, std::string(moduleName(kind)));
-  if (sequential) endSequence();
+  if (sequential) {
+    sequences_.erase(sequences_.begin() + 1, sequences_.end()); // mechanisms without end: an error
+    endSequence();
+  }
   sequences_.clear();
 }
 

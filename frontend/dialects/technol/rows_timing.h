@@ -52,7 +52,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "TM",
               .title = "timer",
               .group = "timer",
-              .operands = {inout("count", "timer cell", "counts the runs")},
+              .operands = {optional(inout("count", "timer cell", "counts the runs"))},
               .stateful = true,
               .ref = "3.11, l.884",
               .doc = "While RLO is 0 the count is 0. While RLO is 1 it counts up to the preset in DR; RLO is 1 when it "

@@ -65,7 +65,11 @@ void printChanges(const host::Instance& instance, std::vector<Watched>& watched)
   }
 }
 
-std::string messageText(const nc::ShownMessage& message) {
+// TECHNOL: as in the log.
+std::string messageText(const rung_program& program, const nc::ShownMessage& message) {
+  if (std::string_view(program.dialect) == "technol")
+    return fmt::format("PLC{:05} {} {} {} {}{}", message.number, static_cast<uint32_t>(message.index), message.value,
+                       message.par2, message.par3, message.text.empty() ? "" : " " + message.text);
   std::string text = fmt::format("message {}", message.number);
   if (message.channel != 0 || message.index != 0)
     text += fmt::format(" (channel {}, index {})", message.channel, message.index);
@@ -82,9 +86,9 @@ void printMessages(const host::Instance& instance, std::vector<nc::ShownMessage>
     return std::find(list.begin(), list.end(), message) != list.end();
   };
   for (const nc::ShownMessage& message : shown)
-    if (!stands(now, message)) fmt::print("{:>12.3f} ms  {} is gone\n", ms, messageText(message));
+    if (!stands(now, message)) fmt::print("{:>12.3f} ms  {} is gone\n", ms, messageText(instance.program(), message));
   for (const nc::ShownMessage& message : now)
-    if (!stands(shown, message)) fmt::print("{:>12.3f} ms  {}\n", ms, messageText(message));
+    if (!stands(shown, message)) fmt::print("{:>12.3f} ms  {}\n", ms, messageText(instance.program(), message));
   shown = std::move(now);
 }
 
@@ -169,6 +173,7 @@ private:
     }
     printChanges(instance_, watched_);
     printMessages(instance_, nc_.messages(instance_), shown_);
+    nc_.board().takeLog(); // nobody reads it here, and it must not grow
   }
   bool more() const {
     if (gStop != 0 || instance_.faulted()) return false;

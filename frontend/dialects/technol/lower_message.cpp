@@ -85,8 +85,7 @@ enum Edge : uint32_t { kNever, kRising, kFalling };
 // Reaches the entries of one statement in the space @EDEF.
 class Entries {
 public:
-  Entries(ir::RungBuilder& b, ir::SpaceId space, const BitMessage& message)
-      : b_(b), space_(space), message_(message) {}
+  Entries(ir::RungBuilder& b, ir::SpaceId space, const BitMessage& message) : b_(b), space_(space), message_(message) {}
 
   ir::Place count() const { return {.space = space_, .byte = message_.table}; }
   ValueId load(Type type, uint32_t field, ValueId entry) const {
@@ -101,9 +100,7 @@ public:
   }
 
 private:
-  ir::Place fixed(uint32_t field) const {
-    return {.space = space_, .byte = message_.table + kCountBytes + field};
-  }
+  ir::Place fixed(uint32_t field) const { return {.space = space_, .byte = message_.table + kCountBytes + field}; }
   ir::Window window(uint32_t field) const {
     return {.space = space_,
             .byte = message_.table + kCountBytes + field,
@@ -226,10 +223,9 @@ public:
 private:
   void look(ValueId entry) {
     const Operand& operand = message_.bit;
-    const ValueId bit =
-        operand.indexed
-            ? b_.loadBitAt(message_.windows[0], indexOf(entry, 0), b_.i32(static_cast<int32_t>(operand.place.bit)))
-            : b_.load(Type::Bit, operand.place);
+    const ValueId bit = operand.indexed ? b_.loadBitAt(message_.windows[0], indexOf(entry, 0),
+                                                       b_.i32(static_cast<int32_t>(operand.place.bit)))
+                                        : b_.load(Type::Bit, operand.place);
     const ValueId now = b_.zextOrTrunc(Type::I8, bit);
     b_.if_(b_.ne(now, entries_.load(Type::I8, kOldField, entry)));
     entries_.store(kOldField, entry, now);

@@ -146,7 +146,8 @@ TEST(ControlFiles, WrongConstants) {
             "f:1:15: <PlcConstants> holds no <Const>, expected <Constant>");
   EXPECT_EQ(mistakes(Kind::Constants, "<PlcConstants><Constant ID='A'/></PlcConstants>"),
             "f:1:15: <Constant> lacks the attribute Value");
-  EXPECT_EQ(mistakes(Kind::Constants, "<PlcConstants><Constant ID='A' Value='1'/><Constant ID='A' Value='2'/></PlcConstants>"),
+  EXPECT_EQ(mistakes(Kind::Constants,
+                     "<PlcConstants><Constant ID='A' Value='1'/><Constant ID='A' Value='2'/></PlcConstants>"),
             "f:1:43: constant A is defined again; the first one stands at f:1:15");
 }
 
@@ -247,9 +248,9 @@ TEST(ControlFiles, EncodingsOfOneByte) {
                                        {"cp852", "P\xFD\xA1li\xE7 \xA6"},
                                        {"utf-8", "Příliš Ž"}}) {
     ControlFiles files;
-    EXPECT_EQ(parseControlFile(Kind::Messages, "f",
-                               "<?xml version='1.0' encoding='" + encoding + body + text + "</Text></PlcError></PlcErrors>",
-                               files),
+    EXPECT_EQ(parseControlFile(
+                  Kind::Messages, "f",
+                  "<?xml version='1.0' encoding='" + encoding + body + text + "</Text></PlcError></PlcErrors>", files),
               "")
         << encoding;
     ASSERT_EQ(files.messages.size(), 1u) << encoding;

@@ -132,7 +132,8 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
 }
 
 std::string Configuration::setLicence(std::string_view name, std::string_view value) {
-  if (value != "0" && value != "1") return "licence '" + std::string(name) + "' is 0 or 1, not '" + std::string(value) + "'";
+  if (value != "0" && value != "1")
+    return "licence '" + std::string(name) + "' is 0 or 1, not '" + std::string(value) + "'";
   std::string_view rest = kLicences;
   for (uint32_t bit = 1; !rest.empty(); bit <<= 1) {
     const size_t end = std::min(rest.find(' '), rest.size());

@@ -15,8 +15,8 @@ namespace rung::nc::technol {
 
 class Configuration {
 public:
-  // `config KEY VALUE`: a parameter, with `const.` in front of its identifier a constant, with `licence.` in front of its
-  // name a licence. "" or what is wrong.
+  // `config KEY VALUE`: a parameter, with `const.` in front of its identifier a constant, with `licence.` in front of
+  // its name a licence. "" or what is wrong.
   std::string set(std::string_view key, std::string_view value);
   // What the control's files say. "" or what is wrong, with its place.
   std::string define(std::span<const ParameterDefinition> parameters, std::span<const ConstantDefinition> constants);
@@ -38,7 +38,7 @@ private:
   std::map<std::string, int64_t, std::less<>> constants_;
   std::set<int64_t> commands_; // numbers that constants have
   uint32_t licences_ = 0;
-  int64_t nextOffset_ = 0;     // in shared area 0
+  int64_t nextOffset_ = 0; // in shared area 0
   int64_t nextCommand_ = 1;
 };
 

@@ -184,8 +184,8 @@ public:
   void finish() {
     for (const Given& given : given_)
       if (!given.taken)
-        reader_.complain("<" + reader_.open_.back().name + "> has no attribute " + inQuotes(given.name) + "; expected " +
-                         listed(asked_));
+        reader_.complain("<" + reader_.open_.back().name + "> has no attribute " + inQuotes(given.name) +
+                         "; expected " + listed(asked_));
   }
 
 private:
@@ -259,7 +259,8 @@ void Reader::complainAt(const FilePlace& where, const std::string& what) {
 void Reader::notWellFormed() {
   const XML_Error code = XML_GetErrorCode(parser_.get());
   std::string what = "this is not well-formed XML: " + std::string(XML_ErrorString(code));
-  const bool atTag = code == XML_ERROR_TAG_MISMATCH || code == XML_ERROR_NO_ELEMENTS || code == XML_ERROR_UNCLOSED_TOKEN;
+  const bool atTag =
+      code == XML_ERROR_TAG_MISMATCH || code == XML_ERROR_NO_ELEMENTS || code == XML_ERROR_UNCLOSED_TOKEN;
   if (code == XML_ERROR_UNKNOWN_ENCODING) what += ", expected utf-8, windows-1250 or cp852";
   if (atTag && !open_.empty())
     what += ", expected the end of <" + open_.back().name + "> of line " + std::to_string(open_.back().line);
@@ -310,7 +311,8 @@ Element Reader::childOf(std::string_view name, std::string_view expected, Elemen
 
 Element Reader::inChannel(Element parent, std::string_view name) const {
   if (parent == Element::Plc && name == "PlcParam") return Element::Parameter;
-  if (parent == Element::Plc && std::find(std::begin(kTerminalNames), std::end(kTerminalNames), name) != std::end(kTerminalNames))
+  if (parent == Element::Plc &&
+      std::find(std::begin(kTerminalNames), std::end(kTerminalNames), name) != std::end(kTerminalNames))
     return Element::Terminal;
   if (name == "Plc") return Element::Plc;
   return name == "Connections" ? Element::Connections : Element::Foreign;
@@ -346,7 +348,8 @@ Element Reader::elementOf(std::string_view name) {
 
 // What stands around an element is no text of the ones read here.
 void Reader::checkText() {
-  const bool foreign = open_.empty() || open_.back().element == Element::Foreign || open_.back().element == Element::Plc;
+  const bool foreign =
+      open_.empty() || open_.back().element == Element::Foreign || open_.back().element == Element::Plc;
   const std::string_view text = trimmed(text_);
   if (!foreign && !text.empty())
     complain("<" + open_.back().name + "> holds the text " + inQuotes(inOneLine(text.substr(0, 40))) +
@@ -440,8 +443,8 @@ void Reader::endParameter() {
   ParameterDefinition& parameter = found_.parameters.back();
   parameter.value = trimmed(text_);
   const auto wrong = [&](std::string_view expected) {
-    complainAt(parameter.place,
-               "parameter " + parameter.id + " is " + inQuotes(parameter.value) + ", expected " + std::string(expected));
+    complainAt(parameter.place, "parameter " + parameter.id + " is " + inQuotes(parameter.value) + ", expected " +
+                                    std::string(expected));
   };
   if (parameter.type == ParameterType::Int && !integerOf(parameter.value)) wrong("an integer");
   if (parameter.type == ParameterType::Real && !realOf(parameter.value)) wrong("a number");

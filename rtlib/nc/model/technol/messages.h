@@ -30,7 +30,7 @@ private:
   const MessageDefinition* definitionOf(uint32_t number) const;
 
   std::unordered_map<uint32_t, MessageDefinition> definitions_;
-  std::deque<ShownMessage> transient_;    // the first one is on the screen
+  std::deque<ShownMessage> transient_;   // the first one is on the screen
   std::vector<ShownMessage> persistent_; // in the order in which they came
 };
 

@@ -425,6 +425,10 @@ class Products(Cli):
     def test_explain_technol(self):
         self.assertIn(b"[technol] PO_POL: bit", rungc("explain", "po_pol").stdout)
         self.assertIn(b"[technol] BLOCK_MOVE: constant 2", rungc("explain", "BLOCK_MOVE").stdout)
+        self.assertIn(b"TIME_INFOS.TIME_SEC: BYTE", rungc("explain", "syst_time_info.time_sec").stdout)
+        self.assertIn(b"TIME_INFOS.TIME_SEC: BYTE", rungc("explain", "TIME_SEC").stdout)
+        self.assertIn(b"`BLK[n].T`", rungc("explain", "BLK[0].T").stdout)
+        self.assertIn(b"a licence of the hardware key", rungc("explain", "FeaturePlc3").stdout)
         self.assertIn(b"`CELL.", rungc("explain", "CAN_AX_READY").stdout)
 
     def test_explain_and_doc(self):

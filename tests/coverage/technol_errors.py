@@ -1,6 +1,6 @@
 """TECHNOL: a program with mistakes is told exactly these, each once. Run by coverage_test.py.
 
-errors-*.scn expects errors and warnings by their lines; here they are all that is reported. The columns are in
+errors-*.scn and bad-*.scn expect errors and warnings by their lines; here they are all that is reported. The columns are in
 tests/golden/technol/errors.txt, which RUNG_UPDATE=1 writes anew."""
 import json
 import os
@@ -28,7 +28,7 @@ class TechnolErrors(unittest.TestCase):
 
     def test_nothing_else_is_told(self):
         lines = []
-        for path in sorted(FOLDER.glob("errors-*.scn")):
+        for path in sorted([*FOLDER.glob("errors-*.scn"), *FOLDER.glob("bad-*.scn")]):
             told = self.check(path)
             expected = re.findall(r"^expect_(error|warning) (\d+) (\S+)", path.read_text(), re.MULTILINE)
             found = [(entry["severity"], str(entry["line"]), entry["code"]) for entry in told]

@@ -52,22 +52,26 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
       program_.diagnostics.report(Diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
       return;
     }
-    if (operand.size() > 1 || (operand.size() == 1 && operand[0].kind == TokenKind::Text)) {
-      program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operand, statement.range()))
-          << "the name of a bit" << "something else";
-    } else if (operand.size() == 1 && operand[0].kind == TokenKind::Number) {
-      program_.diagnostics.report(Diag::BadIdentifier, operand[0].range()) << operand[0].text;
-    } else if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {
+    if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {
       Symbol symbol = made(operand[0], SymbolKind::Bit);
       symbol.type = ir::Type::Bit;
       symbol.space = kDataSpace;
       symbol.bit = number;
       program_.itemBits[item.firstBit + number] = program_.symbols.declare(symbol);
-    } else if (operand.size() == 1 && !operand[0].is('-')) {
-      program_.diagnostics.report(Diag::SyntaxError, operand[0].range()) << "the name of a bit" << operand[0].text;
+    } else if (operand.size() > 1 || (operand.size() == 1 && !operand[0].is('-'))) {
+      noName(operand, "the name of a bit", statement);
     }
     ++number;
   }
+}
+
+void Declarations::noName(std::span<const Token> tokens, std::string_view expected, const Statement& statement) {
+  const SourceRange at = rangeOf(program_.sources, tokens, statement.range());
+  if (isOneWord(tokens))
+    program_.diagnostics.report(Diag::BadIdentifier, at) << spelled(tokens);
+  else
+    program_.diagnostics.report(Diag::SyntaxError, at)
+        << expected << (tokens.empty() ? "nothing" : "'" + spelled(tokens) + "'");
 }
 
 void Declarations::constant(const Statement& statement) {
@@ -78,12 +82,7 @@ void Declarations::constant(const Statement& statement) {
   }
   const std::span<const Token> name = operands[0];
   if (name.size() != 1 || name[0].kind != TokenKind::Name) {
-    const bool number = name.size() == 1 && name[0].kind == TokenKind::Number;
-    if (number)
-      program_.diagnostics.report(Diag::BadIdentifier, name[0].range()) << name[0].text;
-    else
-      program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, name, statement.range()))
-          << "the name of a constant" << "something else";
+    noName(name, "the name of a constant", statement);
     return;
   }
   std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());

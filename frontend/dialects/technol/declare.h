@@ -22,6 +22,7 @@ public:
   void exchanged(const Statement& statement, uint32_t index);
 
 private:
+  void noName(std::span<const Token> tokens, std::string_view expected, const Statement& statement);
   void bits(const Statement& statement, DataItem& item);
   Symbol made(const Token& name, SymbolKind kind) const;
   Symbol exchangedSymbol(const Token& name, nc::ExchangeType type) const;

@@ -38,8 +38,8 @@ private:
   bool splitLabel(uint32_t& first, uint32_t& count);
   uint32_t readLabel(uint32_t& first, uint32_t& count);
   bool instance(uint32_t first, uint32_t count, uint32_t line);
-  void reportUnknown(const Token& token);
-  const Row* instruction(const Token& token);
+  void reportUnknown(std::span<const Token> tokens);
+  const Row* instruction(std::span<const Token> tokens);
   void statement(const Row* row, uint32_t first, uint32_t count, uint32_t line);
   void structural(Statement& statement, uint32_t index);
   void checkNoOperands(const Statement& statement);

@@ -83,8 +83,9 @@ constexpr OperandKind kKinds[] = {
               .badCode = "invalid-type-prefix"},
      .prefixes = kReal},
     {.info = {.kind = "real value",
-              .doc = "A cell of 8 bytes, also with the prefix REAL., or a constant, also written CNST.0.2; `-` takes it "
-                     "negative.",
+              .doc =
+                  "A cell of 8 bytes, also with the prefix REAL., or a constant, also written CNST.0.2; `-` takes it "
+                  "negative.",
               .good = "0.2",
               .bad = "CELL4",
               .badCode = "invalid-type-prefix"},

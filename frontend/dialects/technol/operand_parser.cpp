@@ -86,13 +86,15 @@ bool isNotGiven(std::span<const Token> tokens) {
 
 bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
-  program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range())) << expected << found;
+  program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range()))
+      << expected << found;
   return false;
 }
 
 std::string OperandParser::spell(const Operand& operand) {
   std::string text;
-  for (const Token& token : operand.tokens) text += token.kind == TokenKind::Text ? "'" + std::string(token.text) + "'" : std::string(token.text);
+  for (const Token& token : operand.tokens)
+    text += token.kind == TokenKind::Text ? "'" + std::string(token.text) + "'" : std::string(token.text);
   return text;
 }
 
@@ -201,7 +203,12 @@ bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
   if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
   Similar meant(tokens[0].text);
-  for (const PrefixName& p : kPrefixes) meant.offer(p.name);
+  const auto offer = [&](bool sameLetter) {
+    for (const PrefixName& p : kPrefixes)
+      if ((p.name[0] == upper(tokens[0].text[0])) == sameLetter) meant.offer(p.name);
+  };
+  offer(true);
+  if (meant.best().empty()) offer(false);
   if (meant.best().empty()) return false;
   program_.diagnostics.report(Diag::UndefinedSymbol, tokens[0].range())
           .note("did you mean " + std::string(meant.best()) + "?")
@@ -219,7 +226,11 @@ bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std:
     return block(info, tokens, false, out);
   if (ownWord(kind, tokens, out)) return true;
   const uint8_t prefix = takePrefix(tokens);
-  if (prefix != 0 && (kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
+  if (prefix != 0 && (kind.prefixes & prefix) == 0) {
+    wrongPrefix(prefix, out);
+    // STO CNST.5 is a store to a constant, too: without the prefix it would stay wrong.
+    return prefix == kCnst && info.access != Access::Read && wrongKind(out, "a constant", "a variable");
+  }
   if (prefix == 0 && misspeltPrefix(tokens)) return false;
   Address address;
   if (tokens.empty()) return syntax("a value", tokens);
@@ -277,7 +288,8 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
     program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
     return false;
   }
-  if (!ir::contains(kind.types, out.type)) return wrongKind(out, "of another width", "a cell of " + widthsOf(kind.types));
+  if (!ir::contains(kind.types, out.type))
+    return wrongKind(out, "of another width", "a cell of " + widthsOf(kind.types));
   const uint8_t natural = naturalPrefix(out.type);
   if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) return wrongPrefix(natural, out);
   const int64_t byte = address.byte + (prefix == kHigh ? 1 : 0);
@@ -287,7 +299,8 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
 
 bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) {
-    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) return wrongKind(out, "a number", "a " + std::string(kind.info.kind));
+    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
+      return wrongKind(out, "a number", "a " + std::string(kind.info.kind));
     return syntax("the name of a " + std::string(kind.info.kind), tokens);
   }
   const uint32_t index = program_.symbols.require(tokens[0], file_);
@@ -362,8 +375,7 @@ bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> token
     }
   const std::string wanted(kind.info.kind);
   if (tokens.size() != 1) return syntax("a " + wanted, tokens);
-  const bool unknown =
-      tokens[0].kind == TokenKind::Name && program_.symbols.find(tokens[0].text, file_) == kNone;
+  const bool unknown = tokens[0].kind == TokenKind::Name && program_.symbols.find(tokens[0].text, file_) == kNone;
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
   forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });

@@ -90,4 +90,9 @@ std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens)
 // The source range of tokens; `otherwise` when there are none. Of tokens that a macro put together only the first.
 SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens, SourceRange otherwise);
 
+// Tokens as written, one blank where there are some.
+std::string spelled(std::span<const Token> tokens);
+// Tokens that are one word, 1A or A-B, where a name should stand: that is a bad name, all else no name at all.
+bool isOneWord(std::span<const Token> tokens);
+
 } // namespace rung::frontend::technol

@@ -26,9 +26,8 @@ bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   if (colon == tokens.end() || colon - tokens.begin() < 2 || tokens[0].kind == TokenKind::Punct) return false;
   if (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr) return false;
   const auto label = tokens.first(static_cast<size_t>(colon - tokens.begin()));
-  std::string name;
-  for (const Token& token : label) name += token.text;
-  program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range())) << name;
+  program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range()))
+      << spelled(label);
   first += static_cast<uint32_t>(label.size()) + 1;
   count -= static_cast<uint32_t>(label.size()) + 1;
   return true;
@@ -55,7 +54,8 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
 bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const bool named = count > 1 && tokens[0].kind == TokenKind::Name &&
-                     (findRow(tokens[0].text) == nullptr || reservedWord(tokens[0].text) != Reserved::Yes) && structures_.find(tokens[1]) != kNone;
+                     (findRow(tokens[0].text) == nullptr || reservedWord(tokens[0].text) != Reserved::Yes) &&
+                     structures_.find(tokens[1]) != kNone;
   const uint32_t type = structures_.find(tokens[named ? 1 : 0]);
   if (type == kNone) return false;
   const Token word = tokens[named ? 1 : 0];
@@ -76,8 +76,9 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   return true;
 }
 
-// With what was meant, or the way to say it in this language.
-void FileReader::reportUnknown(const Token& token) {
+// With what was meant, or the way to say it in this language. Two words may be one name whose `_` is lost.
+void FileReader::reportUnknown(std::span<const Token> tokens) {
+  const Token& token = tokens[0];
   if (isAssembler(token.text)) {
     DiagBuilder report = program_.diagnostics.report(Diag::UnsupportedAssembler, token.range());
     report << token.text;
@@ -85,7 +86,11 @@ void FileReader::reportUnknown(const Token& token) {
       report.note("in this language: " + std::string(other));
     return;
   }
-  Similar similar(token.text);
+  std::string word(token.text);
+  if (tokens.size() > 1 && tokens[1].kind == TokenKind::Name)
+    if (const std::string both = word + (word.ends_with('_') ? "" : "_") + std::string(tokens[1].text); findRow(both))
+      word = both;
+  Similar similar(word);
   for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
   macros_.offer(similar);
   DiagBuilder report = program_.diagnostics.report(Diag::UnknownInstruction, token.range());
@@ -93,14 +98,15 @@ void FileReader::reportUnknown(const Token& token) {
   if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
 }
 
-const Row* FileReader::instruction(const Token& token) {
+const Row* FileReader::instruction(std::span<const Token> tokens) {
+  const Token& token = tokens[0];
   if (token.kind != TokenKind::Name) {
     program_.diagnostics.report(Diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
     return nullptr;
   }
   const Row* row = findRow(token.text);
   if (row == nullptr) {
-    reportUnknown(token);
+    reportUnknown(tokens);
     return nullptr;
   }
   if (row->info.mnemonic == "JL0" && equalsNoCase(token.text, "JLO"))
@@ -112,7 +118,8 @@ const Row* FileReader::instruction(const Token& token) {
 bool FileReader::endsMacros(const Token& head) {
   const Row* row = head.kind == TokenKind::Name ? findRow(head.text) : nullptr;
   if (row == nullptr) return false;
-  return row->role == Role::Module || row->role == Role::ModuleEnd || row->role == Role::Stop || row->info.mnemonic == "DEF_T_MACRO";
+  return row->role == Role::Module || row->role == Role::ModuleEnd || row->role == Role::Stop ||
+         row->info.mnemonic == "DEF_T_MACRO";
 }
 
 void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
@@ -135,7 +142,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
     return;
   }
   if (macroLine(first, count, line) || instance(first, count, line)) return;
-  statement(instruction(program_.tokens[first]), first, count, line);
+  statement(instruction(std::span<const Token>(program_.tokens).subspan(first, count)), first, count, line);
 }
 
 void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint32_t line) {
@@ -209,16 +216,15 @@ void FileReader::attachLabels(Statement& statement, uint32_t index) {
 const Token* FileReader::oneName(const Statement& statement) {
   const std::span<const Token> tokens = program_.operandTokens(statement);
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return &tokens[0];
-  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number) {
-    program_.diagnostics.report(Diag::BadIdentifier, tokens[0].range()) << tokens[0].text;
-  } else {
-    const size_t found = splitOperands(tokens).size();
-    if (found == 1)
-      program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
-    else
-      program_.diagnostics.report(Diag::OperandCount, statement.range())
-          << statement.row->info.mnemonic << "1 operand" << found;
-  }
+  const size_t found = splitOperands(tokens).size();
+  if (found == 1 && isOneWord(tokens))
+    program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range()))
+        << spelled(tokens);
+  else if (found == 1)
+    program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
+  else
+    program_.diagnostics.report(Diag::OperandCount, statement.range())
+        << statement.row->info.mnemonic << "1 operand" << found;
   return nullptr;
 }
 
@@ -430,6 +436,25 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
   const SourceRange first = tokens.front().range(), last = tokens.back().range();
   const bool inOrder = first.begin <= last.begin && first.end <= last.end;
   return inOrder && sources.fileOf(first.begin) == sources.fileOf(last.begin) ? join(first, last) : first;
+}
+
+bool isOneWord(std::span<const Token> tokens) {
+  if (tokens.empty() || tokens[0].kind == TokenKind::Punct) return false;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].kind == TokenKind::Text) return false;
+    if (i > 0 && tokens[i - 1].range().end != tokens[i].pos) return false;
+  }
+  return true;
+}
+
+std::string spelled(std::span<const Token> tokens) {
+  std::string text;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (i > 0 && tokens[i - 1].range().end < tokens[i].pos) text += ' ';
+    const bool quoted = tokens[i].kind == TokenKind::Text;
+    text.append(quoted ? "'" : "").append(tokens[i].text).append(quoted ? "'" : "");
+  }
+  return text;
 }
 
 std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,

@@ -53,6 +53,7 @@ void FileReader::readLines(FileId id, uint32_t depth) {
   LineReader lines(program_.sources, id);
   SourceLine line;
   uint32_t first = 0, lineNumber = 0;
+  if (depth == 0) program_.files[file_].lastLine = program_.sources.range(id, 0, 0); // of an empty file
   bool open = false, clean = true; // a statement that a comma continues
   while (lines.next(line)) {
     includeDepth_ = depth;
@@ -62,7 +63,8 @@ void FileReader::readLines(FileId id, uint32_t depth) {
     }
     if (structure_.stopped()) {
       const size_t text = line.text.find_first_not_of(" \t");
-      if (text < commentOf(line.text) && text != std::string_view::npos && !textAfterStop_) program_.diagnostics.report(Diag::TextAfterStop, line.range());
+      if (text < commentOf(line.text) && text != std::string_view::npos && !textAfterStop_)
+        program_.diagnostics.report(Diag::TextAfterStop, line.range());
       textAfterStop_ = textAfterStop_ || (text < commentOf(line.text) && text != std::string_view::npos);
       continue;
     }
@@ -79,7 +81,7 @@ void FileReader::readLines(FileId id, uint32_t depth) {
     const auto before = static_cast<uint32_t>(program_.tokens.size());
     clean = tokenize(line, program_.tokens, program_.diagnostics) && clean;
     if (open && clean && program_.tokens.size() == before) continue; // a blank line or a comment inside
-    if (open && clean && beginsStatement(before)) { // the comma was one too many
+    if (open && clean && beginsStatement(before)) {                  // the comma was one too many
       logicalLine(first, before - first, lineNumber);
       first = before;
       lineNumber = line.number;
@@ -87,19 +89,21 @@ void FileReader::readLines(FileId id, uint32_t depth) {
     open = clean && program_.tokens.size() > before && program_.tokens.back().is(',');
     if (open && program_.tokens.size() - first < kMaxStatement) continue;
     open = false;
-    if (clean && program_.tokens.size() > first) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
+    if (clean && program_.tokens.size() > first)
+      logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
   }
   if (open) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
 }
 
-// Whether the tokens from `first` cannot be operands of the statement above: a label, a structure, the use of a macro, or
-// a word that names no symbol.
+// Whether the tokens from `first` cannot be operands of the statement above: a label, a structure, the use of a macro,
+// or a word that names no symbol.
 bool FileReader::beginsStatement(uint32_t first) const {
   const std::span<const Token> tokens = std::span(program_.tokens).subspan(first);
   if (tokens[0].kind != TokenKind::Name) return false;
   if (tokens.size() > 1 && tokens[1].is(':')) return true;
   const Row* second = tokens.size() > 1 && tokens[1].kind == TokenKind::Name ? findRow(tokens[1].text) : nullptr;
-  if (second && second->role == Role::MemberSize && second->info.mnemonic != "DUP") return true; // NAME struc, NAME DB 5
+  if (second && second->role == Role::MemberSize && second->info.mnemonic != "DUP")
+    return true; // NAME struc, NAME DB 5
   if (structures_.find(tokens[0]) != kNone || (tokens.size() > 1 && structures_.find(tokens[1]) != kNone)) return true;
   if (findRow(tokens[0].text) != nullptr) return reservedWord(tokens[0].text) == Reserved::Yes;
   return macros_.find(tokens[0].text) != nullptr;
@@ -131,8 +135,9 @@ std::string inAnyCase(const std::string& path, std::string_view name) {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(found.empty() ? "." : found, error)) {
       const std::string candidate = entry.path().filename().string();
-      const bool same = candidate.size() == part.size() &&
-                        std::equal(part.begin(), part.end(), candidate.begin(), [](char a, char b) { return upper(a) == upper(b); });
+      const bool same =
+          candidate.size() == part.size() &&
+          std::equal(part.begin(), part.end(), candidate.begin(), [](char a, char b) { return upper(a) == upper(b); });
       if (same && (entryName.empty() || candidate < entryName)) entryName = candidate;
     }
     if (entryName.empty()) return "";
@@ -222,7 +227,8 @@ bool FileReader::allowedInInclude(const Statement& statement) {
   case Role::NoCode: return true;
   default: break;
   }
-  if (!includeReported_) program_.diagnostics.report(Diag::CodeInInclude, statement.range()) << statement.row->info.mnemonic;
+  if (!includeReported_)
+    program_.diagnostics.report(Diag::CodeInInclude, statement.range()) << statement.row->info.mnemonic;
   includeReported_ = true;
   return false;
 }
@@ -235,11 +241,16 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
   const std::span<const Token> operands = std::span<const Token>(program_.tokens).subspan(first + 1, count - 1);
   if (row != nullptr && row->role == Role::Macro) {
     const std::string_view name = row->info.mnemonic;
-    if (name == "DEF_T_MACRO") macros_.begin(operands, head.range());
-    else if (name == "APPEND_T_MACRO") macros_.append(operands, head.range());
-    else if (name == "CONTROL_T_MACRO") macros_.control(operands, head.range());
-    else if (name == kInclude) program_.diagnostics.report(Diag::OperandCount, head.range()) << name << "1 operand" << 0;
-    else program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO in front" << name;
+    if (name == "DEF_T_MACRO")
+      macros_.begin(operands, head.range());
+    else if (name == "APPEND_T_MACRO")
+      macros_.append(operands, head.range());
+    else if (name == "CONTROL_T_MACRO")
+      macros_.control(operands, head.range());
+    else if (name == kInclude)
+      program_.diagnostics.report(Diag::OperandCount, head.range()) << name << "1 operand" << 0;
+    else
+      program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO in front" << name;
     return true;
   }
   const Macro* macro = row == nullptr || macros_.first() ? macros_.find(head.text) : nullptr;
@@ -277,7 +288,12 @@ void FileReader::useMacro(const Macro& macro, uint32_t first, uint32_t count, ui
 }
 
 void FileReader::mark(Role role, MacroStack stack, const Token& at, uint32_t line) {
-  Statement made{.row = markRow(role, stack), .pos = at.pos, .length = static_cast<uint32_t>(at.text.size()), .line = line, .unit = structure_.unit(), .file = file_};
+  Statement made{.row = markRow(role, stack),
+                 .pos = at.pos,
+                 .length = static_cast<uint32_t>(at.text.size()),
+                 .line = line,
+                 .unit = structure_.unit(),
+                 .file = file_};
   attachLabels(made, static_cast<uint32_t>(program_.statements.size()));
   program_.statements.push_back(made);
 }

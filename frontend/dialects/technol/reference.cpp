@@ -6,6 +6,7 @@
 
 #include "frontend/dialects/technol/symbols.h"
 #include "frontend/table/markdown.h"
+#include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -40,7 +41,7 @@ std::string useText(const nc::Signal& signal) {
   const std::string_view area = signal.area;
   if (area == "I") return "";
   if (area == "W") return "a weight, behind an address: `CELL." + std::string(signal.symbol) + "`";
-  if (area == "BLK") return "of the queued block n: `BLK[n]." + std::string(signal.symbol) + "`";
+  if (area == "BLK") return "of the queued block n: `BLK[n]" + std::string(signal.symbol).substr(area.size() + 2) + "`";
   if (area.starts_with("RTM.")) return "a logical input or output behind `" + std::string(area) + "[x].`";
   if (area.starts_with("SHARE") || area == "RtmVar") return "shared with the panel by this name; no name of a program";
   return "a member of the structure " + std::string(area);
@@ -106,14 +107,46 @@ std::string reference() {
   return page.take();
 }
 
+namespace {
+
+// In upper case without what stands in brackets: BLK[0].M[3] is BLK.M.
+std::string plainWord(std::string_view name) {
+  std::string word;
+  int depth = 0;
+  for (const char c : name) {
+    if (c == '[') ++depth;
+    if (depth == 0) word += upper(c);
+    if (c == ']') --depth;
+  }
+  return word;
+}
+
+// SYST_TIME_INFO.TIME_SEC is TIME_INFOS.TIME_SEC.
+std::string ofItsStructure(const std::string& word) {
+  const size_t point = word.find('.');
+  const nc::Signal* whole =
+      point == std::string::npos ? nullptr : nc::findSignal(nc::technolSignals(), word.substr(0, point), "I");
+  return whole && *whole->structure ? plainWord(whole->structure) + word.substr(point) : word;
+}
+
+// The word is the whole name, or that of a member or of an element of a block alone.
+bool names(const std::string& word, const nc::Signal& signal) {
+  const std::string symbol = plainWord(signal.symbol);
+  if (symbol == word) return true;
+  const std::string owner = plainWord(signal.area) + ".";
+  return symbol.size() == owner.size() + word.size() && symbol.starts_with(owner) && symbol.ends_with(word);
+}
+
+} // namespace
+
 std::string explainWord(std::string_view name) {
-  std::string text, word(name);
-  for (char& c : word) c = upper(c);
+  std::string text;
+  const std::string word = ofItsStructure(plainWord(name));
   std::vector<std::string> told; // weights and members repeat in many groups
   for (const nc::Signal& signal : nc::technolSignals()) {
-    if (!equalsNoCase(signal.symbol, word)) continue;
-    std::string entry = fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal),
-                                    signal.meaning);
+    if (!names(word, signal)) continue;
+    std::string entry =
+        fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal), signal.meaning);
     if (const std::string use = useText(signal); !use.empty()) entry += fmt::format("  Use: {}.\n", use);
     entry += fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
     if (std::find(told.begin(), told.end(), entry) != told.end()) continue;
@@ -123,6 +156,8 @@ std::string explainWord(std::string_view name) {
   for (const Predefined& constant : predefinedConstants())
     if (equalsNoCase(constant.name, word))
       text += fmt::format("[technol] {}: constant {}\n", constant.name, constant.value);
+  if (!word.empty() && plainWord(" " + std::string(nc::kLicences) + " ").find(" " + word + " ") != std::string::npos)
+    text += fmt::format("[technol] {}: a licence of the hardware key, for LDR_LIC. Manual: l.7631.\n", name);
   return text;
 }
 

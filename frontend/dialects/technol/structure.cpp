@@ -67,7 +67,9 @@ void Structure::checkPlace(const Statement& statement, ModuleKind kind) {
 }
 
 void Structure::beginModule(const Statement& statement, ModuleKind kind, uint32_t index) {
-  if (inModule()) {
+  nested_ = inModule();
+  if (nested_) {
+    outer_ = this->kind();
     reportUnclosed(statement.range());
     closeModule(statement.range(), statement.line, index);
   }
@@ -87,11 +89,13 @@ void Structure::reportUnclosed(SourceRange at) {
 
 void Structure::endModule(const Statement& statement, ModuleKind kind_, uint32_t index) {
   if (!inModule()) {
+    if (nested_ && kind_ != outer_) outsideReported_ = false;
     allowsCode(statement);
     return;
   }
   if (kind() != kind_) reportUnclosed(statement.range());
   closeModule(statement.range(), statement.line, index);
+  outsideReported_ = nested_; // what follows belongs to the module around it
 }
 
 void Structure::closeModule(SourceRange at, uint32_t line, uint32_t index) {

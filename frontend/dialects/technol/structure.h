@@ -62,6 +62,8 @@ private:
   bool localOpen_ = false;
   bool stopped_ = false;
   bool outsideReported_ = false;
+  bool nested_ = false; // the module stands inside another one, outer_
+  ModuleKind outer_ = ModuleKind::Data;
   bool dataReported_ = false;
   std::array<bool, kModuleKinds> seen_{};
   struct OpenBlock {

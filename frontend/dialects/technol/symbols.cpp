@@ -109,7 +109,8 @@ std::string symbolKey(std::string_view name) {
 }
 
 void SymbolTable::checkName(const Symbol& symbol) {
-  if (std::min(symbol.name.find(kUseMark), symbol.name.size()) > kSignificant) diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
+  if (std::min(symbol.name.find(kUseMark), symbol.name.size()) > kSignificant)
+    diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
   switch (reservedWord(symbol.name)) {
   case Reserved::No: break;
   case Reserved::Warn:
@@ -155,8 +156,11 @@ uint32_t SymbolTable::declare(Symbol symbol) {
       if (symbol.kind == SymbolKind::Constant || symbol.kind == SymbolKind::Structure) return *earlier;
       if (symbol.kind == SymbolKind::Cell) *earlier = index; // the cell carries both meanings
     } else {
+      const SourceRange first = symbols_[*earlier].declared;
+      const bool sameLine = first == symbol.declared;
       diagnostics_.report(Diag::DuplicateSymbol, symbol.declared)
-              .note(symbols_[*earlier].declared, "first declared here")
+              .note(first, sameLine ? "by the macro's first use; T_LOCAL gives each use a name of its own"
+                                    : "first declared here")
           << symbol.name;
     }
     symbols_.push_back(symbol);
@@ -216,7 +220,10 @@ void SymbolTable::reportUndefined(const Token& name, uint32_t file, const char* 
       isNew && suggestions_++ < kMostSuggestions ? similar(name.text, file, structure) : std::string();
   DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, name.range());
   report << name.text;
-  if (!meant.empty()) report.note("did you mean " + meant + "?");
+  if (!meant.empty())
+    report.note("did you mean " + meant + "?");
+  else if (isNew && parseNumber("0" + std::string(name.text)))
+    report.note("as a number: 0" + std::string(name.text));
 }
 
 // The name in sight that is most like a misspelt one; "" when none is close. Members of the structure come first, then

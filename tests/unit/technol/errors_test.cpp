@@ -42,6 +42,9 @@ const Case kCases[] = {
     {"ReservedWord", "LDR: DS 1\nDR: DS 1\n", "", {"0:2 reserved-word", "0:3 reserved-word"}, {}},
     {"ServiceNameAsSymbol", "DFM POS_RESET\n", " FL 1,POS_RESET\n", {}, {"0:2 reserved-word"}},
     {"BadIdentifier", "1A: DS 1\nA#B: DS 1\nDFM 2C\n", "", {"0:2 bad-identifier", "0:3 bad-identifier", "0:4 bad-identifier"}, {}},
+    {"BadIdentifierParts", "DFM A-B\nEQUI C-D,5\nDFM E F\n", " MECH_BEGIN M-1\n PROC_BEGIN 1P\n", {"0:2 bad-identifier", "0:3 bad-identifier", "0:4 syntax-error", "0:9 bad-identifier", "0:10 bad-identifier"}, {}},
+    {"StoreToConstant", "A: DS 1\n", " STO CNST.5\n STO 5\n MOVE A,CNST.5\n", {"0:7 invalid-type-prefix", "0:7 wrong-operand-kind", "0:8 wrong-operand-kind", "0:9 invalid-type-prefix"}, {}},
+    {"ModuleInsideModule", "A: DS 1\n", "MODULE_CONT\nMODULE_CONT_END\n LOD A\n", {"0:7 module-not-closed"}, {}},
     {"BadCharacter", "A: DS 1\n", " LOD \"A\n LOD &\n", {"0:7 bad-identifier", "0:8 bad-character"}, {}},
     {"BadNumber", "", " LOD 12X\n LOD 0GH\n LOD 1.5Z\n LOD 012b\n", {"0:6 bad-number", "0:7 bad-number", "0:8 bad-number", "0:9 bad-number"}, {}},
     {"BadString", "S: STR 5,'abc\n", "", {"0:2 bad-string"}, {}},
@@ -113,6 +116,33 @@ constexpr const char* kRest = "MODULE_BLOCK_INIT\nMODULE_BLOCK_INIT_END\nMODULE_
                               "MODULE_CLEAR\nMODULE_CLEAR_END\nMODULE_HALT\nMODULE_HALT_END\n"; // 10 lines
 constexpr const char* kFirst = "DATA\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\n"; // 4 lines
 constexpr const char* kMain = "MODULE_MAIN\nMODULE_MAIN_END\n";
+
+// What was probably meant stands beside the report.
+TEST(TechnolHints, NameWhatWasMeant) {
+  const struct {
+    const char *statement, *hint;
+  } cases[] = {{"LOD WRD.W", "did you mean WORD?"},
+               {"LOD DWORD.W", "did you mean DWRD?"},
+               {"LOD SYST_TIME_INFO.TIME_SEK", "did you mean TIME_SEC?"},
+               {"LDR BLK[0].M99", "did you mean M9?"},
+               {"LDR P1OUT.IO_DIS_ER", "did you mean IO_DIS_ERR?"},
+               {"LOD SPEDE", "did you mean SPEED?"},
+               {"LDR_LIC FeaturPlc1", "did you mean FeaturePlc1?"},
+               {"LOD FFh", "as a number: 0FFh"},
+               {"MECH BEGIN M", "did you mean MECH_BEGIN?"},
+               {"CAN_ SEND 1,W", "did you mean CAN_SEND?"},
+               {"FLD W", "in this language: LOD REAL."}};
+  for (const auto& c : cases) {
+    const std::string text = compileMain(" " + std::string(c.statement) + "\n", "W: DS 2\nSPEED: DS 2\n").text();
+    EXPECT_NE(text.find(c.hint), std::string::npos) << c.statement << '\n' << text;
+  }
+}
+
+TEST(TechnolStructure, AnEmptyFileIsToldAtItsFirstLine) {
+  const Lines errors = errorsOf({""});
+  ASSERT_FALSE(errors.empty());
+  EXPECT_EQ(errors.front(), "0:1 data-not-first");
+}
 
 TEST(TechnolStructure, DataComesFirst) {
   EXPECT_EQ(errorsOf({std::string("MODULE_INPUT\nMODULE_INPUT_END\nDATA\nDATA_END\n") + kMain + kRest + "STOP\n"}), (Lines{"0:1 data-not-first"}));

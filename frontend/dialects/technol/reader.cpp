@@ -176,7 +176,12 @@ void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint3
 }
 
 // Labels in lines of their own belong to the next declaration, too (man. l.27-29); the last one is its name already.
+// Between instructions they are labels of code.
 void FileReader::takeDataLabels() {
+  if (!structure_.inData() && !structure_.localOpen()) {
+    if (!pendingLabels_.empty()) pendingLabels_.pop_back();
+    return;
+  }
   for (size_t i = 0; i + 1 < pendingLabels_.size(); ++i) {
     const Token name = program_.tokens[pendingLabels_[i]];
     declarations_.alsoNamed(name);
@@ -194,6 +199,8 @@ void FileReader::checkEightBits(const Statement& statement) {
 
 // Labels are this file's alone; they stand in the unit that is open here.
 void FileReader::attachLabels(Statement& statement, uint32_t index) {
+  pendingLabels_.insert(pendingLabels_.begin(), codeLabels_.begin(), codeLabels_.end());
+  codeLabels_.clear();
   for (const uint32_t token : pendingLabels_) {
     const Token& name = program_.tokens[token];
     structure_.passLabel(name.text);
@@ -288,7 +295,10 @@ void FileReader::structural(Statement& statement, uint32_t index) {
     attachLabels(statement, index);
     return;
   case Role::ModuleEnd: structure_.endModule(statement, kind, index + 1); return;
-  case Role::Local: structure_.beginLocal(statement); return;
+  case Role::Local:
+    if (!structure_.inData()) codeLabels_.swap(pendingLabels_);
+    structure_.beginLocal(statement);
+    return;
   case Role::LocalEnd: structure_.endLocal(statement); return;
   case Role::Stop: structure_.stop(statement, index); return;
   case Role::Equi: declarations_.constant(statement); return;

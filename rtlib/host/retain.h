@@ -81,6 +81,8 @@ public:
   void finish(const Instance& instance) {
     finishFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
+  // Scan thread: what was offered last is written, or could not be (see failed).
+  bool idle() const noexcept { return !full_.load(std::memory_order_acquire); }
   uint64_t saved() const { return saved_.load(); }
   uint64_t failed() const { return failed_.load(); }
   std::string lastError() const;

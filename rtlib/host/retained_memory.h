@@ -18,7 +18,11 @@ public:
   bool load(Instance& instance, std::string& report, std::string& error);
 
   // Scan thread, after every scan: copies at most once a period, never waits and allocates nothing.
-  void offer(const Instance& instance) noexcept { saver_->offer(instance); }
+  // False: the last image is still being written.
+  bool offer(const Instance& instance) noexcept { return saver_->offer(instance); }
+  // What was offered last is on disk, or could not be written: then `failed` has grown.
+  bool written() const noexcept { return saver_->idle(); }
+  uint64_t failed() const noexcept { return saver_->failed(); }
 
   // Behind the last scan: the image of now is on disk when it returns; "" or what has gone wrong since the start.
   std::string finish(const Instance& instance);

@@ -195,6 +195,118 @@ class Retained(Cli):
         self.assertEqual(self.read(program, "D0:4"), [scans + 1])
 
 
+BACKUP = """DATA
+SINCE: DS 4
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_MAIN
+        LOD DWRD.PLC_MEM_BACKUP
+        AD  CNST.1
+        STO DWRD.PLC_MEM_BACKUP
+        LOD SINCE
+        AD  CNST.1
+        STO SINCE
+        EQ  CNST.20
+        FL1 1,REQ_BACKUP_MEM
+MODULE_MAIN_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+"""
+
+
+class TechnolBackup(Cli):
+    """rungc run --retain with a TECHNOL program: saved at the end, and when the program asks."""
+
+    def command(self, *args):
+        program = self.file("backup.plc", BACKUP)
+        return ["run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp", *args]
+
+    def count(self):
+        """The count at the end of one more scan."""
+        done = rungc(*self.command("--scans", "1", "--watch", "PLC_MEM_BACKUP+0:4"))
+        self.assertEqual(done.returncode, OK, done.stderr)
+        return int(done.stdout.decode().split(" = ")[1].split()[0])
+
+    def test_saved_at_a_regular_end(self):
+        self.assertEqual(rungc(*self.command("--scans", "7")).returncode, OK)
+        self.assertEqual(self.count(), 8)
+        self.assertEqual(self.count(), 9)
+
+    def test_the_request_is_reset(self):
+        done = rungc(*self.command("--scans", "30", "--watch", "REQ_BACKUP_MEM"))
+        changes = [line.split(" = ")[1] for line in done.stdout.decode().splitlines() if "REQ_BACKUP_MEM" in line]
+        self.assertEqual(changes, ["0"])  # saved before anybody looks
+
+    def test_killed_behind_the_request(self):
+        command = [RUNGC, *self.command("--realtime", "--for", "3600s", "--watch", "REQ_BACKUP_MEM")]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            time.sleep(2)  # 100 scans
+            process.kill()
+            self.assertEqual(process.stderr.read(), b"")
+        self.assertEqual(self.count(), 21)  # of the 20th scan, not of the last
+
+
+CONNECTED = BACKUP.replace("MODULE_INIT\n", """MODULE_INIT
+        MAP_IN  LIMIT,'Limit'
+        MAP_OUT LAMP,'Lamp'
+        DEF_IN  FEED,'Feed',TYPE_DWORD
+        DEF_IN  TITLE[8],'Title',TYPE_STR
+        DEF_OUT SPEED[4],'Speed',TYPE_WORD
+""", 1)
+
+
+class TechnolConnections(Cli):
+    """connect: an end that does not exist, or does not fit, fails the scenario with its reason."""
+
+    WRONG = {
+        "PLC.Input.Nothing PLC.Input.Feed": "'PLC.Input.Nothing' is no end of a connection: the program defines no input of this identifier",
+        "PLC.Output.Nothing PLC.Input.Feed": "the program defines no output of this identifier",
+        "PLC.Output.Speed[4] PLC.Input.Feed": "'PLC.Output.Speed[4]' is no end of a connection: it has 4 elements",
+        "PLC.Output.Speed.Bit[16] LIMIT": "it has no bit 16",
+        "PLC.Input.Feed PLC.Output.Speed": "'PLC.Input.Feed' is an input: a connection cannot begin there",
+        "P1IN.0 LAMP": "'LAMP' is an output: a connection cannot end there",
+        "P129IN.0 LIMIT": "input ports are P1IN to P128IN",
+        "LAMP P96OUT.0": "output ports are P0OUT to P95OUT",
+        "P1IN.8 LIMIT": "it has no bit 8",
+        "CAN[2].INOUT08.IP0.Bit[1] LIMIT": "there are CAN[1].INOUT08[0] to [31]",
+        "CAN[1].INOUT08[32].IP0 LIMIT": "there are CAN[1].INOUT08[0] to [31]",
+        "CAN[1].INOUT08.OP3 LIMIT": "with IP0 to IP3 and OP0 to OP2",
+        "RTM.Axis.Nothing PLC.Input.Feed": "the real-time manager has no such element",
+        "LAMP RTM.Control.M03": "'RTM.Control.M03' is an output: a connection cannot end there",
+        "LAMP VKeyboard.VKey[256]": "the virtual keyboard has the keys VKey[0] to VKey[255]",
+        "ANALOG_INPUT_PHYSICAL[100] PLC.Input.Feed": "channels are 0 to 99",
+        "SINCE PLC.Input.Feed": "only variables of MAP_IN, MAP_OUT, MAP_AIN, MAP_AOUT, DEF_IN and DEF_OUT",
+        "NOWHERE PLC.Input.Feed": "there is no module, port or variable of this name",
+        "LAMP PLC.Input.Title": "do not fit: one is a text",
+    }
+
+    def test_wrong_ends(self):
+        self.file("program.plc", CONNECTED)
+        for ends, reason in self.WRONG.items():
+            scenario = self.file("wrong.scn", f"program program.plc\nperiod 20ms\nconnect {ends}\nscan\n")
+            done = rungc("test", scenario, "--engine", "interp")
+            output = (done.stdout + done.stderr).decode()
+            self.assertEqual(done.returncode, WRONG, output)
+            self.assertIn("wrong.scn:3: ", output)
+            self.assertIn(reason, output)
+
+    def test_attributes_that_are_no_numbers(self):
+        self.file("program.plc", CONNECTED)
+        scenario = self.file("wrong.scn", "program program.plc\nconfig Limit.Invert yes\nconnect P1IN.0 LIMIT\nscan\n")
+        done = rungc("test", scenario, "--engine", "interp")
+        self.assertIn("Limit.Invert is no number: 'yes'", (done.stdout + done.stderr).decode())
+
+
 class RetainedTables(Cli):
     """rungc run --retain with a simulated NCT control: its tables stand beside the program's words."""
 

@@ -108,7 +108,7 @@ bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const
 // What --retain keeps: the program's retained memory, and the tables of the NC beside it.
 struct Retained {
   Retained(const rung_program& program, nc::NcModel& nc, const std::string& file)
-      : memory(program, file), tables(nc, file) {}
+      : memory(program, file, std::chrono::milliseconds(nc.savesOnRequest() ? 5 : 200)), tables(nc, file) {}
   host::RetainedMemory memory;
   nc::RetainedTables tables;
 };
@@ -168,12 +168,28 @@ private:
     rt::ServiceRequest request; // here is nobody who could answer later
     while (instance_.services().take(request)) instance_.services().complete(nc::refuse(instance_.program(), request));
     if (retained_ != nullptr) {
-      retained_->memory.offer(instance_);
+      if (nc_.savesOnRequest())
+        saveOnRequest();
+      else
+        retained_->memory.offer(instance_);
       retained_->tables.offer();
     }
     printChanges(instance_, watched_);
     printMessages(instance_, nc_.messages(instance_), shown_);
     nc_.board().takeLog(); // nobody reads it here, and it must not grow
+  }
+  // On the real clock the scans go on while the image is written; a failure is tried again. On the virtual clock time
+  // stands still meanwhile.
+  void saveOnRequest() {
+    if (saving_ && !retained_->memory.written()) return;
+    if (saving_ && retained_->memory.failed() == failures_) nc_.saved(instance_);
+    saving_ = false;
+    if (!nc_.asksToSave(instance_)) return;
+    failures_ = retained_->memory.failed();
+    saving_ = retained_->memory.offer(instance_);
+    if (options_.realtime) return;
+    if (retained_->memory.finish(instance_).empty()) nc_.saved(instance_);
+    saving_ = false;
   }
   bool more() const {
     if (gStop != 0 || instance_.faulted()) return false;
@@ -188,6 +204,8 @@ private:
   std::vector<Watched> watched_;
   std::vector<nc::ShownMessage> shown_;
   uint64_t scans_ = 0;
+  bool saving_ = false;   // an image that the program asked for is being written
+  uint64_t failures_ = 0; // in front of it
 };
 
 // The keys of --config that the compiler does not read are the NC's; `dialect` is null where nothing was compiled.
@@ -211,7 +229,10 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs, 
   const std::unique_ptr<host::Instance> instance = driver::makeInstance(engine, nc.get());
   std::unique_ptr<Retained> retained;
   if (!options.retain.empty()) retained = std::make_unique<Retained>(engine.program(), *nc, options.retain);
+  nc->setStored(retained != nullptr);
   if (const auto error = switchOn(*nc, *instance, retained.get())) return environmentError(*error);
+  for (const nc::NcProblem& problem : nc->connectionProblems()) fmt::print(stderr, "rungc: {}\n", problem.text);
+  if (!nc->connectionProblems().empty()) return kUsage;
   std::vector<Watched> watched;
   if (!resolveWatched(*nc, *instance, options.watch, watched)) return kUsage;
   std::signal(SIGINT, [](int) { gStop = 1; });

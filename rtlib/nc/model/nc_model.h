@@ -66,6 +66,17 @@ public:
   // The program's retained memory was there but could not be restored: stands before powerOn.
   virtual void reportRetainedLost() {}
 
+  // TECHNOL saves its retained memory at a power-off and when the program asks, and at no other time: a host that
+  // stores it says so before the power-on, looks between two scans whether the program asks, and tells when it is on
+  // disk.
+  virtual bool savesOnRequest() const { return false; }
+  virtual void setStored(bool stored) { (void)stored; }
+  virtual bool asksToSave(const host::Instance& instance) const {
+    (void)instance;
+    return false;
+  }
+  virtual void saved(host::Instance& instance) { (void)instance; }
+
   virtual void scan(host::Instance& instance);
   virtual void slot(host::Instance& instance);
   virtual void fast(host::Instance& instance);

@@ -5,6 +5,7 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/nc_model.h"
+#include "rtlib/nc/model/technol/backup.h"
 #include "rtlib/nc/model/technol/blocks.h"
 #include "rtlib/nc/model/technol/cells.h"
 #include "rtlib/nc/model/technol/configuration.h"
@@ -30,6 +31,7 @@ public:
     messages_.clear();
     blocks_.reset(instance);
     technol::writeCell(instance, kLicenceCell, configuration_.licences());
+    backup_.powerOn(instance);
     exchange_.beforeInit(instance, true);
     life_.powerOn(instance);
     exchange_.behindInit(instance);
@@ -44,6 +46,7 @@ public:
   void onHook(host::Instance& instance, uint32_t work) override {
     if (work == kBehindInput) return blocks_.supervise(instance);
     exchange_.onHook(instance, work);
+    if (work == kHookBehindMain) backup_.behindMain(instance);
   }
 
   void onFault(host::Instance& instance) override { technol::runWith(instance, "HALT", 0, false); }
@@ -73,6 +76,11 @@ public:
     exchange_.connect(source, destination);
     return {};
   }
+  bool savesOnRequest() const override { return true; }
+  void setStored(bool stored) override { backup_.setStored(stored); }
+  bool asksToSave(const host::Instance& instance) const override { return backup_.asked(instance); }
+  void saved(host::Instance& instance) override { backup_.saved(instance); }
+
   std::vector<NcProblem> connectionProblems() const override { return exchange_.problems(); }
 
   // Shared variables have their names beside the program's own; screens write inputs only (man. l.13609).
@@ -164,6 +172,7 @@ private:
   technol::Configuration configuration_;
   technol::Messages messages_;
   technol::Exchange exchange_;
+  technol::Backup backup_;
 };
 
 } // namespace

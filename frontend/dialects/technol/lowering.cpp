@@ -178,7 +178,10 @@ void Lowering::bindLabels(const Statement& statement, uint32_t index) {
 void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   statement_ = &statement;
   if (statement.label != kNone) bindLabels(statement, index);
-  if (statement.row == nullptr) return;
+  if (statement.row == nullptr) { // told already; it may have been what ends the equation
+    spoiled_ = true;
+    return;
+  }
   switch (statement.row->role) {
   case Role::Code:
   case Role::NotBuiltService: lowerCode(); return;
@@ -269,6 +272,7 @@ void Lowering::applyStack(const Row& row) {
       pushRlo();
     } else {
       equation_ = statement_->range();
+      spoiled_ = false;
     }
     equationOpen_ = true;
   }
@@ -313,7 +317,7 @@ void Lowering::checkBalance(SourceRange at, std::string_view where) {
     program_.diagnostics.report(Diag::UnbalancedStack, at) << std::to_string(depth_) +
                                                                   (depth_ == 1 ? " value is" : " values are") +
                                                                   " left on the stack at " + std::string(where);
-  else if (equationOpen_)
+  else if (equationOpen_ && !spoiled_)
     program_.diagnostics.report(Diag::UnterminatedEquation, equation_).note(at, "it is still open here");
   depth_ = 0;
   lost_ = 0;

@@ -215,6 +215,7 @@ private:
   // The static state of the equation (man. l.225-238).
   bool equationOpen_ = false;
   SourceRange equation_;
+  bool spoiled_ = false; // an unknown statement stands in it
   uint32_t depth_ = 0;
   uint32_t lost_ = 0; // values that the stack did not hold
   ir::ValueId popped_;

@@ -287,7 +287,9 @@ void Structure::finish(uint32_t statementCount) {
     const bool later = symbol != kNone && program_.symbols[symbol].kind == SymbolKind::Label &&
                        block.label.pos < program_.symbols[symbol].declared.begin;
     if (symbol != kNone && program_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
-    if (!later)
+    if (symbol == kNone)
+      program_.symbols.reportUndefined(block.label, file_, nullptr);
+    else if (!later)
       program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
     else
       program_.diagnostics.report(Diag::JumpCrossesUnit, block.label.range())

@@ -50,6 +50,7 @@ const Case kCases[] = {
     {"BadString", "S: STR 5,'abc\n", "", {"0:2 bad-string"}, {}},
     {"SyntaxError", "A: DS 1\n", " 5\n LOD (A+1\n : LOD A\n LOD A,\n", {"0:7 syntax-error", "0:8 syntax-error", "0:9 syntax-error", "0:10 operand-count"}, {}},
     {"UnknownInstruction", "", " LODE 5\n", {"0:6 unknown-instruction"}, {}},
+    {"UnknownInEquation", "DFM A\n", " LDR A\n EX2\n WR A\n LDR A\n EX2\n", {"0:8 unknown-instruction", "0:11 unknown-instruction"}, {}},
     {"UnsupportedAssembler", "", " PUSH AX\n MOV BX, DX\n", {"0:6 unsupported-assembler", "0:7 unsupported-assembler"}, {}},
     {"OperandCount", "DFM A\n", " LDR\n LA A,A\n WR\n FL 1\n CA A\n JUM\n", {"0:7 operand-count", "0:8 operand-count", "0:9 operand-count", "0:10 operand-count", "0:11 operand-count", "0:12 operand-count"}, {}},
     {"OperandRange", "DFM A\n", " FL 2,A\n CONDR 32\n LOD 100000000h\n LOD BYTE.256\n LOD BYTE.-129\n LOD BYTE.-128\n", {"0:7 operand-range", "0:8 operand-range", "0:9 operand-range", "0:10 operand-range", "0:11 operand-range"}, {}},
@@ -122,6 +123,7 @@ TEST(TechnolHints, NameWhatWasMeant) {
   const struct {
     const char *statement, *hint;
   } cases[] = {{"LOD WRD.W", "did you mean WORD?"},
+               {"DFTM1 LOOPX\nLOOP1:", "did you mean LOOP1?"},
                {"LOD DWORD.W", "did you mean DWRD?"},
                {"LOD SYST_TIME_INFO.TIME_SEK", "did you mean TIME_SEC?"},
                {"LDR BLK[0].M99", "did you mean M9?"},

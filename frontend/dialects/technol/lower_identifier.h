@@ -7,15 +7,6 @@
 
 namespace rung::frontend::technol {
 
-// A text in memory: its bytes are the elements `first`, `first` + 1... of the window, `room` of them to its end.
-struct TextPlace {
-  ir::Window window;
-  ir::ValueId first;
-  ir::ValueId room;
-};
-TextPlace placeOf(Lowering& l, const Operand& text);
-ir::ValueId byteAt(ir::RungBuilder& b, const TextPlace& text, ir::ValueId number);
-
 // The characters of an operand of kind "text or literal", filled up with zeros. Of a text in memory, bytes up to its
 // end; the control ends it at its terminator.
 std::vector<ir::ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t words);

@@ -84,7 +84,7 @@ struct Program {
   }
 };
 
-// Splits at the commas that stand outside brackets; an operand may be empty. No tokens: no operands.
+// Splits at the commas that stand outside brackets, those of structures too; an operand may be empty. No tokens: no operands.
 std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
 
 // The source range of tokens; `otherwise` when there are none. Of tokens that a macro put together only the first.

@@ -431,8 +431,8 @@ std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens)
   int depth = 0;
   size_t first = 0;
   for (size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is('(') || tokens[i].is('[')) ++depth;
-    if (tokens[i].is(')') || tokens[i].is(']')) --depth;
+    if (tokens[i].is('(') || tokens[i].is('[') || tokens[i].is('<')) ++depth;
+    if (tokens[i].is(')') || tokens[i].is(']') || tokens[i].is('>')) --depth;
     if (!tokens[i].is(',') || depth > 0) continue;
     operands.push_back(tokens.subspan(first, i - first));
     first = i + 1;

@@ -25,22 +25,6 @@ uint32_t bytesOf(const Token& keyword) {
 
 std::string describe(const Token& token) { return "'" + std::string(token.text) + "'"; }
 
-// Splits at the commas outside all brackets, those of structures too.
-std::vector<std::span<const Token>> splitValues(std::span<const Token> tokens) {
-  std::vector<std::span<const Token>> parts;
-  int depth = 0;
-  size_t first = 0;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is('(') || tokens[i].is('<')) ++depth;
-    if (tokens[i].is(')') || tokens[i].is('>')) --depth;
-    if (!tokens[i].is(',') || depth > 0) continue;
-    parts.push_back(tokens.subspan(first, i - first));
-    first = i + 1;
-  }
-  parts.push_back(tokens.subspan(first));
-  return parts;
-}
-
 } // namespace
 
 bool Structures::syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise) {
@@ -172,7 +156,7 @@ Bytes Structures::instance(uint32_t structure, std::span<const Token> value, Sou
 bool Structures::values(Element element, std::span<const Token> tokens, SourceRange otherwise, Bytes& out) {
   if (tokens.empty()) return syntax("a value or ?", tokens, otherwise);
   bool ok = true;
-  for (const std::span<const Token> part : splitValues(tokens)) ok = value(element, part, otherwise, out) && ok;
+  for (const std::span<const Token> part : splitOperands(tokens)) ok = value(element, part, otherwise, out) && ok;
   return ok;
 }
 
@@ -222,7 +206,7 @@ bool Structures::repeated(Element element, std::span<const Token> tokens, size_t
 bool Structures::fields(uint32_t structure, std::span<const Token> tokens, SourceRange otherwise, Bytes& out) {
   const StructureType& type = program_.structures[structure];
   Bytes made = type.image;
-  const auto parts = tokens.empty() ? std::vector<std::span<const Token>>() : splitValues(tokens);
+  const auto parts = splitOperands(tokens);
   bool ok = true;
   for (size_t i = 0; i < parts.size(); ++i) {
     if (i >= type.members.size()) {

@@ -48,7 +48,11 @@ std::string lineText(const Row& row) {
   std::snprintf(numbers, sizeof numbers, "%6u %12llu %12.3f %10.1f %10.1f %6.1f%%  ", row.rung,
                 static_cast<unsigned long long>(row.executions), row.totalNs / 1000, row.meanNs, row.maxNs,
                 row.share * 100);
-  std::string text = numbers + row.file + ":" + std::to_string(row.line);
+  std::string text = numbers;
+  if (row.file.empty())
+    text += "added by the compiler to " + row.routine;
+  else
+    text += row.file + ":" + std::to_string(row.line);
   if (!row.title.empty()) text += "  " + row.title;
   return text + "\n";
 }

@@ -49,8 +49,12 @@ std::string valueText(const host::Instance& instance, const host::Ref& place) {
   }
   case host::RefKind::Real: return fmt::format("{}", instance.readReal(place));
   case host::RefKind::Bit: return fmt::format("{}", instance.read(place));
-  case host::RefKind::Int:
-  case host::RefKind::Constant: return fmt::format("{}", host::readSigned(instance.memory(), place));
+  case host::RefKind::Constant: return fmt::format("{}", place.constant);
+  case host::RefKind::Int: {
+    // Whether a cell has a sign is the program's affair: both readings, as a scenario shows them.
+    const int64_t number = host::readSigned(instance.memory(), place);
+    return number < 0 ? fmt::format("{} ({})", instance.read(place), number) : fmt::format("{}", number);
+  }
   }
   return {};
 }

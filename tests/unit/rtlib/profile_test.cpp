@@ -62,6 +62,11 @@ TEST_F(ProfileTest, TextIsATable) {
   EXPECT_THAT(reportText(report), testing::Not(HasSubstr("more")));
 }
 
+TEST_F(ProfileTest, ARungWithoutAFileIsTheCompilers) {
+  test.rungs[3].file = RUNG_NONE;
+  EXPECT_THAT(reportText(makeReport(test.program, counters, 1.0)), HasSubstr("63.2%  added by the compiler to MAIN"));
+}
+
 TEST_F(ProfileTest, JsonHasTheSameFigures) {
   test.rungs[3].title = "bad \xff byte";
   const auto json = nlohmann::json::parse(reportJson(makeReport(test.program, counters, 2.0)));

@@ -74,6 +74,7 @@ void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
   rung_ = &rung;
   number_ = number;
   values_.assign(rung.values.size(), nullptr);
+  join_.reset();
   for (const Op& op : rung.ops) {
     setLine(op.line);
     emitOp(op);
@@ -139,6 +140,13 @@ void ChunkEmitter::closeIf(const Op& op) {
   builder_.CreateBr(region.end);
   llvm::BasicBlock* secondExit = builder_.GetInsertBlock();
   builder_.SetInsertPoint(region.end);
+  if (op.resultCount == 0) {
+    const bool hasElse = region.firstExit != nullptr;
+    join_ = {.cond = ir::arg(*rung_, *region.opener, 0),
+             .end = region.end,
+             .whenTrue = hasElse ? region.firstExit : secondExit,
+             .whenFalse = hasElse ? secondExit : region.head};
+  }
   for (size_t i = 0; i < op.resultCount; ++i) {
     llvm::PHINode* phi = builder_.CreatePHI(yields[i]->getType(), 2);
     phi->addIncoming(region.yields[i], region.firstExit);
@@ -365,6 +373,17 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
   returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
+// Behind an if with the condition of the jump its two regions go their ways without meeting.
+bool ChunkEmitter::leaveFromRegions(const Exit& exit) {
+  const bool same = join_ && join_->cond == exit.cond && join_->end == builder_.GetInsertBlock() && join_->end->empty();
+  if (!same || options_.sabotage) return false;
+  join_->whenTrue->getTerminator()->replaceSuccessorWith(join_->end, blockOf(exit.taken));
+  join_->whenFalse->getTerminator()->replaceSuccessorWith(join_->end, blockOf(exit.otherwise));
+  builder_.SetInsertPoint(join_->whenTrue);
+  join_->end->eraseFromParent();
+  return true;
+}
+
 void ChunkEmitter::emitExit(const Exit& exit) {
   setLine(rung_->transferLine);
   if (exit.kind == TransferKind::Switch) return emitSwitch(exit);
@@ -374,6 +393,7 @@ void ChunkEmitter::emitExit(const Exit& exit) {
   }
   if (exit.cond.valid()) {
     const bool jumps = exit.kind == TransferKind::Goto;
+    if (jumps && leaveFromRegions(exit)) return;
     llvm::BasicBlock* leave = jumps ? blockOf(exit.taken) : block("leave");
     builder_.CreateCondBr(values_[exit.cond.index], leave, blockOf(exit.otherwise));
     if (jumps) return;

@@ -2,6 +2,7 @@
 // with phis. Plain instructions stand only where LLVM's rule is the IR's rule (never one that may give poison); all
 // other arithmetic is a call of the functions of sem.hpp.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ private:
     llvm::BasicBlock* firstExit = nullptr; // if: the end of the first region, once it is reached
     std::vector<Value*> yields{};          // of the first region
     std::vector<llvm::PHINode*> phis{};    // loop: number of the pass, carried values
+  };
+
+  // The end of an if without results: what its two regions end in.
+  struct Join {
+    ir::ValueId cond;
+    llvm::BasicBlock* end;
+    llvm::BasicBlock* whenTrue;
+    llvm::BasicBlock* whenFalse;
   };
 
   bool beginRung(uint32_t rung);
@@ -76,6 +85,7 @@ private:
   void returnToCaller();
   void returnValue(Value* chunk);
   void emitSwitch(const ir::Exit& exit);
+  bool leaveFromRegions(const ir::Exit& exit);
   void pushReturn(uint32_t chunk);
 
   // The value, or a wrong one when this operation is to be sabotaged.
@@ -116,6 +126,7 @@ private:
   uint32_t number_ = 0;
   std::vector<Value*> values_;
   std::vector<Region> regions_;
+  std::optional<Join> join_; // the last one of the rung
 };
 
 } // namespace rung::codegen

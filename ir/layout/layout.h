@@ -25,7 +25,7 @@
 namespace rung::ir {
 
 struct LayoutOptions {
-  uint32_t maxChunkRungs = 64; // fewer: the host's jump from chunk to chunk shows; more: compilers slow down
+  uint32_t maxChunkRungs = 256; // fewer: the host's jump from chunk to chunk shows; more: compilers slow down
   uint32_t maxChunkOps = 1024;
   bool expandBits = true; // false: everything is packed
 };

@@ -129,8 +129,10 @@ absolute times depend on the machine. A scan is one run of the main task through
 takes when it is loaded, and the object files of the JIT.
 
 Above 1.5 are the interpreter, which is the definition and not meant to be fast, fast compilation (LLVM's quick instruction selection
-without passes keeps every value of a rung in memory; it is for trying a change at once), and TECHNOL on every engine: each state of a
-mechanism ends a chunk, and registers are written to memory between them. That is to be mended.
+without passes keeps every value of a rung in memory; it is for trying a change at once), and TECHNOL mechanisms that do nothing else. A
+resting mechanism is a test and a store of its line, which is 0 while it rests whoever cleared its bit; a waiting one stores its line and
+counts its weight for the watchdog on top of what the hand-written form does. The runner's part of so short a scan shows too: about 50 ns, and
+some ns for each of the chunks.
 
 )");
   int status = 0;

@@ -279,9 +279,7 @@ std::optional<int64_t> parseDuration(std::string_view text) {
 
 namespace {
 
-bool advances(Kind kind) {
-  return kind == Kind::Scan || kind == Kind::Fast || kind == Kind::Slot || kind == Kind::Run;
-}
+bool advances(Kind kind) { return kind == Kind::Scan || kind == Kind::Fast || kind == Kind::Slot || kind == Kind::Run; }
 
 bool preparesStart(Kind kind) { return kind == Kind::Config || kind == Kind::Connect || kind == Kind::Period; }
 

@@ -137,7 +137,8 @@ private:
     for (const Statement& s : scenario_.statements)
       if (s.kind == Kind::Connect) connects.push_back(&s);
     for (const nc::NcProblem& problem : problems)
-      fail(problem.connection < connects.size() ? *connects[problem.connection] : scenario_.statements[0], problem.text);
+      fail(problem.connection < connects.size() ? *connects[problem.connection] : scenario_.statements[0],
+           problem.text);
     return problems.empty();
   }
 

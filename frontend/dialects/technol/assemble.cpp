@@ -32,7 +32,8 @@ void addPresets(const nc::SignalTable& signals, ir::Module& module) {
   for (const Preset& preset : kPresets) {
     const nc::Signal* signal = nc::findSignal(signals, preset.signal, "I");
     if (signal == nullptr) continue;
-    const uint32_t value = static_cast<uint32_t>(preset.value) << (signal->type == nc::SignalType::Bit ? signal->bit : 0);
+    const uint32_t value = static_cast<uint32_t>(preset.value)
+                           << (signal->type == nc::SignalType::Bit ? signal->bit : 0);
     std::vector<uint8_t> data{static_cast<uint8_t>(value)};
     if (signal->type == nc::SignalType::Word) data.push_back(static_cast<uint8_t>(value >> 8));
     module.inits.push_back({.space = kInterfaceSpace, .byte = signal->byteOffset, .data = std::move(data)});

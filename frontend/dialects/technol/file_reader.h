@@ -1,4 +1,5 @@
-// Reads one file of a program: lines to statements (reader.cpp), included files and macros on the way (reader_lines.cpp).
+// Reads one file of a program: lines to statements (reader.cpp), included files and macros on the way
+// (reader_lines.cpp).
 #pragma once
 
 #include <optional>

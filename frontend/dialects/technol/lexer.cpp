@@ -32,7 +32,8 @@ size_t numberEnd(std::string_view text, size_t first) {
     }
   }
   // 1.5X and 1.2.3 are one bad number each.
-  while (i < text.size() && (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && isDigit(text[i + 1])))) ++i;
+  while (i < text.size() && (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && isDigit(text[i + 1]))))
+    ++i;
   return i;
 }
 

@@ -1,5 +1,5 @@
-// Mapped and logical inputs and outputs (man. ch. 10, 27): the declared variable takes its default value, and the control
-// learns of it.
+// Mapped and logical inputs and outputs (man. ch. 10, 27): the declared variable takes its default value, and the
+// control learns of it.
 #include <array>
 #include <bit>
 
@@ -50,7 +50,8 @@ bool inRange(Lowering& l, const Operand& given, int64_t least, int64_t most) {
 // l.5880).
 bool defaultFits(Lowering& l, const Exchanged& variable, const Operand& given) {
   using Form = Operand::Form;
-  if (variable.type == ExchangeType::Text) return given.form == Form::Text || wrongDefault(l, given, "no text", "a text");
+  if (variable.type == ExchangeType::Text)
+    return given.form == Form::Text || wrongDefault(l, given, "no text", "a text");
   if (variable.type == ExchangeType::Binary) return wrongDefault(l, given, "a default", "none with TYPE_BIN");
   if (given.form == Form::Text) return wrongDefault(l, given, "a text", "a number");
   if (variable.type == ExchangeType::Real) {
@@ -169,8 +170,8 @@ ValueId takeElement(Lowering& l, const Operand& target, uint32_t offset) {
 
 } // namespace
 
-// UPDATE_IN input or input[i]. The control reads outputs of this program: everything in front is in memory then, because
-// the jump back, which is never taken, makes this the beginning of a chunk.
+// UPDATE_IN input or input[i]. The control reads outputs of this program: everything in front is in memory then,
+// because the jump back, which is never taken, makes this the beginning of a chunk.
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
   if (variable.type == ExchangeType::Text || variable.type == ExchangeType::Binary) {

@@ -16,7 +16,8 @@ using nc::ExchangeType;
 namespace {
 
 bool wrong(Lowering& l, const Operand& operand, std::string_view is, std::string_view wanted) {
-  l.program().diagnostics.report(Diag::WrongOperandKind, operand.range) << OperandParser::spell(operand) << is << wanted;
+  l.program().diagnostics.report(Diag::WrongOperandKind, operand.range)
+      << OperandParser::spell(operand) << is << wanted;
   return false;
 }
 
@@ -52,8 +53,7 @@ bool limitsFit(Lowering& l, ExchangeType type, std::span<const Operand> o) {
   if (!text && least.form == Operand::Form::Integer) return wrong(l, least, "a length", "a real cell");
   if (!text || !least.given()) return true;
   if (least.value >= 1 && least.value <= o[0].size) return true;
-  l.program().diagnostics.report(Diag::OperandRange, least.range)
-      << least.value << "1 to " + std::to_string(o[0].size);
+  l.program().diagnostics.report(Diag::OperandRange, least.range) << least.value << "1 to " + std::to_string(o[0].size);
   return false;
 }
 

@@ -208,8 +208,8 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   }
 }
 
-// The flags of a macro override what its statements did (man. l.20536). One that pushes does so in front of them, as LDR
-// in front of its load.
+// The flags of a macro override what its statements did (man. l.20536). One that pushes does so in front of them, as
+// LDR in front of its load.
 void Lowering::beginMacro(MacroStack stack) {
   macroStates_.push_back({depth_, equationOpen_, program_.diagnostics.errorCount()});
   if (stack != MacroStack::Push) return;

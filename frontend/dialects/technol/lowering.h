@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -242,8 +241,8 @@ private:
   std::vector<ir::SlotId> forgotten_;
   std::array<bool, 4> timedUsed_{}; // by TimedKind
   std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
-  std::vector<ir::SlotId> phases_; // cycles of each period that have passed
-  ir::SlotId clock_;               // of the running module, where procedures have timed blocks
+  std::vector<ir::SlotId> phases_;    // cycles of each period that have passed
+  ir::SlotId clock_;                  // of the running module, where procedures have timed blocks
   std::vector<ir::SlotId> automatic_; // that instructions made for themselves
   std::vector<ir::SlotId> timers_;    // those of them that count time
   ir::RoutineId clears_[2];           // CLEAR GLOBAL, CLEAR INTERNAL; invalid where not used

@@ -53,7 +53,7 @@ struct Program {
   std::vector<DataItem> items;
   std::vector<StructureType> structures;
   std::unordered_set<std::string> structureNames; // keys
-  std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
+  std::vector<uint32_t> itemBits;                 // symbols, kNone for an unnamed bit
   uint32_t dataBytes = 0;
   std::vector<Exchanged> exchanged;
   uint32_t exchangedBytes = 0;
@@ -84,7 +84,8 @@ struct Program {
   }
 };
 
-// Splits at the commas that stand outside brackets, those of structures too; an operand may be empty. No tokens: no operands.
+// Splits at the commas that stand outside brackets, those of structures too; an operand may be empty. No tokens: no
+// operands.
 std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
 
 // The source range of tokens; `otherwise` when there are none. Of tokens that a macro put together only the first.

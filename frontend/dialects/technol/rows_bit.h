@@ -146,8 +146,9 @@ inline constexpr Row kBitRows[] = {
               .group = "bit logic",
               .operands = {in("feature", "licence", "what is asked for")},
               .ref = "8.4.7, l.7631",
-              .doc = "RLO becomes 1 while the licence is valid, or the hardware key connected. Where an equation is open "
-                     "already, RLO is stored on the stack first.",
+              .doc =
+                  "RLO becomes 1 while the licence is valid, or the hardware key connected. Where an equation is open "
+                  "already, RLO is stored on the stack first.",
               .example = "LDR_LIC FeaturePlc1\nWR   LAMP"},
      .effects = kPushes | kSetsRlo,
      .lower = lowerLicence},

@@ -49,8 +49,9 @@ inline constexpr Row kMessageRows[] = {
                            in("bit", "status bit", "state that makes the message"),
                            bounded(in("error", "message number", "number"), 65535),
                            in("subid", "message value", "additional number"),
-                           bounded(in("mod", "constant", "bits 0, 1: beginning, bits 2, 3: end; 01 rising, 10 falling "
-                                                         "edge, 00 never"),
+                           bounded(in("mod", "constant",
+                                      "bits 0, 1: beginning, bits 2, 3: end; 01 rising, 10 falling "
+                                      "edge, 00 never"),
                                    10),
                            optional(in("par1", "message value", "value in the text, read when the message comes up")),
                            optional(in("par2", "message value", "value in the text")),

@@ -135,8 +135,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "SHARE_VAR",
               .title = "gives a variable a public name",
               .group = "sharing",
-              .operands = {in("val", "address", "is shared"), kShareName, kExchangeType,
-                           kLeast, kMost},
+              .operands = {in("val", "address", "is shared"), kShareName, kExchangeType, kLeast, kMost},
               .ref = "18.2.1, l.13618",
               .doc = "Screens and scenarios find the variable or text by the name, and with it two reals that hold "
                      "its least and its greatest value. They only read it; DEF_IN declares what they may write. "

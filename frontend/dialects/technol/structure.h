@@ -75,7 +75,7 @@ private:
     SourceRange at;
   };
   std::vector<InnerBlock> innerBlocks_; // timed blocks inside one
-  std::vector<OpenBlock> lostBlocks_; // timed blocks whose label did not come in time
+  std::vector<OpenBlock> lostBlocks_;   // timed blocks whose label did not come in time
 };
 
 } // namespace rung::frontend::technol

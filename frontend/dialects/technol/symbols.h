@@ -76,7 +76,7 @@ private:
   Scope members_;
   std::vector<Scope> locals_;
   std::vector<std::unordered_map<std::string, SourcePos>> undefined_; // by file: where a name was reported last
-  static constexpr uint32_t kMostSuggestions = 100; // each looks at all names
+  static constexpr uint32_t kMostSuggestions = 100;                   // each looks at all names
   uint32_t suggestions_ = 0;
 };
 

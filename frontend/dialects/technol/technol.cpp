@@ -4,8 +4,8 @@
 #include <charconv>
 
 #include "frontend/dialects/technol/assemble.h"
-#include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/encoding.h"
+#include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/reader.h"
 #include "frontend/dialects/technol/reference.h"
 

@@ -20,7 +20,7 @@
 namespace rung::nc {
 namespace {
 
-constexpr int kShutdownScans = 500;  // at most, while MODULE_DONE_FINISHED is owed
+constexpr int kShutdownScans = 500;                                     // at most, while MODULE_DONE_FINISHED is owed
 constexpr std::string_view kHaltRequested = "halt-status 6: requested"; // man. l.5361
 constexpr uint32_t kBehindInput = 1; // hooks of the scan, see assemble.cpp of the dialect
 
@@ -151,7 +151,8 @@ private:
     std::string wrong = technol::readControlFile(kind, inFolder(file), files);
     const auto added = [](const auto& all, const auto& earlier) { return std::span(all).subspan(earlier.size()); };
     if (wrong.empty())
-      wrong = configuration_.define(added(files.parameters, files_.parameters), added(files.constants, files_.constants));
+      wrong =
+          configuration_.define(added(files.parameters, files_.parameters), added(files.constants, files_.constants));
     if (!wrong.empty()) return wrong;
     exchange_.take(added(files.connections, files_.connections), added(files.terminals, files_.terminals));
     files_ = std::move(files);

@@ -1,5 +1,5 @@
-// How a TECHNOL program tells its control which variables it exchanges with other modules and shows to screens (man. ch.
-// 10, 18.2, 27): two services that the control answers at once.
+// How a TECHNOL program tells its control which variables it exchanges with other modules and shows to screens (man.
+// ch. 10, 18.2, 27): two services that the control answers at once.
 #pragma once
 #include <cstdint>
 #include <string_view>
@@ -18,9 +18,8 @@ inline constexpr std::string_view kExchangeTypeWords =
 // By the number of the word.
 constexpr ExchangeType exchangeTypeOf(int64_t word) {
   using enum ExchangeType;
-  constexpr ExchangeType kTypes[] = {Bit,   Int8,  Uns8,   Int16,  Uns16, Int32, Uns32, Int64,
-                                     Uns64, Real,  Text,   Binary, Uns8,  Uns16, Uns32, Uns64,
-                                     Int8,  Uns8,  Int16,  Uns16,  Int32, Uns32, Int64, Uns64};
+  constexpr ExchangeType kTypes[] = {Bit,  Int8,  Uns8,  Int16, Uns16, Int32, Uns32, Int64, Uns64, Real,  Text,  Binary,
+                                     Uns8, Uns16, Uns32, Uns64, Int8,  Uns8,  Int16, Uns16, Int32, Uns32, Int64, Uns64};
   return kTypes[word];
 }
 // How often a connection is served (man. l.13349-13366), the fastest first: that of a connection is the greater of its

@@ -5,8 +5,9 @@
 
 namespace rung::nc {
 
-inline constexpr std::string_view kLicences = "HwKeyConnected FeaturePlc0 FeaturePlc1 FeaturePlc2 FeaturePlc3 FeaturePlc4 "
-                                              "FeaturePlc5 FeaturePlc6 FeaturePlc7 FeaturePlc8 FeaturePlc9";
+inline constexpr std::string_view kLicences =
+    "HwKeyConnected FeaturePlc0 FeaturePlc1 FeaturePlc2 FeaturePlc3 FeaturePlc4 "
+    "FeaturePlc5 FeaturePlc6 FeaturePlc7 FeaturePlc8 FeaturePlc9";
 inline constexpr std::string_view kLicenceCell = "@LICENCES";
 
 } // namespace rung::nc

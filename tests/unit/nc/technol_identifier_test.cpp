@@ -50,7 +50,8 @@ TEST(TechnolIdentifier, ElementsOfModules) {
 
 TEST(TechnolIdentifier, CellsKeepTheirType) {
   ModuleCells cells;
-  EXPECT_TRUE(cells.write("RTM.Servo[1].ICounter_S", {.isReal = false, .width = 64, .bits = static_cast<uint64_t>(-2)}));
+  EXPECT_TRUE(
+      cells.write("RTM.Servo[1].ICounter_S", {.isReal = false, .width = 64, .bits = static_cast<uint64_t>(-2)}));
   EXPECT_EQ(cells.read("rtm.servo[1].icounter_s")->bits, 0xFFFFFFFEu);
   EXPECT_EQ(cells.read("RTM.Servo[1].ICounter_S.Bit[0]")->bits, 0u);
   EXPECT_TRUE(cells.write("RTM.Servo[1].ICounter_S.Bit[0]", {.isReal = false, .width = 64, .bits = 1}));

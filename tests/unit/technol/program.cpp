@@ -42,7 +42,8 @@ std::optional<host::Ref> interfaceCell(std::string_view name) {
 
 std::string programText(const Parts& p) {
   std::string text = "DATA\n" + p.data + "DATA_END\n" + module("INPUT", p.input) + module("MAIN", p.main);
-  text += module("BLOCK_INIT", p.blockInit) + module("BLOCK_DONE", p.blockDone) + module("INIT", p.init) + module("CLEAR", p.clear) + module("HALT", p.halt);
+  text += module("BLOCK_INIT", p.blockInit) + module("BLOCK_DONE", p.blockDone) + module("INIT", p.init) +
+          module("CLEAR", p.clear) + module("HALT", p.halt);
   if (!p.fast.empty()) text += module("FAST", p.fast);
   if (!p.done.empty()) text += module("DONE", p.done);
   if (!p.cont.empty()) text += module("CONT", p.cont);
@@ -65,7 +66,8 @@ Compilation compile(const std::vector<std::string>& files, const frontend::Compi
   return c;
 }
 
-Machine::Machine(const std::vector<std::string>& files, const frontend::CompileOptions& options) : compilation_(compile(files, options)) {
+Machine::Machine(const std::vector<std::string>& files, const frontend::CompileOptions& options)
+    : compilation_(compile(files, options)) {
   EXPECT_TRUE(compilation_.module) << compilation_.text();
   RUNG_CHECK(compilation_.module != nullptr, "the program of a test does not compile");
   layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
@@ -92,9 +94,15 @@ int64_t Machine::get(std::string_view name) const {
   return ref.width == 1 ? static_cast<int64_t>(instance_->read(ref)) : host::readSigned(instance_->memory(), ref);
 }
 
-double Machine::real(std::string_view name) const { return instance_->readReal(*host::asReal(instance_->memory(), resolve(name))); }
-void Machine::set(std::string_view name, int64_t value) { instance_->write(resolve(name), static_cast<uint64_t>(value)); }
-void Machine::setReal(std::string_view name, double value) { instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value); }
+double Machine::real(std::string_view name) const {
+  return instance_->readReal(*host::asReal(instance_->memory(), resolve(name)));
+}
+void Machine::set(std::string_view name, int64_t value) {
+  instance_->write(resolve(name), static_cast<uint64_t>(value));
+}
+void Machine::setReal(std::string_view name, double value) {
+  instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value);
+}
 
 std::vector<std::string> Machine::messages() {
   std::vector<std::string> lines;

@@ -317,9 +317,8 @@ TEST(TechnolTable, EffectsAreThoseOfTheLowering) {
     const std::string label = (row->effects & kJumps) ? "LABEL1:\n" : "";
     const std::string units = " PROC_BEGIN PROC1\n PROC_END PROC1\n MECH_BEGIN MECH1\n MECH_END MECH1\n";
     const std::string alone = " PROC_BEGIN ALONE\n" + statement(*row, operands) + "\n" + label + " PROC_END ALONE\n";
-    const Compilation c = compile({programText({.data = std::string(kData),
-                                                .main = units + alone,
-                                                .init = " DEF_IN INPUT1,'Input',TYPE_DWORD\n"})});
+    const Compilation c = compile({programText(
+        {.data = std::string(kData), .main = units + alone, .init = " DEF_IN INPUT1,'Input',TYPE_DWORD\n"})});
     ASSERT_NE(c.module, nullptr) << row->info.mnemonic << '\n' << c.text();
     EXPECT_EQ(effectsOf(*c.module, "PROC ALONE"), row->effects & kRegisters) << row->info.mnemonic;
   }

@@ -37,17 +37,15 @@ bool isFlag(const std::optional<double>& attribute) { return attribute.value_or(
 // ---- configuration --------------------------------------------------------------------------------------------------
 
 void Connections::connect(std::string_view source, std::string_view destination) {
-  connections_.push_back({.source = std::string(source),
-                          .destination = std::string(destination),
-                          .number = connects_++,
-                          .place = {}});
+  connections_.push_back(
+      {.source = std::string(source), .destination = std::string(destination), .number = connects_++, .place = {}});
 }
 
 void Connections::configure(std::string_view key, std::string_view value) {
   constexpr std::pair<std::string_view, std::optional<double> Attributes::*> kNames[] = {
-      {"INVERT", &Attributes::invert},   {"SCALE", &Attributes::scale},         {"OFFSET", &Attributes::offset},
-      {"MINVAL", &Attributes::least},    {"MAXVAL", &Attributes::most},         {"DEFAULT", &Attributes::otherwise},
-      {"PORT", &Attributes::port},       {"BIT", &Attributes::bit},             {"PHYSNO", &Attributes::physical},
+      {"INVERT", &Attributes::invert},      {"SCALE", &Attributes::scale}, {"OFFSET", &Attributes::offset},
+      {"MINVAL", &Attributes::least},       {"MAXVAL", &Attributes::most}, {"DEFAULT", &Attributes::otherwise},
+      {"PORT", &Attributes::port},          {"BIT", &Attributes::bit},     {"PHYSNO", &Attributes::physical},
       {"CONNECTED", &Attributes::connected}};
   const std::string name = canonicalOf(key);
   const size_t point = name.rfind('.');
@@ -160,7 +158,8 @@ private:
     return std::nullopt;
   }
 
-  std::optional<End> ofBit(const host::Ref& place, std::optional<uint32_t> bit, ExchangeType type, std::string& problem) {
+  std::optional<End> ofBit(const host::Ref& place, std::optional<uint32_t> bit, ExchangeType type,
+                           std::string& problem) {
     if (!bit) return End{.pin = pinAt(instance_.program(), place, type)};
     const auto at = host::bitOf(place, *bit);
     if (!at) return no(problem, "it has no bit " + std::to_string(*bit));
@@ -177,9 +176,11 @@ private:
   }
 
   std::optional<End> port(bool input, uint32_t number, std::optional<uint32_t> bit, std::string& problem) {
-    const auto place = signalPlace(instance_, input ? "P" + std::to_string(number) + "IN" : "P" + std::to_string(number) + "OUT");
+    const auto place =
+        signalPlace(instance_, input ? "P" + std::to_string(number) + "IN" : "P" + std::to_string(number) + "OUT");
     const bool there = input ? number >= 1 && number <= kInPorts : number < kOutPorts;
-    if (!place || !there) return no(problem, input ? "input ports are P1IN to P128IN" : "output ports are P0OUT to P95OUT");
+    if (!place || !there)
+      return no(problem, input ? "input ports are P1IN to P128IN" : "output ports are P0OUT to P95OUT");
     auto made = ofBit(*place, bit, ExchangeType::Uns8, problem);
     if (!made) return made;
     made->isSource = input;
@@ -214,7 +215,9 @@ private:
     made.pin.kind = reference.bit ? Pin::Kind::CellBit : Pin::Kind::Cell;
     made.isOpen = element->typeIsOpen && !reference.bit;
     if (!reference.bit) return made;
-    const uint32_t width = element->typeIsOpen ? 64 : made.pin.type == ExchangeType::Bit ? 1 : bytesOf(made.pin.type) * 8;
+    const uint32_t width = element->typeIsOpen                  ? 64
+                           : made.pin.type == ExchangeType::Bit ? 1
+                                                                : bytesOf(made.pin.type) * 8;
     if (made.pin.type == ExchangeType::Real || *reference.bit >= width)
       return no(problem, "it has no bit " + std::to_string(*reference.bit));
     made.pin.type = ExchangeType::Bit;
@@ -250,9 +253,9 @@ private:
     const auto place = instance_.resolve(reference.base);
     if (!place) return no(problem, "there is no module, port or variable of this name");
     uint32_t element = 0;
-    const SharedVariable* found =
-        place->kind == host::RefKind::Constant ? nullptr : variables_.at(*place, element);
-    if (found == nullptr) return no(problem, "only variables of MAP_IN, MAP_OUT, MAP_AIN, MAP_AOUT, DEF_IN and DEF_OUT can be connected");
+    const SharedVariable* found = place->kind == host::RefKind::Constant ? nullptr : variables_.at(*place, element);
+    if (found == nullptr)
+      return no(problem, "only variables of MAP_IN, MAP_OUT, MAP_AIN, MAP_AOUT, DEF_IN and DEF_OUT can be connected");
     return variable(*found, element, reference.bit, problem);
   }
 
@@ -326,8 +329,8 @@ void Connections::addWire(const Connection& connection, const End& from, const E
       return report(connection, used->wrong);
   const bool fromText = from.pin.kind == Pin::Kind::Text, toText = to.pin.kind == Pin::Kind::Text;
   if (fromText != toText)
-    return report(connection, quoted(connection.source) + " and " + quoted(connection.destination) +
-                                  " do not fit: one is a text");
+    return report(connection,
+                  quoted(connection.source) + " and " + quoted(connection.destination) + " do not fit: one is a text");
   Wire wire;
   wire.from = from.pin;
   wire.to = to.pin;
@@ -352,7 +355,9 @@ void Connections::openCells(Resolver& resolver, ModuleCells& cells) const {
 // Mapped variables whose own configuration connects them to a port or channel (man. l.5572-5760); ports count from 0,
 // the first input port is P1IN.
 void Connections::addTerminals(Resolver& resolver, const SharedVariables& variables) {
-  const auto whole = [](const std::optional<double>& number) { return std::to_string(static_cast<int64_t>(number.value_or(0))); };
+  const auto whole = [](const std::optional<double>& number) {
+    return std::to_string(static_cast<int64_t>(number.value_or(0)));
+  };
   for (const SharedVariable& variable : variables.all()) {
     const Attributes* given = variable.isMapped() ? attributesOf(variable) : nullptr;
     if (given == nullptr || !isFlag(given->connected)) continue;

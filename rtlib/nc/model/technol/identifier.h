@@ -1,5 +1,5 @@
-// Identifiers of logical inputs and outputs: dotted names in any case (man. l.12679-12709). An index of zero is the same
-// as none and leading zeros do not count; `CNC.` may stand in front.
+// Identifiers of logical inputs and outputs: dotted names in any case (man. l.12679-12709). An index of zero is the
+// same as none and leading zeros do not count; `CNC.` may stand in front.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -37,8 +37,11 @@ struct RtmModule {
   const char* area;
   uint32_t members; // 1: without an index
 };
-constexpr RtmModule kModules[] = {
-    {"AXIS", "RTM.Axis", 16}, {"SERVO", "RTM.Servo", 16}, {"SPINDLE", "RTM.Spindle", 1}, {"MAN", "RTM.Man", 1}, {"CONTROL", "RTM.Control", 1}};
+constexpr RtmModule kModules[] = {{"AXIS", "RTM.Axis", 16},
+                                  {"SERVO", "RTM.Servo", 16},
+                                  {"SPINDLE", "RTM.Spindle", 1},
+                                  {"MAN", "RTM.Man", 1},
+                                  {"CONTROL", "RTM.Control", 1}};
 
 // MODULE[x].NAME or MODULE.NAME[x]: x is the axis or servo in both (man. l.12753 reads RTM.Axis[2].Pos0_AX).
 std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& problem) {
@@ -49,7 +52,8 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
     if (!takePrefix(name, ".") || member >= module.members) break;
     std::string area = module.area;
     for (const char* part : {"Edrv", "Enc"})
-      if (std::string_view("RTM.Servo") == module.area && takePrefix(name, canonical(part) + ".")) area += std::string(".") + part;
+      if (std::string_view("RTM.Servo") == module.area && takePrefix(name, canonical(part) + "."))
+        area += std::string(".") + part;
     const Reference last = withoutIndex({.base = name, .element = 0, .bit = {}});
     const Signal* signal = findSignal(technolSignals(), last.base, area);
     if (signal == nullptr) break;
@@ -59,7 +63,8 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
       return std::nullopt;
     }
     const bool ofMember = signal->count == 1 && module.members > 1;
-    ModuleElement made{.key = area + "." + signal->symbol + "/" + std::to_string(ofMember ? member : element), .type = typeOf(*signal)};
+    ModuleElement made{.key = area + "." + signal->symbol + "/" + std::to_string(ofMember ? member : element),
+                       .type = typeOf(*signal)};
     made.isSource = signal->direction != Direction::Out;
     made.isDestination = signal->direction != Direction::In;
     return made;
@@ -81,8 +86,7 @@ std::optional<ModuleElement> moduleElement(std::string_view identifier, std::str
     problem = "the virtual keyboard has the keys VKey[0] to VKey[255]";
     return std::nullopt;
   }
-  return ModuleElement{
-      .key = "VKEYBOARD." + std::to_string(key), .period = ExchangePeriod::Slow, .isSource = false};
+  return ModuleElement{.key = "VKEYBOARD." + std::to_string(key), .period = ExchangePeriod::Slow, .isSource = false};
 }
 
 void ModuleCells::reset() {
@@ -91,7 +95,9 @@ void ModuleCells::reset() {
 
 uint32_t ModuleCells::cellOf(const ModuleElement& element) {
   const auto [entry, isNew] = byKey_.emplace(element.key, static_cast<uint32_t>(cells_.size()));
-  if (isNew) cells_.push_back({.type = element.typeIsOpen ? ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
+  if (isNew)
+    cells_.push_back(
+        {.type = element.typeIsOpen ? ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
   return entry->second;
 }
 
@@ -103,10 +109,12 @@ uint32_t widthOf(ExchangeType type) { return type == ExchangeType::Bit ? 1 : byt
 
 uint64_t bitsOf(ExchangeType type, const NcCell& value) {
   if (type == ExchangeType::Real) {
-    const double real = value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
+    const double real =
+        value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
     return std::bit_cast<uint64_t>(real);
   }
-  const uint64_t integer = !value.isReal ? value.bits : static_cast<uint64_t>(std::llrint(std::bit_cast<double>(value.bits)));
+  const uint64_t integer =
+      !value.isReal ? value.bits : static_cast<uint64_t>(std::llrint(std::bit_cast<double>(value.bits)));
   return cut(integer, widthOf(type));
 }
 

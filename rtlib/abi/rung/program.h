@@ -225,7 +225,7 @@ struct rung_ctx {
   void *engine;    /* the interpreter's own */
   rung_fault fault;
   uint32_t sp;           /* used entries of `stack` */
-  uint32_t extra_weight; /* a chunk's way through was heavier by this than its weight; the host takes it off and clears it */
+  uint32_t extra_weight; /* by which a chunk's way was heavier than its weight; the host takes it */
   uint32_t stack[RUNG_STACK_DEPTH];
 };
 

@@ -107,7 +107,8 @@ class Retained(Cli):
         done = self.run_it(program, "--scans", "1", *(word for name in names for word in ("--watch", name)))
         self.assertEqual(done.returncode, OK, done.stderr)
         found = dict(line.split(" ms ")[1].split(" = ") for line in done.stdout.decode().splitlines() if " = " in line)
-        return [int({key.strip(): value for key, value in found.items()}[name]) for name in names]
+        # A negative number stands in brackets behind its form without a sign.
+        return [int({key.strip(): value for key, value in found.items()}[name].split("(")[-1].rstrip(")")) for name in names]
 
     def started(self):
         """Waits for the image that a program writes when it starts."""

@@ -148,7 +148,7 @@ Symbol Declarations::exchangedSymbol(const Token& name, nc::ExchangeType type) c
     symbol.type = ir::Type::Bit;
   else if (type == ExchangeType::Real)
     symbol.type = ir::Type::F64;
-  else if (type != ExchangeType::Text && type != ExchangeType::Binary)
+  else if (!nc::isText(type))
     symbol.type = ir::intOfBytes(nc::bytesOf(type));
   return symbol;
 }
@@ -334,7 +334,7 @@ void Placer::place(Exchanged& variable) {
   const std::span<const Token> name = splitOperands(program_.operandTokens(statement))[0];
   const bool isText = variable.type == nc::ExchangeType::Text;
   const uint32_t bytes = nc::bytesOf(variable.type);
-  int64_t count = isText || variable.type == nc::ExchangeType::Binary ? 0 : 1;
+  int64_t count = nc::isText(variable.type) ? 0 : 1;
   if (name.size() > 3 && name[1].is('[') && name.back().is(']')) {
     const auto inside = name.subspan(2, name.size() - 3);
     count = constantValue(program_, statement.file, inside, statement.range()).value_or(-1);

@@ -26,8 +26,7 @@ void lowerClear(Lowering& l, std::span<const Operand> o, int) {
   const bool keywords[] = {o[0].form == Operand::Form::Keyword, o[1].form == Operand::Form::Keyword};
   if (keywords[0] && keywords[1]) return l.clearAll(o[0].value == 0);
   const auto wrong = [&](const Operand& operand, std::string_view is, std::string_view wanted) {
-    l.program().diagnostics.report(Diag::WrongOperandKind, operand.range)
-        << OperandParser::spell(operand) << is << wanted;
+    OperandParser::wrongKind(l.program(), operand, is, wanted);
   };
   if (keywords[0]) return wrong(o[1], "an address", "ALL");
   if (keywords[1]) return wrong(o[1], "a keyword", "an address");

@@ -14,13 +14,6 @@ using ir::Type;
 using ir::ValueId;
 using Kind = nc::ConfigurationKind;
 
-ir::ServiceId Lowering::service(std::string_view signature) {
-  const auto found = std::find(module_.services.begin(), module_.services.end(), signature);
-  const auto index = static_cast<uint32_t>(found - module_.services.begin());
-  if (found == module_.services.end()) module_.services.emplace_back(signature);
-  return {index};
-}
-
 namespace {
 
 constexpr uint32_t kHead = nc::kConfigurationHead;
@@ -36,12 +29,6 @@ ValueId request(Lowering& l, Kind kind, ValueId part, const Words& id) {
   args[1] = part;
   std::copy(id.begin(), id.end(), args.begin() + kHead);
   return l.b().serviceRequest(l.service(nc::kConfigurationService), args);
-}
-
-// Not found where nobody answers.
-ValueId foundBy(ir::RungBuilder& b, ValueId ticket) {
-  const ValueId done = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
-  return b.and_(done, b.ne(b.serviceResult(ticket, 0), b.constant(Type::I64, 0)));
 }
 
 // ---- numbers and bits -----------------------------------------------------------------------------------------------
@@ -77,7 +64,7 @@ void getValue(Lowering& l, std::span<const Operand> o, Kind kind) {
   const bool hasDefault = o.size() > 2 && o[2].given();
   const ValueId otherwise = hasDefault ? defaultOf(l, kind, o[2], o[0].type) : ValueId{};
   const ValueId ticket = request(l, kind, b.constant(Type::I64, 0), id);
-  const ValueId found = foundBy(b, ticket);
+  const ValueId found = answersYes(b, ticket, 0);
   const ValueId value = resultOf(b, kind, ticket, o[0].type);
   l.r().setRlo(found);
   if (kind == Kind::Constant)
@@ -129,7 +116,7 @@ void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
     l.program().diagnostics.report(Diag::StringTooLong, otherwise.range) << source.most << target.most;
   ir::RungBuilder& b = l.b();
   const ValueId ticket = request(l, kind, b.constant(Type::I64, 0), id);
-  const ValueId found = foundBy(b, ticket);
+  const ValueId found = answersYes(b, ticket, 0);
   const ValueId length = b.zextOrTrunc(Type::I32, b.serviceResult(ticket, 1));
   l.r().setRlo(found);
   b.if_(found);

@@ -15,29 +15,7 @@ using nc::ExchangeKind;
 using nc::ExchangePeriod;
 using nc::ExchangeType;
 
-// An identifier that is written has 1 to kDefineBytes characters; one that is defined ends without an index (man.
-// l.12690).
-bool Lowering::identifierFits(const Operand& id, bool defined) {
-  if (id.form != Operand::Form::Text) return true;
-  if (id.text.empty() || id.text.size() > nc::kDefineBytes) {
-    program_.diagnostics.report(Diag::OperandRange, id.range)
-        << std::to_string(id.text.size()) + " characters" << "1 to " + std::to_string(nc::kDefineBytes);
-    return false;
-  }
-  const size_t bracket = id.text.rfind('[');
-  const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
-  if (!defined || !index || id.text.find_first_not_of("0", bracket + 1) == id.text.size() - 1) return true;
-  program_.diagnostics.report(Diag::WrongOperandKind, id.range)
-      << id.text << "an identifier with an index at its end" << "an identifier without one";
-  return false;
-}
-
 namespace {
-
-bool wrongDefault(Lowering& l, const Operand& given, std::string_view is, std::string_view wanted) {
-  l.program().diagnostics.report(Diag::WrongOperandKind, given.range) << OperandParser::spell(given) << is << wanted;
-  return false;
-}
 
 bool inRange(Lowering& l, const Operand& given, int64_t least, int64_t most) {
   if (given.value >= least && given.value <= most) return true;
@@ -51,14 +29,16 @@ bool inRange(Lowering& l, const Operand& given, int64_t least, int64_t most) {
 bool defaultFits(Lowering& l, const Exchanged& variable, const Operand& given) {
   using Form = Operand::Form;
   if (variable.type == ExchangeType::Text)
-    return given.form == Form::Text || wrongDefault(l, given, "no text", "a text");
-  if (variable.type == ExchangeType::Binary) return wrongDefault(l, given, "a default", "none with TYPE_BIN");
-  if (given.form == Form::Text) return wrongDefault(l, given, "a text", "a number");
+    return given.form == Form::Text || OperandParser::wrongKind(l.program(), given, "no text", "a text");
+  if (variable.type == ExchangeType::Binary)
+    return OperandParser::wrongKind(l.program(), given, "a default", "none with TYPE_BIN");
+  if (given.form == Form::Text) return OperandParser::wrongKind(l.program(), given, "a text", "a number");
   if (variable.type == ExchangeType::Real) {
-    const bool mapped = variable.kind == ExchangeKind::MapAin || variable.kind == ExchangeKind::MapAout;
-    return given.form == Form::Real || !mapped || wrongDefault(l, given, "an integer", "a real with its decimal point");
+    const bool mapped = nc::isMapped(variable.kind);
+    return given.form == Form::Real || !mapped ||
+           OperandParser::wrongKind(l.program(), given, "an integer", "a real with its decimal point");
   }
-  if (given.form == Form::Real) return wrongDefault(l, given, "a real", "an integer");
+  if (given.form == Form::Real) return OperandParser::wrongKind(l.program(), given, "a real", "an integer");
   if (variable.type == ExchangeType::Bit) return inRange(l, given, 0, 1);
   const uint32_t bits = nc::bytesOf(variable.type) * 8;
   return bits == 64 || inRange(l, given, -(int64_t{1} << (bits - 1)), (int64_t{1} << bits) - 1);
@@ -107,17 +87,15 @@ void fillText(Lowering& l, const Operand& target, const Operand& given) {
 
 ExchangePeriod periodOf(ExchangeKind kind, const Operand& given) {
   if (!given.given()) return ExchangePeriod::Slow;
-  const bool mapped = kind != ExchangeKind::DefIn && kind != ExchangeKind::DefOut;
-  return mapped ? ExchangePeriod::Fast : static_cast<ExchangePeriod>(given.value);
+  return nc::isMapped(kind) ? ExchangePeriod::Fast : static_cast<ExchangePeriod>(given.value);
 }
 
 // A value of the configuration goes before the instruction's own; without both the variable stays.
 void setDefault(Lowering& l, const Exchanged& variable, const Operand& target, const Operand& given, ValueId ticket) {
   ir::RungBuilder& b = l.b();
   if (variable.type == ExchangeType::Text && given.given()) return fillText(l, target, given);
-  if (variable.type == ExchangeType::Text || variable.type == ExchangeType::Binary) return;
-  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
-  const ValueId found = b.and_(answered, b.ne(b.serviceResult(ticket, 1), b.constant(Type::I64, 0)));
+  if (nc::isText(variable.type)) return;
+  const ValueId found = answersYes(b, ticket, 1);
   const ValueId configured = fromBits(b, b.serviceResult(ticket, 2), target.type);
   if (given.given())
     return fill(b, target, variable.count, b.select(found, configured, defaultOf(b, given, target.type)));
@@ -128,28 +106,21 @@ void setDefault(Lowering& l, const Exchanged& variable, const Operand& target, c
 
 } // namespace
 
-ValueId Lowering::define(std::span<const ValueId> head, const Operand& id) {
-  std::vector<ValueId> args(head.begin(), head.end());
-  const auto words = identifierWords(*this, id, nc::kDefineWords);
-  args.insert(args.end(), words.begin(), words.end());
-  return b().serviceRequest(service(nc::kDefineService), args);
-}
-
 // MAP_xx variable, identifier [, default [, FAST]] and DEF_xx variable, identifier, type [, default [, period]].
 void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
-  const bool mapped = variable.kind != ExchangeKind::DefIn && variable.kind != ExchangeKind::DefOut;
+  const bool mapped = nc::isMapped(variable.kind);
   const Operand& given = o[mapped ? 2 : 3];
   const ExchangePeriod period = periodOf(variable.kind, o[mapped ? 3 : 4]);
   const bool fits = !given.given() || defaultFits(l, variable, given);
-  if (!l.identifierFits(o[1], true) || !fits) return;
+  if (!identifierFits(l, o[1], true) || !fits) return;
   ir::RungBuilder& b = l.b();
   const auto word = [&](int64_t value) { return b.constant(Type::I64, value); };
   const ir::Place at = o[0].place;
   const ValueId head[] = {word(nc::exchangeArgument(variable.kind, variable.type, period, variable.count)),
                           word(nc::placeArgument(at.space.index, at.byte, at.bit)), word(nc::kNoPlace),
                           word(nc::kNoPlace)};
-  setDefault(l, variable, o[0], given, l.define(head, o[1]));
+  setDefault(l, variable, o[0], given, defineRequest(l, head, o[1]));
 }
 
 namespace {
@@ -161,8 +132,7 @@ ValueId takeElement(Lowering& l, const Operand& target, uint32_t offset) {
   at.byte += offset;
   const ValueId place = b.constant(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit));
   const ValueId ticket = b.serviceRequest(l.service(nc::kUpdateService), std::array{place});
-  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
-  b.if_(b.and_(answered, b.ne(b.serviceResult(ticket, 0), b.constant(Type::I64, 0))));
+  b.if_(answersYes(b, ticket, 0));
   b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type));
   b.endIf();
   return b.ne(b.serviceResult(ticket, 2), b.constant(Type::I64, 0));
@@ -174,9 +144,8 @@ ValueId takeElement(Lowering& l, const Operand& target, uint32_t offset) {
 // because the jump back, which is never taken, makes this the beginning of a chunk.
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
-  if (variable.type == ExchangeType::Text || variable.type == ExchangeType::Binary) {
-    l.program().diagnostics.report(Diag::WrongOperandKind, o[0].range)
-        << OperandParser::spell(o[0]) << "a text" << "a bit or a number";
+  if (nc::isText(variable.type)) {
+    OperandParser::wrongKind(l.program(), o[0], "a text", "a bit or a number");
     return;
   }
   const uint32_t bytes = nc::bytesOf(variable.type);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "frontend/dialects/technol/texts.h"
+#include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {
 
@@ -48,6 +49,33 @@ std::vector<ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t wo
       made.push_back(b.constant(Type::I64, 0));
   }
   return made;
+}
+
+bool identifierFits(Lowering& l, const Operand& id, bool defined) {
+  if (id.form != Operand::Form::Text) return true;
+  if (id.text.empty() || id.text.size() > nc::kDefineBytes) {
+    l.program().diagnostics.report(Diag::OperandRange, id.range)
+        << std::to_string(id.text.size()) + " characters" << "1 to " + std::to_string(nc::kDefineBytes);
+    return false;
+  }
+  const size_t bracket = id.text.rfind('[');
+  const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
+  if (!defined || !index || id.text.find_first_not_of("0", bracket + 1) == id.text.size() - 1) return true;
+  l.program().diagnostics.report(Diag::WrongOperandKind, id.range)
+      << id.text << "an identifier with an index at its end" << "an identifier without one";
+  return false;
+}
+
+ValueId defineRequest(Lowering& l, std::span<const ValueId> head, const Operand& id) {
+  std::vector<ValueId> args(head.begin(), head.end());
+  const auto words = identifierWords(l, id, nc::kDefineWords);
+  args.insert(args.end(), words.begin(), words.end());
+  return l.b().serviceRequest(l.service(nc::kDefineService), args);
+}
+
+ValueId answersYes(ir::RungBuilder& b, ValueId ticket, uint32_t result) {
+  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
+  return b.and_(answered, b.ne(b.serviceResult(ticket, result), b.constant(Type::I64, 0)));
 }
 
 } // namespace rung::frontend::technol

@@ -136,8 +136,7 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
     message.bit.type = Type::Bit;
     message.bit.place.bit = o[1].place.bit;
   } else if (!o[1].place.space.valid()) {
-    l.program().diagnostics.report(Diag::WrongOperandKind, o[1].range)
-        << OperandParser::spell(o[1]) << "a bit number" << "a bit, or its byte in front";
+    OperandParser::wrongKind(l.program(), o[1], "a bit number", "a bit, or its byte in front");
     return;
   }
   bool varies = !o[2].isConstant() || (o[3].given() && !o[3].isConstant()) || message.bit.indexed;

@@ -15,12 +15,6 @@ using nc::ExchangeType;
 
 namespace {
 
-bool wrong(Lowering& l, const Operand& operand, std::string_view is, std::string_view wanted) {
-  l.program().diagnostics.report(Diag::WrongOperandKind, operand.range)
-      << OperandParser::spell(operand) << is << wanted;
-  return false;
-}
-
 // Where an operand lies, as an argument; BX is taken now.
 ValueId placeOf(Lowering& l, const Operand& operand, uint32_t bit) {
   const Access access = l.reach(operand);
@@ -39,18 +33,20 @@ ValueId limit(Lowering& l, const Operand& cell) {
 void share(Lowering& l, int64_t what, const Operand& id, std::array<ValueId, 3> places) {
   ir::RungBuilder& b = l.b();
   const ValueId head[] = {b.constant(Type::I64, what), places[0], places[1], places[2]};
-  const ValueId ticket = l.define(head, id);
-  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
-  l.r().setRlo(b.and_(answered, b.ne(b.serviceResult(ticket, 0), b.constant(Type::I64, 0))));
+  const ValueId ticket = defineRequest(l, head, id);
+  l.r().setRlo(answersYes(b, ticket, 0));
 }
 
 bool limitsFit(Lowering& l, ExchangeType type, std::span<const Operand> o) {
-  const bool text = type == ExchangeType::Text || type == ExchangeType::Binary;
+  const bool text = nc::isText(type);
   const Operand &least = o[3], &most = o[4];
-  if (least.form == Operand::Form::Real) return wrong(l, least, "a constant", "a real cell");
-  if (text && most.given()) return wrong(l, most, "a limit", "none with a text");
-  if (text && least.form == Operand::Form::Cell) return wrong(l, least, "a cell", "a length, which is a constant");
-  if (!text && least.form == Operand::Form::Integer) return wrong(l, least, "a length", "a real cell");
+  if (least.form == Operand::Form::Real)
+    return OperandParser::wrongKind(l.program(), least, "a constant", "a real cell");
+  if (text && most.given()) return OperandParser::wrongKind(l.program(), most, "a limit", "none with a text");
+  if (text && least.form == Operand::Form::Cell)
+    return OperandParser::wrongKind(l.program(), least, "a cell", "a length, which is a constant");
+  if (!text && least.form == Operand::Form::Integer)
+    return OperandParser::wrongKind(l.program(), least, "a length", "a real cell");
   if (!text || !least.given()) return true;
   if (least.value >= 1 && least.value <= o[0].size) return true;
   l.program().diagnostics.report(Diag::OperandRange, least.range) << least.value << "1 to " + std::to_string(o[0].size);
@@ -62,9 +58,10 @@ bool limitsFit(Lowering& l, ExchangeType type, std::span<const Operand> o) {
 // SHARE_VAR variable, name, type [, least [, most]] or text, name, type [, length].
 void lowerShareVariable(Lowering& l, std::span<const Operand> o, int) {
   const ExchangeType type = nc::exchangeTypeOf(o[2].value);
-  const bool text = type == ExchangeType::Text || type == ExchangeType::Binary;
-  const bool possible = type != ExchangeType::Bit || wrong(l, o[2], "the type of a bit", "that of a number or a text");
-  if (!l.identifierFits(o[1], false) || !possible || !limitsFit(l, type, o)) return;
+  const bool text = nc::isText(type);
+  const bool possible = type != ExchangeType::Bit ||
+                        OperandParser::wrongKind(l.program(), o[2], "the type of a bit", "that of a number or a text");
+  if (!identifierFits(l, o[1], false) || !possible || !limitsFit(l, type, o)) return;
   const uint32_t count = !text ? 1 : o[3].given() ? static_cast<uint32_t>(o[3].value) : o[0].size;
   const std::array<ValueId, 3> places = {placeOf(l, o[0], 0), limit(l, text ? Operand{} : o[3]), limit(l, o[4])};
   share(l, nc::exchangeArgument(ExchangeKind::Variable, type, ExchangePeriod::Slow, count), o[1], places);
@@ -72,7 +69,7 @@ void lowerShareVariable(Lowering& l, std::span<const Operand> o, int) {
 
 // SHARE_BIT byte, name, bit
 void lowerShareBit(Lowering& l, std::span<const Operand> o, int) {
-  if (!l.identifierFits(o[1], false)) return;
+  if (!identifierFits(l, o[1], false)) return;
   const std::array<ValueId, 3> places = {placeOf(l, o[0], o[2].place.bit), limit(l, {}), limit(l, {})};
   share(l, nc::exchangeArgument(ExchangeKind::Bit, ExchangeType::Bit, ExchangePeriod::Slow, 1), o[1], places);
 }

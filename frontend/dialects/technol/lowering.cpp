@@ -1,6 +1,8 @@
 // The walk over a program's modules (see lowering.h).
 #include "frontend/dialects/technol/lowering.h"
 
+#include <algorithm>
+
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 
@@ -69,6 +71,13 @@ ir::FaultId Lowering::fault(std::string_view text) {
   const auto [entry, isNew] = faults_.emplace(text, ir::FaultId{static_cast<uint32_t>(module_.faults.size())});
   if (isNew) module_.faults.emplace_back(text);
   return entry->second;
+}
+
+ir::ServiceId Lowering::service(std::string_view signature) {
+  const auto found = std::find(module_.services.begin(), module_.services.end(), signature);
+  const auto index = static_cast<uint32_t>(found - module_.services.begin());
+  if (found == module_.services.end()) module_.services.emplace_back(signature);
+  return {index};
 }
 
 RungSource Lowering::sourceOf(const Statement& statement) const {

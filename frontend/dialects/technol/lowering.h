@@ -98,10 +98,6 @@ public:
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
   uint32_t bytesOf(ir::SpaceId space) const { return spaceBytes_[space.index]; }
-  // Checks an identifier of an input, output or shared variable; reports what is wrong.
-  bool identifierFits(const Operand& id, bool defined);
-  // Asks the control for nc::kDefineService: the words in front of the identifier and that itself.
-  ir::ValueId define(std::span<const ir::ValueId> head, const Operand& id);
   // Stops the program where `bad` is 1: an access outside the memory.
   void protect(ir::ValueId bad);
   // A hidden space that holds the bytes.

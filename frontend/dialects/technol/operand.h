@@ -93,6 +93,8 @@ public:
   bool parse(const Statement& statement, std::vector<Operand>& out);
   // The operand as written, without blanks.
   static std::string spell(const Operand& operand);
+  // False: the report is wrong-operand-kind.
+  static bool wrongKind(Program& program, const Operand& operand, std::string_view is, std::string_view wanted);
 
 private:
   // What an address expression comes to: a place in a space, or a constant.
@@ -143,7 +145,9 @@ private:
   bool addOwnMember(const Token& member, Address& out);
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
-  bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted);
+  bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) {
+    return wrongKind(program_, operand, is, wanted);
+  }
   bool syntax(std::string_view expected, std::span<const Token> tokens);
 
   Program& program_;

@@ -98,8 +98,8 @@ std::string OperandParser::spell(const Operand& operand) {
   return text;
 }
 
-bool OperandParser::wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) {
-  program_.diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
+bool OperandParser::wrongKind(Program& program, const Operand& operand, std::string_view is, std::string_view wanted) {
+  program.diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
   return false;
 }
 

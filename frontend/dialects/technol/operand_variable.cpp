@@ -37,8 +37,7 @@ bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Ope
   if (kind.info.kind == kLogicalInput) {
     if (found == nullptr || found->kind != nc::ExchangeKind::DefIn)
       return wrongKind(out, "no input of DEF_IN", "an input of DEF_IN");
-    const int64_t count =
-        found->type == nc::ExchangeType::Text || found->type == nc::ExchangeType::Binary ? 1 : found->count;
+    const int64_t count = nc::isText(found->type) ? 1 : found->count;
     const bool given = out.tokens.size() > 1;
     if (given && (out.value < 0 || out.value >= count)) {
       program_.diagnostics.report(Diag::OperandRange, out.range) << out.value << "0 to " + std::to_string(count - 1);

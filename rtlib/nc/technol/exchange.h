@@ -15,6 +15,8 @@ inline constexpr std::string_view kExchangeTypeWords =
     "TYPE_BIT TYPE_INT_8 TYPE_UNS_8 TYPE_INT_16 TYPE_UNS_16 TYPE_INT_32 TYPE_UNS_32 TYPE_INT_64 TYPE_UNS_64 TYPE_REAL "
     "TYPE_STR TYPE_BIN TYPE_BYTE TYPE_WORD TYPE_DWORD TYPE_QWORD TYPE_INT8 TYPE_UNS8 TYPE_INT16 TYPE_UNS16 TYPE_INT32 "
     "TYPE_UNS32 TYPE_INT64 TYPE_UNS64";
+constexpr bool isMapped(ExchangeKind kind) { return kind <= ExchangeKind::MapAout; }
+constexpr bool isText(ExchangeType type) { return type == ExchangeType::Text || type == ExchangeType::Binary; }
 // By the number of the word.
 constexpr ExchangeType exchangeTypeOf(int64_t word) {
   using enum ExchangeType;
@@ -46,10 +48,20 @@ constexpr uint32_t bytesOf(ExchangeType type) {
   return 1;
 }
 
+// Bits of one element; not of texts.
+constexpr uint32_t widthOf(ExchangeType type) { return type == ExchangeType::Bit ? 1 : bytesOf(type) * 8; }
+
 // A place in the program's memory as one argument.
 constexpr int kPlaceSpaceShift = 40, kPlaceByteShift = 8;
 constexpr int64_t placeArgument(uint32_t space, uint32_t byte, uint32_t bit) {
   return int64_t{space} << kPlaceSpaceShift | int64_t{byte} << kPlaceByteShift | bit;
+}
+struct ExchangePlace {
+  uint32_t space, byte, bit;
+};
+constexpr ExchangePlace placeOfArgument(int64_t argument) {
+  return {static_cast<uint32_t>(argument >> kPlaceSpaceShift), static_cast<uint32_t>(argument >> kPlaceByteShift),
+          static_cast<uint32_t>(argument & 0xFF)};
 }
 inline constexpr int64_t kNoPlace = -1;
 

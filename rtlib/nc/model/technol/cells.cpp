@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string>
 
+#include "rtlib/nc/model/technol/identifier.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::nc::technol {
@@ -15,17 +15,6 @@ constexpr const char* kCells = "I";
 constexpr const char* kBlocks = "BLK";
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-// "[12]" at the beginning of the text, which loses it.
-std::optional<uint32_t> takeIndex(std::string_view& text) {
-  if (text.empty() || text.front() != '[') return std::nullopt;
-  uint32_t value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + 1, end, value);
-  if (error != std::errc() || stop == end || *stop != ']') return std::nullopt;
-  text.remove_prefix(static_cast<size_t>(stop - text.data()) + 1);
-  return value;
-}
 
 // The type that a program writes in front of an element; the host reads and writes elements in their own.
 std::string_view withoutType(std::string_view element) {

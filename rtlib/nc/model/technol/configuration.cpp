@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "rtlib/nc/model/technol/cells.h"
+#include "rtlib/nc/model/technol/identifier.h"
 #include "rtlib/nc/model/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/configuration.h"
@@ -67,23 +68,6 @@ void putText(Bytes bytes, uint64_t part, rt::ServiceReply& reply) {
     word = static_cast<int64_t>(static_cast<uint64_t>(word) | uint64_t{byte} << (count - from) % 8 * 8);
   }
   reply.results[1] = static_cast<int64_t>(count);
-}
-
-struct Identifier {
-  char text[kConfigurationBytes];
-  size_t length = 0;
-  std::string_view view() const { return {text, length}; }
-};
-
-Identifier identifierOf(const rt::ServiceRequest& request) {
-  Identifier id;
-  for (uint32_t i = 0; i < kConfigurationBytes; ++i) {
-    const uint64_t word = static_cast<uint64_t>(request.args[kConfigurationHead + i / 8]);
-    const char c = static_cast<char>(word >> i % 8 * 8);
-    if (c == 0) break;
-    id.text[id.length++] = c;
-  }
-  return id;
 }
 
 } // namespace
@@ -160,7 +144,8 @@ std::optional<int64_t> Configuration::constantInMemory(std::string_view id) cons
 
 // What is no value of the wanted kind counts as not found.
 void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const {
-  const Identifier id = identifierOf(request);
+  char room[kConfigurationBytes];
+  const std::string_view id = charactersOf(std::span(request.args).subspan(kConfigurationHead), room);
   reply.ticket = request.ticket;
   reply.state = RUNG_SERVICE_DONE;
   reply.resultCount = RUNG_MAX_SERVICE_ARGS;
@@ -168,11 +153,11 @@ void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply&
   const auto answer = [&](bool found) { reply.results[0] = found ? 1 : 0; };
   const auto kind = static_cast<ConfigurationKind>(request.args[0]);
   if (kind == ConfigurationKind::Constant) {
-    const auto number = constantInMemory(id.view());
+    const auto number = constantInMemory(id);
     value = number.value_or(0);
     return answer(number.has_value());
   }
-  const auto parameter = parameters_.find(id.view());
+  const auto parameter = parameters_.find(id);
   if (parameter == parameters_.end()) return answer(false);
   const std::string& text = parameter->second;
   switch (kind) {

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <unordered_map>
 
 #include "rtlib/nc/model/technol/cells.h"
 #include "rtlib/nc/model/technol/identifier.h"
+#include "rtlib/nc/model/technol/ports.h"
+#include "rtlib/nc/model/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/signals.h"
 
@@ -15,16 +16,6 @@ namespace rung::nc::technol {
 namespace {
 
 constexpr std::string_view kAnalogueIn = "ANALOG_INPUT_PHYSICAL", kAnalogueOut = "ANALOG_OUTPUT_PHYSICAL";
-constexpr uint32_t kInPorts = 128, kOutPorts = 96; // P1IN..., P0OUT... (man. l.3341)
-constexpr uint32_t kUnits = 32;                    // INOUT08
-
-std::optional<double> numberOf(std::string_view text) {
-  double value = 0;
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 std::string canonicalOf(std::string_view written) { return canonical(memoryText(written)); }
 
@@ -53,7 +44,7 @@ void Connections::configure(std::string_view key, std::string_view value) {
   for (const auto& [attribute, member] : kNames) {
     if (std::string_view(name).substr(point + 1) != attribute) continue;
     Attributes& attributes = attributes_[name.substr(0, point)];
-    attributes.*member = numberOf(value);
+    attributes.*member = realOf(value);
     if (!(attributes.*member)) attributes.wrong = std::string(key) + " is no number: " + quoted(value);
   }
 }
@@ -178,7 +169,7 @@ private:
   std::optional<End> port(bool input, uint32_t number, std::optional<uint32_t> bit, std::string& problem) {
     const auto place =
         signalPlace(instance_, input ? "P" + std::to_string(number) + "IN" : "P" + std::to_string(number) + "OUT");
-    const bool there = input ? number >= 1 && number <= kInPorts : number < kOutPorts;
+    const bool there = input ? number >= 1 && number <= Ports::kInputs : number < Ports::kOutputs;
     if (!place || !there)
       return no(problem, input ? "input ports are P1IN to P128IN" : "output ports are P0OUT to P95OUT");
     auto made = ofBit(*place, bit, ExchangeType::Uns8, problem);
@@ -197,7 +188,7 @@ private:
     const Reference reference = withoutBit(rest);
     const auto member = decimal(reference.base.substr(std::min<size_t>(3, reference.base.size())));
     const bool named = (input || rest.starts_with(".OP")) && member && *member < (input ? 4u : 3u);
-    if (!named || number >= kUnits) return no(problem, kForms);
+    if (!named || number >= Ports::kUnits) return no(problem, kForms);
     return port(input, input ? 4 * number + 1 + *member : 3 * number + *member, reference.bit, problem);
   }
 
@@ -215,9 +206,7 @@ private:
     made.pin.kind = reference.bit ? Pin::Kind::CellBit : Pin::Kind::Cell;
     made.isOpen = element->typeIsOpen && !reference.bit;
     if (!reference.bit) return made;
-    const uint32_t width = element->typeIsOpen                  ? 64
-                           : made.pin.type == ExchangeType::Bit ? 1
-                                                                : bytesOf(made.pin.type) * 8;
+    const uint32_t width = element->typeIsOpen ? 64 : widthOf(made.pin.type);
     if (made.pin.type == ExchangeType::Real || *reference.bit >= width)
       return no(problem, "it has no bit " + std::to_string(*reference.bit));
     made.pin.type = ExchangeType::Bit;
@@ -479,13 +468,12 @@ void Connections::copy(host::Instance& instance, ModuleCells& cells, ExchangePer
 
 void Connections::update(host::Instance& instance, ModuleCells& cells, const rt::ServiceRequest& request,
                          rt::ServiceReply& reply) const {
-  const auto space = static_cast<uint32_t>(request.args[0] >> kPlaceSpaceShift);
-  const auto byte = static_cast<uint32_t>(request.args[0] >> kPlaceByteShift);
+  const ExchangePlace at = placeOfArgument(request.args[0]);
   const WireMemory memory(instance, cells);
-  const uint64_t wanted = Wire::targetOf(space, byte);
+  const uint64_t wanted = Wire::targetOf(at.space, at.byte);
   auto target = std::lower_bound(targets_.begin(), targets_.end(), Target{wanted, 0});
   uint64_t bits = 0;
-  for (uint32_t i = 0; i < 8; ++i) bits |= uint64_t{instance.memory().readByte(space, byte + i)} << i * 8;
+  for (uint32_t i = 0; i < 8; ++i) bits |= uint64_t{instance.memory().readByte(at.space, at.byte + i)} << i * 8;
   bool joined = false;
   for (; target != targets_.end() && target->place == wanted; ++target) {
     const Wire& wire = wires_[target->wire];
@@ -496,7 +484,7 @@ void Connections::update(host::Instance& instance, ModuleCells& cells, const rt:
     } else if (wire.whole) {
       bits = value;
     } else {
-      const uint32_t bit = (wire.to.place.byte - byte) * 8 + wire.to.place.bit;
+      const uint32_t bit = (wire.to.place.byte - at.byte) * 8 + wire.to.place.bit;
       bits = (bits & ~(uint64_t{1} << bit)) | value << bit;
     }
     reply.results[0] = 1;

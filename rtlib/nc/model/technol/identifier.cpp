@@ -1,19 +1,16 @@
 // Identifiers (see identifier.h).
 #include "rtlib/nc/model/technol/identifier.h"
 
+#include <algorithm>
 #include <charconv>
+
+#include "rtlib/nc/model/technol/values.h"
 
 namespace rung::nc::technol {
 namespace {
 
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 // Behind a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
 std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
@@ -40,6 +37,17 @@ std::string canonical(std::string_view identifier) {
     i = identifier.find(']', i);
   }
   return made.starts_with("CNC.") ? made.substr(4) : made;
+}
+
+std::string_view charactersOf(std::span<const int64_t> words, std::span<char> room) {
+  const size_t most = std::min(words.size() * 8, room.size());
+  size_t length = 0;
+  for (; length < most; ++length) {
+    const auto word = static_cast<uint64_t>(words[length / 8]);
+    room[length] = static_cast<char>(word >> length % 8 * 8);
+    if (room[length] == 0) break;
+  }
+  return {room.data(), length};
 }
 
 std::optional<uint32_t> decimal(std::string_view text) {

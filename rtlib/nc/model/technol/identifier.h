@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,8 @@ Reference withoutIndex(Reference reference);
 std::optional<uint32_t> takeIndex(std::string_view& text);
 // `prefix` at the beginning of the text, which loses it.
 bool takePrefix(std::string_view& text, std::string_view prefix);
+// The characters of an identifier that came as words of eight, up to the first zero; they are put into `room`.
+std::string_view charactersOf(std::span<const int64_t> words, std::span<char> room);
 // Decimal digits and nothing else, below 2^31.
 std::optional<uint32_t> decimal(std::string_view text);
 

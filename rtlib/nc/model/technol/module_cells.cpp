@@ -105,8 +105,6 @@ namespace {
 
 uint64_t cut(uint64_t bits, uint32_t width) { return width >= 64 ? bits : bits & ((uint64_t{1} << width) - 1); }
 
-uint32_t widthOf(ExchangeType type) { return type == ExchangeType::Bit ? 1 : bytesOf(type) * 8; }
-
 uint64_t bitsOf(ExchangeType type, const NcCell& value) {
   if (type == ExchangeType::Real) {
     const double real =

@@ -14,6 +14,7 @@ namespace rung::nc::technol {
 
 class Ports {
 public:
+  // P1IN to P128IN, P0OUT to P95OUT (man. l.3341); units INOUT08.
   static constexpr uint32_t kInputs = 128, kOutputs = 96, kUnits = 32;
 
   // `config CAN[1].INOUT08[i].CONTROL n`: the control byte of a unit, of which IO_DIS_ERPIS counts here. False: another

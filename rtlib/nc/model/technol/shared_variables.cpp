@@ -26,19 +26,8 @@ bool sameMeaning(const SharedVariable& a, const SharedVariable& b) {
 
 std::optional<host::Ref> limitOf(int64_t argument) {
   if (argument == kNoPlace) return std::nullopt;
-  return host::realRef(static_cast<uint32_t>(argument >> kPlaceSpaceShift),
-                       static_cast<uint32_t>(argument >> kPlaceByteShift));
-}
-
-std::string identifierOf(const rt::ServiceRequest& request) {
-  std::string id;
-  for (uint32_t i = 0; i < kDefineBytes; ++i) {
-    const auto word = static_cast<uint64_t>(request.args[kDefineHead + i / 8]);
-    const char c = static_cast<char>(word >> i % 8 * 8);
-    if (c == 0) break;
-    id += c;
-  }
-  return id;
+  const ExchangePlace place = placeOfArgument(argument);
+  return host::realRef(place.space, place.byte);
 }
 
 } // namespace
@@ -50,13 +39,14 @@ std::optional<SharedVariable> variableOf(const rt::ServiceRequest& request) {
   made.type = static_cast<ExchangeType>(what >> 8 & 0xFF);
   made.period = static_cast<ExchangePeriod>(what >> 16 & 0xFF);
   made.count = static_cast<uint32_t>(what >> 24);
-  const int64_t place = request.args[1];
-  made.space = static_cast<uint32_t>(place >> kPlaceSpaceShift);
-  made.byte = static_cast<uint32_t>(place >> kPlaceByteShift);
-  made.bit = static_cast<uint32_t>(place & 0xFF);
+  const ExchangePlace place = placeOfArgument(request.args[1]);
+  made.space = place.space;
+  made.byte = place.byte;
+  made.bit = place.bit;
   made.least = limitOf(request.args[2]);
   made.most = limitOf(request.args[3]);
-  made.name = identifierOf(request);
+  char name[kDefineBytes];
+  made.name = charactersOf(std::span(request.args).subspan(kDefineHead), name);
   if (made.name.empty() || made.kind > ExchangeKind::Bit || made.type > ExchangeType::Binary) return std::nullopt;
   return made;
 }

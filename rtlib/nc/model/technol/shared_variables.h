@@ -25,9 +25,9 @@ struct SharedVariable {
   bool isInput() const {
     return kind == ExchangeKind::MapIn || kind == ExchangeKind::MapAin || kind == ExchangeKind::DefIn;
   }
-  bool isMapped() const { return kind <= ExchangeKind::MapAout; }
+  bool isMapped() const { return nc::isMapped(kind); }
   bool isLogical() const { return kind == ExchangeKind::DefIn || kind == ExchangeKind::DefOut; }
-  bool isText() const { return type == ExchangeType::Text || type == ExchangeType::Binary; }
+  bool isText() const { return nc::isText(type); }
 };
 
 // The place of an element.

@@ -25,8 +25,6 @@ bool isSigned(ExchangeType type) {
          type == ExchangeType::Int64;
 }
 
-uint32_t widthOf(ExchangeType type) { return type == ExchangeType::Bit ? 1 : bytesOf(type) * 8; }
-
 uint64_t extended(uint64_t bits, ExchangeType type) {
   const uint32_t width = widthOf(type);
   if (width == 64) return bits;

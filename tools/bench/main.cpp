@@ -160,15 +160,15 @@ int main(int argc, char** argv) {
   CLI::App app{"Measures the engines and prints docs/performance.md; with --engine one case, as JSON"};
   Case which;
   bool fast = false;
-  app.add_option("--engine", which.engine, "interp, cpp, llvm or jit");
+  CLI::Option* const engine = app.add_option("--engine", which.engine, "interp, cpp, llvm or jit");
   app.add_option("--compiler", which.compiler, "C++ compiler of engine cpp");
   app.add_option("--program", which.program, "What to run")
       ->check(CLI::IsMember({"bits", "gsk", "technol", "idle", "waiting"}));
   app.add_option("--units", which.units, "Rungs of bits, steps of gsk, lines of technol, mechanisms");
   bool source = false;
   app.add_flag("--source", source, "Print the generated program");
-  app.add_option("--hand", which.handWritten,
-                 "Shared object with the hand-written form; made there when there is none");
+  engine->needs(app.add_option("--hand", which.handWritten,
+                               "Shared object with the hand-written form; made there when there is none"));
   app.add_flag("--fast", fast, "Compile fast");
   CLI11_PARSE(app, argc, argv);
   which.optimise = !fast;

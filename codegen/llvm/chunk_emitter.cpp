@@ -315,14 +315,19 @@ void ChunkEmitter::returnToCaller() {
   returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
+// Where a rung of this chunk begins that is jumped to.
+llvm::BasicBlock* ChunkEmitter::rungBlock(uint32_t rung) {
+  llvm::BasicBlock*& own = rungBlocks_[rung - firstRung_];
+  if (own == nullptr) own = block("rung");
+  return own;
+}
+
 void ChunkEmitter::goTo(const Destination& to) {
   if (to.inside()) {
     if (to.extra != 0)
       builder_.CreateStore(builder_.CreateAdd(builder_.CreateLoad(builder_.getInt32Ty(), extra_), num(to.extra)),
                            extra_);
-    llvm::BasicBlock*& own = rungBlocks_[to.rung - firstRung_];
-    if (own == nullptr) own = block("rung");
-    builder_.CreateBr(own);
+    builder_.CreateBr(rungBlock(to.rung));
   } else if (to.chunk == RUNG_NONE) {
     returnToCaller();
   } else {
@@ -332,11 +337,7 @@ void ChunkEmitter::goTo(const Destination& to) {
 
 // A block from which control goes there.
 llvm::BasicBlock* ChunkEmitter::blockOf(const Destination& to) {
-  if (to.inside() && to.extra == 0) {
-    llvm::BasicBlock*& own = rungBlocks_[to.rung - firstRung_];
-    if (own == nullptr) own = block("rung");
-    return own;
-  }
+  if (to.inside() && to.extra == 0) return rungBlock(to.rung);
   llvm::IRBuilder<>::InsertPointGuard guard(builder_);
   llvm::BasicBlock* made = block("way");
   builder_.SetInsertPoint(made);

@@ -80,6 +80,7 @@ private:
   void profLeave(const ir::Op& op);
   Value* ticks();
 
+  llvm::BasicBlock* rungBlock(uint32_t rung);
   void goTo(const ir::Destination& to);
   llvm::BasicBlock* blockOf(const ir::Destination& to);
   void returnToCaller();

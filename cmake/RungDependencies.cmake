@@ -8,8 +8,16 @@ find_package(benchmark REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(EXPAT 2.5 REQUIRED)
+find_package(tomlplusplus 3.3 REQUIRED CONFIG)
+find_path(RUNG_EDIT_INCLUDE histedit.h REQUIRED)
+find_library(RUNG_EDIT_LIBRARY edit REQUIRED)
 find_package(LLVM 19.1 REQUIRED CONFIG) # plain "19" is rejected by LLVM's version file
 find_package(LLD 19.1 REQUIRED CONFIG)
+
+# The line editor of the prompt; its package has no CMake config file.
+add_library(rung_edit INTERFACE)
+target_include_directories(rung_edit SYSTEM INTERFACE "${RUNG_EDIT_INCLUDE}")
+target_link_libraries(rung_edit INTERFACE "${RUNG_EDIT_LIBRARY}")
 
 # The shared libLLVM; the only way our code links LLVM.
 add_library(rung_llvm INTERFACE)

@@ -1,0 +1,17 @@
+// What the commands that run scenarios share: names of engines, one scenario from file to result, the lines about it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/rungc/junit.h"
+#include "tools/scenario/runner.h"
+
+namespace rung::rungc {
+
+// "interp,jit", "all": fails with a text for the user.
+Result<std::vector<driver::EngineKind>> enginesOf(const std::string& names);
+// Reads, parses and runs one file.
+TestCase runOne(const std::string& path, const scenario::RunOptions& options);
+void printResult(const TestCase& test);
+
+} // namespace rung::rungc

@@ -1,0 +1,87 @@
+// The session: it goes on after a statement that failed, calls its observers, and can be interrupted.
+#include <gtest/gtest.h>
+
+#include "tools/driver/compile.h"
+#include "tools/driver/engines.h"
+#include "tools/scenario/session.h"
+
+namespace rung::scenario {
+namespace {
+
+constexpr const char* kLamp = R"(dialect nct
+module MAIN
+
+rung
+|--[5100.00]--[/5100.01]--(5101.00)
+)";
+
+class ScenarioSession : public testing::Test {
+protected:
+  void SetUp() override {
+    SourceManager sources;
+    Diagnostics diagnostics;
+    const std::vector<FileId> files = {sources.addBuffer("lamp.lad", kLamp)};
+    std::optional<driver::Compiled> compiled = driver::compile(sources, files, {}, diagnostics);
+    ASSERT_TRUE(compiled);
+    compiled_ = std::move(*compiled);
+    for (driver::EngineKind kind : {driver::EngineKind::Interp, driver::EngineKind::Jit}) {
+      engines_.push_back(driver::makeEngine(kind, compiled_, {}).value());
+      session_.addEngine(*engines_.back());
+    }
+    ASSERT_TRUE(session_.start().empty());
+  }
+  std::string execute(const std::string& line) {
+    const Scenario parsed = parse("typed", "program x\n" + line);
+    EXPECT_TRUE(parsed.problems.empty());
+    const std::optional<Problem> problem = session_.execute(parsed.statements.back());
+    return problem ? problem->message : "";
+  }
+
+  driver::Compiled compiled_;
+  std::vector<std::unique_ptr<host::Engine>> engines_;
+  Session session_{"."};
+};
+
+struct ScanCounter final : Observer {
+  void scanned(const Session& session) override {
+    ++calls;
+    lastTime = session.nowUs();
+  }
+  uint64_t calls = 0;
+  int64_t lastTime = 0;
+};
+
+TEST_F(ScenarioSession, GoesOnAfterAStatementThatFailed) {
+  EXPECT_EQ(execute("scan 2"), "");
+  EXPECT_NE(execute("expect 5101.00 1").find("5101.00 is 0, expected 1"), std::string::npos);
+  EXPECT_NE(execute("set NOTHING 1"), "");
+  EXPECT_EQ(execute("set 5100.00 1"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("expect 5101.00 1"), "");
+  EXPECT_EQ(session_.scans(), 3u);
+}
+
+TEST_F(ScenarioSession, RefusesWhatBelongsToTheStart) {
+  for (const char* line : {"program y", "dialect nct", "config a b", "connect A B", "period 5ms", "expect_error x"})
+    EXPECT_NE(execute(line).find("belongs to the start"), std::string::npos) << line;
+}
+
+TEST_F(ScenarioSession, ObserversSeeEveryScan) {
+  ScanCounter counter;
+  session_.addObserver(counter);
+  execute("scan 4");
+  execute("run 25ms");
+  EXPECT_EQ(counter.calls, 7u);
+  EXPECT_EQ(counter.lastTime, session_.nowUs());
+}
+
+TEST_F(ScenarioSession, AnInterruptEndsTheStatement) {
+  session_.setInterrupt([&] { return session_.scans() >= 5; });
+  EXPECT_EQ(execute("run 100s"), "");
+  EXPECT_EQ(session_.scans(), 5u);
+  EXPECT_EQ(execute("scan 1000"), "");
+  EXPECT_EQ(session_.scans(), 6u) << "the first scan is done before the question";
+}
+
+} // namespace
+} // namespace rung::scenario

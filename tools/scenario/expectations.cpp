@@ -1,0 +1,75 @@
+// Statements about values, messages, the log and the fault (see expectations.h).
+#include "tools/scenario/expectations.h"
+
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+#include "tools/scenario/values.h"
+
+namespace rung::scenario {
+
+using host::Ref;
+
+std::string setValue(Lane& lane, const Statement& s) {
+  if (s.name.starts_with("NC.")) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
+  const std::optional<Ref> place = lane.nc().writePlace(lane.instance(), s.name);
+  if (!place && s.value.kind != ValueKind::Text && lane.nc().writeCell(s.name, cellOf(s.value))) return {};
+  if (!place) return fmt::format("'{}' is no name of this program", s.name);
+  return writeValue(lane.instance(), *place, s.value);
+}
+
+std::string expectValue(const Lane& lane, const Statement& s) {
+  Reading reading;
+  if (s.name.starts_with("NC.")) {
+    const auto quantity = lane.nc().quantity(std::string_view(s.name).substr(3));
+    if (!quantity) return fmt::format("the simulated NC has no quantity '{}'", s.name);
+    reading = realReading(*quantity);
+  } else {
+    const std::optional<Ref> place = lane.nc().readPlace(lane.instance(), s.name);
+    const auto cell = place ? std::nullopt : lane.nc().readCell(s.name);
+    if (!place && !cell) return fmt::format("'{}' is no name of this program", s.name);
+    const bool wantReal = s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real;
+    reading = place ? readValue(lane.instance(), *place, wantReal) : cellReading(*cell);
+  }
+  return s.kind == Kind::ExpectRange ? checkRange(reading, s) : checkValue(reading, s);
+}
+
+// Of several messages with this number one must (or none may) have the properties.
+std::string expectMessage(const Lane& lane, const Statement& s) {
+  std::string seen;
+  std::string difference;
+  for (const nc::ShownMessage& message : lane.nc().messages(lane.instance())) {
+    seen += fmt::format("{}{}", seen.empty() ? "" : ", ", message.number);
+    if (message.number != s.number) continue;
+    std::string own = messageDifference(message, s.keys);
+    if (own.empty()) return s.on ? std::string() : fmt::format("message {} is displayed", s.number);
+    if (difference.empty()) difference = std::move(own);
+  }
+  if (!s.on) return {};
+  return difference.empty()
+             ? fmt::format("message {} is not displayed; there is {}", s.number, seen.empty() ? "none" : seen)
+             : difference;
+}
+
+std::string expectLog(Lane& lane, const Statement& s) {
+  std::string seen;
+  for (const std::string& line : lane.unreadLog()) {
+    if (line.find(s.value.text) != std::string::npos) {
+      lane.unreadLog().clear();
+      return {};
+    }
+    seen += "\n  " + line;
+  }
+  return fmt::format("no log entry contains \"{}\"{}{}", s.value.text, seen.empty() ? "" : "; there are:", seen);
+}
+
+std::string expectFault(const Lane& lane, const Statement& s) {
+  if (!lane.instance().faulted()) return fmt::format("the program runs; expected the fault \"{}\"", s.value.text);
+  const std::string text = lane.instance().faultText();
+  return text.find(s.value.text) != std::string::npos
+             ? std::string()
+             : fmt::format("the fault is \"{}\", expected \"{}\"", text, s.value.text);
+}
+
+} // namespace rung::scenario

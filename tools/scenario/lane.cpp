@@ -1,0 +1,26 @@
+// One engine's run (see lane.h).
+#include "tools/scenario/lane.h"
+
+#include <utility>
+
+#include "tools/driver/engines.h"
+
+namespace rung::scenario {
+
+Lane::Lane(host::Engine& engine, std::string folder)
+    : engine_(engine), nc_(nc::makeNcModel(engine.program().dialect)), instance_(driver::makeInstance(engine, this)) {
+  nc_->setFolder(std::move(folder));
+}
+
+void Lane::powerOn(nc::PowerOn kind) {
+  nc_->powerOn(*instance_, kind);
+  unreadLog_.clear();
+  requests_.clear();
+}
+
+void Lane::advance(Advance how) {
+  (nc_.get()->*how)(*instance_);
+  for (std::string& line : nc_->board().takeLog()) unreadLog_.push_back(std::move(line));
+}
+
+} // namespace rung::scenario

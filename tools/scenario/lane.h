@@ -1,0 +1,49 @@
+// One engine's run of a program, with the NC beside it and what a scenario has yet to look at.
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/engine.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/model/nc_model.h"
+#include "tools/scenario/requests.h"
+
+namespace rung::scenario {
+
+// Lends the NC model's hooks to the instance and adds the scenario's prepared answers.
+class Lane final : public host::ScheduleHooks {
+public:
+  // Files that the NC's configuration names lie in `folder`. The engine outlives the lane.
+  Lane(host::Engine& engine, std::string folder);
+
+  std::string_view engineName() const { return engine_.name(); }
+  host::Instance& instance() { return *instance_; }
+  const host::Instance& instance() const { return *instance_; }
+  nc::NcModel& nc() { return *nc_; }
+  const nc::NcModel& nc() const { return *nc_; }
+  Requests& requests() { return requests_; }
+  std::vector<std::string>& unreadLog() { return unreadLog_; } // since the last expect_log
+
+  // Switches the program on; what was to be looked at is dropped.
+  void powerOn(nc::PowerOn kind);
+  // Runs the NC and the program: a scan, a slot or the fast part.
+  using Advance = void (nc::NcModel::*)(host::Instance&);
+  void advance(Advance how);
+
+  void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
+  void onFault(host::Instance& instance) override { nc_->onFault(instance); }
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    return requests_.respond(instance, request, reply) || nc_->respond(instance, request, reply);
+  }
+
+private:
+  host::Engine& engine_;
+  std::unique_ptr<nc::NcModel> nc_;
+  std::unique_ptr<host::Instance> instance_;
+  Requests requests_;
+  std::vector<std::string> unreadLog_;
+};
+
+} // namespace rung::scenario

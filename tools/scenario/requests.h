@@ -1,0 +1,45 @@
+// The requests to services of one running program: those that wait, those that a scenario has looked at, and the
+// answers that it has prepared.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "tools/scenario/scenario.h"
+#include "tools/scenario/services.h"
+
+namespace rung::scenario {
+
+class Requests {
+public:
+  // While a task runs: answers a request with what is prepared for it. A request with an operand block is kept back and
+  // answered by `take`. False: nothing is prepared.
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+  // Between two scans: takes what has entered the program's queue. Prepared answers to operand blocks are given here,
+  // and what takes no answer is complete.
+  void take(host::Instance& instance);
+  void clear();
+
+  // The statements of these names; each gives "" or what is wrong.
+  std::string expectCall(host::Instance& instance, const Statement& s);
+  std::string expectNoCall(host::Instance& instance, const Statement& s);
+  std::string reply(host::Instance& instance, const Statement& s);
+  std::string prepare(const host::Instance& instance, const Statement& s);
+
+private:
+  struct Claimed {
+    rt::ServiceRequest request;
+    Prepared answer;
+  };
+  std::optional<Prepared> takePrepared(const host::Instance& instance, const ServiceSignature& signature,
+                                       const rt::ServiceRequest& request, bool running);
+
+  std::vector<Claimed> claimed_;            // requests with an operand block, answered when the scan is over
+  std::vector<rt::ServiceRequest> waiting_; // requests that nobody has looked at, oldest first
+  std::vector<rt::ServiceRequest> taken_;   // requests that expect_call consumed, oldest first
+  std::vector<Prepared> prepared_;          // answers that wait for their request
+  bool calledOneWay_ = false;               // the last request that expect_call consumed takes no answer
+};
+
+} // namespace rung::scenario

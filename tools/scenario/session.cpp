@@ -1,0 +1,160 @@
+// A running program that takes statements (see session.h).
+#include "tools/scenario/session.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+#include "rtlib/host/compare.h"
+#include "tools/scenario/expectations.h"
+#include "tools/scenario/values.h"
+
+namespace rung::scenario {
+
+bool belongsToStart(Kind kind) {
+  switch (kind) {
+  case Kind::Program:
+  case Kind::Dialect:
+  case Kind::Config:
+  case Kind::Connect:
+  case Kind::Period:
+  case Kind::ExpectError:
+  case Kind::ExpectWarning: return true;
+  default: return false;
+  }
+}
+
+// ---- start ---------------------------------------------------------------------------------------------------------
+
+void Session::addEngine(host::Engine& engine) { lanes_.push_back(std::make_unique<Lane>(engine, folder_)); }
+
+std::string Session::config(std::string_view key, std::string_view value) {
+  for (const std::unique_ptr<Lane>& lane : lanes_)
+    if (std::string problem = lane->nc().config(key, value); !problem.empty()) return problem;
+  return {};
+}
+
+std::string Session::connect(std::string_view source, std::string_view destination) {
+  for (const std::unique_ptr<Lane>& lane : lanes_)
+    if (std::string problem = lane->nc().connect(source, destination); !problem.empty()) return problem;
+  return {};
+}
+
+std::vector<nc::NcProblem> Session::start(nc::PowerOn kind) {
+  for (const std::unique_ptr<Lane>& lane : lanes_) {
+    lane->powerOn(kind);
+    // The ends of connections are known when the program has started.
+    if (auto problems = lane->nc().connectionProblems(); !problems.empty()) return problems;
+  }
+  if (std::string text = difference(); !text.empty()) return {{RUNG_NONE, std::move(text)}};
+  return {};
+}
+
+// ---- scans ---------------------------------------------------------------------------------------------------------
+
+// The engines must agree after every scan.
+std::string Session::difference() const {
+  for (size_t i = 1; i < lanes_.size(); ++i)
+    if (const auto found = host::firstDifference(instance(), lanes_[i]->instance()))
+      return fmt::format("engines disagree after scan {}: {} against {}: {}", scans_, lanes_[0]->engineName(),
+                         lanes_[i]->engineName(), *found);
+  return {};
+}
+
+std::string Session::advanceOnce(Lane::Advance how) {
+  for (const std::unique_ptr<Lane>& lane : lanes_) lane->advance(how);
+  ++scans_;
+  std::string problem = difference();
+  for (const std::unique_ptr<Lane>& lane : lanes_) lane->requests().take(lane->instance());
+  for (Observer* observer : observers_) observer->scanned(*this);
+  return problem;
+}
+
+std::string Session::advance(uint64_t count, Lane::Advance how) {
+  for (uint64_t i = 0; i < count; ++i) {
+    if (std::string problem = advanceOnce(how); !problem.empty()) return problem;
+    if (interrupted()) return {};
+  }
+  return {};
+}
+
+std::string Session::runFor(int64_t us) {
+  const int64_t end = nowUs() + us;
+  while (nowUs() < end) {
+    const int64_t before = nowUs();
+    if (std::string problem = advanceOnce(&nc::NcModel::scan); !problem.empty()) return problem;
+    if (interrupted()) return {};
+    // A stopped or faulted program may leave the clock alone; its time goes on all the same.
+    if (nowUs() != before) continue;
+    for (const std::unique_ptr<Lane>& lane : lanes_) lane->instance().advanceClock(end - before);
+  }
+  return {};
+}
+
+void Session::restart(nc::PowerOn kind) {
+  for (const std::unique_ptr<Lane>& lane : lanes_) {
+    if (kind == nc::PowerOn::Warm) lane->nc().powerOff(lane->instance());
+    lane->powerOn(kind);
+  }
+  faultExpected_ = false;
+}
+
+// ---- statements ----------------------------------------------------------------------------------------------------
+
+std::string Session::prefixed(const Lane& lane, const std::string& problem) const {
+  return lanes_.size() > 1 ? fmt::format("[{}] {}", lane.engineName(), problem) : problem;
+}
+
+std::string Session::unexpectedFault() const {
+  if (faultExpected_) return {};
+  for (const std::unique_ptr<Lane>& lane : lanes_)
+    if (lane->instance().faulted())
+      return fmt::format("[{}] the program stopped with a fault: {}", lane->engineName(), lane->instance().faultText());
+  return {};
+}
+
+std::optional<Problem> Session::execute(const Statement& s) {
+  std::string problem = run(s);
+  if (problem.empty()) return std::nullopt;
+  return Problem{s.line, std::move(problem)};
+}
+
+std::string Session::run(const Statement& s) {
+  switch (s.kind) {
+  case Kind::Program:
+  case Kind::Dialect:
+  case Kind::Config:
+  case Kind::Connect:
+  case Kind::Period:
+  case Kind::ExpectError:
+  case Kind::ExpectWarning: return "the program has started; this statement belongs to the start of a scenario";
+  case Kind::Set: return forLanes([&](Lane& lane) { return setValue(lane, s); });
+  case Kind::Scan: return advance(s.count, &nc::NcModel::scan);
+  case Kind::Fast: return advance(s.count, &nc::NcModel::fast);
+  case Kind::Slot:
+    if (std::string_view(instance().program().dialect) != "gsk")
+      return "only the second level of a GSK program is run in slots (8 ms)";
+    return advance(s.count, &nc::NcModel::slot);
+  case Kind::Run: return runFor(s.microseconds);
+  case Kind::Expect:
+  case Kind::ExpectRange: return forLanes([&](Lane& lane) { return expectValue(lane, s); });
+  case Kind::ExpectMessage: return forLanes([&](Lane& lane) { return expectMessage(lane, s); });
+  case Kind::ExpectLog: return forLanes([&](Lane& lane) { return expectLog(lane, s); });
+  case Kind::ExpectCall: return forLanes([&](Lane& lane) { return lane.requests().expectCall(lane.instance(), s); });
+  case Kind::ExpectNoCall:
+    return forLanes([&](Lane& lane) { return lane.requests().expectNoCall(lane.instance(), s); });
+  case Kind::Reply: return forLanes([&](Lane& lane) { return lane.requests().reply(lane.instance(), s); });
+  case Kind::Prepare: return forLanes([&](Lane& lane) { return lane.requests().prepare(lane.instance(), s); });
+  case Kind::BlockStart:
+    return forLanes([&](Lane& lane) { return lane.nc().blockStart(lane.instance(), arguments(s.keys)); });
+  case Kind::BlockDone: return forLanes([&](Lane& lane) { return lane.nc().blockDone(lane.instance()); });
+  case Kind::Event:
+    return forLanes([&](Lane& lane) { return lane.nc().event(lane.instance(), s.name, arguments(s.keys)); });
+  case Kind::Plc: return forLanes([&](Lane& lane) { return lane.nc().plcCommand(lane.instance(), s.name); });
+  case Kind::ColdStart: restart(nc::PowerOn::Cold); return {};
+  case Kind::WarmStart: restart(nc::PowerOn::Warm); return {};
+  case Kind::ExpectFault: faultExpected_ = true; return forLanes([&](Lane& lane) { return expectFault(lane, s); });
+  }
+  return {};
+}
+
+} // namespace rung::scenario

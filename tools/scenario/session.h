@@ -1,0 +1,95 @@
+// A running program that takes one statement at a time: what a scenario, a prompt or a trace works on. With several
+// engines each statement goes to all of them, and after every scan all memory, messages, services and the fault of each
+// are compared with the first engine's.
+//
+//   Session session(folder);
+//   session.addEngine(engine);            // one or several, all of one program
+//   session.config("KEY", "VALUE");       // what the NC reads; the compiler's keys are the caller's
+//   session.start();
+//   if (auto problem = session.execute(statement)) …     // the session goes on all the same
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/scenario/lane.h"
+#include "tools/scenario/scenario.h"
+
+namespace rung::scenario {
+
+class Session;
+
+// Called after every scan, slot and run of the fast part, once the engines have been compared.
+class Observer {
+public:
+  virtual ~Observer() = default;
+  virtual void scanned(const Session& session) = 0;
+};
+
+// Statements that choose the program and what it is started with, or say what the compiler reports.
+bool belongsToStart(Kind kind);
+
+class Session {
+public:
+  // Files that the NC's configuration names lie in `folder`.
+  explicit Session(std::string folder) : folder_(std::move(folder)) {}
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Before the start. The engines outlive the session; "" or what is wrong.
+  void addEngine(host::Engine& engine);
+  std::string config(std::string_view key, std::string_view value);
+  std::string connect(std::string_view source, std::string_view destination);
+  // Switches the program on. What is wrong: connections whose ends do not exist, engines that disagree; then the
+  // session has not started.
+  std::vector<nc::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
+
+  // Executes one statement in all lanes. What is wrong is what the statement expected or could not do; statements that
+  // belong to the start are refused.
+  std::optional<Problem> execute(const Statement& s);
+  // Why the program stopped; "" when it runs or an expect_fault has named the fault.
+  std::string unexpectedFault() const;
+
+  // Of the first engine.
+  host::Instance& instance() { return lanes_[0]->instance(); }
+  const host::Instance& instance() const { return lanes_[0]->instance(); }
+  nc::NcModel& nc() { return lanes_[0]->nc(); }
+  const nc::NcModel& nc() const { return lanes_[0]->nc(); }
+  int64_t nowUs() const { return instance().nowUs(); }
+  uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
+
+  // The observer outlives the session.
+  void addObserver(Observer& observer) { observers_.push_back(&observer); }
+  // Asked after every scan: true ends the statement, which then has no problem.
+  void setInterrupt(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
+
+private:
+  std::string run(const Statement& s);
+  std::string advance(uint64_t count, Lane::Advance how);
+  std::string advanceOnce(Lane::Advance how);
+  std::string runFor(int64_t us);
+  void restart(nc::PowerOn kind);
+  std::string difference() const;
+  bool interrupted() const { return interrupted_ && interrupted_(); }
+
+  // Calls act(lane) for every lane; the first text that one gives is the problem.
+  template <class Act>
+  std::string forLanes(Act act) {
+    for (const std::unique_ptr<Lane>& lane : lanes_)
+      if (const std::string problem = act(*lane); !problem.empty()) return prefixed(*lane, problem);
+    return {};
+  }
+  std::string prefixed(const Lane& lane, const std::string& problem) const;
+
+  std::string folder_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::vector<Observer*> observers_;
+  std::function<bool()> interrupted_;
+  uint64_t scans_ = 0;
+  bool faultExpected_ = false;
+};
+
+} // namespace rung::scenario

@@ -1,7 +1,9 @@
 // JUnit XML (see junit.h).
 #include "tools/rungc/junit.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace rung::rungc {
 namespace {
@@ -25,32 +27,35 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+std::string failureElement(const TestCase& test) {
+  std::string text = test.result.environment;
+  for (const scenario::Problem& problem : test.result.problems) text += (text.empty() ? "" : "\n") + textOf(problem);
+  return fmt::format("    <{0} message=\"{1}\">{2}</{0}>\n", test.result.environment.empty() ? "failure" : "error",
+                     escaped(text.substr(0, text.find('\n'))), escaped(text));
+}
+
+std::string caseElement(const TestCase& test) {
+  std::string content;
+  if (!test.result.passed) content += failureElement(test);
+  if (!test.result.printed.empty())
+    content += fmt::format("    <system-out>{}</system-out>\n",
+                           escaped(fmt::format("{}", fmt::join(test.result.printed, "\n"))));
+  const std::string attributes =
+      fmt::format("classname=\"rungc\" name=\"{}\" time=\"{:.6f}\"", escaped(test.path), test.seconds);
+  return content.empty() ? fmt::format("  <testcase {}/>\n", attributes)
+                         : fmt::format("  <testcase {}>\n{}  </testcase>\n", attributes, content);
+}
+
 } // namespace
 
 std::string junitXml(const std::vector<TestCase>& tests) {
-  size_t failures = 0;
-  size_t errors = 0;
+  const auto failed = [](const TestCase& t) { return !t.result.passed && t.result.environment.empty(); };
+  const auto notRun = [](const TestCase& t) { return !t.result.passed && !t.result.environment.empty(); };
   std::string cases;
-  auto put = std::back_inserter(cases);
-  for (const TestCase& test : tests) {
-    fmt::format_to(put, "  <testcase classname=\"rungc\" name=\"{}\" time=\"{:.6f}\"", escaped(test.path),
-                   test.seconds);
-    if (test.result.passed) {
-      cases += "/>\n";
-      continue;
-    }
-    const bool environment = !test.result.environment.empty();
-    (environment ? errors : failures) += 1;
-    std::string text = test.result.environment;
-    for (const scenario::Problem& problem : test.result.problems)
-      text += fmt::format("{}{}:{}: {}", text.empty() ? "" : "\n", test.path, problem.line, problem.message);
-    const char* element = environment ? "error" : "failure";
-    fmt::format_to(put, ">\n    <{0} message=\"{1}\">{2}</{0}>\n  </testcase>\n", element,
-                   escaped(text.substr(0, text.find('\n'))), escaped(text));
-  }
+  for (const TestCase& test : tests) cases += caseElement(test);
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"rungc\" tests=\"{}\" "
                      "failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n",
-                     tests.size(), failures, errors, cases);
+                     tests.size(), std::ranges::count_if(tests, failed), std::ranges::count_if(tests, notRun), cases);
 }
 
 } // namespace rung::rungc

@@ -306,12 +306,12 @@ void addRun(CLI::App& app, int& status) {
     int64_t forUs = -1;
     if (!options->duration.empty()) {
       const auto us = scenario::parseDuration(options->duration);
-      if (!us) {
-        fmt::print(stderr, "rungc: '{}' is no duration; write 2s, 500ms or 100us\n", options->duration);
+      if (!us.ok()) {
+        fmt::print(stderr, "rungc: --for {}: {}\n", options->duration, us.error());
         status = kUsage;
         return;
       }
-      forUs = *us;
+      forUs = us.value();
     }
     const bool object = options->source.files.size() == 1 && options->source.files[0].ends_with(".so");
     status = object ? runSharedObject(*options, forUs) : runSource(*options, forUs);

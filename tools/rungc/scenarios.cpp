@@ -3,21 +3,9 @@
 
 #include <chrono>
 #include <fmt/format.h>
-#include <fstream>
 #include <sstream>
 
 namespace rung::rungc {
-namespace {
-
-Result<scenario::Scenario> readScenario(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return failure(fmt::format("cannot read '{}'", path));
-  std::ostringstream text;
-  text << in.rdbuf();
-  return scenario::parse(path, text.str());
-}
-
-} // namespace
 
 Result<std::vector<driver::EngineKind>> enginesOf(const std::string& names) {
   std::vector<driver::EngineKind> engines;
@@ -37,26 +25,34 @@ Result<std::vector<driver::EngineKind>> enginesOf(const std::string& names) {
 TestCase runOne(const std::string& path, const scenario::RunOptions& options) {
   TestCase test{path, 0, {}};
   const auto start = std::chrono::steady_clock::now();
-  Result<scenario::Scenario> parsed = readScenario(path);
+  Result<scenario::Scenario> parsed = scenario::readScenario(path);
   if (!parsed.ok())
     test.result.environment = parsed.error();
-  else if (!parsed.value().problems.empty())
-    test.result.problems = parsed.value().problems;
   else
     test.result = scenario::run(parsed.value(), options);
   test.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return test;
 }
 
-void printResult(const TestCase& test) {
-  if (test.result.passed) {
-    fmt::print("ok      {} ({} scans)\n", test.path, test.result.scans);
-    return;
-  }
-  fmt::print("FAILED  {}\n", test.path);
-  for (const scenario::Problem& problem : test.result.problems)
-    fmt::print("  {}:{}: {}\n", test.path, problem.line, problem.message);
-  if (!test.result.environment.empty()) fmt::print("  {}\n", test.result.environment);
+std::string shownSeconds(double seconds) {
+  return seconds < 1 ? fmt::format("{:.0f} ms", seconds * 1000) : fmt::format("{:.2f} s", seconds);
+}
+
+void printResult(const TestCase& test, bool color) {
+  const scenario::RunResult& result = test.result;
+  const auto painted = [&](const char* word, const char* paint) {
+    return color ? fmt::format("\033[{}m{}\033[0m", paint, word) : std::string(word);
+  };
+  if (result.passed)
+    fmt::print("{}      {} ({} scans, {})\n", painted("ok", "32"), test.path, result.scans, shownSeconds(test.seconds));
+  else
+    fmt::print("{}  {}\n", painted("FAILED", "1;31"), test.path);
+  for (const std::string& line : result.printed) fmt::print("  {}\n", line);
+  for (const scenario::Problem& problem : result.problems) fmt::print("  {}\n", textOf(problem));
+  if (!result.environment.empty()) fmt::print("  {}\n", result.environment);
+  if (result.passed && result.expectsNothing)
+    fmt::print("  {}: {}: it expects nothing, so it passes whatever the program does; add an expect statement\n",
+               test.path, painted("warning", "1;35"));
 }
 
 } // namespace rung::rungc

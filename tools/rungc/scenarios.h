@@ -12,6 +12,9 @@ namespace rung::rungc {
 Result<std::vector<driver::EngineKind>> enginesOf(const std::string& names);
 // Reads, parses and runs one file.
 TestCase runOne(const std::string& path, const scenario::RunOptions& options);
-void printResult(const TestCase& test);
+// "ok" or "FAILED" with the path, then what it printed and what is wrong.
+void printResult(const TestCase& test, bool color = false);
+// "12 ms" or "1.25 s"
+std::string shownSeconds(double seconds);
 
 } // namespace rung::rungc

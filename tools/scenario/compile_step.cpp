@@ -1,10 +1,12 @@
 // The compiling part of a scenario (see compile_step.h).
 #include "tools/scenario/compile_step.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 
 #include "ir/support/diag_render.h"
+#include "ir/support/similar.h"
 
 namespace rung::scenario {
 namespace {
@@ -30,13 +32,29 @@ std::string listOf(const std::vector<Reported>& reported, Severity severity) {
   return text.empty() ? "none" : text;
 }
 
+std::string similarCode(std::string_view code) {
+  Similar similar(code);
+  for (const DiagInfo& info : allDiags()) similar.offer(info.code);
+  return similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best());
+}
+
+// A file of the program, which lies beside the file that names it.
+std::string programPath(const Statement& s, const std::string& file) {
+  return (std::filesystem::path(s.file).parent_path() / file).lexically_normal().string();
+}
+
+const Statement* firstOf(const Scenario& scenario, Kind kind) {
+  const auto found = std::ranges::find(scenario.statements, kind, &Statement::kind);
+  return found == scenario.statements.end() ? nullptr : &*found;
+}
+
 // Every expected diagnostic must be there.
 void checkExpected(const Scenario& scenario, std::vector<Reported>& reported, std::vector<Problem>& problems) {
   for (const Statement& s : scenario.statements) {
     if (s.kind != Kind::ExpectError && s.kind != Kind::ExpectWarning) continue;
     const Severity severity = s.kind == Kind::ExpectError ? Severity::Error : Severity::Warning;
     if (findDiag(s.name) == nullptr) {
-      problems.push_back({s.line, fmt::format("there is no diagnostic '{}'", s.name)});
+      problems.push_back(problemAt(s, fmt::format("there is no diagnostic '{}'{}", s.name, similarCode(s.name))));
       continue;
     }
     bool found = false;
@@ -46,11 +64,27 @@ void checkExpected(const Scenario& scenario, std::vector<Reported>& reported, st
       found = r.expected = true;
     }
     if (!found)
-      problems.push_back(
-          {s.line,
-           fmt::format("expected {} {}{}; reported: {}", severity == Severity::Error ? "error" : "warning", s.name,
-                       s.number == 0 ? "" : fmt::format(" at line {}", s.number), listOf(reported, severity))});
+      problems.push_back(problemAt(
+          s, fmt::format("expected {} {}{}; reported: {}", severity == Severity::Error ? "error" : "warning", s.name,
+                         s.number == 0 ? "" : fmt::format(" at line {}", s.number), listOf(reported, severity))));
   }
+}
+
+// And no other error, unless the scenario allows that.
+void checkOthers(const Scenario& scenario, const std::vector<Reported>& reported, const SourceManager& sources,
+                 std::vector<Problem>& problems) {
+  const Statement* first = firstOf(scenario, Kind::ExpectError);
+  const Statement* allow = firstOf(scenario, Kind::AllowErrors);
+  if (allow != nullptr && first == nullptr)
+    problems.push_back(problemAt(*allow, "allow_errors needs an expect_error: it allows others beside that one"));
+  if (allow != nullptr || first == nullptr) return;
+  Diagnostics others;
+  for (const Reported& r : reported)
+    if (r.diagnostic->severity == Severity::Error && !r.expected) others.add(*r.diagnostic);
+  if (others.hasErrors())
+    problems.push_back(
+        problemAt(*first, "there are errors that no expect_error names; name them, or write allow_errors:\n" +
+                              renderText(others, sources)));
 }
 
 } // namespace
@@ -68,29 +102,30 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
   request.options.strict = strict;
   request.instrument = instrument;
   std::vector<std::string> names = programs;
-  bool errorExpected = false;
-  const std::filesystem::path folder = std::filesystem::path(scenario.path).parent_path();
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Program && programs.empty())
-      for (const std::string& file : s.words) names.push_back((folder / file).lexically_normal().string());
+      for (const std::string& file : s.words) names.push_back(programPath(s, file));
     if (s.kind == Kind::Dialect) request.dialect = s.name;
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
     if (s.kind == Kind::Config) request.options.config[s.name] = s.value.text;
-    errorExpected |= s.kind == Kind::ExpectError;
   }
   SourceManager sources;
   Result<std::vector<FileId>> files = driver::addFiles(sources, names);
   if (!files.ok()) {
+    step.files = names; // one that is missing may come
     step.environment = files.error();
     return step;
   }
   Diagnostics diagnostics;
   step.program = driver::compile(sources, files.value(), request, diagnostics);
+  for (uint32_t i = 0; i < sources.fileCount(); ++i) step.files.emplace_back(sources.name(FileId{i}));
   std::vector<Reported> reported = reportedOf(diagnostics, sources);
   checkExpected(scenario, reported, step.problems);
+  checkOthers(scenario, reported, sources, step.problems);
+  const bool errorExpected = firstOf(scenario, Kind::ExpectError) != nullptr;
   if (!errorExpected && !step.program)
     step.problems.push_back(
-        {scenario.statements[0].line, "the program has errors:\n" + renderText(diagnostics, sources)});
+        problemAt(scenario.statements[0], "the program has errors:\n" + renderText(diagnostics, sources)));
   if (errorExpected) step.program.reset();
   return step;
 }

@@ -12,7 +12,8 @@ namespace rung::scenario {
 struct CompileStep {
   std::optional<driver::Compiled> program; // nothing when there is nothing to run: errors, expected or not
   std::vector<Problem> problems;
-  std::string environment; // a file that cannot be read
+  std::vector<std::string> files; // of the sources, with those that they include
+  std::string environment;        // a file that cannot be read
 };
 
 // `programs`: instead of the files that the scenario names, when not empty.

@@ -6,6 +6,7 @@
 namespace rung::scenario {
 
 Result<host::Engine*> StoredProgram::engine(driver::EngineKind kind, const driver::EngineOptions& options) {
+  const std::lock_guard lock(mutex_);
   auto found = engines_.find(kind);
   if (found == engines_.end()) {
     Result<std::unique_ptr<host::Engine>> made = driver::makeEngine(kind, compiled_, options);
@@ -15,14 +16,16 @@ Result<host::Engine*> StoredProgram::engine(driver::EngineKind kind, const drive
   return found->second.get();
 }
 
-StoredProgram& EngineStore::enter(driver::Compiled compiled) {
-  const auto found = std::find_if(programs_.begin(), programs_.end(), [&](const StoredProgram& stored) {
-    return stored.compiled().codeHash == compiled.codeHash;
-  });
+std::shared_ptr<StoredProgram> EngineStore::enter(driver::Compiled compiled) {
+  const std::lock_guard lock(mutex_);
+  const auto found =
+      std::find_if(programs_.begin(), programs_.end(), [&](const std::shared_ptr<StoredProgram>& stored) {
+        return stored->compiled().codeHash == compiled.codeHash;
+      });
   if (found != programs_.end()) {
     programs_.splice(programs_.begin(), programs_, found);
   } else {
-    programs_.emplace_front(std::move(compiled));
+    programs_.push_front(std::make_shared<StoredProgram>(std::move(compiled)));
     if (programs_.size() > kPrograms) programs_.pop_back();
   }
   return programs_.front();

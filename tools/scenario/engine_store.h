@@ -4,12 +4,13 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "tools/driver/engines.h"
 
 namespace rung::scenario {
 
-// A program and the engines that were made of it.
+// A program and the engines that were made of it; several threads may ask for them.
 class StoredProgram {
 public:
   explicit StoredProgram(driver::Compiled compiled) : compiled_(std::move(compiled)) {}
@@ -20,20 +21,21 @@ public:
 
 private:
   driver::Compiled compiled_;
+  std::mutex mutex_; // of what follows: the others wait while one makes the engine that they need, too
   std::map<driver::EngineKind, std::unique_ptr<host::Engine>> engines_;
 };
 
 // All programs in it are run with the same EngineOptions.
 class EngineStore {
 public:
-  // The stored program with the same code (Compiled::codeHash), or this one, stored. It stays valid until kPrograms
-  // others have been asked for.
-  StoredProgram& enter(driver::Compiled compiled);
+  // The stored program with the same code (Compiled::codeHash), or this one, stored.
+  std::shared_ptr<StoredProgram> enter(driver::Compiled compiled);
 
   static constexpr size_t kPrograms = 4;
 
 private:
-  std::list<StoredProgram> programs_; // used last first
+  std::mutex mutex_;
+  std::list<std::shared_ptr<StoredProgram>> programs_; // used last first
 };
 
 } // namespace rung::scenario

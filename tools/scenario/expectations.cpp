@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "tools/scenario/values.h"
+#include "tools/scenario/names.h"
 
 namespace rung::scenario {
 
@@ -15,24 +15,15 @@ std::string setValue(Lane& lane, const Statement& s) {
   if (s.name.starts_with("NC.")) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
   const std::optional<Ref> place = lane.nc().writePlace(lane.instance(), s.name);
   if (!place && s.value.kind != ValueKind::Text && lane.nc().writeCell(s.name, cellOf(s.value))) return {};
-  if (!place) return fmt::format("'{}' is no name of this program", s.name);
+  if (!place) return unknownName(lane.instance(), s.name);
   return writeValue(lane.instance(), *place, s.value);
 }
 
 std::string expectValue(const Lane& lane, const Statement& s) {
-  Reading reading;
-  if (s.name.starts_with("NC.")) {
-    const auto quantity = lane.nc().quantity(std::string_view(s.name).substr(3));
-    if (!quantity) return fmt::format("the simulated NC has no quantity '{}'", s.name);
-    reading = realReading(*quantity);
-  } else {
-    const std::optional<Ref> place = lane.nc().readPlace(lane.instance(), s.name);
-    const auto cell = place ? std::nullopt : lane.nc().readCell(s.name);
-    if (!place && !cell) return fmt::format("'{}' is no name of this program", s.name);
-    const bool wantReal = s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real;
-    reading = place ? readValue(lane.instance(), *place, wantReal) : cellReading(*cell);
-  }
-  return s.kind == Kind::ExpectRange ? checkRange(reading, s) : checkValue(reading, s);
+  const bool wantReal = s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real;
+  const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantReal);
+  if (!reading.ok()) return reading.error();
+  return s.kind == Kind::ExpectRange ? checkRange(reading.value(), s) : checkValue(reading.value(), s);
 }
 
 // Of several messages with this number one must (or none may) have the properties.

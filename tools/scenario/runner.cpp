@@ -1,13 +1,29 @@
 // The scenario runner (see runner.h): compiles, starts a session, and gives it the statements one by one.
 #include "tools/scenario/runner.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "tools/scenario/compile_step.h"
+#include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
 
 namespace rung::scenario {
 namespace {
+
+constexpr const char* kExpectsNothing =
+    "the scenario expects nothing, so it passes whatever the program does; add an expect statement";
+
+class Printer final : public Observer {
+public:
+  explicit Printer(std::vector<std::string>& lines) : lines_(lines) {}
+  void scanned(const Session&) override {}
+  void printed(const std::string& line) override { lines_.push_back(line); }
+
+private:
+  std::vector<std::string>& lines_;
+};
 
 class Runner {
 public:
@@ -15,35 +31,70 @@ public:
       : scenario_(scenario), options_(options), session_(std::filesystem::path(scenario.path).parent_path().string()) {}
 
   RunResult run() {
-    CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
-    result_.environment = step.environment;
-    result_.problems = step.problems;
-    if (step.program && result_.environment.empty() && result_.problems.empty() &&
-        start(store().enter(std::move(*step.program)))) {
-      runStatements();
-      if (options_.instrument) makeProfile();
-    }
+    result_.files = scenario_.files;
+    result_.problems = scenario_.problems;
+    result_.expectsNothing = expectsNothing(scenario_);
+    if (!scenario_.startUnknown) compileAndRun();
+    sortProblems();
     result_.passed = result_.problems.empty() && result_.environment.empty();
     return std::move(result_);
   }
 
 private:
+  // Everything that is wrong before the first scan is reported at once.
+  void compileAndRun() {
+    CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
+    result_.environment = step.environment;
+    add(result_.files, step.files);
+    add(result_.problems, step.problems);
+    if (options_.strict && result_.expectsNothing) fail(scenario_.statements[0], kExpectsNothing);
+    if (!step.program || !result_.environment.empty() || !step.problems.empty()) return;
+    program_ = store().enter(std::move(*step.program));
+    if (!start()) return;
+    add(result_.problems, unknownNames(scenario_, session_.instance(), session_.nc()));
+    if (!result_.problems.empty()) return;
+    session_.addObserver(printer_);
+    runStatements();
+    if (options_.instrument) makeProfile();
+  }
+
+  // By file and line; a file that is included twice has each of its problems once.
+  void sortProblems() {
+    const auto place = [&](const Problem& p) {
+      return std::pair(std::ranges::find(scenario_.files, p.file) - scenario_.files.begin(), p.line);
+    };
+    std::vector<Problem>& problems = result_.problems;
+    std::ranges::stable_sort(problems, {}, place);
+    const auto same = [](const Problem& a, const Problem& b) { return textOf(a) == textOf(b); };
+    problems.erase(std::unique(problems.begin(), problems.end(), same), problems.end());
+  }
+
+  template <class T>
+  static void add(std::vector<T>& to, const std::vector<T>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+  }
+
   void fail(const Statement& statement, std::string message) {
-    result_.problems.push_back({statement.line, std::move(message)});
+    result_.problems.push_back(problemAt(statement, std::move(message)));
   }
 
   EngineStore& store() { return options_.store != nullptr ? *options_.store : ownStore_; }
 
-  bool start(StoredProgram& program) {
-    for (driver::EngineKind kind : options_.engines) {
-      Result<host::Engine*> engine = program.engine(kind, options_.engine);
+  // In the program of a scenario that cannot run only names are looked up.
+  std::vector<driver::EngineKind> engines() const {
+    return scenario_.problems.empty() ? options_.engines : std::vector{driver::EngineKind::Interp};
+  }
+
+  bool start() {
+    for (driver::EngineKind kind : engines()) {
+      Result<host::Engine*> engine = program_->engine(kind, options_.engine);
       if (!engine.ok()) {
         result_.environment = engine.error();
         return false;
       }
       session_.addEngine(*engine.value());
     }
-    return configure(*program.compiled().dialect) && powerOn();
+    return configure(*program_->compiled().dialect) && powerOn();
   }
 
   bool configure(const frontend::Dialect& dialect) {
@@ -89,7 +140,9 @@ private:
   const Scenario& scenario_;
   const RunOptions& options_;
   RunResult result_;
-  EngineStore ownStore_; // when the options bring none; outlives the session
+  EngineStore ownStore_;                   // when the options bring none
+  std::shared_ptr<StoredProgram> program_; // outlives the session
+  Printer printer_{result_.printed};
   Session session_;
 };
 

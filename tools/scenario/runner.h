@@ -23,11 +23,15 @@ struct RunOptions {
 struct RunResult {
   bool passed = false;
   uint64_t scans = 0;
-  std::vector<Problem> problems; // why it failed, with the scenario's lines
-  std::string environment;       // not empty: it could not be run (no compiler, unreadable file)
-  profile::Report profile;       // of the first engine, when instrumented
+  std::vector<Problem> problems;    // why it failed, with the scenario's lines
+  std::vector<std::string> printed; // by print statements
+  bool expectsNothing = false;      // with RunOptions::strict that is a problem
+  std::vector<std::string> files;   // that were read: scenarios and sources
+  std::string environment;          // not empty: it could not be run (no compiler, unreadable file)
+  profile::Report profile;          // of the first engine, when instrumented
 };
 
+// A scenario with problems of its own does not run; what else is wrong with it is found all the same.
 RunResult run(const Scenario& scenario, const RunOptions& options);
 
 } // namespace rung::scenario

@@ -2,15 +2,18 @@
 // of each statement; what a name or a key means is the dialect's business and is decided when the scenario runs.
 #pragma once
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "ir/support/result.h"
+
 namespace rung::scenario {
 
 enum class Kind : uint8_t {
+  Include, // never in Scenario::statements: the statements of the file are
   Program,
   Dialect,
   Config,
@@ -38,6 +41,8 @@ enum class Kind : uint8_t {
   ExpectError,
   ExpectWarning,
   ExpectFault,
+  AllowErrors,
+  Print,
 };
 
 enum class ValueKind : uint8_t { Int, Real, Text };
@@ -45,6 +50,7 @@ enum class ValueKind : uint8_t { Int, Real, Text };
 // A value as written. An integer keeps 64 bits; one above 2^63-1 is kept modulo 2^64.
 struct Value {
   ValueKind kind = ValueKind::Int;
+  bool isBit = false; // written as on, off, true or false: the integer 1 or 0
   int64_t integer = 0;
   double real = 0;  // also filled for integers
   std::string text; // of a quoted string, else as written
@@ -57,36 +63,65 @@ struct KeyValue {
 
 struct Statement {
   Kind kind = Kind::Scan;
+  std::string file;  // that has it: of the scenario, or included
   uint32_t line = 0; // from 1
-  std::string name;  // Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the service or event; Plc:
-                     // the command
+  std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
+                     // service or event; Plc: the command
   std::vector<std::string> words; // Program: files; Connect: source and destination
   Value value;                    // Set, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange
   bool near = false;              // expect NAME ~ VALUE TOLERANCE
   double tolerance = 0;
-  uint64_t count = 1;       // Scan, Fast, Slot
-  int64_t microseconds = 0; // Run, Period
-  uint32_t number = 0;      // ExpectMessage: the number; ExpectError, ExpectWarning: the line, 0 for any
-  bool on = true;           // ExpectMessage
-  std::vector<KeyValue> keys;
-  std::vector<KeyValue> results; // Prepare: behind ->
+  uint64_t count = 1;            // Scan, Fast, Slot
+  int64_t microseconds = 0;      // Run, Period
+  uint32_t number = 0;           // ExpectMessage: the number; ExpectError, ExpectWarning: the line, 0 for any
+  bool on = true;                // ExpectMessage
+  std::vector<KeyValue> keys;    // Print: names as keys, texts as values without a key
+  std::vector<KeyValue> results; // Prepare: after ->
 };
 
 struct Problem {
+  std::string file; // of the scenario, or included
   uint32_t line = 0;
   std::string message;
 };
 
+inline Problem problemAt(const Statement& statement, std::string message) {
+  return {statement.file, statement.line, std::move(message)};
+}
+// FILE:LINE: MESSAGE
+std::string textOf(const Problem& problem);
+
 struct Scenario {
-  std::string path; // of the file, for messages and for the programs' folder
+  std::string path;               // of the file, for messages
+  std::vector<std::string> files; // this one and those that are included, there or not
   std::vector<Statement> statements;
   std::vector<Problem> problems; // a scenario with problems must not run
+  // A line that cannot be read may be one without which nothing is known of the program and its start.
+  bool startUnknown = false;
 };
 
 Scenario parse(std::string path, std::string_view text);
+// "" or, when this is the name of a program's source, what to do instead.
+std::string notAScenario(const std::string& path);
+// Fails when the file cannot be read or is a program.
+Result<Scenario> readScenario(const std::string& path);
+// One line without a file. The text of a failure begins in small letters and names no line.
+Result<Statement> parseStatement(std::string_view line);
 
-// 250ms, 2s, 500us, 1.5s in microseconds; nothing for anything else.
-std::optional<int64_t> parseDuration(std::string_view text);
+// How a statement is written, and what it does: for help and completion.
+struct StatementForm {
+  std::string_view word;
+  std::string_view form;
+  std::string_view meaning;
+};
+std::span<const StatementForm> statementForms();
+
+bool isExpectation(Kind kind);
+// It expects nothing: it passes whatever the program does, unless that stops with a fault.
+bool expectsNothing(const Scenario& scenario);
+
+// 250ms, 2s, 1.5 min, 500us in microseconds; the text of a failure says what to write.
+Result<int64_t> parseDuration(std::string_view text);
 
 } // namespace rung::scenario

@@ -6,19 +6,22 @@
 
 #include "rtlib/host/compare.h"
 #include "tools/scenario/expectations.h"
+#include "tools/scenario/names.h"
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
 
 bool belongsToStart(Kind kind) {
   switch (kind) {
+  case Kind::Include:
   case Kind::Program:
   case Kind::Dialect:
   case Kind::Config:
   case Kind::Connect:
   case Kind::Period:
   case Kind::ExpectError:
-  case Kind::ExpectWarning: return true;
+  case Kind::ExpectWarning:
+  case Kind::AllowErrors: return true;
   default: return false;
   }
 }
@@ -112,21 +115,31 @@ std::string Session::unexpectedFault() const {
   return {};
 }
 
+// What the first engine holds: all hold the same.
+std::string Session::print(const Statement& s) {
+  const Result<std::string> line = printedLine(s, instance(), nc(), scans_);
+  if (!line.ok()) return line.error();
+  for (Observer* observer : observers_) observer->printed(line.value());
+  return {};
+}
+
 std::optional<Problem> Session::execute(const Statement& s) {
   std::string problem = run(s);
   if (problem.empty()) return std::nullopt;
-  return Problem{s.line, std::move(problem)};
+  return problemAt(s, std::move(problem));
 }
 
 std::string Session::run(const Statement& s) {
   switch (s.kind) {
+  case Kind::Include: return "a file can be included by a scenario only";
   case Kind::Program:
   case Kind::Dialect:
   case Kind::Config:
   case Kind::Connect:
   case Kind::Period:
   case Kind::ExpectError:
-  case Kind::ExpectWarning: return "the program has started; this statement belongs to the start of a scenario";
+  case Kind::ExpectWarning:
+  case Kind::AllowErrors: return "the program has started; this statement belongs to the start of a scenario";
   case Kind::Set: return forLanes([&](Lane& lane) { return setValue(lane, s); });
   case Kind::Scan: return advance(s.count, &nc::NcModel::scan);
   case Kind::Fast: return advance(s.count, &nc::NcModel::fast);
@@ -152,6 +165,7 @@ std::string Session::run(const Statement& s) {
   case Kind::Plc: return forLanes([&](Lane& lane) { return lane.nc().plcCommand(lane.instance(), s.name); });
   case Kind::ColdStart: restart(nc::PowerOn::Cold); return {};
   case Kind::WarmStart: restart(nc::PowerOn::Warm); return {};
+  case Kind::Print: return print(s);
   case Kind::ExpectFault: faultExpected_ = true; return forLanes([&](Lane& lane) { return expectFault(lane, s); });
   }
   return {};

@@ -22,11 +22,13 @@ namespace rung::scenario {
 
 class Session;
 
-// Called after every scan, slot and run of the fast part, once the engines have been compared.
 class Observer {
 public:
   virtual ~Observer() = default;
+  // Called after every scan, slot and run of the fast part, once the engines have been compared.
   virtual void scanned(const Session& session) = 0;
+  // The line of a print statement.
+  virtual void printed(const std::string& line) { (void)line; }
 };
 
 // Statements that choose the program and what it is started with, or say what the compiler reports.
@@ -72,6 +74,7 @@ private:
   std::string advanceOnce(Lane::Advance how);
   std::string runFor(int64_t us);
   void restart(nc::PowerOn kind);
+  std::string print(const Statement& s);
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
 

@@ -28,6 +28,12 @@ int64_t asSigned(uint64_t value, uint32_t width) {
 // TECHNOL keeps a character in one byte, Windows-1250; scenarios are UTF-8.
 bool oneByteTexts(const Instance& instance) { return std::string_view(instance.program().dialect) == "technol"; }
 
+std::string show(const Value& value) {
+  return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text;
+}
+
+} // namespace
+
 std::string show(const Reading& reading) {
   switch (reading.kind) {
   case ValueKind::Real: return fmt::format("{}", reading.real);
@@ -39,12 +45,6 @@ std::string show(const Reading& reading) {
   return number < 0 ? fmt::format("{} ({}, 0x{:X})", reading.integer, number, reading.integer)
                     : fmt::format("{} (0x{:X})", number, reading.integer);
 }
-
-std::string show(const Value& value) {
-  return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text;
-}
-
-} // namespace
 
 Reading realReading(double value) {
   Reading reading;
@@ -95,6 +95,8 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
     return {};
   }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
+  if (value.isBit && place.kind != RefKind::Bit)
+    return fmt::format("{} is a value of a bit, and this name is not one: expected a number", value.text);
   if (place.kind == RefKind::Bit && (value.kind == ValueKind::Real || (value.integer != 0 && value.integer != 1)))
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
   if (place.kind == RefKind::Real) {
@@ -110,6 +112,9 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
 }
 
 std::string checkValue(const Reading& reading, const Statement& expect) {
+  if (expect.value.isBit && (reading.kind != ValueKind::Int || reading.width != 1))
+    return fmt::format("{} is not a bit, so it is not {}: it is {}; expected a number", expect.name, expect.value.text,
+                       show(reading));
   bool same = false;
   if (expect.near)
     same = std::fabs(reading.real - expect.value.real) <= expect.tolerance;

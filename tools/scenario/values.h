@@ -22,6 +22,7 @@ struct Reading {
 
 // `wantReal`: two words or eight bytes are read as one double.
 Reading readValue(const host::Instance& instance, const host::Ref& place, bool wantReal);
+std::string show(const Reading& reading);
 Reading realReading(double value);
 Reading cellReading(const nc::NcCell& cell);
 nc::NcCell cellOf(const Value& number);

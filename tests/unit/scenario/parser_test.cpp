@@ -1,5 +1,11 @@
-// The scenario parser: every statement, every mistake with its line.
+// The scenario parser: every statement, every mistake with its file and line.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
 
 #include "tools/scenario/scenario.h"
 
@@ -44,6 +50,52 @@ TEST(ScenarioParser, CountsAndTimes) {
   EXPECT_EQ(only("period 1.5s").microseconds, 1'500'000);
 }
 
+TEST(ScenarioParser, UnitsWhereAPersonWritesThem) {
+  EXPECT_EQ(only("run 2 s").microseconds, 2'000'000);
+  EXPECT_EQ(only("run 1.5 min").microseconds, 90'000'000);
+  EXPECT_EQ(only("run 3min").microseconds, 180'000'000);
+  EXPECT_EQ(only("run 500us").microseconds, 500);
+  EXPECT_EQ(only("period 10 ms").microseconds, 10'000);
+  EXPECT_EQ(only("scan 3 times").count, 3u);
+  EXPECT_EQ(only("slot 4 slots").count, 4u);
+  EXPECT_EQ(only("scan 1_000").count, 1000u);
+  EXPECT_EQ(only("set D10 0b101").value.integer, 5);
+  EXPECT_EQ(only("set D10 16#FF").value.integer, 255);
+  EXPECT_EQ(only("set D10 2#1000_0001").value.integer, 129);
+  EXPECT_EQ(only("set D10 -1_000").value.integer, -1000);
+}
+
+TEST(ScenarioParser, TimesWithoutOrWithAWrongUnit) {
+  EXPECT_NE(problemOf("run 2").find("'2' has no unit (us, ms, s, min): did you mean 2s?"), std::string::npos);
+  EXPECT_NE(problemOf("run 500").find("did you mean 500ms?"), std::string::npos);
+  EXPECT_NE(problemOf("run 2 sec").find("'sec' is not a unit of time: expected us, ms, s or min"), std::string::npos);
+  EXPECT_NE(problemOf("run 2sec").find("'sec' is not a unit of time: expected us, ms, s or min"), std::string::npos);
+  EXPECT_NE(problemOf("run soon").find("'soon' is not a time"), std::string::npos);
+  EXPECT_NE(problemOf("run -2s").find("negative"), std::string::npos);
+  EXPECT_NE(problemOf("run 1e99s").find("longer than"), std::string::npos);
+  EXPECT_NE(problemOf("run nans").find("not a"), std::string::npos);
+  EXPECT_NE(problemOf("run 3 scans").find("write: scan 3"), std::string::npos);
+  EXPECT_NE(problemOf("scan 250ms").find("write: run 250ms"), std::string::npos);
+  EXPECT_NE(problemOf("scan 2 s").find("write: run 2s"), std::string::npos);
+  EXPECT_NE(problemOf("set T 30s").find("'30s' is a time"), std::string::npos);
+  EXPECT_NE(problemOf("set D10 1__0").find("not a value"), std::string::npos);
+  EXPECT_NE(problemOf("set D10 0x").find("not a value"), std::string::npos);
+}
+
+TEST(ScenarioParser, BitsAsPeopleWriteThem) {
+  for (const char* on : {"on", "true", "ON", "True"}) {
+    const Value value = only(std::string("set LAMP ") + on).value;
+    EXPECT_EQ(value.kind, ValueKind::Int);
+    EXPECT_TRUE(value.isBit);
+    EXPECT_EQ(value.integer, 1) << on;
+  }
+  EXPECT_EQ(only("expect LAMP off").value.integer, 0);
+  EXPECT_EQ(only("expect LAMP false").value.text, "false");
+  EXPECT_EQ(only("event KEY STATE=on").keys[0].value.integer, 1);
+  EXPECT_EQ(only("event KEY STATE=\"on\"").keys[0].value.kind, ValueKind::Text);
+  EXPECT_FALSE(only("set LAMP 1").value.isBit);
+}
+
 TEST(ScenarioParser, Expectations) {
   const Statement near = only("expect POS ~ 1.5 0.01");
   EXPECT_TRUE(near.near);
@@ -61,6 +113,17 @@ TEST(ScenarioParser, Expectations) {
   EXPECT_EQ(error.number, 12u);
   EXPECT_EQ(error.name, "unbalanced-stack");
   EXPECT_EQ(only("expect_fault dead-loop").value.text, "dead-loop");
+  EXPECT_EQ(only("allow_errors").kind, Kind::AllowErrors);
+}
+
+TEST(ScenarioParser, PrintsNamesAndTexts) {
+  const Statement print = only("print VALVE \"two words\" 5200");
+  ASSERT_EQ(print.keys.size(), 3u);
+  EXPECT_EQ(print.keys[0].key, "VALVE");
+  EXPECT_EQ(print.keys[1].key, "");
+  EXPECT_EQ(print.keys[1].value.text, "two words");
+  EXPECT_EQ(print.keys[2].key, "5200");
+  EXPECT_NE(problemOf("print").find("expected a name or a text"), std::string::npos);
 }
 
 TEST(ScenarioParser, Services) {
@@ -77,11 +140,10 @@ TEST(ScenarioParser, Services) {
 }
 
 TEST(ScenarioParser, Mistakes) {
-  EXPECT_NE(problemOf("frobnicate").find("unknown statement 'frobnicate'"), std::string::npos);
-  EXPECT_NE(problemOf("set D10").find("expected a value"), std::string::npos);
-  EXPECT_NE(problemOf("set D10 abc").find("'abc' is no value"), std::string::npos);
-  EXPECT_NE(problemOf("scan -1").find("no number of runs"), std::string::npos);
-  EXPECT_NE(problemOf("run 5").find("no duration"), std::string::npos);
+  EXPECT_EQ(problemOf("frobnicate"), "unknown statement 'frobnicate'");
+  EXPECT_EQ(problemOf("set D10"), "expected a value (the statement is: set NAME VALUE)");
+  EXPECT_NE(problemOf("set D10 abc").find("'abc' is not a value"), std::string::npos);
+  EXPECT_NE(problemOf("scan -1").find("'-1' is not a number of runs"), std::string::npos);
   EXPECT_NE(problemOf("scan 1 2").find("unexpected '2'"), std::string::npos);
   EXPECT_NE(problemOf("set T \"open").find("not closed"), std::string::npos);
   EXPECT_NE(problemOf("plc jump").find("expected stop, start or clear"), std::string::npos);
@@ -89,6 +151,125 @@ TEST(ScenarioParser, Mistakes) {
   EXPECT_NE(problemOf("prepare windr function=1").find("->"), std::string::npos);
   EXPECT_NE(problemOf("event X Y").find("KEY=VALUE"), std::string::npos);
   EXPECT_NE(problemOf("period 0ms").find("longer than nothing"), std::string::npos);
+}
+
+TEST(ScenarioParser, MisspelledStatementsAreSuggested) {
+  EXPECT_EQ(problemOf("expct LAMP 1"),
+            "unknown statement 'expct'; did you mean: expect NAME VALUE | expect NAME ~ VALUE TOLERANCE");
+  EXPECT_NE(problemOf("SCAN 3").find("did you mean: scan"), std::string::npos);
+  EXPECT_NE(problemOf("wait 2s").find("did you mean: run"), std::string::npos);
+  EXPECT_NE(problemOf("assert LAMP 1").find("did you mean: expect NAME"), std::string::npos);
+  EXPECT_NE(problemOf("set X = 1").find("write only a blank"), std::string::npos);
+}
+
+TEST(ScenarioParser, OneLineAlone) {
+  const Result<Statement> good = parseStatement("run 2 s # two");
+  ASSERT_TRUE(good.ok());
+  EXPECT_EQ(good.value().kind, Kind::Run);
+  EXPECT_EQ(good.value().line, 0u);
+  EXPECT_FALSE(parseStatement("wait 2s").ok());
+  EXPECT_FALSE(parseStatement("  # nothing").ok());
+}
+
+TEST(ScenarioParser, ThePageHasEveryStatement) {
+  std::ifstream in("docs/scenario-format.md");
+  std::ostringstream page;
+  page << in.rdbuf();
+  ASSERT_FALSE(page.str().empty()) << "run from the root";
+  for (const StatementForm& form : statementForms()) {
+    EXPECT_NE(page.str().find("`" + std::string(form.word)), std::string::npos) << form.word;
+    EXPECT_TRUE(form.form.starts_with(form.word)) << form.word;
+    EXPECT_FALSE(form.meaning.empty()) << form.word;
+  }
+}
+
+TEST(ScenarioParser, OnlyWhatTheStartNeedsMakesItUnknown) {
+  const auto unknown = [](const std::string& line) { return parse("t.scn", "program a\n" + line + "\n").startUnknown; };
+  EXPECT_FALSE(unknown("wait 2s"));
+  EXPECT_FALSE(unknown("set X"));
+  EXPECT_FALSE(unknown("set X 1"));
+  EXPECT_TRUE(unknown("confg nc simulated"));
+  EXPECT_TRUE(unknown("expect_eror 3 unbalanced-stack"));
+  EXPECT_TRUE(unknown("include nowhere.part"));
+  EXPECT_TRUE(unknown("period 5"));
+}
+
+class ScenarioFiles : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / ("rung_scenario_files" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_ / "parts");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  Scenario read(const std::string& name) {
+    Result<Scenario> scenario = readScenario((folder_ / name).string());
+    EXPECT_TRUE(scenario.ok());
+    return scenario.ok() ? std::move(scenario).value() : Scenario{};
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(ScenarioFiles, IncludedStatementsComeInPlaceWithTheirFile) {
+  const std::string main = file("a.scn", "include parts/start.part\nscan\nexpect X 1\n");
+  const std::string start = file("parts/start.part", "program ../a.lad\ninclude more.part\n");
+  const std::string more = file("parts/more.part", "\nset X 1\n");
+  const Scenario scenario = read("a.scn");
+  ASSERT_TRUE(scenario.problems.empty()) << textOf(scenario.problems[0]);
+  ASSERT_EQ(scenario.statements.size(), 4u);
+  EXPECT_EQ(scenario.statements[0].file, start);
+  EXPECT_EQ(scenario.statements[1].file, more);
+  EXPECT_EQ(scenario.statements[1].line, 2u);
+  EXPECT_EQ(scenario.statements[2].file, main);
+}
+
+TEST_F(ScenarioFiles, ProblemsNameTheFileThatHasThem) {
+  file("a.scn", "program a.lad\ninclude b.part\nfoo\n");
+  const std::string part = file("b.part", "scan\nbar\nconfig k 1\n");
+  const Scenario scenario = read("a.scn");
+  ASSERT_EQ(scenario.problems.size(), 3u);
+  EXPECT_EQ(textOf(scenario.problems[0]), part + ":2: unknown statement 'bar'");
+  EXPECT_NE(textOf(scenario.problems[1]).find("b.part:3: config, connect and period must come"), std::string::npos);
+  EXPECT_NE(textOf(scenario.problems[2]).find("a.scn:3: unknown statement 'foo'"), std::string::npos);
+}
+
+TEST_F(ScenarioFiles, WhatCannotBeIncluded) {
+  file("a.scn", "program a.lad\ninclude b.part\ninclude nowhere.part\ninclude parts\ninclude a.lad\n");
+  file("b.part", "include a.scn\n");
+  file("a.lad", "dialect nct\n");
+  const Scenario scenario = read("a.scn");
+  ASSERT_EQ(scenario.problems.size(), 4u);
+  EXPECT_NE(textOf(scenario.problems[0]).find("b.part:1: a file cannot include itself: "), std::string::npos);
+  EXPECT_NE(textOf(scenario.problems[1]).find("a.scn:3: cannot read '"), std::string::npos);
+  EXPECT_NE(textOf(scenario.problems[2]).find("a.scn:4: cannot read '"), std::string::npos);
+  EXPECT_NE(textOf(scenario.problems[3]).find("is a program, not a scenario"), std::string::npos);
+}
+
+TEST_F(ScenarioFiles, FilesThatIncludeOthersManyTimesEnd) {
+  for (int i = 0; i < 20; ++i) {
+    const std::string next = "include " + std::to_string(i + 1) + ".part\n";
+    file(std::to_string(i) + ".part", next + next);
+  }
+  file("20.part", "scan\n");
+  file("a.scn", "program a.lad\ninclude 0.part\n");
+  const Scenario scenario = read("a.scn");
+  ASSERT_EQ(scenario.problems.size(), 1u);
+  EXPECT_NE(scenario.problems[0].message.find("more than 1000 files"), std::string::npos);
+}
+
+TEST_F(ScenarioFiles, AProgramIsNotAScenario) {
+  for (const char* name : {"a.lad", "a.pmc", "a.plc"}) {
+    const Result<Scenario> scenario = readScenario(file(name, "x\ny\nz\n"));
+    ASSERT_FALSE(scenario.ok()) << name;
+    EXPECT_NE(scenario.error().find("is a program, not a scenario"), std::string::npos);
+    EXPECT_EQ(scenario.error().find('\n'), std::string::npos);
+  }
+  EXPECT_FALSE(readScenario((folder_ / "missing.scn").string()).ok());
 }
 
 TEST(ScenarioParser, WhatPreparesTheStartStandsInFrontOfTheFirstScan) {

@@ -1,0 +1,77 @@
+// Names of a scenario in a running program (see names.h).
+#include "tools/scenario/names.h"
+
+#include <fmt/format.h>
+#include <optional>
+
+#include "ir/support/similar.h"
+
+namespace rung::scenario {
+namespace {
+
+constexpr std::string_view kQuantity = "NC.";
+
+bool namesValue(Kind kind) { return kind == Kind::Set || kind == Kind::Expect || kind == Kind::ExpectRange; }
+
+// Without the bit, the index or the width: SYMBOL.3, SYM,#2, NAME[2], D10:4.
+std::string_view headOf(std::string_view name) {
+  if (name.starts_with('!')) name.remove_prefix(1);
+  return name.substr(0, name.find_first_of(".,[:+"));
+}
+
+} // namespace
+
+Result<Reading> readName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name, bool wantReal) {
+  if (name.starts_with(kQuantity)) {
+    if (const auto quantity = nc.quantity(name.substr(kQuantity.size()))) return realReading(*quantity);
+    return failure(fmt::format("the simulated NC has no quantity '{}'", name));
+  }
+  if (const std::optional<host::Ref> place = nc.readPlace(instance, name)) return readValue(instance, *place, wantReal);
+  if (const std::optional<nc::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
+  return failure(unknownName(instance, name));
+}
+
+std::string unknownName(const host::Instance& instance, std::string_view name) {
+  const rung_program& program = instance.program();
+  const std::string_view head = headOf(name);
+  Similar similar(head);
+  for (uint32_t i = 0; i < program.symbol_count; ++i)
+    if (program.symbols[i].name[0] != '@') similar.offer(program.symbols[i].name);
+  return fmt::format("'{}' is not a name of this program{}", name,
+                     similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best()));
+}
+
+std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance, const nc::NcModel& nc) {
+  std::vector<Problem> problems;
+  const auto check = [&](const Statement& s, const std::string& name) {
+    if (name.starts_with(kQuantity)) return; // some exist only once they have been set
+    const Result<Reading> reading = readName(instance, nc, name, false);
+    if (!reading.ok()) problems.push_back(problemAt(s, reading.error()));
+  };
+  for (const Statement& s : scenario.statements) {
+    if (namesValue(s.kind)) check(s, s.name);
+    if (s.kind != Kind::Print) continue;
+    for (const KeyValue& item : s.keys)
+      if (!item.key.empty()) check(s, item.key);
+  }
+  return problems;
+}
+
+Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const nc::NcModel& nc,
+                                uint64_t scans) {
+  std::string line = fmt::format("{:.3f} ms, scan {}:", static_cast<double>(instance.nowUs()) / 1000, scans);
+  bool first = true;
+  for (const KeyValue& item : print.keys) {
+    line += std::exchange(first, false) ? " " : ", ";
+    if (item.key.empty()) {
+      line += item.value.text;
+      continue;
+    }
+    const Result<Reading> reading = readName(instance, nc, item.key, false);
+    if (!reading.ok()) return reading.failure();
+    line += fmt::format("{} = {}", item.key, show(reading.value()));
+  }
+  return line;
+}
+
+} // namespace rung::scenario

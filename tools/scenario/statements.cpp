@@ -1,0 +1,320 @@
+// One statement of a scenario: a table of forms, each with a function that reads its words.
+#include "tools/scenario/statements.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "ir/support/similar.h"
+#include "tools/scenario/words.h"
+
+namespace rung::scenario {
+namespace {
+
+// What people write who come from elsewhere.
+struct Synonym {
+  std::string_view word;
+  std::string_view statement;
+};
+constexpr Synonym kSynonyms[] = {{"wait", "run"},     {"sleep", "run"},    {"delay", "run"},     {"assert", "expect"},
+                                 {"check", "expect"}, {"test", "expect"},  {"write", "set"},     {"force", "set"},
+                                 {"step", "scan"},    {"cycle", "scan"},   {"echo", "print"},    {"show", "print"},
+                                 {"log", "print"},    {"load", "program"}, {"import", "include"}};
+
+bool startsWithDigit(std::string_view text) { return !text.empty() && text[0] >= '0' && text[0] <= '9'; }
+
+// Statements that decide how the program is compiled and started.
+bool shapesStart(Kind kind) {
+  return kind == Kind::Include || kind == Kind::Program || kind == Kind::Dialect || kind == Kind::ExpectError ||
+         kind == Kind::AllowErrors || preparesStart(kind);
+}
+
+class LineParser {
+public:
+  explicit LineParser(std::vector<ScenarioWord> words) : words_(std::move(words)) {}
+
+  ParsedLine run();
+
+private:
+  bool done() const { return next_ >= words_.size(); }
+  const std::string& word() const { return words_[next_].text; }
+  bool fail(std::string message) {
+    if (error_.empty()) error_ = std::move(message);
+    return false;
+  }
+  bool takeWord(std::string& into, std::string_view what) {
+    if (done()) return fail(fmt::format("expected {}", what));
+    into = words_[next_++].text;
+    return true;
+  }
+  bool notAValue(const std::string& text);
+  bool takeValue(Value& into, bool numeric = false) {
+    if (done()) return fail("expected a value");
+    const ScenarioWord& word = words_[next_++];
+    into = valueOf(word);
+    if (into.kind == ValueKind::Text && !word.quoted) return notAValue(word.text);
+    if (numeric && into.kind == ValueKind::Text) return fail("expected a number");
+    return true;
+  }
+  bool takeCount();
+  bool takeDuration();
+  bool takeText() {
+    if (done()) return fail("expected a text");
+    s_.value.kind = ValueKind::Text;
+    for (; !done(); ++next_) s_.value.text += (s_.value.text.empty() ? "" : " ") + word();
+    return true;
+  }
+  bool takeKeys(std::vector<KeyValue>& into) {
+    for (; !done() && word() != "->"; ++next_) {
+      const size_t equals = word().find('=');
+      if (equals == std::string::npos || equals == 0)
+        return fail(fmt::format("expected KEY=VALUE, found '{}'", word()));
+      into.push_back({word().substr(0, equals), valueOfKey(word().substr(equals + 1))});
+    }
+    return true;
+  }
+
+  bool set() { return takeWord(s_.name, "a name") && takeValue(s_.value); }
+  bool expect() {
+    if (!takeWord(s_.name, "a name")) return false;
+    if (done() || word() != "~") return takeValue(s_.value);
+    ++next_;
+    s_.near = true;
+    Value tolerance;
+    if (!takeValue(s_.value, true) || !takeValue(tolerance, true)) return false;
+    s_.tolerance = tolerance.real;
+    return true;
+  }
+  bool expectRange() { return takeWord(s_.name, "a name") && takeValue(s_.value, true) && takeValue(s_.high, true); }
+  bool expectMessage() {
+    Value number;
+    if (!takeValue(number, true)) return false;
+    s_.number = static_cast<uint32_t>(number.integer);
+    if (!done() && (word() == "on" || word() == "off")) s_.on = words_[next_++].text == "on";
+    return takeKeys(s_.keys);
+  }
+  bool expectCode() {
+    std::string first;
+    if (!takeWord(first, "a diagnostic code")) return false;
+    s_.name = first;
+    if (done()) return true;
+    const auto line = parseInt(first);
+    if (!line || *line <= 0) return fail(fmt::format("'{}' is not a line number", first));
+    s_.number = static_cast<uint32_t>(*line);
+    return takeWord(s_.name, "a diagnostic code");
+  }
+  bool block() {
+    std::string what;
+    if (!takeWord(what, "start or done")) return false;
+    if (what == "done") {
+      s_.kind = Kind::BlockDone;
+      return true;
+    }
+    if (what != "start") return fail(fmt::format("expected start or done, found '{}'", what));
+    return takeKeys(s_.keys);
+  }
+  bool plc() {
+    if (!takeWord(s_.name, "stop, start or clear")) return false;
+    if (s_.name == "stop" || s_.name == "start" || s_.name == "clear") return true;
+    return fail(fmt::format("expected stop, start or clear, found '{}'", s_.name));
+  }
+  bool prepare() {
+    if (!takeWord(s_.name, "a service") || !takeKeys(s_.keys)) return false;
+    if (done()) return fail("expected -> and the answer");
+    ++next_;
+    return takeKeys(s_.results);
+  }
+  bool program() {
+    for (; !done(); ++next_) s_.words.push_back(word());
+    return !s_.words.empty() || fail("expected a file");
+  }
+  bool connect() {
+    s_.words.resize(2);
+    return takeWord(s_.words[0], "a source") && takeWord(s_.words[1], "a destination");
+  }
+  bool config() { return takeWord(s_.name, "a key") && takeText(); }
+  bool period() { return takeDuration() && (s_.microseconds > 0 || fail("a period is longer than nothing")); }
+  bool call() { return takeWord(s_.name, "a service") && takeKeys(s_.keys); }
+  bool event() { return takeWord(s_.name, "an event") && takeKeys(s_.keys); }
+  bool noCall() { return done() || takeWord(s_.name, "a service"); }
+  bool print();
+  bool nothing() { return true; }
+  bool include() { return takeWord(s_.name, "a file"); }
+  bool dialect() { return takeWord(s_.name, "a dialect"); }
+  bool reply() { return takeKeys(s_.results); }
+
+  std::string unknown();
+
+  Statement s_;
+  std::vector<ScenarioWord> words_;
+  size_t next_ = 1;
+  std::string error_;
+  bool mayShapeStart_ = false;
+
+  struct Row {
+    StatementForm form;
+    Kind kind;
+    bool (LineParser::*read)();
+  };
+  static const Row* find(std::string_view word);
+  static const Row kRows[];
+  friend std::vector<StatementForm> formsOfRows();
+};
+
+using P = LineParser;
+const P::Row P::kRows[] = {
+    {{"program", "program FILE…", "the source files under test"}, Kind::Program, &P::program},
+    {{"include", "include FILE", "the statements of another file"}, Kind::Include, &P::include},
+    {{"dialect", "dialect nct|technol|gsk", "needed where the files do not say"}, Kind::Dialect, &P::dialect},
+    {{"config", "config KEY VALUE", "a configuration value, before the first scan"}, Kind::Config, &P::config},
+    {{"connect", "connect SRC DST", "TECHNOL: binds a symbol to a terminal"}, Kind::Connect, &P::connect},
+    {{"period", "period 10ms", "the main task's period"}, Kind::Period, &P::period},
+    {{"set", "set NAME VALUE", "writes a variable, an input or a signal of the NC"}, Kind::Set, &P::set},
+    {{"scan", "scan [N]", "runs N scans of the main task"}, Kind::Scan, &P::takeCount},
+    {{"fast", "fast [N]", "runs the fast task alone N times"}, Kind::Fast, &P::takeCount},
+    {{"slot", "slot [N]", "GSK: runs N slots of 8 ms"}, Kind::Slot, &P::takeCount},
+    {{"run", "run 250ms", "runs scans until so much time has passed"}, Kind::Run, &P::takeDuration},
+    {{"expect", "expect NAME VALUE | expect NAME ~ VALUE TOLERANCE", "NAME has this value"}, Kind::Expect, &P::expect},
+    {{"expect_range", "expect_range NAME LOW HIGH", "NAME lies between them"}, Kind::ExpectRange, &P::expectRange},
+    {{"expect_message", "expect_message NUMBER [on|off] [KEY=VALUE …]", "the message is, or is not, displayed"},
+     Kind::ExpectMessage,
+     &P::expectMessage},
+    {{"expect_log", "expect_log TEXT", "a new log entry contains TEXT"}, Kind::ExpectLog, &P::takeText},
+    {{"expect_call", "expect_call SERVICE [KEY=VALUE …]", "the next request is this one; it is taken"},
+     Kind::ExpectCall,
+     &P::call},
+    {{"expect_no_call", "expect_no_call [SERVICE]", "no such request waits"}, Kind::ExpectNoCall, &P::noCall},
+    {{"reply", "reply [KEY=VALUE …]", "answers the oldest pending request"}, Kind::Reply, &P::reply},
+    {{"prepare", "prepare SERVICE [KEY=VALUE …] -> [KEY=VALUE …]", "the answer to the next such request"},
+     Kind::Prepare,
+     &P::prepare},
+    {{"block", "block start [KEY=VALUE …] | block done", "the NC starts a block, or has finished its motion"},
+     Kind::BlockStart,
+     &P::block},
+    {{"event", "event NAME [KEY=VALUE …]", "an event of the NC or a command of the operator"}, Kind::Event, &P::event},
+    {{"plc", "plc stop|start|clear", "the operator's command to the PLC"}, Kind::Plc, &P::plc},
+    {{"cold_start", "cold_start", "off and on; nothing is kept"}, Kind::ColdStart, &P::nothing},
+    {{"warm_start", "warm_start", "off and on; what the dialect keeps is kept"}, Kind::WarmStart, &P::nothing},
+    {{"expect_error", "expect_error [LINE] CODE", "compiling fails with this error"},
+     Kind::ExpectError,
+     &P::expectCode},
+    {{"allow_errors", "allow_errors", "compiling may report errors that are not expected, too"},
+     Kind::AllowErrors,
+     &P::nothing},
+    {{"expect_warning", "expect_warning [LINE] CODE", "compiling reports this warning"},
+     Kind::ExpectWarning,
+     &P::expectCode},
+    {{"expect_fault", "expect_fault TEXT", "the program has stopped with a fault that contains TEXT"},
+     Kind::ExpectFault,
+     &P::takeText},
+    {{"print", "print NAME…|\"TEXT\"…", "writes values and texts to the result"}, Kind::Print, &P::print},
+};
+
+const LineParser::Row* LineParser::find(std::string_view word) {
+  const auto* row = std::ranges::find(kRows, word, [](const Row& r) { return r.form.word; });
+  return row == std::end(kRows) ? nullptr : row;
+}
+
+bool LineParser::notAValue(const std::string& text) {
+  if (text == "=" || text == "==") return fail(fmt::format("'{}' is not a value: write only a blank before it", text));
+  if (startsWithDigit(text) && parseDuration(text).ok())
+    return fail(fmt::format("'{}' is a time; a value is a number in the unit that the program counts in", text));
+  return fail(fmt::format("'{}' is not a value: expected a number, on, off, true, false or a text in quotes", text));
+}
+
+bool LineParser::takeCount() {
+  if (done()) return true;
+  const std::string unit = next_ + 1 < words_.size() ? words_[next_ + 1].text : std::string();
+  const std::string time = isTimeUnit(unit) ? word() + unit : word();
+  if (parseDuration(time).ok())
+    return fail(fmt::format("{} takes a number of runs; for a time write: run {}", words_[0].text, time));
+  const auto count = parseInt(word());
+  if (!count || *count < 0) return fail(fmt::format("'{}' is not a number of runs", word()));
+  s_.count = static_cast<uint64_t>(*count);
+  ++next_;
+  const std::string& own = words_[0].text; // scan 3 scans, scan 3 times
+  if (!done() && (word() == "times" || word() == own || word() == own + "s")) ++next_;
+  return true;
+}
+
+bool LineParser::takeDuration() {
+  if (done()) return fail("expected a time such as 250ms or 2s");
+  std::string text = word();
+  ++next_;
+  if (!done() && valueOf({text, false}).kind != ValueKind::Text) { // the unit is the next word
+    if (word().starts_with("scan"))
+      return fail(fmt::format("{} takes a time; for a number of scans write: scan {}", words_[0].text, text));
+    text += " " + words_[next_++].text;
+  }
+  const Result<int64_t> us = parseDuration(text);
+  if (!us.ok()) return fail(us.error());
+  s_.microseconds = us.value();
+  return true;
+}
+
+bool LineParser::print() {
+  for (; !done(); ++next_) {
+    const ScenarioWord& item = words_[next_];
+    s_.keys.push_back(item.quoted ? KeyValue{{}, valueOf(item)} : KeyValue{item.text, {}});
+  }
+  return !s_.keys.empty() || fail("expected a name or a text in quotes");
+}
+
+std::string LineParser::unknown() {
+  const std::string& word = words_[0].text;
+  std::string_view meant;
+  for (const Synonym& synonym : kSynonyms)
+    if (synonym.word == word) meant = synonym.statement;
+  if (meant.empty()) {
+    Similar similar(word);
+    for (const Row& row : kRows) similar.offer(row.form.word);
+    meant = similar.best();
+  }
+  if (meant.empty()) return fmt::format("unknown statement '{}'", word);
+  const Row& row = *find(meant);
+  mayShapeStart_ = shapesStart(row.kind);
+  return fmt::format("unknown statement '{}'; did you mean: {}", word, row.form.form);
+}
+
+ParsedLine LineParser::run() {
+  const Row* row = find(words_[0].text);
+  if (row == nullptr) {
+    std::string problem = unknown();
+    return {{}, std::move(problem), mayShapeStart_};
+  }
+  s_.kind = row->kind;
+  if ((this->*row->read)() && !done()) fail(fmt::format("unexpected '{}' after the statement", word()));
+  if (error_.empty()) return {std::move(s_), {}, shapesStart(row->kind)};
+  return {{}, fmt::format("{} (the statement is: {})", error_, row->form.form), shapesStart(row->kind)};
+}
+
+std::vector<StatementForm> formsOfRows() {
+  std::vector<StatementForm> forms;
+  for (const LineParser::Row& row : LineParser::kRows) forms.push_back(row.form);
+  return forms;
+}
+
+} // namespace
+
+bool preparesStart(Kind kind) { return kind == Kind::Config || kind == Kind::Connect || kind == Kind::Period; }
+
+ParsedLine parseLine(std::string_view line) {
+  std::vector<ScenarioWord> words;
+  std::string problem = splitLine(line, words);
+  if (!problem.empty()) return {{}, std::move(problem), true};
+  if (words.empty()) return {};
+  return LineParser(std::move(words)).run();
+}
+
+Result<Statement> parseStatement(std::string_view line) {
+  ParsedLine parsed = parseLine(line);
+  if (!parsed.problem.empty()) return failure(std::move(parsed.problem));
+  if (!parsed.statement) return failure("expected a statement");
+  return std::move(*parsed.statement);
+}
+
+std::span<const StatementForm> statementForms() {
+  static const std::vector<StatementForm> kForms = formsOfRows();
+  return kForms;
+}
+
+} // namespace rung::scenario

@@ -1,0 +1,153 @@
+// Words of a scenario's line (see words.h).
+#include "tools/scenario/words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace rung::scenario {
+namespace {
+
+struct TimeUnit {
+  std::string_view name;
+  double us;
+};
+constexpr TimeUnit kTimeUnits[] = {{"us", 1.0}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}};
+constexpr double kLongestUs = 9e15; // far from the end of 64 bits
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+std::optional<double> parseReal(std::string_view text) {
+  const std::string copy(text);
+  if (copy.empty() || copy.find_first_of("xX") != std::string::npos) return std::nullopt;
+  char* end = nullptr;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (end != copy.c_str() + copy.size()) return std::nullopt;
+  return value;
+}
+
+// Takes a prefix such as 0x or 16# off.
+int takeBase(std::string_view& digits) {
+  struct Prefix {
+    std::string_view text;
+    int base;
+  };
+  for (const Prefix prefix : {Prefix{"0x", 16}, Prefix{"0X", 16}, Prefix{"0b", 2}, Prefix{"0B", 2}, Prefix{"16#", 16},
+                              Prefix{"8#", 8}, Prefix{"2#", 2}}) {
+    if (!digits.starts_with(prefix.text) || digits.size() == prefix.text.size()) continue;
+    digits.remove_prefix(prefix.text.size());
+    return prefix.base;
+  }
+  return 10;
+}
+
+// "1_000" to "1000"; an underscore that is not between two others stays, and is not a digit.
+std::string withoutUnderscores(std::string_view digits) {
+  std::string out;
+  for (size_t i = 0; i < digits.size(); ++i) {
+    const bool between = i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && digits[i + 1] != '_';
+    if (digits[i] != '_' || !between) out += digits[i];
+  }
+  return out;
+}
+
+std::optional<bool> parseBit(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (lower == "on" || lower == "true") return true;
+  if (lower == "off" || lower == "false") return false;
+  return std::nullopt;
+}
+
+// The length of the number before the unit.
+size_t numberLength(std::string_view text) {
+  size_t length = text.size();
+  while (length > 0 && !isDigit(text[length - 1]) && text[length - 1] != '.') --length;
+  return length;
+}
+
+} // namespace
+
+std::string splitLine(std::string_view line, std::vector<ScenarioWord>& words) {
+  size_t i = 0;
+  const auto blank = [&] { return i < line.size() && (line[i] == ' ' || line[i] == '\t' || line[i] == '\r'); };
+  while (true) {
+    while (blank()) ++i;
+    if (i >= line.size() || line[i] == '#') return {};
+    ScenarioWord word;
+    word.quoted = line[i] == '"';
+    while (i < line.size() && !blank()) {
+      if (line[i] != '"') {
+        word.text += line[i++];
+        continue;
+      }
+      const size_t close = line.find('"', i + 1);
+      if (close == std::string_view::npos) return "a text is not closed: expected \"";
+      const size_t skip = word.quoted ? 1 : 0;
+      word.text += line.substr(i + skip, close + 1 - i - 2 * skip);
+      i = close + 1;
+    }
+    words.push_back(std::move(word));
+  }
+}
+
+std::optional<int64_t> parseInt(std::string_view text) {
+  const bool negative = !text.empty() && text[0] == '-';
+  if (negative || (!text.empty() && text[0] == '+')) text.remove_prefix(1);
+  const int base = takeBase(text);
+  const std::string digits = withoutUnderscores(text);
+  uint64_t magnitude = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), magnitude, base);
+  if (error != std::errc() || end != digits.data() + digits.size() || digits.empty()) return std::nullopt;
+  return static_cast<int64_t>(negative ? 0 - magnitude : magnitude);
+}
+
+Value valueOf(const ScenarioWord& word) {
+  Value value;
+  value.text = word.text;
+  value.kind = ValueKind::Text;
+  if (word.quoted) return value;
+  const auto bit = parseBit(word.text);
+  if (const auto integer = bit ? std::optional<int64_t>(*bit) : parseInt(word.text)) {
+    value.kind = ValueKind::Int;
+    value.isBit = bit.has_value();
+    value.integer = *integer;
+    value.real = static_cast<double>(*integer);
+  } else if (const auto real = parseReal(word.text)) {
+    value.kind = ValueKind::Real;
+    value.real = *real;
+  }
+  return value;
+}
+
+Value valueOfKey(const std::string& text) {
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return valueOf({quoted ? text.substr(1, text.size() - 2) : text, quoted});
+}
+
+bool isTimeUnit(std::string_view text) {
+  return std::any_of(std::begin(kTimeUnits), std::end(kTimeUnits), [&](const TimeUnit& u) { return u.name == text; });
+}
+
+Result<int64_t> parseDuration(std::string_view text) {
+  const size_t length = numberLength(text);
+  std::string_view unit = text.substr(length);
+  unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
+  const auto number = parseReal(text.substr(0, length));
+  if (!number) return failure(fmt::format("'{}' is not a time: expected one such as 250ms, 2s or 1.5min", text));
+  if (!(*number >= 0)) return failure(fmt::format("'{}' is negative: a time begins at 0s", text));
+  if (unit.empty())
+    return failure(
+        fmt::format("'{0}' has no unit (us, ms, s, min): did you mean {0}{1}?", text, *number < 50 ? "s" : "ms"));
+  for (const TimeUnit& known : kTimeUnits) {
+    if (unit != known.name) continue;
+    if (!(*number * known.us <= kLongestUs)) return failure(fmt::format("'{}' is longer than a program can run", text));
+    return static_cast<int64_t>(*number * known.us + 0.5);
+  }
+  return failure(fmt::format("'{}' is not a unit of time: expected us, ms, s or min", unit));
+}
+
+} // namespace rung::scenario

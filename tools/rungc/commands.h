@@ -22,6 +22,9 @@ struct SourceOptions {
 };
 
 void addSourceOptions(CLI::App& command, SourceOptions& options);
+void addColorOption(CLI::App& command, std::string& color, const std::string& what);
+// By the option and, with auto, whether the file is a terminal.
+bool wantsColor(const std::string& color, int file);
 // -O0 compiles fast, -O2 runs fast.
 void addLevelOption(CLI::App& command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.

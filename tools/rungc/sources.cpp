@@ -17,8 +17,15 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
       ->allow_extra_args(false);
   command.add_flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
   command.add_flag("--json", options.json, "Diagnostics as JSON on standard output");
-  command.add_option("--color", options.color, "Colours in diagnostics")
-      ->check(CLI::IsMember({"auto", "always", "never"}));
+  addColorOption(command, options.color, "Colours in diagnostics");
+}
+
+void addColorOption(CLI::App& command, std::string& color, const std::string& what) {
+  command.add_option("--color", color, what)->check(CLI::IsMember({"auto", "always", "never"}));
+}
+
+bool wantsColor(const std::string& color, int file) {
+  return color == "always" || (color == "auto" && isatty(file) != 0);
 }
 
 void addLevelOption(CLI::App& command, std::string& level) {
@@ -44,7 +51,7 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
     return;
   }
   RenderOptions render;
-  render.color = options.color == "always" || (options.color == "auto" && isatty(STDERR_FILENO) != 0);
+  render.color = wantsColor(options.color, STDERR_FILENO);
   std::cerr << renderText(diagnostics, sources, render);
 }
 

@@ -1,29 +1,123 @@
 // rungc test: scenarios on one or several engines.
+#include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
+#include <iterator>
+#include <thread>
+#include <unistd.h>
 
 #include "tools/rungc/commands.h"
+#include "tools/rungc/file_watch.h"
 #include "tools/rungc/junit.h"
-#include "tools/rungc/scenarios.h"
+#include "tools/rungc/progress.h"
+#include "tools/rungc/scenario_files.h"
+#include "tools/rungc/test_pool.h"
 
 namespace rung::rungc {
 namespace {
 
 struct TestOptions {
-  std::vector<std::string> files;
+  std::vector<std::string> names; // files and folders
+  std::vector<std::string> filters;
   std::string engines = "jit";
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  bool failFast = false;
+  bool watchFiles = false;
+  std::string color = "auto";
   std::string junit;
   std::string cxx;
   bool strict = false;
   std::string level = "2";
 };
 
+struct Outcome {
+  int status = kOk;
+  std::vector<TestCase> tests;
+};
+
+std::string summary(const std::vector<TestCase>& tests, size_t selected, double seconds) {
+  const auto count = [&](auto counts) { return std::ranges::count_if(tests, counts); };
+  const auto passed = count([](const TestCase& t) { return t.result.passed; });
+  const auto hollow = count([](const TestCase& t) { return t.result.passed && t.result.expectsNothing; });
+  std::string text = fmt::format("{} passed, {} failed", passed, tests.size() - static_cast<size_t>(passed));
+  if (hollow > 0) text += fmt::format(", {} expecting nothing", hollow);
+  if (tests.size() < selected) text += fmt::format(", {} not run", selected - tests.size());
+  return fmt::format("{} in {}", text, shownSeconds(seconds));
+}
+
+Outcome runOnce(const std::vector<std::string>& files, const TestOptions& options, const scenario::RunOptions& run) {
+  Outcome outcome;
+  Progress progress(stdout);
+  const bool color = wantsColor(options.color, STDOUT_FILENO);
+  const auto finished = [&](TestCase test) {
+    progress.clear();
+    printResult(test, color);
+    std::fflush(stdout);
+    if (!test.result.passed)
+      outcome.status = std::max(outcome.status, test.result.environment.empty() ? int{kWrong} : int{kEnvironment});
+    outcome.tests.push_back(std::move(test));
+    return outcome.status == kOk || !options.failFast;
+  };
+  const auto waiting = [&](const std::string& file) {
+    progress.show(fmt::format("{} of {}, {}: {}", outcome.tests.size() + 1, files.size(),
+                              shownSeconds(progress.seconds()), file));
+  };
+  runAll(files, run, options.threads, {finished, waiting});
+  progress.clear();
+  fmt::print("{}\n", summary(outcome.tests, files.size(), progress.seconds()));
+  std::fflush(stdout);
+  return outcome;
+}
+
+int writeJunit(const std::string& path, const std::vector<TestCase>& tests) {
+  return path.empty() ? int{kOk} : writeFile(junitXml(tests), path);
+}
+
+int usageError(const std::string& message) {
+  fmt::print(stderr, "rungc: {}\n", message);
+  return kUsage;
+}
+
+// Folders among the names: a new scenario in them counts, too.
+std::vector<std::string> foldersOf(const std::vector<std::string>& names) {
+  std::vector<std::string> folders;
+  std::error_code none;
+  std::ranges::copy_if(names, std::back_inserter(folders),
+                       [&](const std::string& name) { return std::filesystem::is_directory(name, none); });
+  return folders;
+}
+
+// All files that the scenarios were made of, and the scenarios themselves.
+std::vector<std::string> filesOf(const std::vector<TestCase>& tests) {
+  std::vector<std::string> files;
+  for (const TestCase& test : tests) {
+    files.push_back(test.path);
+    files.insert(files.end(), test.result.files.begin(), test.result.files.end());
+  }
+  std::ranges::sort(files);
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+// Waits for the next change; false when the user ends the program or files cannot be watched.
+bool waitForChange(const TestOptions& options, const std::vector<TestCase>& tests,
+                   std::filesystem::file_time_type since, int& status) {
+  const std::vector<std::string> files = filesOf(tests);
+  Result<FileWatch> watch = FileWatch::open(files, foldersOf(options.names), ".scn", since);
+  if (!watch.ok()) {
+    status = environmentError(watch.error());
+    return false;
+  }
+  fmt::print("watching {} files; Ctrl-C ends\n", files.size());
+  std::fflush(stdout);
+  const std::optional<std::string> changed = watch.value().wait();
+  if (changed) fmt::print("\n{} has changed\n", *changed);
+  return changed.has_value();
+}
+
 int runTests(const TestOptions& options) {
   Result<std::vector<driver::EngineKind>> engines = enginesOf(options.engines);
-  if (!engines.ok()) {
-    fmt::print(stderr, "rungc: {}\n", engines.error());
-    return kUsage;
-  }
+  if (!engines.ok()) return usageError(engines.error());
   scenario::EngineStore store;
   scenario::RunOptions run;
   run.store = &store;
@@ -31,23 +125,16 @@ int runTests(const TestOptions& options) {
   run.strict = options.strict;
   run.engine.cppCompiler = options.cxx;
   run.engine.optimise = options.level != "0";
-  int status = kOk;
-  size_t passed = 0;
-  std::vector<TestCase> tests;
-  for (const std::string& path : options.files) {
-    tests.push_back(runOne(path, run));
-    printResult(tests.back());
-    passed += tests.back().result.passed ? 1 : 0;
-    if (!tests.back().result.passed)
-      status = std::max(status, tests.back().result.environment.empty() ? int{kWrong} : int{kEnvironment});
+  for (int status = kOk;;) {
+    const auto since = std::filesystem::file_time_type::clock::now();
+    const Result<std::vector<std::string>> found = scenarioFiles(options.names);
+    if (!found.ok()) return usageError(found.error());
+    const std::vector<std::string> files = filtered(found.value(), options.filters);
+    if (files.empty()) return usageError(fmt::format("none of the {} scenarios fits --filter", found.value().size()));
+    const Outcome outcome = runOnce(files, options, run);
+    status = std::max(outcome.status, writeJunit(options.junit, outcome.tests));
+    if (!options.watchFiles || !waitForChange(options, outcome.tests, since, status)) return status;
   }
-  fmt::print("{} passed, {} failed\n", passed, tests.size() - passed);
-  if (!options.junit.empty()) {
-    std::ofstream out(options.junit);
-    out << junitXml(tests);
-    if (!out) return environmentError(fmt::format("cannot write '{}'", options.junit));
-  }
-  return status;
 }
 
 } // namespace
@@ -55,13 +142,23 @@ int runTests(const TestOptions& options) {
 void addTest(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("test", "Run scenarios; several engines are compared after every scan");
   auto options = std::make_shared<TestOptions>();
-  command->add_option("SCENARIO", options->files, "Scenario files (.scn)")->required();
+  command->add_option("SCENARIO", options->names, "Scenario files, and folders: every *.scn below")->required();
   command->add_option("--engine", options->engines, "interp, cpp, llvm, jit, a list of them with commas, or all")
       ->capture_default_str();
+  command->add_option("-j,--jobs", options->threads, "So many scenarios at a time; default: one a processor")
+      ->check(CLI::Range(1u, 256u));
+  command
+      ->add_option("--filter", options->filters,
+                   "Only scenarios whose path contains this text; with * ? [ a pattern; may be repeated")
+      ->allow_extra_args(false);
+  command->add_flag("--fail-fast", options->failFast, "End at the first failure");
+  command->add_flag("--watch-files", options->watchFiles, "Run again when a scenario or a program changes");
+  addColorOption(*command, options->color, "Colours of ok and FAILED");
   command->add_option("--junit", options->junit, "Write the results as JUnit XML");
   command->add_option("--cxx", options->cxx, "C++ compiler of the engine cpp");
   addLevelOption(*command, options->level);
-  command->add_flag("--strict", options->strict, "Warnings that the control's own rules call errors are errors");
+  command->add_flag("--strict", options->strict,
+                    "Warnings that the control's own rules call errors are errors; a scenario must expect something");
   command->callback([options, &status] { status = runTests(*options); });
 }
 

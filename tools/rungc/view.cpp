@@ -23,7 +23,7 @@ std::optional<gsk::LadderForm> laddersOf(const frontend::Dialect& dialect, Sourc
                                          std::span<const FileId> files, const frontend::CompileOptions& compile,
                                          Diagnostics& diagnostics) {
   if (&dialect == &gsk::kGsk) return gsk::ladderForm(sources, files, compile, diagnostics);
-  return gsk::LadderForm{{files.begin(), files.end()}, {}};
+  return gsk::LadderForm{{files.begin(), files.end()}, {}, {}};
 }
 
 // Nothing for a program with errors: a drawing of its sound parts would look like the program.
@@ -39,8 +39,9 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
   if (module == nullptr || diagnostics.hasErrors()) return std::nullopt;
   const auto ladders = laddersOf(*dialect, sources, files, compile, diagnostics);
   if (!ladders) return std::nullopt;
-  return view::readProgram(sources,
-                           {dialect, module.get(), ladders->files, ladders->networks, {files.begin(), files.end()}});
+  return view::readProgram(
+      sources,
+      {dialect, module.get(), ladders->files, {ladders->networks, ladders->elements}, {files.begin(), files.end()}});
 }
 
 // The file is there when it is whole: what a failure leaves behind goes.

@@ -2,24 +2,18 @@
 #include "tools/view/html.h"
 
 #include <algorithm>
-#include <iterator>
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "tools/view/html_parts.h"
+#include "tools/view/html_page.h"
+#include "tools/view/html_runs.h"
 #include "tools/view/layout.h"
 #include "tools/view/pieces.h"
+#include "tools/view/put.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {
 namespace {
-
-template <class... Args>
-void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
 
 constexpr size_t kTableRows = 100;
 constexpr size_t kGroup = 40;
@@ -33,6 +27,7 @@ public:
 
 private:
   void head();
+  void runs();
   void contents();
   void group(size_t first);
   void block(const Block& block, size_t index);
@@ -44,19 +39,26 @@ private:
 
   const Program& program_;
   int rail_;
+  double hottest_ = 0;
   size_t rows_ = 0;
   int height_ = 0; // of the group at hand
   std::string out_;
 };
 
 void Page::head() {
-  const std::string title = escaped(program_.title);
-  put(out_, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
-  put(out_, "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n", title);
-  put(out_, "<style>{}{}figcaption{{max-width:{}px}}</style>\n</head>\n<body>\n", kPageStyle, pictureStyle(),
-      rail_ + kMargin);
-  put(out_, "<h1>{}</h1>\n<p>{}, {} rung{}</p>\n", title, escaped(program_.control), program_.figures.size(),
+  beginPage(out_, program_.title, fmt::format("figcaption{{max-width:{}px}}", rail_ + kMargin));
+  put(out_, "<p>{}, {} rung{}</p>\n", escaped(program_.control), program_.figures.size(),
       program_.figures.size() == 1 ? "" : "s");
+}
+
+void Page::runs() {
+  RunsOnPage runs{&program_.runs, {}, false};
+  for (const Figure& figure : program_.figures) {
+    runs.rungs.push_back({figure.number, figure.title, &figure.run});
+    for (const Cell& cell : figure.sheet.cells) runs.elements = runs.elements || cell.seen != Seen::Unasked;
+  }
+  hottest_ = hottest(runs.rungs);
+  appendRuns(out_, runs);
 }
 
 void Page::contents() {
@@ -75,7 +77,7 @@ void Page::contents() {
 void Page::heading(int level, const Block& block, size_t index, std::string_view prefix) {
   height_ += kHeading;
   put(out_, "<h{} id=\"b{}\">{}{}", level, index, prefix, escaped(block.text));
-  const std::string place = textOf(block.place);
+  const std::string place = textOf(program_, block.place);
   if (!place.empty()) put(out_, " <small>{}</small>", escaped(place));
   put(out_, "</h{}>\n", level);
   if (!block.comment.empty()) put(out_, "<p class=\"C\">{}</p>\n", escaped(block.comment));
@@ -99,9 +101,11 @@ void Page::block(const Block& block, size_t index) {
 void Page::figure(const Figure& figure) {
   const Picture picture = layOut(figure.sheet, rail_);
   height_ += picture.height + 44 + static_cast<int>(figure.comments.size()) * 20;
-  put(out_, "<figure class=\"R{1}\" id=\"r{0}\"><figcaption><b>{0}</b>", figure.number,
-      picture.height > kPieceHeight ? " D" : "");
-  put(out_, "<span>{}</span><i class=\"f\">{}</i></figcaption>", escaped(figure.title), escaped(textOf(figure.place)));
+  put(out_, "<figure class=\"R{}{}\" id=\"r{}\"><figcaption><b>{}</b>", picture.height > kPieceHeight ? " D" : "",
+      classesOf(figure.run, hottest_), figure.number, figure.number);
+  put(out_, "<span>{}</span>", escaped(figure.title));
+  appendRun(out_, figure.run, hottest_);
+  put(out_, "<i class=\"f\">{}</i></figcaption>", escaped(textOf(program_, figure.place)));
   for (const std::string& comment : figure.comments) put(out_, "<p>{}</p>", escaped(comment));
   const std::string name = escaped(nameOf(figure));
   for (const Picture& piece : piecesOf(picture, kPieceHeight)) {
@@ -162,11 +166,13 @@ void Page::group(size_t first) {
 
 std::string Page::run() {
   head();
+  runs();
   contents();
   out_ += "<main>\n";
   for (size_t first = 0; first < program_.blocks.size(); first += kGroup) group(first);
   for (size_t i = 0; i < program_.tables.size(); ++i) table(program_.tables[i], i);
-  put(out_, "</main>\n<script>{}</script>\n</body>\n</html>\n", kPageScript);
+  out_ += "</main>\n";
+  endPage(out_);
   return std::move(out_);
 }
 

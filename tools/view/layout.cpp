@@ -28,6 +28,7 @@ constexpr int kRemarkGap = 14;
 constexpr int kTop = 2;
 constexpr int kBare = 2; // half the height of a row with nothing but vertical wires
 constexpr int kBandGap = 14;
+constexpr int kHalo = 4;
 constexpr int kEnd = 16; // between what closes a branch and the right rail
 
 constexpr Style kLabel = Style::Label;
@@ -104,6 +105,7 @@ private:
   void drawSymbol(uint32_t cell);
   void drawBox(uint32_t cell);
   int drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y);
+  void halo(const Cell& cell, Point corner, int width, int height);
   void text(int x, int y, Anchor anchor, Style style, std::string_view text);
 
   int leftPort(uint32_t cell) const;
@@ -132,12 +134,13 @@ Measure Layout::measureSymbol(const Cell& cell) const {
   const int name = widthOf(cell.operand.name, Style::Name);
   m.note = wrap(cell.operand.note, Style::Note, std::max(kNoteWidth, name));
   if (m.note.size() > kManyLines) m.note = wrap(cell.operand.note, Style::Note, std::max(kWideNote, name));
-  const int texts =
-      std::max({name, widthOf(cell.operand.address, Style::Address), noteWidth(m.note, Style::Note), m.symbol + 12});
+  const int texts = std::max({name, widthOf(cell.operand.address, Style::Address), noteWidth(m.note, Style::Note),
+                              m.symbol + 12, widthOf(cell.badge, Style::Badge)});
   const int least = cell.kind == Kind::Coil ? kCoilWidth : kCellWidth;
   m.width = std::max(least, roundUp(texts + kSide, kGrid));
   m.above = kSymbolHalf + 5 + lineHeight(Style::Name) + static_cast<int>(m.note.size()) * lineHeight(Style::Note);
-  m.below = kSymbolHalf + 4 + (cell.operand.address.empty() ? 0 : lineHeight(Style::Address));
+  m.below = kSymbolHalf + 4 + (cell.operand.address.empty() ? 0 : lineHeight(Style::Address)) +
+            (cell.badge.empty() ? 0 : lineHeight(Style::Badge));
   return m;
 }
 
@@ -153,7 +156,8 @@ Measure Layout::measureBox(const Cell& cell) const {
     values = std::max({values, widthOf(operand.name, Style::Name) + address, noteWidth(m.notes.back(), Style::Note)});
     m.body += lineHeight(Style::Name) + 2 + static_cast<int>(m.notes.back().size()) * lineHeight(Style::Note);
   }
-  m.body += kPad;
+  m.body += kPad + (cell.badge.empty() ? 0 : lineHeight(Style::Badge));
+  values = std::max(values, widthOf(cell.badge, Style::Badge));
   const int body = kPad + m.pins + m.labels + values + kPad;
   m.width = roundUp(std::max({64, widthOf(cell.title, Style::Title) + 2 * kPad, body}), kGrid);
   m.above = kHead + 14;
@@ -395,7 +399,16 @@ void Layout::drawSymbol(uint32_t cell) {
   up -= lineHeight(Style::Name);
   for (size_t i = m.note.size(); i-- > 0; up -= lineHeight(Style::Note))
     text(middle, up, Anchor::Middle, Style::Note, m.note[i]);
-  text(middle, y + kSymbolHalf + lineHeight(Style::Address), Anchor::Middle, Style::Address, here.operand.address);
+  int down = y + kSymbolHalf + lineHeight(Style::Address);
+  text(middle, down, Anchor::Middle, Style::Address, here.operand.address);
+  if (!here.operand.address.empty()) down += lineHeight(Style::Badge);
+  text(middle, down, Anchor::Middle, Style::Badge, here.badge);
+  halo(here, {leftPort(cell) - kHalo, y - kSymbolHalf - kHalo + 1}, m.symbol + 2 * kHalo,
+       2 * (kSymbolHalf + kHalo - 1));
+}
+
+void Layout::halo(const Cell& cell, Point corner, int width, int height) {
+  if (cell.seen != Seen::Unasked) picture_.halos.push_back({corner, width, height, cell.seen, cell.detail});
 }
 
 int Layout::drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y) {
@@ -423,6 +436,8 @@ void Layout::drawBox(uint32_t cell) {
   const int label = x + kPad + m.pins;
   for (size_t i = 0; i < here.operands.size(); ++i)
     y = drawOperand(here.operands[i], m.notes[i], label, label + m.labels, y);
+  text(label + m.labels, y, Anchor::Start, Style::Badge, here.badge);
+  halo(here, {x, top}, m.width, bottom - top);
 }
 
 void Layout::draw() {

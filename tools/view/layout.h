@@ -40,6 +40,15 @@ struct Frame {
   int head = 0; // height of the bar with the mnemonic
 };
 
+// Round an element: how much of it was seen in a run.
+struct Halo {
+  Point corner;
+  int width = 0;
+  int height = 0;
+  Seen seen = Seen::Unasked;
+  std::string detail;
+};
+
 enum class Anchor : uint8_t { Start, Middle, End };
 
 struct Text {
@@ -66,6 +75,7 @@ struct Picture {
   std::vector<Point> dots; // where three wires meet
   std::vector<Symbol> symbols;
   std::vector<Frame> frames;
+  std::vector<Halo> halos;
   std::vector<Text> texts;
 };
 

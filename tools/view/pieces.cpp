@@ -35,6 +35,7 @@ public:
     for (Point dot : picture.dots) at(dot.y).dots.push_back(dot);
     for (const Symbol& symbol : picture.symbols) at(symbol.left.y).symbols.push_back(symbol);
     for (const Frame& frame : picture.frames) at(frame.corner.y).frames.push_back(frame);
+    for (const Halo& halo : picture.halos) at(halo.corner.y).halos.push_back(halo);
     for (const Text& text : picture.texts) at(text.at.y).texts.push_back(text);
     return std::move(pieces_);
   }

@@ -104,13 +104,15 @@ private:
   void fillCoils();
   void addNameTables();
   void addMessageTable(DeclarationKind kind, std::string_view title);
-  void add(Block::Kind kind, std::string text, std::string_view remark, Place place) {
-    program_.blocks.push_back({kind, std::move(text), std::string(remark), std::move(place), 0});
+  void add(Block::Kind kind, std::string text, std::string_view remark, const Place& place) {
+    program_.blocks.push_back({kind, std::move(text), std::string(remark), place, 0});
   }
   void nameFiles();
-  std::string nameOf(FileId file) const;
+  uint32_t indexOf(FileId file) const;
   Place placeOf(const LadderFile& file, uint32_t line) const;
+  Place placeOf(SourcePos pos) const;
   Place placeOfRung(const LadderFile& file, const ladder::Rung& rung) const;
+  Place placeOfElement(SourcePos drawn) const;
   bool converted() const { return input_.files != input_.authors; }
 
   const SourceManager& sources_;
@@ -119,7 +121,6 @@ private:
   std::vector<LadderFile> files_;
   std::unique_ptr<Names> names_;
   Texts texts_;
-  std::vector<std::string> fileNames_; // of the author's files, as short as they are told apart
   Program program_;
   UseList uses_;
   std::vector<CoilRow> coils_;
@@ -153,26 +154,39 @@ void Reader::nameFiles() {
   };
   for (FileId file : input_.authors) ++known[baseOf(file)];
   for (FileId file : input_.authors) {
-    std::string& name = fileNames_.emplace_back(baseOf(file));
-    if (known[name] > 1) name = sources_.name(file);
-    program_.title += (program_.title.empty() ? "" : ", ") + name;
+    const std::string path(sources_.name(file));
+    const std::string name = baseOf(file);
+    program_.files.push_back({path, known[name] > 1 ? path : name});
+    program_.title += (program_.title.empty() ? "" : ", ") + program_.files.back().name;
   }
 }
 
-std::string Reader::nameOf(FileId file) const {
+uint32_t Reader::indexOf(FileId file) const {
   const auto at = std::find(input_.authors.begin(), input_.authors.end(), file);
-  return fileNames_[static_cast<size_t>(at - input_.authors.begin())];
+  return static_cast<uint32_t>(at - input_.authors.begin());
 }
 
 Place Reader::placeOf(const LadderFile& file, uint32_t line) const {
   if (converted()) return {};
-  return {nameOf(file.file), line};
+  return {indexOf(file.file), line, 1};
+}
+
+Place Reader::placeOf(SourcePos pos) const {
+  const LineCol at = sources_.lineCol(pos);
+  return {indexOf(sources_.fileOf(pos)), at.line, at.column};
 }
 
 Place Reader::placeOfRung(const LadderFile& file, const ladder::Rung& rung) const {
   if (!converted()) return placeOf(file, rung.firstLine);
-  const SourcePos at = input_.origins[program_.figures.size()].begin;
-  return {nameOf(sources_.fileOf(at)), sources_.lineCol(at).line};
+  return placeOf(input_.origins.rungs[program_.figures.size()].begin);
+}
+
+Place Reader::placeOfElement(SourcePos drawn) const {
+  if (!converted()) return placeOf(drawn);
+  const auto elements = input_.origins.elements;
+  const auto at = std::lower_bound(elements.begin(), elements.end(), drawn,
+                                   [](const gsk::Origin& one, SourcePos pos) { return one.drawn < pos; });
+  return at == elements.end() || at->drawn != drawn ? Place{} : placeOf(at->written);
 }
 
 // A conversion's hint at what only a command list can say is no comment of the author.
@@ -206,8 +220,9 @@ void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::str
   figure.title = rung.comment;
   figure.place = placeOfRung(file, rung);
   if (!remark.empty()) figure.comments.emplace_back(remark);
+  const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   const ladder::Drawing drawing = ladder::readDrawing(sources_, file.file, rung, rows_.furtherPins());
-  figure.sheet = buildSheet({rows_, *names_, texts_}, drawing, [&](const OperandUse& use) {
+  figure.sheet = buildSheet({rows_, *names_, texts_, placeOf}, drawing, [&](const OperandUse& use) {
     uses_.add(use.named, use.operand, {figure.number, use.writes});
     if (use.coil) coils_.push_back({index, use.row, use.named.key});
   });
@@ -258,7 +273,7 @@ void Reader::readFile(const LadderFile& file) {
   nextStatement_ = 0;
   nextRung_ = 0;
   comments_.clear();
-  if (input_.files.size() > 1) add(Block::Kind::File, nameOf(file.file), {}, {});
+  if (input_.files.size() > 1) add(Block::Kind::File, program_.files[indexOf(file.file)].name, {}, {});
   LineReader lines(sources_, file.file);
   for (SourceLine line; lines.next(line);) readLine(file, line);
   flushComments({});

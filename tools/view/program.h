@@ -7,14 +7,25 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
+#include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/ladder/ladder.h"
 #include "tools/view/sheet.h"
 
 namespace rung::view {
 
-struct Place {
-  std::string file;
-  uint32_t line = 0;
+// One of the files that the reader knows.
+struct SourceFile {
+  std::string path; // as it was given to the compiler
+  std::string name; // as it is shown: without its folder where that is enough
+};
+
+// What is known of a rung from runs of the program.
+struct Run {
+  enum class State : uint8_t { Unasked, Ran, Never };
+  State state = State::Unasked;
+  double heat = 0; // a share, 0 to 1
+  std::string label;
+  std::string detail;
 };
 
 struct Figure {
@@ -23,6 +34,7 @@ struct Figure {
   std::vector<std::string> comments;
   Place place;
   Sheet sheet;
+  Run run;
 };
 
 struct Block {
@@ -53,16 +65,28 @@ struct NameTable {
   std::vector<NameRow> rows;
 };
 
+// What runs of the program say of it as a whole.
+struct RunSummary {
+  std::string title; // empty: there were none
+  std::vector<std::string> lines;
+  std::string heat; // what Run::heat is a share of
+};
+
 struct Program {
   std::string title;
   std::string control;
+  std::vector<SourceFile> files;
   std::vector<Block> blocks;
   std::vector<Figure> figures;
   std::vector<NameTable> tables;
+  RunSummary runs;
 };
 
-// Where the rungs of a converted file stood, in its order.
-using Origins = std::span<const SourceRange>;
+// Where the author wrote what a converted file has: its rungs in their order, its elements by where they are drawn.
+struct Origins {
+  std::span<const SourceRange> rungs;
+  std::span<const gsk::Origin> elements;
+};
 
 struct Input {
   const frontend::Dialect* dialect = nullptr;

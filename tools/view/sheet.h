@@ -7,6 +7,17 @@
 
 namespace rung::view {
 
+// Where something is in the author's files: `file` is an index into Program::files, lines and columns count from 1.
+// Line 0: nowhere.
+struct Place {
+  uint32_t file = 0;
+  uint32_t line = 0;
+  uint32_t column = 0;
+};
+
+// How much of what an element can do was seen in a run.
+enum class Seen : uint8_t { Unasked, All, Part, Nothing };
+
 struct Operand {
   std::string label; // what it is, by the instruction's row
   std::string name;  // as written
@@ -26,6 +37,10 @@ struct Cell {
   std::string title;    // boxes
   std::vector<std::string> pins;
   std::vector<Operand> operands;
+  Place place; // contacts, coils and boxes: of the element; in a command list of its command
+  Seen seen = Seen::Unasked;
+  std::string badge;  // what was not seen, in two words
+  std::string detail; // of the run, in full
 };
 
 // A cell where a row meets it; a joint or a box stands in all its rows.

@@ -178,6 +178,7 @@ uint32_t SheetDrawing::elementCell(uint32_t element, uint32_t line) {
   }
   cellOf_[element] = static_cast<uint32_t>(sheet_.cells.size());
   Cell cell{.column = drawn.column - 1, .firstRow = line, .lastRow = line};
+  cell.place = context_.placeOf(drawn.range.begin);
   if (drawn.kind == ElementKind::Box)
     addBox(cell, drawn);
   else

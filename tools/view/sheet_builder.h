@@ -28,6 +28,7 @@ struct SheetContext {
   const Rows& rows;
   const Names& names;
   const Texts& texts;
+  std::function<Place(SourcePos drawn)> placeOf; // of an element
 };
 
 // A message's number as its key in the list of uses.

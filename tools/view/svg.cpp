@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
-#include <fmt/format.h>
+#include "tools/view/overlay.h"
+#include "tools/view/put.h"
 
 namespace rung::view {
 namespace {
@@ -13,11 +13,6 @@ namespace {
 constexpr int kLeastRail = 560;
 constexpr int kMostRail = 880; // wider drawings are cut
 constexpr int kIndent = 24;    // of rungs below their captions
-
-template <class... Args>
-void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
 
 void appendRails(std::string& out, const Picture& picture) {
   put(out, R"(<path class="e" d="M{0} {1}v{3}M{2} {1}v{3}"/>)", kLeft, picture.top, picture.rail, picture.height);
@@ -67,6 +62,16 @@ void appendFrames(std::string& out, const Picture& picture) {
   }
 }
 
+void appendHalos(std::string& out, const Picture& picture) {
+  for (const Halo& halo : picture.halos) {
+    const char* name = halo.seen == Seen::All ? "qa" : halo.seen == Seen::Part ? "qp" : "qn";
+    put(out, R"(<rect class="{}" x="{}" y="{}" width="{}" height="{}"><title>)", name, halo.corner.x, halo.corner.y,
+        halo.width, halo.height);
+    appendEscaped(out, halo.detail);
+    out += "</title></rect>";
+  }
+}
+
 // Texts of one style and anchor stand in one group.
 void appendTexts(std::string& out, const Picture& picture) {
   std::array<std::array<std::string, kStyles>, 3> groups;
@@ -87,7 +92,9 @@ void appendTexts(std::string& out, const Picture& picture) {
 // One drawing of everything, from top to bottom.
 class Poster {
 public:
-  explicit Poster(const Program& program) : program_(program), rail_(commonRail(program)) {}
+  explicit Poster(const Program& program) : program_(program), rail_(commonRail(program)) {
+    for (const Figure& figure : program.figures) hottest_ = std::max(hottest_, figure.run.heat);
+  }
   std::string run();
 
 private:
@@ -95,9 +102,11 @@ private:
   void lines(Style style, int x, std::string_view text);
   void block(const Block& block);
   void figure(const Figure& figure);
+  void heat(const Run& run, int top);
 
   const Program& program_;
   int rail_;
+  double hottest_ = 0;
   int y_ = 8;
   int width_ = 0;
   std::string body_;
@@ -120,13 +129,23 @@ void Poster::lines(Style style, int x, std::string_view whole) {
   }
 }
 
+// A bar left of the rung.
+void Poster::heat(const Run& run, int top) {
+  const int step = heatStep(run, hottest_);
+  const bool never = run.state == Run::State::Never;
+  if (step == 0 && !never) return;
+  const auto colour = never ? Colour::Warn : static_cast<Colour>(static_cast<int>(Colour::Heat1) + step - 1);
+  put(body_, "<path d=\"M2.5 {}v{}\" style=\"stroke:{};stroke-width:5{}\"/>\n", top, y_ - top, infoOf(colour).light,
+      never ? ";stroke-dasharray:3 3" : "");
+}
+
 void Poster::figure(const Figure& figure) {
   const std::string number = std::to_string(figure.number);
   y_ += 18;
   const int base = y_;
   text(Style::Caption, 8, number, 0);
   const int x = std::max(kIndent + 16, 8 + widthOf(number, Style::Caption) + 12);
-  const std::string place = textOf(figure.place);
+  const std::string place = textOf(program_, figure.place);
   const int left = rail_ + kMargin - widthOf(place, Style::Place) - 8;
   y_ = base;
   text(Style::Place, left, place, 2);
@@ -134,6 +153,7 @@ void Poster::figure(const Figure& figure) {
   const std::vector<std::string> title = wrap(figure.title, Style::Caption, left - x - 16);
   for (const std::string& line : title) text(Style::Caption, x, line, 0);
   if (title.empty()) y_ = base + static_cast<int>(infoOf(Style::Caption).size) + 3;
+  lines(Style::Badge, x, labelOf(figure.run));
   for (const std::string& comment : figure.comments) lines(Style::Comment, x, comment);
   const Picture picture = layOut(figure.sheet, rail_);
   y_ += 4;
@@ -143,6 +163,7 @@ void Poster::figure(const Figure& figure) {
   appendPicture(body_, picture);
   body_ += "</g>\n";
   y_ += picture.height;
+  heat(figure.run, base);
   width_ = std::max(width_, picture.width);
 }
 
@@ -167,7 +188,7 @@ std::string Poster::run() {
   put(out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
       width, height);
-  put(out, "<title>{}</title>\n<style>{}</style>\n", escaped(program_.title), pictureStyle());
+  put(out, "<title>{}</title>\n<style>{}</style>\n", escaped(program_.title), pictureStyle(false));
   put(out, "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n{}</svg>\n", width, height, body_);
   return out;
 }
@@ -197,18 +218,30 @@ void appendPicture(std::string& out, const Picture& picture) {
   appendWires(out, picture);
   appendSymbols(out, picture);
   appendRails(out, picture);
+  appendHalos(out, picture);
   appendTexts(out, picture);
 }
 
-std::string pictureStyle() {
-  std::string css = "path{fill:none;stroke:#111;stroke-width:1.5}.e{stroke-width:3}.s{stroke-width:2}"
-                    ".d{stroke-width:6;stroke-linecap:round}.h{fill:#e8edf3;stroke:none}.am{text-anchor:middle}"
-                    ".ae{text-anchor:end}";
+std::string pictureStyle(bool onPage) {
+  const auto colour = [&](Colour one) {
+    const ColourInfo& info = infoOf(one);
+    return onPage ? fmt::format("var(--{})", info.name) : std::string(info.light);
+  };
+  std::string css;
+  put(css,
+      "path{{fill:none;stroke:{};stroke-width:1.5}}.e{{stroke-width:3}}.s{{stroke-width:2}}"
+      ".d{{stroke-width:6;stroke-linecap:round}}.h{{fill:{};stroke:none}}.am{{text-anchor:middle}}"
+      ".ae{{text-anchor:end}}",
+      colour(Colour::Ink), colour(Colour::Head));
+  put(css,
+      ".qa,.qp,.qn{{fill-opacity:.12;rx:4px}}.qa{{fill:{0};stroke:{0}}}"
+      ".qp{{fill:{1};stroke:{1};stroke-dasharray:6 2}}.qn{{fill:{2};stroke:{2};stroke-width:2;stroke-dasharray:3 3}}",
+      colour(Colour::Good), colour(Colour::Part), colour(Colour::Warn));
   for (size_t i = 0; i < kStyles; ++i) {
     const StyleInfo& info = infoOf(static_cast<Style>(i));
     put(css, ".{}{{font:{}{}{}px {};fill:{}}}", info.cssClass, info.italic ? "italic " : "", info.bold ? "bold " : "",
         info.size, info.mono ? "DejaVu Sans Mono,Consolas,Menlo,monospace" : "Arial,Helvetica,DejaVu Sans,sans-serif",
-        info.colour);
+        colour(info.colour));
   }
   return css;
 }
@@ -223,7 +256,9 @@ std::string nameOf(const Figure& figure) {
   return fmt::format("Rung {}", figure.number) + (figure.title.empty() ? "" : ": " + figure.title);
 }
 
-std::string textOf(const Place& place) { return place.line == 0 ? "" : fmt::format("{}:{}", place.file, place.line); }
+std::string textOf(const Program& program, const Place& place) {
+  return place.line == 0 ? "" : fmt::format("{}:{}", program.files[place.file].name, place.line);
+}
 
 std::string renderSvg(const Program& program) { return Poster(program).run(); }
 

@@ -13,15 +13,15 @@ std::string escaped(std::string_view text);
 
 // Lines and texts of a rung, for a <g> or <svg>.
 void appendPicture(std::string& out, const Picture& picture);
-// The rules of style that pictures need.
-std::string pictureStyle();
+// The rules of style that pictures need; on a page colours are named (see colours.h).
+std::string pictureStyle(bool onPage);
 
 // Where the right rail of all rungs stands that can be cut to it.
 int commonRail(const Program& program);
 // "Rung 3: start/stop latch".
 std::string nameOf(const Figure& figure);
 // "main.lad:12", or nothing.
-std::string textOf(const Place& place);
+std::string textOf(const Program& program, const Place& place);
 
 std::string renderSvg(const Program& program);
 

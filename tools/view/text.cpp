@@ -9,24 +9,22 @@
 namespace rung::view {
 namespace {
 
-constexpr std::string_view kDark = "#111";
-constexpr std::string_view kGrey = "#555";
-
 constexpr std::array<StyleInfo, kStyles> kInfos = {{
-    {"n", 12, true, true, false, kDark},
-    {"a", 11, true, false, false, kGrey},
-    {"c", 11, false, false, false, kGrey},
-    {"m", 12, true, true, false, kDark},
-    {"t", 13, true, true, false, kDark},
-    {"p", 11, true, false, false, kDark},
-    {"l", 11, false, false, false, kGrey},
-    {"r", 12, false, false, true, "#333"},
-    {"u", 11, false, false, false, "#0a4a86"},
-    {"k", 14, false, true, false, kDark},
-    {"M", 22, false, true, false, kDark},
-    {"S", 17, false, true, false, kDark},
-    {"C", 13, false, false, false, "#333"},
-    {"f", 12, true, false, false, kGrey},
+    {"n", 12, true, true, false, Colour::Ink},
+    {"a", 11, true, false, false, Colour::Soft},
+    {"c", 11, false, false, false, Colour::Soft},
+    {"m", 12, true, true, false, Colour::Ink},
+    {"t", 13, true, true, false, Colour::Ink},
+    {"p", 11, true, false, false, Colour::Ink},
+    {"l", 11, false, false, false, Colour::Soft},
+    {"r", 12, false, false, true, Colour::Note},
+    {"u", 11, false, false, false, Colour::Link},
+    {"k", 14, false, true, false, Colour::Ink},
+    {"M", 22, false, true, false, Colour::Ink},
+    {"S", 17, false, true, false, Colour::Ink},
+    {"C", 13, false, false, false, Colour::Note},
+    {"f", 12, true, false, false, Colour::Soft},
+    {"g", 11, false, true, false, Colour::Warn},
 }};
 
 // Thousandths of the size of the font.

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/view/colours.h"
+
 namespace rung::view {
 
 enum class Style : uint8_t {
@@ -23,8 +25,9 @@ enum class Style : uint8_t {
   Section,
   Comment,
   Place, // file and line
+  Badge, // at an element, a rung: what a run of the program says of it
 };
-inline constexpr size_t kStyles = 14;
+inline constexpr size_t kStyles = 15;
 
 struct StyleInfo {
   std::string_view cssClass;
@@ -32,7 +35,7 @@ struct StyleInfo {
   bool mono;
   bool bold;
   bool italic;
-  std::string_view colour;
+  Colour colour;
 };
 const StyleInfo& infoOf(Style style);
 

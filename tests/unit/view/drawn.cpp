@@ -150,10 +150,9 @@ std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text) {
   if (drawn->module == nullptr) return nullptr;
   Input input{dialect, drawn->module.get(), {file}, {}, {file}};
   if (dialect == &gsk::kGsk) {
-    auto form = gsk::ladderForm(drawn->sources, input.files, {}, drawn->diagnostics);
-    input.files = form->files;
-    drawn->origins = form->networks;
-    input.origins = drawn->origins;
+    drawn->form = *gsk::ladderForm(drawn->sources, input.files, {}, drawn->diagnostics);
+    input.files = drawn->form.files;
+    input.origins = {drawn->form.networks, drawn->form.elements};
   }
   const Rows rows(*dialect);
   drawn->ladders.push_back(ladder::parseLadder(drawn->sources, input.files[0], drawn->diagnostics, rows.furtherPins()));

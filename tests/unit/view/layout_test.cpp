@@ -171,7 +171,7 @@ TEST(ViewNames, ListsHaveTheirOwnLines) {
                                    "; above the OR\nOR X0.1\nOUT LAMP\nFUNC END2\n");
   ASSERT_EQ(drawn->program.figures.size(), 1u);
   const Figure& figure = drawn->program.figures[0];
-  EXPECT_EQ(textOf(figure.place), "t.pmc:6");
+  EXPECT_EQ(textOf(drawn->program, figure.place), "t.pmc:6");
   EXPECT_EQ(figure.title, "the lamp");
   EXPECT_EQ(figure.comments, std::vector<std::string>{"above the OR"});
   std::string lamp;

@@ -76,12 +76,24 @@ std::string Grid::text() {
   return out;
 }
 
+// With the longest badge at every element.
+Sheet badged(Sheet sheet) {
+  for (Cell& cell : sheet.cells) {
+    if (cell.place.line == 0) continue;
+    cell.seen = Seen::Part;
+    cell.badge = "never decided";
+  }
+  return sheet;
+}
+
 void check(const Drawn& drawn, const std::string& what) {
   const std::vector<Figure>& figures = drawn.program.figures;
   ASSERT_EQ(figures.size(), drawn.ladders[0].rungs.size()) << what;
   for (size_t i = 0; i < figures.size(); ++i) {
-    for (int rail : {320, 800, 4000}) {
-      const Picture picture = layOut(figures[i].sheet, rail);
+    const Sheet run = badged(figures[i].sheet);
+    for (auto [sheet, rail] : {std::pair(&figures[i].sheet, 320), std::pair(&figures[i].sheet, 800),
+                               std::pair(&figures[i].sheet, 4000), std::pair(&run, 320), std::pair(&run, 800)}) {
+      const Picture picture = layOut(*sheet, rail);
       const std::string wrong = wrongTexts(drawn.rung(i), picture) + overlaps(picture) +
                                 wrongWires(drawn.rung(i), picture) + outOfBounds(picture);
       ASSERT_EQ(wrong, "") << what << ", rung " << i + 1 << ", rail " << rail << "\n"

@@ -55,7 +55,7 @@ private:
 
 void RungCollector::copy() {
   for (const Written& written : network_.written)
-    result_.commands.push_back({written.command, written.operand, {}, {}});
+    result_.commands.push_back({written.command, written.operand, written.range, {}, {}});
 }
 
 void RungCollector::index() {

@@ -48,14 +48,36 @@ bool sameUnit(const SourceUnit& a, const SourceUnit& b) {
          std::equal(a.networks.begin(), a.networks.end(), b.networks.begin(), b.networks.end(), sameNetwork);
 }
 
+bool isSame(const SourceProgram& a, const SourceProgram& b) {
+  return std::equal(a.units.begin(), a.units.end(), b.units.begin(), b.units.end(), sameUnit);
+}
+
+bool isElement(Command command) {
+  return convert::isContact(command) || convert::isCoil(command) || command == Command::Func;
+}
+
+// Of a program and what it was converted to: the same commands in the same order.
+std::vector<Origin> originsOf(const SourceProgram& model, const SourceProgram& converted) {
+  std::vector<Origin> origins;
+  for (size_t u = 0; u < model.units.size(); ++u) {
+    for (size_t n = 0; n < model.units[u].networks.size(); ++n) {
+      const auto& written = model.units[u].networks[n].commands;
+      const auto& drawn = converted.units[u].networks[n].commands;
+      for (size_t i = 0; i < written.size(); ++i)
+        if (isElement(written[i].command)) origins.push_back({drawn[i].range.begin, written[i].range.begin});
+    }
+  }
+  std::sort(origins.begin(), origins.end(), [](const Origin& a, const Origin& b) { return a.drawn < b.drawn; });
+  return origins;
+}
+
 void checkSame(const SourceProgram& model, const std::string& text, convert::Form form, Machine machine) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer(form == convert::Form::List ? "converted.pmc" : "converted.lad", text);
   const auto again = readModel(sources, std::span(&file, 1), machine, diagnostics);
   RUNG_CHECK(again.has_value(), "a converted program has no errors");
-  RUNG_CHECK(std::equal(model.units.begin(), model.units.end(), again->units.begin(), again->units.end(), sameUnit),
-             "a converted program is the same program");
+  RUNG_CHECK(isSame(model, *again), "a converted program is the same program");
 }
 
 // False when a network is too large to be drawn.
@@ -89,7 +111,7 @@ std::optional<std::string> convertProgram(SourceManager& sources, std::span<cons
 std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const FileId> files,
                                      const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (std::all_of(files.begin(), files.end(), [&](FileId file) { return isLadder(sources, file); }))
-    return LadderForm{{files.begin(), files.end()}, {}};
+    return LadderForm{{files.begin(), files.end()}, {}, {}};
   Diagnostics heard; // reported already
   const auto model = readModel(sources, files, configuredMachine(options, heard), heard);
   RUNG_CHECK(model.has_value(), "the program has no errors");
@@ -98,6 +120,9 @@ std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const Fil
   for (const SourceUnit& unit : model->units)
     for (const SourceNetwork& network : unit.networks) form.networks.push_back(network.range);
   form.files.push_back(sources.addBuffer("converted.lad", writeLadder(*model)));
+  const auto again = readModel(sources, form.files, configuredMachine(options, heard), heard);
+  RUNG_CHECK(again && isSame(*model, *again), "a converted program is the same program");
+  form.elements = originsOf(*model, *again);
   return form;
 }
 

@@ -16,10 +16,18 @@ std::optional<std::string> convertProgram(SourceManager& sources, std::span<cons
                                           const frontend::CompileOptions& options, convert::Form to,
                                           Diagnostics& diagnostics);
 
+// An element of a conversion begins at `drawn`; its author wrote it at `written`.
+struct Origin {
+  SourcePos drawn;
+  SourcePos written;
+};
+
 // A program as ladder text alone.
 struct LadderForm {
   std::vector<FileId> files;
-  std::vector<SourceRange> networks; // of a conversion: where each rung of its one file stands in the author's files
+  // Of a conversion: where the rungs of its one file, and their contacts, coils and boxes, are in the author's files.
+  std::vector<SourceRange> networks;
+  std::vector<Origin> elements; // by `drawn`
 };
 
 // Of a program that was compiled without errors: its own files, or what they are converted to when there is a list

@@ -24,6 +24,7 @@ using Gap = std::vector<Item>;
 struct SourceCommand {
   Command command = Command::Ld;
   std::string_view operand;        // FUNC: the mnemonic
+  SourceRange range = {};          // as in Written
   std::vector<std::string> before; // comment lines in front of it; those of the first command stand in the gap
   std::string comment;             // behind it
 };

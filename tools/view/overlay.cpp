@@ -1,0 +1,106 @@
+// From places to the rungs and elements that are drawn there (see overlay.h).
+#include "tools/view/overlay.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace rung::view {
+namespace {
+
+using Key = std::tuple<std::string_view, uint32_t, uint32_t>; // file, line, column
+
+class Layer {
+public:
+  explicit Layer(Program& program) : program_(program) {
+    for (Figure& figure : program.figures) {
+      byNumber_.emplace(figure.number, &figure);
+      if (figure.place.line > 0) byPlace_.emplace(keyOf(figure.place, 0), &figure);
+      for (Cell& cell : figure.sheet.cells)
+        if (cell.place.line > 0) cells_.emplace(keyOf(cell.place, cell.place.column), &cell);
+    }
+  }
+
+  void add(const RungOverlay& rung) {
+    Figure* figure =
+        rung.number != 0 ? find(byNumber_, rung.number) : find(byPlace_, Key{rung.place.file, rung.place.line, 0u});
+    if (figure != nullptr) figure->run = rung.run;
+  }
+  void add(const ElementOverlay& element) {
+    Cell* cell = cellAt(element.place);
+    if (cell == nullptr) return;
+    cell->seen = seenOf(element);
+    cell->badge = badgeOf(element);
+    cell->detail = element.detail;
+  }
+
+private:
+  Key keyOf(const Place& place, uint32_t column) const { return {program_.files[place.file].path, place.line, column}; }
+  template <class Map, class K>
+  static typename Map::mapped_type find(const Map& map, const K& key) {
+    const auto at = map.find(key);
+    return at == map.end() ? nullptr : at->second;
+  }
+  Cell* cellAt(const SourcePlace& place) const {
+    if (place.column != 0) return find(cells_, Key{place.file, place.line, place.column});
+    const auto at = cells_.lower_bound(Key{place.file, place.line, 0u});
+    const auto end = cells_.lower_bound(Key{place.file, place.line + 1, 0u});
+    return at != end && std::next(at) == end ? at->second : nullptr;
+  }
+
+  Program& program_;
+  std::unordered_map<uint32_t, Figure*> byNumber_;
+  std::map<Key, Figure*> byPlace_;
+  std::map<Key, Cell*> cells_;
+};
+
+} // namespace
+
+Seen seenOf(const ElementOverlay& element) {
+  if (!element.off && !element.on) return Seen::Nothing;
+  const bool all = element.off && element.on && (element.decided || element.kind != ElementOverlay::Kind::Contact);
+  return all ? Seen::All : Seen::Part;
+}
+
+std::string badgeOf(const ElementOverlay& element) {
+  const bool contact = element.kind == ElementOverlay::Kind::Contact;
+  if (!element.off && !element.on) return "never run";
+  if (!element.on) return contact ? "never closed" : "never on";
+  if (!element.off) return contact ? "never open" : "never off";
+  return seenOf(element) == Seen::All ? "" : "never decided";
+}
+
+int heatStep(const Run& run, double hottest) {
+  if (run.heat <= 0) return 0;
+  return 1 + std::min(kHeatSteps - 1, static_cast<int>(run.heat / hottest * kHeatSteps));
+}
+
+std::string_view labelOf(const Run& run) {
+  if (!run.label.empty() || run.state == Run::State::Unasked) return run.label;
+  return run.state == Run::State::Never ? "never ran" : "ran";
+}
+
+void lay(const Overlay& overlay, Program& program) {
+  program.runs = {overlay.title, overlay.summary, overlay.heat};
+  Layer layer(program);
+  for (const RungOverlay& rung : overlay.rungs) layer.add(rung);
+  for (const ElementOverlay& element : overlay.elements) layer.add(element);
+}
+
+std::vector<TableRow> rowsOf(const ir::Module& module) {
+  std::vector<TableRow> rows;
+  for (const ir::Routine& routine : module.routines) {
+    for (const ir::Rung& rung : routine.rungs) {
+      const bool known = rung.begin.line > 0;
+      rows.push_back({static_cast<uint32_t>(rows.size()),
+                      routine.name,
+                      rung.title,
+                      {known ? module.files[rung.begin.file.index] : "", rung.begin.line, 0},
+                      rung.lastLine});
+    }
+  }
+  return rows;
+}
+
+} // namespace rung::view

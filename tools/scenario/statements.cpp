@@ -215,7 +215,8 @@ const LineParser::Row* LineParser::find(std::string_view word) {
 }
 
 bool LineParser::notAValue(const std::string& text) {
-  if (text == "=" || text == "==") return fail(fmt::format("'{}' is not a value: write only a blank before it", text));
+  if (text == "=" || text == "==")
+    return fail(fmt::format("'{}' is not a value: only a blank comes before the value", text));
   if (startsWithDigit(text) && parseDuration(text).ok())
     return fail(fmt::format("'{}' is a time; a value is a number in the unit that the program counts in", text));
   return fail(fmt::format("'{}' is not a value: expected a number, on, off, true, false or a text in quotes", text));
@@ -284,7 +285,9 @@ ParsedLine LineParser::run() {
   s_.kind = row->kind;
   if ((this->*row->read)() && !done()) fail(fmt::format("unexpected '{}' after the statement", word()));
   if (error_.empty()) return {std::move(s_), {}, shapesStart(row->kind)};
-  return {{}, fmt::format("{} (the statement is: {})", error_, row->form.form), shapesStart(row->kind)};
+  if (error_.starts_with("expected") || error_.starts_with("unexpected"))
+    error_ += fmt::format(" (the statement is: {})", row->form.form);
+  return {{}, std::move(error_), shapesStart(row->kind)};
 }
 
 std::vector<StatementForm> formsOfRows() {

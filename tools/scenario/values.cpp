@@ -96,7 +96,7 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
   }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
   if (value.isBit && place.kind != RefKind::Bit)
-    return fmt::format("{} is a value of a bit, and this name is not one: expected a number", value.text);
+    return fmt::format("this name is not a bit, so it cannot be {}: expected a number", value.text);
   if (place.kind == RefKind::Bit && (value.kind == ValueKind::Real || (value.integer != 0 && value.integer != 1)))
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
   if (place.kind == RefKind::Real) {
@@ -113,8 +113,8 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
 
 std::string checkValue(const Reading& reading, const Statement& expect) {
   if (expect.value.isBit && (reading.kind != ValueKind::Int || reading.width != 1))
-    return fmt::format("{} is not a bit, so it is not {}: it is {}; expected a number", expect.name, expect.value.text,
-                       show(reading));
+    return fmt::format("{} is not a bit, so it cannot be {}: it is {}; expected a number", expect.name,
+                       expect.value.text, show(reading));
   bool same = false;
   if (expect.near)
     same = std::fabs(reading.real - expect.value.real) <= expect.tolerance;

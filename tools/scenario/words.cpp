@@ -15,6 +15,7 @@ struct TimeUnit {
   double us;
 };
 constexpr TimeUnit kTimeUnits[] = {{"us", 1.0}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}};
+constexpr double kMostSeconds = 50; // a larger number without a unit was probably meant in milliseconds
 constexpr double kLongestUs = 9e15; // far from the end of 64 bits
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -139,9 +140,11 @@ Result<int64_t> parseDuration(std::string_view text) {
   const auto number = parseReal(text.substr(0, length));
   if (!number) return failure(fmt::format("'{}' is not a time: expected one such as 250ms, 2s or 1.5min", text));
   if (!(*number >= 0)) return failure(fmt::format("'{}' is negative: a time begins at 0s", text));
-  if (unit.empty())
-    return failure(
-        fmt::format("'{0}' has no unit (us, ms, s, min): did you mean {0}{1}?", text, *number < 50 ? "s" : "ms"));
+  if (unit.empty()) {
+    const bool isShort = *number < kMostSeconds;
+    return failure(fmt::format("'{0}' has no unit (us, ms, s, min): did you mean {0}{1} or {0}{2}?", text,
+                               isShort ? "s" : "ms", isShort ? "ms" : "s"));
+  }
   for (const TimeUnit& known : kTimeUnits) {
     if (unit != known.name) continue;
     if (!(*number * known.us <= kLongestUs)) return failure(fmt::format("'{}' is longer than a program can run", text));

@@ -115,8 +115,8 @@ TEST_F(ScenarioRunner, OnAndOffAreValuesOfBits) {
   EXPECT_EQ(problemOf("set 5100.00 on\nscan\nexpect 5101.00 true\nset 5100.00 off\nscan\nexpect 5101.00 false\n"),
             "passed");
   EXPECT_EQ(problemOf("scan\nexpect 5101.00 on\n"), "3: 5101.00 is 0, expected on");
-  EXPECT_NE(problemOf("set 5200 on\n").find("on is a value of a bit, and this name is not one"), std::string::npos);
-  EXPECT_NE(problemOf("expect 5200 off\n").find("5200 is not a bit, so it is not off: it is 0"), std::string::npos);
+  EXPECT_NE(problemOf("set 5200 on\n").find("this name is not a bit, so it cannot be on"), std::string::npos);
+  EXPECT_NE(problemOf("expect 5200 off\n").find("5200 is not a bit, so it cannot be off: it is 0"), std::string::npos);
 }
 
 TEST_F(ScenarioRunner, PrintsValuesAndTexts) {

@@ -39,8 +39,10 @@ struct Dialect {
   std::string (*reference)() = nullptr;
   // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be null.
   std::string (*explain)(std::string_view word) = nullptr;
-  // The program's lines as its mechanisms number them, of files that have been compiled. May be null.
-  std::string (*listing)(const SourceManager& sources, std::span<const FileId> files) = nullptr;
+  // The program's lines as its mechanisms number them, with the numbers of its rungs, of files that were compiled to
+  // `module`. May be null.
+  std::string (*listing)(const SourceManager& sources, std::span<const FileId> files,
+                         const ir::Module& module) = nullptr;
 };
 
 // All dialects, and one by its name; null when there is none.

@@ -57,6 +57,7 @@ struct Transfer {
 };
 
 struct Rung {
+  uint32_t number = 0;    // as drawn: from 1, over all files in their order; 0: made by the compiler
   std::string title;      // the rung's comment
   std::string sourceText; // the lines as written, for readers of generated code; may be empty
   Location begin;

@@ -47,7 +47,8 @@ constexpr StructInfo kChunk{"rung_chunk", sizeof(rung_chunk), kChunkFields};
 constexpr FieldInfo kRungFields[] = {
     RUNG_FIELD(rung_rung_info, title, Text),     RUNG_FIELD(rung_rung_info, file, U32),
     RUNG_FIELD(rung_rung_info, first_line, U32), RUNG_FIELD(rung_rung_info, last_line, U32),
-    RUNG_FIELD(rung_rung_info, routine, U32),    RUNG_FIELD(rung_rung_info, key, U64)};
+    RUNG_FIELD(rung_rung_info, routine, U32),    RUNG_FIELD(rung_rung_info, key, U64),
+    RUNG_FIELD(rung_rung_info, number, U32),     RUNG_FIELD(rung_rung_info, reserved, U32)};
 constexpr StructInfo kRung{"rung_rung_info", sizeof(rung_rung_info), kRungFields};
 
 constexpr FieldInfo kTaskFields[] = {RUNG_FIELD(rung_task, name, Text),        RUNG_FIELD(rung_task, entry, U32),

@@ -172,7 +172,7 @@ private:
       image_.routines_.push_back(text(module_.routines[r].name));
       for (const Rung& rung : module_.routines[r].rungs)
         image_.rungs_.push_back({rung.title.empty() ? "" : text(rung.title), rung.begin.file.index, rung.begin.line,
-                                 std::max(rung.begin.line, rung.lastLine), r, rung.key});
+                                 std::max(rung.begin.line, rung.lastLine), r, rung.key, rung.number, 0});
     }
   }
 

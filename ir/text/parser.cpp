@@ -180,6 +180,7 @@ private:
     const auto number = static_cast<uint32_t>(routine.rungs.size());
     if (scanner_.u32() != number) scanner_.fail(fmt::format("the next rung is {}", number));
     Rung rung;
+    if (scanner_.acceptWord("drawn")) rung.number = scanner_.u32();
     rung.title = scanner_.text();
     scanner_.expectWord("loc");
     scanner_.expect('(');

@@ -320,7 +320,8 @@ void Printer::printRemark(const Remark& remark, size_t index, size_t indent) {
 }
 
 void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark) {
-  put("  rung {} {} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, quoted(rung.title),
+  const std::string drawn = rung.number == 0 ? "" : fmt::format("drawn {} ", rung.number);
+  put("  rung {} {}{} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, drawn, quoted(rung.title),
       files_.text(rung.begin.file.index), rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
   std::string_view source = rung.sourceText;
   for (bool more = !source.empty(); more;) {

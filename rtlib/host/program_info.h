@@ -23,7 +23,7 @@ std::string_view messageText(const rung_program& program, uint32_t number);  // 
 // Time of one pass of the scan list: the sum of its ADVANCE steps, else the main task's period.
 uint64_t scanPeriodUs(const rung_program& program);
 
-// `rung 3 "title", main.pmc:12`; line 0 means the rung's first line.
+// `rung 3 "title", main.pmc:12`, of what is not drawn `LEVEL1, main.pmc:12`; line 0 means the rung's first line.
 std::string rungText(const rung_program& program, uint32_t rung, uint32_t line = 0);
 // `dead-loop (rung 3 "title", main.pmc:12)`; "" when there is no fault.
 std::string faultText(const rung_program& program, const rung_fault& fault);

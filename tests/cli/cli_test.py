@@ -469,12 +469,14 @@ class Products(Cli):
         self.assertEqual(done.returncode, OK, done.stderr)
         lines = name.read_text().splitlines()
         self.assertEqual(lines[0], "; " + source)
-        self.assertEqual(lines[1], "     1  DATA")
-        self.assertEqual(lines[-1], "    24  STOP")
+        self.assertEqual(lines[1], "; line rung")
+        self.assertEqual(lines[2], "     1        DATA")
+        self.assertEqual(lines[-1], "    24        STOP")
         # What name_LINE shows leads to the line of the state.
         done = rungc("run", out, "--scans", "3", "--watch", "M_LINE")
         number = re.findall(r"M_LINE = (\d+)", done.stdout.decode())[-1]
-        self.assertIn(f"{number:>6}          TIM  -,50           ; waits here", lines)
+        waiting = [line for line in lines if line.endswith("        TIM  -,50           ; waits here")]
+        self.assertEqual([line.split()[0] for line in waiting], [number])
 
     def test_listing_of_a_ladder(self):
         done = rungc("build", self.file("lamp.lad", LAMP), "-o", str(Path(self.folder.name) / "l.so"), "--listing", str(Path(self.folder.name) / "l.ls1"))

@@ -70,7 +70,7 @@ int writeListing(const SourceManager& sources, const driver::Compiled& compiled,
     fmt::print(stderr, "rungc: programs of {} have no listing\n", compiled.dialect->name);
     return kUsage;
   }
-  return writeFile(compiled.dialect->listing(sources, compiled.files), name);
+  return writeFile(compiled.dialect->listing(sources, compiled.files, *compiled.module), name);
 }
 
 int emitText(const driver::Compiled& compiled, const BuildOptions& options) {

@@ -59,6 +59,7 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
   addSymbols();
   addPresets();
   makeKeys();
+  makeNumbers();
   levels_[1].isLevel2 = true;
   for (LevelState& level : levels_) planRoutines(level);
   for (LevelState& level : levels_)
@@ -125,6 +126,15 @@ void ModuleLowering::makeKeys() {
   }
 }
 
+// Every network but the end of a unit is drawn, in the order of the sources, whatever unit it belongs to.
+void ModuleLowering::makeNumbers() {
+  std::vector<const Network*> drawn;
+  for (const Unit& unit : program_.units)
+    for (size_t i = 0; i + 1 < unit.networks.size(); ++i) drawn.push_back(&unit.networks[i]);
+  std::ranges::sort(drawn, {}, [](const Network* network) { return network->range.begin; });
+  for (const Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
+}
+
 std::string ModuleLowering::slotPrefix(uint32_t unit, uint32_t network) const {
   return fmt::format("{}/{:016x}/", nameOf(program_.units[unit]), keys_[unit][network]);
 }
@@ -180,6 +190,7 @@ void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Uni
   ir::Rung& rung = routine.rungs[0];
   const Network& first = unit.networks.front();
   describe(rung, first, hashBytes("@clock", hashBytes(nameOf(unit))));
+  rung.number = 0;
   rung.title = level.hasClock ? "scan time" : "number of the scan";
   rung.sourceText.clear();
   rung.lastLine = rung.begin.line;

@@ -56,6 +56,7 @@ private:
   void addPresets();
   void planRoutines(LevelState& level);
   void makeKeys();
+  void makeNumbers();
   void lowerRoutine(LevelState& level, uint32_t unit);
   void planClock(LevelState& level);
   void addClock(ir::Routine& routine, LevelState& level, const Unit& unit);
@@ -80,7 +81,8 @@ private:
   std::unordered_map<std::string, ir::SlotId> slots_;
   std::unordered_map<std::string, ir::SpaceId> constants_;
   ir::SpaceId positions_;
-  std::vector<std::vector<uint64_t>> keys_; // by unit and network
+  std::vector<std::vector<uint64_t>> keys_;              // by unit and network
+  std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
   LevelState levels_[2];
   uint32_t parts_ = 1;
 };

@@ -28,6 +28,8 @@ std::string linesOf(const SourceManager& sources, const Network& network) {
 } // namespace
 
 void ModuleLowering::describe(ir::Rung& rung, const Network& network, uint64_t key) const {
+  const auto number = numbers_.find(&network);
+  rung.number = number == numbers_.end() ? 0 : number->second;
   rung.title = network.title;
   rung.sourceText = linesOf(context_.sources, network);
   rung.begin = {fileIndex_.at(network.file.index), network.firstLine,
@@ -96,11 +98,13 @@ void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint3
 // Behind a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 goes on at the label.
 void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next) {
   const ir::Rung& call = *(&rung - 1);
-  rung.title = "return of the call above";
+  rung.number = call.number;
+  rung.title = call.title;
   rung.begin = call.begin;
   rung.lastLine = call.lastLine;
   rung.key = ~call.key;
   ir::RungBuilder b(*module_, rung);
+  b.note("return of the call");
   const ir::ValueId target = b.slotLoad(leaveTarget());
   if (routine.unit != kLevel2) return b.ret(b.ne(target, b.i32(0)));
   b.slotStore(leaveTarget(), b.i32(0));

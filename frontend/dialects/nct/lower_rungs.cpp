@@ -71,6 +71,7 @@ private:
 
 void BodyLowering::describe(ir::Rung& rung, const TypedRung& typed) {
   const ladder::Rung& drawing = *typed.rung;
+  rung.number = typed.number;
   rung.title = drawing.comment;
   rung.sourceText = context_.sources.text(drawing.range);
   rung.begin = {.file = context_.files.at(typed.file->file.index), .line = drawing.firstLine, .column = 1};
@@ -135,6 +136,7 @@ void BodyLowering::lowerRung(const TypedRung& typed) {
 void BodyLowering::addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t key) {
   for (size_t i = 0; i < conditions.size(); ++i) {
     ir::Rung& helper = routine_.rungs.emplace_back();
+    helper.number = typed.number;
     helper.title = typed.rung->comment;
     helper.begin = {.file = context_.files.at(typed.file->file.index), .line = typed.rung->firstLine, .column = 1};
     helper.lastLine = typed.rung->lastLine;

@@ -142,7 +142,10 @@ private:
         break;
       case ladder::StatementKind::Rung:
         if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
-        if (module != nullptr) module->rungs.push_back(checker->check(file, file.rungs[statement.index]));
+        ++drawn_;
+        if (module == nullptr) break;
+        module->rungs.push_back(checker->check(file, file.rungs[statement.index]));
+        module->rungs.back().number = drawn_;
         break;
       case ladder::StatementKind::Declaration:
       case ladder::StatementKind::Section: break;
@@ -160,6 +163,7 @@ private:
   Texts texts_;
   TextKinds textKinds_;
   std::unordered_set<uint32_t> numbers_; // of the texts
+  uint32_t drawn_ = 0;                   // rungs so far, over all files
   bool nameless_ = false;                // rungs stand in no known module, or were not read: MAIN may be among them
 };
 

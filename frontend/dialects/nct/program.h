@@ -22,6 +22,7 @@ struct TypedElement {
 struct TypedRung {
   const ladder::LadderFile* file = nullptr;
   const ladder::Rung* rung = nullptr;
+  uint32_t number = 0;                // as drawn, see ir::Rung
   bool bad = false;                   // something in it was reported
   std::vector<TypedElement> elements; // in the order of evaluation
   std::vector<Operand> operands;

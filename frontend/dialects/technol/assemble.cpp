@@ -2,6 +2,8 @@
 #include "frontend/dialects/technol/assemble.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "rtlib/nc/technol/signals.h"
 
@@ -166,6 +168,19 @@ void addSymbols(const Program& program, ir::Module& module) {
   }
   std::sort(module.symbols.begin(), module.symbols.end(),
             [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+}
+
+void numberRungs(ir::Module& module) {
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers; // by file and line
+  const auto forRungs = [&](auto act) {
+    for (ir::Routine& routine : module.routines)
+      for (ir::Rung& rung : routine.rungs)
+        if (rung.begin.line != 0) act(rung, std::pair(rung.begin.file.index, rung.begin.line));
+  };
+  forRungs([&](const ir::Rung&, auto place) { numbers.emplace(place, 0); });
+  uint32_t count = 0;
+  for (auto& [place, number] : numbers) number = ++count;
+  forRungs([&](ir::Rung& rung, auto place) { rung.number = numbers.at(place); });
 }
 
 namespace {

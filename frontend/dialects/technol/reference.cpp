@@ -81,7 +81,7 @@ void constants(Page& page) {
 void listingSection(Page& page) {
   page.heading("## Control listing");
   page.line("`rungc build main.plc more.plc -o program.so --listing program.ls1` writes the lines of the program with "
-            "their numbers. `name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
+            "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. `name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
             "0 when it is not active. The numbers count in each file of the program; a statement of a macro stands in "
             "the line of its use. Manual: l.2210-2217.");
 }

@@ -60,6 +60,7 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   if (diagnostics.hasErrors()) return nullptr;
   technol::addTasks(lowering, *module, period);
   technol::addSymbols(program, *module);
+  technol::numberRungs(*module);
   return module;
 }
 

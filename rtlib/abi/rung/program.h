@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define RUNG_ABI_VERSION 1u
+#define RUNG_ABI_VERSION 2u
 #define RUNG_PROGRAM_SYMBOL "rung_program_v1"
 #define RUNG_NONE 0xFFFFFFFFu     /* "not there" in every index field */
 #define RUNG_PC_DONE 0xFFFFFFFFu  /* a chunk returns this when the task's run has ended */
@@ -131,6 +131,8 @@ typedef struct rung_rung_info {
   uint32_t last_line;
   uint32_t routine; /* in `routines` */
   uint64_t key;     /* stable while the rung's text is unchanged */
+  uint32_t number;  /* as drawn: from 1, over all files in their order; 0: made by the compiler */
+  uint32_t reserved;
 } rung_rung_info;
 
 /* A part of the program that the host can start: `begin` copies, chunks from `entry` until RUNG_PC_DONE, `end` copies.

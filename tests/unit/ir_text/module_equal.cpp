@@ -32,10 +32,11 @@ bool equal(const Transfer& a, const Transfer& b) {
 }
 
 bool equal(const Rung& a, const Rung& b) {
-  const auto& [title, sourceText, begin, lastLine, key, weight, ops, args, values, notes, transfer, transferLine] = a;
-  return title == b.title && sourceText == b.sourceText && equal(begin, b.begin) && lastLine == b.lastLine &&
-         key == b.key && weight == b.weight && equalAll(ops, b.ops) && args == b.args && values == b.values &&
-         notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine;
+  const auto& [number, title, sourceText, begin, lastLine, key, weight, ops, args, values, notes, transfer,
+               transferLine] = a;
+  return number == b.number && title == b.title && sourceText == b.sourceText && equal(begin, b.begin) &&
+         lastLine == b.lastLine && key == b.key && weight == b.weight && equalAll(ops, b.ops) && args == b.args &&
+         values == b.values && notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine;
 }
 
 bool equal(const Routine& a, const Routine& b) {
@@ -79,8 +80,8 @@ bool equal(const Init& a, const Init& b) {
 bool equal(const Task& a, const Task& b) {
   const auto& [name, entry, periodUs, budget, budgetFault, begin, end, parts, borders] = a;
   return name == b.name && entry == b.entry && periodUs == b.periodUs && budget == b.budget &&
-         budgetFault == b.budgetFault && equalAll(begin, b.begin) && equalAll(end, b.end) &&
-         parts == b.parts && borders == b.borders;
+         budgetFault == b.budgetFault && equalAll(begin, b.begin) && equalAll(end, b.end) && parts == b.parts &&
+         borders == b.borders;
 }
 
 bool equal(const Step& a, const Step& b) {

@@ -148,6 +148,7 @@ protected:
 };
 
 TEST_F(PrintedRung, LooksLikeThis) {
+  rung_.number = 5;
   rung_.title = "seal-in";
   rung_.begin = {FileIndex{0}, 12, 1};
   rung_.lastLine = 13;
@@ -169,7 +170,7 @@ TEST_F(PrintedRung, LooksLikeThis) {
   b_.trap(large, FaultId{0});
   rung_.transferLine = 14;
   b_.gotoRung(7, large);
-  EXPECT_EQ(text(), R"(  rung 0 "seal-in" loc(main.lad:12:1-13) key(0x00000000000000AB) weight 4 {
+  EXPECT_EQ(text(), R"(  rung 0 drawn 5 "seal-in" loc(main.lad:12:1-13) key(0x00000000000000AB) weight 4 {
     source "--| |--"
     source ""
     %0:bit = load M[100.17] ; "START"

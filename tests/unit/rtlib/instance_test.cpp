@@ -103,7 +103,7 @@ TEST_F(InstanceTest, RunForEndsWithAFaultOrWithoutTime) {
   EXPECT_TRUE(instance.faulted());
   EXPECT_EQ(byte(instance, 0), 100u);
   EXPECT_EQ(byte(instance, 3), 0u); // safe
-  EXPECT_EQ(instance.faultText(), "division by zero (rung 0, main.pmc:12)");
+  EXPECT_EQ(instance.faultText(), "division by zero (rung 1, main.pmc:12)");
   instance.scan();
   EXPECT_EQ(byte(instance, 0), 100u);
   instance.coldStart();
@@ -155,7 +155,7 @@ TEST_F(InstanceTest, HooksTakePartInTheSchedule) {
   EXPECT_EQ(model.lastWork, 3u);
   EXPECT_EQ(byte(instance, 9), static_cast<uint64_t>(RUNG_SERVICE_PENDING));
   instance.runFor(10'000'000);
-  EXPECT_EQ(model.faultSeen, "division by zero (rung 0, main.pmc:12)");
+  EXPECT_EQ(model.faultSeen, "division by zero (rung 1, main.pmc:12)");
 }
 
 TEST_F(InstanceTest, RepliesAreSeenInTheNextScan) {

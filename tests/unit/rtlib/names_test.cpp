@@ -262,8 +262,10 @@ TEST(ProgramInfo, FaultTexts) {
   TestProgram test;
   for (int i = 0; i < 4; ++i) test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
   test.link();
-  EXPECT_EQ(faultText(test.program, {0, 3, 12, 0}), "dead-loop (rung 3 \"title\", main.pmc:12)");
-  EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (rung 0, main.pmc:10)");
+  EXPECT_EQ(faultText(test.program, {0, 3, 12, 0}), "dead-loop (rung 4 \"title\", main.pmc:12)");
+  EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (rung 1, main.pmc:10)");
+  test.rungs[0].number = 0;
+  EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (MAIN, main.pmc:10)");
   EXPECT_EQ(faultText(test.program, {7, 99, 0, 0}), "undescribed fault (unknown rung)");
   EXPECT_EQ(faultText(test.program, {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE}), "");
 }

@@ -61,7 +61,9 @@ AT(rung_rung_info, first_line, 12);
 AT(rung_rung_info, last_line, 16);
 AT(rung_rung_info, routine, 20);
 AT(rung_rung_info, key, 24);
-SIZE(rung_rung_info, 32);
+AT(rung_rung_info, number, 32);
+AT(rung_rung_info, reserved, 36);
+SIZE(rung_rung_info, 40);
 
 AT(rung_task, name, 0);
 AT(rung_task, entry, 8);

@@ -39,7 +39,7 @@ struct TestProgram {
   std::vector<const char*> files = {"main.pmc"};
   std::vector<const char*> routines = {"MAIN"};
   std::vector<rung_chunk> chunks;
-  std::vector<rung_rung_info> rungs; // one a chunk, line 10 * (number + 1), where link() has to make them
+  std::vector<rung_rung_info> rungs; // one a chunk, line 10 * number, where link() has to make them
   rung_program program{};
 
   // A space with the given ranges, which must cover it.
@@ -90,7 +90,7 @@ struct TestProgram {
     chunks.clear();
     for (uint32_t i = 0; i < functions.size(); ++i) {
       chunks.push_back({i, 1, weights[i]});
-      if (rungs.size() <= i) rungs.push_back({i == 3 ? "title" : "", 0, 10 * (i + 1), 10 * (i + 1), 0, i});
+      if (rungs.size() <= i) rungs.push_back({i == 3 ? "title" : "", 0, 10 * (i + 1), 10 * (i + 1), 0, i, i + 1, 0});
     }
     program.size = sizeof program;
     program.abi_version = RUNG_ABI_VERSION;

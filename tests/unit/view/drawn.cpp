@@ -141,14 +141,15 @@ std::vector<int> portsOf(const Picture& picture, const Frame& frame, bool left) 
 
 } // namespace
 
-std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text) {
-  auto drawn = std::make_unique<Drawn>();
-  const FileId file = drawn->sources.addBuffer(name, text);
-  const frontend::Dialect* dialect = frontend::dialectOf(drawn->sources, file);
-  drawn->module = dialect->compile(drawn->sources, std::span(&file, 1), {}, drawn->diagnostics);
-  EXPECT_NE(drawn->module, nullptr) << renderText(drawn->diagnostics, drawn->sources, {}) << text;
+namespace {
+
+std::unique_ptr<Drawn> drawProgram(std::unique_ptr<Drawn> drawn, const std::vector<FileId>& files) {
+  const frontend::Dialect* dialect = frontend::dialectOf(drawn->sources, files[0]);
+  drawn->module = dialect->compile(drawn->sources, files, {}, drawn->diagnostics);
+  EXPECT_NE(drawn->module, nullptr) << renderText(drawn->diagnostics, drawn->sources, {})
+                                    << drawn->sources.text(files[0]);
   if (drawn->module == nullptr) return nullptr;
-  Input input{dialect, drawn->module.get(), {file}, {}, {file}};
+  Input input{dialect, drawn->module.get(), files, {}, files};
   if (dialect == &gsk::kGsk) {
     drawn->form = *gsk::ladderForm(drawn->sources, input.files, {}, drawn->diagnostics);
     input.files = drawn->form.files;
@@ -158,6 +159,26 @@ std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text) {
   drawn->ladders.push_back(ladder::parseLadder(drawn->sources, input.files[0], drawn->diagnostics, rows.furtherPins()));
   drawn->program = readProgram(drawn->sources, input);
   return drawn;
+}
+
+} // namespace
+
+std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text) {
+  auto drawn = std::make_unique<Drawn>();
+  const FileId file = drawn->sources.addBuffer(name, text);
+  return drawProgram(std::move(drawn), {file});
+}
+
+std::unique_ptr<Drawn> drawFiles(const std::vector<std::string>& paths) {
+  auto drawn = std::make_unique<Drawn>();
+  std::vector<FileId> files;
+  for (const std::string& path : paths) {
+    const Result<FileId> file = drawn->sources.addFile(path);
+    EXPECT_TRUE(file.ok()) << path << ": run in the root of the repository";
+    if (!file.ok()) return nullptr;
+    files.push_back(file.value());
+  }
+  return drawProgram(std::move(drawn), files);
 }
 
 std::unique_ptr<Drawn> drawRung(const std::string& drawing) {

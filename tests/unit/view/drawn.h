@@ -24,6 +24,8 @@ struct Drawn {
 };
 // The name tells the dialect as it does for the compiler: "a.lad", "a.pmc".
 std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text);
+// A program of files, in their order.
+std::unique_ptr<Drawn> drawFiles(const std::vector<std::string>& paths);
 // The drawing as the only rung of module MAIN of an NCT program.
 std::unique_ptr<Drawn> drawRung(const std::string& drawing);
 

@@ -26,6 +26,13 @@ public:
       if (auto place = find(constant.name, constant.type, Access::Write, constant.line))
         binding.constants.push_back({constant.type, *place, constant.value});
     for (const MapChannel& channel : map_.channels) {
+      if (std::string_view(instance_.program().dialect) == "nct") {
+        // Its strobes are pulses of one cycle, and an answer counts after the pulse: this handshake would wait for
+        // ever.
+        fail(channel.line, "channel: the handshake of an NCT program is not supported yet; remove the line, and its "
+                           "send lines, and connect the signals by in and out lines");
+        continue;
+      }
       const auto strobe = find(channel.strobe, PinType::Bit, Access::Write, channel.line);
       const auto code = find(channel.code, PinType::S32, Access::Write, channel.line);
       const auto done = find(channel.done, PinType::Bit, Access::Read, channel.line);

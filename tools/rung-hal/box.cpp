@@ -1,6 +1,10 @@
 // The scan: pins in, due slices of the schedule, pins out.
 #include "tools/rung-hal/box.h"
 
+#include <algorithm>
+#include <span>
+#include <string_view>
+
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/model/refuse.h"
 
@@ -38,13 +42,28 @@ void clearPin(PinType type, const PinCell& cell) noexcept {
   }
 }
 
+// TECHNOL: no part-program block starts here, so its block modules never run, and M, S, T in them do nothing.
+void warnOfBlocks(const rung_program& program, std::vector<std::string>& warnings) {
+  for (const std::string_view module : {"MODULE_BLOCK_INIT", "MODULE_BLOCK_DONE"}) {
+    const auto inModule = [&](const rung_rung_info& rung) {
+      return rung.number != 0 && rung.routine < program.routine_count && program.routines[rung.routine] == module;
+    };
+    const std::span rungs(program.rungs, program.rung_count);
+    const auto first = std::ranges::find_if(rungs, inModule);
+    if (first == rungs.end()) continue;
+    const char* file = first->file < program.file_count ? program.files[first->file] : "?";
+    warnings.push_back(std::string(file) + ":" + std::to_string(first->first_line) + ": WARNING: " +
+                       std::string(module) + " never runs in LinuxCNC yet: M, S and T functions in it do nothing");
+  }
+}
+
 } // namespace
 
 Box::Box(const rung_program& program, MapFile map)
     : map_(std::move(map)), nc_(nc::makeNcModel(program.dialect)), instance_(program, this) {}
 
 std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
-                               const std::string& retain, std::string* notes) {
+                               const std::string& retain, std::vector<std::string>& warnings) {
   if (host::scanPeriodUs(program) == 0) {
     errors.push_back(std::string(program.name) + ": the program's schedule has no period");
     return nullptr;
@@ -53,11 +72,12 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
   box->binding_ = bindMap(box->map_, box->instance_, *box->nc_, errors);
   if (!errors.empty()) return nullptr;
   box->functions_ = std::make_unique<AuxFunctions>(box->map_.sends, box->binding_.channels);
-  if (!box->start(retain, errors, notes)) return nullptr;
+  if (!box->start(retain, errors, warnings)) return nullptr;
+  warnOfBlocks(program, warnings);
   return box;
 }
 
-bool Box::start(const std::string& retain, std::vector<std::string>& errors, std::string* notes) {
+bool Box::start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings) {
   bool found = false;
   if (!retain.empty()) {
     retained_ = std::make_unique<host::RetainedMemory>(program(), retain);
@@ -65,7 +85,7 @@ bool Box::start(const std::string& retain, std::vector<std::string>& errors, std
     std::string error;
     found = retained_->load(instance_, report, error);
     if (!error.empty()) errors.push_back(error);
-    if (notes != nullptr) *notes = report;
+    if (!report.empty()) warnings.push_back(report);
   }
   if (!errors.empty()) return false;
   nc_->powerOn(instance_, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);

@@ -28,9 +28,10 @@ using MessageSink = void (*)(const rung_program& program, const rung_message& me
 class Box : private host::ScheduleHooks {
 public:
   // Null, and `errors` say why, when the map does not fit the program, which outlives the box. The start is cold, or
-  // with the memory that `retain` (FILE of FILE.a and FILE.b) keeps; then `notes` may have something for the user.
+  // with the memory that `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the
+  // retained memory, and of parts of the program that never run here.
   static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
-                                   const std::string& retain = {}, std::string* notes = nullptr);
+                                   const std::string& retain, std::vector<std::string>& warnings);
   // Behind the last step: what is retained is on disk then; "" or why not.
   std::string close();
 
@@ -56,7 +57,7 @@ private:
   // No CNC here can answer: the program learns it at once (rtlib/nc/model/refuse.h).
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
 
-  bool start(const std::string& retain, std::vector<std::string>& errors, std::string* notes);
+  bool start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings);
   void slice() noexcept;
   void readPins() noexcept;
   void writePins() noexcept;

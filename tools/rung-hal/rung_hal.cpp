@@ -86,9 +86,9 @@ bool loadProgram(Component& c) {
   std::vector<std::string> errors;
   hal::MapFile mapping = hal::parseMap(*text, map, errors);
   // Both kinds of mistakes at once; a box is only made for a faultless map.
-  std::string notes;
-  c.box = hal::Box::make(c.engine->program(), std::move(mapping), errors, retain != nullptr ? retain : "", &notes);
-  if (!notes.empty()) rtapi_print("%s: %s\n", kModule, notes.c_str());
+  std::vector<std::string> warnings;
+  c.box = hal::Box::make(c.engine->program(), std::move(mapping), errors, retain != nullptr ? retain : "", warnings);
+  for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   return errors.empty();
 }
@@ -145,14 +145,14 @@ void reportFault(const Component& c) {
   const rung_fault& fault = c.box->fault();
   const char* reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
   const bool known = fault.rung < program.rung_count;
-  const rung_rung_info none = {"", RUNG_NONE, 0, 0, 0, 0};
+  const rung_rung_info none = {"", RUNG_NONE, 0, 0, 0, 0, 0, 0};
   const rung_rung_info& rung = known ? program.rungs[fault.rung] : none;
   const char* file = rung.file < program.file_count ? program.files[rung.file] : "?";
   const uint32_t line = fault.line != 0 ? fault.line : rung.first_line;
   *c.status->fault.bit = true;
   *c.status->faultLine.u32 = line;
   complain("%s: the program has stopped: %s at %s:%u (rung %u \"%s\"); all output pins are 0\n", c.prefix.c_str(),
-           reason, file, line, fault.rung, rung.title);
+           reason, file, line, rung.number, rung.title);
 }
 
 void scan(void* argument, long periodNs) {

@@ -108,5 +108,12 @@ TEST(Binding, NamesThatDoNotFit) {
                           "m.map:2: D0 is no bit; s32, u32, float or a bit of it is possible"));
 }
 
+TEST(Binding, ChannelsOfNctAreRefused) {
+  EXPECT_THAT(
+      boundTo(testing::nctProgram(), "channel M 0056.17 0057 0400.00\n").errors,
+      ElementsAre("m.map:1: channel: the handshake of an NCT program is not supported yet; remove the line, and "
+                  "its send lines, and connect the signals by in and out lines"));
+}
+
 } // namespace
 } // namespace rung::hal

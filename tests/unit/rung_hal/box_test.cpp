@@ -46,7 +46,7 @@ public:
     MapFile map = parseMap(text, "m.map", errors);
     values.resize(map.pins.size());
     for (PinValue& value : values) cells.push_back({.any = &value});
-    box = Box::make(program, std::move(map), errors, retain);
+    box = Box::make(program, std::move(map), errors, retain, warnings);
     if (box) box->connect(cells.data());
   }
 
@@ -62,6 +62,7 @@ public:
   }
 
   std::vector<std::string> errors;
+  std::vector<std::string> warnings;
   std::vector<PinValue> values;
   std::vector<PinCell> cells;
   std::unique_ptr<Box> box;
@@ -208,6 +209,14 @@ TEST(Box, MessagesAreHandedOn) {
   b["show"].bit = true;
   b.scans(2);
   EXPECT_THAT(shown, ElementsAre(7u, 7u));
+}
+
+TEST(Box, BlocksThatNeverComeAreReported) {
+  EXPECT_THAT(
+      Bench(testing::technolProgram(), "").warnings,
+      ElementsAre("main.pmc:40: WARNING: MODULE_BLOCK_INIT never runs in LinuxCNC yet: M, S and T functions in it "
+                  "do nothing"));
+  EXPECT_THAT(Bench(testing::gskProgram(), "").warnings, IsEmpty());
 }
 
 // The NC's part of messages works here too: the program learns what is on the screen, and CANCEL is a pin.

@@ -16,6 +16,7 @@ std::string setValue(Lane& lane, const Statement& s) {
   const std::optional<Ref> place = lane.nc().writePlace(lane.instance(), s.name);
   if (!place && s.value.kind != ValueKind::Text && lane.nc().writeCell(s.name, cellOf(s.value))) return {};
   if (!place) return unknownName(lane.instance(), s.name);
+  lane.nc().beforeWrite(lane.instance(), *place);
   return writeValue(lane.instance(), *place, s.value);
 }
 

@@ -86,6 +86,8 @@ public:
   // The place that `expect` reads and the one that `set` writes.
   virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
   virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const;
+  // The machine or a user is going to write there: what the control has put over the real value gives way to it.
+  virtual void beforeWrite(host::Instance& instance, const host::Ref& place) { (void)instance, (void)place; }
 
   // Cells of the NC itself by the dialect's identifiers; false and nothing where there is no such cell.
   virtual std::optional<NcCell> readCell(std::string_view name) const;

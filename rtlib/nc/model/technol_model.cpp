@@ -92,6 +92,9 @@ public:
     const auto place = NcModel::readPlace(instance, name);
     return place ? place : exchange_.shared().find(name, true);
   }
+  void beforeWrite(host::Instance& instance, const host::Ref& place) override {
+    exchange_.beforeWrite(instance, place);
+  }
   std::optional<NcCell> readCell(std::string_view name) const override { return exchange_.cells().read(name); }
   bool writeCell(std::string_view name, const NcCell& value) override { return exchange_.cells().write(name, value); }
 

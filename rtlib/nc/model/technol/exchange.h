@@ -27,6 +27,7 @@ public:
   void behindInit(host::Instance& instance);
   // Hooks of the schedule.
   void onHook(host::Instance& instance, uint32_t hook);
+  void beforeWrite(host::Instance& instance, const host::Ref& place) { ports_.beforeWrite(instance, place); }
   // The services kDefineService and kUpdateService; false: another one.
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
 

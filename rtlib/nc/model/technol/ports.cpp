@@ -36,6 +36,12 @@ Ports::Family Ports::familyOf(const host::Instance& instance, const char* first,
   return a && b ? Family{a->space, a->byte, b->byte - a->byte} : Family{};
 }
 
+std::optional<uint32_t> Ports::Family::find(uint32_t inSpace, uint32_t byte, uint32_t count) const {
+  if (inSpace != space || stride == 0 || byte < first || (byte - first) % stride != 0) return std::nullopt;
+  const uint32_t number = (byte - first) / stride;
+  return number < count ? std::optional(number) : std::nullopt;
+}
+
 uint8_t Ports::read(const host::Instance& instance, const Family& family, uint32_t number) {
   return instance.memory().readByte(family.space, family.first + number * family.stride);
 }
@@ -147,6 +153,16 @@ void Ports::behindProgram(host::Instance& instance) {
   for (uint32_t i = 0; i < kOutputs; ++i) {
     const auto low = static_cast<uint8_t>(read(instance, lowOut_, i) | shorted(instance, i));
     force(instance, outputs_, i, out_[i], read(instance, highOut_, i), low);
+  }
+}
+
+void Ports::beforeWrite(host::Instance& instance, const host::Ref& place) {
+  if (!active_) return;
+  const uint32_t bits = place.bit + place.width * place.count;
+  for (uint32_t byte = place.byte; byte < place.byte + (bits + 7) / 8; ++byte) {
+    if (const auto input = inputs_.find(place.space, byte, kInputs)) restore(instance, inputs_, *input, in_[*input]);
+    if (const auto output = outputs_.find(place.space, byte, kOutputs))
+      restore(instance, outputs_, *output, out_[*output]);
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ public:
 
   void beforeProgram(host::Instance& instance);
   void behindProgram(host::Instance& instance);
+  // The value that comes may be equal to a forced one, so the ports it goes to get their own back first.
+  void beforeWrite(host::Instance& instance, const host::Ref& place);
 
 private:
   struct Port {
@@ -33,6 +36,8 @@ private:
   };
   struct Family { // of cells that are numbered
     uint32_t space = RUNG_NONE, first = 0, stride = 0;
+    // The number of the cell at this byte.
+    std::optional<uint32_t> find(uint32_t inSpace, uint32_t byte, uint32_t count) const;
   };
   struct Span {
     uint32_t offset, size;

@@ -80,7 +80,7 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
               "-fno-math-errno -fno-strict-aliasing -fno-tree-slp-vectorize -w",
               words);
   words.push_back(options.optimisation);
-  if (options.debugInfo) words.push_back("-g");
+  if (options.debugInfo) words.push_back("-gdwarf-4");
   for (std::string word :
        {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(), std::string("-o"), unfinished})
     words.push_back(std::move(word));

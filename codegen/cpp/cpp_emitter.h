@@ -12,6 +12,9 @@
 namespace rung::codegen {
 
 struct CppOptions {
+  // For a compiler that is asked for debug information: memory has the program's names, and is up to date where a line
+  // begins.
+  bool debugInfo = false;
   // For the tests of the comparison only: this operation is emitted wrongly.
   std::optional<ir::OpCode> sabotage;
 };

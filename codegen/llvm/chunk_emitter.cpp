@@ -12,8 +12,8 @@ namespace rung::codegen {
 
 using namespace ir;
 
-ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugLines* lines)
-    : target_(target), layout_(layout), module_(layout.module()), options_(options), lines_(lines),
+ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugInfo* debug)
+    : target_(target), layout_(layout), module_(layout.module()), options_(options), debug_(debug),
       abi_(target.getContext()), builder_(target.getContext()),
       extendsWords_(llvm::Triple(target.getTargetTriple()).isRISCV64()) {
   abi_.check(target.getDataLayout());
@@ -35,11 +35,12 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   ctx_ = function_->getArg(1);
   ctx_->setName("ctx");
   messageSpace_ = argsSpace_ = nullptr;
-  if (lines_ != nullptr) lines_->beginFunction(*function_, name, first.begin.file, first.begin.line);
+  if (debug_ != nullptr) debug_->beginFunction(*function_, name, first.begin.file, first.begin.line);
   builder_.SetInsertPoint(block("entry"));
   builder_.SetCurrentDebugLocation({}); // that of another function would not do
   firstRung_ = place.firstRung;
   rungBlocks_.assign(place.rungCount, nullptr);
+  if (debug_ != nullptr) showMemory();
   const std::vector<Exit> exits = exitsOf(layout_, place);
   extra_ = nullptr;
   if (hasExtraWeight(exits)) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
@@ -66,17 +67,38 @@ bool ChunkEmitter::beginRung(uint32_t rung) {
 }
 
 void ChunkEmitter::setLine(uint32_t line) {
-  if (lines_ != nullptr)
-    builder_.SetCurrentDebugLocation(lines_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
+  if (debug_ != nullptr)
+    builder_.SetCurrentDebugLocation(debug_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
+}
+
+// Keeps the address of the memory block where a debugger finds it all through the function.
+void ChunkEmitter::showMemory() {
+  llvm::AllocaInst* slot = builder_.CreateAlloca(builder_.getPtrTy());
+  builder_.CreateStore(mem_, slot, true); // volatile, or the slot would be optimised away
+  debug_->declareMemory(slot, builder_.GetInsertBlock());
+}
+
+// With debug information stores of earlier lines have reached memory when a line begins, and its loads have not
+// happened: a fence within the thread is no instruction.
+void ChunkEmitter::settleMemory(const Op& op) {
+  if (debug_ == nullptr || options_.level == LlvmLevel::Fast) return;
+  const uint32_t line = op.line != 0 ? op.line : rung_->begin.line;
+  if (line != settledLine_)
+    builder_.CreateFence(llvm::AtomicOrdering::SequentiallyConsistent, llvm::SyncScope::SingleThread);
+  const bool border = op.code == OpCode::If || op.code == OpCode::Else || op.code == OpCode::EndIf ||
+                      op.code == OpCode::Loop || op.code == OpCode::EndLoop;
+  settledLine_ = border ? 0 : line;
 }
 
 void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
   rung_ = &rung;
   number_ = number;
+  settledLine_ = 0;
   values_.assign(rung.values.size(), nullptr);
   join_.reset();
   for (const Op& op : rung.ops) {
     setLine(op.line);
+    settleMemory(op);
     emitOp(op);
   }
   RUNG_CHECK(regions_.empty(), "regions are closed within their rung");

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "codegen/llvm/abi_types.h"
-#include "codegen/llvm/debug_lines.h"
+#include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
 
 namespace rung::codegen {
 
 class ChunkEmitter {
 public:
-  // `lines` may be null: no debug information.
-  ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugLines* lines);
+  // `debug` may be null: no debug information.
+  ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugInfo* debug);
 
   llvm::Function* emit(uint32_t chunk);
 
@@ -46,6 +46,8 @@ private:
   void emitOp(const ir::Op& op);
   void emitExit(const ir::Exit& exit);
   void setLine(uint32_t line);
+  void showMemory();
+  void settleMemory(const ir::Op& op);
 
   // Operations with one result.
   Value* result(const ir::Op& op);
@@ -109,7 +111,7 @@ private:
   const ir::Layout& layout_;
   const ir::Module& module_;
   const LlvmOptions& options_;
-  DebugLines* lines_;
+  DebugInfo* debug_;
   AbiTypes abi_;
   llvm::IRBuilder<> builder_;
   bool extendsWords_; // the ABI wants 32-bit arguments and results sign-extended
@@ -124,6 +126,7 @@ private:
   uint32_t firstRung_ = 0;
   std::vector<llvm::BasicBlock*> rungBlocks_; // of the chunk's rungs, where something jumps to them
   const ir::Rung* rung_ = nullptr;
+  uint32_t settledLine_ = 0; // the line at whose beginning memory was settled last; 0: none
   uint32_t number_ = 0;
   std::vector<Value*> values_;
   std::vector<Region> regions_;

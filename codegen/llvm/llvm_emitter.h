@@ -19,7 +19,7 @@ enum class LlvmLevel : uint8_t {
 
 struct LlvmOptions {
   LlvmLevel level = LlvmLevel::Opt;
-  bool debugInfo = true; // lines of the PLC source
+  bool debugInfo = true; // lines and names of the PLC source
   std::string target;    // one of llvmTargets(); empty: this machine
   // For the tests of the comparison only: this operation is emitted wrongly.
   std::optional<ir::OpCode> sabotage;

@@ -92,12 +92,12 @@ Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, co
                                                   const LlvmOptions& options, const ModulePart& part) {
   auto module = std::make_unique<llvm::Module>(layout.module().name, context);
   addFlags(*module, machine);
-  std::optional<DebugLines> lines;
-  if (options.debugInfo) lines.emplace(*module, layout.module(), options.level == LlvmLevel::Opt);
-  ChunkEmitter emitter(*module, layout, options, lines ? &*lines : nullptr);
+  std::optional<DebugInfo> debug;
+  if (options.debugInfo) debug.emplace(*module, layout, options.level == LlvmLevel::Opt);
+  ChunkEmitter emitter(*module, layout, options, debug ? &*debug : nullptr);
   std::vector<llvm::Constant*> functions;
   for (uint32_t i = 0; i < part.chunkCount; ++i) functions.push_back(emitter.emit(part.firstChunk + i));
-  if (lines) lines->finish();
+  if (debug) debug->finish();
   llvm::GlobalVariable* table = addChunkTable(*module, functions, part.tableName);
   if (part.tableName.empty()) {
     const ir::ProgramImage image(layout, codeHash);

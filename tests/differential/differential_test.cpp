@@ -32,8 +32,9 @@ constexpr Variant kVariants[] = {
 };
 
 std::optional<std::string> disagreement(const driver::Compiled& compiled, const Variant& variant,
-                                        std::optional<OpCode> sabotage = {}) {
+                                        std::optional<OpCode> sabotage = {}, bool debugger = false) {
   EngineOptions options;
+  options.debugger = debugger;
   options.optimise = variant.optimise;
   options.cppCompiler = variant.compiler;
   options.sabotage = sabotage;
@@ -74,7 +75,8 @@ TEST_P(RandomModules, AgreeWithTheInterpreter) {
     layout.maxChunkRungs = seed % 5 == 0 ? 1 : 32;
     if (seed % 4 == 0) // a watchdog that strikes: every engine counts alike
       for (ir::Task& task : module.tasks) task.budget = 20 + static_cast<uint32_t>(seed % 50);
-    const auto difference = disagreement(testing::compiledFrom(std::move(module), layout), GetParam());
+    const bool debugger = seed % 3 == 1;
+    const auto difference = disagreement(testing::compiledFrom(std::move(module), layout), GetParam(), {}, debugger);
     EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
   }
 }

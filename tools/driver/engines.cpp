@@ -54,6 +54,7 @@ Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build 
 codegen::LlvmOptions llvmOptions(const EngineOptions& options) {
   codegen::LlvmOptions llvm;
   llvm.level = options.optimise ? codegen::LlvmLevel::Opt : codegen::LlvmLevel::Fast;
+  llvm.debugInfo = options.debugger;
   llvm.sabotage = options.sabotage;
   return llvm;
 }
@@ -104,11 +105,12 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
   case EngineKind::Cpp:
     return buildAndLoad(engineName(kind), [&](const std::string& path) {
       codegen::CppOptions emit;
+      emit.debugInfo = options.debugger;
       emit.sabotage = options.sabotage;
       codegen::CppBuildOptions build;
       build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
       build.optimisation = options.optimise ? "-O2" : "-O0";
-      build.debugInfo = false;
+      build.debugInfo = options.debugger;
       return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build, path);
     });
   case EngineKind::Llvm:

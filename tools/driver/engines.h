@@ -26,7 +26,7 @@ std::span<const EngineKind> allEngines();
 
 struct EngineOptions {
   bool optimise = true;               // false: fastest compilation
-  bool debugger = false;              // JIT: tell gdb about the code
+  bool debugger = false;              // with debug information, and gdb is told about the code of the JIT
   std::string cacheFolder;            // JIT: see JitOptions; empty: no cache
   std::string cppCompiler;            // empty: the first of clang++-19, g++, c++ that is installed
   std::optional<ir::OpCode> sabotage; // for the tests of the comparison

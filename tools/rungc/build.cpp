@@ -60,7 +60,7 @@ int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
                                           : options.target + "-g++";
   cpp.optimisation = options.level == "0" ? "-O0" : "-O2";
   cpp.debugInfo = options.debugInfo;
-  const std::string text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
+  const std::string text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {.debugInfo = options.debugInfo});
   const Result<void> built = codegen::buildCppSharedObject(text, cpp, options.out);
   return built.ok() ? kOk : environmentError(built.error());
 }
@@ -76,7 +76,7 @@ int writeListing(const SourceManager& sources, const driver::Compiled& compiled,
 int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
   Result<std::string> text = failure("");
   if (options.what == "cpp")
-    text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {});
+    text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {.debugInfo = options.debugInfo});
   else if (options.what == "ir")
     text = ir::print(*compiled.module);
   else if (options.what == "layout")
@@ -100,7 +100,8 @@ void addBuild(CLI::App& app, int& status) {
   command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")
       ->check(CLI::IsMember({"llvm", "cpp"}));
   command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
-  command->add_option("--listing", options->listing, "Write the program's numbered lines, to which name_LINE refers (technol)");
+  command->add_option("--listing", options->listing,
+                      "Write the program's numbered lines, to which name_LINE refers (technol)");
   command->callback([options, &status] {
     SourceManager sources;
     auto compiled = compileSources(sources, options->source, requestOf(*options), status);

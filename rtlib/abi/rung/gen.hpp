@@ -17,18 +17,27 @@ typedef double __attribute__((aligned(1), may_alias)) mf64;
 typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes at 0 or 1
 } // namespace rung::gen
 
-// All that stands inside belongs to the source line of the #line above it.
+// All that is inside belongs to the source line of the #line above it.
+#ifndef RUNG_DEBUG
 #define RUNG_LINE(...) __VA_ARGS__
+#else
+// Stores of earlier lines have reached memory when a line begins, and its loads have not happened.
+#define RUNG_LINE(...)                                                                                                 \
+  asm volatile("" : : "r"(block) : "memory");                                                                          \
+  __VA_ARGS__
+// `mem` is for debuggers; volatile, so that it is in its place all through the function.
+#define RUNG_SHOW_MEMORY rung_memory* volatile mem = reinterpret_cast<rung_memory*>(block);
+#endif
 
 // A bit packed in a byte.
-#define RUNG_BIT(offset, bit) ((mem[offset] >> (bit)) & 1)
+#define RUNG_BIT(offset, bit) ((block[offset] >> (bit)) & 1)
 #define RUNG_SET_BIT(offset, bit, value)                                                                               \
-  mem[offset] = static_cast<u8>((mem[offset] & ~(1u << (bit))) | (static_cast<unsigned>(value) << (bit)))
+  block[offset] = static_cast<u8>((block[offset] & ~(1u << (bit))) | (static_cast<unsigned>(value) << (bit)))
 // A bit with a byte of its own.
-#define RUNG_FLAG(offset) (*reinterpret_cast<const mbool*>(mem + (offset)))
-#define RUNG_SET_FLAG(offset, value) *reinterpret_cast<mbool*>(mem + (offset)) = (value)
+#define RUNG_FLAG(offset) (*reinterpret_cast<const mbool*>(block + (offset)))
+#define RUNG_SET_FLAG(offset, value) *reinterpret_cast<mbool*>(block + (offset)) = (value)
 // m8 m16 m32 m64 mf64
-#define RUNG_MEM(type, offset) (*reinterpret_cast<type*>(mem + (offset)))
+#define RUNG_MEM(type, offset) (*reinterpret_cast<type*>(block + (offset)))
 
 // Element i of a window of `count` elements, `unit` bytes apart; outside of it nothing is read or written.
 #define RUNG_AT(type, offset, count, unit, i)                                                                          \

@@ -125,6 +125,65 @@ RUNG_LINE(
   EXPECT_NE(text.find("// LAMP Y[0.0]"), std::string::npos);
 }
 
+// Names that overlap, that are no names of C++, that are mapped to one, and an address without a name.
+TEST(CppEmitter, MemoryForDebuggers) {
+  Module module = sampleModule();
+  const SpaceId d{2};
+  module.symbols.push_back({.name = "WORD", .comment = "", .space = d, .byte = 0, .type = RUNG_TYPE_I16});
+  module.symbols.push_back({.name = "LOW", .comment = "", .space = d, .byte = 0, .type = RUNG_TYPE_I8});
+  module.symbols.push_back({.name = "BIT9", .comment = "", .space = d, .byte = 1, .bit = 1});
+  module.symbols.push_back({.name = "*ESP", .comment = "", .space = d, .byte = 2, .bit = 0});
+  module.symbols.push_back({.name = "_ESP", .comment = "", .space = d, .byte = 2, .bit = 2});
+  module.symbols.push_back({.name = "+ESP", .comment = "", .space = d, .byte = 2, .bit = 3});
+  module.symbols.push_back({.name = "2x", .comment = "", .space = d, .byte = 3, .type = RUNG_TYPE_I8});
+  module.symbols.push_back({.name = "new", .comment = "", .space = d, .byte = 6, .type = RUNG_TYPE_TEXT, .count = 2});
+  module.symbols.push_back({.name = "REAL", .comment = "", .space = d, .byte = 8, .type = RUNG_TYPE_F64});
+  module.symbols.push_back({.name = "LIMIT", .comment = "", .space = {}, .flags = RUNG_SYMBOL_CONST});
+  module.symbols.push_back({.name = "@DR", .comment = "", .space = d, .byte = 4, .flags = RUNG_SYMBOL_HIDDEN});
+  const Layout layout(module, {.expandBits = false});
+  const std::string text = emitCpp(layout, 42, {.debugInfo = true});
+  EXPECT_NE(text.find(R"(
+struct __attribute__((packed)) rung_memory {
+bool X0_0 : 1;
+bool X0_1 : 1;
+long long : 6;
+char $gap_1[63];
+bool LAMP : 1;
+long long : 7;
+char $gap_65[63];
+union {
+struct __attribute__((packed)) {
+int LOW : 8;
+long long : 1;
+bool BIT9 : 1;
+};
+struct __attribute__((packed)) {
+short WORD;
+};
+};
+bool _ESP_2 : 1;
+long long : 1;
+bool _ESP : 1;
+bool _ESP_3 : 1;
+long long : 4;
+int _2x : 8;
+short D4_i16;
+char new_[2];
+double REAL;
+)"),
+            std::string::npos)
+      << text;
+  for (const char* compiler : {"g++", "clang++-19"}) {
+    CppBuildOptions options;
+    options.compiler = compiler;
+    const std::string path = temporaryFile("rung_cpp_debug.so");
+    const Result<void> built = buildCppSharedObject(text, options, path);
+    EXPECT_TRUE(built.ok()) << built.error();
+    std::filesystem::remove(path);
+  }
+  EXPECT_EQ(emitCpp(layout, 42, {}).find("rung_memory"), std::string::npos);
+}
+
 TEST(CppEmitter, AMissingCompilerIsAnErrorOfTheEnvironment) {
   const Module module = sampleModule();
   const Layout layout(module, {});

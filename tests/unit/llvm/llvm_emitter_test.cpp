@@ -131,6 +131,21 @@ TEST(LlvmEmitter, LinesOfTheSource) {
   EXPECT_THAT(without.value(), Not(HasSubstr("DILocation")));
 }
 
+TEST(LlvmEmitter, MemoryForDebuggers) {
+  const Module module = sampleModule();
+  const Layout layout(module, {});
+  const Result<std::string> with = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt});
+  ASSERT_TRUE(with.ok()) << with.error();
+  EXPECT_THAT(with.value(), HasSubstr("DILocalVariable(name: \"mem\""));
+  EXPECT_THAT(with.value(), HasSubstr("DILocalVariable(name: \"this\""));
+  EXPECT_THAT(with.value(), HasSubstr("store volatile ptr %mem"));
+  EXPECT_THAT(with.value(), HasSubstr("fence syncscope(\"singlethread\") seq_cst"));
+  const Result<std::string> without = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .debugInfo = false});
+  ASSERT_TRUE(without.ok()) << without.error();
+  EXPECT_THAT(without.value(), Not(HasSubstr("fence")));
+  EXPECT_THAT(without.value(), Not(HasSubstr("volatile")));
+}
+
 TEST(LlvmEmitter, TheSameInputGivesTheSameBytes) {
   const Module module = randomModule(3);
   const Layout layout(module, {});

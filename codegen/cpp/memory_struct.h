@@ -1,0 +1,12 @@
+// The struct that shows a debugger the memory block by names (ir/layout/memory_members.h), as C++ text.
+#pragma once
+#include <string>
+
+#include "ir/layout/layout.h"
+
+namespace rung::codegen {
+
+// `struct rung_memory`. It needs no header, so that the names meet no macros.
+void writeMemoryStruct(const ir::Layout& layout, std::string& out);
+
+} // namespace rung::codegen

@@ -76,7 +76,11 @@ class View(unittest.TestCase):
             self.assertEqual(len(page.ids), len(set(page.ids)))
             self.assertEqual(page.loads, [])
             self.assertTrue(page.links)
-            self.assertEqual([link for link in page.links if link[1:] not in page.ids or link[0] != "#"], [])
+            self.assertEqual([link for link in page.links if link.startswith("#") and link[1:] not in page.ids], [])
+            sources = {link.split("#")[0] for link in page.links if not link.startswith("#")}
+            self.assertTrue(sources)
+            self.assertLessEqual({(Path(self.folder.name) / source).resolve() for source in sources},
+                                 {(ROOT / name).resolve() for name in files})
 
     def test_a_page_has_everything(self):
         page = self.page(*LATHE)
@@ -94,6 +98,27 @@ class View(unittest.TestCase):
         number = int(texts[title + 1].removeprefix("mill.pmc:"))
         self.assertEqual(lines[number - 1].split()[:2], ["LD", "ON"])
         self.assertTrue(any(text.startswith("\u201c") for text in texts), "no message text")
+
+    def test_links_to_sources_are_as_asked_for(self):
+        self.assertIn("editor:/x?7", self.page(LATHE[1], LATHE[0], "--link", "editor:/x?{line}").links)
+        self.assertEqual([link for link in self.page(*LATHE, "--link", "").links if not link.startswith("#")], [])
+
+    def test_every_call_of_a_machine_leads_to_its_subprogram(self):
+        self.page("examples/gsk-mill/mill.pmc")
+        text = Path(self.html).read_text()
+        self.assertGreater(len(re.findall(r'<a href="#r\d+">CALLU?</a></text>', text)), 10)
+        self.assertEqual(re.findall(r'">CALLU?</text>', text), [])
+        self.assertIn("Subprogram P5: overrides", text)
+
+    def test_the_title_block(self):
+        page = self.page(*LATHE, "--title", "Lathe <7>", "--revision", "C2", "--date", "1 March")
+        for wanted in ("Lathe <7>", "Revision C2", "1 March"):
+            self.assertIn(wanted, page.texts)
+        text = Path(self.html).read_text()
+        self.assertIn("<title>Lathe &lt;7&gt;</title>", text)
+        self.assertIn('content:"Revision C2, 1 March"', text)
+        self.assertIn("<h1>nct-lathe</h1>", (self.page(*LATHE), Path(self.html).read_text())[1])
+        self.assertIn("<h1>mill.pmc</h1>", (self.page("examples/gsk-mill/mill.pmc"), Path(self.html).read_text())[1])
 
     def test_a_picture_is_xml(self):
         source = self.file("t.lad", 'dialect nct\nmodule MAIN\nsymbol A<B&C 7000.00 ; <b> "\u4e3b" \' ]]>\n'

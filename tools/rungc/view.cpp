@@ -9,6 +9,7 @@
 #include "tools/rungc/commands.h"
 #include "tools/view/html.h"
 #include "tools/view/program.h"
+#include "tools/view/source_links.h"
 #include "tools/view/svg.h"
 
 namespace rung::rungc {
@@ -17,6 +18,10 @@ namespace {
 struct ViewOptions {
   SourceOptions source;
   std::string out;
+  std::string title;
+  std::string date;
+  std::string revision;
+  std::string link = std::string(view::kSourceLink);
 };
 
 std::optional<gsk::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
@@ -67,10 +72,13 @@ int run(const ViewOptions& options) {
   const auto files = addSources(sources, options.source, compile, status);
   if (!files) return status;
   Diagnostics diagnostics;
-  const auto program = read(sources, *files, options, compile, diagnostics);
+  auto program = read(sources, *files, options, compile, diagnostics);
   printDiagnostics(diagnostics, sources, options.source);
   if (!program) return kWrong;
-  return write(page ? view::renderHtml(*program) : view::renderSvg(*program), options.out);
+  if (!options.title.empty()) program->title = options.title;
+  if (!page) return write(view::renderSvg(*program), options.out);
+  const view::LinkTo links = options.link.empty() ? view::LinkTo() : view::sourceLinks(options.out, options.link);
+  return write(view::renderHtml(*program, {options.date, options.revision, links}), options.out);
 }
 
 } // namespace
@@ -81,6 +89,14 @@ void addView(CLI::App& app, int& status) {
   addSourceOptions(*command, options->source);
   command->add_option("-o,--output", options->out, "The file to write: .html, a page for screen and paper; .svg")
       ->required();
+  command->add_option("--title", options->title, "The machine or program, as the page and its sheets of paper call it");
+  command->add_option("--date", options->date, "The date, to be printed on every sheet");
+  command->add_option("--revision", options->revision, "The revision, to be printed on every sheet");
+  command
+      ->add_option("--link", options->link,
+                   "Where a line of the source leads: {file} as seen from the page, {path} in full, {line}; "
+                   "empty: nowhere")
+      ->capture_default_str();
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -17,6 +17,7 @@ enum class Colour : uint8_t {
   Line,  // rulings
   Found, // what a link leads to
   Hit,   // what a search found
+  Now,   // of them the one that is shown
   Warn,  // what never happened
   Part,  // what happened in part
   Good,
@@ -26,7 +27,7 @@ enum class Colour : uint8_t {
   Heat4,
   Heat5,
 };
-inline constexpr size_t kColours = 17;
+inline constexpr size_t kColours = 18;
 
 struct ColourInfo {
   std::string_view name; // of the property of a page: --ink
@@ -44,6 +45,7 @@ inline constexpr std::array<ColourInfo, kColours> kColourInfos = {{
     {"line", "#bbb", "#4a525b"},
     {"found", "#fff7d6", "#3a3312"},
     {"hit", "#ffd84d", "#8a6a00"},
+    {"now", "#ffa51f", "#c26a00"},
     {"warn", "#a3160b", "#ff8c7d"},
     {"part", "#8a5200", "#f0b45a"},
     {"good", "#1c6b2d", "#6fcf86"},

@@ -15,7 +15,8 @@ using FileLine = std::pair<std::string_view, uint32_t>;
 
 class TablePage {
 public:
-  TablePage(std::span<const TableRow> rows, const Overlay& overlay) : rows_(rows), overlay_(overlay) {
+  TablePage(std::span<const TableRow> rows, const Overlay& overlay, const PageOptions& options)
+      : rows_(rows), overlay_(overlay), options_(options) {
     for (const RungOverlay& rung : overlay.rungs) {
       if (rung.number != 0)
         byNumber_.emplace(rung.number, &rung.run);
@@ -34,6 +35,7 @@ private:
 
   std::span<const TableRow> rows_;
   const Overlay& overlay_;
+  const PageOptions& options_;
   std::map<uint32_t, const Run*> byNumber_;
   std::map<FileLine, const Run*> byPlace_;
   std::multimap<FileLine, const ElementOverlay*> elements_;
@@ -64,8 +66,11 @@ std::string TablePage::missingIn(const TableRow& row) const {
 
 void TablePage::row(const TableRow& row) {
   const Run& run = runOf(row);
-  put(out_, "<tr class=\"Q{0}\" id=\"r{1}\"><th scope=\"row\">{1}</th><td>{2}</td><td class=\"v\">{3}:{4}</td><td>",
-      classesOf(run, hottest_), row.number, escaped(row.title), escaped(row.place.file), row.place.line);
+  put(out_, "<tr class=\"Q{0}\" id=\"r{1}\"><th scope=\"row\">{1}</th><td>{2}</td><td>", classesOf(run, hottest_),
+      row.number, escaped(row.title));
+  const std::string& path = row.place.file;
+  appendPlace(out_, {path, path.substr(path.find_last_of('/') + 1)}, row.place.line, options_);
+  out_ += "</td><td>";
   appendRun(out_, run, hottest_);
   put(out_, "</td><td class=\"g\">{}</td></tr>\n", missingIn(row));
 }
@@ -75,8 +80,7 @@ std::string TablePage::run(std::string_view title, std::string_view control) {
   RunsOnPage runs{&summary, {}, !overlay_.elements.empty()};
   for (const TableRow& row : rows_) runs.rungs.push_back({row.number, row.title, &runOf(row)});
   hottest_ = hottest(runs.rungs);
-  beginPage(out_, title, "");
-  put(out_, "<p>{}, {} rung{}</p>\n", escaped(control), rows_.size(), rows_.size() == 1 ? "" : "s");
+  beginPage(out_, {title, control, rows_.size(), ""}, options_);
   appendRuns(out_, runs);
   out_ += "<main>\n";
   for (size_t i = 0; i < rows_.size(); ++i) {
@@ -97,8 +101,8 @@ std::string TablePage::run(std::string_view title, std::string_view control) {
 } // namespace
 
 std::string renderTable(std::string_view title, std::string_view control, std::span<const TableRow> rows,
-                        const Overlay& overlay) {
-  return TablePage(rows, overlay).run(title, control);
+                        const Overlay& overlay, const PageOptions& options) {
+  return TablePage(rows, overlay, options).run(title, control);
 }
 
 } // namespace rung::view

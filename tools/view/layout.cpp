@@ -67,6 +67,42 @@ int noteWidth(const std::vector<std::string>& lines, Style style) {
   return width;
 }
 
+// "read in 3, 10 and 4 more".
+std::vector<LinkedText> wordsOf(const CrossReference& reference) {
+  std::vector<LinkedText> words;
+  const auto word = [&]() -> LinkedText& { return words.emplace_back(); };
+  for (size_t at = 0; at < reference.lead.size();) {
+    const size_t end = std::min(reference.lead.find(' ', at), reference.lead.size());
+    word().add(reference.lead.substr(at, end - at));
+    at = end + 1;
+  }
+  for (size_t i = 0; i < reference.rungs.size(); ++i) {
+    LinkedText& number = word();
+    number.add(std::to_string(reference.rungs[i]), {Link::To::Rung, reference.rungs[i]});
+    if (i + 1 < reference.rungs.size()) number.add(",");
+  }
+  if (reference.further > 0) {
+    word().add("and");
+    word().add(std::to_string(reference.further) + " more", reference.all);
+  }
+  return words;
+}
+
+// Below a contact or coil: its address, and who writes it.
+LinkedText underline(const Cell& cell) {
+  LinkedText line;
+  line.add(cell.operand.address);
+  if (cell.writers.rungs.empty()) return line;
+  if (!line.text.empty()) line.add(" ");
+  line.add(cell.writers.lead);
+  for (size_t i = 0; i < cell.writers.rungs.size(); ++i) {
+    if (i > 0) line.add(",");
+    line.add(std::to_string(cell.writers.rungs[i]), {Link::To::Rung, cell.writers.rungs[i]});
+  }
+  if (cell.writers.further > 0) line.add("+" + std::to_string(cell.writers.further), cell.writers.all);
+  return line;
+}
+
 class Layout {
 public:
   explicit Layout(const Sheet& sheet) : sheet_(sheet), left_(sheet.cells.size()), bands_(sheet.cells.size()) {
@@ -106,12 +142,13 @@ private:
   void drawBox(uint32_t cell);
   int drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y);
   void halo(const Cell& cell, Point corner, int width, int height);
-  void text(int x, int y, Anchor anchor, Style style, std::string_view text);
+  void text(int x, int y, Anchor anchor, Style style, std::string_view text, Link link = {});
+  void text(int x, int y, Anchor anchor, Style style, LinkedText text);
 
   int leftPort(uint32_t cell) const;
   int rightPort(uint32_t cell) const;
   std::vector<std::string> remarkLines(const Row& row) const { return wrap(row.remark, Style::Remark, kMargin - 20); }
-  std::vector<std::string> useLines(const Row& row) const { return wrap(row.uses, Style::Uses, kMargin - 20); }
+  std::vector<LinkedText> useLines(const Row& row) const;
 
   const Sheet& sheet_;
   std::vector<Measure> measures_;
@@ -134,12 +171,13 @@ Measure Layout::measureSymbol(const Cell& cell) const {
   const int name = widthOf(cell.operand.name, Style::Name);
   m.note = wrap(cell.operand.note, Style::Note, std::max(kNoteWidth, name));
   if (m.note.size() > kManyLines) m.note = wrap(cell.operand.note, Style::Note, std::max(kWideNote, name));
-  const int texts = std::max({name, widthOf(cell.operand.address, Style::Address), noteWidth(m.note, Style::Note),
-                              m.symbol + 12, widthOf(cell.badge, Style::Badge)});
+  const LinkedText under = underline(cell);
+  const int texts = std::max({name, widthOf(under.text, Style::Address), noteWidth(m.note, Style::Note), m.symbol + 12,
+                              widthOf(cell.badge, Style::Badge)});
   const int least = cell.kind == Kind::Coil ? kCoilWidth : kCellWidth;
   m.width = std::max(least, roundUp(texts + kSide, kGrid));
   m.above = kSymbolHalf + 5 + lineHeight(Style::Name) + static_cast<int>(m.note.size()) * lineHeight(Style::Note);
-  m.below = kSymbolHalf + 4 + (cell.operand.address.empty() ? 0 : lineHeight(Style::Address)) +
+  m.below = kSymbolHalf + 4 + (under.text.empty() ? 0 : lineHeight(Style::Address)) +
             (cell.badge.empty() ? 0 : lineHeight(Style::Badge));
   return m;
 }
@@ -173,6 +211,13 @@ Measure Layout::measure(const Cell& cell) const {
   case Kind::Box: return measureBox(cell);
   }
   return {};
+}
+
+std::vector<LinkedText> Layout::useLines(const Row& row) const {
+  std::vector<LinkedText> lines;
+  for (const CrossReference& reference : row.uses)
+    for (LinkedText& line : wrap(wordsOf(reference), Style::Uses, kMargin - 20)) lines.push_back(std::move(line));
+  return lines;
 }
 
 // Contacts and coils bring their own wires.
@@ -331,8 +376,15 @@ int Layout::rightPort(uint32_t cell) const {
   return m.symbol == 0 ? left_[cell] + m.width : leftPort(cell) + m.symbol;
 }
 
-void Layout::text(int x, int y, Anchor anchor, Style style, std::string_view text) {
-  if (!text.empty()) picture_.texts.push_back({{x, y}, anchor, style, std::string(text)});
+void Layout::text(int x, int y, Anchor anchor, Style style, std::string_view text, Link link) {
+  LinkedText whole;
+  whole.add(text, link);
+  this->text(x, y, anchor, style, std::move(whole));
+}
+
+void Layout::text(int x, int y, Anchor anchor, Style style, LinkedText text) {
+  if (!text.text.empty())
+    picture_.texts.push_back({{x, y}, anchor, style, std::move(text.text), std::move(text.links)});
 }
 
 // From cell to cell, over the ends of bands.
@@ -374,8 +426,8 @@ void Layout::drawRemark(uint32_t row) {
     text(x, y, Anchor::Start, Style::Remark, line);
     y += lineHeight(Style::Remark);
   }
-  for (const std::string& line : useLines(sheet_.rows[row])) {
-    text(x, y, Anchor::Start, Style::Uses, line);
+  for (LinkedText& line : useLines(sheet_.rows[row])) {
+    text(x, y, Anchor::Start, Style::Uses, std::move(line));
     y += lineHeight(Style::Uses);
   }
 }
@@ -395,13 +447,15 @@ void Layout::drawSymbol(uint32_t cell) {
       {here.kind == Kind::Coil ? Glyph::Coil : Glyph::Contact, slash, {leftPort(cell), y}, m.symbol});
   if (!slash) text(middle, y + 4, Anchor::Middle, Style::Mark, here.mark);
   int up = y - kSymbolHalf - 5;
-  text(middle, up, Anchor::Middle, Style::Name, here.operand.name);
+  text(middle, up, Anchor::Middle, Style::Name, here.operand.name, here.operand.link);
   up -= lineHeight(Style::Name);
   for (size_t i = m.note.size(); i-- > 0; up -= lineHeight(Style::Note))
     text(middle, up, Anchor::Middle, Style::Note, m.note[i]);
   int down = y + kSymbolHalf + lineHeight(Style::Address);
-  text(middle, down, Anchor::Middle, Style::Address, here.operand.address);
-  if (!here.operand.address.empty()) down += lineHeight(Style::Badge);
+  LinkedText under = underline(here);
+  const bool bare = under.text.empty();
+  text(middle, down, Anchor::Middle, Style::Address, std::move(under));
+  if (!bare) down += lineHeight(Style::Badge);
   text(middle, down, Anchor::Middle, Style::Badge, here.badge);
   halo(here, {leftPort(cell) - kHalo, y - kSymbolHalf - kHalo + 1}, m.symbol + 2 * kHalo,
        2 * (kSymbolHalf + kHalo - 1));
@@ -413,7 +467,7 @@ void Layout::halo(const Cell& cell, Point corner, int width, int height) {
 
 int Layout::drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y) {
   text(label, y, Anchor::Start, kLabel, operand.label);
-  text(value, y, Anchor::Start, Style::Name, operand.name);
+  text(value, y, Anchor::Start, Style::Name, operand.name, operand.link);
   text(value + widthOf(operand.name, Style::Name) + kPad, y, Anchor::Start, Style::Address, operand.address);
   for (const std::string& line : note) {
     y += lineHeight(Style::Note);
@@ -429,7 +483,7 @@ void Layout::drawBox(uint32_t cell) {
   const int x = left_[cell];
   const int bottom = std::max(top + kHead + m.body, wireOf(cell, here.lastRow) + kSymbolHalf);
   picture_.frames.push_back({{x, top}, m.width, bottom - top, kHead});
-  text(x + m.width / 2, top + 15, Anchor::Middle, Style::Title, here.title);
+  text(x + m.width / 2, top + 15, Anchor::Middle, Style::Title, here.title, here.link);
   for (uint32_t i = 0; i < here.pins.size(); ++i)
     text(x + 5, wireOf(cell, here.firstRow + i) + 4, Anchor::Start, Style::Pin, here.pins[i]);
   int y = top + kHead + lineHeight(Style::Name);

@@ -56,6 +56,7 @@ struct Text {
   Anchor anchor = Anchor::Middle;
   Style style = Style::Name;
   std::string text;
+  std::vector<LinkedText::Part> links;
 };
 
 // A wire that was cut: its end, and where it goes on.
@@ -81,7 +82,7 @@ struct Picture {
 
 inline constexpr int kLeft = 8;        // x of the left rail
 inline constexpr int kSymbolHalf = 11; // half the height of a contact or coil
-inline constexpr int kMargin = 190;    // for remarks, right of the right rail
+inline constexpr int kMargin = 160;    // for remarks, right of the right rail
 
 // The place of the right rail that the sheet needs when it is not cut.
 int neededRail(const Sheet& sheet);

@@ -14,7 +14,9 @@ namespace rung::view {
 struct Named {
   std::string address; // of a name; of an address the name that is declared for it
   std::string comment;
-  std::string key; // the same for all spellings of one place; empty for constants
+  std::string key;     // the same for all spellings of one place; empty for constants
+  bool input = false;  // known to be written by the machine or the NC
+  bool output = false; // known to be read by them
 };
 
 class Names {
@@ -49,9 +51,11 @@ private:
   Named findGsk(std::string_view operand) const;
   Named atAddress(const Place& place) const;
   const Known* known(std::string_view name) const;
+  void setTraffic(Named& named, std::string_view space) const;
 
   bool gsk_ = false;
   std::vector<Known> known_;
+  std::unordered_map<std::string_view, uint32_t> spaceFlags_; // enum rung_space_flags
   std::unordered_map<std::string_view, uint32_t> byName_;
   std::unordered_map<std::string, uint32_t> byAddress_;
   std::unordered_map<std::string_view, std::string_view> constants_;

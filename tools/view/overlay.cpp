@@ -92,8 +92,9 @@ std::vector<TableRow> rowsOf(const ir::Module& module) {
   std::vector<TableRow> rows;
   for (const ir::Routine& routine : module.routines) {
     for (const ir::Rung& rung : routine.rungs) {
+      if (rung.number == 0) continue;
       const bool known = rung.begin.line > 0;
-      rows.push_back({static_cast<uint32_t>(rows.size()),
+      rows.push_back({rung.number,
                       routine.name,
                       rung.title,
                       {known ? module.files[rung.begin.file.index] : "", rung.begin.line, 0},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ir/core/module.h"
+#include "tools/view/html.h"
 #include "tools/view/program.h"
 
 namespace rung::view {
@@ -64,11 +65,11 @@ struct TableRow {
   SourcePlace place;
   uint32_t lastLine = 0;
 };
-// The rungs of a module in the order of its routines.
+// The numbered rungs of a module in the order of its routines.
 std::vector<TableRow> rowsOf(const ir::Module& module);
 
 // A page in the look of renderHtml, with what was not seen of a rung's elements in its row.
 std::string renderTable(std::string_view title, std::string_view control, std::span<const TableRow> rows,
-                        const Overlay& overlay);
+                        const Overlay& overlay, const PageOptions& options = {});
 
 } // namespace rung::view

@@ -23,7 +23,9 @@ using ladder::DeclarationKind;
 using ladder::LadderFile;
 using ladder::StatementKind;
 
-constexpr size_t kUsesShown = 8; // of a coil, at the right rail
+constexpr size_t kUsesShown = 8;    // of a coil, at the right rail
+constexpr size_t kWritersShown = 1; // of a contact
+constexpr size_t kTitle = 72;       // characters of a comment that may be a title
 
 std::string_view trimmed(std::string_view text) {
   const size_t first = text.find_first_not_of(' ');
@@ -49,6 +51,8 @@ std::string plainNumber(std::string_view text) {
   return first == std::string_view::npos ? "0" : std::string(text.substr(first));
 }
 
+constexpr uint32_t kNone = UINT32_MAX;
+
 // What is used where, in the order of the first use.
 class UseList {
 public:
@@ -58,8 +62,9 @@ public:
     std::vector<Use> uses;
   };
 
-  void add(const Named& named, std::string_view name, Use use) {
-    if (named.key.empty()) return;
+  // The index of the entry; kNone for what is not counted.
+  uint32_t add(const Named& named, std::string_view name, Use use) {
+    if (named.key.empty()) return kNone;
     const auto [at, fresh] = byKey_.emplace(named.key, static_cast<uint32_t>(entries_.size()));
     if (fresh) entries_.push_back({std::string(name), named, {}});
     std::vector<Use>& uses = entries_[at->second].uses;
@@ -67,6 +72,7 @@ public:
     const auto same = [&](const Use& one) { return one.rung == use.rung && one.writes == use.writes; };
     if (!std::any_of(uses.rbegin(), uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)), same))
       uses.push_back(use);
+    return at->second;
   }
   const Entry* find(const std::string& key) const {
     const auto at = byKey_.find(key);
@@ -79,14 +85,20 @@ private:
   std::vector<Entry> entries_;
 };
 
-// A coil at the right rail, whose users are not known before the last rung.
-struct CoilRow {
+// A place at the right rail for the rungs that use a coil or go to a target; they are not known before the last rung.
+struct WaitingRow {
   uint32_t figure = 0;
   uint32_t row = 0;
-  std::string key;
+  uint32_t id = 0; // of the coil's entry, of the target
 };
 
-class Reader {
+// The rungs that read and write an entry.
+struct Sides {
+  std::vector<uint32_t> readers;
+  std::vector<uint32_t> writers;
+};
+
+class Reader : private SheetListener {
 public:
   Reader(const SourceManager& sources, const Input& input) : sources_(sources), input_(input), rows_(*input.dialect) {}
   Program run();
@@ -100,12 +112,22 @@ private:
   void readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark);
   void comment(std::string_view text);
   void flushComments(const Place& place);
-  std::string readersOf(const std::string& key) const;
-  void fillCoils();
+  Link onUse(const OperandUse& use) override;
+  Link onTarget(TargetRole role, std::string_view operand, uint32_t row) override;
+  void beginModule(const ladder::Module& module, std::string_view remark, const Place& place);
+  void titleFromSection(Block& module);
+  void splitUses();
+  CrossReference readersOf(uint32_t entry) const;
+  CrossReference writersOf(uint32_t entry, std::string_view lead, uint32_t without, size_t most) const;
+  CrossReference callersOf(uint32_t target) const;
+  void fillRows();
+  void numberRows();
+  void settle(Link& link) const;
+  void settleLinks();
   void addNameTables();
   void addMessageTable(DeclarationKind kind, std::string_view title);
   void add(Block::Kind kind, std::string text, std::string_view remark, const Place& place) {
-    program_.blocks.push_back({kind, std::move(text), std::string(remark), place, 0});
+    program_.blocks.push_back({.kind = kind, .text = std::move(text), .comment = std::string(remark), .place = place});
   }
   void nameFiles();
   uint32_t indexOf(FileId file) const;
@@ -123,7 +145,13 @@ private:
   Texts texts_;
   Program program_;
   UseList uses_;
-  std::vector<CoilRow> coils_;
+  Targets targets_;
+  std::vector<WaitingRow> coils_;
+  std::vector<WaitingRow> marks_;                          // of targets
+  std::vector<std::pair<uint32_t, uint32_t>> subprograms_; // GSK: block, target
+  std::vector<Sides> sides_;                               // by entry of uses_
+  std::vector<uint32_t> rowIds_;                           // by entry of uses_
+  std::string module_;                                     // that labels are counted in
   std::vector<NameRow> declared_;
 
   // In the file at hand.
@@ -146,6 +174,18 @@ void Reader::readTexts() {
   }
 }
 
+// One file is the program; several are, as a rule, a folder of their own.
+std::string titleOf(const std::vector<SourceFile>& files) {
+  if (files.size() == 1) return files[0].name;
+  const auto folderOf = [](const std::string& path) { return path.substr(0, path.find_last_of('/') + 1); };
+  const std::string folder = folderOf(files[0].path);
+  const bool same =
+      std::all_of(files.begin(), files.end(), [&](const SourceFile& file) { return folderOf(file.path) == folder; });
+  if (!same || folder.size() < 2) return fmt::format("{} and {} more", files[0].name, files.size() - 1);
+  const size_t begin = folder.find_last_of('/', folder.size() - 2) + 1; // 0 without another '/'
+  return folder.substr(begin, folder.size() - 1 - begin);
+}
+
 void Reader::nameFiles() {
   std::map<std::string, int> known;
   const auto baseOf = [&](FileId file) {
@@ -157,8 +197,8 @@ void Reader::nameFiles() {
     const std::string path(sources_.name(file));
     const std::string name = baseOf(file);
     program_.files.push_back({path, known[name] > 1 ? path : name});
-    program_.title += (program_.title.empty() ? "" : ", ") + program_.files.back().name;
   }
+  program_.title = titleOf(program_.files);
 }
 
 uint32_t Reader::indexOf(FileId file) const {
@@ -205,12 +245,14 @@ void Reader::flushComments(const Place& place) {
 void Reader::readDeclaration(const Declaration& declaration) {
   for (size_t at = 0; at < comments_.size();) {
     const size_t end = comments_.find('\n', at);
-    if (end > at) declared_.push_back({{}, {}, comments_.substr(at, end - at), {}});
+    if (end > at) declared_.push_back({.comment = comments_.substr(at, end - at)});
     at = end + 1;
   }
   comments_.clear();
   if (declaration.kind == DeclarationKind::Message || declaration.kind == DeclarationKind::Button) return;
-  declared_.push_back({std::string(declaration.name.text), {}, std::string(declaration.comment), {}});
+  declared_.push_back({.constant = declaration.kind == DeclarationKind::Const,
+                       .name = std::string(declaration.name.text),
+                       .comment = std::string(declaration.comment)});
 }
 
 void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark) {
@@ -220,14 +262,81 @@ void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::str
   figure.title = rung.comment;
   figure.place = placeOfRung(file, rung);
   if (!remark.empty()) figure.comments.emplace_back(remark);
-  const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   const ladder::Drawing drawing = ladder::readDrawing(sources_, file.file, rung, rows_.furtherPins());
-  figure.sheet = buildSheet({rows_, *names_, texts_, placeOf}, drawing, [&](const OperandUse& use) {
-    uses_.add(use.named, use.operand, {figure.number, use.writes});
-    if (use.coil) coils_.push_back({index, use.row, use.named.key});
-  });
+  const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   program_.figures.push_back(std::move(figure));
-  program_.blocks.push_back({Block::Kind::Rung, {}, {}, {}, index});
+  Sheet sheet = buildSheet({rows_, *names_, texts_, placeOf}, drawing, *this);
+  program_.figures[index].sheet = std::move(sheet);
+  program_.blocks.push_back({.kind = Block::Kind::Rung, .figure = index});
+  if (!subprograms_.empty() && targets_.at(subprograms_.back().second).rung == 0)
+    targets_.define(subprograms_.back().second, program_.figures[index].number);
+}
+
+// Until all rungs are read a link has the index of its entry or target (see settleLinks).
+Link Reader::onUse(const OperandUse& use) {
+  const Figure& figure = program_.figures.back();
+  const uint32_t entry = uses_.add(use.named, use.operand, {figure.number, use.writes});
+  if (entry == kNone) return {};
+  if (use.coil) coils_.push_back({static_cast<uint32_t>(program_.figures.size() - 1), use.row, entry});
+  return {Link::To::Name, entry};
+}
+
+Link Reader::onTarget(TargetRole role, std::string_view operand, uint32_t row) {
+  const uint32_t number = program_.figures.back().number;
+  const uint32_t target = targets_.idOf(module_, operand);
+  if (role == TargetRole::Asks) {
+    targets_.ask(target, number);
+    return {Link::To::Rung, target};
+  }
+  targets_.define(target, number);
+  marks_.push_back({static_cast<uint32_t>(program_.figures.size() - 1), row, target});
+  return {};
+}
+
+// "5: overrides", said before "SUB P5", is "overrides"; so is "P5: overrides".
+std::string_view withoutName(std::string_view title, std::string_view name) {
+  const size_t colon = title.find(':');
+  if (colon == std::string_view::npos) return title;
+  const auto letters = [](std::string_view text) {
+    std::string result;
+    for (char c : text)
+      if (c != ' ') result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return result;
+  };
+  const std::string said = letters(title.substr(0, colon));
+  const std::string whole = letters(name);
+  return !said.empty() && whole.ends_with(said) ? trimmed(title.substr(colon + 1)) : title;
+}
+
+// The section, or the last line of comment, just before a module says what it is. The section is not another one then.
+void Reader::titleFromSection(Block& module) {
+  if (program_.blocks.empty()) return;
+  const Block& before = program_.blocks.back();
+  if (before.kind == Block::Kind::Section) {
+    module.title = withoutName(before.text, module.text);
+    if (module.comment.empty()) module.comment = before.comment;
+    program_.blocks.pop_back();
+  } else if (before.kind == Block::Kind::Comment && names_->isGsk()) {
+    const std::string_view line = std::string_view(before.text).substr(before.text.find_last_of('\n') + 1);
+    if (line.size() <= kTitle) module.title = withoutName(line, module.text);
+  }
+}
+
+void Reader::beginModule(const ladder::Module& module, std::string_view remark, const Place& place) {
+  std::string name;
+  for (const Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
+  Block block{.kind = Block::Kind::Module, .text = name, .comment = std::string(remark), .place = place};
+  titleFromSection(block);
+  if (!names_->isGsk()) {
+    module_ = name;
+    block.text = "Module " + name;
+  } else if (module.name.size() == 2) {
+    block.text = fmt::format("Subprogram {}", module.name[1].text);
+    subprograms_.emplace_back(program_.blocks.size(), targets_.idOf("", module.name[1].text));
+  } else {
+    block.text = name.ends_with('1') ? "Level 1" : "Level 2";
+  }
+  program_.blocks.push_back(std::move(block));
 }
 
 void Reader::readStatement(const LadderFile& file, const SourceLine& line) {
@@ -242,11 +351,7 @@ void Reader::readStatement(const LadderFile& file, const SourceLine& line) {
   flushComments(place);
   switch (statement.kind) {
   case StatementKind::Declaration: return;
-  case StatementKind::Module: {
-    std::string name;
-    for (const Word& word : file.modules[statement.index].name) name.append(name.empty() ? "" : " ").append(word.text);
-    return add(Block::Kind::Module, std::move(name), words_.comment, place);
-  }
+  case StatementKind::Module: return beginModule(file.modules[statement.index], words_.comment, place);
   case StatementKind::Section:
     return add(Block::Kind::Section, std::string(file.sections[statement.index].title.text), words_.comment, place);
   case StatementKind::Rung: return readRung(file, file.rungs[statement.index], words_.comment);
@@ -273,30 +378,95 @@ void Reader::readFile(const LadderFile& file) {
   nextStatement_ = 0;
   nextRung_ = 0;
   comments_.clear();
-  if (input_.files.size() > 1) add(Block::Kind::File, program_.files[indexOf(file.file)].name, {}, {});
+  if (input_.files.size() > 1)
+    add(Block::Kind::File, program_.files[indexOf(file.file)].name, {}, {indexOf(file.file), 0, 0});
   LineReader lines(sources_, file.file);
   for (SourceLine line; lines.next(line);) readLine(file, line);
   flushComments({});
 }
 
-std::string Reader::readersOf(const std::string& key) const {
-  std::string text;
-  size_t count = 0;
-  for (const Use& use : uses_.find(key)->uses) {
-    if (use.writes) continue;
-    if (++count <= kUsesShown) text.append(text.empty() ? "read in " : ", ").append(std::to_string(use.rung));
-  }
-  if (count > kUsesShown) text += fmt::format(" and {} more", count - kUsesShown);
-  return text;
+// Those of `rungs`, which ascend, without one of them and at most so many.
+CrossReference shortened(std::string_view lead, const std::vector<uint32_t>& rungs, uint32_t without, size_t most) {
+  CrossReference found{lead, {}, 0, {}};
+  for (size_t i = 0; i < rungs.size() && found.rungs.size() < most; ++i)
+    if (rungs[i] != without) found.rungs.push_back(rungs[i]);
+  const bool has = std::binary_search(rungs.begin(), rungs.end(), without);
+  found.further = static_cast<uint32_t>(rungs.size() - found.rungs.size() - (has ? 1 : 0));
+  return found;
 }
 
-// A coil tells where its bit is read, at the right rail. Many coils may be of one bit.
-void Reader::fillCoils() {
-  std::unordered_map<std::string, std::string> readers;
-  for (const CoilRow& coil : coils_) {
-    const auto [at, fresh] = readers.emplace(coil.key, std::string());
-    if (fresh) at->second = readersOf(coil.key);
-    program_.figures[coil.figure].sheet.rows[coil.row].uses = at->second;
+void Reader::splitUses() {
+  for (const UseList::Entry& entry : uses_.entries()) {
+    Sides& sides = sides_.emplace_back();
+    for (const Use& use : entry.uses) (use.writes ? sides.writers : sides.readers).push_back(use.rung);
+  }
+}
+
+CrossReference Reader::readersOf(uint32_t entry) const {
+  CrossReference found = shortened("read in", sides_[entry].readers, 0, kUsesShown);
+  found.all = {Link::To::Name, rowIds_[entry]};
+  return found;
+}
+
+CrossReference Reader::writersOf(uint32_t entry, std::string_view lead, uint32_t without, size_t most) const {
+  CrossReference found = shortened(lead, sides_[entry].writers, without, most);
+  found.all = {Link::To::Name, rowIds_[entry]};
+  return found;
+}
+
+CrossReference Reader::callersOf(uint32_t target) const {
+  const std::vector<uint32_t>& callers = targets_.at(target).callers;
+  return {"called in", callers, 0, {}};
+}
+
+// At the right rail: a coil says where its bit is read, and where else it is written; a target who goes there.
+// At a contact: who writes it.
+void Reader::fillRows() {
+  const auto put = [this](const WaitingRow& row, CrossReference reference) {
+    if (!reference.rungs.empty()) program_.figures[row.figure].sheet.rows[row.row].uses.push_back(std::move(reference));
+  };
+  for (const WaitingRow& coil : coils_) {
+    put(coil, readersOf(coil.id));
+    put(coil, writersOf(coil.id, "also written in", program_.figures[coil.figure].number, kUsesShown));
+  }
+  for (const WaitingRow& mark : marks_) put(mark, callersOf(mark.id));
+  for (const auto& [block, target] : subprograms_) program_.blocks[block].callers = callersOf(target);
+  for (Figure& figure : program_.figures)
+    for (Cell& cell : figure.sheet.cells)
+      if (cell.kind == Cell::Kind::Contact && cell.operand.link.to == Link::To::Name)
+        cell.writers = writersOf(cell.operand.link.id, "\u2190", figure.number, kWritersShown);
+}
+
+// Every row of a name gets its number; every entry of the uses knows its row.
+void Reader::numberRows() {
+  std::unordered_map<std::string_view, uint32_t> byKey;
+  uint32_t next = 0;
+  for (NameTable& table : program_.tables) {
+    for (NameRow& row : table.rows) {
+      if (row.name.empty()) continue;
+      row.id = next++;
+      byKey.emplace(row.key, row.id);
+    }
+  }
+  for (const UseList::Entry& entry : uses_.entries()) {
+    const auto at = byKey.find(entry.named.key);
+    rowIds_.push_back(at == byKey.end() ? kNone : at->second);
+  }
+}
+
+void Reader::settle(Link& link) const {
+  if (link.to == Link::To::Nothing) return;
+  link.id = link.to == Link::To::Name ? rowIds_[link.id] : targets_.at(link.id).rung;
+  if (link.id == (link.to == Link::To::Name ? kNone : 0)) link = {};
+}
+
+void Reader::settleLinks() {
+  for (Figure& figure : program_.figures) {
+    for (Cell& cell : figure.sheet.cells) {
+      settle(cell.link);
+      settle(cell.operand.link);
+      for (Operand& operand : cell.operands) settle(operand.link);
+    }
   }
 }
 
@@ -305,13 +475,11 @@ void Reader::addMessageTable(DeclarationKind kind, std::string_view title) {
   for (const LadderFile& file : files_) {
     for (const Declaration& declaration : file.declarations) {
       if (declaration.kind != kind) continue;
-      NameRow row{std::string(declaration.name.text),
-                  std::string(declaration.value.text),
-                  std::string(declaration.comment),
-                  {}};
-      const bool message = kind == DeclarationKind::Message;
-      if (const auto* entry = message ? uses_.find(messageKey(plainNumber(declaration.name.text))) : nullptr)
-        row.uses = entry->uses;
+      NameRow row{.name = std::string(declaration.name.text),
+                  .address = std::string(declaration.value.text),
+                  .comment = std::string(declaration.comment)};
+      if (kind == DeclarationKind::Message) row.key = messageKey(plainNumber(declaration.name.text));
+      if (const auto* entry = uses_.find(row.key)) row.uses = entry->uses;
       table.rows.push_back(std::move(row));
     }
   }
@@ -324,6 +492,9 @@ void Reader::addNameTables() {
     if (row.name.empty()) continue;
     const Named named = names_->find(row.name);
     row.address = named.address;
+    row.key = named.key;
+    row.input = named.input;
+    row.output = named.output;
     taken[named.key] = true;
     if (const auto* entry = uses_.find(named.key)) row.uses = entry->uses;
   }
@@ -332,7 +503,13 @@ void Reader::addNameTables() {
   NameTable others{"Other names and addresses", false, {}};
   for (const UseList::Entry& entry : uses_.entries()) {
     if (taken.contains(entry.named.key) || entry.named.key.starts_with("message ")) continue;
-    others.rows.push_back({entry.name, entry.named.address, entry.named.comment, entry.uses});
+    others.rows.push_back({.key = entry.named.key,
+                           .input = entry.named.input,
+                           .output = entry.named.output,
+                           .name = entry.name,
+                           .address = entry.named.address,
+                           .comment = entry.named.comment,
+                           .uses = entry.uses});
   }
   std::sort(others.rows.begin(), others.rows.end(), [](const NameRow& a, const NameRow& b) { return a.name < b.name; });
   if (!others.rows.empty()) program_.tables.push_back(std::move(others));
@@ -347,10 +524,13 @@ Program Reader::run() {
   names_ = std::make_unique<Names>(*input_.dialect, *input_.module, files_);
   readTexts();
   for (const LadderFile& file : files_) readFile(file);
-  fillCoils();
   addNameTables();
   addMessageTable(DeclarationKind::Message, "Messages");
   addMessageTable(DeclarationKind::Button, "Function buttons");
+  numberRows();
+  splitUses();
+  fillRows();
+  settleLinks();
   return std::move(program_);
 }
 

@@ -42,6 +42,8 @@ struct Block {
   Kind kind = Kind::Comment;
   std::string text;    // Comment: its lines
   std::string comment; // behind the statement
+  std::string title;   // Module: what the section or comment before it says it is
+  CrossReference callers;
   Place place;
   uint32_t figure = 0; // Rung: index into Program::figures
 };
@@ -53,6 +55,11 @@ struct Use {
 
 // A row of the list of names; one without a name is a comment between declarations.
 struct NameRow {
+  uint32_t id = 0; // its place among all rows with a name
+  std::string key; // as in Named
+  bool constant = false;
+  bool input = false;  // the machine or the NC writes it
+  bool output = false; // the machine or the NC reads it
   std::string name;
   std::string address; // a constant's value, a message's text
   std::string comment;

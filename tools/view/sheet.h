@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rung::view {
@@ -18,11 +19,27 @@ struct Place {
 // How much of what an element can do was seen in a run.
 enum class Seen : uint8_t { Unasked, All, Part, Nothing };
 
+// What a text leads to.
+struct Link {
+  enum class To : uint8_t { Nothing, Rung, Name };
+  To to = To::Nothing;
+  uint32_t id = 0; // the number of a rung, NameRow::id
+};
+
+// Rungs that have to do with something: "read in 3, 10 and 4 more".
+struct CrossReference {
+  std::string_view lead;
+  std::vector<uint32_t> rungs; // numbers
+  uint32_t further = 0;        // that are left out
+  Link all;                    // where they are
+};
+
 struct Operand {
   std::string label; // what it is, by the instruction's row
   std::string name;  // as written
   std::string address;
   std::string note;
+  Link link; // of the name
 };
 
 struct Cell {
@@ -37,7 +54,9 @@ struct Cell {
   std::string title;    // boxes
   std::vector<std::string> pins;
   std::vector<Operand> operands;
-  Place place; // contacts, coils and boxes: of the element; in a command list of its command
+  Link link;              // boxes: what a call or jump leads to
+  CrossReference writers; // contacts: the rungs that write them, without their own
+  Place place;            // contacts, coils and boxes: of the element; in a command list of its command
   Seen seen = Seen::Unasked;
   std::string badge;  // what was not seen, in two words
   std::string detail; // of the run, in full
@@ -52,7 +71,7 @@ struct Stop {
 struct Row {
   std::vector<Stop> stops;
   std::string remark;
-  std::string uses;
+  std::vector<CrossReference> uses;
 };
 
 struct Sheet {

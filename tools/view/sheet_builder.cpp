@@ -41,8 +41,8 @@ std::string markOf(const Element& element, std::string_view operand) {
 // One rung on its way.
 class SheetDrawing {
 public:
-  SheetDrawing(const SheetContext& context, const Drawing& drawing, const OnUse& onUse)
-      : context_(context), drawing_(drawing), onUse_(onUse) {}
+  SheetDrawing(const SheetContext& context, const Drawing& drawing, SheetListener& listener)
+      : context_(context), drawing_(drawing), listener_(listener) {}
 
   Sheet run() {
     sheet_.cells.push_back({.kind = Cell::Kind::Rail});
@@ -83,7 +83,7 @@ private:
 
   const SheetContext& context_;
   const Drawing& drawing_;
-  const OnUse& onUse_;
+  SheetListener& listener_;
   Sheet sheet_;
   std::vector<std::vector<Mark>> marks_; // by line
   std::vector<Joint> joints_;
@@ -193,17 +193,18 @@ void SheetDrawing::addContact(Cell& cell, const Element& element) {
   const Named named = context_.names.find(word.text);
   cell.kind = coil ? Cell::Kind::Coil : Cell::Kind::Contact;
   cell.mark = markOf(element, word.text);
-  cell.operand = {{}, std::string(word.text), named.address, named.comment};
+  cell.operand = {{}, std::string(word.text), named.address, named.comment, {}};
   if (coil) {
     const std::string_view message = messageOf(named.key);
     if (!message.empty()) cell.operand.note += fmt::format("{}“{}”", named.comment.empty() ? "" : " ", message);
   }
-  onUse_({.named = named, .operand = word.text, .writes = coil, .coil = coil, .row = cell.firstRow});
+  cell.operand.link =
+      listener_.onUse({.named = named, .operand = word.text, .writes = coil, .coil = coil, .row = cell.firstRow});
 }
 
 Operand SheetDrawing::operandOf(const Word& word, const frontend::OperandInfo* info, uint32_t row) {
   using frontend::Access;
-  Operand operand{info == nullptr ? "" : std::string(info->name), std::string(word.text), {}, {}};
+  Operand operand{info == nullptr ? "" : std::string(info->name), std::string(word.text), {}, {}, {}};
   if (word.quoted) {
     operand.name = fmt::format("\"{}\"", word.text);
     return operand;
@@ -218,11 +219,13 @@ Operand SheetDrawing::operandOf(const Word& word, const frontend::OperandInfo* i
     number.remove_prefix(number.starts_with('#') ? 1 : 0);
     const std::string_view text = messageOf(std::string(number));
     if (!text.empty()) operand.note = fmt::format("“{}”", text);
-    onUse_({.named = {{}, {}, messageKey(number)}, .operand = word.text, .row = row});
+    operand.link = listener_.onUse({.named = {{}, {}, messageKey(number)}, .operand = word.text, .row = row});
   }
+  Link link;
   if (info->access == Access::Write || info->access == Access::ReadWrite)
-    onUse_({.named = named, .operand = word.text, .writes = true, .row = row});
-  if (info->access != Access::Write) onUse_({.named = named, .operand = word.text, .row = row});
+    link = listener_.onUse({.named = named, .operand = word.text, .writes = true, .row = row});
+  if (info->access != Access::Write) link = listener_.onUse({.named = named, .operand = word.text, .row = row});
+  if (!message) operand.link = link;
   return operand;
 }
 
@@ -238,7 +241,7 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
     const Word& word = drawing_.operands[element.operands.first + i];
     if (context_.names.isGsk() && isTableWord(word.text)) {
       table = true;
-      cell.operands.push_back({"table", "", "", ""});
+      cell.operands.push_back({"table", "", "", "", {}});
       continue;
     }
     const bool more = place >= known && known > 0 && info->operands[known - 1].repeated;
@@ -247,6 +250,10 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
                                                     : nullptr;
     Operand operand = operandOf(word, table ? nullptr : of, cell.firstRow);
     ++place;
+    const TargetRole role = of == nullptr ? TargetRole::None : roleOf(*info, *of);
+    const Link target =
+        role == TargetRole::None ? Link{} : listener_.onTarget(role, context_.names.valueOf(word.text), cell.firstRow);
+    if (target.to != Link::To::Nothing) cell.link = operand.link = target;
     // Values of a table follow each other.
     if (table && operand.address.empty() && cell.operands.back().name.size() < 28 &&
         cell.operands.back().address.empty()) {
@@ -272,8 +279,8 @@ void SheetDrawing::findClosing() {
 
 std::string messageKey(std::string_view number) { return fmt::format("message {}", number); }
 
-Sheet buildSheet(const SheetContext& context, const Drawing& drawing, const OnUse& onUse) {
-  return SheetDrawing(context, drawing, onUse).run();
+Sheet buildSheet(const SheetContext& context, const Drawing& drawing, SheetListener& listener) {
+  return SheetDrawing(context, drawing, listener).run();
 }
 
 } // namespace rung::view

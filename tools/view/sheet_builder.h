@@ -9,6 +9,7 @@
 #include "tools/view/names.h"
 #include "tools/view/rows.h"
 #include "tools/view/sheet.h"
+#include "tools/view/targets.h"
 
 namespace rung::view {
 
@@ -19,7 +20,15 @@ struct OperandUse {
   bool coil = false;
   uint32_t row = 0; // of its element
 };
-using OnUse = std::function<void(const OperandUse& use)>;
+
+// What the rungs of a program have in common hears of a sheet while it is built. Each gives the id of what an operand
+// leads to; it is settled when all rungs are read.
+class SheetListener {
+public:
+  virtual ~SheetListener() = default;
+  virtual Link onUse(const OperandUse& use) = 0;
+  virtual Link onTarget(TargetRole role, std::string_view operand, uint32_t row) = 0;
+};
 
 // Texts of messages by number (NCT) or bit (GSK).
 using Texts = std::unordered_map<std::string, std::string>;
@@ -34,6 +43,6 @@ struct SheetContext {
 // A message's number as its key in the list of uses.
 std::string messageKey(std::string_view number);
 
-Sheet buildSheet(const SheetContext& context, const ladder::Drawing& drawing, const OnUse& onUse);
+Sheet buildSheet(const SheetContext& context, const ladder::Drawing& drawing, SheetListener& listener);
 
 } // namespace rung::view

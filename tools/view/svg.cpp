@@ -72,13 +72,26 @@ void appendHalos(std::string& out, const Picture& picture) {
   }
 }
 
+void appendLinked(std::string& out, const Text& text, bool onPage) {
+  size_t at = 0;
+  for (const LinkedText::Part& part : text.links) {
+    if (part.link.to == Link::To::Name && !onPage) continue;
+    appendEscaped(out, std::string_view(text.text).substr(at, part.begin - at));
+    put(out, "<a href=\"#{}{}\">", part.link.to == Link::To::Rung ? 'r' : 'n', part.link.id);
+    appendEscaped(out, std::string_view(text.text).substr(part.begin, part.end - part.begin));
+    out += "</a>";
+    at = part.end;
+  }
+  appendEscaped(out, std::string_view(text.text).substr(at));
+}
+
 // Texts of one style and anchor stand in one group.
-void appendTexts(std::string& out, const Picture& picture) {
+void appendTexts(std::string& out, const Picture& picture, bool onPage) {
   std::array<std::array<std::string, kStyles>, 3> groups;
   for (const Text& text : picture.texts) {
     std::string& group = groups[static_cast<size_t>(text.anchor)][static_cast<size_t>(text.style)];
     put(group, "<text x=\"{}\" y=\"{}\">", text.at.x, text.at.y);
-    appendEscaped(group, text.text);
+    appendLinked(group, text, onPage);
     group += "</text>";
   }
   constexpr std::string_view kAnchors[] = {"", " am", " ae"};
@@ -160,7 +173,7 @@ void Poster::figure(const Figure& figure) {
   put(body_, "<g id=\"r{}\" transform=\"translate(0 {})\"><title>", figure.number, y_);
   appendEscaped(body_, nameOf(figure));
   body_ += "</title>";
-  appendPicture(body_, picture);
+  appendPicture(body_, picture, false);
   body_ += "</g>\n";
   y_ += picture.height;
   heat(figure.run, base);
@@ -170,7 +183,9 @@ void Poster::figure(const Figure& figure) {
 void Poster::block(const Block& block) {
   switch (block.kind) {
   case Block::Kind::File: text(Style::Section, 8, block.text, 24); break;
-  case Block::Kind::Module: text(Style::Module, 8, "Module " + block.text, 28); break;
+  case Block::Kind::Module:
+    text(Style::Module, 8, block.text + (block.title.empty() ? "" : ": " + block.title), 28);
+    break;
   case Block::Kind::Section: text(Style::Section, 8, block.text, 22); break;
   case Block::Kind::Comment: y_ += 12; return lines(Style::Comment, 8, block.text);
   case Block::Kind::Rung: return figure(program_.figures[block.figure]);
@@ -213,13 +228,13 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-void appendPicture(std::string& out, const Picture& picture) {
+void appendPicture(std::string& out, const Picture& picture, bool onPage) {
   appendFrames(out, picture);
   appendWires(out, picture);
   appendSymbols(out, picture);
   appendRails(out, picture);
   appendHalos(out, picture);
-  appendTexts(out, picture);
+  appendTexts(out, picture, onPage);
 }
 
 std::string pictureStyle(bool onPage) {
@@ -231,8 +246,8 @@ std::string pictureStyle(bool onPage) {
   put(css,
       "path{{fill:none;stroke:{};stroke-width:1.5}}.e{{stroke-width:3}}.s{{stroke-width:2}}"
       ".d{{stroke-width:6;stroke-linecap:round}}.h{{fill:{};stroke:none}}.am{{text-anchor:middle}}"
-      ".ae{{text-anchor:end}}",
-      colour(Colour::Ink), colour(Colour::Head));
+      ".ae{{text-anchor:end}}.a a{{fill:{}}}a:hover{{text-decoration:underline}}",
+      colour(Colour::Ink), colour(Colour::Head), colour(Colour::Link));
   put(css,
       ".qa,.qp,.qn{{fill-opacity:.12;rx:4px}}.qa{{fill:{0};stroke:{0}}}"
       ".qp{{fill:{1};stroke:{1};stroke-dasharray:6 2}}.qn{{fill:{2};stroke:{2};stroke-width:2;stroke-dasharray:3 3}}",

@@ -11,8 +11,8 @@ namespace rung::view {
 void appendEscaped(std::string& out, std::string_view text);
 std::string escaped(std::string_view text);
 
-// Lines and texts of a rung, for a <g> or <svg>.
-void appendPicture(std::string& out, const Picture& picture);
+// Lines and texts of a rung, for a <g> or <svg>. Names lead to their rows on a page, which has them.
+void appendPicture(std::string& out, const Picture& picture, bool onPage);
 // The rules of style that pictures need; on a page colours are named (see colours.h).
 std::string pictureStyle(bool onPage);
 

@@ -76,4 +76,24 @@ std::vector<std::string> wrap(std::string_view text, Style style, int width) {
   return lines;
 }
 
+void LinkedText::add(std::string_view more, Link link) {
+  if (link.to != Link::To::Nothing) links.push_back({text.size(), text.size() + more.size(), link});
+  text += more;
+}
+
+std::vector<LinkedText> wrap(const std::vector<LinkedText>& words, Style style, int width) {
+  std::vector<LinkedText> lines;
+  for (const LinkedText& word : words) {
+    if (lines.empty() || widthOf(lines.back().text + " " + word.text, style) > width)
+      lines.emplace_back();
+    else
+      lines.back().text += ' ';
+    LinkedText& line = lines.back();
+    for (LinkedText::Part part : word.links)
+      line.links.push_back({part.begin + line.text.size(), part.end + line.text.size(), part.link});
+    line.text += word.text;
+  }
+  return lines;
+}
+
 } // namespace rung::view

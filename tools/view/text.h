@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/view/colours.h"
+#include "tools/view/sheet.h"
 
 namespace rung::view {
 
@@ -46,5 +47,20 @@ int lineHeight(Style style);
 
 // The text in lines of at most `width` pixels; a longer word stays whole. No line for a blank text.
 std::vector<std::string> wrap(std::string_view text, Style style, int width);
+
+// A text with parts that lead somewhere.
+struct LinkedText {
+  struct Part {
+    size_t begin = 0;
+    size_t end = 0;
+    Link link;
+  };
+  std::string text;
+  std::vector<Part> links; // from left to right
+
+  void add(std::string_view more, Link link = {});
+};
+// As wrap, between `words`.
+std::vector<LinkedText> wrap(const std::vector<LinkedText>& words, Style style, int width);
 
 } // namespace rung::view

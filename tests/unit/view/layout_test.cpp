@@ -163,7 +163,10 @@ TEST(ViewNames, UsesAreFoundWhateverTheSpelling) {
   EXPECT_EQ(usesOf(drawn->program, "LONELY"), "");
   EXPECT_EQ(usesOf(drawn->program, "N_ON"), " r3");
   EXPECT_EQ(usesOf(drawn->program, "7000.05"), "no row"); // it is A's
-  EXPECT_EQ(drawn->program.figures[2].sheet.rows[0].uses, "read in 1, 2");
+  const std::vector<CrossReference>& uses = drawn->program.figures[2].sheet.rows[0].uses;
+  ASSERT_EQ(uses.size(), 1u);
+  EXPECT_EQ(uses[0].lead, "read in");
+  EXPECT_EQ(uses[0].rungs, (std::vector<uint32_t>{1, 2}));
 }
 
 TEST(ViewNames, ListsHaveTheirOwnLines) {

@@ -19,7 +19,8 @@ void expectSameNumbers(const Drawn& drawn) {
       EXPECT_EQ(figure.number, rung.number);
       EXPECT_EQ(figure.title, rung.title) << "rung " << rung.number;
       EXPECT_EQ(figure.place.line, rung.begin.line) << "rung " << rung.number;
-      EXPECT_TRUE(drawn.module->files[rung.begin.file.index].ends_with(figure.place.file)) << "rung " << rung.number;
+      EXPECT_EQ(drawn.module->files[rung.begin.file.index], drawn.program.files[figure.place.file].path)
+          << "rung " << rung.number;
       ++compared;
     }
   }

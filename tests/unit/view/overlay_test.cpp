@@ -44,6 +44,20 @@ TEST(ViewOverlay, ElementsAreFoundByTheirPlaces) {
   EXPECT_EQ(badges(drawn->program.figures[1].sheet), "TOND:never off;");
 }
 
+TEST(ViewOverlay, CommandsOfAListAreTheElementsDrawnForThem) {
+  const auto drawn = draw("t.pmc", "dialect gsk\nFUNC END1\n; first\nLD X0.0\nOUT Y0.0\n; second\n"
+                                   "LD X0.1\nLD X0.2\nANI X0.3\nORB\nOUT Y0.1\nSET R0.0\n"
+                                   "LD X0.4\nFUNC TMR\nPRM 1\nOUT R0.1\nFUNC END2\n");
+  Overlay overlay;
+  for (uint32_t line : {9u, 12u, 14u})
+    overlay.elements.push_back({Kind::Contact, {"t.pmc", line, 1}, true, false, true, ""});
+  overlay.elements.push_back({Kind::Contact, {"t.pmc", 7, 0}, false, true, true, ""});
+  lay(overlay, drawn->program);
+  ASSERT_EQ(drawn->program.figures.size(), 3u);
+  EXPECT_EQ(badges(drawn->program.figures[1].sheet), "X0.1:never open;X0.3:never closed;R0.0:never closed;");
+  EXPECT_EQ(badges(drawn->program.figures[2].sheet), "TMR:never closed;");
+}
+
 TEST(ViewOverlay, RungsAreFoundByNumberOrPlace) {
   const auto drawn = draw("t.lad", std::string(kLadder));
   Overlay overlay{.title = "Profile", .summary = {"2 scans & no more"}, .heat = "share of all operations"};
@@ -93,7 +107,7 @@ TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {
   EXPECT_EQ(count(page, "<h3>MAIN</h3>"), 1u);
   EXPECT_EQ(count(page, "<h3>SPINDLE</h3>"), 1u);
   EXPECT_EQ(count(page, "start &lt;up&gt;"), 2u);
-  EXPECT_EQ(count(page, "m.plc:3"), 1u);
+  EXPECT_EQ(count(page, ">m.plc:3<"), 1u);
   EXPECT_EQ(count(page, "class=\"Q H5\" id=\"r1\""), 1u);
   EXPECT_EQ(count(page, "class=\"Q N\" id=\"r3\""), 1u);
   EXPECT_EQ(count(page, "<td class=\"g\"><span title=\"7 times open\">line 6 never closed</span></td>"), 1u);

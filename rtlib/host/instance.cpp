@@ -28,13 +28,38 @@ Instance::Instance(const rung_program& program, ScheduleHooks* hooks)
              FreeBlock{alignOf(program)}),
       ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<rt::HostPort>()),
       profile_(program.instrumented != 0 ? program.rung_count : 0), parts_(program.task_count),
-      retained_(retainedBytes(program)), runner_(program, block_.get(), *ctx_, parts_.data()) {
+      retained_(retainedBytes(program)), runner_(program, block_.get(), *ctx_, parts_.data()), overwritten_(program) {
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
   ctx_->prof = profile_.empty() ? nullptr : profile_.data();
   runner_.setHooks({&stepHook, &faultHook, this});
   port_->services.setResponder({&respondHook, this});
   coldStart();
+}
+
+// ---- writing -----------------------------------------------------------------------------------------------------
+
+std::string Instance::write(const Ref& ref, uint64_t value) {
+  std::string problem = overwritten_.problem(ref);
+  if (problem.empty()) writeRaw(memory(), ref, value);
+  return problem;
+}
+
+std::string Instance::writeReal(const Ref& ref, double value) {
+  std::string problem = overwritten_.problem(ref);
+  if (problem.empty()) host::writeReal(memory(), ref, value);
+  return problem;
+}
+
+std::string Instance::writeText(const Ref& ref, std::string_view text) {
+  std::string problem = overwritten_.problem(ref);
+  if (problem.empty()) host::writeText(memory(), ref, text);
+  return problem;
+}
+
+std::string Instance::write(std::string_view name, uint64_t value) {
+  const std::optional<Ref> place = resolve(name);
+  return place ? write(*place, value) : "the program has no name or address '" + std::string(name) + "'";
 }
 
 // ---- hooks -------------------------------------------------------------------------------------------------------

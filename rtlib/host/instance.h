@@ -14,6 +14,7 @@
 #include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
 #include "rtlib/host/names.h"
+#include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/host/ref.h"
 
@@ -84,9 +85,14 @@ public:
   uint64_t read(const Ref& ref) const { return readRaw(memory(), ref); }
   double readReal(const Ref& ref) const { return host::readReal(memory(), ref); }
   std::string readText(const Ref& ref) const { return host::readText(memory(), ref); }
-  void write(const Ref& ref, uint64_t value) { writeRaw(memory(), ref, value); }
-  void writeReal(const Ref& ref, double value) { host::writeReal(memory(), ref, value); }
-  void writeText(const Ref& ref, std::string_view text) { host::writeText(memory(), ref, text); }
+  // What the machine, a person or a test writes between two scans. Each gives "", or why the program would never see
+  // the value, which is not written then, and where to write it: the inputs of an NCT program, copied before each run.
+  // (A simulated control writes what it likes with writeRaw.)
+  [[nodiscard]] std::string write(const Ref& ref, uint64_t value);
+  [[nodiscard]] std::string writeReal(const Ref& ref, double value);
+  [[nodiscard]] std::string writeText(const Ref& ref, std::string_view text);
+  // By name; a name that the program does not have is an error too.
+  [[nodiscard]] std::string write(std::string_view name, uint64_t value);
 
   rt::MessageQueue& messages() { return port_->messages; }
   const rt::MessageQueue& messages() const { return port_->messages; }
@@ -124,6 +130,7 @@ private:
   std::vector<rt::PartState> parts_;
   std::vector<uint8_t> retained_; // room for warmStart
   rt::Runner runner_;
+  Overwritten overwritten_;
 };
 
 } // namespace rung::host

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <span>
 
 #include "rtlib/host/program_info.h"
 
@@ -317,6 +318,22 @@ std::optional<Ref> resolve(const rung_program& program, std::string_view name, c
   if (dialectOf(program) != Dialect::Technol) return resolver.resolve(name);
   const std::string upper = upperCase(name);
   return resolver.resolve(upper);
+}
+
+std::string placeName(const rung_program& program, const Ref& place) {
+  if (place.kind == RefKind::Constant) return std::to_string(place.constant);
+  if (dialectOf(program) == Dialect::Nct && place.space == findSpace(program, "TS")) {
+    Ref copy = place;
+    copy.space = findSpace(program, "M");
+    return "!" + placeName(program, copy);
+  }
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
+    Ref own = refOf(symbol);
+    own.readonly = place.readonly;
+    if (own == place) return symbol.name;
+  }
+  const uint32_t bit = place.bit;
+  return addressText(program, place.space, place.byte, place.kind == RefKind::Bit ? &bit : nullptr);
 }
 
 std::string describeBit(const rung_program& program, uint32_t space, uint32_t byte, uint32_t bit) {

@@ -24,6 +24,9 @@ std::optional<Ref> resolve(const rung_program& program, std::string_view name, c
 Ref refOf(const rung_symbol& symbol);
 const rung_symbol* findSymbol(const rung_program& program, std::string_view name);
 
+// A short name of the place that `resolve` finds again: a symbol of its own, else the dialect's address.
+std::string placeName(const rung_program& program, const Ref& place);
+
 // How a reader would write that bit or byte: the dialect's address, with the symbols that lie there in brackets.
 std::string describeBit(const rung_program& program, uint32_t space, uint32_t byte, uint32_t bit);
 std::string describeByte(const rung_program& program, uint32_t space, uint32_t byte);

@@ -88,7 +88,7 @@ Result<void> settle(host::Instance& instance, const Workload& work, std::vector<
                     RunHand runHand) {
   std::mt19937_64 random(kSeed + 1);
   instance.coldStart();
-  for (const std::string& name : work.ones) instance.write(*instance.resolve(name), 1);
+  for (const std::string& name : work.ones) host::writeRaw(instance.memory(), *instance.resolve(name), 1);
   std::vector<host::Ref> bits;
   std::vector<host::Ref> words;
   for (const std::string& name : work.bits) bits.push_back(*instance.resolve(name));
@@ -96,18 +96,18 @@ Result<void> settle(host::Instance& instance, const Workload& work, std::vector<
   const auto wordAt = [&](size_t i) { return hand.data() + bits.size() + 2 * i; };
   for (uint32_t bit = 0; bit < work.inputs; ++bit) {
     hand[bit] = static_cast<uint8_t>(random() & 1);
-    instance.write(bits[bit], hand[bit]);
+    host::writeRaw(instance.memory(), bits[bit], hand[bit]);
   }
   for (size_t i = 0; i < words.size(); ++i) {
     const auto value = static_cast<uint16_t>(random() % 64);
     std::memcpy(wordAt(i), &value, 2);
-    instance.write(words[i], value);
+    host::writeRaw(instance.memory(), words[i], value);
   }
   for (int i = 0; i < kSettleScans; ++i) {
     for (int change = 0; change < 16; ++change) {
       const auto bit = static_cast<uint32_t>(random() % work.inputs);
       hand[bit] ^= 1;
-      instance.write(bits[bit], hand[bit]);
+      host::writeRaw(instance.memory(), bits[bit], hand[bit]);
     }
     runEngine();
     runHand();

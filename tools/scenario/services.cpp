@@ -59,7 +59,7 @@ public:
   }
   nc::nct::Block block() { return nc::nct::Block(words_); }
   void writeTo(Instance& instance) const {
-    for (uint32_t i = 0; i < words_.size(); ++i) instance.write(place(i), words_[i]);
+    for (uint32_t i = 0; i < words_.size(); ++i) host::writeRaw(instance.memory(), place(i), words_[i]);
   }
 
 private:

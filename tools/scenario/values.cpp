@@ -91,24 +91,17 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
     if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
     // The last byte of a TECHNOL text is its terminator.
     const bool oneByte = oneByteTexts(instance);
-    instance.writeText(place, oneByte ? nc::memoryText(value.text).substr(0, place.count - 1u) : value.text);
-    return {};
+    return instance.writeText(place, oneByte ? nc::memoryText(value.text).substr(0, place.count - 1u) : value.text);
   }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
   if (value.isBit && place.kind != RefKind::Bit)
     return fmt::format("this name is not a bit, so it cannot be {}: expected a number", value.text);
   if (place.kind == RefKind::Bit && (value.kind == ValueKind::Real || (value.integer != 0 && value.integer != 1)))
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
-  if (place.kind == RefKind::Real) {
-    instance.writeReal(place, value.real);
-  } else if (value.kind == ValueKind::Real) {
-    const auto real = host::asReal(instance.memory(), place);
-    if (!real) return fmt::format("a real does not fit here: {}", value.text);
-    instance.writeReal(*real, value.real);
-  } else {
-    instance.write(place, static_cast<uint64_t>(value.integer));
-  }
-  return {};
+  if (place.kind == RefKind::Real) return instance.writeReal(place, value.real);
+  if (value.kind == ValueKind::Int) return instance.write(place, static_cast<uint64_t>(value.integer));
+  const auto real = host::asReal(instance.memory(), place);
+  return real ? instance.writeReal(*real, value.real) : fmt::format("a real does not fit here: {}", value.text);
 }
 
 std::string checkValue(const Reading& reading, const Statement& expect) {

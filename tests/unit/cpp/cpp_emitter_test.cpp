@@ -89,7 +89,7 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   host::Instance instance(engine->program());
   instance.scan();
   EXPECT_EQ(instance.read(*instance.resolve("Y0.0")), 0u);
-  instance.write(*instance.resolve("X0.0"), 1);
+  EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
   instance.scan();
   EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
   EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 1u);

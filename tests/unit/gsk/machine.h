@@ -26,7 +26,7 @@ public:
   }
 
   uint64_t get(const std::string& name) const { return instance_->read(ref(name)); }
-  void set(const std::string& name, uint64_t value) { instance_->write(ref(name), value); }
+  void set(const std::string& name, uint64_t value) { EXPECT_EQ(instance_->write(ref(name), value), ""); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) instance_->scan();
   }

@@ -75,26 +75,29 @@ TEST(PipelineDeathTest, VerifiesEachPass) {
   EXPECT_DEATH(runPasses(module, {.optimise = true, .instrument = false, .verifyEach = true}), "outside its space");
 }
 
-// ---- the same behaviour ----------------------------------------------------------------------------------------------
+// ---- the same behaviour
+// ----------------------------------------------------------------------------------------------
 
 constexpr int kScans = 5;
 
 // Answers every second request at once.
 class Answers final : public host::ScheduleHooks {
- public:
+public:
   bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     if (request.ticket % 2 == 0) return false;
     reply.ticket = request.ticket;
     reply.state = RUNG_SERVICE_DONE;
     reply.resultCount = 3;
-    for (uint32_t i = 0; i < reply.resultCount; ++i) reply.results[i] = (1000 * (i + 1)) ^ (request.argCount > 0 ? request.args[0] : 0);
+    for (uint32_t i = 0; i < reply.resultCount; ++i)
+      reply.results[i] = (1000 * (i + 1)) ^ (request.argCount > 0 ? request.args[0] : 0);
     return true;
   }
 };
 
 // A module that runs in the interpreter.
 struct Running {
-  explicit Running(Module from) : module(std::move(from)), layout(module, {}), engine(layout, 0), instance(engine.program(), &answers) {
+  explicit Running(Module from)
+      : module(std::move(from)), layout(module, {}), engine(layout, 0), instance(engine.program(), &answers) {
     instance.context().engine = engine.context();
   }
   Module module;
@@ -108,14 +111,17 @@ struct Running {
 void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
   const uint32_t bytes = std::min(8u, instance.program().spaces[0].byte_count);
   for (uint32_t byte = 0; byte < bytes; ++byte)
-    instance.write(host::intRef(0, byte, 8), (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255);
+    EXPECT_EQ(
+        instance.write(host::intRef(0, byte, 8), (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255),
+        "");
 }
 
 std::string slotDifference(const Running& a, const Running& b) {
   for (uint32_t i = 0; i < a.module.slots.size(); ++i) {
     const Slot& slot = a.module.slots[i];
     const uint32_t bytes = std::max(1u, byteWidth(slot.type));
-    if (!slot.transient && std::memcmp(a.instance.block().data() + a.layout.slot(SlotId{i}), b.instance.block().data() + b.layout.slot(SlotId{i}), bytes) != 0)
+    if (!slot.transient && std::memcmp(a.instance.block().data() + a.layout.slot(SlotId{i}),
+                                       b.instance.block().data() + b.layout.slot(SlotId{i}), bytes) != 0)
       return fmt::format("slot {}", slot.key);
   }
   return {};
@@ -123,7 +129,8 @@ std::string slotDifference(const Running& a, const Running& b) {
 
 // Empty when both modules do the same. The transient slots alone may differ.
 std::string difference(Module before, Module after, uint64_t seed) {
-  before.slots.push_back({.type = Type::I64, .key = "makes the layouts differ, so that spaces are compared and not bytes of memory"});
+  before.slots.push_back(
+      {.type = Type::I64, .key = "makes the layouts differ, so that spaces are compared and not bytes of memory"});
   Running a(std::move(before));
   Running b(std::move(after));
   for (int scan = 1; scan <= kScans; ++scan) {
@@ -131,7 +138,8 @@ std::string difference(Module before, Module after, uint64_t seed) {
       changeInputs(running->instance, seed, scan);
       running->instance.scan();
     }
-    if (const auto found = host::firstDifference(a.instance, b.instance)) return fmt::format("scan {}: {}", scan, *found);
+    if (const auto found = host::firstDifference(a.instance, b.instance))
+      return fmt::format("scan {}: {}", scan, *found);
     b.module.slots.resize(a.module.slots.size() - 1);
     if (const std::string found = slotDifference(b, a); !found.empty()) return fmt::format("scan {}: {}", scan, found);
   }
@@ -184,11 +192,13 @@ TEST_P(SameBehaviour, OfEveryOperation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
-                         testing::Values(NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues}, NamedPass{"Dead", removeDeadOps},
+                         testing::Values(NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues},
+                                         NamedPass{"Dead", removeDeadOps},
                                          NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
                          [](const auto& test) { return test.param.name; });
 
-// ---- time ------------------------------------------------------------------------------------------------------------
+// ---- time
+// ------------------------------------------------------------------------------------------------------------
 
 double secondsOf(Module& module) {
   const auto start = std::chrono::steady_clock::now();
@@ -200,7 +210,8 @@ Module emptyModule(uint32_t rungs, uint32_t slots) {
   Module module;
   module.name = "large";
   module.spaces = {{.name = "M", .unitBytes = 4, .units = 10000}};
-  for (uint32_t i = 0; i < slots; ++i) module.slots.push_back({.type = Type::I32, .transient = true, .key = fmt::format("r{}", i)});
+  for (uint32_t i = 0; i < slots; ++i)
+    module.slots.push_back({.type = Type::I32, .transient = true, .key = fmt::format("r{}", i)});
   module.routines.resize(1);
   module.routines[0].rungs.resize(rungs);
   module.tasks.push_back({.name = "T", .entry = RoutineId{0}});
@@ -245,16 +256,20 @@ TEST(Scale, OneLargeRung) {
   const ValueId cond = b.load(Type::Bit, {SpaceId{0}, 0, 0});
   constexpr uint32_t kDepth = 2000;
   for (uint32_t i = 0; i < kDepth; ++i) {
-    if (i % 2 == 0) b.if_(cond);
-    else b.loop(1);
+    if (i % 2 == 0)
+      b.if_(cond);
+    else
+      b.loop(1);
   }
   for (uint32_t i = 0; i < 80'000; ++i) {
     const Place place{SpaceId{0}, 4 * (i % 5000), 0};
     b.store(place, b.add(b.load(Type::I32, place), b.loadAt(Type::I32, {SpaceId{0}, 0, 100}, b.i32(i % 7))));
   }
   for (uint32_t i = kDepth; i-- > 0;) {
-    if (i % 2 == 0) b.endIf();
-    else b.endLoop();
+    if (i % 2 == 0)
+      b.endIf();
+    else
+      b.endLoop();
   }
   EXPECT_LT(secondsOf(module), 6.0);
 }

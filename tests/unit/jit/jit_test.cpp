@@ -60,7 +60,7 @@ TEST_P(JitLevels, RunsCallsAndTraps) {
   } // the engine needs neither
   EXPECT_EQ(engine->name(), "jit");
   host::Instance instance(engine->program());
-  instance.write(*instance.resolve("X0.0"), 1);
+  EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
   instance.scan();
   EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
   instance.scan();
@@ -130,7 +130,7 @@ protected:
     if (engine == nullptr) return 1000;
     EXPECT_EQ(engine->report().cacheTrouble, "");
     host::Instance instance(engine->program());
-    instance.write(*instance.resolve("X0.0"), 1);
+    EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
     instance.scan();
     EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 1u);
     return engine->report().fromCache;

@@ -26,7 +26,7 @@ public:
     model_->powerOn(*instance_, PowerOn::Cold);
   }
 
-  void set(const char* name, uint64_t value) { instance_->write(place(name), value); }
+  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), ""); }
   uint64_t get(const char* name) { return instance_->read(place(name)); }
   void slot(int count = 1) {
     for (int i = 0; i < count; ++i) model_->slot(*instance_);

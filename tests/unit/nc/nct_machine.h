@@ -40,7 +40,7 @@ public:
     model_->powerOn(*instance_, PowerOn::Cold);
   }
 
-  void set(const char* name, uint64_t value) { instance_->write(place(name, true), value); }
+  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name, true), value), ""); }
   uint64_t get(const char* name) { return instance_->read(place(name, false)); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) model_->scan(*instance_);

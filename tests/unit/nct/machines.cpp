@@ -29,8 +29,8 @@ uint32_t Machine::slice(uint32_t number) const {
 }
 
 void Machine::setWord(uint32_t number, uint32_t value) {
-  instance_->write(host::intRef(memory_, number * 4, 32), value);
-  if (number >= 2 && number < kNcEnd) instance_->write(host::intRef(slice_, number * 4, 32), value);
+  host::writeRaw(instance_->memory(), host::intRef(memory_, number * 4, 32), value);
+  if (number >= 2 && number < kNcEnd) host::writeRaw(instance_->memory(), host::intRef(slice_, number * 4, 32), value);
 }
 
 double Machine::real(uint32_t number) const {

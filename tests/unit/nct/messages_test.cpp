@@ -78,7 +78,9 @@ public:
     instance_ = driver::makeInstance(*engine_, nc_.get());
     nc_->powerOn(*instance_, nc::PowerOn::Cold);
   }
-  void set(std::string_view bit, bool value) { instance_->write(*nc_->writePlace(*instance_, bit), value ? 1 : 0); }
+  void set(std::string_view bit, bool value) {
+    EXPECT_EQ(instance_->write(*nc_->writePlace(*instance_, bit), value ? 1 : 0), "");
+  }
   uint64_t read(const std::string& name) { return instance_->read(*nc_->readPlace(*instance_, name)); }
   void scan() { nc_->scan(*instance_); }
   // The bits that are 1 among `count` from word `first` on.

@@ -148,7 +148,8 @@ void writeAnswer(host::Instance& instance, const rt::ServiceRequest& request, co
     words[n] = static_cast<uint32_t>(instance.read(bufferWord(instance, request, n)));
   nc::nct::Block block(words);
   for (const auto& [n, value] : answer.words) block.setWord(n, static_cast<int32_t>(value));
-  for (uint32_t n = 0; n < words.size(); ++n) instance.write(bufferWord(instance, request, n), words[n]);
+  for (uint32_t n = 0; n < words.size(); ++n)
+    host::writeRaw(instance.memory(), bufferWord(instance, request, n), words[n]);
   rt::ServiceReply reply{.ticket = request.ticket, .resultCount = 1};
   reply.results[0] = answer.code;
   EXPECT_TRUE(instance.services().complete(reply));

@@ -32,18 +32,18 @@ protected:
 TEST_F(CompareTest, EqualInstances) { EXPECT_EQ(difference(), "none"); }
 
 TEST_F(CompareTest, PackedByte) {
-  a.write(intRef(0, 4, 8), 3);
-  b.write(intRef(0, 4, 8), 4);
+  EXPECT_EQ(a.write(intRef(0, 4, 8), 3), "");
+  EXPECT_EQ(b.write(intRef(0, 4, 8), 4), "");
   EXPECT_EQ(difference(), "R4 (COUNT): 3 here, 4 there");
 }
 
 TEST_F(CompareTest, PackedBit) {
-  b.write(bitRef(0, 5, 7), 1);
+  EXPECT_EQ(b.write(bitRef(0, 5, 7), 1), "");
   EXPECT_EQ(difference(), "R5.7: 0 here, 1 there");
 }
 
 TEST_F(CompareTest, ExpandedBit) {
-  a.write(bitRef(0, 9, 2), 1);
+  EXPECT_EQ(a.write(bitRef(0, 9, 2), 1), "");
   EXPECT_EQ(difference(), "R9.2 (LAMP): 1 here, 0 there");
 }
 
@@ -65,9 +65,9 @@ TEST_F(CompareTest, LayoutsThatDiffer) {
   other.link();
   other.program.layout_hash = 1;
   Instance c(other.program);
-  a.write(bitRef(0, 9, 2), 1);
+  EXPECT_EQ(a.write(bitRef(0, 9, 2), 1), "");
   EXPECT_EQ(firstDifference(a, c).value_or("none"), "R9.2 (LAMP): 1 here, 0 there");
-  c.write(bitRef(0, 9, 2), 1);
+  EXPECT_EQ(c.write(bitRef(0, 9, 2), 1), "");
   EXPECT_EQ(firstDifference(a, c).value_or("none"), "none");
 }
 

@@ -57,7 +57,7 @@ TEST_F(InstanceTest, StartsColdAndScans) {
 TEST_F(InstanceTest, ColdStartForgetsWarmStartKeeps) {
   Instance instance(test.program);
   for (const bool warm : {false, true}) {
-    for (uint32_t i : {0u, 1u, 2u, 40u, 41u}) instance.write(intRef(0, i, 8), 50 + i);
+    for (uint32_t i : {0u, 1u, 2u, 40u, 41u}) EXPECT_EQ(instance.write(intRef(0, i, 8), 50 + i), "");
     instance.runTask("ASK");
     EXPECT_EQ(instance.services().waiting(), 1u);
     instance.messages().push({});
@@ -75,8 +75,8 @@ TEST_F(InstanceTest, ColdStartForgetsWarmStartKeeps) {
 
 TEST_F(InstanceTest, RetainedMemoryGoesOutAndIn) {
   Instance first(test.program);
-  first.write(intRef(0, 1, 8), 7);
-  first.write(intRef(0, 40, 16), 0x1234);
+  EXPECT_EQ(first.write(intRef(0, 1, 8), 7), "");
+  EXPECT_EQ(first.write(intRef(0, 40, 16), 0x1234), "");
   std::vector<uint8_t> image(first.retainedSize());
   ASSERT_EQ(image.size(), 3u);
   first.copyRetained(image);

@@ -172,7 +172,7 @@ TEST_F(RetainTest, SaverWritesWhatWasOffered) {
   {
     RetainSaver saver(store(), RetainMap(test.program), std::chrono::milliseconds(1));
     for (uint32_t i = 1; i <= 5; ++i) {
-      instance.write(intRef(0, 1, 8), i);
+      EXPECT_EQ(instance.write(intRef(0, 1, 8), i), "");
       while (!saver.offer(instance)) std::this_thread::yield();
     }
     EXPECT_EQ(saver.failed(), 0u);

@@ -98,10 +98,10 @@ double Machine::real(std::string_view name) const {
   return instance_->readReal(*host::asReal(instance_->memory(), resolve(name)));
 }
 void Machine::set(std::string_view name, int64_t value) {
-  instance_->write(resolve(name), static_cast<uint64_t>(value));
+  EXPECT_EQ(instance_->write(resolve(name), static_cast<uint64_t>(value)), "");
 }
 void Machine::setReal(std::string_view name, double value) {
-  instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value);
+  EXPECT_EQ(instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value), "");
 }
 
 std::vector<std::string> Machine::messages() {

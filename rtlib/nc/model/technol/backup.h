@@ -15,7 +15,7 @@ public:
   void behindMain(host::Instance& instance);
   bool asked(const host::Instance& instance) const { return request_ && instance.read(*request_) != 0; }
   void saved(host::Instance& instance) {
-    if (request_) instance.write(*request_, 0);
+    if (request_) host::writeRaw(instance.memory(), *request_, 0);
   }
 
 private:

@@ -25,6 +25,9 @@ host::Ref hostCell(const host::Instance& instance, std::string_view name) {
 host::Ref interfaceCell(const host::Instance& instance, std::string_view name) {
   return signalPlace(instance, name).value_or(host::Ref{});
 }
+void put(host::Instance& instance, const host::Ref& place, uint64_t value) {
+  host::writeRaw(instance.memory(), place, value);
+}
 std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name) {
   const std::optional<host::Ref> place = signalPlace(instance, name);
   return place ? place : cellPlace(instance, name);
@@ -65,15 +68,16 @@ std::string Blocks::start(host::Instance& instance, std::span<const NcArgument> 
     if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
       return "'" + cell.key + "' is a bit";
   }
-  for (const std::string_view name : kUntilNextStart) instance.write(interfaceCell(instance, name), 0);
+  for (const std::string_view name : kUntilNextStart)
+    put(instance, interfaceCell(instance, name), 0);
   for (const NcArgument& cell : cells) {
     const host::Ref place = *commandCell(instance, cell.key);
     if (cell.isReal || place.kind == host::RefKind::Real)
-      instance.writeReal(place, cell.real);
+      host::writeReal(instance.memory(), place, cell.real);
     else
-      instance.write(place, static_cast<uint64_t>(cell.integer));
+      put(instance, place, static_cast<uint64_t>(cell.integer));
   }
-  instance.write(positionReached_, 0);
+  put(instance, positionReached_, 0);
   phase_ = Phase::Starting;
   reached_ = false;
   return {};
@@ -96,17 +100,17 @@ void Blocks::enter(host::Instance& instance, Phase phase) {
   phase_ = phase;
   first_ = true;
   switch (phase) {
-  case Phase::Idle: instance.write(statusRestart_, kIdle); return;
+  case Phase::Idle: put(instance, statusRestart_, kIdle); return;
   case Phase::Starting: return;
-  case Phase::Init: instance.write(statusRestart_, kInit); return;
-  case Phase::Motion: instance.write(statusRestart_, kMove); return;
-  case Phase::Done: instance.write(statusRestart_, kDone); return;
+  case Phase::Init: put(instance, statusRestart_, kInit); return;
+  case Phase::Motion: put(instance, statusRestart_, kMove); return;
+  case Phase::Done: put(instance, statusRestart_, kDone); return;
   }
 }
 
 void Blocks::supervise(host::Instance& instance) {
   if (phase_ == Phase::Starting && mayStart(instance)) {
-    instance.write(blockInProgress_, 1);
+    put(instance, blockInProgress_, 1);
     enter(instance, Phase::Init);
   }
   if (phase_ == Phase::Init && pass(instance, init_)) {
@@ -120,25 +124,25 @@ void Blocks::supervise(host::Instance& instance) {
 // True when the module ran through. It starts at its beginning with every block.
 bool Blocks::pass(host::Instance& instance, const Module& module) {
   if (first_) {
-    instance.write(module.cont, 0);
-    instance.write(module.done, 0);
+    put(instance, module.cont, 0);
+    put(instance, module.done, 0);
   }
   first_ = false;
   return instance.runTask(module.task) && instance.read(module.done) != 0;
 }
 
 void Blocks::endMotion(host::Instance& instance) {
-  instance.write(positionReached_, 1);
-  for (const host::Ref& bit : motionBits_) instance.write(bit, 0);
+  put(instance, positionReached_, 1);
+  for (const host::Ref& bit : motionBits_) put(instance, bit, 0);
 }
 
 void Blocks::finish(host::Instance& instance) {
-  instance.write(blockInProgress_, 0);
-  for (const host::Ref& bit : lastOneBlock_) instance.write(bit, 0);
+  put(instance, blockInProgress_, 0);
+  for (const host::Ref& bit : lastOneBlock_) put(instance, bit, 0);
   const uint32_t queue = host::findSpace(instance.program(), "BLK");
   if (queue != RUNG_NONE)
     for (uint32_t byte = 0; byte < instance.program().spaces[queue].byte_count; ++byte)
-      instance.write(host::intRef(queue, byte, 8), 0);
+      put(instance, host::intRef(queue, byte, 8), 0);
   enter(instance, Phase::Idle);
 }
 

@@ -97,7 +97,7 @@ uint64_t readCell(const host::Instance& instance, std::string_view name) {
 }
 
 void writeCell(host::Instance& instance, std::string_view name, uint64_t value) {
-  if (const auto place = cellPlace(instance, name)) instance.write(*place, value);
+  if (const auto place = cellPlace(instance, name)) host::writeRaw(instance.memory(), *place, value);
 }
 
 bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo) {

@@ -426,7 +426,7 @@ void mark(host::Instance& instance, uint32_t channel, bool input) {
   const auto array = signalPlace(instance, "ANALOG_CONNECTED");
   const auto cell = array ? host::element(*array, channel) : std::nullopt;
   const Signal* weight = findSignal(technolSignals(), input ? "AIN_CONNECTED" : "AOUT_CONNECTED", "W");
-  if (cell && weight) instance.write(host::bitRef(cell->space, cell->byte, weight->bit), 1);
+  if (cell && weight) host::writeRaw(instance.memory(), host::bitRef(cell->space, cell->byte, weight->bit), 1);
 }
 
 void markByName(host::Instance& instance, std::string_view written) {

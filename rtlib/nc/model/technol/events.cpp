@@ -50,7 +50,7 @@ std::optional<std::string> callEvent(host::Instance& instance, std::string_view 
     if (!equalIgnoringCase(name, event.name)) continue;
     // The procedure may set it again, and the start waits (man. l.6463-6467).
     if (event.code == kStartRequest.code)
-      if (const auto suspend = signalPlace(instance, "START_SUSPEND")) instance.write(*suspend, 0);
+      if (const auto suspend = signalPlace(instance, "START_SUSPEND")) host::writeRaw(instance.memory(), *suspend, 0);
     call(instance, "_ON_EVENT", event.code, false);
     return std::string();
   }

@@ -1,0 +1,82 @@
+// Which places are overwritten, from the tables of the program (see overwritten.h).
+#include "rtlib/host/overwritten.h"
+
+#include <algorithm>
+#include <span>
+
+#include "rtlib/host/names.h"
+
+namespace rung::host {
+namespace {
+
+bool covers(const rung_copy& outer, const rung_copy& inner) {
+  return outer.kind == RUNG_COPY_ALL && outer.to <= inner.to && outer.to + outer.size >= inner.to + inner.size;
+}
+
+uint32_t byteCount(const Ref& ref) {
+  switch (ref.kind) {
+  case RefKind::Text: return ref.count;
+  case RefKind::Constant: return 0;
+  case RefKind::Bit: return 1;
+  case RefKind::Int:
+  case RefKind::Real: break;
+  }
+  return std::max(1u, ref.width / 8u);
+}
+
+struct LogicalByte {
+  uint32_t space = RUNG_NONE;
+  uint32_t byte = 0;
+};
+
+std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset) {
+  for (uint32_t s = 0; s < program.space_count; ++s)
+    for (const rung_range& range : std::span(program.spaces[s].ranges, program.spaces[s].range_count)) {
+      const uint32_t step = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
+      if (offset >= range.offset && offset - range.offset < range.byte_count * step)
+        return LogicalByte{s, range.first_byte + (offset - range.offset) / step};
+    }
+  return std::nullopt;
+}
+
+} // namespace
+
+// A place that the task gives back at its end (registers that an interrupting task saves) is not overwritten.
+Overwritten::Overwritten(const rung_program& program) : program_(&program) {
+  for (const rung_task& task : std::span(program.tasks, program.task_count)) {
+    const std::span end(program.copies + task.end_first, task.end_count);
+    for (const rung_copy& copy : std::span(program.copies + task.begin_first, task.begin_count))
+      if (copy.kind == RUNG_COPY_ALL &&
+          std::ranges::none_of(end, [&](const rung_copy& other) { return covers(other, copy); }))
+        copies_.push_back(copy);
+  }
+}
+
+std::optional<Ref> Overwritten::source(const Ref& ref) const {
+  if (copies_.empty()) return std::nullopt;
+  const rt::Memory memory(*program_, nullptr); // for its places only
+  for (uint32_t i = 0; i < byteCount(ref); ++i) {
+    const uint32_t offset = memory.bitPlace(ref.space, ref.byte + i, 0).offset;
+    if (offset == RUNG_NONE) continue;
+    for (const rung_copy& copy : copies_) {
+      if (offset < copy.to || offset - copy.to >= copy.size) continue;
+      const auto from = byteAt(*program_, copy.from + (offset - copy.to));
+      if (!from || from->byte < i) continue;
+      Ref place = ref;
+      place.space = from->space;
+      place.byte = from->byte - i;
+      return place;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string Overwritten::problem(const Ref& ref) const {
+  const std::optional<Ref> from = source(ref);
+  if (!from) return {};
+  const std::string lasting = placeName(*program_, *from);
+  return "a value written to " + placeName(*program_, ref) + " is lost: " + lasting +
+         " is copied over it before the program reads it; write " + lasting;
+}
+
+} // namespace rung::host

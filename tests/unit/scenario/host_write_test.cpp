@@ -1,0 +1,101 @@
+// What a host writes by name to a program of each dialect reaches the program, or is refused with the name to write.
+#include <gtest/gtest.h>
+
+#include "ir/support/diag_render.h"
+#include "rtlib/nc/model/nc_model.h"
+#include "tools/driver/engines.h"
+
+namespace rung {
+namespace {
+
+constexpr const char* kNct = R"(dialect nct
+module MAIN
+symbol B_CLAMP INP000.17
+symbol VALVE   OUT000.03
+symbol LAMP    5101.00
+rung
+|--[B_CLAMP]--+--(VALVE)
+              +--(LAMP)
+)";
+
+constexpr const char* kGsk = R"(FUNC END1
+LD   X0.0
+OUT  Y0.0
+FUNC END2
+)";
+
+constexpr const char* kTechnol = R"(DATA
+PIN:    DFM BUTTON,,,,,,,
+POUT:   DFM VALVE,,,,,,,
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_MAIN
+        LDR  BUTTON
+        WR   VALVE
+MODULE_MAIN_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+)";
+
+class HostWrite : public testing::Test {
+protected:
+  void start(const std::string& dialect, const char* text) {
+    driver::CompileRequest request;
+    request.dialect = dialect;
+    const FileId file = sources_.addBuffer("program", text);
+    Diagnostics diagnostics;
+    compiled_ = driver::compile(sources_, std::span(&file, 1), request, diagnostics);
+    ASSERT_TRUE(compiled_) << renderText(diagnostics, sources_);
+    engine_ = driver::makeEngine(driver::EngineKind::Interp, *compiled_, {}).value();
+    instance_ = driver::makeInstance(*engine_, nullptr);
+  }
+  uint64_t read(std::string_view name) { return instance_->read(*instance_->resolve(name)); }
+
+  SourceManager sources_;
+  std::optional<driver::Compiled> compiled_;
+  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<host::Instance> instance_;
+};
+
+TEST_F(HostWrite, NctInputsAreWrittenInTheTimeSliceMemory) {
+  start("nct", kNct);
+  const std::string lost = "a value written to B_CLAMP is lost: !B_CLAMP is copied over it before the program reads it; "
+                           "write !B_CLAMP";
+  EXPECT_EQ(instance_->write(*instance_->resolve("B_CLAMP"), 1), lost);
+  EXPECT_EQ(instance_->write("B_CLAMP", 1), lost);
+  ASSERT_EQ(instance_->write("!B_CLAMP", 1), "");
+  instance_->scan();
+  EXPECT_EQ(read("VALVE"), 1u);
+  EXPECT_NE(instance_->write("VALVE", 0), "") << "the machine's copy is !VALVE";
+  EXPECT_EQ(instance_->write("LAMP", 0), "") << "user memory has one copy";
+}
+
+TEST_F(HostWrite, GskInputsAreWrittenWhereTheyAreRead) {
+  start("gsk", kGsk);
+  ASSERT_EQ(instance_->write("X0.0", 1), "");
+  instance_->scan();
+  EXPECT_EQ(read("Y0.0"), 1u);
+  EXPECT_EQ(instance_->write("R900", 5), "");
+  EXPECT_EQ(instance_->write("R1000", 5), "");
+}
+
+TEST_F(HostWrite, TechnolInputsAreWrittenWhereTheyAreRead) {
+  start("technol", kTechnol);
+  ASSERT_EQ(instance_->write("BUTTON", 1), "");
+  instance_->scan();
+  EXPECT_EQ(read("VALVE"), 1u);
+  EXPECT_EQ(instance_->write("NOTHING", 1), "the program has no name or address 'NOTHING'");
+}
+
+} // namespace
+} // namespace rung

@@ -6,11 +6,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frontend/table/instruction.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
+#include "rtlib/nc/config_key.h"
 
 namespace rung::frontend {
 
@@ -18,15 +20,22 @@ struct CompileOptions {
   // The dialect's configuration (scenario `config KEY VALUE`), and the key "period_us" when a period was asked for.
   // Keys that the compiler does not use are none of its business: they may be the NC model's.
   std::map<std::string, std::string> config;
-  bool strict = false; // warnings that the inventory calls errors in strict mode are errors
+  std::map<std::string, SourceRange> configPlaces; // of the values that a project file gives
+  std::vector<std::string> includePaths; // folders where included files are looked for after those of the program
+  bool strict = false;                   // warnings that the inventory calls errors in strict mode are errors
+
+  // Where the value of a key is written; an invalid range when that is not in a file.
+  SourceRange placeOf(const std::string& key) const {
+    const auto found = configPlaces.find(key);
+    return found == configPlaces.end() ? SourceRange{} : found->second;
+  }
 };
 
 struct Dialect {
   std::string_view name;                        // "gsk"
   std::string_view title;                       // "GSK25iMc / GSK25iTc PLC"
   std::span<const std::string_view> extensions; // of source files that need not name the dialect, e.g. ".pmc"
-  std::span<const std::string_view>
-      configKeys; // what compile reads from CompileOptions::config; "tmr.*" names a family
+  std::span<const nc::ConfigKey> configKeys;    // of compile (CompileOptions::config) and of the simulated control
   // The rows, in the order of the reference.
   std::span<const InstructionInfo* const> instructions;
   std::span<const OperandKindInfo> operandKinds;
@@ -37,7 +46,8 @@ struct Dialect {
                                          const CompileOptions& options, Diagnostics& diagnostics);
   // Sections of the reference page behind the instructions, in Markdown; null when there are none.
   std::string (*reference)() = nullptr;
-  // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be null.
+  // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be
+  // null.
   std::string (*explain)(std::string_view word) = nullptr;
   // The program's lines as its mechanisms number them, with the numbers of its rungs, of files that were compiled to
   // `module`. May be null.

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <iterator>
 
+#include "frontend/ladder/ladder.h"
 #include "ir/passes/pipeline.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
@@ -32,8 +33,12 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
     return named;
   }
   const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
-  if (found == nullptr) diagnostics.report(Diag::MissingDialect, start);
-  return found;
+  if (found != nullptr) return found;
+  if (const std::string_view unknown = ladder::peekDialect(sources, files[0]); !unknown.empty())
+    diagnostics.report(Diag::UnknownDialect, start) << unknown;
+  else
+    diagnostics.report(Diag::MissingDialect, start);
+  return nullptr;
 }
 
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names) {
@@ -67,6 +72,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   checkModule(*out.module, ir::Mode::Final);
   out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
   out.codeHash = hashBytes(ir::print(*out.module));
+  out.warnings = diagnostics.warningCount();
   return out;
 }
 

@@ -27,13 +27,14 @@ struct Compiled {
   std::unique_ptr<ir::Module> module; // final, optimised
   std::unique_ptr<ir::Layout> layout;
   uint64_t codeHash = 0; // of the IR's text
+  size_t warnings = 0;   // that were reported on the way
 };
 
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
 
-// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing tells; that is
-// reported.
+// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing tells; that
+// is reported.
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
                                        const std::string& name, Diagnostics& diagnostics);
 

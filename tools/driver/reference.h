@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frontend/dialects/dialect.h"
 
@@ -15,7 +16,20 @@ std::string dialectReference(const frontend::Dialect& dialect);
 std::string diagnosticReference();
 // Markdown of the operations of the IR.
 std::string operationReference();
-// What is known about a diagnostic code or a mnemonic (of every dialect that has it); nothing when unknown.
+// What is known about a diagnostic code, a fault, or (of every dialect that has it) a mnemonic, a configuration key, a
+// signal; nothing when unknown. Markdown, as all of these.
 std::optional<std::string> explain(std::string_view word);
+// What there is to be explained, and a list of one kind of it: a dialect, "diagnostics", "faults", "config".
+std::string explainTopics();
+std::optional<std::string> explainTopic(std::string_view word);
+
+// Everything that has a name, to be searched.
+struct ReferenceEntry {
+  std::string name;
+  std::string kind; // "nct instruction", "error"
+  std::string title;
+  std::string group; // of an instruction or a signal
+};
+std::vector<ReferenceEntry> referenceEntries();
 
 } // namespace rung::driver

@@ -1,4 +1,5 @@
 // rungc build and rungc emit: a shared object, or any text on the way to it.
+#include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 
@@ -67,10 +68,18 @@ int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
 
 int writeListing(const SourceManager& sources, const driver::Compiled& compiled, const std::string& name) {
   if (compiled.dialect->listing == nullptr) {
-    fmt::print(stderr, "rungc: programs of {} have no listing\n", compiled.dialect->name);
-    return kUsage;
+    return usageError(fmt::format("programs of {} have no listing", compiled.dialect->name));
   }
   return writeFile(compiled.dialect->listing(sources, compiled.files, *compiled.module), name);
+}
+
+// With the size of what a machine gets.
+std::string writtenBy(const BuildOptions& options) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(options.out, error);
+  std::string text = options.out;
+  if (!error) text += fmt::format(" ({} kB)", (bytes + 1023) / 1024);
+  return options.listing.empty() ? text : text + " and " + options.listing;
 }
 
 int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
@@ -86,6 +95,7 @@ int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
   else
     text = codegen::emitAssembly(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   if (!text.ok()) return environmentError(text.error());
+  if (!options.out.empty() && options.out != "-") return writeFile(text.value(), options.out);
   std::cout << text.value();
   return kOk;
 }
@@ -96,18 +106,25 @@ void addBuild(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("build", "Compile a program to a shared object");
   auto options = std::make_shared<BuildOptions>();
   addCodeOptions(*command, *options);
-  command->add_option("-o,--output", options->out, "The shared object to write")->required();
+  command->add_option("-o,--output", options->out,
+                      "The shared object to write; in a project NAME.so beside its rung.toml without it");
   command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")
       ->check(CLI::IsMember({"llvm", "cpp"}));
   command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
   command->add_option("--listing", options->listing,
                       "Write the program's numbered lines, to which name_LINE refers (technol)");
   command->callback([options, &status] {
+    if (options->out.empty() && !options->source.project) {
+      status = usageError("build: -o says which file to write; only a project has a name for it");
+      return;
+    }
+    if (options->out.empty()) options->out = project::productOf(*options->source.project, ".so");
     SourceManager sources;
     auto compiled = compileSources(sources, options->source, requestOf(*options), status);
     if (!compiled) return;
     if (!options->listing.empty()) status = writeListing(sources, *compiled, options->listing);
     if (status == kOk) status = buildObject(*compiled, *options);
+    if (status == kOk) printSummary(*compiled, options->source, writtenBy(*options));
   });
 }
 
@@ -117,6 +134,7 @@ void addEmit(CLI::App& app, int& status) {
   command->add_option("WHAT", options->what, "cpp, ir, layout, llvm or asm")
       ->required()
       ->check(CLI::IsMember({"cpp", "ir", "layout", "llvm", "asm"}));
+  command->add_option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
   addCodeOptions(*command, *options);
   command->callback([options, &status] {
     SourceManager sources;

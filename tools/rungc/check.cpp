@@ -9,7 +9,7 @@ void addCheck(CLI::App& app, int& status) {
   addSourceOptions(*command, *options);
   command->callback([options, &status] {
     SourceManager sources;
-    compileSources(sources, *options, {}, status);
+    if (const auto compiled = compileSources(sources, *options, {}, status)) printSummary(*compiled, *options, "");
   });
 }
 

@@ -2,26 +2,40 @@
 // its exit status in `status`: 0 ok, 1 the program or scenario is wrong, 2 usage, 3 environment.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/driver/compile.h"
+#include "tools/project/project.h"
 
 namespace rung::rungc {
 
 enum ExitStatus { kOk = 0, kWrong = 1, kUsage = 2, kEnvironment = 3 };
 
-// What every command that compiles takes.
+// What every command that compiles takes. When the command runs, files, dialect and configuration of the project are in
+// it already (see takeProject).
 struct SourceOptions {
   std::vector<std::string> files;
   std::string dialect;
-  std::vector<std::string> config; // KEY=VALUE
+  std::vector<std::string> config; // KEY=VALUE, those of the project first
+  std::string projectFile;         // --project
+  bool noProject = false;
+  std::optional<project::Project> project; // that the files belong to
   bool strict = false;
   bool json = false;
+  bool quiet = false;
   std::string color = "auto";
 };
 
 void addSourceOptions(CLI::App& command, SourceOptions& options);
+// Finds the project: that of --project, of the only folder or rung.toml among the files, that all the named files
+// belong to, or without files the nearest one from the working directory upwards. What it says goes into the options;
+// those of the command line go before it. Gives the exit status.
+int takeProject(SourceOptions& options);
+// The project that a folder or a rung.toml names, or with "" the nearest one upwards; its mistakes are printed.
+// Nothing, and `status` says why, when there is none.
+std::optional<project::Project> openProject(const std::string& named, const SourceOptions& options, int& status);
 void addColorOption(CLI::App& command, std::string& color, const std::string& what);
 // By the option and, with auto, whether the file is a terminal.
 bool wantsColor(const std::string& color, int file);
@@ -35,8 +49,12 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
                                               frontend::CompileOptions& compile, int& status);
 // To standard error, as JSON to standard output.
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options);
+// Prints "rungc: MESSAGE" and gives kUsage.
+int usageError(const std::string& message);
 // Prints "rungc: MESSAGE" and gives kEnvironment.
 int environmentError(const std::string& message);
+// "mill.pmc, 540 rungs, no warnings" on standard output, with what was written; nothing with --quiet or --json.
+void printSummary(const driver::Compiled& compiled, const SourceOptions& options, const std::string& written);
 // Gives the exit status.
 int writeFile(const std::string& text, const std::string& out);
 
@@ -50,5 +68,7 @@ void addProfile(CLI::App& app, int& status);
 void addExplain(CLI::App& app, int& status);
 void addDoc(CLI::App& app, int& status);
 void addView(CLI::App& app, int& status);
+void addHelp(CLI::App& app, int& status);
+void addNew(CLI::App& app, int& status);
 
 } // namespace rung::rungc

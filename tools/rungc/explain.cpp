@@ -1,27 +1,89 @@
 // rungc explain and rungc doc: the reference, an entry or a page at a time.
+#include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <iostream>
+#include <iterator>
 
+#include "ir/support/similar.h"
 #include "tools/driver/reference.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/plain_text.h"
 
 namespace rung::rungc {
+namespace {
+
+constexpr size_t kShown = 40; // of what a search finds
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+// Names first, then titles.
+std::vector<driver::ReferenceEntry> search(const std::vector<driver::ReferenceEntry>& entries,
+                                           const std::string& word) {
+  std::vector<driver::ReferenceEntry> found;
+  const auto contains = [&](const std::string& text) { return lower(text).find(lower(word)) != std::string::npos; };
+  std::copy_if(entries.begin(), entries.end(), std::back_inserter(found),
+               [&](const auto& entry) { return contains(entry.name); });
+  std::copy_if(entries.begin(), entries.end(), std::back_inserter(found), [&](const auto& entry) {
+    return !contains(entry.name) && (contains(entry.title) || contains(entry.group));
+  });
+  return found;
+}
+
+std::string listed(const std::vector<driver::ReferenceEntry>& found) {
+  std::string text = "| name | kind | |\n| --- | --- | --- |\n";
+  for (size_t i = 0; i < std::min(found.size(), kShown); ++i) {
+    std::string title = found[i].title.substr(0, found[i].title.find_first_of(".\n"));
+    std::replace(title.begin(), title.end(), '|', '/');
+    text += fmt::format("| {} | {} | {} |\n", found[i].name, found[i].kind, title);
+  }
+  if (found.size() > kShown) text += fmt::format("\nand {} more; a longer word finds fewer\n", found.size() - kShown);
+  return text;
+}
+
+int reportUnknown(const std::vector<driver::ReferenceEntry>& entries, const std::string& word) {
+  Similar similar(word);
+  for (const driver::ReferenceEntry& entry : entries) similar.offer(entry.name);
+  const std::string meant = similar.best().empty() ? "" : fmt::format("; did you mean {}?", similar.best());
+  fmt::print(stderr, "rungc: nothing is called '{}', and no name or title contains it{}{}\n", word, meant,
+             meant.empty() ? "; `rungc explain` lists the topics" : "");
+  return kWrong;
+}
+
+int explainWord(const std::string& word) {
+  std::optional<std::string> text = driver::explainTopic(word);
+  if (!text) text = driver::explain(word);
+  if (text) {
+    std::cout << plainText(*text);
+    return kOk;
+  }
+  const std::vector<driver::ReferenceEntry> entries = driver::referenceEntries();
+  const std::vector<driver::ReferenceEntry> found = search(entries, word);
+  if (found.empty()) return reportUnknown(entries, word);
+  std::cout << plainText(listed(found));
+  return kOk;
+}
+
+} // namespace
 
 void addExplain(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("explain", "Explain a diagnostic code, an instruction or a signal");
+  CLI::App* command =
+      app.add_subcommand("explain", "Explain a diagnostic, an instruction, a signal, a fault, a configuration key");
   auto word = std::make_shared<std::string>();
-  command
-      ->add_option(
-          "WORD", *word,
-          "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF, its address F7.0, or AN_PLCA")
-      ->required();
+  command->add_option(
+      "WORD", *word,
+      "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF or F7.0, a fault such "
+      "as dead-loop, a key such as slot_steps, or a part of a word; without it the topics are listed");
   command->callback([word, &status] {
-    const std::optional<std::string> text = driver::explain(*word);
-    if (text)
-      std::cout << *text;
+    if (word->empty())
+      std::cout << plainText(driver::explainTopics());
     else
-      fmt::print(stderr, "rungc: no diagnostic code, instruction or signal: '{}'\n", *word);
-    status = text ? kOk : kWrong;
+      status = explainWord(*word);
   });
 }
 

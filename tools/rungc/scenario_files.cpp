@@ -7,6 +7,7 @@
 #include <fnmatch.h>
 #include <iterator>
 
+#include "tools/rungc/commands.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::rungc {
@@ -14,18 +15,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<std::vector<std::string>> scenariosBelow(const std::string& folder) {
-  std::vector<std::string> found;
+using Files = std::vector<std::string>;
+
+std::optional<Files> scenariosBelow(const std::string& folder, int& status) {
+  Files found;
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code none;
     if (at->path().extension() == ".scn" && !at->is_directory(none))
       found.push_back(at->path().lexically_normal().string());
   }
-  if (error) return failure(fmt::format("cannot read the folder '{}': {}", folder, error.message()));
-  if (found.empty()) return failure(fmt::format("there is no scenario (*.scn) in or below '{}'", folder));
+  if (error || found.empty()) {
+    status = usageError(error ? fmt::format("cannot read the folder '{}': {}", folder, error.message())
+                              : fmt::format("there is no scenario (*.scn) in or below '{}'", folder));
+    return std::nullopt;
+  }
   std::ranges::sort(found);
   return found;
+}
+
+std::optional<Files> ofProject(const std::string& named, int& status) {
+  const auto project = openProject(named, {}, status);
+  if (!project) return std::nullopt;
+  if (!project->scenarios.empty()) return project->scenarios;
+  status = usageError(fmt::format("{} has no scenario: no file matches its key scenarios", project->file));
+  return std::nullopt;
+}
+
+std::optional<Files> oneFile(const std::string& name, int& status) {
+  const std::string problem = scenario::notAScenario(name);
+  if (problem.empty()) return Files{name};
+  status = usageError(problem);
+  return std::nullopt;
 }
 
 bool matches(const std::string& path, const std::string& filter) {
@@ -36,18 +57,20 @@ bool matches(const std::string& path, const std::string& filter) {
 
 } // namespace
 
-Result<std::vector<std::string>> scenarioFiles(const std::vector<std::string>& names) {
+std::optional<std::vector<std::string>> scenarioFiles(const std::vector<std::string>& names, int& status) {
+  if (names.empty()) return ofProject("", status);
   std::vector<std::string> files;
   for (const std::string& name : names) {
     std::error_code none;
-    if (!fs::is_directory(name, none)) {
-      if (std::string problem = scenario::notAScenario(name); !problem.empty()) return failure(std::move(problem));
-      files.push_back(name);
-      continue;
-    }
-    Result<std::vector<std::string>> below = scenariosBelow(name);
-    if (!below.ok()) return below.failure();
-    std::ranges::move(below.value(), std::back_inserter(files));
+    std::optional<std::vector<std::string>> found;
+    if (!fs::is_directory(name, none))
+      found = oneFile(name, status);
+    else if (fs::is_regular_file(fs::path(name) / project::kFileName, none))
+      found = ofProject(name, status);
+    else
+      found = scenariosBelow(name, status);
+    if (!found) return std::nullopt;
+    std::ranges::move(*found, std::back_inserter(files));
   }
   return files;
 }

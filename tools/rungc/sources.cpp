@@ -1,23 +1,36 @@
 // Options and steps that all compiling commands share.
+#include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <unistd.h>
 
 #include "ir/support/diag_render.h"
+#include "tools/driver/configuration.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
 
 void addSourceOptions(CLI::App& command, SourceOptions& options) {
-  command.add_option("FILE", options.files, "Source files in order (.lad, .pmc, .plc); - reads standard input")
-      ->required();
+  command.add_option("FILE", options.files,
+                     "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
+                     "without any, the project (rung.toml) of the working directory or of a folder above it");
+  CLI::Option* project =
+      command.add_option("--project", options.projectFile, "The project file, or its folder, instead of the one found");
+  command.add_flag("--no-project", options.noProject, "The named files alone, without the project that they belong to")
+      ->excludes(project);
   command.add_option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not tell");
   command.add_option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated")
       ->allow_extra_args(false);
   command.add_flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
   command.add_flag("--json", options.json, "Diagnostics as JSON on standard output");
+  command.add_flag("-q,--quiet", options.quiet, "Nothing but errors and warnings");
   addColorOption(command, options.color, "Colours in diagnostics");
+  command.parse_complete_callback([&command, &options] {
+    if (!command.remaining().empty()) return; // a word that it does not take: that is reported first
+    if (const int status = takeProject(options); status != kOk) throw CLI::RuntimeError(status);
+  });
 }
 
 void addColorOption(CLI::App& command, std::string& color, const std::string& what) {
@@ -34,6 +47,11 @@ void addLevelOption(CLI::App& command, std::string& level) {
       ->capture_default_str();
 }
 
+int usageError(const std::string& message) {
+  fmt::print(stderr, "rungc: {}\n", message);
+  return kUsage;
+}
+
 int environmentError(const std::string& message) {
   fmt::print(stderr, "rungc: {}\n", message);
   return kEnvironment;
@@ -45,6 +63,31 @@ int writeFile(const std::string& text, const std::string& out) {
   return file ? kOk : environmentError(fmt::format("cannot write '{}'", out));
 }
 
+namespace {
+
+std::string counted(size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+size_t rungsOf(const ir::Module& module) {
+  size_t count = 0;
+  for (const ir::Routine& routine : module.routines)
+    for (const ir::Rung& rung : routine.rungs) count += rung.number != 0 ? 1 : 0; // the others are the compiler's
+  return count;
+}
+
+std::string closingLine(const Diagnostics& diagnostics) {
+  const std::vector<const Diagnostic*> sorted = diagnostics.sorted();
+  const auto first =
+      std::find_if(sorted.begin(), sorted.end(), [](const Diagnostic* d) { return d->severity == Severity::Error; });
+  std::string text = counted(diagnostics.errorCount(), "error");
+  if (diagnostics.warningCount() > 0) text += ", " + counted(diagnostics.warningCount(), "warning");
+  if (first == sorted.end()) return text + "\n";
+  return fmt::format("{}; try `rungc explain {}`\n", text, diagInfo((*first)->id).code);
+}
+
+} // namespace
+
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options) {
   if (options.json) {
     std::cout << renderJson(diagnostics, sources) << '\n';
@@ -53,24 +96,91 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
   RenderOptions render;
   render.color = wantsColor(options.color, STDERR_FILENO);
   std::cerr << renderText(diagnostics, sources, render);
+  if (diagnostics.hasErrors()) std::cerr << closingLine(diagnostics);
 }
+
+void printSummary(const driver::Compiled& compiled, const SourceOptions& options, const std::string& written) {
+  if (options.quiet || options.json) return;
+  const std::string what = options.project             ? options.project->file
+                           : options.files.size() == 1 ? options.files[0]
+                                                       : fmt::format("{} files", options.files.size());
+  const std::string of = options.project ? fmt::format(" ({})", counted(options.files.size(), "file")) : "";
+  fmt::print("{}{}: {}, {}{}\n", what, of, counted(rungsOf(*compiled.module), "rung"),
+             compiled.warnings == 0 ? "no warnings" : counted(compiled.warnings, "warning"),
+             written.empty() ? "" : "; wrote " + written);
+}
+
+namespace {
+
+// The project file was read into another SourceManager; the same places in this one.
+std::map<std::string, SourceRange> placesOf(const project::Project& project,
+                                            const std::map<std::string, std::string>& config, SourceManager& sources) {
+  std::map<std::string, SourceRange> places;
+  const Result<FileId> file = sources.addFile(project.file);
+  if (!file.ok()) return places;
+  for (const project::Setting& setting : project.config)
+    if (config.at(setting.key) == setting.value) // else --config goes before it
+      places[setting.key] = sources.range(file.value(), setting.begin, setting.end);
+  return places;
+}
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+// Nothing, and `status` says why, where one is not KEY=VALUE.
+std::optional<Pairs> pairsOf(const std::vector<std::string>& config, int& status) {
+  Pairs pairs;
+  for (const std::string& pair : config) {
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      status = usageError(fmt::format("--config takes KEY=VALUE, found '{}'", pair));
+      return std::nullopt;
+    }
+    pairs.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+  }
+  return pairs;
+}
+
+const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const FileId> files,
+                                   const SourceOptions& options) {
+  Diagnostics unheard; // who compiles reports it
+  return files.empty() ? nullptr : driver::chooseDialect(sources, files, options.dialect, unheard);
+}
+
+// Those of --config; the project's have been checked with their places.
+int checkNamedConfig(const frontend::Dialect& dialect, const Pairs& config) {
+  int status = kOk;
+  for (const driver::ConfigProblem& problem : driver::checkConfiguration(dialect, config, ""))
+    status = usageError("--config " + problem.text);
+  return status;
+}
+
+void checkNames(const driver::Compiled& compiled, const SourceManager& sources, const frontend::CompileOptions& compile,
+                Diagnostics& diagnostics) {
+  const Pairs pairs(compile.config.begin(), compile.config.end());
+  for (const driver::ConfigProblem& problem : driver::checkNamesOfProgram(*compiled.dialect, sources, pairs))
+    driver::report(problem, *compiled.dialect, compile.placeOf(problem.key), diagnostics);
+}
+
+} // namespace
 
 std::optional<std::vector<FileId>> addSources(SourceManager& sources, const SourceOptions& options,
                                               frontend::CompileOptions& compile, int& status) {
   compile.strict = options.strict;
-  for (const std::string& pair : options.config) {
-    const size_t equals = pair.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      fmt::print(stderr, "rungc: --config takes KEY=VALUE, found '{}'\n", pair);
-      status = kUsage;
-      return std::nullopt;
-    }
-    compile.config[pair.substr(0, equals)] = pair.substr(equals + 1);
+  const auto pairs = pairsOf(options.config, status);
+  if (!pairs) return std::nullopt;
+  for (const auto& [key, value] : *pairs) compile.config[key] = value;
+  const Result<std::vector<FileId>> files = driver::addFiles(sources, options.files);
+  if (!files.ok()) {
+    status = environmentError(files.error());
+    return std::nullopt;
   }
-  Result<std::vector<FileId>> files = driver::addFiles(sources, options.files);
-  if (files.ok()) return files.value();
-  status = environmentError(files.error());
-  return std::nullopt;
+  if (options.project) {
+    compile.includePaths = options.project->includePaths;
+    compile.configPlaces = placesOf(*options.project, compile.config, sources);
+  }
+  const frontend::Dialect* dialect = dialectOf(sources, files.value(), options);
+  if (dialect != nullptr) status = checkNamedConfig(*dialect, *pairs);
+  return status == kOk ? std::optional(files.value()) : std::nullopt;
 }
 
 std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
@@ -80,6 +190,8 @@ std::optional<driver::Compiled> compileSources(SourceManager& sources, const Sou
   if (!files) return std::nullopt;
   Diagnostics diagnostics;
   std::optional<driver::Compiled> compiled = driver::compile(sources, *files, request, diagnostics);
+  if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
+  if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);
   status = compiled ? kOk : kWrong;
   return compiled;

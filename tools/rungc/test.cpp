@@ -73,11 +73,6 @@ int writeJunit(const std::string& path, const std::vector<TestCase>& tests) {
   return path.empty() ? int{kOk} : writeFile(junitXml(tests), path);
 }
 
-int usageError(const std::string& message) {
-  fmt::print(stderr, "rungc: {}\n", message);
-  return kUsage;
-}
-
 // Folders among the names: a new scenario in them counts, too.
 std::vector<std::string> foldersOf(const std::vector<std::string>& names) {
   std::vector<std::string> folders;
@@ -127,10 +122,10 @@ int runTests(const TestOptions& options) {
   run.engine.optimise = options.level != "0";
   for (int status = kOk;;) {
     const auto since = std::filesystem::file_time_type::clock::now();
-    const Result<std::vector<std::string>> found = scenarioFiles(options.names);
-    if (!found.ok()) return usageError(found.error());
-    const std::vector<std::string> files = filtered(found.value(), options.filters);
-    if (files.empty()) return usageError(fmt::format("none of the {} scenarios fits --filter", found.value().size()));
+    const std::optional<std::vector<std::string>> found = scenarioFiles(options.names, status);
+    if (!found) return status;
+    const std::vector<std::string> files = filtered(*found, options.filters);
+    if (files.empty()) return usageError(fmt::format("none of the {} scenarios fits --filter", found->size()));
     const Outcome outcome = runOnce(files, options, run);
     status = std::max(outcome.status, writeJunit(options.junit, outcome.tests));
     if (!options.watchFiles || !waitForChange(options, outcome.tests, since, status)) return status;
@@ -142,7 +137,10 @@ int runTests(const TestOptions& options) {
 void addTest(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("test", "Run scenarios; several engines are compared after every scan");
   auto options = std::make_shared<TestOptions>();
-  command->add_option("SCENARIO", options->names, "Scenario files, and folders: every *.scn below")->required();
+  command->add_option(
+      "SCENARIO", options->names,
+      "Scenario files; folders: the scenarios of the project in it, else every *.scn below; without any, those of the "
+      "project of the working directory");
   command->add_option("--engine", options->engines, "interp, cpp, llvm, jit, a list of them with commas, or all")
       ->capture_default_str();
   command->add_option("-j,--jobs", options->threads, "So many scenarios at a time; default: one a processor")

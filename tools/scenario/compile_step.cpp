@@ -7,6 +7,7 @@
 
 #include "ir/support/diag_render.h"
 #include "ir/support/similar.h"
+#include "tools/driver/configuration.h"
 
 namespace rung::scenario {
 namespace {
@@ -87,12 +88,21 @@ void checkOthers(const Scenario& scenario, const std::vector<Reported>& reported
                               renderText(others, sources)));
 }
 
+void checkNames(const Scenario& scenario, const driver::Compiled& compiled, const SourceManager& sources,
+                std::vector<Problem>& problems) {
+  for (const Statement& s : scenario.statements) {
+    if (s.kind != Kind::Config) continue;
+    const std::pair<std::string, std::string> config[] = {{s.name, s.value.text}};
+    for (const driver::ConfigProblem& problem : driver::checkNamesOfProgram(*compiled.dialect, sources, config))
+      problems.push_back(problemAt(s, problem.text));
+  }
+}
+
 } // namespace
 
 bool readsKey(const frontend::Dialect& dialect, std::string_view key) {
-  for (std::string_view known : dialect.configKeys)
-    if (known == key || (known.ends_with('*') && key.starts_with(known.substr(0, known.size() - 1)))) return true;
-  return false;
+  const nc::ConfigKey* row = nc::findConfigKey(dialect.configKeys, key);
+  return row != nullptr && row->reader == nc::ConfigReader::Compiler;
 }
 
 CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
@@ -109,6 +119,7 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
     if (s.kind == Kind::Config) request.options.config[s.name] = s.value.text;
   }
+  request.options.includePaths = scenario.includePaths;
   SourceManager sources;
   Result<std::vector<FileId>> files = driver::addFiles(sources, names);
   if (!files.ok()) {
@@ -126,6 +137,7 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
   if (!errorExpected && !step.program)
     step.problems.push_back(
         problemAt(scenario.statements[0], "the program has errors:\n" + renderText(diagnostics, sources)));
+  if (step.program) checkNames(scenario, *step.program, sources, step.problems);
   if (errorExpected) step.program.reset();
   return step;
 }

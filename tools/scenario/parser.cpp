@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "frontend/dialects/dialect.h"
+#include "tools/scenario/in_project.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/statements.h"
 
@@ -115,8 +116,11 @@ Scenario parse(std::string path, std::string_view text) {
   scenario.files.push_back(scenario.path);
   Reader(scenario).readFile(scenario.path, text);
   if (!scenario.statements.empty() && scenario.statements[0].kind == Kind::Program) return scenario;
+  if (!scenario.startUnknown && takeProject(scenario)) return scenario;
   if (!scenario.startUnknown) // else a line that cannot be read may be the one
-    scenario.problems.insert(scenario.problems.begin(), {scenario.path, 1, "a scenario begins with: program FILE"});
+    scenario.problems.insert(
+        scenario.problems.begin(),
+        {scenario.path, 1, "a scenario begins with: program FILE; only in a project it may be left out"});
   scenario.startUnknown = true;
   return scenario;
 }

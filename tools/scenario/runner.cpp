@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "tools/driver/configuration.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
@@ -97,10 +98,15 @@ private:
     return configure(*program_->compiled().dialect) && powerOn();
   }
 
+  std::string configure(const frontend::Dialect& dialect, const Statement& s) {
+    if (nc::findConfigKey(dialect.configKeys, s.name) == nullptr) return driver::unknownKeyText(dialect, s.name);
+    return session_.config(s.name, s.value.text);
+  }
+
   bool configure(const frontend::Dialect& dialect) {
     for (const Statement& s : scenario_.statements) {
       std::string problem;
-      if (s.kind == Kind::Config && !readsKey(dialect, s.name)) problem = session_.config(s.name, s.value.text);
+      if (s.kind == Kind::Config && !readsKey(dialect, s.name)) problem = configure(dialect, s);
       if (s.kind == Kind::Connect) problem = session_.connect(s.words[0], s.words[1]);
       if (problem.empty()) continue;
       fail(s, problem);

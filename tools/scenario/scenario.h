@@ -99,6 +99,7 @@ struct Scenario {
   std::vector<Problem> problems; // a scenario with problems must not run
   // A line that cannot be read may be one without which nothing is known of the program and its start.
   bool startUnknown = false;
+  std::vector<std::string> includePaths; // of the project that it belongs to (in_project.h)
 };
 
 Scenario parse(std::string path, std::string_view text);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "rtlib/nc/config_key.h"
+
 namespace rung::gsk {
 namespace {
 
@@ -14,7 +16,6 @@ constexpr uint64_t kMaxParts = 1000; // 8 s
 constexpr uint64_t kNumbers = 100;   // of timers and counters
 constexpr uint64_t kMaxWord = 65535;
 constexpr const char* kSlotSteps = "slot_steps";
-constexpr uint64_t kMaxSlotSteps = 1'000'000;
 
 // The number behind `prefix`, 1-100; nullopt when the key is another one.
 std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) {
@@ -50,19 +51,19 @@ std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
 void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (const auto period = periodOf(options);
       period && (*period == 0 || *period % kSlotUs != 0 || *period / kSlotUs > kMaxParts))
-    diagnostics.report(Diag::ConstantOutOfRange)
+    diagnostics.report(Diag::ConstantOutOfRange, options.placeOf("period_us"))
         << fmt::format("period_us {}", options.config.at("period_us"))
         << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
   if (const auto steps = options.config.find(kSlotSteps); steps != options.config.end()) {
-    const uint64_t value = parseDigits(steps->second).value_or(0);
-    if (value == 0 || value > kMaxSlotSteps)
-      diagnostics.report(Diag::ConstantOutOfRange)
-          << fmt::format("{} {}", kSlotSteps, steps->second) << fmt::format("1 to {}", kMaxSlotSteps);
+    const nc::ConfigKey& row = *nc::findConfigKey(nc::gskConfigKeys(), kSlotSteps);
+    if (!nc::wrongValue(row, kSlotSteps, steps->second).empty())
+      diagnostics.report(Diag::ConstantOutOfRange, options.placeOf(kSlotSteps))
+          << fmt::format("{} {}", kSlotSteps, steps->second) << nc::takesOf(row);
   }
   for (const auto& [key, text] : options.config) {
     const auto entry = entryOf(key, text);
     if (!entry || isSound(*entry)) continue;
-    diagnostics.report(Diag::ConstantOutOfRange)
+    diagnostics.report(Diag::ConstantOutOfRange, options.placeOf(key))
         << fmt::format("{} {}", key, text)
         << fmt::format("{}.1 to {}.{} with 0 to {}", entry->family, entry->family, kNumbers, entry->max);
   }
@@ -85,7 +86,8 @@ Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& 
   if (at == options.config.end()) return Machine::Any;
   if (at->second == "mill") return Machine::Mill;
   if (at->second == "turn") return Machine::Turn;
-  diagnostics.report(Diag::ConstantOutOfRange) << "machine " + at->second << "mill, turn";
+  diagnostics.report(Diag::ConstantOutOfRange, options.placeOf("machine"))
+      << "machine " + at->second << nc::takesOf(*nc::findConfigKey(nc::gskConfigKeys(), "machine"));
   return Machine::Any;
 }
 

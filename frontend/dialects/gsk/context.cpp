@@ -80,6 +80,14 @@ void suggestName(const Context& context, const Word& word, DiagBuilder& report) 
         fmt::format("did you mean {} ({}, {})?", signal->symbol, textOf(signalAddress(*signal)), signal->meaning));
 }
 
+// Of an instruction: names of other controls (TON, CTU) are like none of these.
+void suggest(const Similar& similar, DiagBuilder& report) {
+  if (similar.best().empty())
+    report.note("`rungc explain gsk` lists the instructions by what they do");
+  else
+    report.note(fmt::format("did you mean {}?", similar.best()));
+}
+
 void reportUnknown(Context& context, const Word& word, std::string_view what) {
   DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
   report << word.text << fmt::format("{} address, signal or declared name", what);
@@ -164,7 +172,7 @@ void reportUnknownCommand(Context& context, const Word& word, std::span<const st
   if (context.diagnostics.errorCount() > kMostSuggestions) return;
   Similar similar(word.text);
   for (std::string_view command : commands) similar.offer(command);
-  if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
+  suggest(similar, report);
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
@@ -174,7 +182,7 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   Similar similar(name);
   for (const Row& row : allRows())
     if (row.info.number >= 0) similar.offer(row.info.mnemonic);
-  if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
+  suggest(similar, report);
 }
 
 void countStep(Context& context, SourceRange range) {

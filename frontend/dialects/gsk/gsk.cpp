@@ -38,7 +38,6 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
 }
 
 constexpr std::string_view kExtensions[] = {".pmc"};
-constexpr std::string_view kConfigKeys[] = {"tmr.*", "ctr.*", "slot_steps", "machine", "messages"};
 
 } // namespace
 
@@ -52,7 +51,7 @@ const frontend::Dialect kGsk = {
     .name = "gsk",
     .title = "GSK25iMc / GSK25iTc PLC",
     .extensions = kExtensions,
-    .configKeys = kConfigKeys,
+    .configKeys = nc::gskConfigKeys(),
     .instructions = instructionInfos(),
     .operandKinds = operandKindInfos(),
     .isBuilt = isBuilt,

@@ -7,6 +7,7 @@
 
 #include "frontend/dialects/gsk/config.h"
 #include "ir/support/hash.h"
+#include "rtlib/nc/faults.h"
 
 namespace rung::gsk {
 namespace {
@@ -53,7 +54,7 @@ ModuleLowering::ModuleLowering(const Program& program, Context& context, std::sp
 std::unique_ptr<ir::Module> ModuleLowering::run() {
   module_->name = files_.empty() ? "" : stemOf(context_.sources.name(files_[0]));
   module_->dialect = "gsk";
-  module_->faults.emplace_back("dead-loop");
+  module_->faults.emplace_back(nc::kGskDeadLoop);
   addFiles();
   addSpaces();
   addSymbols();

@@ -76,25 +76,6 @@ void pins(Page& page) {
   }
 }
 
-void configuration(Page& page) {
-  page.heading("## Configuration");
-  page.line("`config KEY VALUE` in a scenario, `--config KEY=VALUE` on the command line.\n");
-  page.table("| key | value |");
-  page.line("| `tmr.N` | preset of TMR N, 1 to 100, in ms, as typed on the timer page |");
-  page.line("| `ctr.N` | preset of CTR N, 1 to 100, 0 to 65535 |");
-  page.line("| `slot_steps` | steps that fit into one slot of 8 ms, Level 1 included; the number of parts of Level 2 "
-            "follows |");
-  page.line("| `machine` | `mill` (GSK25iMc) or `turn` (GSK25iTc): warns of signals that this machine does not have; "
-            "without it "
-            "both are accepted |");
-  page.line(
-      "| `messages` | file of texts for the messages of area A, relative to the program: `NUMBER \"text\"` a line; the "
-      "number is 8 x byte + bit + 1, or the bit, `A0.0`, itself |");
-  page.line("| `nc` | `scripted` (default): the scenario plays the CNC; `simulated`: the simulated NC does |");
-  page.line("| `param.N`, `axes`, `encoders`, `overtravel`, `jog`, `protect` | of the simulated CNC, see "
-            "[simulated-nc-gsk.md](../simulated-nc-gsk.md) |");
-}
-
 void warnings(Page& page) {
   page.heading("## Warnings");
   page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
@@ -230,7 +211,6 @@ std::string referenceSections() {
   areas(page);
   limits(page);
   pins(page);
-  configuration(page);
   warnings(page);
   windowFunctions(page);
   axisCommands(page);

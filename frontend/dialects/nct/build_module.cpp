@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/dialects/nct/lower_rungs.h"
+#include "rtlib/nc/faults.h"
 
 namespace rung::nct {
 namespace {
@@ -20,7 +21,7 @@ public:
     module_.name = "program";
     module_.dialect = "nct";
     module_.messages = texts.messages;
-    module_.faults = {"PLC timeout"}; // l.540
+    module_.faults.emplace_back(nc::kNctTimeout); // l.540
     addSpaces();
     addSymbols();
     LoweringContext context{

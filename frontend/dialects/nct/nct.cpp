@@ -181,7 +181,6 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
 }
 
 constexpr std::string_view kExtensions[] = {".nct"};
-constexpr std::string_view kConfigKeys[] = {"PLCNVRAM", "PLCRAM", "timeslice", "period_us"};
 
 } // namespace
 
@@ -195,7 +194,7 @@ const frontend::Dialect kNct = {
     .name = "nct",
     .title = "NCT2xx / NCT3xx PLC",
     .extensions = kExtensions,
-    .configKeys = kConfigKeys,
+    .configKeys = nc::nctConfigKeys(),
     .instructions = allInfos(),
     .operandKinds = operandKinds(),
     .isBuilt = isBuilt,

@@ -50,20 +50,6 @@ void pins(Page& page) {
   }
 }
 
-void configuration(Page& page) {
-  const Config defaults;
-  page.heading("## Configuration");
-  page.line("`config KEY VALUE` in a scenario, `--config KEY=VALUE` on the command line.\n");
-  page.table("| key | value |");
-  page.line("| `PLCNVRAM`, `PLCRAM` | first words of the user memory, {} and {} without it |", defaults.plcNvram,
-            defaults.plcRam);
-  page.line("| `timeslice` | period of INT0, a fifth of MAIN's without it |");
-  page.line("| `period_us` | period of MAIN in microseconds, in a scenario `period`; {} without it |",
-            defaults.periodUs);
-  page.line("| `nc` | `scripted` (default): the scenario plays the NC; `simulated`: the simulated NC does, see "
-            "[simulated-nc-nct.md](../simulated-nc-nct.md) for its keys |");
-}
-
 void warnings(Page& page) {
   page.heading("## Warnings");
   page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
@@ -247,7 +233,6 @@ std::string referenceSections() {
   Page page;
   memory(page);
   pins(page);
-  configuration(page);
   warnings(page);
   functions(page);
   parameters(page);

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -209,7 +210,7 @@ ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weig
   std::string_view where = module_.at(routine).name;
   if (where.starts_with('@')) where.remove_prefix(1); // the routine around an event procedure
   const std::string fault =
-      fast ? "halt-status 10: fast raster overrun" : "watchdog: endless loop in " + std::string(where);
+      fast ? std::string(nc::kTechnolFastOverrun) : std::string(nc::kTechnolWatchdog) + std::string(where);
   module_.tasks.push_back({.name = std::move(name),
                            .entry = routine,
                            .periodUs = period,

@@ -1,12 +1,11 @@
 // How operations reach memory: cells, bits, indices by BX, counts and the compiler's own slots.
 #include "frontend/dialects/technol/lowering.h"
+#include "rtlib/nc/faults.h"
 
 namespace rung::frontend::technol {
 
 using ir::Type;
 using ir::ValueId;
-
-constexpr std::string_view kProtection = "halt-status 13: protection"; // man. l.5352
 
 Access Lowering::reach(const Operand& operand, ValueId guard) {
   Access access{.place = operand.place, .indexed = operand.indexed, .window = {}, .index = {}};
@@ -65,7 +64,7 @@ ir::SlotId Lowering::newSlot(Type type, std::string_view what) {
   return automatic_.back();
 }
 
-void Lowering::protect(ValueId bad) { b().trap(bad, fault(kProtection)); }
+void Lowering::protect(ValueId bad) { b().trap(bad, fault(nc::kTechnolProtection)); }
 
 CountCell Lowering::countCell(const Operand& operand) {
   if (operand.given()) return {.automatic = false, .slot = {}, .access = reach(operand), .type = operand.type};

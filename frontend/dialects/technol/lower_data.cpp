@@ -1,6 +1,7 @@
 // Data instructions (man. ch. 3.9-3.16).
 #include "frontend/dialects/technol/lower.h"
 #include "frontend/dialects/technol/lowering.h"
+#include "rtlib/nc/faults.h"
 
 namespace rung::frontend::technol {
 
@@ -10,9 +11,6 @@ using ir::ValueId;
 using Note = Lowering::Arithmetic;
 
 namespace {
-
-constexpr std::string_view kDivision = "halt-status 2: integer division by zero or overflow"; // man. l.5354
-constexpr std::string_view kRealFault = "halt-status 3: real arithmetic";                     // man. l.5355
 
 Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
 
@@ -29,7 +27,7 @@ ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = l.b();
   ValueId bad = b.not_(b.op(OpCode::FEq, Type::F64, {result, result}));
   if (divisor.valid()) bad = b.or_(bad, b.op(OpCode::FEq, Type::F64, {divisor, b.real(0)}));
-  b.trap(bad, l.fault(kRealFault));
+  b.trap(bad, l.fault(nc::kTechnolReal));
   return result;
 }
 
@@ -59,7 +57,7 @@ void divide(Lowering& l, const Operand& operand) {
   const ValueId left = b.sextOrTrunc(Type::I64, l.r().dr(doubled(operand.type)));
   const ValueId quotient = b.binary(OpCode::DivS, left, right);
   const ValueId fits = b.eq(b.sextOrTrunc(Type::I64, b.sextOrTrunc(Type::I32, quotient)), quotient);
-  b.trap(b.or_(b.eq(right, b.constant(Type::I64, 0)), b.not_(fits)), l.fault(kDivision));
+  b.trap(b.or_(b.eq(right, b.constant(Type::I64, 0)), b.not_(fits)), l.fault(nc::kTechnolDivision));
   l.r().setDr(quotient);
 }
 

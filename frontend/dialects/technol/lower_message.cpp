@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/lower.h"
 #include "frontend/dialects/technol/lowering.h"
 
+#include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/messages.h"
 
 namespace rung::frontend::technol {
@@ -181,7 +182,7 @@ void Lowering::addBitMessage(BitMessage message, ValueId number, ValueId subId) 
         same = builder.and_(same, builder.eq(entries.load(Type::I32, static_cast<uint32_t>(i) * 4, in[0]), fields[i]));
     fresh = builder.endLoop(std::array{builder.and_(in[1], builder.not_(same))})[0];
     const ValueId full = builder.leU(builder.i32(static_cast<int32_t>(message.capacity)), count);
-    builder.trap(builder.and_(fresh, full), fault("EDEF: one instruction ties more than 64 bits"));
+    builder.trap(builder.and_(fresh, full), fault(nc::kTechnolEdef));
   }
   builder.if_(fresh);
   for (size_t i = 0; i < fields.size(); ++i)

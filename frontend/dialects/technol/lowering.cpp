@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 
@@ -97,7 +98,7 @@ RungSource Lowering::sourceOf(const Statement& statement) const {
 void Lowering::run() {
   start_ = newRoutine("@START");
   findTimed();
-  fault("halt-status 6: requested"); // by the control (man. l.5361)
+  fault(nc::kTechnolRequested); // by the control (man. l.5361)
   onMessage_ = procedureNamed("_ON_ESET");
   for (int i = 1; i < kModuleKinds; ++i) lowerModule(static_cast<ModuleKind>(i));
   checkRecursion();

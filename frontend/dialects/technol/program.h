@@ -60,7 +60,8 @@ struct Program {
   bool exchangesFast = false; // FAST or FASTEST is asked for
   std::vector<ir::Init> inits;
   Encoding encoding = Encoding::Detect;
-  std::string systemFolder; // of included files named without a path; may be empty
+  std::string systemFolder;              // of included files named without a path; may be empty
+  std::vector<std::string> includePaths; // looked through after the folders of the program and of the including file
 
   std::span<const Token> operandTokens(const Statement& statement) const {
     return std::span(tokens).subspan(statement.firstToken, statement.tokenCount);

@@ -187,8 +187,9 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   return true;
 }
 
-// A name without a drive or root lies in the folder of the program, or else of the file that includes it; a bare one in
-// apostrophes in the SYSTEM folder (man. l.20319-20326). The control's files have names in any case.
+// A name without a drive or root lies in the folder of the program, or else of the file that includes it, or else in
+// those of the project; a bare one in apostrophes in the SYSTEM folder (man. l.20319-20326). The control's files have
+// names in any case.
 FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool quoted, SourcePos at) {
   std::string path(name);
   std::replace(path.begin(), path.end(), '\\', '/');
@@ -202,6 +203,7 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
     paths = {folderOf(program_.sources.name(program_.files[file_].id)) + path};
     const std::string beside = folderOf(program_.sources.name(program_.sources.fileOf(at))) + path;
     if (beside != paths[0]) paths.push_back(beside);
+    for (const std::string& folder : program_.includePaths) paths.push_back(folder + "/" + path);
   }
   for (const bool anyCase : {false, true})
     for (const std::string& candidate : paths) {

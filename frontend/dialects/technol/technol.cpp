@@ -1,8 +1,6 @@
 // The dialect's entry: source files to a module.
 #include "frontend/dialects/technol/technol.h"
 
-#include <charconv>
-
 #include "frontend/dialects/technol/assemble.h"
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/listing.h"
@@ -13,16 +11,14 @@ namespace rung::frontend {
 namespace {
 
 constexpr std::string_view kExtensions[] = {".plc"};
-constexpr std::string_view kConfigKeys[] = {"encoding", "period_us", "system_folder"};
 
 uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   const auto found = options.config.find("period_us");
   if (found == options.config.end()) return technol::kDefaultPeriodUs;
-  uint32_t period = 0;
-  const char* end = found->second.data() + found->second.size();
-  const auto [at, error] = std::from_chars(found->second.data(), end, period);
-  if (error == std::errc() && at == end && period > 0) return period;
-  diagnostics.report(Diag::OperandRange) << "period_us " + found->second << "1 to " + std::to_string(UINT32_MAX);
+  const nc::ConfigKey& row = *nc::findConfigKey(nc::technolConfigKeys(), "period_us");
+  if (nc::wrongValue(row, row.key, found->second).empty()) return static_cast<uint32_t>(nc::wholeNumber(found->second));
+  diagnostics.report(Diag::OperandRange, options.placeOf("period_us"))
+      << "period_us " + found->second << nc::takesOf(row);
   return technol::kDefaultPeriodUs;
 }
 
@@ -31,7 +27,8 @@ technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnos
   if (found == options.config.end()) return technol::Encoding::Detect;
   const technol::Encoding encoding = technol::encodingNamed(found->second);
   if (encoding == technol::Encoding::Detect)
-    diagnostics.report(Diag::OperandRange) << "encoding " + found->second << "UTF-8, Windows-1250, CP852";
+    diagnostics.report(Diag::OperandRange, options.placeOf("encoding"))
+        << "encoding " + found->second << nc::takesOf(*nc::findConfigKey(nc::technolConfigKeys(), "encoding"));
   return encoding;
 }
 
@@ -46,6 +43,7 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   technol::Program program(sources, diagnostics);
   if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
     program.systemFolder = folder->second;
+  program.includePaths = options.includePaths;
   program.encoding = encodingOf(options, diagnostics);
   technol::readProgram(program, files);
   if (program.files.empty()) return nullptr;
@@ -76,7 +74,7 @@ const Dialect kTechnol = {
     .name = "technol",
     .title = "TECHNOL, PLC836 of the MEFI CNC8x9",
     .extensions = kExtensions,
-    .configKeys = kConfigKeys,
+    .configKeys = nc::technolConfigKeys(),
     .instructions = technol::instructionInfos(),
     .operandKinds = technol::operandKindInfos(),
     .isBuilt = isBuilt,

@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/config_key.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "rtlib/nc/model/gsk/simulator.h"
@@ -218,50 +219,23 @@ private:
 };
 
 std::string GskModel::config(std::string_view key, std::string_view value) {
-  const auto choice = [&](std::string_view yes, std::string_view no) -> std::optional<bool> {
-    if (value != yes && value != no) return std::nullopt;
-    return value == yes;
-  };
-  const auto expected = [&](std::string_view what) {
-    return std::string(key) + ": expected " + std::string(what) + ", found '" + std::string(value) + "'";
-  };
-  if (key == "nc") {
-    const auto simulated = choice("simulated", "scripted");
-    if (!simulated) return expected("scripted or simulated");
-    simulated_ = *simulated;
-    return {};
-  }
+  const ConfigKey* row = findConfigKey(gskConfigKeys(), key);
+  if (row == nullptr || row->reader != ConfigReader::Control) return NcModel::config(key, value);
+  if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
   if (key == "axes") return simulator_.setAxes(value);
-  if (key == "overtravel") {
-    const auto wired = choice("on", "off");
-    if (!wired) return expected("on or off");
-    simulator_.setLimitSwitches(*wired);
-    return {};
-  }
-  if (key == "encoders") {
-    const auto absolute = choice("absolute", "incremental");
-    if (!absolute) return expected("absolute or incremental");
-    simulator_.setAbsoluteEncoders(*absolute);
-    return {};
-  }
-  if (key == "protect") {
-    const auto locked = choice("on", "off");
-    if (!locked) return expected("on or off");
-    simulator_.setProtected(*locked);
-    return {};
-  }
+  if (key == "nc") simulated_ = value == "simulated";
+  if (key == "overtravel") simulator_.setLimitSwitches(value == "on");
+  if (key == "encoders") simulator_.setAbsoluteEncoders(value == "absolute");
+  if (key == "protect") simulator_.setProtected(value == "on");
+  if (key == "jog") simulator_.setJogSpeed(number(value).value_or(0));
+  if (!key.starts_with("param.")) return {};
   // param.N, or param.N.A for axis A alone.
-  const size_t dot = key.starts_with("param.") ? key.find('.', 6) : std::string_view::npos;
+  const size_t dot = key.find('.', 6);
   const auto parameter = numberBehind(key.substr(0, dot), "param.");
   const uint32_t axis = dot == std::string_view::npos ? 1 : numberBehind(key.substr(dot), ".").value_or(0);
-  if (parameter && (axis < 1 || axis > gsk::kAxes)) return std::string(key) + ": there are axes 1 to 8";
-  if (!parameter && key != "jog") return NcModel::config(key, value);
-  const auto amount = number(value);
-  if (!amount) return expected("a number");
-  if (parameter)
-    simulator_.setParameter(*parameter, axis - 1, *amount);
-  else
-    simulator_.setJogSpeed(*amount);
+  if (!parameter) return std::string(key) + ": a parameter has a number, param.7010";
+  if (axis < 1 || axis > gsk::kAxes) return std::string(key) + ": there are axes 1 to 8";
+  simulator_.setParameter(*parameter, axis - 1, number(value).value_or(0));
   return {};
 }
 

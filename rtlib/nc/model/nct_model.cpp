@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/config_key.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/nct/messages.h"
 #include "rtlib/nc/model/nct/simulator.h"
@@ -251,18 +252,14 @@ private:
 };
 
 std::string NctModel::config(std::string_view key, std::string_view value) {
-  const auto choose = [&](std::string_view yes, std::string_view no, bool& choice) -> std::string {
-    if (value != yes && value != no)
-      return std::string(key) + ": expected " + std::string(yes) + " or " + std::string(no) + ", found '" +
-             std::string(value) + "'";
-    choice = value == yes;
-    return {};
-  };
-  if (key == "nc") return choose("simulated", "scripted", simulated_);
-  if (key == "nvecat") return choose("on", "off", byEthercat_);
-  if (key == "nvram") return choose("lost", "ok", nvramLost_);
-  if (nct::Handled handled = simulator_.config(key, value)) return *handled;
-  return NcModel::config(key, value);
+  const ConfigKey* row = findConfigKey(nctConfigKeys(), key);
+  if (row == nullptr || row->reader != ConfigReader::Control) return NcModel::config(key, value);
+  if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
+  if (key == "nc") simulated_ = value == "simulated";
+  if (key == "nvecat") byEthercat_ = value == "on";
+  if (key == "nvram") nvramLost_ = value == "lost";
+  if (key == "nc" || key == "nvecat" || key == "nvram") return {};
+  return simulator_.config(key, value).value_or("there is no '" + std::string(key) + "'");
 }
 
 } // namespace

@@ -4,6 +4,8 @@
 #include <span>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/config_key.h"
+#include "rtlib/nc/faults.h"
 #include "rtlib/nc/model/nc_model.h"
 #include "rtlib/nc/model/technol/backup.h"
 #include "rtlib/nc/model/technol/blocks.h"
@@ -20,8 +22,7 @@
 namespace rung::nc {
 namespace {
 
-constexpr int kShutdownScans = 500;                                     // at most, while MODULE_DONE_FINISHED is owed
-constexpr std::string_view kHaltRequested = "halt-status 6: requested"; // man. l.5361
+constexpr int kShutdownScans = 500;  // at most, while MODULE_DONE_FINISHED is owed
 constexpr uint32_t kBehindInput = 1; // hooks of the scan, see assemble.cpp of the dialect
 
 class TechnolModel final : public NcModel {
@@ -66,6 +67,8 @@ public:
   }
 
   std::string config(std::string_view key, std::string_view value) override {
+    if (const ConfigKey* row = findConfigKey(technolConfigKeys(), key))
+      if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
     constexpr std::string_view kKeys[] = {"PlcErrors", "PlcConstants", "PlcConfig"}; // of files, by ControlFileKind
     for (size_t i = 0; i < std::size(kKeys); ++i)
       if (key == kKeys[i]) return readFile(static_cast<technol::ControlFileKind>(i), value);
@@ -119,7 +122,7 @@ public:
       return {};
     }
     if (technol::equalIgnoringCase(name, "HALT")) {
-      instance.halt(kHaltRequested);
+      instance.halt(kTechnolRequested);
       takeMessages(instance);
       return {};
     }

@@ -485,7 +485,10 @@ TEST(NctDiagnostics, Configuration) {
   options.config = {{"PLCNVRAM", "100"}, {"PLCRAM", "x"}, {"timeslice", "2 apples"}};
   EXPECT_THAT(
       compileMain("", options).codes(),
-      ::testing::UnorderedElementsAre("0:0 constant-out-of-range", "0:0 constant-out-of-range", "0:0 bad-operand"));
+      ::testing::UnorderedElementsAre("0:0 constant-out-of-range", "0:0 constant-out-of-range", "0:0 config-value"));
+  options.config = {{"timeslice", "7"}};
+  EXPECT_THAT(compileMain("", options).rendered(),
+              ::testing::HasSubstr("expected a duration with its unit such as 2ms"));
 }
 
 } // namespace

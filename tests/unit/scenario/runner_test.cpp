@@ -56,7 +56,7 @@ TEST_F(ScenarioRunner, SaysWhatItRead) {
 
 TEST_F(ScenarioRunner, UnknownNamesAndKeysAreProblems) {
   EXPECT_NE(problemOf("set NOTHING 1\n").find("is not a name of this program"), std::string::npos);
-  EXPECT_NE(problemOf("config colour 5\n").find("unknown configuration key"), std::string::npos);
+  EXPECT_NE(problemOf("config colour 5\n").find("'colour' is not a configuration key of"), std::string::npos);
   EXPECT_NE(problemOf("connect A B\n").find("no connections"), std::string::npos);
   EXPECT_NE(problemOf("set 5100.00 7\n").find("a bit takes 0 or 1"), std::string::npos);
   EXPECT_NE(problemOf("slot\n").find("only the second level of a GSK program"), std::string::npos);

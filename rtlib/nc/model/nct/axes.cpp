@@ -187,7 +187,6 @@ Handled Axes::config(std::string_view key, std::string_view value) {
     return "";
   }
   if (key == "encoders") {
-    if (value != "absolute" && value != "incremental") return expected + "absolute or incremental" + found;
     absolute_ = value == "absolute";
     return "";
   }

@@ -43,7 +43,6 @@ Handled Channels::config(std::string_view key, std::string_view value) {
   const auto channel = numbersBehind(key, "turning.");
   if (!channel || channel->size() != 1) return std::nullopt;
   if (channel->front() < 1 || channel->front() > kChannels) return "channels are 1 to 8";
-  if (value != "on" && value != "off") return "turning is on or off";
   channels_[channel->front() - 1]->setTurning(value == "on");
   return std::string();
 }

@@ -12,7 +12,6 @@ namespace {
 constexpr uint32_t kFirstMagazinePots = 24;
 constexpr uint32_t kSecondMagazinePots = 16;
 constexpr uint32_t kMostPots = 999;
-constexpr uint32_t kMostRows = 9999;
 constexpr uint32_t kMostHalfPots = 40; // of a figure, in one direction
 
 uint32_t spindleOf(uint32_t cartridge) { return cartridge / 10 - 1; }
@@ -140,20 +139,16 @@ std::string ToolManagement::configCartridge(uint32_t number, std::string_view va
 }
 
 std::string ToolManagement::configTables(std::string_view key, double value) {
-  const auto whole = [&](double most) { return value >= 0 && value <= most && value == std::floor(value); };
   if (key == "rows") {
-    if (!whole(kMostRows) || value < 1) return "tool.rows is 1 to 9999";
     rows_ = static_cast<uint32_t>(value);
     build();
     return {};
   }
   if (key == "userdata") {
-    if (!whole(kToolUserColumns)) return "tool.userdata is 0 to 20";
     limits_.userColumns = static_cast<uint32_t>(value);
     return {};
   }
   if (key == "compensations") {
-    if (!whole(kMostRows)) return "tool.compensations is 0 to 9999";
     limits_.compensations = static_cast<uint32_t>(value);
     return {};
   }
@@ -169,7 +164,6 @@ Handled ToolManagement::config(std::string_view key, std::string_view value) {
   if (const auto number = numbersBehind(key, "cartridge."); number && number->size() == 1)
     return configCartridge(number->front(), value);
   if (key == "tool.count") {
-    if (value != "M06" && value != "T") return "tool.count is M06 or T";
     countsT_ = value == "T";
     return std::string();
   }

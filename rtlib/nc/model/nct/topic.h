@@ -62,6 +62,7 @@ public:
   // Asked no more for a request that `service` has answered with nothing: the program was restarted.
   virtual void dropRequests() {}
 
+  // The value is right by the row of the key (rtlib/nc/config_key.h).
   virtual Handled config(std::string_view key, std::string_view value) { return (void)key, (void)value, std::nullopt; }
   virtual Handled event(std::string_view name, const std::vector<NcArgument>& keys) {
     return (void)name, (void)keys, std::nullopt;

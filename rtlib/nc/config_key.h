@@ -1,0 +1,51 @@
+// The configuration keys of a dialect: who reads each and what it takes. The compiler and the simulated control check
+// the values by it; the reference and `rungc explain` print it.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rung::nc {
+
+enum class ConfigReader : uint8_t { Compiler, Control };
+
+enum class ConfigForm : uint8_t {
+  Choice,   // one of the words in `takes`, separated by blanks
+  Whole,    // a whole number of `least` to `most`
+  Number,   // any number
+  Duration, // of `least` to `most` microseconds, with its unit
+  File,     // relative to what names it
+  Text,     // checked by who reads it; `takes` says what it is
+};
+
+struct ConfigKey {
+  std::string_view key; // a part in <> stands for any text: "tmr.<N>"
+  ConfigReader reader = ConfigReader::Control;
+  ConfigForm form = ConfigForm::Text;
+  std::string_view takes = "";
+  int64_t least = 0;
+  int64_t most = 0;
+  std::string_view otherwise = ""; // without the key
+  std::string_view doc;
+};
+
+std::span<const ConfigKey> gskConfigKeys();
+std::span<const ConfigKey> nctConfigKeys();
+std::span<const ConfigKey> technolConfigKeys();
+
+// The row of a key as a user writes it; null when there is none.
+const ConfigKey* findConfigKey(std::span<const ConfigKey> keys, std::string_view key);
+// The key as people write it: "tmr.N".
+std::string shownKey(const ConfigKey& key);
+// "scripted or simulated", "1 to 1000000", "a duration with its unit, 1us to 3600s".
+std::string takesOf(const ConfigKey& key);
+// "" or "KEY: expected …, found 'VALUE'".
+std::string wrongValue(const ConfigKey& row, std::string_view key, std::string_view value);
+
+// Microseconds of "2ms", "500us", "1s"; -1 when it is anything else, a number without a unit too.
+int64_t durationUs(std::string_view text);
+// A whole number in decimal digits; -1 when it is anything else or needs more than 18 digits.
+int64_t wholeNumber(std::string_view text);
+
+} // namespace rung::nc

@@ -1,0 +1,51 @@
+// The faults of each dialect (see faults.h).
+#include "rtlib/nc/faults.h"
+
+namespace rung::nc {
+namespace {
+
+constexpr Fault kGsk[] = {
+    {kGskDeadLoop,
+     "One run of Level 1 or of a part of Level 2 does not come to its end: a jump leads backwards and its condition "
+     "never "
+     "changes within the run. The rung in brackets is the one where the budget of steps was used up; look at the jumps "
+     "around it. A loop that has to wait for the machine belongs into several cycles: leave the program and test again "
+     "in "
+     "the next one."}};
+
+constexpr Fault kNct[] = {
+    {kNctTimeout,
+     "MAIN or INT0 does not come to its end in one run (man. l.540): a jump leads backwards and its condition never "
+     "changes, or subroutines call far too much. The rung in brackets is the one where the budget of steps was used "
+     "up. "
+     "Inputs are constant during a run: a loop that waits for one never ends."}};
+
+constexpr Fault kTechnol[] = {
+    {kTechnolDivision,
+     "DIVB divided by 0, or its result does not fit (man. l.5354). Compare the divisor with 0 before the division."},
+    {kTechnolReal,
+     "A real was divided by 0, or an operation has no result (man. l.5355). Check the operands before it."},
+    {kTechnolRequested,
+     "The control asked for the halt, in a scenario `event HALT` (man. l.5361). The program is not at fault."},
+    {kTechnolFastOverrun, "MODULE_FAST, MODULE_FASTEST or MODULE_CYCLICOPERATION takes longer than its raster of 1 ms "
+                          "allows (man. l.5356): a "
+                          "loop in it does not end, or it does too much. Move work to MODULE_MAIN."},
+    {kTechnolProtection,
+     "A computed address lies outside of the program's data (man. l.5352). Look at the index of the instruction in "
+     "brackets, and at what is added to it."},
+    {kTechnolEdef,
+     "An EDEF was carried out with ever new bits. Its bits are tied once; let the instruction name fixed ones."},
+    {kTechnolWatchdog,
+     "A module or an event procedure does not come to its end: a jump leads backwards and its condition never changes. "
+     "Waiting belongs into a mechanism (EX, TEX0, TIM), which goes on in the next cycle."}};
+
+} // namespace
+
+std::span<const Fault> faultsOf(std::string_view dialect) {
+  if (dialect == "gsk") return kGsk;
+  if (dialect == "nct") return kNct;
+  if (dialect == "technol") return kTechnol;
+  return {};
+}
+
+} // namespace rung::nc

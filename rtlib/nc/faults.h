@@ -1,0 +1,26 @@
+// The faults that stop a program: the text that the compiler puts into it and a host shows, and what it means.
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace rung::nc {
+
+inline constexpr std::string_view kGskDeadLoop = "dead-loop";
+inline constexpr std::string_view kNctTimeout = "PLC timeout";
+inline constexpr std::string_view kTechnolDivision = "halt-status 2: integer division by zero or overflow";
+inline constexpr std::string_view kTechnolReal = "halt-status 3: real arithmetic";
+inline constexpr std::string_view kTechnolRequested = "halt-status 6: requested";
+inline constexpr std::string_view kTechnolFastOverrun = "halt-status 10: fast raster overrun";
+inline constexpr std::string_view kTechnolProtection = "halt-status 13: protection";
+inline constexpr std::string_view kTechnolEdef = "EDEF: one instruction ties more than 64 bits";
+inline constexpr std::string_view kTechnolWatchdog = "watchdog: endless loop in "; // and the module
+
+struct Fault {
+  std::string_view text;
+  std::string_view explanation; // why it comes and where to look
+};
+
+// By rung_program::dialect; empty for one that does not exist.
+std::span<const Fault> faultsOf(std::string_view dialect);
+
+} // namespace rung::nc

@@ -1,0 +1,107 @@
+// The checks (see configuration.h).
+#include "tools/driver/configuration.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+
+#include "ir/support/similar.h"
+#include "rtlib/nc/model/nc_model.h"
+
+namespace rung::driver {
+namespace {
+
+std::string_view firstPart(std::string_view key) { return key.substr(0, key.find('.')); }
+
+// Of families the first part has to be like: `timr.1` is meant as tmr.N.
+std::string suggestion(const frontend::Dialect& dialect, std::string_view key) {
+  Similar similar(key);
+  Similar family(firstPart(key));
+  for (const nc::ConfigKey& row : dialect.configKeys)
+    (row.key.find('<') == std::string_view::npos ? similar : family)
+        .offer(row.key.find('<') == std::string_view::npos ? row.key : firstPart(row.key));
+  if (!similar.best().empty()) return std::string(similar.best());
+  if (family.best().empty() || key.find('.') == std::string_view::npos) return {};
+  for (const nc::ConfigKey& row : dialect.configKeys)
+    if (row.key.starts_with(family.best())) return nc::shownKey(row);
+  return {};
+}
+
+std::string upperCase(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return out;
+}
+
+bool stands(const SourceManager& sources, const std::string& text) {
+  for (uint32_t file = 0; file < sources.fileCount(); ++file)
+    if (!sources.name(FileId{file}).ends_with(".toml") &&
+        upperCase(sources.text(FileId{file})).find(text) != std::string::npos)
+      return true;
+  return false;
+}
+
+// By an identifier, or by that before an attribute: `Feed` of `PLC.Input.Feed[2].Default`.
+bool isNamed(const SourceManager& sources, std::string_view key) {
+  const std::string name = upperCase(key);
+  if (stands(sources, name)) return true;
+  const size_t point = name.rfind('.');
+  if (point == std::string::npos) return false;
+  const std::string owner = name.substr(0, point);
+  const std::string identifier = owner.substr(owner.rfind('.') + 1); // npos + 1 is 0
+  return stands(sources, identifier.substr(0, identifier.find('[')));
+}
+
+} // namespace
+
+std::string unknownKeyText(const frontend::Dialect& dialect, std::string_view key) {
+  const std::string meant = suggestion(dialect, key);
+  return fmt::format("'{}' is not a configuration key of {} programs{}; `rungc explain config` lists them", key,
+                     dialect.name, meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
+}
+
+std::vector<ConfigProblem> checkConfiguration(const frontend::Dialect& dialect, ConfigPairs config,
+                                              const std::string& folder) {
+  std::vector<ConfigProblem> problems;
+  const std::unique_ptr<nc::NcModel> model = nc::makeNcModel(dialect.name);
+  model->setFolder(folder);
+  for (const auto& [key, value] : config) {
+    const nc::ConfigKey* row = nc::findConfigKey(dialect.configKeys, key);
+    std::string text;
+    if (row == nullptr)
+      problems.push_back({key, unknownKeyText(dialect, key), true});
+    else if (row != nullptr && row->reader == nc::ConfigReader::Compiler)
+      text = nc::wrongValue(*row, key, value);
+    else
+      text = model->config(key, value);
+    if (!text.empty()) problems.push_back({key, std::move(text)});
+  }
+  return problems;
+}
+
+void report(const ConfigProblem& problem, const frontend::Dialect& dialect, SourceRange range,
+            Diagnostics& diagnostics) {
+  if (!problem.isUnknown) {
+    diagnostics.report(Diag::ConfigValue, range) << problem.text;
+    return;
+  }
+  DiagBuilder report = diagnostics.report(Diag::UnknownConfigKey, range);
+  report << problem.key << fmt::format("{} programs", dialect.name);
+  if (const std::string meant = suggestion(dialect, problem.key); !meant.empty())
+    report.note(fmt::format("did you mean {}?", meant));
+  report.note("`rungc explain config` lists the keys");
+}
+
+std::vector<ConfigProblem> checkNamesOfProgram(const frontend::Dialect& dialect, const SourceManager& sources,
+                                               ConfigPairs config) {
+  std::vector<ConfigProblem> problems;
+  for (const auto& [key, value] : config) {
+    const nc::ConfigKey* row = nc::findConfigKey(dialect.configKeys, key);
+    if (row != nullptr && row->key.starts_with('<') && !isNamed(sources, key))
+      problems.push_back({key, unknownKeyText(dialect, key) + ", and no source names it", true});
+  }
+  return problems;
+}
+
+} // namespace rung::driver

@@ -1,0 +1,39 @@
+// rungc new: a small complete project.
+#include <fmt/format.h>
+
+#include "ir/support/similar.h"
+#include "tools/project/new_project.h"
+#include "tools/rungc/commands.h"
+
+namespace rung::rungc {
+namespace {
+
+int makeNew(const std::string& dialect, const std::string& folder) {
+  if (frontend::findDialect(dialect) == nullptr) {
+    Similar similar(dialect);
+    for (const frontend::Dialect* known : frontend::allDialects()) similar.offer(known->name);
+    return usageError(fmt::format("there is no dialect '{}'{}; there are gsk, nct and technol", dialect,
+                                  similar.best().empty() ? "" : fmt::format("; did you mean {}?", similar.best())));
+  }
+  const Result<std::vector<std::string>> written = project::makeProject(dialect, folder);
+  if (!written.ok()) return environmentError(written.error());
+  for (const std::string& file : written.value()) fmt::print("{}\n", file);
+  fmt::print("try: cd {} && rungc test\n", folder);
+  return kOk;
+}
+
+} // namespace
+
+void addNew(CLI::App& app, int& status) {
+  struct Options {
+    std::string dialect;
+    std::string folder;
+  };
+  CLI::App* command = app.add_subcommand("new", "Make a small complete project: program, scenario, project file");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIALECT", options->dialect, "nct, gsk or technol")->required();
+  command->add_option("DIR", options->folder, "The folder to make; its name becomes that of the project")->required();
+  command->callback([options, &status] { status = makeNew(options->dialect, options->folder); });
+}
+
+} // namespace rung::rungc

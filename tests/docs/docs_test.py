@@ -49,7 +49,7 @@ class Docs(unittest.TestCase):
     def test_configuration_keys_are_told(self):
         for dialect, compiler, control in (("gsk", "tmr.N", "overtravel"), ("nct", "PLCNVRAM", "spindles"), ("technol", "encoding", "PlcErrors")):
             page = (ROOT / "docs" / "reference" / f"{dialect}.md").read_text()
-            rows = page.split("\n## Configuration\n")[1].split("\n## ")[0].split("| --- |")[1].splitlines()[1:]
+            rows = page.split("\n## Configuration\n")[1].split("\n## ")[0].split("| --- | --- | --- | --- | --- |\n")[1].splitlines()
             read_by = dict(re.match(r"\| `(\S+)` \| .* \| .* \| (compiler|control) \| \S.* \|$", row).groups() for row in rows if row)
             self.assertEqual((read_by[compiler], read_by[control]), ("compiler", "control"))
 

@@ -225,7 +225,8 @@ std::string shownDiagnostic(const DiagInfo& info) {
 
 // A fault by its text, or by the part before its colon or its module: `halt-status 13`, `watchdog`.
 bool isFault(const nc::Fault& fault, const std::string& word) {
-  const std::string text = lower(fault.text);
+  std::string text = lower(fault.text);
+  text.resize(text.find_last_not_of(' ') + 1); // the module follows
   return text == word || (text.starts_with(word) && (text[word.size()] == ':' || word.starts_with(text)));
 }
 

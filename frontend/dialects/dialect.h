@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "frontend/table/instruction.h"
+#include "ir/core/marks.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
@@ -23,6 +24,8 @@ struct CompileOptions {
   std::map<std::string, SourceRange> configPlaces; // of the values that a project file gives
   std::vector<std::string> includePaths; // folders where included files are looked for after those of the program
   bool strict = false;                   // warnings that the inventory calls errors in strict mode are errors
+  // Where not null: filled with the contacts and coils of the module's rungs. It outlives the compilation.
+  ir::Marks* marks = nullptr;
 
   // Where the value of a key is written; an invalid range when that is not in a file.
   SourceRange placeOf(const std::string& key) const {

@@ -75,7 +75,10 @@ uint32_t InterpEngine::run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
     const uint32_t number = layout_.rungNumber(place.routine, next.rung);
     values.assign(rung.values.size(), 0);
     RungRun run(layout_, rung, number, partners_[number], mem, ctx, values);
-    if (!run.run()) return RUNG_PC_FAULT;
+    const bool completed = run.run();
+    if (observer_ != nullptr)
+      observer_->rungRan(number, completed ? std::span<const uint64_t>(values) : std::span<const uint64_t>());
+    if (!completed) return RUNG_PC_FAULT;
     next = leave(exits_[number], values, ctx);
     extra += next.extra;
   }

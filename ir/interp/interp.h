@@ -4,6 +4,9 @@
 // The host sets rung_ctx::engine of each instance to `context()` before its first run.
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "ir/layout/layout.h"
@@ -11,6 +14,15 @@
 #include "rtlib/host/engine.h"
 
 namespace rung::ir {
+
+// Sees what rungs do, e.g. to measure coverage.
+class RungObserver {
+public:
+  virtual ~RungObserver() = default;
+  // The rung of this number (over all routines) has run; `values` holds the bits of its values, 0 where a region was
+  // not entered. No values: it stopped the program with a fault.
+  virtual void rungRan(uint32_t number, std::span<const uint64_t> values) = 0;
+};
 
 class InterpEngine final : public host::Engine {
 public:
@@ -21,6 +33,8 @@ public:
   std::string_view name() const override { return "interp"; }
   // What its chunks find in rung_ctx::engine.
   void* context() { return this; }
+  // Null: none. The instances of an observed engine must not run at the same time.
+  void setObserver(std::unique_ptr<RungObserver> observer) { observer_ = std::move(observer); }
 
 private:
   static uint32_t runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
@@ -28,6 +42,7 @@ private:
 
   const Layout& layout_;
   ProgramImage image_;
+  std::unique_ptr<RungObserver> observer_;
   std::vector<Exit> exits_; // by rung number
   // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:
   // each other). Empty for a rung without regions.

@@ -61,12 +61,15 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.files.assign(files.begin(), files.end());
   out.dialect = chooseDialect(sources, files, request.dialect, diagnostics);
   if (out.dialect == nullptr) return std::nullopt;
-  out.module = out.dialect->compile(sources, files, request.options, diagnostics);
+  out.options = request.options;
+  frontend::CompileOptions options = request.options;
+  if (request.marks) options.marks = &out.marks;
+  out.module = out.dialect->compile(sources, files, options, diagnostics);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   checkModule(*out.module, ir::Mode::Built);
   ir::PassOptions passes;
-  passes.optimise = request.optimise;
+  passes.optimise = request.optimise && !request.marks;
   passes.instrument = request.instrument;
   ir::runPasses(*out.module, passes);
   checkModule(*out.module, ir::Mode::Final);

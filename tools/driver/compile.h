@@ -17,6 +17,7 @@ struct CompileRequest {
   std::string dialect;              // empty: the files tell
   frontend::CompileOptions options; // configuration and strictness
   bool instrument = false;          // count and time rungs
+  bool marks = false;               // note contacts and coils; the module stays as it was built
   bool optimise = true;
   ir::LayoutOptions layout;
 };
@@ -26,8 +27,10 @@ struct Compiled {
   const frontend::Dialect* dialect = nullptr;
   std::unique_ptr<ir::Module> module; // final, optimised
   std::unique_ptr<ir::Layout> layout;
-  uint64_t codeHash = 0; // of the IR's text
-  size_t warnings = 0;   // that were reported on the way
+  ir::Marks marks;                  // where they were asked for
+  frontend::CompileOptions options; // of the request
+  uint64_t codeHash = 0;            // of the IR's text
+  size_t warnings = 0;              // that were reported on the way
 };
 
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.

@@ -101,7 +101,11 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
                                                  const EngineOptions& options) {
   const ir::Layout& layout = *compiled.layout;
   switch (kind) {
-  case EngineKind::Interp: return std::unique_ptr<host::Engine>(new ir::InterpEngine(layout, compiled.codeHash));
+  case EngineKind::Interp: {
+    auto engine = std::make_unique<ir::InterpEngine>(layout, compiled.codeHash);
+    if (options.observer) engine->setObserver(options.observer(compiled));
+    return std::unique_ptr<host::Engine>(std::move(engine));
+  }
   case EngineKind::Cpp:
     return buildAndLoad(engineName(kind), [&](const std::string& path) {
       codegen::CppOptions emit;

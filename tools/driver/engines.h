@@ -1,11 +1,13 @@
 // The engines by name, and one of each kind for a compiled program.
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "ir/interp/interp.h"
 #include "ir/support/result.h"
 #include "rtlib/host/engine.h"
 #include "rtlib/host/instance.h"
@@ -30,6 +32,8 @@ struct EngineOptions {
   std::string cacheFolder;            // JIT: see JitOptions; empty: no cache
   std::string cppCompiler;            // empty: the first of clang++-19, g++, c++ that is installed
   std::optional<ir::OpCode> sabotage; // for the tests of the comparison
+  // Interpreter: makes what observes the program's rungs. May be empty.
+  std::function<std::unique_ptr<ir::RungObserver>(const Compiled&)> observer;
 };
 
 // `compiled` outlives the engine.

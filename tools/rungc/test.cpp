@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "tools/rungc/commands.h"
+#include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
 #include "tools/rungc/junit.h"
 #include "tools/rungc/progress.h"
@@ -20,6 +21,7 @@ struct TestOptions {
   std::vector<std::string> names; // files and folders
   std::vector<std::string> filters;
   std::string engines = "jit";
+  bool enginesGiven = false;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   bool failFast = false;
   bool watchFiles = false;
@@ -28,6 +30,7 @@ struct TestOptions {
   std::string cxx;
   bool strict = false;
   std::string level = "2";
+  CoverageOptions coverage;
 };
 
 struct Outcome {
@@ -113,6 +116,8 @@ bool waitForChange(const TestOptions& options, const std::vector<TestCase>& test
 int runTests(const TestOptions& options) {
   Result<std::vector<driver::EngineKind>> engines = enginesOf(options.engines);
   if (!engines.ok()) return usageError(engines.error());
+  if (options.coverage.wanted() && options.enginesGiven && options.engines != "interp")
+    return usageError(fmt::format("coverage is counted by the interpreter; leave out --engine {}", options.engines));
   scenario::EngineStore store;
   scenario::RunOptions run;
   run.store = &store;
@@ -126,8 +131,11 @@ int runTests(const TestOptions& options) {
     if (!found) return status;
     const std::vector<std::string> files = filtered(*found, options.filters);
     if (files.empty()) return usageError(fmt::format("none of the {} scenarios fits --filter", found->size()));
+    CoverageRun coverage;
+    if (options.coverage.wanted()) coverage.observe(run);
     const Outcome outcome = runOnce(files, options, run);
     status = std::max(outcome.status, writeJunit(options.junit, outcome.tests));
+    if (options.coverage.wanted()) status = std::max(status, coverage.finish(options.coverage));
     if (!options.watchFiles || !waitForChange(options, outcome.tests, since, status)) return status;
   }
 }
@@ -157,7 +165,11 @@ void addTest(CLI::App& app, int& status) {
   addLevelOption(*command, options->level);
   command->add_flag("--strict", options->strict,
                     "Warnings that the control's own rules call errors are errors; a scenario must expect something");
-  command->callback([options, &status] { status = runTests(*options); });
+  addCoverageOptions(*command, options->coverage);
+  command->callback([command, options, &status] {
+    options->enginesGiven = command->count("--engine") > 0;
+    status = runTests(*options);
+  });
 }
 
 } // namespace rung::rungc

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <fstream>
 
-#include "frontend/dialects/gsk/convert/convert.h"
-#include "frontend/dialects/gsk/gsk.h"
-#include "frontend/dialects/nct/nct.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/drawing.h"
 #include "tools/view/html.h"
 #include "tools/view/program.h"
 #include "tools/view/source_links.h"
@@ -24,29 +22,13 @@ struct ViewOptions {
   std::string link = std::string(view::kSourceLink);
 };
 
-std::optional<gsk::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
-                                         std::span<const FileId> files, const frontend::CompileOptions& compile,
-                                         Diagnostics& diagnostics) {
-  if (&dialect == &gsk::kGsk) return gsk::ladderForm(sources, files, compile, diagnostics);
-  return gsk::LadderForm{{files.begin(), files.end()}, {}, {}};
-}
-
-// Nothing for a program with errors: a drawing of its sound parts would look like the program.
 std::optional<view::Program> read(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
                                   const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
   const frontend::Dialect* dialect = driver::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
-  if (dialect != &gsk::kGsk && dialect != &nct::kNct) {
-    diagnostics.report(Diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
-    return std::nullopt;
-  }
-  const auto module = dialect->compile(sources, files, compile, diagnostics);
-  if (module == nullptr || diagnostics.hasErrors()) return std::nullopt;
-  const auto ladders = laddersOf(*dialect, sources, files, compile, diagnostics);
-  if (!ladders) return std::nullopt;
-  return view::readProgram(
-      sources,
-      {dialect, module.get(), ladders->files, {ladders->networks, ladders->elements}, {files.begin(), files.end()}});
+  if (hasDrawing(*dialect)) return drawingOf(sources, files, *dialect, compile, diagnostics);
+  diagnostics.report(Diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
+  return std::nullopt;
 }
 
 // The file is there when it is whole: what a failure leaves behind goes.

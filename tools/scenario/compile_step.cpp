@@ -106,11 +106,12 @@ bool readsKey(const frontend::Dialect& dialect, std::string_view key) {
 }
 
 CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
-                           bool instrument) {
+                           bool instrument, bool marks) {
   CompileStep step;
   driver::CompileRequest request;
   request.options.strict = strict;
   request.instrument = instrument;
+  request.marks = marks;
   std::vector<std::string> names = programs;
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Program && programs.empty())

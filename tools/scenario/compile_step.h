@@ -16,9 +16,9 @@ struct CompileStep {
   std::string environment;        // a file that cannot be read
 };
 
-// `programs`: instead of the files that the scenario names, when not empty.
+// `instrument`, `marks`: see CompileRequest. `programs`: instead of the files that the scenario names, when not empty.
 CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
-                           bool instrument);
+                           bool instrument, bool marks);
 
 // Whether the compiler itself reads this configuration key; the rest is for the NC model.
 bool readsKey(const frontend::Dialect& dialect, std::string_view key);

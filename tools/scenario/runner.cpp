@@ -44,7 +44,8 @@ public:
 private:
   // Everything that is wrong before the first scan is reported at once.
   void compileAndRun() {
-    CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument);
+    CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument,
+                                      options_.engine.observer != nullptr);
     result_.environment = step.environment;
     add(result_.files, step.files);
     add(result_.problems, step.problems);

@@ -32,6 +32,25 @@ struct RoutineContext {
   std::vector<uint32_t> rungOf; // by network
 };
 
+// The contacts and coils of one rung go to where they are asked for, if they are.
+class RungMarks {
+public:
+  RungMarks(ir::Marks* marks, const SourceManager& sources, ir::RoutineId routine, uint32_t rung)
+      : marks_(marks), sources_(sources), routine_(routine), rung_(rung) {}
+  // A contact or coil: its text is what its range holds.
+  void element(ir::MarkKind kind, ir::ValueId value, SourceRange range) const;
+  // A function; `more` is part of its text.
+  void function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more = {}) const;
+
+private:
+  void add(ir::MarkKind kind, ir::ValueId value, SourceRange range, std::string text) const;
+
+  ir::Marks* marks_;
+  const SourceManager& sources_;
+  ir::RoutineId routine_;
+  uint32_t rung_;
+};
+
 class ModuleLowering {
 public:
   ModuleLowering(const Program& program, Context& context, std::span<const FileId> files,
@@ -62,8 +81,12 @@ private:
   void addClock(ir::Routine& routine, LevelState& level, const Unit& unit);
   void lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t network);
   void describe(ir::Rung& rung, const Network& network, uint64_t key) const;
-  std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network);
-  void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value);
+  std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
+                                      const RungMarks& marks);
+  ir::ValueId lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t network,
+                            std::span<const ir::ValueId> conditions, const RungMarks& marks);
+  void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
+                  const RungMarks& marks);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
   bool leavesBehind(const RoutineContext& routine, const Network& network) const;
   void planParts();

@@ -1,4 +1,6 @@
 // One network to one rung, and what lowering functions may use.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/lower_module.h"
@@ -39,7 +41,24 @@ void ModuleLowering::describe(ir::Rung& rung, const Network& network, uint64_t k
   rung.weight = std::max(network.steps, 1u);
 }
 
-std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network) {
+void RungMarks::add(ir::MarkKind kind, ir::ValueId value, SourceRange range, std::string text) const {
+  const LineCol at = sources_.lineCol(range.begin);
+  marks_->add(routine_, rung_, {kind, value, at.line, at.column, std::move(text)});
+}
+
+void RungMarks::element(ir::MarkKind kind, ir::ValueId value, SourceRange range) const {
+  if (marks_ != nullptr) add(kind, value, range, std::string(sources_.text(range)));
+}
+
+void RungMarks::function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more) const {
+  if (marks_ == nullptr) return;
+  std::string text(function.row->info.mnemonic);
+  for (const Param& param : function.params) text.append(" ").append(sources_.text(param.range));
+  add(kind, value, function.range, text.append(more));
+}
+
+std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
+                                                    const RungMarks& marks) {
   std::vector<ir::ValueId> stack;
   for (const LogicStep& step : network.logic) {
     b.setLine(step.line);
@@ -52,6 +71,7 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
     use(level, step.bit, 1);
     ir::ValueId value = b.load(ir::Type::Bit, placeOf(level, step.bit));
     if (step.negated) value = b.not_(value);
+    marks.element(ir::MarkKind::Contact, value, step.range);
     if (step.kind == Logic::Load)
       stack.push_back(value);
     else
@@ -61,12 +81,16 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
 }
 
 // Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0.
-void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network,
-                                ir::ValueId value) {
-  if (network.com != kNone)
-    value = b.and_(value, b.slotLoad(slot(slotPrefix(routine.unit, network.com) + "com", ir::Type::Bit, 0, true)));
+void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
+                                const RungMarks& marks) {
+  if (network.com != kNone) {
+    const ir::ValueId line = b.slotLoad(slot(slotPrefix(routine.unit, network.com) + "com", ir::Type::Bit, 0, true));
+    marks.function(ir::MarkKind::Result, line, program_.units[routine.unit].networks[network.com].function);
+    value = b.and_(value, line);
+  }
   for (const CoilStep& coil : network.coils) {
     b.setLine(coil.line);
+    marks.element(ir::MarkKind::Coil, value, coil.range);
     use(*routine.level, coil.bit, 1);
     const ir::Place place = placeOf(*routine.level, coil.bit);
     switch (coil.kind) {
@@ -78,21 +102,35 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
   }
 }
 
+// Gives the output. One that passes on a condition asks nothing of its own.
+ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t index,
+                                          std::span<const ir::ValueId> conditions, const RungMarks& marks) {
+  const Network& network = program_.units[routine.unit].networks[index];
+  const Row& row = *network.function.row;
+  for (size_t i = 0; i < conditions.size(); ++i) {
+    const bool one = conditions.size() == 1;
+    marks.function(ir::MarkKind::Input, conditions[i], network.function,
+                   one ? std::string() : fmt::format(" {}", row.info.pins[i].name));
+  }
+  const std::string prefix = slotPrefix(routine.unit, index);
+  FunctionLowering f(*this, routine, b, network, conditions, prefix);
+  b.setLine(network.function.line);
+  if (row.control == Control::Plain) b.note(row.info.mnemonic);
+  row.lower(f);
+  const bool passes = std::find(conditions.begin(), conditions.end(), f.output()) != conditions.end();
+  if (f.output().valid() && !passes) marks.function(ir::MarkKind::Result, f.output(), network.function);
+  return f.output();
+}
+
 void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t index) {
   const Network& network = program_.units[routine.unit].networks[index];
   describe(rung, network, keys_[routine.unit][index]);
   ir::RungBuilder b(*module_, rung);
-  const std::vector<ir::ValueId> conditions = lowerLogic(*routine.level, b, network);
+  const RungMarks marks(options_.marks, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
+  const std::vector<ir::ValueId> conditions = lowerLogic(*routine.level, b, network, marks);
   ir::ValueId value = conditions.empty() ? ir::ValueId{} : conditions[0];
-  if (network.function.row != nullptr) {
-    const std::string prefix = slotPrefix(routine.unit, index);
-    FunctionLowering f(*this, routine, b, network, conditions, prefix);
-    b.setLine(network.function.line);
-    if (network.function.row->control == Control::Plain) b.note(network.function.row->info.mnemonic);
-    network.function.row->lower(f);
-    value = f.output();
-  }
-  if (!network.coils.empty()) lowerCoils(routine, b, network, value);
+  if (network.function.row != nullptr) value = lowerFunction(routine, b, index, conditions, marks);
+  if (!network.coils.empty()) lowerCoils(routine, b, network, value, marks);
 }
 
 // Behind a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 goes on at the label.

@@ -79,7 +79,7 @@ void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Plac
   write(commandOf(kind, negated), operand.text, at);
   const auto bit = bitOperand(context_, operand);
   if (bit)
-    network_.logic.push_back({kind, negated, *bit, at.line});
+    network_.logic.push_back({kind, negated, *bit, at.line, at.range});
   else
     network_.bad = true;
 }
@@ -111,7 +111,7 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
   if (state_ != State::Function || mayHaveCoils()) state_ = State::Outputs;
   const auto bit = bitOperand(context_, operand);
   if (bit && checkWritable(context_, *bit, 1, operand.range))
-    network_.coils.push_back({kind, *bit, at.line});
+    network_.coils.push_back({kind, *bit, at.line, at.range});
   else
     network_.bad = true;
 }

@@ -43,6 +43,7 @@ struct LogicStep {
   bool negated = false;
   Address bit;
   uint32_t line = 0;
+  SourceRange range; // of the statement or the element
 };
 
 enum class Coil : uint8_t { Out, OutInverted, Set, Reset };
@@ -54,6 +55,7 @@ struct CoilStep {
   Coil kind = Coil::Out;
   Address bit;
   uint32_t line = 0;
+  SourceRange range; // of the statement or the element
 };
 
 struct Param {

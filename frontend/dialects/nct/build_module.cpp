@@ -14,8 +14,10 @@ constexpr uint32_t kInt0Budget = 100'000;
 
 class ModuleBuilder {
 public:
-  ModuleBuilder(ir::Module& module, const Program& program, SymbolTable& symbols, const SourceManager& sources)
-      : module_(module), program_(program), symbols_(symbols), config_(symbols.config()), sources_(sources) {}
+  ModuleBuilder(ir::Module& module, const Program& program, SymbolTable& symbols, const SourceManager& sources,
+                ir::Marks* marks)
+      : module_(module), program_(program), symbols_(symbols), config_(symbols.config()), sources_(sources),
+        marks_(marks) {}
 
   void run(const Texts& texts, std::span<const FileId> files) {
     module_.name = "program";
@@ -24,8 +26,12 @@ public:
     module_.faults.emplace_back(nc::kNctTimeout); // l.540
     addSpaces();
     addSymbols();
-    LoweringContext context{
-        .module = module_, .config = config_, .spaces = spaces_, .written = written_, .sources = sources_};
+    LoweringContext context{.module = module_,
+                            .config = config_,
+                            .spaces = spaces_,
+                            .written = written_,
+                            .sources = sources_,
+                            .marks = marks_};
     for (FileId file : files) {
       context.files[file.index] = {static_cast<uint32_t>(module_.files.size())};
       module_.files.emplace_back(sources_.name(file));
@@ -205,6 +211,7 @@ private:
   SymbolTable& symbols_;
   const Config& config_;
   const SourceManager& sources_;
+  ir::Marks* const marks_;
   MemorySpaces spaces_;
   ir::SpaceId flags_;
   WrittenRange written_;
@@ -213,9 +220,9 @@ private:
 } // namespace
 
 std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
-                                        const SourceManager& sources, std::span<const FileId> files) {
+                                        const SourceManager& sources, std::span<const FileId> files, ir::Marks* marks) {
   auto module = std::make_unique<ir::Module>();
-  ModuleBuilder(*module, program, symbols, sources).run(texts, files);
+  ModuleBuilder(*module, program, symbols, sources, marks).run(texts, files);
   return module;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "frontend/dialects/nct/program.h"
+#include "ir/core/marks.h"
 #include "ir/core/module.h"
 
 namespace rung::nct {
@@ -13,6 +14,6 @@ struct Texts {
 };
 
 std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
-                                        const SourceManager& sources, std::span<const FileId> files);
+                                        const SourceManager& sources, std::span<const FileId> files, ir::Marks* marks);
 
 } // namespace rung::nct

@@ -61,9 +61,9 @@ ValueId lowerContact(Lowering& box) {
   if (box.edge != 0 && place.fixed) value = pulse(b, box.slots.make("edge", Type::Bit), value, box.edge == '@');
   if (box.edge != 0 && !place.fixed) value = movingPulse(box, place, value);
   if ((box.variant & kClosed) != 0) value = b.not_(value);
-  if (!place.valid.valid()) return box.gate(value);
+  if (!place.valid.valid()) return box.pass(value);
   memory.raiseErrorFlag(box.gate(b.not_(place.valid)));
-  return box.gate(b.and_(value, place.valid));
+  return box.pass(b.and_(value, place.valid));
 }
 
 ValueId lowerCoil(Lowering& box) {

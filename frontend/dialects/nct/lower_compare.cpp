@@ -44,9 +44,9 @@ ValueId lowerCompareContact(Lowering& box) {
   const ValueId x = box.memory.integer(box.operands[0], valid);
   const ValueId y = box.memory.integer(box.operands[1], valid);
   const ValueId holds = compare(b, static_cast<CompareVariant>(box.variant), x, y);
-  if (!valid.valid()) return box.gate(holds);
+  if (!valid.valid()) return box.pass(holds);
   box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
-  return box.gate(b.and_(holds, valid));
+  return box.pass(b.and_(holds, valid));
 }
 
 } // namespace rung::nct

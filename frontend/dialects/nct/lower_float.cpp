@@ -232,7 +232,7 @@ ValueId lowerFloatContact(Lowering& box) {
   valid = box.memory.both(valid, b.and_(isNumber(b, x), isNumber(b, y)));
   const ValueId holds = compareDoubles(b, static_cast<CompareVariant>(box.variant), x, y);
   box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
-  return box.gate(b.and_(holds, valid));
+  return box.pass(b.and_(holds, valid));
 }
 
 } // namespace rung::nct

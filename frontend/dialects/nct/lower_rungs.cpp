@@ -31,7 +31,7 @@ class BodyLowering {
 public:
   BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines,
                uint32_t body)
-      : context_(context), source_(module), routines_(routines), body_(module.bodies[body]),
+      : context_(context), source_(module), routines_(routines), body_(module.bodies[body]), id_(routines[body]),
         routine_(context.module.routines[routines[body].index]), slots_(context.module, routine_.name),
         shared_(context.module) {}
 
@@ -51,6 +51,9 @@ private:
   void lowerRung(const TypedRung& typed);
   void describe(ir::Rung& rung, const TypedRung& typed);
   void lowerElement(ir::RungBuilder& b, Memory& memory, const TypedRung& typed, size_t index);
+  void mark(ir::MarkKind kind, ValueId value, const ladder::Element& element, std::string_view more = {});
+  void markInputs(const TypedRung& typed, const ladder::Element& element);
+  void markOutput(const ladder::Element& element, ValueId condition, ValueId output);
   void leave(ir::RungBuilder& b, const Leave& leave);
   void addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t key);
 
@@ -58,6 +61,7 @@ private:
   const TypedModule& source_;
   const std::vector<ir::RoutineId>& routines_; // by body
   const Body& body_;
+  ir::RoutineId id_;
   ir::Routine& routine_;
   SlotMaker slots_;
   Shared shared_;
@@ -82,6 +86,31 @@ void BodyLowering::describe(ir::Rung& rung, const TypedRung& typed) {
   rung.key = copy == 0 ? text : hashBytes(fmt::format("{}", copy), text);
 }
 
+void BodyLowering::mark(ir::MarkKind kind, ValueId value, const ladder::Element& element, std::string_view more) {
+  std::string text(context_.sources.text(element.range));
+  context_.marks->add(id_, static_cast<uint32_t>(routine_.rungs.size() - 1),
+                      {kind, value, element.line, element.column, text.append(more)});
+}
+
+// The power that coils and boxes get; the left rail always has it.
+void BodyLowering::markInputs(const TypedRung& typed, const ladder::Element& element) {
+  if (context_.marks == nullptr || element.kind == ladder::ElementKind::Contact) return;
+  const bool coil = element.kind == ladder::ElementKind::Coil;
+  const std::span<const ladder::Pin> pins = typed.rung->pinsOf(element);
+  for (size_t i = 0; i < pins_.size(); ++i)
+    if (pins_[i].valid())
+      mark(coil ? ir::MarkKind::Coil : ir::MarkKind::Input, pins_[i], element,
+           pins[i].name.empty() ? std::string() : fmt::format(" {}", pins[i].name));
+}
+
+// A box that passes on the power at a pin asks nothing.
+void BodyLowering::markOutput(const ladder::Element& element, ValueId condition, ValueId output) {
+  if (context_.marks == nullptr || !output.valid()) return;
+  if (std::find(pins_.begin(), pins_.end(), output) != pins_.end()) return;
+  const bool contact = element.kind == ladder::ElementKind::Contact;
+  mark(contact ? ir::MarkKind::Contact : ir::MarkKind::Result, condition.valid() ? condition : output, element);
+}
+
 void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedRung& typed, size_t index) {
   const TypedElement& typedElement = typed.elements[index];
   const ladder::Element& element = *typedElement.element;
@@ -89,6 +118,7 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
   b.setLine(element.line);
   pins_.clear();
   for (const ladder::Pin& pin : typed.rung->pinsOf(element)) pins_.push_back(power_[pin.input.index]);
+  markInputs(typed, element);
   ValueId output;
   if (row.lower != nullptr) {
     if (element.kind == ladder::ElementKind::Box) b.note(row.info.mnemonic);
@@ -103,6 +133,7 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
                  .variant = row.variant,
                  .edge = operands.empty() ? '\0' : operands[0].edge};
     output = row.lower(box);
+    markOutput(element, box.condition, output);
   } else if (row.flow == Flow::Jump || row.flow == Flow::Call || row.flow == Flow::Return) {
     leaves_.push_back({row.flow, typedElement.label.value_or(0), pins_[0]});
   }

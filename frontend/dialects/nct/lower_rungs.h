@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/nct/memory.h"
 #include "frontend/dialects/nct/program.h"
+#include "ir/core/marks.h"
 #include "ir/core/module.h"
 
 namespace rung::nct {
@@ -16,6 +17,7 @@ struct LoweringContext {
   const MemorySpaces& spaces;
   WrittenRange& written;
   const SourceManager& sources;
+  ir::Marks* marks = nullptr;                          // null: not asked for
   std::unordered_map<uint32_t, ir::FileIndex> files{}; // by FileId
   std::unordered_map<uint64_t, uint32_t> sameText{};   // rungs with equal texts so far, for their keys
 };

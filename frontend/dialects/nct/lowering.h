@@ -57,11 +57,18 @@ struct Lowering {
   std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
   int variant = 0;
   char edge = 0; // '@' or '%' of a contact
+  // What the element itself asks, where pass() joined it with the power; its output is more than that.
+  ir::ValueId condition{};
 
   // The power at a pin as a value.
   ir::ValueId power(size_t pin = 0) { return pins[pin].valid() ? pins[pin] : b.bit(true); }
   // value AND the power at the first pin.
   ir::ValueId gate(ir::ValueId value) { return pins[0].valid() ? b.and_(pins[0], value) : value; }
+  // The output of a contact, which passes the power on while the value is 1.
+  ir::ValueId pass(ir::ValueId value) {
+    condition = value;
+    return gate(value);
+  }
 };
 
 // --- boxes

@@ -80,8 +80,8 @@ public:
     }
   }
 
-  std::unique_ptr<ir::Module> build(std::span<const FileId> files) {
-    return buildModule(program_, symbols_, texts_, sources_, files);
+  std::unique_ptr<ir::Module> build(std::span<const FileId> files, ir::Marks* marks) {
+    return buildModule(program_, symbols_, texts_, sources_, files, marks);
   }
 
 private:
@@ -177,7 +177,7 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   compiler.declare();
   compiler.check();
   if (diagnostics.errorCount() != before) return nullptr;
-  return compiler.build(files);
+  return compiler.build(files, options.marks);
 }
 
 constexpr std::string_view kExtensions[] = {".nct"};

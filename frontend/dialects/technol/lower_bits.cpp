@@ -38,7 +38,7 @@ std::vector<Access> reachAll(Lowering& l, std::span<const Operand> bits, ValueId
 
 } // namespace
 
-void lowerLoadBit(Lowering& l, std::span<const Operand> o, int) { l.r().setRlo(l.bit(o[0])); }
+void lowerLoadBit(Lowering& l, std::span<const Operand> o, int) { l.r().setRlo(l.contact(o[0])); }
 
 void lowerLicence(Lowering& l, std::span<const Operand> o, int) {
   ir::Place place = l.place(HostCell::Licences);
@@ -49,7 +49,7 @@ void lowerLicence(Lowering& l, std::span<const Operand> o, int) {
 
 void lowerJoin(Lowering& l, std::span<const Operand> o, int kind) {
   const ValueId rlo = l.r().rlo();
-  l.r().setRlo(o[0].given() ? join(l, kind, rlo, l.bit(o[0])) : join(l, kind, l.popped(), rlo));
+  l.r().setRlo(o[0].given() ? join(l, kind, rlo, l.contact(o[0])) : join(l, kind, l.popped(), rlo));
 }
 
 void lowerComplement(Lowering& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "frontend/dialects/technol/lower.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
@@ -44,8 +45,8 @@ std::vector<uint32_t> bytesOfSpaces(const ir::Module& module) {
 
 const HostCellInfo& hostCell(HostCell cell) { return kHostCellInfos[static_cast<size_t>(cell)]; }
 
-Lowering::Lowering(Program& program, ir::Module& module, uint32_t periodUs)
-    : program_(program), module_(module), periodUs_(periodUs), slots_(makeRegisterSlots(module)),
+Lowering::Lowering(Program& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks)
+    : program_(program), module_(module), periodUs_(periodUs), marks_(marks), slots_(makeRegisterSlots(module)),
       spaceBytes_(bytesOfSpaces(module)), parser_(program, spaceBytes_) {
   codeLabels_.assign(program.labels.size(), kNone);
   for (const Mechanism& mechanism : program.mechanisms) {
@@ -254,8 +255,51 @@ void Lowering::lowerCode() {
   beginRungFor(row);
   out_->statement(sourceOf(*statement_));
   applyStack(row);
+  if (marks_ != nullptr) markDecision(row);
+  const uint32_t rung = out_->openRung();
   if (parsed && row.lower != nullptr) row.lower(*this, operands_, row.variant);
+  if (marks_ != nullptr) markResult(row, rung);
   settle(row);
+}
+
+// ---- marks ----------------------------------------------------------------------------------------------------------
+
+void Lowering::mark(ir::MarkKind kind, ValueId value) {
+  if (marks_ == nullptr) return;
+  const RungSource at = sourceOf(*statement_);
+  std::string text(statement_->row->info.mnemonic);
+  if (statement_->tokenCount != 0) text.append(" ").append(spelled(program_.operandTokens(*statement_)));
+  marks_->add(out_->routine(), out_->openRung(), {kind, value, at.line, at.column, std::move(text)});
+}
+
+ValueId Lowering::contact(const Operand& operand) {
+  const ValueId value = bit(operand);
+  mark(ir::MarkKind::Contact, value);
+  return value;
+}
+
+namespace {
+
+// What only joins values of the equation: LA, LO and LX, whose bits are contacts, and CA.
+bool isLogic(const Row& row) {
+  constexpr uint16_t kBoth = kReadsRlo | kSetsRlo;
+  return (row.effects & kJoins) != 0 || (row.info.group == "bit logic" && (row.effects & kBoth) == kBoth);
+}
+
+} // namespace
+
+// What an instruction does by RLO is what the equation decides.
+void Lowering::markDecision(const Row& row) {
+  if ((row.effects & kReadsRlo) == 0 || isLogic(row)) return;
+  const bool coil = row.info.group == "bit write";
+  mark(coil ? ir::MarkKind::Coil : ir::MarkKind::Input, r().rlo());
+}
+
+// RLO of a comparison, an edge or a timer, as far as the rung goes on: contacts have marked themselves.
+void Lowering::markResult(const Row& row, uint32_t rung) {
+  const bool asksBit = row.lower == &lowerLoadBit;
+  if ((row.effects & kSetsRlo) == 0 || isLogic(row) || asksBit || !out_->isOpen() || out_->openRung() != rung) return;
+  mark(ir::MarkKind::Result, r().rlo());
 }
 
 // An equation begins its own rung; long runs of data instructions are cut where a value is loaded.

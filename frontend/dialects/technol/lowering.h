@@ -15,6 +15,7 @@
 #include "frontend/dialects/technol/operand.h"
 #include "frontend/dialects/technol/program.h"
 #include "frontend/dialects/technol/routine_builder.h"
+#include "ir/core/marks.h"
 
 namespace rung::frontend::technol {
 
@@ -67,8 +68,8 @@ struct LoweredModule {
 
 class Lowering {
 public:
-  // The spaces of `module` exist; `periodUs` is the main task's period.
-  Lowering(Program& program, ir::Module& module, uint32_t periodUs);
+  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` may be null.
+  Lowering(Program& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks);
   void run();
   const std::vector<LoweredModule>& modules() const { return modules_; }
   // Procedures that the control calls by their reserved names (man. l.1609).
@@ -94,6 +95,8 @@ public:
   void store(const Access& access, ir::ValueId value);
   // A bit with its sign.
   ir::ValueId bit(const Operand& operand);
+  // The bit that LDR, LA, LO and LX ask.
+  ir::ValueId contact(const Operand& operand);
   // A constant or a cell; `guard` as for reach.
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
@@ -164,6 +167,9 @@ private:
   void applyStack(const Row& row);
   void checkPreserved(const Row& row);
   void settle(const Row& row);
+  void mark(ir::MarkKind kind, ir::ValueId value);
+  void markDecision(const Row& row);
+  void markResult(const Row& row, uint32_t rung);
   void beginSequence(uint32_t mechanism, uint32_t unit);
   void endSequence();
   void beginMechanism();
@@ -192,6 +198,7 @@ private:
   Program& program_;
   ir::Module& module_;
   uint32_t periodUs_;
+  ir::Marks* marks_;
   RegisterSlots slots_;
   std::vector<uint32_t> spaceBytes_;
   OperandParser parser_;

@@ -34,6 +34,9 @@ public:
   }
   // The next operations belong to this statement.
   void statement(const RungSource& source);
+  // Number of the rung in the routine that is open or comes next.
+  uint32_t openRung() const { return static_cast<uint32_t>(module_.routines[routine_.index].rungs.size()); }
+  bool isOpen() const { return open_; }
   // Statements in the open rung.
   uint32_t length() const { return open_ ? statements_ : 0; }
 

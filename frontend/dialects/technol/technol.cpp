@@ -53,7 +53,7 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   for (const FileId file : files) module->files.emplace_back(sources.name(file));
   technol::addSpaces(program, *module);
   const uint32_t period = periodOf(options, diagnostics);
-  technol::Lowering lowering(program, *module, period);
+  technol::Lowering lowering(program, *module, period, options.marks);
   lowering.run();
   if (diagnostics.hasErrors()) return nullptr;
   technol::addTasks(lowering, *module, period);

@@ -34,6 +34,8 @@ public:
   host::Instance& operator*() { return instance_; }
   host::Instance* operator->() { return &instance_; }
   const Layout& layout() const { return layout_; }
+  const Module& module() const { return module_; }
+  void observe(std::unique_ptr<RungObserver> observer) { engine_.setObserver(std::move(observer)); }
 
   // A little-endian value of a space.
   uint64_t value(std::string_view space, uint32_t byte, uint32_t bytes = 1) const {

@@ -1,0 +1,44 @@
+// What a rung asks and what it decides, as its author wrote it: which value is a contact and which is the power into a
+// coil. Front ends note it where coverage asks for it (frontend::CompileOptions::marks), beside the module: no
+// operation is added. A pass that changes rungs makes marks meaningless, so they go with a module as it was built.
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ir/core/ids.h"
+
+namespace rung::ir {
+
+enum class MarkKind : uint8_t {
+  Contact, // the value says whether it conducts
+  Result,  // of a box or an instruction that is no logic of the rung's contacts; decides as a contact does
+  Coil,    // the value is the power into it
+  Input,   // of a box or an instruction: decided as a coil is
+};
+
+struct Mark {
+  MarkKind kind = MarkKind::Contact;
+  ValueId value;       // a bit of the rung
+  uint32_t line = 0;   // from 1, in the rung's file
+  uint32_t column = 0; // from 1, in characters
+  std::string text;    // as written: "[/STOP]", "LDI X1.0", "{TOND T1 #30 #1}"
+  bool operator==(const Mark&) const = default;
+};
+
+class Marks {
+public:
+  void add(RoutineId routine, uint32_t rung, Mark mark) { marks_[{routine.index, rung}].push_back(std::move(mark)); }
+  // In the order of evaluation.
+  std::span<const Mark> of(RoutineId routine, uint32_t rung) const {
+    const auto at = marks_.find({routine.index, rung});
+    return at == marks_.end() ? std::span<const Mark>() : std::span(at->second);
+  }
+
+private:
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<Mark>> marks_;
+};
+
+} // namespace rung::ir

@@ -1,0 +1,142 @@
+// Coverage of programs by scenarios (see coverage.h).
+#include "tools/rungc/coverage.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+#include "tools/rungc/commands.h"
+#include "tools/rungc/coverage_overlay.h"
+#include "tools/rungc/drawing.h"
+#include "tools/view/html.h"
+#include "tools/view/overlay.h"
+
+namespace rung::rungc {
+namespace {
+
+Result<coverage::Report> readReport(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return failure(fmt::format("cannot read '{}'", path));
+  std::ostringstream text;
+  text << in.rdbuf();
+  Result<coverage::Report> report = coverage::fromJson(text.str());
+  if (!report.ok()) return failure(fmt::format("'{}' is not a report of --coverage-json: {}", path, report.error()));
+  return report;
+}
+
+// Every share must reach the least that was asked for.
+int checkLeast(const coverage::Totals& totals, double least) {
+  int status = kOk;
+  const auto check = [&](std::string_view what, const coverage::Share& share) {
+    if (share.percent() >= least) return;
+    fmt::print(stderr, "rungc: coverage: {} {}, less than the {:g} % of --coverage-min\n", what,
+               coverage::percentText(share), least);
+    status = kWrong;
+  };
+  check("rungs run", totals.rungs);
+  check("contacts open and closed", totals.contacts);
+  check("coils on and off", totals.coils);
+  check("conditions that decided", totals.decided);
+  return status;
+}
+
+// The rungs of a program that has no drawing, with all lines that their elements are on.
+std::vector<view::TableRow> rowsOf(const coverage::Program& program) {
+  std::vector<view::TableRow> rows;
+  for (const coverage::Rung& rung : program.rungs) {
+    uint32_t last = rung.line;
+    for (const coverage::Condition& condition : rung.conditions) last = std::max(last, condition.line);
+    for (const coverage::Output& output : rung.outputs) last = std::max(last, output.line);
+    rows.push_back({rung.number, rung.routine, rung.title, {rung.file, rung.line, 0}, last});
+  }
+  return rows;
+}
+
+// The page of a program that was compiled so.
+Result<std::string> pageOf(const coverage::Program& program, const frontend::Dialect& dialect,
+                           const frontend::CompileOptions& options) {
+  const view::Overlay overlay = overlayOf(program);
+  if (!hasDrawing(dialect)) {
+    const std::vector<view::TableRow> rows = rowsOf(program);
+    return view::renderTable(fmt::format("{}", fmt::join(program.files, ", ")), dialect.title, rows, overlay);
+  }
+  SourceManager sources;
+  const Result<std::vector<FileId>> files = driver::addFiles(sources, program.files);
+  if (!files.ok()) return files.failure();
+  Diagnostics diagnostics;
+  std::optional<view::Program> drawing = drawingOf(sources, files.value(), dialect, options, diagnostics);
+  if (!drawing) return failure(fmt::format("{} has changed while its scenarios ran", program.files[0]));
+  view::lay(overlay, *drawing);
+  return view::renderHtml(*drawing);
+}
+
+// "lathe.html", "lathe-2.html"
+std::string numbered(const std::string& path, size_t number) {
+  if (number == 1) return path;
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() / fmt::format("{}-{}{}", whole.stem().string(), number, whole.extension().string()))
+      .string();
+}
+
+} // namespace
+
+void addCoverageOptions(CLI::App& command, CoverageOptions& options) {
+  command.add_flag("--coverage", options.text,
+                   "Say which rungs ran, which contacts and coils were seen both ways, which conditions alone decided");
+  command.add_flag("--coverage-all", options.all, "The same with everything that is missing");
+  command.add_option("--coverage-json", options.json, "Write the coverage to this file, see docs/coverage-format.md");
+  command.add_option(
+      "--coverage-html", options.html,
+      "Write a page with the coverage on the drawing of the program; of several programs, FILE-2.html and so on");
+  command
+      .add_option("--coverage-merge", options.former, "Add the coverage of a former run, written by --coverage-json")
+      ->allow_extra_args(false);
+  command.add_option("--coverage-min", options.least, "Fail where one of the four shares is less than so many percent")
+      ->check(CLI::Range(0.0, 100.0));
+}
+
+void CoverageRun::observe(scenario::RunOptions& run) {
+  run.engines = {driver::EngineKind::Interp};
+  run.store = nullptr; // an engine of its own for each scenario: threads count apart
+  run.engine.observer = [this](const driver::Compiled& compiled) {
+    const std::lock_guard lock(mutex_);
+    origins_.try_emplace(compiled.module->files, Origin{std::string(compiled.dialect->name), compiled.options});
+    return collection_.observe(*compiled.module, compiled.marks);
+  };
+}
+
+// A page for each program that has run; one that only a former run knows is not drawn.
+int CoverageRun::writePages(const coverage::Report& report, const std::string& path) const {
+  size_t pages = 0;
+  for (const coverage::Program& program : report.programs) {
+    const auto origin = origins_.find(program.files);
+    if (origin == origins_.end()) continue;
+    const Result<std::string> page =
+        pageOf(program, *frontend::findDialect(origin->second.dialect), origin->second.options);
+    if (!page.ok()) return environmentError(page.error());
+    const std::string out = numbered(path, ++pages);
+    if (const int status = writeFile(page.value(), out); status != kOk) return status;
+    fmt::print("coverage of {}: {}\n", program.files[0], out);
+  }
+  return kOk;
+}
+
+int CoverageRun::finish(const CoverageOptions& options) const {
+  coverage::Report report = collection_.report();
+  for (const std::string& path : options.former) {
+    const Result<coverage::Report> former = readReport(path);
+    if (!former.ok()) return environmentError(former.error());
+    coverage::mergeFormer(report, former.value());
+  }
+  if (options.text || options.all)
+    fmt::print("\n{}", coverage::toText(report, {.missing = options.all ? 0 : coverage::TextOptions{}.missing}));
+  int status = kOk;
+  if (!options.json.empty()) status = std::max(status, writeFile(coverage::toJson(report), options.json));
+  if (!options.html.empty()) status = std::max(status, writePages(report, options.html));
+  if (options.least > 0) status = std::max(status, checkLeast(coverage::totalsOf(report), options.least));
+  return status;
+}
+
+} // namespace rung::rungc

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <llvm/IR/IntrinsicsAArch64.h>
+#include <llvm/IR/IntrinsicsX86.h>
 
 #include "ir/support/check.h"
 
@@ -283,12 +285,21 @@ ChunkEmitter::Value* ChunkEmitter::profOfRung() {
   return builder_.CreateConstInBoundsGEP1_64(abi_.prof, counters, number_);
 }
 
+// In order: what comes before has been done when the counter is read, and what follows has not begun. Otherwise a rung
+// would be measured while the processor is still at work on the one before, and hide in the time that reading takes.
 // The counter that the host calibrates (rtlib/core/ticks.h): the time stamp counter of x86, cntvct_el0 of ARM64. For
 // other machines the host asks the kernel, which code does not: rungs are counted there and not timed.
 ChunkEmitter::Value* ChunkEmitter::ticks() {
   const llvm::Triple triple(target_.getTargetTriple());
-  if (triple.isX86()) return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readcyclecounter, {});
+  if (triple.isX86()) {
+    const auto fence = [&] { builder_.CreateIntrinsic(builder_.getVoidTy(), llvm::Intrinsic::x86_sse2_lfence, {}); };
+    fence();
+    Value* now = builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::readcyclecounter, {});
+    fence();
+    return now;
+  }
   if (triple.isAArch64()) { // by name: LLVM 19 makes a constant 0 of readsteadycounter
+    builder_.CreateIntrinsic(builder_.getVoidTy(), llvm::Intrinsic::aarch64_isb, {builder_.getInt32(15)});
     llvm::LLVMContext& context = target_.getContext();
     auto* name = llvm::MDNode::get(context, llvm::MDString::get(context, "cntvct_el0"));
     return builder_.CreateIntrinsic(builder_.getInt64Ty(), llvm::Intrinsic::read_volatile_register,

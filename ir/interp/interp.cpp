@@ -50,7 +50,8 @@ Destination leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ct
 
 } // namespace
 
-InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash) : layout_(layout), image_(layout, codeHash) {
+InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
+    : layout_(layout), counting_(counting), image_(layout, codeHash) {
   image_.program().run_chunk = runChunk;
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
@@ -74,7 +75,7 @@ uint32_t InterpEngine::run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
     const Rung& rung = layout_.module().at(place.routine).rungs[next.rung];
     const uint32_t number = layout_.rungNumber(place.routine, next.rung);
     values.assign(rung.values.size(), 0);
-    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values);
+    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values, counting_);
     const bool completed = run.run();
     if (observer_ != nullptr)
       observer_->rungRan(number, completed ? std::span<const uint64_t>(values) : std::span<const uint64_t>());

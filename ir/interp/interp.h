@@ -24,10 +24,18 @@ public:
   virtual void rungRan(uint32_t number, std::span<const uint64_t> values) = 0;
 };
 
+// What the profile counters of an instrumented module count in place of time.
+enum class Counting : uint8_t {
+  Ticks,
+  // Operations executed: all but constants, notes and the ends of branches, and one for a transfer. An exact measure,
+  // the same in every run.
+  Operations,
+};
+
 class InterpEngine final : public host::Engine {
 public:
   // The layout and its module outlive the engine.
-  InterpEngine(const Layout& layout, uint64_t codeHash);
+  InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting = Counting::Ticks);
 
   const rung_program& program() const override { return image_.program(); }
   std::string_view name() const override { return "interp"; }
@@ -41,6 +49,7 @@ private:
   uint32_t run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const;
 
   const Layout& layout_;
+  Counting counting_;
   ProgramImage image_;
   std::unique_ptr<RungObserver> observer_;
   std::vector<Exit> exits_; // by rung number

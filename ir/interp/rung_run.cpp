@@ -11,11 +11,18 @@ namespace {
 
 constexpr size_t kFaulted = SIZE_MAX;
 
+// Whether the operation is work that a program does: see Counting::Operations.
+bool isWork(OpCode code) {
+  return code != OpCode::Const && code != OpCode::Note && code != OpCode::Else && code != OpCode::EndIf &&
+         code != OpCode::ProfEnter && code != OpCode::ProfLeave;
+}
+
 } // namespace
 
 bool RungRun::run() {
   size_t i = 0;
   while (i < rung_.ops.size()) {
+    operations_ += isWork(rung_.ops[i].code) ? 1 : 0;
     i = step(rung_.ops[i], i);
     if (i == kFaulted) return false;
   }
@@ -143,9 +150,12 @@ void RungRun::setFault(const Op& op) {
   ctx_.fault.line = op.line != 0 ? op.line : rung_.begin.line;
 }
 
+uint64_t RungRun::clock() const { return counting_ == Counting::Operations ? operations_ : rt::readTicks(); }
+
 void RungRun::countRung() {
   rung_prof& prof = ctx_.prof[number_];
-  const uint64_t time = rt::readTicks() - prof.started;
+  if (rung_.transfer.kind != TransferKind::Next) ++operations_;
+  const uint64_t time = clock() - prof.started;
   prof.count += 1;
   prof.total += time;
   prof.max = std::max<uint64_t>(prof.max, time);
@@ -256,7 +266,7 @@ size_t RungRun::step(const Op& op, size_t index) {
     setFault(op);
     return kFaulted;
   case OpCode::Note: break;
-  case OpCode::ProfEnter: ctx_.prof[number_].started = rt::readTicks(); break;
+  case OpCode::ProfEnter: ctx_.prof[number_].started = clock(); break;
   case OpCode::ProfLeave: countRung(); break;
   }
   return index + 1;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ir/interp/interp.h"
 #include "ir/layout/layout.h"
 
 namespace rung::ir {
@@ -11,8 +12,9 @@ class RungRun {
 public:
   // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); all outlive the run.
   RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem,
-          rung_ctx& ctx, std::vector<uint64_t>& values)
-      : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values) {}
+          rung_ctx& ctx, std::vector<uint64_t>& values, Counting counting)
+      : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values),
+        counting_(counting) {}
 
   // False: a fault, which stands in the context.
   bool run();
@@ -42,6 +44,7 @@ private:
   void message(const Op& op);
   void request(const Op& op);
   void setFault(const Op& op);
+  uint64_t clock() const;
   void countRung();
 
   const Layout& layout_;
@@ -51,6 +54,8 @@ private:
   uint8_t* const mem_;
   rung_ctx& ctx_;
   std::vector<uint64_t>& values_;
+  const Counting counting_;
+  uint64_t operations_ = 0; // executed so far
 };
 
 } // namespace rung::ir

@@ -90,21 +90,25 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
   return pc;
 }
 
+void Runner::begin(uint32_t task) noexcept {
+  inTask_ = true;
+  if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
+}
+
 // What follows the chunks of a run or a part. A pc that is neither a chunk nor DONE counts as a fault too.
 bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
+  const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
+  if (!fault) copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
+  if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
   inTask_ = false;
-  if (pc != RUNG_PC_DONE && pc >= program_->chunk_count) {
-    stopOnFault(task);
-    return false;
-  }
-  copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
-  return true;
+  if (fault) stopOnFault(task);
+  return !fault;
 }
 
 bool Runner::runTask(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
-  inTask_ = true;
+  begin(task);
   copy(t.begin_first, t.begin_count);
   beginStack();
   uint32_t budget = t.budget;
@@ -115,7 +119,7 @@ bool Runner::runPart(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
   PartState& state = parts_[task];
-  inTask_ = true;
+  begin(task);
   if (state.part == 0) {
     copy(t.begin_first, t.begin_count);
     state.pc = t.entry;

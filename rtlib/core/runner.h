@@ -29,6 +29,8 @@ struct RunnerHooks {
   void (*step)(void* data, uint32_t work) = nullptr; // RUNG_STEP_HOOK; may run tasks
   void (*fault)(void* data) = nullptr;               // after a fault; may run tasks
   void* data = nullptr;
+  // Around every run of a task or a part, border copies included; runs nothing.
+  void (*task)(void* data, uint32_t task, bool begins) = nullptr;
 };
 
 class Runner {
@@ -72,6 +74,7 @@ public:
 private:
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
+  void begin(uint32_t task) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;
   void copy(uint32_t first, uint32_t count) noexcept;

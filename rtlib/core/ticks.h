@@ -1,4 +1,4 @@
-// The cycle counter that instrumented programs measure with: what __builtin_readcyclecounter gives on this machine.
+// The cycle counter that instrumented programs measure with, read in order with everything before and after.
 #pragma once
 #include <cstdint>
 #include <ctime>
@@ -7,10 +7,13 @@ namespace rung::rt {
 
 inline uint64_t readTicks() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
-  return __builtin_ia32_rdtsc();
+  uint32_t low;
+  uint32_t high;
+  asm volatile("lfence\n\trdtsc\n\tlfence" : "=a"(low), "=d"(high) : : "memory");
+  return uint64_t{high} << 32 | low;
 #elif defined(__aarch64__)
   uint64_t ticks;
-  asm volatile("mrs %0, cntvct_el0" : "=r"(ticks));
+  asm volatile("isb\n\tmrs %0, cntvct_el0" : "=r"(ticks) : : "memory");
   return ticks;
 #else
   timespec now;

@@ -32,7 +32,7 @@ Instance::Instance(const rung_program& program, ScheduleHooks* hooks)
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
   ctx_->prof = profile_.empty() ? nullptr : profile_.data();
-  runner_.setHooks({&stepHook, &faultHook, this});
+  setTaskWatch(nullptr);
   port_->services.setResponder({&respondHook, this});
   coldStart();
 }
@@ -72,6 +72,19 @@ void Instance::stepHook(void* self, uint32_t work) {
 void Instance::faultHook(void* self) {
   auto& instance = *static_cast<Instance*>(self);
   if (instance.hooks_ != nullptr) instance.hooks_->onFault(instance);
+}
+
+void Instance::taskHook(void* self, uint32_t task, bool begins) {
+  const auto& instance = *static_cast<const Instance*>(self);
+  if (begins)
+    instance.taskWatch_->begins(instance, task);
+  else
+    instance.taskWatch_->ended(instance, task);
+}
+
+void Instance::setTaskWatch(TaskWatch* watch) {
+  taskWatch_ = watch;
+  runner_.setHooks({&stepHook, &faultHook, this, watch == nullptr ? nullptr : &taskHook});
 }
 
 bool Instance::respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply) {

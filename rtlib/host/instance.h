@@ -36,6 +36,14 @@ public:
   }
 };
 
+// Looks on while tasks run: both calls are around a run of a task or a part. They run no task.
+class TaskWatch {
+public:
+  virtual ~TaskWatch() = default;
+  virtual void begins(const Instance& instance, uint32_t task) = 0;
+  virtual void ended(const Instance& instance, uint32_t task) = 0;
+};
+
 class Instance {
 public:
   // The program (checkProgram finds nothing wrong with it) and the hooks outlive the instance. It starts cold.
@@ -45,6 +53,7 @@ public:
 
   const rung_program& program() const { return *program_; }
   void setHooks(ScheduleHooks* hooks) { hooks_ = hooks; }
+  void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
 
   // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile go on.
   void coldStart();
@@ -119,10 +128,12 @@ private:
   void resetRun();
   static void stepHook(void* self, uint32_t work);
   static void faultHook(void* self);
+  static void taskHook(void* self, uint32_t task, bool begins);
   static bool respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply);
 
   const rung_program* program_;
   ScheduleHooks* hooks_;
+  TaskWatch* taskWatch_ = nullptr;
   std::unique_ptr<uint8_t, FreeBlock> block_;
   std::unique_ptr<rung_ctx> ctx_;
   std::unique_ptr<rt::HostPort> port_;

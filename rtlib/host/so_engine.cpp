@@ -14,10 +14,11 @@ SoEngine::SoEngine(void* library, const rung_program* program, std::string path)
 
 SoEngine::~SoEngine() { dlclose(library_); }
 
-std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& error) {
+std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& error, Loaded loaded) {
   // A name without a slash would be searched for in the system's folders.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const int stays = loaded == Loaded::WithProcess ? RTLD_NODELETE : 0;
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | stays);
   if (library == nullptr) {
     const char* reason = dlerror();
     error = "cannot load " + path + ": " + (reason != nullptr ? reason : "unknown reason");

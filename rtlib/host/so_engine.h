@@ -1,5 +1,6 @@
-// The loader of compiled programs: a .so with the one data symbol RUNG_PROGRAM_SYMBOL. It stays open with the engine.
+// The loader of compiled programs: a .so with the one data symbol RUNG_PROGRAM_SYMBOL.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -7,10 +8,14 @@
 
 namespace rung::host {
 
+// How long the object stays loaded. Profilers look up lines when the process ends, and find none of what is gone.
+enum class Loaded : uint8_t { WithEngine, WithProcess };
+
 class SoEngine final : public Engine {
 public:
   // Null, and `error` says why, when the file cannot be loaded or is no program of this version.
-  static std::unique_ptr<SoEngine> open(const std::string& path, std::string& error);
+  static std::unique_ptr<SoEngine> open(const std::string& path, std::string& error,
+                                        Loaded loaded = Loaded::WithEngine);
   ~SoEngine() override;
 
   const rung_program& program() const override { return *program_; }

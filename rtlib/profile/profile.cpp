@@ -1,118 +1,115 @@
-// Counters to rows, rows to text and JSON.
+// Rows, their order and their sums (see profile.h).
 #include "rtlib/profile/profile.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <ctime>
-#include <nlohmann/json.hpp>
-
-#include "rtlib/core/ticks.h"
+#include <map>
 
 namespace rung::profile {
-
 namespace {
 
-int64_t monotonicNs() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-double calibrate() {
-  constexpr int64_t kMeasureNs = 10'000'000;
-  const int64_t startNs = monotonicNs();
-  const uint64_t startTicks = rt::readTicks();
-  int64_t endNs = startNs;
-  while (endNs - startNs < kMeasureNs) endNs = monotonicNs();
-  const uint64_t ticks = rt::readTicks() - startTicks;
-  return ticks == 0 ? 1.0 : static_cast<double>(endNs - startNs) / static_cast<double>(ticks);
-}
-
-Row makeRow(const rung_program& program, uint32_t rung, const rung_prof& counter, double scale) {
+Row describe(const rung_program& program, uint32_t rung) {
   const rung_rung_info& info = program.rungs[rung];
   Row row;
   row.rung = rung;
+  row.number = info.number;
+  row.key = info.key;
   row.routine = info.routine < program.routine_count ? program.routines[info.routine] : "";
   row.title = info.title != nullptr ? info.title : "";
   row.file = info.file < program.file_count ? program.files[info.file] : "";
   row.line = info.first_line;
-  row.executions = counter.count;
-  row.totalNs = static_cast<double>(counter.total) * scale;
-  row.meanNs = row.totalNs / static_cast<double>(counter.count);
-  row.maxNs = static_cast<double>(counter.max) * scale;
   return row;
 }
 
-std::string lineText(const Row& row) {
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "%6u %12llu %12.3f %10.1f %10.1f %6.1f%%  ", row.rung,
-                static_cast<unsigned long long>(row.executions), row.totalNs / 1000, row.meanNs, row.maxNs,
-                row.share * 100);
-  std::string text = numbers;
-  if (row.file.empty())
-    text += "added by the compiler to " + row.routine;
-  else
-    text += row.file + ":" + std::to_string(row.line);
-  if (!row.title.empty()) text += "  " + row.title;
-  return text + "\n";
+void setTimes(Row& row, const Collector& ticks, double scale) {
+  const Histogram& perScan = ticks.rungs()[row.rung].perScan;
+  const auto ns = [&](double value) { return std::max(0.0, value - ticks.cost()) * scale; };
+  row.minNs = ns(static_cast<double>(perScan.min()));
+  row.medianNs = ns(perScan.quantile(0.5));
+  row.meanNs = ns(perScan.trimmedMean());
+  row.p99Ns = ns(perScan.quantile(0.99));
+  row.maxNs = ns(static_cast<double>(perScan.max()));
+  row.time = static_cast<double>(row.scans) * row.meanNs;
+}
+
+Row makeRow(const rung_program& program, uint32_t rung, const Collector* operations, const Collector* ticks,
+            double scale) {
+  Row row = describe(program, rung);
+  const Collector::Rung& counted = (operations != nullptr ? operations : ticks)->rungs()[rung];
+  row.executions = counted.executions;
+  row.scans = counted.scans;
+  if (operations != nullptr) row.operations = static_cast<uint64_t>(counted.total);
+  if (ticks != nullptr) setTimes(row, *ticks, scale);
+  return row;
+}
+
+double measureOf(Order order, uint64_t operations, double time) {
+  return order == Order::Operations ? static_cast<double>(operations) : time;
+}
+
+template <class Line>
+void sortByMeasure(std::vector<Line>& lines, Order order) {
+  std::stable_sort(lines.begin(), lines.end(), [&](const Line& a, const Line& b) {
+    const double left = measureOf(order, a.operations, a.time);
+    const double right = measureOf(order, b.operations, b.time);
+    return left != right ? left > right : a.executions > b.executions;
+  });
+}
+
+template <class Line>
+void setShares(std::vector<Line>& lines, const Report& report) {
+  const double whole = measureOf(report.order, report.operations, report.time);
+  if (whole <= 0) return;
+  for (Line& line : lines) line.share = measureOf(report.order, line.operations, line.time) / whole;
+}
+
+std::string sumName(const Row& row, SumBy by) {
+  if (by == SumBy::File) return row.file;
+  return by == SumBy::Module ? row.routine.substr(0, row.routine.find('.')) : row.routine;
 }
 
 } // namespace
 
-double nsPerTick() {
-  static const double scale = calibrate();
-  return scale;
-}
-
-Report makeReport(const rung_program& program, std::span<const rung_prof> counters, double nanosecondsPerTick) {
+Report makeReport(const rung_program& program, const Collector* operations, const Collector* ticks, const Clock& clock,
+                  Order order) {
   Report report;
   report.program = program.name;
   report.dialect = program.dialect;
-  report.rungs = program.rung_count;
-  for (uint32_t i = 0; i < program.rung_count && i < counters.size(); ++i) {
-    if (counters[i].count == 0) continue;
-    report.rows.push_back(makeRow(program, i, counters[i], nanosecondsPerTick));
-    report.totalNs += report.rows.back().totalNs;
+  report.order = operations == nullptr ? Order::Time : order;
+  report.clock = clock;
+  for (uint32_t i = 0; (operations != nullptr || ticks != nullptr) && i < program.rung_count; ++i) {
+    Row row = makeRow(program, i, operations, ticks, clock.nsPerTick);
+    report.operations += row.operations;
+    report.time += row.time;
+    const bool added = row.number == 0;
+    if (row.executions == 0 && added) continue;
+    (added ? report.added : row.executions == 0 ? report.never : report.rows).push_back(std::move(row));
   }
-  for (Row& row : report.rows) row.share = report.totalNs > 0 ? row.totalNs / report.totalNs : 0;
-  std::sort(report.rows.begin(), report.rows.end(), [](const Row& a, const Row& b) {
-    if (a.totalNs != b.totalNs) return a.totalNs > b.totalNs;
-    return a.executions != b.executions ? a.executions > b.executions : a.rung < b.rung;
-  });
+  for (std::vector<Row>* rows : {&report.rows, &report.added}) {
+    setShares(*rows, report);
+    sortByMeasure(*rows, report.order);
+  }
   return report;
 }
 
-std::string reportText(const Report& report, uint32_t limit) {
-  std::string text = report.program + " (" + report.dialect + "): " + std::to_string(report.rows.size()) + " of " +
-                     std::to_string(report.rungs) + " rungs ran\n";
-  text += "  rung   executions     total us    mean ns     max ns   share  place\n";
-  const size_t shown = limit == 0 ? report.rows.size() : std::min<size_t>(limit, report.rows.size());
-  for (size_t i = 0; i < shown; ++i) text += lineText(report.rows[i]);
-  if (shown < report.rows.size()) text += "  ... and " + std::to_string(report.rows.size() - shown) + " more\n";
-  return text;
-}
-
-std::string reportJson(const Report& report) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const Row& row : report.rows) {
-    rows.push_back({{"rung", row.rung},
-                    {"routine", row.routine},
-                    {"title", row.title},
-                    {"file", row.file},
-                    {"line", row.line},
-                    {"executions", row.executions},
-                    {"total_ns", row.totalNs},
-                    {"mean_ns", row.meanNs},
-                    {"max_ns", row.maxNs},
-                    {"share", row.share}});
+std::vector<Sum> sums(const Report& report, SumBy by) {
+  std::map<std::string, Sum> byName;
+  for (const std::vector<Row>* rows : {&report.rows, &report.added, &report.never})
+    for (const Row& row : *rows) {
+      Sum& sum = byName[sumName(row, by)];
+      sum.rungs += 1;
+      sum.ran += row.executions != 0 ? 1 : 0;
+      sum.executions += row.executions;
+      sum.operations += row.operations;
+      sum.time += row.time;
+    }
+  std::vector<Sum> sums;
+  for (auto& [name, sum] : byName) {
+    sum.name = name;
+    sums.push_back(std::move(sum));
   }
-  const nlohmann::ordered_json json = {{"program", report.program},
-                                       {"dialect", report.dialect},
-                                       {"total_ns", report.totalNs},
-                                       {"rung_count", report.rungs},
-                                       {"rungs", std::move(rows)}};
-  // Titles come from source files of any encoding: what is no UTF-8 is replaced, not thrown.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  setShares(sums, report);
+  sortByMeasure(sums, report.order);
+  return sums;
 }
 
 } // namespace rung::profile

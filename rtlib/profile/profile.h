@@ -1,43 +1,77 @@
-// Reports on the counters of an instrumented program: a row a rung that ran, sorted by total time.
+// Reports on an instrumented program: what each rung did, from what collectors have read of its counters.
 #pragma once
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "rung/program.h"
+#include "rtlib/profile/clock.h"
+#include "rtlib/profile/collector.h"
 
 namespace rung::profile {
 
-// Nanoseconds of one tick of the cycle counter, measured against CLOCK_MONOTONIC once a process (about 10 ms).
-double nsPerTick();
+enum class Order : uint8_t {
+  Operations, // executed in a run: exact, the same in every run
+  Time,       // Row::time
+};
 
+// A rung. Counts are those of one run; times are nanoseconds of a scan in which the rung ran, without the cost of
+// measuring.
 struct Row {
-  uint32_t rung = 0; // in rung_program::rungs
+  uint32_t rung = 0;   // in rung_program::rungs
+  uint32_t number = 0; // as drawn; 0: the compiler made it
+  uint64_t key = 0;
   std::string routine;
   std::string title;
   std::string file;
   uint32_t line = 0;
   uint64_t executions = 0;
-  double totalNs = 0;
-  double meanNs = 0;
+  uint64_t operations = 0;
+  uint64_t scans = 0; // in which it ran
+  double minNs = 0;
+  double medianNs = 0;
+  double meanNs = 0; // of all scans but the slowest hundredth: a clock that steps in 10 ns has no finer median
+  double p99Ns = 0;
   double maxNs = 0;
-  double share = 0; // of the total of all rungs, 0..1
+  double time = 0;  // `scans` times `meanNs`: what the rung costs when nothing else disturbs the machine
+  double share = 0; // of the sum of what the rows are ordered by, 0..1
 };
 
 struct Report {
   std::string program;
   std::string dialect;
-  double totalNs = 0;
-  uint32_t rungs = 0; // of the program; those without a row never ran
-  std::vector<Row> rows;
+  Order order = Order::Operations;
+  Clock clock;
+  std::vector<Row> rows;  // those that ran
+  std::vector<Row> added; // those of the compiler that ran
+  std::vector<Row> never; // the others of the source, as the program has them
+  uint64_t operations = 0;
+  double time = 0;
 };
 
-// `counters` has an entry a rung (or none: the program is not instrumented, and the report is empty).
-Report makeReport(const rung_program& program, std::span<const rung_prof> counters, double nanosecondsPerTick);
+// `operations` counted operations while the program ran once, `ticks` the clock while it ran once or several times;
+// either may be null. Without operations the order is that of the time.
+Report makeReport(const rung_program& program, const Collector* operations, const Collector* ticks, const Clock& clock,
+                  Order order);
 
-// A table of at most `limit` rows; 0: all.
-std::string reportText(const Report& report, uint32_t limit = 0);
-std::string reportJson(const Report& report);
+enum class SumBy : uint8_t { Routine, Module, File };
+
+struct Sum {
+  std::string name;
+  uint32_t rungs = 0;
+  uint32_t ran = 0;
+  uint64_t executions = 0;
+  uint64_t operations = 0;
+  double time = 0;
+  double share = 0; // as in Row
+};
+
+// The largest first. A module is the part of a routine's name before its dot; rungs of the compiler may be in no file.
+std::vector<Sum> sums(const Report& report, SumBy by);
+
+// As in the text of a fault: rung 7 "title", main.pmc:40.
+std::string placeText(const Row& row);
+// Tables of at most `limit` lines; 0: all.
+std::string rungTable(const Report& report, uint32_t limit);
+std::string sumTable(const std::vector<Sum>& sums, const char* what, uint32_t limit);
 
 } // namespace rung::profile

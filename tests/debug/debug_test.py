@@ -211,6 +211,43 @@ class Debug(unittest.TestCase):
                 self.assertEqual(executed % scans, 0, "the same work in every scan")
 
 
+    def guide_commands(self, *programs):
+        """The lines of the guide's section that start with one of these programs, after what they need has been built."""
+        section = Path("docs/guide.md").read_text().split("\n## Profile and debug\n")[1].split("\n## ")[0]
+        (self.folder / "build").mkdir()
+        (self.folder / "build/bin").symlink_to(Path(RUNGC).parent)
+        (self.folder / "examples").symlink_to(Path("examples").resolve())
+        done = run(RUNGC, "build", "examples/gsk-mill/mill.pmc", "-o", str(self.folder / "mill.so"), "-g")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return [line for line in section.splitlines() if line.split(" ")[0] in programs]
+
+    def in_folder(self, command):
+        done = subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=250, errors="replace")
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}")
+        return done.stdout
+
+    @tool("valgrind")
+    def test_callgrind_runs_as_the_guide_says(self):
+        """On rungc itself, with all its debug information."""
+        count, annotate = self.guide_commands("valgrind", "callgrind_annotate")
+        self.in_folder(count)
+        shown = self.in_folder(annotate)
+        scans = int(re.search(r"--scans (\d+)", count).group(1))
+        first = re.search(r"^ *([\d,]+) .*LD   SPINDLE_CW$", shown, re.MULTILINE)  # of LEVEL1, which runs in every scan
+        self.assertIsNotNone(first, shown)
+        self.assertGreaterEqual(int(first.group(1).replace(",", "")), scans)
+        self.assertGreater(len(re.findall(r"^ *[\d,]+ .*(?:LD|AND|OUT) +\S+$", shown, re.MULTILINE)), 100)
+
+    @tool("perf")
+    def test_perf_runs_as_the_guide_says(self):
+        record, report, annotate = self.guide_commands("perf")
+        if subprocess.run(["perf", "record", "-e", "cpu-clock", "-o", os.devnull, "true"], capture_output=True).returncode != 0:
+            self.skipTest("this machine does not let perf record")
+        self.in_folder(record)
+        self.assertRegex(self.in_folder(report), r"\d+\.\d+% +\[\.\] P14\.0\n")
+        self.assertRegex(self.in_folder(annotate), r"\d+\.\d+ +mill\.pmc:\d+\n")
+
+
 if __name__ == "__main__":
     RUNGC = os.path.abspath(sys.argv.pop(1))
     MINI_HOST = os.path.abspath(sys.argv.pop(1))

@@ -49,7 +49,7 @@ FOREIGN = {
     "lld/": ("codegen/llvm", "codegen/jit"),
     "clang/": ("codegen/clang",),
     "fmt/": ("ir", "frontend", "codegen"),
-    "nlohmann/": ("ir/support", "codegen", "rtlib/profile"),
+    "nlohmann/": ("ir/support", "codegen"),
     "CLI/": (),
     "expat.h": ("rtlib/nc/model/technol",),
     "gtest/": (),

@@ -102,7 +102,8 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
   const ir::Layout& layout = *compiled.layout;
   switch (kind) {
   case EngineKind::Interp: {
-    auto engine = std::make_unique<ir::InterpEngine>(layout, compiled.codeHash);
+    const auto counting = options.countOperations ? ir::Counting::Operations : ir::Counting::Ticks;
+    auto engine = std::make_unique<ir::InterpEngine>(layout, compiled.codeHash, counting);
     if (options.observer) engine->setObserver(options.observer(compiled));
     return std::unique_ptr<host::Engine>(std::move(engine));
   }

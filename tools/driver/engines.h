@@ -31,6 +31,7 @@ struct EngineOptions {
   bool debugger = false;              // with debug information, and gdb is told about the code of the JIT
   std::string cacheFolder;            // JIT: see JitOptions; empty: no cache
   std::string cppCompiler;            // empty: the first of clang++-19, g++, c++ that is installed
+  bool countOperations = false;       // interp: profile counters count operations executed, not time
   std::optional<ir::OpCode> sabotage; // for the tests of the comparison
   // Interpreter: makes what observes the program's rungs. May be empty.
   std::function<std::unique_ptr<ir::RungObserver>(const Compiled&)> observer;

@@ -1,50 +1,129 @@
-// rungc profile: how often and how long every rung runs while a scenario drives the program.
-#include "rtlib/profile/profile.h"
-
+// rungc profile: what every rung and every scan costs while scenarios drive the program.
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
+#include "tools/profile/text.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/profile_page.h"
+#include "tools/rungc/progress.h"
+#include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenarios.h"
 
 namespace rung::rungc {
+namespace {
+
+struct ProfileOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> scenarios;
+  std::string engine = "jit";
+  std::string by = "operations";
+  std::string baseline;
+  std::string html;
+  profile::TextOptions text;
+  uint32_t repeat = 5;
+  bool json = false;
+};
+
+// Scenarios and program files may be given in any order: scenarios are folders and names that end in .scn.
+bool isScenario(const std::string& name) {
+  std::error_code none;
+  return name.ends_with(".scn") || std::filesystem::is_directory(name, none);
+}
+
+// Gives the exit status.
+int sortNames(const ProfileOptions& options, profile::Request& request) {
+  std::vector<std::string> scenarios;
+  for (const std::vector<std::string>* names : {&options.scenarios, &options.files})
+    for (const std::string& name : *names) (isScenario(name) ? scenarios : request.programs).push_back(name);
+  if (scenarios.empty() && !request.programs.empty())
+    return usageError("profile needs a scenario (.scn) that drives the program");
+  int status = kOk;
+  const std::optional<std::vector<std::string>> files = scenarioFiles(scenarios, status);
+  if (!files) return status;
+  for (const std::string& file : *files) {
+    Result<scenario::Scenario> read = scenario::readScenario(file);
+    if (!read.ok()) return environmentError(read.error());
+    request.scenarios.push_back(std::move(read).value());
+  }
+  return kOk;
+}
+
+Result<profile::Baseline> openBaseline(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return failure(fmt::format("cannot read '{}'", path));
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  Result<profile::Baseline> baseline = profile::readBaseline(text);
+  return baseline.ok() ? std::move(baseline) : failure(fmt::format("{}: {}", path, baseline.error()));
+}
+
+int runProfile(const ProfileOptions& options) {
+  profile::Request request;
+  const auto engine = driver::engineFromName(options.engine);
+  if (!engine) return usageError("--engine takes one of interp, cpp, llvm and jit");
+  request.engine = *engine;
+  request.order = options.by == "time" ? profile::Order::Time : profile::Order::Operations;
+  request.repeat = options.repeat;
+  if (const int status = sortNames(options, request); status != kOk) return status;
+  std::optional<profile::Comparison> comparison;
+  std::optional<profile::Baseline> baseline;
+  if (!options.baseline.empty()) { // read first: a wrong file should not cost the measurements
+    Result<profile::Baseline> read = openBaseline(options.baseline);
+    if (!read.ok()) return environmentError(read.error());
+    baseline = std::move(read).value();
+  }
+  Progress progress(stderr);
+  request.progress = [&](const std::string& text) { progress.show(text); };
+  const profile::Outcome outcome = profile::profileScenarios(request);
+  progress.clear();
+  if (!outcome.done) {
+    printResult({outcome.scenario, 0, outcome.result});
+    return outcome.result.environment.empty() ? kWrong : kEnvironment;
+  }
+  if (baseline) comparison = profile::compare(outcome.profile.report, std::move(*baseline));
+  if (!options.html.empty()) {
+    const Result<std::string> page = profilePage(outcome.profile, request);
+    if (!page.ok()) return environmentError(page.error());
+    if (const int status = writeFile(page.value(), options.html); status != kOk) return status;
+  }
+  if (options.json) {
+    std::cout << profile::profileJson(outcome.profile, comparison ? &*comparison : nullptr);
+    return kOk;
+  }
+  std::cout << profile::profileText(outcome.profile, options.text);
+  if (comparison) std::cout << '\n' << profile::comparisonText(outcome.profile, *comparison, options.text.top);
+  return kOk;
+}
+
+} // namespace
 
 void addProfile(CLI::App& app, int& status) {
-  struct Options {
-    std::vector<std::string> files;
-    std::string scenario;
-    std::string engine = "jit";
-    uint32_t top = 0;
-    bool json = false;
-  };
-  CLI::App* command = app.add_subcommand("profile", "Time every rung while a scenario runs");
-  auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->files, "The program, instead of the one that the scenario names");
-  command->add_option("--scenario", options->scenario, "Scenario that drives it")->required();
-  command->add_option("--engine", options->engine, "interp, cpp, llvm or jit")->capture_default_str();
-  command->add_option("--top", options->top, "Only the first N rungs");
-  command->add_flag("--json", options->json, "As JSON");
-  command->callback([options, &status] {
-    Result<std::vector<driver::EngineKind>> engines = enginesOf(options->engine);
-    if (!engines.ok() || engines.value().size() != 1) {
-      fmt::print(stderr, "rungc: --engine takes one of interp, cpp, llvm and jit\n");
-      status = kUsage;
-      return;
-    }
-    scenario::RunOptions run;
-    run.engines = engines.value();
-    run.instrument = true;
-    run.programs = options->files;
-    const TestCase test = runOne(options->scenario, run);
-    if (!test.result.passed) {
-      printResult(test);
-      status = test.result.environment.empty() ? kWrong : kEnvironment;
-      return;
-    }
-    std::cout << (options->json ? profile::reportJson(test.result.profile)
-                                : profile::reportText(test.result.profile, options->top));
-    if (options->json) std::cout << '\n';
-  });
+  CLI::App* command = app.add_subcommand("profile", "What every rung and every scan costs while scenarios run");
+  auto options = std::make_shared<ProfileOptions>();
+  command->add_option(
+      "FILE", options->files,
+      "Scenarios (.scn, folders) of one program, and its files instead of those that the scenarios name; "
+      "without any those of the project");
+  command->add_option("--scenario", options->scenarios, "Scenarios, as FILE");
+  command->add_option("--engine", options->engine, "Engine whose times are measured: interp, cpp, llvm or jit")
+      ->capture_default_str();
+  command
+      ->add_option("--by", options->by,
+                   "Order: operations (exact, the same in every run) or time (of all scans, interruptions left out)")
+      ->check(CLI::IsMember({"operations", "time"}))
+      ->capture_default_str();
+  command->add_option("--repeat", options->repeat, "Times are those of so many runs")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--top", options->text.top, "Lines a table; 0: all")->capture_default_str();
+  command->add_flag("--never", options->text.never, "List the rungs that never ran");
+  command->add_option("--baseline", options->baseline, "Compare with a profile that --json wrote");
+  command->add_option("--html", options->html,
+                      "Write a page: the drawing of the program, its rungs coloured by their share");
+  command->add_flag("--json", options->json, "As JSON, with everything (docs/profile-format.md)");
+  command->callback([options, &status] { status = runProfile(*options); });
 }
 
 } // namespace rung::rungc

@@ -260,7 +260,8 @@ int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs, 
 
 int runSharedObject(const RunOptions& options, int64_t forUs) {
   std::string error;
-  const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(options.source.files[0], error);
+  const std::unique_ptr<host::SoEngine> engine =
+      host::SoEngine::open(options.source.files[0], error, host::Loaded::WithProcess);
   return engine == nullptr ? environmentError(error) : runInstance(*engine, options, forUs, nullptr);
 }
 

@@ -57,7 +57,6 @@ private:
     if (!result_.problems.empty()) return;
     session_.addObserver(printer_);
     runStatements();
-    if (options_.instrument) makeProfile();
   }
 
   // By file and line; a file that is included twice has each of its problems once.
@@ -96,6 +95,7 @@ private:
       }
       session_.addEngine(*engine.value());
     }
+    for (Observer* observer : options_.observers) session_.addObserver(*observer);
     return configure(*program_->compiled().dialect) && powerOn();
   }
 
@@ -137,11 +137,6 @@ private:
       return; // what follows would only repeat it
     }
     if (const std::string fault = session_.unexpectedFault(); !fault.empty()) fail(scenario_.statements.back(), fault);
-  }
-
-  void makeProfile() {
-    const host::Instance& instance = session_.instance();
-    result_.profile = profile::makeReport(instance.program(), instance.profile(), profile::nsPerTick());
   }
 
   const Scenario& scenario_;

@@ -4,20 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/profile/profile.h"
 #include "tools/driver/engines.h"
 #include "tools/scenario/engine_store.h"
-#include "tools/scenario/scenario.h"
+#include "tools/scenario/session.h"
 
 namespace rung::scenario {
 
 struct RunOptions {
   std::vector<driver::EngineKind> engines; // at least one
   driver::EngineOptions engine;
-  bool instrument = false; // profile counters are in the result
+  bool instrument = false; // the program has profile counters
   bool strict = false;
   std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
   EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run
+  std::vector<Observer*> observers;  // of the session; they outlive the run
 };
 
 struct RunResult {
@@ -28,7 +28,6 @@ struct RunResult {
   bool expectsNothing = false;      // with RunOptions::strict that is a problem
   std::vector<std::string> files;   // that were read: scenarios and sources
   std::string environment;          // not empty: it could not be run (no compiler, unreadable file)
-  profile::Report profile;          // of the first engine, when instrumented
 };
 
 // A scenario with problems of its own does not run; what else is wrong with it is found all the same.

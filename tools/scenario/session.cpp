@@ -49,6 +49,7 @@ std::vector<nc::NcProblem> Session::start(nc::PowerOn kind) {
     if (auto problems = lane->nc().connectionProblems(); !problems.empty()) return problems;
   }
   if (std::string text = difference(); !text.empty()) return {{RUNG_NONE, std::move(text)}};
+  for (Observer* observer : observers_) observer->started(*this);
   return {};
 }
 
@@ -99,6 +100,7 @@ void Session::restart(nc::PowerOn kind) {
     lane->powerOn(kind);
   }
   faultExpected_ = false;
+  for (Observer* observer : observers_) observer->started(*this);
 }
 
 // ---- statements ----------------------------------------------------------------------------------------------------
@@ -124,7 +126,9 @@ std::string Session::print(const Statement& s) {
 }
 
 std::optional<Problem> Session::execute(const Statement& s) {
+  statement_ = &s;
   std::string problem = run(s);
+  statement_ = nullptr;
   if (problem.empty()) return std::nullopt;
   return problemAt(s, std::move(problem));
 }

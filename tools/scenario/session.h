@@ -25,7 +25,9 @@ class Session;
 class Observer {
 public:
   virtual ~Observer() = default;
-  // Called after every scan, slot and run of the fast part, once the engines have been compared.
+  // After the program was switched on, and again after every restart.
+  virtual void started(Session& session) { (void)session; }
+  // After every scan, slot and run of the fast part, once the engines have been compared.
   virtual void scanned(const Session& session) = 0;
   // The line of a print statement.
   virtual void printed(const std::string& line) { (void)line; }
@@ -62,6 +64,8 @@ public:
   const nc::NcModel& nc() const { return lanes_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }
   uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
+  // The one that is being executed, for observers; else null.
+  const Statement* statement() const { return statement_; }
 
   // The observer outlives the session.
   void addObserver(Observer& observer) { observers_.push_back(&observer); }
@@ -91,6 +95,7 @@ private:
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<Observer*> observers_;
   std::function<bool()> interrupted_;
+  const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;
   bool faultExpected_ = false;
 };

@@ -73,13 +73,19 @@ typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes 
   }
 
 // Ticks of the machine, those that the host calibrates (rtlib/core/ticks.h): no cycle counter that traps in user mode.
+// They are read in order with everything before and after.
 #if defined(__x86_64__) || defined(__i386__)
-#define RUNG_TICKS() __builtin_ia32_rdtsc()
+#define RUNG_TICKS()                                                                                                   \
+  ({                                                                                                                   \
+    u32 low, high;                                                                                                     \
+    asm volatile("lfence\n\trdtsc\n\tlfence" : "=a"(low), "=d"(high) : : "memory");                                    \
+    static_cast<u64>(high) << 32 | low;                                                                                \
+  })
 #elif defined(__aarch64__)
 #define RUNG_TICKS()                                                                                                   \
   ({                                                                                                                   \
     u64 now;                                                                                                           \
-    asm volatile("mrs %0, cntvct_el0" : "=r"(now));                                                                    \
+    asm volatile("isb\n\tmrs %0, cntvct_el0" : "=r"(now) : : "memory");                                                \
     now;                                                                                                               \
   })
 #else

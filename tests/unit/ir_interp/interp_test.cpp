@@ -440,6 +440,46 @@ TEST(InterpHost, CountsRungs) {
   EXPECT_GE(m->profile()[0].total, m->profile()[0].max);
 }
 
+// Operations in place of ticks: constants, notes and the ends of branches do not count, nor what is not executed; a
+// transfer does, and a loop counts its passes.
+TEST(InterpHost, CountsOperations) {
+  const std::string first = rung(R"(
+    prof_enter
+    %0:bit = load B[0.0]
+    %1:i32 = const 1
+    if %0
+      store.i32 D[1], %1
+      store.i32 D[2], %1
+    else
+      store.i32 D[3], %1
+    endif
+    prof_leave)",
+                                 "} goto 1");
+  const std::string second = rung(R"(
+    prof_enter
+    %0:i32 = const 1
+    %1:i32, %2:i32 = loop 3, %0
+      %3:i32 = add %2, %0
+    %4:i32 = endloop %3
+    prof_leave)",
+                                  "}", 1);
+  std::string text = program(routine(first + second));
+  text.insert(text.find('\n'), " instrumented");
+  Module module = moduleFromText(text);
+  const Layout layout(module, {});
+  InterpEngine engine(layout, 1, Counting::Operations);
+  host::Instance instance(engine.program());
+  instance.context().engine = engine.context();
+  instance.scan();
+  EXPECT_EQ(instance.profile()[0].total, 4u) << "load, if, store, goto";
+  EXPECT_EQ(instance.profile()[1].total, 7u) << "loop, and three times add and endloop";
+  instance.memory().writeByte(1, 0, 1);
+  instance.scan();
+  EXPECT_EQ(instance.profile()[0].total, 9u) << "two stores now";
+  EXPECT_EQ(instance.profile()[0].max, 5u);
+  EXPECT_EQ(instance.profile()[1].total, 14u);
+}
+
 TEST(InterpDeathTest, NeedsItsContext) {
   const Module module = moduleForOp(OpCode::Now);
   const Layout layout(module, {});

@@ -193,6 +193,26 @@ TEST_F(InstanceTest, InstancesOfOneProgramDoNotMeet) {
   EXPECT_EQ(byte(b, 0), 0u);
 }
 
+TEST_F(InstanceTest, AWatchSeesEveryRunOfATask) {
+  struct Watch final : TaskWatch {
+    void begins(const Instance&, uint32_t task) override { seen += fmt(task, '+'); }
+    void ended(const Instance&, uint32_t task) override { seen += fmt(task, '-'); }
+    static std::string fmt(uint32_t task, char what) { return what + std::to_string(task); }
+    std::string seen;
+  } watch;
+  Instance instance(test.program);
+  instance.scan(); // nobody looks
+  instance.setTaskWatch(&watch);
+  instance.scan();
+  const std::string once = watch.seen;
+  EXPECT_EQ(once.substr(0, 4), "+0-0");
+  instance.runTask(0);
+  EXPECT_EQ(watch.seen, once + "+0-0");
+  instance.setTaskWatch(nullptr);
+  instance.scan();
+  EXPECT_EQ(watch.seen, once + "+0-0");
+}
+
 TEST_F(InstanceTest, MemoryIsAlignedAndCountersExistWhenInstrumented) {
   test.program.memory_align = 256;
   test.program.instrumented = 1;

@@ -6,6 +6,7 @@
 
 #include "rtlib/host/instance.h"
 #include "rtlib/host/retained_memory.h"
+#include "rtlib/profile/collector.h"
 #include "tests/support/count_allocations.h"
 #include "tests/unit/rtlib/test_program.h"
 
@@ -85,6 +86,19 @@ TEST(NoAllocation, NeitherStartNorScan) {
   EXPECT_EQ(count, 0);
   EXPECT_TRUE(instance.faulted());
   EXPECT_GT(instance.messages().lost() + instance.services().refused(), 0u); // overflow allocates nothing either
+}
+
+TEST(NoAllocation, NorReadingCounters) {
+  std::vector<rung_prof> counters(3);
+  rung::profile::Collector collector(3, 20);
+  const int count = allocationsOf([&] {
+    collector.started(counters);
+    for (uint64_t i = 0; i < 1000; ++i) {
+      counters[i % 3] = {i, i * i * i, 0, 0};
+      collector.scanned(counters);
+    }
+  });
+  EXPECT_EQ(count, 0);
 }
 
 // Offering the retained memory copies or does nothing: while the saver's thread is busy or asleep too.

@@ -1,6 +1,7 @@
 // Loading shared objects; the programs stand in so/*.c, so the ABI is used from plain C too.
 #include "rtlib/host/so_engine.h"
 
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,6 +22,15 @@ TEST(SoEngine, LoadsAndRunsAProgramMadeInC) {
   instance.scan();
   instance.scan();
   EXPECT_EQ(instance.read(*instance.resolve("D0")), 2u);
+}
+
+TEST(SoEngine, StaysLoadedOnlyWhenAsked) {
+  std::string error;
+  const auto isLoaded = [] { return dlopen(RUNG_TEST_SO_GOOD, RTLD_NOW | RTLD_NOLOAD) != nullptr; };
+  ASSERT_NE(SoEngine::open(RUNG_TEST_SO_GOOD, error), nullptr) << error;
+  EXPECT_FALSE(isLoaded());
+  ASSERT_NE(SoEngine::open(RUNG_TEST_SO_GOOD, error, Loaded::WithProcess), nullptr) << error;
+  EXPECT_TRUE(isLoaded());
 }
 
 TEST(SoEngine, RefusesAnotherVersion) {

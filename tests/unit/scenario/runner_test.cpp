@@ -213,15 +213,25 @@ TEST_F(ScenarioRunner, AWrongEngineIsCaughtThoughTheScenarioExpectsNothing) {
   EXPECT_NE(result.problems[0].message.find("5101.00"), std::string::npos) << result.problems[0].message;
 }
 
-TEST_F(ScenarioRunner, ProfilesEveryRung) {
+struct CountersOfTheLastScan final : Observer {
+  void started(Session& session) override { starts += session.scans() == 0 ? 1 : 0; }
+  void scanned(const Session& session) override {
+    counters.assign(session.instance().profile().begin(), session.instance().profile().end());
+  }
+  int starts = 0;
+  std::vector<rung_prof> counters;
+};
+
+TEST_F(ScenarioRunner, ObserversReadTheCountersOfAnInstrumentedProgram) {
+  CountersOfTheLastScan observer;
   RunOptions options;
   options.engines = {EngineKind::Jit};
   options.instrument = true;
-  const RunResult result = runText("scan 7\n", options);
-  ASSERT_TRUE(result.passed);
-  ASSERT_EQ(result.profile.rows.size(), 1u);
-  EXPECT_EQ(result.profile.rows[0].executions, 7u);
-  EXPECT_EQ(result.profile.rows[0].line, 4u);
+  options.observers = {&observer};
+  ASSERT_TRUE(runText("scan 7\n", options).passed);
+  EXPECT_EQ(observer.starts, 1);
+  ASSERT_EQ(observer.counters.size(), 1u);
+  EXPECT_EQ(observer.counters[0].count, 7u);
 }
 
 } // namespace

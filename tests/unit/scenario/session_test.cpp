@@ -43,10 +43,14 @@ protected:
 };
 
 struct ScanCounter final : Observer {
+  void started(Session&) override { ++starts; }
   void scanned(const Session& session) override {
     ++calls;
     lastTime = session.nowUs();
+    lastLine = session.statement()->line;
   }
+  int starts = 0;
+  uint32_t lastLine = 0;
   uint64_t calls = 0;
   int64_t lastTime = 0;
 };
@@ -73,6 +77,11 @@ TEST_F(ScenarioSession, ObserversSeeEveryScan) {
   execute("run 25ms");
   EXPECT_EQ(counter.calls, 7u);
   EXPECT_EQ(counter.lastTime, session_.nowUs());
+  EXPECT_EQ(counter.lastLine, 2u);
+  EXPECT_EQ(session_.statement(), nullptr);
+  execute("cold_start");
+  execute("warm_start");
+  EXPECT_EQ(counter.starts, 2);
 }
 
 TEST_F(ScenarioSession, AnInterruptEndsTheStatement) {

@@ -1,0 +1,56 @@
+// Calibration (see clock.h).
+#include "rtlib/profile/clock.h"
+
+#include <ctime>
+
+#include "rtlib/core/ticks.h"
+#include "rtlib/profile/histogram.h"
+#include "rung/program.h"
+
+namespace rung::profile {
+namespace {
+
+int64_t monotonicNs() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+double nsPerTick() {
+  constexpr int64_t kMeasureNs = 10'000'000;
+  const int64_t startNs = monotonicNs();
+  const uint64_t startTicks = rt::readTicks();
+  int64_t endNs = startNs;
+  while (endNs - startNs < kMeasureNs) endNs = monotonicNs();
+  const uint64_t ticks = rt::readTicks() - startTicks;
+  return ticks == 0 ? 1.0 : static_cast<double>(endNs - startNs) / static_cast<double>(ticks);
+}
+
+// What generated code does for a rung without operations.
+void measureNothing(volatile rung_prof& prof) {
+  prof.started = rt::readTicks();
+  const uint64_t ticks = rt::readTicks() - prof.started;
+  prof.count = prof.count + 1;
+  prof.total = prof.total + ticks;
+  prof.max = ticks;
+}
+
+double emptyRungTicks() {
+  constexpr int kRungs = 20'000;
+  Histogram ticks;
+  rung_prof prof{};
+  for (int i = 0; i < kRungs; ++i) {
+    measureNothing(prof);
+    ticks.add(prof.max);
+  }
+  return ticks.trimmedMean();
+}
+
+} // namespace
+
+const Clock& calibratedClock() {
+  static const Clock calibrated = {nsPerTick(), emptyRungTicks()};
+  return calibrated;
+}
+
+} // namespace rung::profile

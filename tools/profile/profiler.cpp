@@ -1,0 +1,289 @@
+// The three measurements (see profiler.h).
+#include "tools/profile/profiler.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace rung::profile {
+namespace {
+
+constexpr size_t kMaxCauses = 5;
+constexpr double kCauseShare = 0.02; // of the scan: less explains nothing
+
+// A whole scan, its number among all of a run, and where it was.
+struct Place {
+  std::string scenario;
+  uint64_t scan = 0;
+  int64_t timeUs = 0;
+  std::string file;
+  uint32_t line = 0;
+};
+
+// What all measurements share: which scan this is.
+class Measurement : public scenario::Observer {
+public:
+  virtual void rewind() { scans_ = 0; }
+  void enter(const scenario::Scenario& scenario) {
+    scenario_ = scenario.path;
+    fresh_ = true;
+  }
+  uint64_t scans() const { return scans_; }
+  const rung_program* program() const { return program_; }
+  // The scenarios are not all of one program.
+  bool differs() const { return differs_; }
+
+  void started(scenario::Session& session) override {
+    const rung_program& program = session.instance().program();
+    differs_ = differs_ || (program_ != nullptr && program_->code_hash != program.code_hash);
+    program_ = &program;
+    if (!differs_) begin(session.instance(), fresh_);
+    fresh_ = false;
+  }
+  void scanned(const scenario::Session& session) override {
+    if (differs_) return;
+    const scenario::Statement& s = *session.statement();
+    const bool whole = s.kind == scenario::Kind::Scan || s.kind == scenario::Kind::Run;
+    end(session.instance(), whole, Place{scenario_, session.scans(), session.nowUs(), s.file, s.line});
+    scans_ += whole ? 1 : 0;
+  }
+
+protected:
+  // The instance was switched on; `fresh`: it is a new one.
+  virtual void begin(host::Instance& instance, bool fresh) = 0;
+  virtual void end(const host::Instance& instance, bool whole, const Place& place) = 0;
+
+private:
+  std::string scenario_;
+  const rung_program* program_ = nullptr;
+  uint64_t scans_ = 0;
+  bool fresh_ = true;
+  bool differs_ = false;
+};
+
+// Counters of rungs, whatever they count; remembers what each rung took in one scan.
+class RungMeasurement : public Measurement {
+public:
+  explicit RungMeasurement(double cost) : cost_(cost) {}
+  const Collector& collector() const { return *collector_; }
+  const Place& place() const { return place_; }
+  const std::vector<uint64_t>& remembered() const { return remembered_; }
+
+protected:
+  void begin(host::Instance& instance, bool fresh) override {
+    if (!collector_) collector_.emplace(instance.program().rung_count, cost_);
+    if (fresh) collector_->newInstance();
+    collector_->started(instance.profile());
+  }
+
+  double cost_;
+  std::optional<Collector> collector_;
+  Place place_;
+  std::vector<uint64_t> remembered_;
+};
+
+// Operations: remembers the scan with the most.
+class CountOperations final : public RungMeasurement {
+public:
+  CountOperations() : RungMeasurement(0) {}
+  const std::vector<uint64_t>& totals() const { return totals_; }
+
+protected:
+  void end(const host::Instance& instance, bool whole, const Place& place) override {
+    collector_->scanned(instance.profile());
+    if (!whole) return;
+    totals_.push_back(collector_->lastScanTotal());
+    if (totals_.size() > 1 && totals_.back() <= most_) return;
+    most_ = totals_.back();
+    place_ = place;
+    remembered_.assign(collector_->lastScan().begin(), collector_->lastScan().end());
+  }
+
+private:
+  std::vector<uint64_t> totals_; // of whole scans
+  uint64_t most_ = 0;
+};
+
+// Time of whole scans, as the machine will run them.
+class TimeScans final : public Measurement {
+public:
+  void rewind() override {
+    Measurement::rewind();
+    times_.rewind();
+  }
+  const ScanTimes& times() const { return times_; }
+  size_t longest() const {
+    const std::vector<uint64_t>& values = times_.scans().values();
+    return static_cast<size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  }
+
+protected:
+  void begin(host::Instance& instance, bool) override {
+    instance.setTaskWatch(&times_);
+    times_.started(instance);
+  }
+  void end(const host::Instance&, bool whole, const Place&) override { times_.scanned(whole); }
+
+private:
+  ScanTimes times_;
+};
+
+// Time of rungs: remembers the shortest times of the rungs in scan `which`.
+class TimeRungs final : public RungMeasurement {
+public:
+  explicit TimeRungs(size_t which) : RungMeasurement(calibratedClock().costTicks), which_(which) {}
+  void rewind() override {
+    RungMeasurement::rewind();
+    times_.rewind();
+  }
+  const ScanTimes& times() const { return times_; }
+
+protected:
+  void begin(host::Instance& instance, bool fresh) override {
+    RungMeasurement::begin(instance, fresh);
+    instance.setTaskWatch(&times_);
+    times_.started(instance);
+  }
+  void end(const host::Instance& instance, bool whole, const Place& place) override {
+    collector_->scanned(instance.profile());
+    times_.scanned(whole);
+    if (!whole || scans() != which_) return;
+    place_ = place;
+    const std::span<const uint64_t> last = collector_->lastScan();
+    remembered_.resize(last.size(), UINT64_MAX);
+    for (size_t i = 0; i < last.size(); ++i) remembered_[i] = std::min(remembered_[i], last[i]);
+  }
+
+private:
+  size_t which_;
+  ScanTimes times_;
+};
+
+// Of all scans: 0 when the rung runs in fewer than half of them.
+double usualOf(const Collector& collector, uint32_t which) {
+  const Collector::Rung& rung = collector.rungs()[which];
+  const double idle = static_cast<double>(collector.scans() - rung.scans) / static_cast<double>(collector.scans());
+  return idle >= 0.5 ? 0 : std::max(0.0, rung.perScan.quantile((0.5 - idle) / (1 - idle)) - collector.cost());
+}
+
+WorstScan explain(const Report& report, const RungMeasurement& measured, double scale, double value, double usual) {
+  const Place& place = measured.place();
+  WorstScan worst{true, place.scenario, place.scan, place.timeUs, place.file, place.line, value, usual, {}};
+  const Collector& collector = measured.collector();
+  for (const std::vector<Row>* rows : {&report.rows, &report.added})
+    for (const Row& row : *rows) {
+      Cause cause{row, static_cast<double>(measured.remembered()[row.rung]) * scale,
+                  usualOf(collector, row.rung) * scale, row.scans == 1};
+      if (cause.value - cause.usual >= kCauseShare * value) worst.causes.push_back(std::move(cause));
+    }
+  std::stable_sort(worst.causes.begin(), worst.causes.end(),
+                   [](const Cause& a, const Cause& b) { return a.value - a.usual > b.value - b.usual; });
+  if (worst.causes.size() > kMaxCauses) worst.causes.resize(kMaxCauses);
+  return worst;
+}
+
+class Profiler {
+public:
+  explicit Profiler(const Request& request) : request_(request) {}
+
+  Outcome run() {
+    CountOperations operations;
+    driver::EngineOptions counting;
+    counting.countOperations = true;
+    if (!measure("counting operations", operations, 1, driver::EngineKind::Interp, counting, true))
+      return std::move(outcome_);
+    TimeScans scans;
+    if (!measure("timing scans", scans, request_.repeat, request_.engine, {}, false)) return std::move(outcome_);
+    TimeRungs rungs(scans.longest());
+    if (!measure("timing rungs", rungs, request_.repeat, request_.engine, {}, true)) return std::move(outcome_);
+    if (!agree(operations, rungs)) return std::move(outcome_);
+    outcome_.profile = assemble(operations, scans, rungs);
+    outcome_.done = true;
+    return std::move(outcome_);
+  }
+
+private:
+  bool fail(const std::string& scenario, std::string message) {
+    outcome_.scenario = scenario;
+    outcome_.result.passed = false;
+    outcome_.result.environment = std::move(message);
+    return false;
+  }
+
+  // Runs all scenarios `repeat` times.
+  bool measure(const char* what, Measurement& measurement, uint32_t repeat, driver::EngineKind engine,
+               const driver::EngineOptions& options, bool instrument) {
+    scenario::RunOptions run;
+    run.engines = {engine};
+    run.engine = options;
+    run.instrument = instrument;
+    run.programs = request_.programs;
+    run.store = stores_.emplace_back(std::make_unique<scenario::EngineStore>()).get();
+    run.observers = {&measurement};
+    for (uint32_t i = 0; i < repeat; ++i) {
+      measurement.rewind();
+      for (const scenario::Scenario& scenario : request_.scenarios) {
+        measurement.enter(scenario);
+        if (request_.progress)
+          request_.progress(fmt::format("{}, run {} of {}: {}", what, i + 1, repeat, scenario.path));
+        outcome_.result = scenario::run(scenario, run);
+        outcome_.scenario = scenario.path;
+        if (!outcome_.result.passed) return false;
+        if (measurement.program() == nullptr) return fail(scenario.path, "it runs no program");
+        if (measurement.differs())
+          return fail(scenario.path,
+                      fmt::format("it runs another program than {} (other files, or a configuration that the compiler "
+                                  "reads): profile them one at a time",
+                                  request_.scenarios[0].path));
+      }
+    }
+    return true;
+  }
+
+  // A scenario does the same in every run, or its counts would mean nothing.
+  bool agree(const CountOperations& operations, const TimeRungs& rungs) {
+    for (uint32_t i = 0; i < operations.program()->rung_count; ++i) {
+      const uint64_t once = operations.collector().rungs()[i].executions;
+      const uint64_t all = rungs.collector().rungs()[i].executions;
+      if (once * request_.repeat != all)
+        return fail(request_.scenarios[0].path,
+                    fmt::format("its runs differ: rung {} ran {} times in one run on interp and {} times in {} runs on "
+                                "{}",
+                                i, once, all, request_.repeat, driver::engineName(request_.engine)));
+    }
+    return true;
+  }
+
+  Profile assemble(const CountOperations& operations, const TimeScans& scans, const TimeRungs& rungs) const {
+    const rung_program& program = *rungs.program();
+    const double scale = calibratedClock().nsPerTick;
+    Profile profile;
+    profile.report =
+        makeReport(program, &operations.collector(), &rungs.collector(), calibratedClock(), request_.order);
+    profile.engine = driver::engineName(request_.engine);
+    for (const scenario::Scenario& scenario : request_.scenarios) profile.scenarios.push_back(scenario.path);
+    profile.codeHash = scans.program()->code_hash;
+    profile.scans = operations.scans();
+    profile.repeat = request_.repeat;
+    profile.scanOperations = spreadOf(operations.totals(), 1);
+    profile.deadlines = scans.times().deadlines(program, calibratedClock());
+    profile.measuredScanNs = spreadOf(rungs.times().scans().values(), scale).median;
+    if (operations.scans() == 0) return profile;
+    const Spread& counts = profile.scanOperations;
+    profile.worstByOperations = explain(profile.report, operations, 1, counts.max, counts.median);
+    const Spread& times = profile.deadlines[0].ns;
+    profile.worstByTime = explain(profile.report, rungs, scale, times.max, times.median);
+    return profile;
+  }
+
+  const Request& request_;
+  Outcome outcome_;
+  std::vector<std::unique_ptr<scenario::EngineStore>> stores_; // of the measurements; their programs are reported on
+};
+
+} // namespace
+
+Outcome profileScenarios(const Request& request) { return Profiler(request).run(); }
+
+} // namespace rung::profile

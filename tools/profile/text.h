@@ -1,0 +1,23 @@
+// A profile as text for a terminal, and as JSON (docs/profile-format.md).
+#pragma once
+#include <string>
+
+#include "tools/profile/baseline.h"
+#include "tools/profile/profiler.h"
+
+namespace rung::profile {
+
+struct TextOptions {
+  uint32_t top = 20;  // lines a table; 0: all
+  bool never = false; // list the rungs that never ran
+};
+
+std::string profileText(const Profile& profile, const TextOptions& options);
+std::string comparisonText(const Profile& profile, const Comparison& comparison, uint32_t top);
+// `comparison` may be null.
+std::string profileJson(const Profile& profile, const Comparison* comparison);
+
+// 950 ns, 13.1 us, 8 ms.
+std::string durationText(double ns);
+
+} // namespace rung::profile

@@ -1,0 +1,69 @@
+// A profile on the drawing of its program (see profile_page.h).
+#include "tools/rungc/profile_page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/profile/text.h"
+#include "tools/rungc/drawing.h"
+#include "tools/scenario/compile_step.h"
+#include "tools/view/html.h"
+#include "tools/view/overlay.h"
+
+namespace rung::rungc {
+namespace {
+
+using profile::durationText;
+
+view::Run runOf(const profile::Row& row) {
+  view::Run run;
+  run.state = row.executions > 0 ? view::Run::State::Ran : view::Run::State::Never;
+  if (row.executions == 0) return run;
+  run.heat = row.share;
+  run.label =
+      fmt::format("{:.1f} %, {} operations, {} a scan", row.share * 100, row.operations, durationText(row.meanNs));
+  run.detail =
+      fmt::format("{} executions in {} scans; of a scan: least {}, median {}, 99th percentile {}", row.executions,
+                  row.scans, durationText(row.minNs), durationText(row.medianNs), durationText(row.p99Ns));
+  return run;
+}
+
+view::Overlay overlayOf(const profile::Profile& profile) {
+  const profile::Report& report = profile.report;
+  const profile::Deadline& scan = profile.deadlines[0];
+  view::Overlay overlay;
+  overlay.title = "Profile";
+  overlay.heat = report.order == profile::Order::Operations ? "share of all operations" : "share of the whole time";
+  overlay.summary = {
+      fmt::format("{}: {} scans, {} operations", fmt::join(profile.scenarios, ", "), profile.scans, report.operations),
+      fmt::format("a scan: {:.0f} operations, {}; the longest {} of {}", profile.scanOperations.median,
+                  durationText(scan.ns.median), durationText(scan.ns.max), durationText(scan.periodUs * 1000)),
+      fmt::format("{} of {} rungs ran", report.rows.size(), report.rows.size() + report.never.size())};
+  for (const std::vector<profile::Row>* rows : {&report.rows, &report.never})
+    for (const profile::Row& row : *rows) overlay.rungs.push_back({row.number, {row.file, row.line, 0}, runOf(row)});
+  return overlay;
+}
+
+} // namespace
+
+Result<std::string> profilePage(const profile::Profile& profile, const profile::Request& request) {
+  const scenario::CompileStep step = scenario::compileProgram(request.scenarios[0], request.programs, false, false);
+  if (!step.program) return failure("the program has changed while its scenarios ran");
+  const driver::Compiled& compiled = *step.program;
+  const view::Overlay overlay = overlayOf(profile);
+  const std::vector<std::string>& names = compiled.module->files;
+  if (!hasDrawing(*compiled.dialect))
+    return view::renderTable(fmt::format("{}", fmt::join(names, ", ")), compiled.dialect->title,
+                             view::rowsOf(*compiled.module), overlay);
+  SourceManager sources;
+  const Result<std::vector<FileId>> files = driver::addFiles(sources, names);
+  if (!files.ok()) return failure(files.error());
+  Diagnostics diagnostics;
+  std::optional<view::Program> drawing =
+      drawingOf(sources, files.value(), *compiled.dialect, compiled.options, diagnostics);
+  if (!drawing) return failure("the program has changed while its scenarios ran");
+  view::lay(overlay, *drawing);
+  return view::renderHtml(*drawing);
+}
+
+} // namespace rung::rungc

@@ -1,0 +1,13 @@
+// A profile on the drawing of its program; where the dialect has no drawings, as a table.
+#pragma once
+#include <string>
+
+#include "ir/support/result.h"
+#include "tools/profile/profiler.h"
+
+namespace rung::rungc {
+
+// The page, of the program that the request's scenarios run. Fails when it cannot be read any more.
+Result<std::string> profilePage(const profile::Profile& profile, const profile::Request& request);
+
+} // namespace rung::rungc

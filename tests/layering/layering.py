@@ -23,6 +23,7 @@ MODULES = {
     "ir/idioms": IR,
     "ir/text": IR,
     "ir/verify": IR | {"ir/text"},
+    "ir/uses": IR,
     "ir/passes": IR | {"ir/idioms", "ir/text", "ir/verify"},
     "ir/layout": IR,
     "ir/interp": IR | {"ir/layout", "ir/passes", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is

@@ -68,6 +68,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   checkModule(*out.module, ir::Mode::Built);
+  out.uses = std::make_unique<ir::Uses>(*out.module);
   ir::PassOptions passes;
   passes.optimise = request.optimise && !request.marks;
   passes.instrument = request.instrument;

@@ -10,6 +10,7 @@
 #include "ir/layout/layout.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
+#include "ir/uses/uses.h"
 
 namespace rung::driver {
 
@@ -29,6 +30,7 @@ struct Compiled {
   std::unique_ptr<ir::Layout> layout;
   ir::Marks marks;                  // where they were asked for
   frontend::CompileOptions options; // of the request
+  std::unique_ptr<ir::Uses> uses;   // of the module as the dialect made it
   uint64_t codeHash = 0;            // of the IR's text
   size_t warnings = 0;              // that were reported on the way
 };

@@ -12,6 +12,7 @@
 #include "tools/rungc/junit.h"
 #include "tools/rungc/progress.h"
 #include "tools/rungc/scenario_files.h"
+#include "tools/rungc/scenario_trace.h"
 #include "tools/rungc/test_pool.h"
 
 namespace rung::rungc {
@@ -31,6 +32,7 @@ struct TestOptions {
   bool strict = false;
   std::string level = "2";
   CoverageOptions coverage;
+  ScenarioTrace trace;
 };
 
 struct Outcome {
@@ -113,7 +115,7 @@ bool waitForChange(const TestOptions& options, const std::vector<TestCase>& test
   return changed.has_value();
 }
 
-int runTests(const TestOptions& options) {
+int runTests(TestOptions& options) {
   Result<std::vector<driver::EngineKind>> engines = enginesOf(options.engines);
   if (!engines.ok()) return usageError(engines.error());
   if (options.coverage.wanted() && options.enginesGiven && options.engines != "interp")
@@ -125,6 +127,7 @@ int runTests(const TestOptions& options) {
   run.strict = options.strict;
   run.engine.cppCompiler = options.cxx;
   run.engine.optimise = options.level != "0";
+  options.trace.attach(run);
   for (int status = kOk;;) {
     const auto since = std::filesystem::file_time_type::clock::now();
     const std::optional<std::vector<std::string>> found = scenarioFiles(options.names, status);
@@ -133,9 +136,12 @@ int runTests(const TestOptions& options) {
     if (files.empty()) return usageError(fmt::format("none of the {} scenarios fits --filter", found->size()));
     CoverageRun coverage;
     if (options.coverage.wanted()) coverage.observe(run);
+    if (const std::string problem = options.trace.problem(files.size()); !problem.empty()) return usageError(problem);
     const Outcome outcome = runOnce(files, options, run);
+    if (options.trace.refused()) return kUsage;
     status = std::max(outcome.status, writeJunit(options.junit, outcome.tests));
     if (options.coverage.wanted()) status = std::max(status, coverage.finish(options.coverage));
+    if (const std::string error = options.trace.finish(); !error.empty()) status = environmentError(error);
     if (!options.watchFiles || !waitForChange(options, outcome.tests, since, status)) return status;
   }
 }
@@ -160,6 +166,7 @@ void addTest(CLI::App& app, int& status) {
   command->add_flag("--fail-fast", options->failFast, "End at the first failure");
   command->add_flag("--watch-files", options->watchFiles, "Run again when a scenario or a program changes");
   addColorOption(*command, options->color, "Colours of ok and FAILED");
+  options->trace.addTo(*command);
   command->add_option("--junit", options->junit, "Write the results as JUnit XML");
   command->add_option("--cxx", options->cxx, "C++ compiler of the engine cpp");
   addLevelOption(*command, options->level);

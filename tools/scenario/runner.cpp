@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "tools/driver/configuration.h"
 #include "tools/scenario/compile_step.h"
+#include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
-#include "tools/scenario/session.h"
 
 namespace rung::scenario {
 namespace {
@@ -54,8 +55,7 @@ private:
     program_ = store().enter(std::move(*step.program));
     if (!start()) return;
     add(result_.problems, unknownNames(scenario_, session_.instance(), session_.nc()));
-    if (!result_.problems.empty()) return;
-    session_.addObserver(printer_);
+    if (!result_.problems.empty() || !observe(program_->compiled())) return;
     runStatements();
   }
 
@@ -127,12 +127,21 @@ private:
     return problems.empty();
   }
 
+  bool observe(const driver::Compiled& program) {
+    session_.addObserver(printer_);
+    explainer_.emplace(session_, *program.uses);
+    session_.addObserver(*explainer_);
+    if (options_.started) result_.environment = options_.started(session_, program);
+    return result_.environment.empty();
+  }
+
   void runStatements() {
     for (const Statement& s : scenario_.statements) {
       if (belongsToStart(s.kind)) continue;
       std::optional<Problem> problem = session_.execute(s);
       result_.scans = session_.scans();
       if (!problem) continue;
+      if (s.kind == Kind::Expect || s.kind == Kind::ExpectRange) problem->message += explainer_->why(s.name);
       result_.problems.push_back(std::move(*problem));
       return; // what follows would only repeat it
     }
@@ -146,6 +155,7 @@ private:
   std::shared_ptr<StoredProgram> program_; // outlives the session
   Printer printer_{result_.printed};
   Session session_;
+  std::optional<Explainer> explainer_; // once the session has started
 };
 
 } // namespace

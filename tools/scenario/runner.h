@@ -1,11 +1,13 @@
 // Runs a scenario on one or several engines in step. With several, all memory, messages, services and the fault of each
 // are compared with the first engine's after every scan, whatever the scenario expects.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "tools/driver/engines.h"
 #include "tools/scenario/engine_store.h"
+#include "tools/scenario/scenario.h"
 #include "tools/scenario/session.h"
 
 namespace rung::scenario {
@@ -18,6 +20,9 @@ struct RunOptions {
   std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
   EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run
   std::vector<Observer*> observers;  // of the session; they outlive the run
+  // Called between the start and the first statement, to attach observers, which outlive the run. A text says why the
+  // scenario cannot be run.
+  std::function<std::string(Session&, const driver::Compiled&)> started;
 };
 
 struct RunResult {

@@ -1,6 +1,7 @@
 // A running program that takes statements (see session.h).
 #include "tools/scenario/session.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -10,6 +11,10 @@
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
+
+std::string scanText(uint64_t scan, int64_t us) {
+  return fmt::format("scan {}, {:.3f} s", scan, static_cast<double>(us) / 1e6);
+}
 
 bool belongsToStart(Kind kind) {
   switch (kind) {
@@ -59,8 +64,8 @@ std::vector<nc::NcProblem> Session::start(nc::PowerOn kind) {
 std::string Session::difference() const {
   for (size_t i = 1; i < lanes_.size(); ++i)
     if (const auto found = host::firstDifference(instance(), lanes_[i]->instance()))
-      return fmt::format("engines disagree after scan {}: {} against {}: {}", scans_, lanes_[0]->engineName(),
-                         lanes_[i]->engineName(), *found);
+      return fmt::format("engines disagree: {} against {}: {}", lanes_[0]->engineName(), lanes_[i]->engineName(),
+                         *found);
   return {};
 }
 
@@ -109,11 +114,19 @@ std::string Session::prefixed(const Lane& lane, const std::string& problem) cons
   return lanes_.size() > 1 ? fmt::format("[{}] {}", lane.engineName(), problem) : problem;
 }
 
+std::string Session::atScan(std::string problem) const {
+  const std::string when =
+      scans_ == 0 ? std::string(" (before the first scan)") : fmt::format(" ({})", scanText(scans_, nowUs()));
+  problem.insert(std::min(problem.find('\n'), problem.size()), when);
+  return problem;
+}
+
 std::string Session::unexpectedFault() const {
   if (faultExpected_) return {};
   for (const std::unique_ptr<Lane>& lane : lanes_)
     if (lane->instance().faulted())
-      return fmt::format("[{}] the program stopped with a fault: {}", lane->engineName(), lane->instance().faultText());
+      return atScan(
+          fmt::format("[{}] the program stopped with a fault: {}", lane->engineName(), lane->instance().faultText()));
   return {};
 }
 
@@ -130,7 +143,7 @@ std::optional<Problem> Session::execute(const Statement& s) {
   std::string problem = run(s);
   statement_ = nullptr;
   if (problem.empty()) return std::nullopt;
-  return problemAt(s, std::move(problem));
+  return problemAt(s, atScan(std::move(problem)));
 }
 
 std::string Session::run(const Statement& s) {

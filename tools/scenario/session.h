@@ -22,6 +22,9 @@ namespace rung::scenario {
 
 class Session;
 
+// "scan 12, 0.120 s".
+std::string scanText(uint64_t scan, int64_t us);
+
 class Observer {
 public:
   virtual ~Observer() = default;
@@ -51,8 +54,8 @@ public:
   // session has not started.
   std::vector<nc::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
 
-  // Executes one statement in all lanes. What is wrong is what the statement expected or could not do; statements that
-  // belong to the start are refused.
+  // Executes one statement in all lanes. What is wrong is what the statement expected or could not do, with the scan
+  // and the time; statements that belong to the start are refused.
   std::optional<Problem> execute(const Statement& s);
   // Why the program stopped; "" when it runs or an expect_fault has named the fault.
   std::string unexpectedFault() const;
@@ -74,6 +77,8 @@ public:
 
 private:
   std::string run(const Statement& s);
+  // The problem with scan and time at the end of its first line.
+  std::string atScan(std::string problem) const;
   std::string advance(uint64_t count, Lane::Advance how);
   std::string advanceOnce(Lane::Advance how);
   std::string runFor(int64_t us);

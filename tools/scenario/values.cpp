@@ -46,6 +46,8 @@ std::string show(const Reading& reading) {
                     : fmt::format("{} (0x{:X})", number, reading.integer);
 }
 
+int64_t signedOf(const Reading& integer) { return asSigned(integer.integer, integer.width); }
+
 Reading realReading(double value) {
   Reading reading;
   reading.kind = ValueKind::Real;

@@ -26,6 +26,7 @@ std::string show(const Reading& reading);
 Reading realReading(double value);
 Reading cellReading(const nc::NcCell& cell);
 nc::NcCell cellOf(const Value& number);
+int64_t signedOf(const Reading& integer);
 
 // Each gives "" or what is wrong.
 std::string writeValue(host::Instance& instance, const host::Ref& place, const Value& value);

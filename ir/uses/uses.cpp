@@ -1,0 +1,162 @@
+// Uses of memory and the flow between rungs (see uses.h).
+#include "ir/uses/uses.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace rung::ir {
+namespace {
+
+template <class T>
+bool contains(const std::vector<T>& list, const T& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+template <class T>
+void addOnce(std::vector<T>& list, const T& item) {
+  if (!contains(list, item)) list.push_back(item);
+}
+
+uint32_t bytesOf(const Space& space) { return space.units * space.unitBytes; }
+
+// What an operation touches; nothing when it touches no memory.
+std::optional<Use> useOf(const Module& module, const Op& op) {
+  const OpInfo& info = opInfo(op.code);
+  if (info.attr != Attr::Place && info.attr != Attr::Window) return std::nullopt;
+  const Space& space = module.spaces[op.ref];
+  const auto first = static_cast<uint32_t>(op.imm);
+  const bool window = info.attr == Attr::Window;
+  const uint32_t one = std::max(bitWidth(op.type), window ? space.unitBytes * 8 : 1u);
+  // Elements begin a unit apart; the last one may reach over the next.
+  const uint64_t all = window && op.count > 1 ? one + uint64_t{op.count - 1} * space.unitBytes * 8 : one;
+  const uint64_t room = uint64_t{bytesOf(space)} * 8 - first;
+  Use use;
+  use.place = {SpaceId{op.ref}, first, static_cast<uint32_t>(std::min(all, room))};
+  use.type = op.type;
+  use.writes = (info.effects & kWrites) != 0;
+  use.computed = window;
+  return use;
+}
+
+BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
+
+} // namespace
+
+bool overlap(const BitRange& a, const BitRange& b) {
+  return a.space == b.space && a.first < b.first + b.count && b.first < a.first + a.count;
+}
+
+Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
+  RungFacts facts;
+  for (const Op& op : rung.ops) {
+    if (const auto use = useOf(module, op)) addOnce(facts.uses, *use);
+    if (opInfo(op.code).attr != Attr::Slot) continue;
+    const SlotId slot{op.ref};
+    if (op.code == OpCode::SlotStore)
+      addOnce(facts.slotsWritten, slot);
+    else if (!contains(facts.slotsWritten, slot))
+      addOnce(facts.slotsRead, slot);
+  }
+  const Transfer& transfer = rung.transfer;
+  facts.kind = transfer.kind;
+  facts.conditional = transfer.cond.valid();
+  facts.callee = transfer.callee;
+  if (transfer.kind == TransferKind::Goto) facts.targets = {transfer.target};
+  if (transfer.kind == TransferKind::Switch) facts.targets = transfer.targets;
+  return facts;
+}
+
+Uses::Uses(const Module& module) {
+  for (uint32_t r = 0; r < module.routines.size(); ++r) {
+    const auto first = static_cast<uint32_t>(rungs_.size());
+    firstRung_.push_back(first);
+    for (const Rung& rung : module.routines[r].rungs) {
+      RungFacts& facts = rungs_.emplace_back(factsOf(module, rung));
+      facts.routine = {r};
+      for (uint32_t& target : facts.targets) target += first;
+    }
+  }
+  for (const Task& task : module.tasks) {
+    copies_.insert(copies_.end(), task.begin.begin(), task.begin.end());
+    copies_.insert(copies_.end(), task.end.begin(), task.end.end());
+  }
+}
+
+Uses::Writers Uses::writersOf(const BitRange& place) const {
+  Writers writers;
+  for (uint32_t rung = 0; rung < rungCount(); ++rung) {
+    bool certain = false;
+    bool computed = false;
+    for (const Use& use : rungs_[rung].uses) {
+      if (!use.writes || !overlap(use.place, place)) continue;
+      (use.computed ? computed : certain) = true;
+    }
+    if (certain)
+      writers.certain.push_back(rung);
+    else if (computed)
+      writers.computed.push_back(rung);
+  }
+  return writers;
+}
+
+std::vector<BitRange> Uses::copiedFrom(const BitRange& place) const {
+  std::vector<BitRange> sources;
+  for (const Copy& copy : copies_) {
+    const BitRange to{copy.to, copy.toByte * 8, copy.from.size * 8};
+    if (!overlap(to, place)) continue;
+    const uint32_t first = std::max(to.first, place.first);
+    const uint32_t end = std::min(to.first + to.count, place.first + place.count);
+    addOnce(sources, BitRange{copy.from.space, bitsOf(copy.from).first + first - to.first, end - first});
+  }
+  return sources;
+}
+
+std::vector<uint32_t> Uses::registersFrom(uint32_t rung) const {
+  std::vector<uint32_t> sources;
+  std::vector<SlotId> needed = rungs_[rung].slotsRead;
+  for (uint32_t r = rung; r-- > firstOf(rung) && !needed.empty();) {
+    const RungFacts& facts = rungs_[r];
+    const size_t before = needed.size();
+    std::erase_if(needed, [&](SlotId slot) { return contains(facts.slotsWritten, slot); });
+    if (needed.size() == before) continue;
+    sources.push_back(r);
+    if (facts.kind == TransferKind::Call) break;
+    for (SlotId slot : facts.slotsRead) addOnce(needed, slot);
+  }
+  return sources;
+}
+
+// Whether the rung continues, other than below, between `above` (not included) and `upTo`.
+bool Uses::jumpsBetween(uint32_t rung, uint32_t above, uint32_t upTo) const {
+  return std::ranges::any_of(rungs_[rung].targets, [&](uint32_t target) { return target > above && target <= upTo; });
+}
+
+std::vector<uint32_t> Uses::decidersOf(uint32_t rung) const {
+  std::vector<uint32_t> deciders;
+  const uint32_t first = firstOf(rung);
+  uint32_t from = rung; // control comes to the rung from here by falling through
+  for (; from > first; --from) {
+    const uint32_t r = from - 1;
+    const RungFacts& facts = rungs_[r];
+    if (facts.kind == TransferKind::Next || facts.kind == TransferKind::Call) continue;
+    if (facts.kind != TransferKind::Switch && jumpsBetween(r, r, rung)) continue; // it skips what lies ahead of `rung`
+    if (!facts.conditional) break;
+    if (facts.kind != TransferKind::Goto || facts.targets[0] > r) deciders.push_back(r); // else it is a loop
+  }
+  if (from == first) return deciders;
+  // Nothing falls through to here: the jumps to it decide.
+  for (uint32_t r = rung; r-- > first;)
+    if (r < from && jumpsBetween(r, from - 1, rung)) deciders.push_back(r);
+  for (uint32_t r = rung + 1; r < rungCount() && rungs_[r].routine == rungs_[rung].routine; ++r)
+    if (jumpsBetween(r, from - 1, rung)) deciders.push_back(r);
+  return deciders;
+}
+
+std::vector<uint32_t> Uses::callersOf(uint32_t rung) const {
+  std::vector<uint32_t> callers;
+  for (uint32_t r = 0; r < rungCount(); ++r)
+    if (calls(r) && rungs_[r].callee == rungs_[rung].routine) callers.push_back(r);
+  return callers;
+}
+
+} // namespace rung::ir

@@ -1,0 +1,76 @@
+// What each rung of a module reads and writes, and what decides whether it runs: for those who explain a program, not
+// for engines. Made of the module as the front end built it, because passes drop reads that an engine does not need.
+// Rungs are numbered over all routines, as in rung_program::rungs.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+// Bits of a space, counted from its beginning.
+struct BitRange {
+  SpaceId space;
+  uint32_t first = 0;
+  uint32_t count = 1;
+  bool operator==(const BitRange&) const = default;
+};
+bool overlap(const BitRange& a, const BitRange& b);
+
+struct Use {
+  BitRange place; // computed: all that the address can reach
+  Type type = Type::Bit;
+  bool writes = false;
+  bool computed = false; // somewhere in `place`, at an address that is computed
+  bool operator==(const Use&) const = default;
+};
+
+class Uses {
+public:
+  explicit Uses(const Module& module);
+
+  uint32_t rungCount() const { return static_cast<uint32_t>(rungs_.size()); }
+  // Each use once, in the order of the operations.
+  std::span<const Use> of(uint32_t rung) const { return rungs_[rung].uses; }
+
+  // Rungs that write something of the place, ascending; those that may, at a computed address, by themselves.
+  struct Writers {
+    std::vector<uint32_t> certain;
+    std::vector<uint32_t> computed;
+    bool none() const { return certain.empty() && computed.empty(); }
+  };
+  Writers writersOf(const BitRange& place) const;
+  // Where the place's contents come from when a task begins or ends: input latches, images.
+  std::vector<BitRange> copiedFrom(const BitRange& place) const;
+
+  // Earlier rungs of the routine that hand a register to this one, the last first. One that calls a routine ends the
+  // list: that routine may have changed the registers.
+  std::vector<uint32_t> registersFrom(uint32_t rung) const;
+  // Rungs of the routine that decide, when they are left, whether this one is passed by; the nearest first.
+  std::vector<uint32_t> decidersOf(uint32_t rung) const;
+  // Rungs that call the rung's routine, ascending.
+  std::vector<uint32_t> callersOf(uint32_t rung) const;
+  bool calls(uint32_t rung) const { return rungs_[rung].kind == TransferKind::Call; }
+
+private:
+  struct RungFacts {
+    RoutineId routine;
+    std::vector<Use> uses;
+    std::vector<SlotId> slotsRead; // before the rung stores them
+    std::vector<SlotId> slotsWritten;
+    TransferKind kind = TransferKind::Next;
+    bool conditional = false;
+    RoutineId callee;
+    std::vector<uint32_t> targets; // Goto, Switch
+  };
+  static RungFacts factsOf(const Module& module, const Rung& rung);
+  uint32_t firstOf(uint32_t rung) const { return firstRung_[rungs_[rung].routine.index]; }
+  bool jumpsBetween(uint32_t rung, uint32_t above, uint32_t upTo) const;
+
+  std::vector<RungFacts> rungs_;
+  std::vector<uint32_t> firstRung_; // by routine
+  std::vector<Copy> copies_;
+};
+
+} // namespace rung::ir

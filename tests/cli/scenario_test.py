@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""What rungc test says about a failing scenario, and the traces it writes. scenario_test.py RUNGC"""
+import csv
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+RUNGC = None
+OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
+
+DOOR = """dialect nct
+module MAIN
+
+symbol CLOSED  5100.00
+symbol START   5100.01
+symbol LOCK    5101.00
+symbol T_LOCK  5200
+symbol COUNT   5300
+
+rung "lock the door a second after it has closed"
+|--[CLOSED]--{TOND T_LOCK #1000 #0}--(LOCK)
+
+rung "openings"
+|--[@START]--{ADD COUNT COUNT #1}
+"""
+PASSES = """program door.lad
+set CLOSED 1
+scan 3
+expect LOCK 0
+set START 1
+run 1s
+expect LOCK 1
+expect COUNT 1
+"""
+FAILS = PASSES.replace("expect LOCK 1", "expect LOCK 0")
+
+
+def read_vcd(path):
+    """Names with their type and width, and the values of each at its times: {name: [(us, value), ...]}."""
+    scopes, variables, changes, now = [], {}, {}, None
+    words = iter(Path(path).read_text().split())
+    header = {}
+    for word in words:
+        if word == "$enddefinitions":
+            assert next(words) == "$end"
+            break
+        body = []
+        while (part := next(words)) != "$end":
+            body.append(part)
+        if word == "$scope":
+            scopes.append(body[1])
+        elif word == "$upscope":
+            scopes.pop()
+        elif word == "$var":
+            kind, width, code, name = body
+            variables[code] = ".".join(scopes + [name])
+            header[variables[code]] = (kind, int(width))
+            changes[variables[code]] = []
+        else:
+            header[word] = " ".join(body)
+    assert not scopes, "all scopes are closed"
+    for word in words:
+        if word[0] == "#":
+            assert now is None or int(word[1:]) > now, "time goes on"
+            now = int(word[1:])
+        elif word in ("$dumpvars", "$end"):
+            continue
+        else:
+            if word[0] in "01":
+                value, code = int(word[0]), word[1:]
+            else:
+                code = next(words)
+                value = int(word[1:], 2) if word[0] == "b" else float(word[1:]) if word[0] == "r" else word[1:]
+            samples = changes[variables[code]]
+            assert not samples or samples[-1][1] != value, "changes only"
+            samples.append((now, value))
+    return header, changes, now
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.file("door.lad", DOOR)
+        self.file("passes.scn", PASSES)
+        self.file("fails.scn", FAILS)
+
+    def file(self, name, content):
+        (Path(self.folder.name) / name).write_text(content)
+
+    def path(self, name):
+        return Path(self.folder.name) / name
+
+    def run_tests(self, *args, engine="interp"):
+        return subprocess.run([RUNGC, "test", *args, "--engine", engine], cwd=self.folder.name, capture_output=True,
+                              timeout=120, text=True)
+
+
+class Failure(Folder):
+    def test_the_message_has_scan_and_time_and_what_led_to_the_value(self):
+        done = self.run_tests("fails.scn")
+        self.assertEqual(done.returncode, WRONG)
+        lines = done.stdout.splitlines()
+        first = next(i for i, line in enumerate(lines) if "fails.scn:7:" in line)
+        self.assertRegex(lines[first], r"fails\.scn:7: LOCK is 1, expected 0 \(scan 103, 1\.030 s\)$")
+        self.assertEqual(lines[first + 1], "    LOCK (5101.00), changed in scan 101, 1.010 s")
+        self.assertRegex(lines[first + 2],
+                         r'^    written by rung \d+ "lock the door a second after it has closed", door\.lad:10$')
+        self.assertEqual(lines[first + 3], "      CLOSED (5100.00) = 1, changed in scan 1, 0.010 s")
+        self.assertRegex(lines[first + 4], r"^      T_LOCK \(5200\) = 0 .*, changed in scan 101, 1\.010 s$")
+
+    def test_all_engines_say_the_same(self):
+        done = self.run_tests("fails.scn", engine="interp,jit")
+        self.assertIn("[interp] LOCK is 1, expected 0 (scan 103, 1.030 s)", done.stdout)
+        self.assertIn("CLOSED (5100.00) = 1, changed in scan 1, 0.010 s", done.stdout)
+
+
+class Trace(Folder):
+    def test_vcd(self):
+        done = self.run_tests("passes.scn", "--trace", "t.vcd")
+        self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
+        header, changes, end = read_vcd(self.path("t.vcd"))
+        self.assertEqual(header["$timescale"], "1 us")
+        self.assertEqual(header["door.M.LOCK"], ("wire", 1))
+        self.assertEqual(header["door.M.COUNT"], ("wire", 32))
+        self.assertEqual({name.split(".", 2)[2] for name in changes}, {"CLOSED", "START", "LOCK", "T_LOCK", "COUNT"})
+        self.assertEqual(changes["door.M.CLOSED"], [(0, 0), (10000, 1)])
+        self.assertEqual(changes["door.M.LOCK"], [(0, 0), (1010000, 1)])
+        self.assertEqual(changes["door.M.COUNT"], [(0, 0), (40000, 1)])
+        self.assertEqual(changes["door.M.T_LOCK"][:3], [(0, 0), (10000, 1000), (20000, 990)])
+        self.assertEqual(end, 1030000)
+
+    def test_csv(self):
+        done = self.run_tests("passes.scn", "--trace", "t.csv", "--watch", "LOCK", "T_LOCK", "COUNT")
+        self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
+        with open(self.path("t.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]), ["time_s", "scan", "LOCK", "T_LOCK", "COUNT"])
+        self.assertEqual([row["scan"] for row in rows], [str(n) for n in range(104)])
+        self.assertEqual(rows[0], {"time_s": "0.000000", "scan": "0", "LOCK": "0", "T_LOCK": "0", "COUNT": "0"})
+        self.assertEqual([row["LOCK"] for row in rows].index("1"), 101)
+        self.assertEqual(rows[101]["time_s"], "1.010000")
+        self.assertEqual([row["COUNT"] for row in rows].index("1"), 4)
+
+    def test_a_failing_scenario_leaves_its_trace(self):
+        done = self.run_tests("fails.scn", "--trace", "t.vcd", "--watch", "LOCK")
+        self.assertEqual(done.returncode, WRONG)
+        _, changes, end = read_vcd(self.path("t.vcd"))
+        self.assertEqual((changes["door.M.LOCK"], end), ([(0, 0), (1010000, 1)], 1030000))
+
+    def test_quantities_of_the_nc_are_real(self):
+        self.file("gsk.pmc", "FUNC END1\nLD   X1.0\nOUT  Y1.0\nFUNC END2\n")
+        self.file("gsk.scn", "program gsk.pmc\nset NC.MPOS.1 2.5\nset X1.0 1\nscan\nexpect Y1.0 1\n")
+        done = self.run_tests("gsk.scn", "--trace", "t.vcd", "--watch", "NC.MPOS.1", "Y1.0")
+        self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
+        header, changes, _ = read_vcd(self.path("t.vcd"))
+        self.assertEqual(header["gsk.NC.NC.MPOS.1"], ("real", 64))
+        self.assertEqual(changes["gsk.NC.NC.MPOS.1"][-1][1], 2.5)
+        self.assertEqual(changes["gsk.Y.Y1.0"][-1][1], 1)
+
+    def test_what_cannot_be_traced_is_a_usage_error(self):
+        for args, message in ((["passes.scn", "--trace", "t.txt"], "its name must end in .vcd or .csv"),
+                              (["passes.scn", "fails.scn", "--trace", "t.vcd"], "--trace takes one scenario, not 2"),
+                              (["passes.scn", "--trace", "t.vcd", "--watch", "LOKC"],
+                               "'LOKC' is not a name of this program; did you mean LOCK?"),
+                              (["passes.scn", "--watch", "LOCK"], "requires --trace")):
+            done = self.run_tests(*args)
+            self.assertEqual(done.returncode, USAGE, f"{args}: {done.stdout}{done.stderr}")
+            self.assertIn(message, done.stdout + done.stderr)
+            self.assertFalse(self.path("t.vcd").exists())
+
+    def test_a_file_that_cannot_be_written_is_an_error_of_the_environment(self):
+        done = self.run_tests("passes.scn", "--trace", "missing/t.vcd")
+        self.assertEqual(done.returncode, ENVIRONMENT)
+        self.assertIn("cannot write 'missing/t.vcd'", done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    RUNGC = Path(sys.argv.pop(1)).resolve()
+    unittest.main()

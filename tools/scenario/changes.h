@@ -1,0 +1,56 @@
+// When the bits of a program's memory changed last. Attached to a session before its first scan; it compares what the
+// program uses with a copy after each scan.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "ir/uses/uses.h"
+#include "tools/scenario/session.h"
+
+namespace rung::scenario {
+
+class Changes final : public Observer {
+public:
+  Changes(const Session& session, const ir::Uses& uses);
+
+  void scanned(const Session& session) override;
+
+  struct Scan {
+    uint64_t number = 0;
+    int64_t us = 0;
+    bool operator==(const Scan&) const = default;
+  };
+  // The last scan that ended with another value than the one before it; number 0: none since the start. Nothing for
+  // places that rungs do not use.
+  std::optional<Scan> last(const host::Instance& instance, const ir::BitRange& place) const;
+  // Whether the place was written after the last scan, by a `set`.
+  bool pending(const host::Instance& instance, const ir::BitRange& place) const;
+
+private:
+  struct Span { // of the memory block
+    uint32_t offset = 0;
+    uint32_t size = 0;
+    uint32_t copy = 0; // in copy_
+  };
+  // Scans of one length: time(n) = us + (n - first) * step.
+  struct Pace {
+    uint64_t first = 0;
+    int64_t us = 0;
+    int64_t step = 0;
+  };
+  static void addPieces(const rung_program& program, const ir::BitRange& place, std::vector<Span>& pieces);
+  void watch(const rung_program& program, const std::vector<ir::BitRange>& places);
+  void compare(const Span& span, const uint8_t* now);
+  void noteTime(uint64_t scan, int64_t us);
+  int64_t timeOf(uint64_t scan) const;
+  // Index of the bit in scans_; nothing when it is not watched.
+  std::optional<size_t> indexOf(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) const;
+
+  std::vector<Span> spans_; // ascending
+  std::vector<uint8_t> copy_;
+  std::vector<uint32_t> scans_; // of the last change, by bit of copy_
+  std::vector<Pace> paces_;
+  uint64_t scan_ = 0;
+};
+
+} // namespace rung::scenario

@@ -1,0 +1,192 @@
+// Explanation of a value (see explain.h).
+#include "tools/scenario/explain.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+#include "rtlib/host/program_info.h"
+#include "tools/scenario/place_names.h"
+#include "tools/scenario/values.h"
+
+namespace rung::scenario {
+namespace {
+
+using host::Ref;
+using ir::BitRange;
+using ir::Use;
+
+// Bounds of the text; what is left out is counted.
+constexpr size_t kWriters = 3;
+constexpr size_t kListedWriters = 8; // that are only named
+constexpr size_t kNames = 12;        // that a writing rung reads
+constexpr size_t kOthers = 2;        // rungs that decide whether it runs, call its routine, or hand it a register
+constexpr size_t kOtherNames = 6;    // that each of them reads
+constexpr size_t kCopies = 4;        // from image to image
+
+// The same kind of place elsewhere.
+Ref moved(Ref place, const BitRange& to) {
+  place.space = to.space.index;
+  place.byte = to.first / 8;
+  place.bit = static_cast<uint8_t>(to.first % 8);
+  return place;
+}
+
+std::vector<uint32_t> firstOf(std::vector<uint32_t> rungs, size_t most) {
+  if (rungs.size() > most) rungs.resize(most);
+  return rungs;
+}
+
+class Explanation {
+public:
+  Explanation(const Session& session, const ir::Uses& uses, const Changes& changes)
+      : session_(session), instance_(session.instance()), program_(instance_.program()), uses_(uses),
+        changes_(changes) {}
+
+  std::string of(const Ref& place) {
+    expected_ = bitsOf(place);
+    if (instance_.faulted()) line(4, "the program has stopped with a fault: {}", instance_.faultText());
+    if (instance_.stopped()) line(4, "the program is stopped");
+    line(4, "{}{}", shownName(program_, place), age(place));
+    sources(place, 0);
+    return std::move(text_);
+  }
+
+private:
+  template <class... Args>
+  void line(int indent, fmt::format_string<Args...> format, Args&&... args) {
+    text_ += "\n" + std::string(static_cast<size_t>(indent), ' ');
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+  std::string rungText(uint32_t rung) const { return host::rungText(program_, rung); }
+
+  std::string age(const Ref& place) const;
+  void sources(const Ref& place, size_t copies);
+  bool isControls(const Ref& place) const;
+  void writer(uint32_t rung, bool computed);
+  void listed(const std::vector<uint32_t>& rungs);
+  void registers(uint32_t rung);
+  void others(std::string_view role, const std::vector<uint32_t>& rungs);
+  void reads(int indent, uint32_t rung, size_t most);
+  std::optional<std::string> nameLine(const Use& use) const;
+
+  const Session& session_;
+  const host::Instance& instance_;
+  const rung_program& program_;
+  const ir::Uses& uses_;
+  const Changes& changes_;
+  BitRange expected_;
+  std::string text_;
+};
+
+// ", changed in scan 5 (0.050 s)"
+std::string Explanation::age(const Ref& place) const {
+  if (changes_.pending(instance_, bitsOf(place))) return fmt::format(", set after scan {}", session_.scans());
+  const auto last = changes_.last(instance_, bitsOf(place));
+  if (!last) return {};
+  if (last->number == 0) return ", unchanged since the start";
+  return fmt::format(", changed in {}", scanText(last->number, last->us));
+}
+
+// ---- who writes ----------------------------------------------------------------------------------------------------
+
+// The rungs that write the place, or those that write what is copied there.
+void Explanation::sources(const Ref& place, size_t copies) {
+  const ir::Uses::Writers writers = uses_.writersOf(bitsOf(place));
+  std::vector<uint32_t> all = writers.certain;
+  all.insert(all.end(), writers.computed.begin(), writers.computed.end());
+  for (size_t i = 0; i < std::min(all.size(), kWriters); ++i) writer(all[i], i >= writers.certain.size());
+  if (all.size() > kWriters) listed({all.begin() + kWriters, all.end()});
+  if (!all.empty()) return;
+  for (const BitRange& from : uses_.copiedFrom(bitsOf(place))) {
+    const Ref source = moved(place, from);
+    if (copies >= kCopies || from == expected_ || uses_.writersOf(from).none()) continue;
+    line(4, "copied from {}", shownName(program_, source));
+    return sources(source, copies + 1);
+  }
+  line(4, "{}", isControls(place) ? "written by the control or the machine, by no rung" : "written by no rung");
+}
+
+bool Explanation::isControls(const Ref& place) const {
+  const auto inputOnly = [&](uint32_t space) {
+    return (program_.spaces[space].flags & (RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT)) == RUNG_SPACE_INPUT;
+  };
+  if (inputOnly(place.space)) return true;
+  for (const BitRange& from : uses_.copiedFrom(bitsOf(place)))
+    if ((program_.spaces[from.space.index].flags & RUNG_SPACE_INPUT) != 0) return true;
+  for (uint32_t i = 0; i < program_.symbol_count; ++i) {
+    const rung_symbol& symbol = program_.symbols[i];
+    if ((symbol.flags & RUNG_SYMBOL_READONLY) != 0 && ir::overlap(bitsOf(host::refOf(symbol)), bitsOf(place)))
+      return true;
+  }
+  return false;
+}
+
+void Explanation::writer(uint32_t rung, bool computed) {
+  line(4, "{} {}", computed ? "may be written, at a computed address, by" : "written by", rungText(rung));
+  reads(6, rung, kNames);
+  registers(rung);
+  others("it is passed by or reached as decided in", uses_.decidersOf(rung));
+  others("its routine is called in", uses_.callersOf(rung));
+}
+
+void Explanation::listed(const std::vector<uint32_t>& rungs) {
+  for (uint32_t rung : firstOf(rungs, kListedWriters)) line(4, "also by {}", rungText(rung));
+  if (rungs.size() > kListedWriters) line(4, "and by {} more", rungs.size() - kListedWriters);
+}
+
+// ---- what they read ------------------------------------------------------------------------------------------------
+
+// Earlier rungs whose result this one takes over.
+void Explanation::registers(uint32_t rung) {
+  const std::vector<uint32_t> from = uses_.registersFrom(rung);
+  others("it takes over the result of", from);
+  if (!from.empty() && from.size() <= kOthers && uses_.calls(from.back()))
+    line(8, "and of the routine that is called there");
+}
+
+void Explanation::others(std::string_view role, const std::vector<uint32_t>& rungs) {
+  for (uint32_t rung : firstOf(rungs, kOthers)) {
+    line(6, "{} {}", role, rungText(rung));
+    reads(8, rung, kOtherNames);
+  }
+  if (rungs.size() > kOthers) line(6, "and {} more", rungs.size() - kOthers);
+}
+
+void Explanation::reads(int indent, uint32_t rung, size_t most) {
+  std::vector<std::string> names;
+  for (const Use& use : uses_.of(rung)) {
+    if (use.writes || use.place == expected_) continue;
+    auto name = nameLine(use);
+    if (name && std::ranges::find(names, *name) == names.end()) names.push_back(std::move(*name));
+  }
+  for (size_t i = 0; i < std::min(names.size(), most); ++i) line(indent, "{}", names[i]);
+  if (names.size() > most) line(indent, "and {} more", names.size() - most);
+}
+
+// Nothing for areas that have no names, unless what is there was copied from one that has.
+std::optional<std::string> Explanation::nameLine(const Use& use) const {
+  const auto isHidden = [&](const BitRange& range) {
+    return (program_.spaces[range.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
+  };
+  BitRange shown = use.place;
+  if (isHidden(shown)) {
+    const std::vector<BitRange> sources = uses_.copiedFrom(shown);
+    if (sources.empty() || isHidden(sources[0])) return std::nullopt;
+    shown = sources[0];
+  }
+  if (use.computed) return shownRange(program_, shown) + ", at a computed address";
+  const Ref place = refOf(use);
+  return fmt::format("{} = {}{}", shownName(program_, moved(place, shown)), show(readValue(instance_, place, false)),
+                     age(place));
+}
+
+} // namespace
+
+std::string Explainer::why(std::string_view name) const {
+  const std::optional<Ref> place = session_.nc().readPlace(session_.instance(), name);
+  if (!place || place->kind == host::RefKind::Constant) return {};
+  return Explanation(session_, uses_, changes_).of(*place);
+}
+
+} // namespace rung::scenario

@@ -1,0 +1,23 @@
+// Places of a program by the names that its user would write.
+#pragma once
+#include <string>
+
+#include "ir/uses/uses.h"
+#include "rtlib/host/instance.h"
+
+namespace rung::scenario {
+
+// The place of a use that is not computed; the bits of a reference, nothing for a constant.
+host::Ref refOf(const ir::Use& use);
+ir::BitRange bitsOf(const host::Ref& place);
+
+// The symbol that lies exactly there; "" when there is none.
+std::string symbolAt(const rung_program& program, const host::Ref& place);
+// For messages: "CLAMPED (X2.0)", "X2.1"; of a program whose areas have no addresses (TECHNOL) "CLAMPED".
+std::string shownName(const rung_program& program, const host::Ref& place);
+// For computed addresses: "one of D100 to D119".
+std::string shownRange(const rung_program& program, const ir::BitRange& range);
+// A name that resolves to the place; "" when the dialect has none.
+std::string writtenName(const rung_program& program, const host::Ref& place);
+
+} // namespace rung::scenario

@@ -1,0 +1,116 @@
+// Traces (see trace.h).
+#include "tools/scenario/trace.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <sstream>
+#include <tuple>
+
+#include "tools/scenario/names.h"
+#include "tools/scenario/place_names.h"
+
+namespace rung::scenario {
+
+using host::Ref;
+
+namespace {
+
+bool isQuantity(std::string_view name) { return name.starts_with("NC."); }
+
+// Where a user would look: a latch that the compiler made shows under the name of what it was copied from.
+ir::BitRange namedPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
+  if ((program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) == 0) return place;
+  const std::vector<ir::BitRange> from = uses.copiedFrom(place);
+  return from.empty() ? place : from[0];
+}
+
+std::vector<ir::Use> usedPlaces(const rung_program& program, const ir::Uses& uses) {
+  std::vector<ir::Use> places;
+  for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
+    for (ir::Use use : uses.of(rung)) {
+      use.place = namedPlace(program, uses, use.place);
+      const bool hidden = (program.spaces[use.place.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
+      if (!use.computed && !hidden) places.push_back(use);
+    }
+  const auto order = [](const ir::Use& use) {
+    return std::tuple(use.place.space.index, use.place.first, use.place.count, static_cast<int>(use.type));
+  };
+  std::ranges::sort(places, {}, order);
+  const auto same = [&](const ir::Use& a, const ir::Use& b) { return order(a) == order(b); };
+  places.erase(std::unique(places.begin(), places.end(), same), places.end());
+  return places;
+}
+
+} // namespace
+
+std::string traceFileProblem(std::string_view path) {
+  std::ostringstream nowhere;
+  if (makeTraceWriter(path, nowhere) != nullptr) return {};
+  return fmt::format("'{}' cannot be a trace: its name must end in .vcd or .csv", path);
+}
+
+std::vector<std::string> defaultTraceNames(const rung_program& program, const ir::Uses* uses) {
+  std::vector<std::string> names;
+  const auto add = [&](std::string name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+  };
+  if (uses != nullptr) {
+    for (const ir::Use& use : usedPlaces(program, *uses)) add(writtenName(program, refOf(use)));
+    return names;
+  }
+  for (uint32_t i = 0; i < program.symbol_count; ++i)
+    if ((program.symbols[i].flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) == 0) add(program.symbols[i].name);
+  return names;
+}
+
+std::string Trace::nameProblem(const std::vector<std::string>& names, const host::Instance& instance,
+                               const nc::NcModel& nc) {
+  for (const std::string& name : names) {
+    if (isQuantity(name)) continue; // some exist only once they have been set
+    const Result<Reading> reading = readName(instance, nc, name, false);
+    if (!reading.ok()) return reading.error();
+  }
+  return {};
+}
+
+Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::vector<std::string>& names,
+                                           const host::Instance& instance, const nc::NcModel& nc) {
+  const rung_program& program = instance.program();
+  std::vector<Source> sources;
+  std::vector<TracedName> traced;
+  for (const std::string& name : names) {
+    Source source{name, nc.readPlace(instance, name)};
+    const Reading reading = valueOf(source, instance, nc);
+    const bool inMemory = source.place && source.place->kind != host::RefKind::Constant;
+    traced.push_back({name, inMemory ? program.spaces[source.place->space].name : "NC", reading.kind, reading.width});
+    sources.push_back(std::move(source));
+  }
+  std::unique_ptr<Trace> trace(new Trace(path));
+  trace->writer_ = makeTraceWriter(path, trace->out_);
+  if (trace->writer_ == nullptr) return failure(traceFileProblem(path));
+  if (!trace->out_) return failure(fmt::format("cannot write '{}'", path));
+  trace->sources_ = std::move(sources);
+  trace->writer_->begin(program.name, traced);
+  trace->sample(instance, nc, 0);
+  return trace;
+}
+
+Reading Trace::valueOf(const Source& source, const host::Instance& instance, const nc::NcModel& nc) {
+  if (source.place) return readValue(instance, *source.place, false);
+  const Result<Reading> reading = readName(instance, nc, source.name, false);
+  return reading.ok() ? reading.value() : realReading(0); // a quantity that is not there yet
+}
+
+void Trace::sample(const host::Instance& instance, const nc::NcModel& nc, uint64_t scan) {
+  values_.clear();
+  for (const Source& source : sources_) values_.push_back(valueOf(source, instance, nc));
+  writer_->sample(instance.nowUs(), scan, values_);
+}
+
+std::string Trace::finish() {
+  writer_.reset();
+  out_.close();
+  return out_ ? std::string() : fmt::format("cannot write '{}'", path_);
+}
+
+} // namespace rung::scenario

@@ -1,0 +1,57 @@
+// A file of the values that names had during a run, sampled after every scan.
+//
+//   auto trace = Trace::open("out.vcd", defaultTraceNames(session, uses), session.instance(), session.nc());
+//   session.addObserver(*trace.value());
+//   …
+//   if (std::string error = trace.value()->finish(); !error.empty()) …
+#pragma once
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ir/support/result.h"
+#include "ir/uses/uses.h"
+#include "tools/scenario/session.h"
+#include "tools/scenario/trace_writers.h"
+
+namespace rung::scenario {
+
+// "" when a trace can have this name, else which endings there are.
+std::string traceFileProblem(std::string_view path);
+
+// The names of all places that rungs read or write at a fixed address: symbols, and addresses that have none. Without
+// `uses` (a program that was not compiled here): all its symbols.
+std::vector<std::string> defaultTraceNames(const rung_program& program, const ir::Uses* uses);
+
+class Trace final : public Observer {
+public:
+  // "" when all names are variables of the program or cells of the NC. Quantities of the NC are 0 until they exist.
+  static std::string nameProblem(const std::vector<std::string>& names, const host::Instance& instance,
+                                 const nc::NcModel& nc);
+  // Begins the file with the values of now. The names have no problem.
+  static Result<std::unique_ptr<Trace>> open(const std::string& path, const std::vector<std::string>& names,
+                                             const host::Instance& instance, const nc::NcModel& nc);
+
+  void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
+  void sample(const host::Instance& instance, const nc::NcModel& nc, uint64_t scan);
+  // Ends the file; "" or why it could not be written.
+  std::string finish();
+
+private:
+  struct Source {
+    std::string name;
+    std::optional<host::Ref> place; // else a cell or quantity of the NC
+  };
+  explicit Trace(std::string path) : path_(std::move(path)), out_(path_, std::ios::binary) {}
+  static Reading valueOf(const Source& source, const host::Instance& instance, const nc::NcModel& nc);
+
+  std::string path_;
+  std::ofstream out_;
+  std::unique_ptr<TraceWriter> writer_;
+  std::vector<Source> sources_;
+  std::vector<Reading> values_; // of the last sample
+};
+
+} // namespace rung::scenario

@@ -150,7 +150,8 @@ void Page::uses(const NameRow& row, bool writes) {
   out_ += "<td>";
   links(rungs);
   const bool machine = writes ? row.input : row.output;
-  if (rungs.empty() && !row.key.empty()) out_ += machine ? "<i>machine</i>" : "<i class=\"g\">never</i>";
+  const bool indexed = row.key.find_first_of(",:") != std::string::npos; // it may be any place
+  if (rungs.empty() && !row.key.empty() && !indexed) out_ += machine ? "<i>machine</i>" : "<i class=\"g\">never</i>";
   out_ += "</td>";
 }
 

@@ -16,6 +16,7 @@ a:focus-visible,text a:focus{outline:2px solid var(--link)}
 nav ul{margin:4px 0;padding:0;columns:24em;column-gap:40px;list-style:none}
 nav li{display:flex;gap:10px;break-inside:avoid;padding:1px 0;overflow-wrap:anywhere}
 nav li span{color:var(--note);min-width:0}
+nav li:has(span)>a{flex:none}
 nav li i{margin-left:auto;font-style:normal;color:var(--soft);white-space:nowrap}
 nav .c0{font-weight:bold}
 nav .c0 span,nav .c0 i{font-weight:normal}

@@ -27,6 +27,7 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 Names::Names(const frontend::Dialect& dialect, const ir::Module& module, const std::vector<ladder::LadderFile>& files)
     : gsk_(&dialect == &gsk::kGsk) {
   for (const ir::Space& space : module.spaces) spaceFlags_.emplace(space.name, space.flags);
+  if (!module.retains.empty()) ownMemory_ = module.retains[0].byte;
   std::unordered_map<std::string_view, const ir::Symbol*> symbols;
   for (const ir::Symbol& symbol : module.symbols) symbols.emplace(symbol.name, &symbol);
   for (const ladder::LadderFile& file : files) {
@@ -76,9 +77,11 @@ const Names::Known* Names::known(std::string_view name) const {
   return at == byName_.end() ? nullptr : &known_[at->second];
 }
 
-void Names::setTraffic(Named& named, std::string_view space) const {
-  const auto at = spaceFlags_.find(space);
-  if (at == spaceFlags_.end()) return;
+// Inputs and outputs of NCT share a space.
+void Names::setTraffic(Named& named, const Place& place) const {
+  if (!gsk_) named.input = named.output = place.byte < ownMemory_;
+  const auto at = spaceFlags_.find(place.space);
+  if (!gsk_ || at == spaceFlags_.end()) return;
   named.input = (at->second & RUNG_SPACE_INPUT) != 0;
   named.output = (at->second & RUNG_SPACE_OUTPUT) != 0;
 }
@@ -86,12 +89,11 @@ void Names::setTraffic(Named& named, std::string_view space) const {
 Named Names::atAddress(const Place& place) const {
   Named named;
   named.key = textOf(place);
-  setTraffic(named, place.space);
+  setTraffic(named, place);
   const auto at = byAddress_.find(named.key);
   if (at == byAddress_.end()) return named;
   named.address = known_[at->second].name;
   named.comment = known_[at->second].comment;
-  setTraffic(named, known_[at->second].place.space);
   return named;
 }
 
@@ -111,7 +113,7 @@ Named Names::findGsk(std::string_view operand) const {
   if (const Known* name = known(operand)) {
     const std::string address = textOf(name->place);
     Named named{address, std::string(name->comment), address};
-    setTraffic(named, name->place.space);
+    setTraffic(named, name->place);
     return named;
   }
   if (operand.size() < 2 || !isDigit(operand[1])) return {{}, {}, isDigit(operand[0]) ? "" : std::string(operand)};
@@ -162,7 +164,6 @@ Named Names::findNct(std::string_view operand) const {
   if (name != nullptr) {
     named.address = named.key + open;
     named.comment = name->comment;
-    setTraffic(named, name->place.space);
   }
   if (!open.empty()) named.key += open;
   return named;

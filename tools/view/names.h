@@ -51,11 +51,12 @@ private:
   Named findGsk(std::string_view operand) const;
   Named atAddress(const Place& place) const;
   const Known* known(std::string_view name) const;
-  void setTraffic(Named& named, std::string_view space) const;
+  void setTraffic(Named& named, const Place& place) const;
 
   bool gsk_ = false;
   std::vector<Known> known_;
-  std::unordered_map<std::string_view, uint32_t> spaceFlags_; // enum rung_space_flags
+  std::unordered_map<std::string_view, uint32_t> spaceFlags_; // GSK: enum rung_space_flags
+  uint32_t ownMemory_ = 0;                                    // NCT: the byte that the program's own memory begins with
   std::unordered_map<std::string_view, uint32_t> byName_;
   std::unordered_map<std::string, uint32_t> byAddress_;
   std::unordered_map<std::string_view, std::string_view> constants_;

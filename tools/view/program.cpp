@@ -25,7 +25,7 @@ using ladder::StatementKind;
 
 constexpr size_t kUsesShown = 8;    // of a coil, at the right rail
 constexpr size_t kWritersShown = 1; // of a contact
-constexpr size_t kTitle = 72;       // characters of a comment that may be a title
+constexpr size_t kTitle = 120;      // characters of a comment that may be a title
 
 std::string_view trimmed(std::string_view text) {
   const size_t first = text.find_first_not_of(' ');

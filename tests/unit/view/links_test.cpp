@@ -138,6 +138,18 @@ TEST(ViewLinks, NamesThatNothingReadsOrWritesAreMarked) {
   EXPECT_NE(row("LAMP").find("</a></td><td><i>machine</i></td>"), std::string::npos) << row("LAMP");
 }
 
+TEST(ViewLinks, OwnMemoryOfNctBeginsAfterItsSignals) {
+  const auto drawn = draw("t.lad", "dialect nct\nmodule MAIN\nrung\n|--[N_ON]--[7000.00]--{MOV 7100,7001 #5}\n");
+  const std::string page = renderHtml(drawn->program);
+  const auto row = [&](std::string_view name) {
+    const size_t at = page.find(fmt::format("<th scope=\"row\">{}</th>", name));
+    return page.substr(at, page.find("</tr>", at) - at);
+  };
+  EXPECT_NE(row("N_ON").find("<i>machine</i>"), std::string::npos) << row("N_ON");
+  EXPECT_NE(row("7000.00").find("<i class=\"g\">never</i></td><td><a"), std::string::npos) << row("7000.00");
+  EXPECT_EQ(row("7100,7001").find("<i"), std::string::npos) << row("7100,7001");
+}
+
 TEST(ViewContents, SubprogramsHaveTheTitlesOfTheirSections) {
   EXPECT_EQ(textOf(contentsOf(draw("t.pmc", std::string(kList))->program)),
             "Level 2||1-5\nSubprogram P7|overrides|6-6\n");

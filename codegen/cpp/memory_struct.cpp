@@ -112,11 +112,12 @@ private:
     const uint64_t first = wholeBytes(from);
     unnamed(first - from);
     // No name of a program is mapped to one with '$'.
-    fmt::format_to(std::back_inserter(out_), "char $gap_{}[{}];\n", first / 8, (to - first) / 8);
+    fmt::format_to(std::back_inserter(out_), "char $gap_{}[{}];\n", gaps_++, (to - first) / 8);
     unnamed(to % 8);
   }
 
   std::string& out_;
+  uint32_t gaps_ = 0; // members of structs without a name share one set of names
 };
 
 } // namespace

@@ -147,10 +147,10 @@ struct __attribute__((packed)) rung_memory {
 bool X0_0 : 1;
 bool X0_1 : 1;
 long long : 6;
-char $gap_1[63];
+char $gap_0[63];
 bool LAMP : 1;
 long long : 7;
-char $gap_65[63];
+char $gap_1[63];
 union {
 struct __attribute__((packed)) {
 int LOW : 8;

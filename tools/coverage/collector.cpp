@@ -82,8 +82,13 @@ bool Collector::locate(const ir::Module& module, Part& part, std::vector<Part>& 
 
 Collector::Plan Collector::planOf(const ir::Module& module, Part part, std::vector<Part>& known) {
   const bool isNew = locate(module, part, known);
-  Plan plan{
-      .rung = part.rung, .counts = part.first, .conditions = {}, .outputs = {}, .decisions = {}, .expressions = {}};
+  Plan plan{.rung = part.rung,
+            .counts = part.first,
+            .conditions = {},
+            .outputs = {},
+            .decisions = {},
+            .expressions = {},
+            .last = {}};
   const std::vector<std::vector<Guard>> guards = guardsOf(*part.code);
   std::vector<ir::ValueId> conditions;
   for (const ir::Mark& mark : part.marks) {
@@ -145,11 +150,12 @@ bool Collector::Watched::reached(std::span<const uint64_t> values) const {
 }
 
 void Collector::rungRan(uint32_t number, std::span<const uint64_t> values) {
-  const Plan& plan = plans_[number];
+  Plan& plan = plans_[number];
   if (plan.rung == UINT32_MAX) return;
   Rung& rung = program_.rungs[plan.rung];
   rung.runs += plan.counts ? 1 : 0;
-  if (values.empty()) return;
+  if (values.empty() || std::ranges::equal(values, plan.last)) return; // the same values show nothing new
+  plan.last.assign(values.begin(), values.end());
   for (const Watched& watched : plan.conditions) {
     if (!watched.reached(values)) continue;
     Condition& condition = rung.conditions[watched.index];

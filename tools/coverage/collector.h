@@ -43,6 +43,7 @@ private:
     std::vector<Watched> outputs;
     std::vector<Watched> decisions;
     std::vector<Expression> expressions; // of the decisions
+    std::vector<uint64_t> last;          // values of the last run
   };
   // A part of what the source calls a rung, where its conditions, outputs and decisions begin.
   struct Part {

@@ -102,7 +102,9 @@ void CoverageRun::observe(scenario::RunOptions& run) {
   run.store = nullptr; // an engine of its own for each scenario: threads count apart
   run.engine.observer = [this](const driver::Compiled& compiled) {
     const std::lock_guard lock(mutex_);
-    origins_.try_emplace(compiled.module->files, Origin{std::string(compiled.dialect->name), compiled.options});
+    Origin origin{std::string(compiled.dialect->name), compiled.options};
+    origin.options.configPlaces.clear(); // they are places in the sources of this compilation
+    origins_.try_emplace(compiled.module->files, std::move(origin));
     return collection_.observe(*compiled.module, compiled.marks);
   };
 }

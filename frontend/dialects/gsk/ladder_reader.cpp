@@ -314,7 +314,6 @@ public:
 
 private:
   void module(const ladder::Module& module);
-  void warnOfCondition(SourceRange module);
   void readRung(const ladder::Rung& rung);
   void take(Network&& network) {
     network.firstLine = rung_->firstLine;
@@ -344,24 +343,11 @@ void LadderReader::module(const ladder::Module& module) {
     if (checkFunction(context_, {module.name[1]}, {}, sp))
       unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range,
                                 module.name[1].range);
-    warnOfCondition(module.range);
   } else {
     context_.diagnostics.report(Diag::MalformedStatement, module.range)
         << "module" << "module LEVEL1, module LEVEL2 or module SUB Pn";
   }
   if (unit_ == kNone) units_.setGarbled();
-}
-
-// A drawing has no place for a condition before SP: it is comments after the module's line.
-void LadderReader::warnOfCondition(SourceRange module) {
-  const SourceManager& sources = context_.sources;
-  for (uint32_t line = sources.lineCol(module.begin).line + 1; line <= sources.lineCount(file_.file); ++line) {
-    const std::string_view text = trimmed(sources.lineText(file_.file, line));
-    if (!text.starts_with(';') || !conditionIn(trimmed(text.substr(1)))) return;
-    const auto begin = static_cast<size_t>(text.data() - sources.text(file_.file).data());
-    context_.diagnostics.report(Diag::ConditionIgnored, sources.range(file_.file, begin, begin + text.size())) << "SP";
-    return;
-  }
 }
 
 // The text behind the word `rung`; where there is none that can be a title, the rule of command lists.

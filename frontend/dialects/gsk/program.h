@@ -20,8 +20,6 @@ inline constexpr uint32_t kNone = UINT32_MAX;
 enum class Command : uint8_t {
   Ld, Ldi, And, Ani, Or, Ori, Orb, Anb, Out, Outi, Set, Rst, Func, Prm, Table, Dialect, Symbol, Const
 };
-constexpr bool isBlock(Command command) { return command == Command::Orb || command == Command::Anb; }
-constexpr bool isLogic(Command command) { return command <= Command::Anb; }
 inline constexpr std::array<std::string_view, 18> kCommandNames = {
     "LD", "LDI", "AND", "ANI", "OR", "ORI", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM", "TABLE",
     "DIALECT", "SYMBOL", "CONST"};

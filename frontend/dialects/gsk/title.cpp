@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "frontend/dialects/gsk/address.h"
-#include "frontend/dialects/gsk/canonical.h"
-#include "frontend/dialects/gsk/list_reader.h"
 
 namespace rung::gsk {
 namespace {
@@ -32,17 +30,7 @@ std::optional<std::string_view> sectionIn(std::string_view comment) {
   return text.substr(0, text.size() - 1);
 }
 
-std::optional<std::string_view> conditionIn(std::string_view comment) {
-  constexpr std::string_view kBegin = "condition:";
-  if (!comment.starts_with(kBegin)) return std::nullopt;
-  const std::string_view text = trimmed(comment.substr(kBegin.size()));
-  const auto words = wordsIn(text);
-  const auto command = words.empty() ? std::nullopt : findCommand(words[0]);
-  if (!command || !isLogic(*command) || words.size() != (isBlock(*command) ? 1 : 2)) return std::nullopt;
-  return text;
-}
-
-bool isTitle(std::string_view comment) { return !isDecoration(comment) && comment[0] != ';' && !conditionIn(comment); }
+bool isTitle(std::string_view comment) { return !isDecoration(comment) && comment[0] != ';'; }
 
 void TitleRule::comment(std::string_view text) {
   if (sectionIn(text)) return statement();

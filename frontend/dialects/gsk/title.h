@@ -1,6 +1,6 @@
 // Which comment is the title of a network. Both source forms: the first line of the last block of comment lines in
 // front of it. Lines without letters or digits are decoration; a comment that begins with a further ';' and a section
-// are not titles, nor is the condition of a subprogram; any statement in between begins anew.
+// are no titles; any statement in between begins anew.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -11,9 +11,6 @@ namespace rung::gsk {
 
 // `section "text"` in a comment of a command list stands for ladder text's statement: its text.
 std::optional<std::string_view> sectionIn(std::string_view comment);
-// `condition: LD X1.3` after `module SUB Pn` of ladder text is a condition before SP, which has no effect (P13): its
-// command.
-std::optional<std::string_view> conditionIn(std::string_view comment);
 // Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 // Whether a comment can be a title.

@@ -13,6 +13,7 @@
 namespace rung::gsk::convert {
 namespace {
 
+constexpr std::string_view kCondition = "; condition:"; // with a further ';' it is no title
 constexpr std::string_view kBefore = "->";
 
 // PRM by the name of its operand, TABLE by its number.
@@ -90,15 +91,17 @@ std::string tagged(bool before, std::string_view tag, std::string_view text) {
 }
 
 std::string conditionHint(const SourceCommand& command) {
-  return fmt::format("condition: {}{}{}", nameOf(command.command), command.operand.empty() ? "" : " ", command.operand);
+  return fmt::format("{} {}{}{}", kCondition, nameOf(command.command), command.operand.empty() ? "" : " ",
+                     command.operand);
 }
 
 std::optional<SourceCommand> parseConditionHint(std::string_view comment) {
-  const auto text = conditionIn(comment);
-  if (!text) return std::nullopt;
-  const auto words = wordsIn(*text);
+  if (!comment.starts_with(kCondition)) return std::nullopt;
+  const auto words = wordsIn(comment.substr(kCondition.size()));
+  const auto command = words.empty() ? std::nullopt : findCommand(words[0]);
+  if (!command || !isLogic(*command) || words.size() != (isBlock(*command) ? 1 : 2)) return std::nullopt;
   SourceCommand result;
-  result.command = *findCommand(words[0]);
+  result.command = *command;
   if (words.size() == 2) result.operand = words[1];
   return result;
 }

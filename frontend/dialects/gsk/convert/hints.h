@@ -1,7 +1,7 @@
 // Comments of a drawing that say where in a command list something belongs (docs/dialects/gsk.md):
 //   ; [A] text               behind the command of contact [A]; its second one is [A]#2
 //   ; -> {TMRB preset} text  a comment line in front of the parameter `preset`
-//   ; condition: LD X1.3    after `module SUB Pn`: the condition in front of SP, which has no effect
+//   ;; condition: LD X1.3    behind `module SUB Pn`: the condition in front of SP, which has no effect
 // Beside these, canonical.h has the hint of other blocks. A comment that only looks like one, naming nothing that is
 // there, is a comment like any other.
 #pragma once

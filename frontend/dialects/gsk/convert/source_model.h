@@ -29,6 +29,8 @@ struct SourceCommand {
   std::string comment;             // behind it
 };
 
+constexpr bool isBlock(Command command) { return command == Command::Orb || command == Command::Anb; }
+constexpr bool isLogic(Command command) { return command <= Command::Anb; }
 constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
 constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Rst; }
 

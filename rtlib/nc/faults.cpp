@@ -48,4 +48,12 @@ std::span<const Fault> faultsOf(std::string_view dialect) {
   return {};
 }
 
+const Fault* findFault(std::string_view dialect, std::string_view text) {
+  for (const Fault& fault : faultsOf(dialect))
+    if (text.starts_with(fault.text)) return &fault;
+  return nullptr;
+}
+
+std::string_view shortName(const Fault& fault) { return fault.text.substr(0, fault.text.find(':')); }
+
 } // namespace rung::nc

@@ -22,5 +22,9 @@ struct Fault {
 
 // By rung_program::dialect; empty for one that does not exist.
 std::span<const Fault> faultsOf(std::string_view dialect);
+// The fault of a program that stopped with this text; null when it is not one of the dialect's.
+const Fault* findFault(std::string_view dialect, std::string_view text);
+// What `rungc explain` finds it by: the text up to its colon.
+std::string_view shortName(const Fault& fault);
 
 } // namespace rung::nc

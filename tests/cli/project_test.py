@@ -59,7 +59,7 @@ class Discovery(Cli):
             self.assertEqual(err, "")
             self.assertIn("rung_program_v1", self.rungc("emit", "cpp", cwd=cwd)[0])
             self.rungc("view", "-o", "lamp.svg", cwd=cwd)
-            self.assertIn("1 scans", self.rungc("run", cwd=cwd)[0])
+            self.assertIn("1 scan,", self.rungc("run", cwd=cwd)[0])
             self.rungc("build", cwd=cwd)
         self.assertTrue((self.path / (self.path.name + ".so")).exists())
 

@@ -220,7 +220,10 @@ private:
     run.instrument = instrument;
     run.programs = request_.programs;
     run.store = stores_.emplace_back(std::make_unique<scenario::EngineStore>()).get();
-    run.observers = {&measurement};
+    run.started = [&measurement](scenario::Session& session, const driver::Compiled&) {
+      session.addObserver(measurement);
+      return std::string();
+    };
     for (uint32_t i = 0; i < repeat; ++i) {
       measurement.rewind();
       for (const scenario::Scenario& scenario : request_.scenarios) {

@@ -8,7 +8,7 @@
 #include "tools/profile/text.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/profile_page.h"
-#include "tools/rungc/progress.h"
+#include "tools/console/progress.h"
 #include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenarios.h"
 
@@ -74,7 +74,7 @@ int runProfile(const ProfileOptions& options) {
     if (!read.ok()) return environmentError(read.error());
     baseline = std::move(read).value();
   }
-  Progress progress(stderr);
+  console::Progress progress(stderr);
   request.progress = [&](const std::string& text) { progress.show(text); };
   const profile::Outcome outcome = profile::profileScenarios(request);
   progress.clear();

@@ -1,20 +1,23 @@
-// rungc run: runs a program, from source or from a shared object, on the virtual or the real clock.
+// rungc run: runs a program, from source or from a shared object, on the virtual or the real clock; a person can set
+// its inputs, drive it with a scenario, or type at it.
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <unistd.h>
 
-#include "rtlib/host/realtime.h"
-#include "rtlib/host/retained_memory.h"
 #include "rtlib/host/so_engine.h"
-#include "rtlib/nc/model/nc_model.h"
-#include "rtlib/nc/model/refuse.h"
-#include "rtlib/nc/model/retained_tables.h"
-#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/nc/config_key.h"
+#include "tools/console/console.h"
+#include "tools/console/progress.h"
+#include "tools/console/prompt.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
-#include "tools/scenario/compile_step.h"
-#include "tools/scenario/scenario.h"
+#include "tools/rungc/retained_files.h"
+#include "tools/rungc/run_scenario.h"
+#include "tools/rungc/scenarios.h"
+#include "tools/scenario/trace.h"
 
 namespace rung::rungc {
 namespace {
@@ -22,9 +25,15 @@ namespace {
 struct RunOptions {
   SourceOptions source;
   std::string engine = "jit";
-  uint64_t scans = 1;
+  std::optional<uint64_t> scans; // one, where nothing else drives the program
   std::string duration;
+  int64_t forUs = 0;
   std::vector<std::string> watch;
+  std::vector<std::string> sets;
+  std::string scenarioFile;
+  RunScenario scenario;
+  std::string trace;
+  bool prompt = false;
   bool realtime = false;
   bool debugger = false;
   std::string level = "2";
@@ -32,256 +41,260 @@ struct RunOptions {
   std::string cache;
 };
 
-volatile std::sig_atomic_t gStop = 0; // set by SIGINT and SIGTERM: the only thing a signal handler may touch
+console::Signal gSignal = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
 
-struct Watched {
-  std::string name;
-  host::Ref place;
-  std::string last;
-};
-
-std::string valueText(const host::Instance& instance, const host::Ref& place) {
-  switch (place.kind) {
-  case host::RefKind::Text: {
-    const std::string text = instance.readText(place);
-    const bool oneByte = std::string_view(instance.program().dialect) == "technol";
-    return "\"" + (oneByte ? nc::shownText(text) : text) + "\"";
-  }
-  case host::RefKind::Real: return fmt::format("{}", instance.readReal(place));
-  case host::RefKind::Bit: return fmt::format("{}", instance.read(place));
-  case host::RefKind::Constant: return fmt::format("{}", place.constant);
-  case host::RefKind::Int: {
-    // Whether a cell has a sign is the program's affair: both readings, as a scenario shows them.
-    const int64_t number = host::readSigned(instance.memory(), place);
-    return number < 0 ? fmt::format("{} ({})", instance.read(place), number) : fmt::format("{}", number);
-  }
-  }
-  return {};
+void catchSignals() {
+  struct sigaction action{};
+  action.sa_handler = [](int signal) { gSignal = signal; };
+  sigaction(SIGINT, &action, nullptr); // without SA_RESTART: a prompt that reads must notice
+  sigaction(SIGTERM, &action, nullptr);
 }
 
-// Prints what has changed, behind the time.
-void printChanges(const host::Instance& instance, std::vector<Watched>& watched) {
-  for (Watched& w : watched) {
-    std::string now = valueText(instance, w.place);
-    if (now == w.last) continue;
-    fmt::print("{:>12.3f} ms  {} = {}\n", static_cast<double>(instance.nowUs()) / 1000.0, w.name, now);
-    w.last = std::move(now);
-  }
+// The statement of `--set NAME=VALUE`; a value that is not a number is a text.
+Result<scenario::Statement> setStatement(const std::string& pair) {
+  const size_t equals = pair.find('=');
+  if (equals == std::string::npos || equals == 0) return failure("expected NAME=VALUE, found '" + pair + "'");
+  const std::string name = pair.substr(0, equals);
+  const std::string value = pair.substr(equals + 1);
+  Result<scenario::Statement> plain = scenario::parseStatement(fmt::format("set {} {}", name, value));
+  return plain.ok() ? std::move(plain) : scenario::parseStatement(fmt::format("set {} \"{}\"", name, value));
 }
 
-// TECHNOL: as in the log.
-std::string messageText(const rung_program& program, const nc::ShownMessage& message) {
-  if (std::string_view(program.dialect) == "technol")
-    return fmt::format("PLC{:05} {} {} {} {}{}", message.number, static_cast<uint32_t>(message.index), message.value,
-                       message.par2, message.par3, message.text.empty() ? "" : " " + message.text);
-  std::string text = fmt::format("message {}", message.number);
-  if (message.channel != 0 || message.index != 0)
-    text += fmt::format(" (channel {}, index {})", message.channel, message.index);
-  if (!message.text.empty()) text += fmt::format(" \"{}\"", message.text);
-  return text;
-}
-
-// Prints which messages have come to the screen or gone from it, behind the time.
-void printMessages(const host::Instance& instance, std::vector<nc::ShownMessage> now,
-                   std::vector<nc::ShownMessage>& shown) {
-  if (now == shown) return;
-  const double ms = static_cast<double>(instance.nowUs()) / 1000.0;
-  const auto stands = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {
-    return std::find(list.begin(), list.end(), message) != list.end();
-  };
-  for (const nc::ShownMessage& message : shown)
-    if (!stands(now, message)) fmt::print("{:>12.3f} ms  {} is gone\n", ms, messageText(instance.program(), message));
-  for (const nc::ShownMessage& message : now)
-    if (!stands(shown, message)) fmt::print("{:>12.3f} ms  {}\n", ms, messageText(instance.program(), message));
-  shown = std::move(now);
-}
-
-bool resolveWatched(const nc::NcModel& nc, const host::Instance& instance, const std::vector<std::string>& names,
-                    std::vector<Watched>& watched) {
-  for (const std::string& name : names) {
-    const auto place = nc.readPlace(instance, name);
-    if (!place) {
-      fmt::print(stderr, "rungc: '{}' is no name of this program\n", name);
-      return false;
-    }
-    watched.push_back({name, *place, ""});
-  }
-  return true;
-}
-
-// What --retain keeps: the program's retained memory, and the tables of the NC beside it.
-struct Retained {
-  Retained(const rung_program& program, nc::NcModel& nc, const std::string& file)
-      : memory(program, file, std::chrono::milliseconds(nc.savesOnRequest() ? 5 : 200)), tables(nc, file) {}
-  host::RetainedMemory memory;
-  nc::RetainedTables tables;
-};
-
-// Switches the program on, warm with the files of --retain. Nothing but an error when they cannot be used.
-std::optional<std::string> switchOn(nc::NcModel& nc, host::Instance& instance, Retained* retained) {
-  if (retained == nullptr) {
-    nc.powerOn(instance, nc::PowerOn::Cold);
-    return std::nullopt;
-  }
-  std::string report;
-  std::string error;
-  const bool found = retained->memory.load(instance, report, error);
-  if (!error.empty()) return error;
-  if (!report.empty()) fmt::print(stderr, "rungc: {}\n", report);
-  if (!found && !report.empty()) nc.reportRetainedLost();
-  report.clear();
-  retained->tables.load(report, error);
-  if (!error.empty()) return error;
-  if (!report.empty()) fmt::print(stderr, "rungc: {}\n", report);
-  nc.powerOn(instance, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
-  return std::nullopt;
-}
-
-// One run of an instance, to the end that the options set.
+// One run of a program, from its start to the end that the options set.
 class Run {
 public:
-  Run(const RunOptions& options, int64_t forUs, nc::NcModel& nc, host::Instance& instance, Retained* retained,
-      std::vector<Watched> watched)
-      : options_(options), forUs_(forUs), nc_(nc), instance_(instance), retained_(retained),
-        watched_(std::move(watched)) {}
+  // `compiled` is null for a shared object. All outlive the run.
+  Run(const RunOptions& options, host::Engine& engine, const driver::Compiled* compiled)
+      : options_(options), engine_(engine), compiled_(compiled), recording_(startOf(options, compiled)) {
+    session_.addEngine(engine);
+  }
 
-  uint64_t scans() const { return scans_; }
+  int run() {
+    int status = start();
+    if (status == kOk) status = drive();
+    return status == kOk || status == kWrong ? finish(status) : status;
+  }
 
-  void realTime() {
-    nc_.betweenSlices(instance_);
-    const host::RealTimeStats stats = host::runRealTime(instance_, {}, [this] {
-      nc_.takeMessages(instance_);
-      scans_ += instance_.atListStart() ? 1 : 0;
-      nc_.betweenSlices(instance_);
-      look();
-      return more();
+private:
+  static console::Start startOf(const RunOptions& options, const driver::Compiled* compiled) {
+    console::Start start{options.source.files, {}, options.scenario.connects, options.source.project, ""};
+    for (const std::string& pair : options.source.config) {
+      const size_t equals = std::min(pair.find('='), pair.size());
+      start.config.emplace_back(pair.substr(0, equals), pair.substr(std::min(equals + 1, pair.size())));
+    }
+    if (compiled == nullptr)
+      start.notAScenario = "a scenario names sources, and this is a shared object: run its sources";
+    if (!options.retain.empty()) start.notAScenario = "a scenario starts cold, and this run began with --retain";
+    return start;
+  }
+
+  // ---- start ----
+
+  // The keys of --config that the compiler does not read are the NC's.
+  std::string configure() {
+    const frontend::Dialect* dialect = frontend::findDialect(engine_.program().dialect);
+    for (const auto& [key, value] : recording_.start().config) {
+      const nc::ConfigKey* row = dialect == nullptr ? nullptr : nc::findConfigKey(dialect->configKeys, key);
+      const bool compilers = row != nullptr && row->reader == nc::ConfigReader::Compiler;
+      if (compilers && compiled_ != nullptr) continue;
+      if (compilers)
+        return fmt::format("--config {0}: the compiler reads it: rungc build --config {0}={1}", key, value);
+      if (std::string wrong = session_.config(key, value); !wrong.empty()) return wrong;
+    }
+    for (const std::string& line : options_.scenario.connects) {
+      const Result<scenario::Statement> connect = scenario::parseStatement(line);
+      if (std::string wrong = session_.connect(connect.value().words[0], connect.value().words[1]); !wrong.empty())
+        return wrong;
+    }
+    return {};
+  }
+
+  int start() {
+    if (const std::string wrong = configure(); !wrong.empty()) return usageError(wrong);
+    nc::PowerOn kind = nc::PowerOn::Cold;
+    if (!options_.retain.empty()) {
+      retained_ = std::make_unique<RetainedFiles>(session_, options_.retain, options_.realtime);
+      std::string error;
+      const auto loaded = retained_->load(error);
+      if (!loaded) return environmentError(error);
+      kind = *loaded;
+    }
+    const std::vector<nc::NcProblem> problems = session_.start(kind);
+    for (const nc::NcProblem& problem : problems) fmt::print(stderr, "rungc: {}\n", problem.text);
+    return problems.empty() ? observe() : int{kUsage};
+  }
+
+  int observe() {
+    if (retained_) session_.addObserver(*retained_);
+    for (const std::string& name : options_.watch)
+      if (const std::string wrong = watch_.add(name, session_); !wrong.empty()) return usageError("--watch: " + wrong);
+    session_.addObserver(watch_);
+    session_.addObserver(printer_);
+    if (const int status = openTrace(); status != kOk) return status;
+    const bool asked = options_.prompt || !options_.scenarioFile.empty();
+    if (asked && compiled_ != nullptr) {
+      explainer_.emplace(session_, *compiled_->uses);
+      session_.addObserver(*explainer_);
+    }
+    console_.emplace(session_, watch_, recording_, explainer_ ? &*explainer_ : nullptr, print_);
+    return kOk;
+  }
+
+  int openTrace() {
+    if (options_.trace.empty()) return kOk;
+    const ir::Uses* uses = compiled_ == nullptr ? nullptr : compiled_->uses.get();
+    const std::vector<std::string> names =
+        options_.watch.empty() ? scenario::defaultTraceNames(engine_.program(), uses) : options_.watch;
+    auto trace = scenario::Trace::open(options_.trace, names, session_.instance(), session_.nc());
+    if (!trace.ok()) return environmentError(trace.error());
+    trace_ = std::move(trace).value();
+    session_.addObserver(*trace_);
+    return kOk;
+  }
+
+  // ---- the run ----
+
+  // Inputs, then the scenario, then what --scans and --for ask for, then the person.
+  int drive() {
+    catchSignals();
+    if (const int status = setInputs(); status != kOk) return status;
+    int status = runScenario();
+    if (status == kOk || options_.prompt) status = std::max(status, runScans());
+    if (!options_.prompt) return status;
+    session_.setInterrupt([this] { return interrupted(); });
+    return console::runPrompt(*console_, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
+  }
+
+  int setInputs() {
+    for (const std::string& pair : options_.sets) {
+      const Result<scenario::Statement> set = setStatement(pair);
+      if (!set.ok()) return usageError("--set: " + set.error());
+      if (const auto problem = session_.execute(set.value()))
+        return usageError(fmt::format("--set {}: {}", pair, problem->message));
+      recording_.add(set.value().text);
+    }
+    return kOk;
+  }
+
+  int runScenario() {
+    session_.setInterrupt([this] { return interrupted(); });
+    for (const scenario::Statement& s : options_.scenario.statements)
+      if (gSignal != 0 || console_->execute(s) == console::Outcome::Failed) return kWrong;
+    return kOk;
+  }
+
+  int runScans() {
+    if (!options_.prompt) session_.setUnattended();
+    session_.setInterrupt([this] { return interrupted() || session_.instance().faulted(); });
+    const bool driven = options_.prompt || !options_.scenarioFile.empty();
+    scenario::Statement advance;
+    advance.kind = options_.duration.empty() ? scenario::Kind::Scan : scenario::Kind::Run;
+    advance.count = options_.scans.value_or(driven ? 0 : 1);
+    advance.microseconds = options_.forUs;
+    advance.text = options_.duration.empty() ? fmt::format("scan {}", advance.count) : "run " + options_.duration;
+    if (options_.realtime) {
+      runRealTime(advance);
+    } else if (advance.count > 0) {
+      return console_->execute(advance) == console::Outcome::Failed ? kWrong : kOk;
+    }
+    return kOk;
+  }
+
+  void runRealTime(const scenario::Statement& end) {
+    const bool timed = end.kind == scenario::Kind::Run;
+    session_.setInterrupt([this, end, timed] {
+      return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
     });
+    const host::RealTimeStats stats = session_.runRealTime();
     fmt::print("{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices, stats.missed,
                static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
   }
 
-  void virtualTime() {
-    for (; more(); ++scans_) {
-      nc_.scan(instance_);
-      look();
-    }
+  // After every scan.
+  bool interrupted() {
+    constexpr uint64_t kScansBetween = 1024; // the clock costs as much as a small scan
+    if (session_.scans() % kScansBetween == 0)
+      progress_.show(fmt::format("{}, running for {}", scenario::scanText(session_.scans(), session_.nowUs()),
+                                 shownSeconds(progress_.seconds())));
+    return gSignal != 0;
   }
 
-private:
-  void look() {
-    rt::ServiceRequest request; // here is nobody who could answer later
-    while (instance_.services().take(request)) instance_.services().complete(nc::refuse(instance_.program(), request));
-    if (retained_ != nullptr) {
-      if (nc_.savesOnRequest())
-        saveOnRequest();
-      else
-        retained_->memory.offer(instance_);
-      retained_->tables.offer();
-    }
-    printChanges(instance_, watched_);
-    printMessages(instance_, nc_.messages(instance_), shown_);
-    nc_.board().takeLog(); // nobody reads it here, and it must not grow
+  // ---- end ----
+
+  int finish(int status) {
+    progress_.clear();
+    fmt::print("{} scan{}, {:.3f} ms of the program's time, engine {}\n", session_.scans(),
+               session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0, engine_.name());
+    if (retained_)
+      if (const std::string error = retained_->finish(); !error.empty()) return environmentError(error);
+    if (trace_)
+      if (const std::string error = trace_->finish(); !error.empty()) return environmentError(error);
+    if (session_.unexpectedFault().empty()) return status;
+    fmt::print(stderr, "rungc: {}\n", console::faultLine(session_.instance()));
+    return kWrong;
   }
-  // On the real clock the scans go on while the image is written; a failure is tried again. On the virtual clock time
-  // stands still meanwhile.
-  void saveOnRequest() {
-    if (saving_ && !retained_->memory.written()) return;
-    if (saving_ && retained_->memory.failed() == failures_) nc_.saved(instance_);
-    saving_ = false;
-    if (!nc_.asksToSave(instance_)) return;
-    failures_ = retained_->memory.failed();
-    saving_ = retained_->memory.offer(instance_);
-    if (options_.realtime) return;
-    if (retained_->memory.finish(instance_).empty()) nc_.saved(instance_);
-    saving_ = false;
-  }
-  bool more() const {
-    if (gStop != 0 || instance_.faulted()) return false;
-    return forUs_ >= 0 ? instance_.nowUs() < forUs_ : scans_ < options_.scans;
-  }
+
+  struct Printer final : scenario::Observer {
+    explicit Printer(const console::Print& print) : print(print) {}
+    void scanned(const scenario::Session&) override {}
+    void printed(const std::string& line) override { print(line); }
+    const console::Print& print;
+  };
 
   const RunOptions& options_;
-  int64_t forUs_;
-  nc::NcModel& nc_;
-  host::Instance& instance_;
-  Retained* retained_;
-  std::vector<Watched> watched_;
-  std::vector<nc::ShownMessage> shown_;
-  uint64_t scans_ = 0;
-  bool saving_ = false;   // an image that the program asked for is being written
-  uint64_t failures_ = 0; // in front of it
+  host::Engine& engine_;
+  const driver::Compiled* compiled_;
+  scenario::Session session_{""};
+  console::Recording recording_;
+  console::Progress progress_{stderr};
+  console::Print print_ = [this](const std::string& line) {
+    progress_.clear();
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  console::Watch watch_{print_};
+  Printer printer_{print_};
+  std::unique_ptr<RetainedFiles> retained_;
+  std::unique_ptr<scenario::Trace> trace_;
+  std::optional<scenario::Explainer> explainer_; // once the session has started
+  std::optional<console::Console> console_;
 };
 
-// The keys of --config that the compiler does not read are the NC's; `dialect` is null where nothing was compiled.
-std::string configure(nc::NcModel& nc, const SourceOptions& options, const frontend::Dialect* dialect) {
-  for (const std::string& pair : options.config) {
-    const size_t equals = std::min(pair.find('='), pair.size());
-    const std::string key = pair.substr(0, equals);
-    if (dialect != nullptr && scenario::readsKey(*dialect, key)) continue;
-    if (equals == pair.size()) return "--config takes KEY=VALUE, found '" + pair + "'";
-    if (std::string wrong = nc.config(key, pair.substr(equals + 1)); !wrong.empty()) return wrong;
-  }
-  return {};
-}
-
-int runInstance(host::Engine& engine, const RunOptions& options, int64_t forUs, const frontend::Dialect* dialect) {
-  const std::unique_ptr<nc::NcModel> nc = nc::makeNcModel(engine.program().dialect);
-  if (const std::string wrong = configure(*nc, options.source, dialect); !wrong.empty()) {
-    fmt::print(stderr, "rungc: {}\n", wrong);
-    return kUsage;
-  }
-  const std::unique_ptr<host::Instance> instance = driver::makeInstance(engine, nc.get());
-  std::unique_ptr<Retained> retained;
-  if (!options.retain.empty()) retained = std::make_unique<Retained>(engine.program(), *nc, options.retain);
-  nc->setStored(retained != nullptr);
-  if (const auto error = switchOn(*nc, *instance, retained.get())) return environmentError(*error);
-  for (const nc::NcProblem& problem : nc->connectionProblems()) fmt::print(stderr, "rungc: {}\n", problem.text);
-  if (!nc->connectionProblems().empty()) return kUsage;
-  std::vector<Watched> watched;
-  if (!resolveWatched(*nc, *instance, options.watch, watched)) return kUsage;
-  std::signal(SIGINT, [](int) { gStop = 1; });
-  std::signal(SIGTERM, [](int) { gStop = 1; });
-  Run run(options, forUs, *nc, *instance, retained.get(), std::move(watched));
-  if (options.realtime)
-    run.realTime();
-  else
-    run.virtualTime();
-  fmt::print("{} scans, {:.3f} ms of the program's time, engine {}\n", run.scans(),
-             static_cast<double>(instance->nowUs()) / 1000.0, engine.name());
-  if (retained) {
-    if (!instance->faulted()) nc->powerOff(*instance);
-    if (const std::string error = retained->memory.finish(*instance); !error.empty()) return environmentError(error);
-    if (const std::string error = retained->tables.finish(); !error.empty()) return environmentError(error);
-  }
-  if (!instance->faulted()) return kOk;
-  fmt::print(stderr, "rungc: the program stopped with a fault: {}\n", instance->faultText());
-  return kWrong;
-}
-
-int runSharedObject(const RunOptions& options, int64_t forUs) {
+int runSharedObject(const RunOptions& options) {
   std::string error;
   const std::unique_ptr<host::SoEngine> engine =
       host::SoEngine::open(options.source.files[0], error, host::Loaded::WithProcess);
-  return engine == nullptr ? environmentError(error) : runInstance(*engine, options, forUs, nullptr);
+  return engine == nullptr ? environmentError(error) : Run(options, *engine, nullptr).run();
 }
 
-int runSource(const RunOptions& options, int64_t forUs) {
+int runSource(const RunOptions& options) {
   const auto kind = driver::engineFromName(options.engine);
-  if (!kind) {
-    fmt::print(stderr, "rungc: unknown engine '{}'; there are interp, cpp, llvm and jit\n", options.engine);
-    return kUsage;
-  }
+  if (!kind) return usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm and jit", options.engine));
   int status = kOk;
   SourceManager sources;
-  const auto compiled = compileSources(sources, options.source, {}, status);
+  driver::CompileRequest request;
+  if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
+  const auto compiled = compileSources(sources, options.source, request, status);
   if (!compiled) return status;
   driver::EngineOptions engineOptions;
   engineOptions.debugger = options.debugger;
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
-  Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
-  return engine.ok() ? runInstance(*engine.value(), options, forUs, compiled->dialect)
-                     : environmentError(engine.error());
+  const Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
+  return engine.ok() ? Run(options, *engine.value(), &*compiled).run() : environmentError(engine.error());
+}
+
+int runProgram(RunOptions& options) {
+  if (!options.duration.empty()) {
+    const auto us = scenario::parseDuration(options.duration);
+    if (!us.ok()) return usageError(fmt::format("--for {}: {}", options.duration, us.error()));
+    options.forUs = us.value();
+  }
+  if (!options.trace.empty())
+    if (const std::string wrong = scenario::traceFileProblem(options.trace); !wrong.empty())
+      return usageError("--trace: " + wrong);
+  const bool object = options.source.files.size() == 1 && options.source.files[0].ends_with(".so");
+  return object ? runSharedObject(options) : runSource(options);
 }
 
 } // namespace
@@ -292,10 +305,23 @@ void addRun(CLI::App& app, int& status) {
   addSourceOptions(*command, options->source);
   command->add_option("--engine", options->engine, "interp, cpp, llvm or jit; a shared object brings its own")
       ->capture_default_str();
-  CLI::Option* scans = command->add_option("--scans", options->scans, "Number of scans")->capture_default_str();
+  CLI::Option* scans = command->add_option("--scans", options->scans,
+                                           "Number of scans; default: 1, with --scenario or --prompt none of its own");
   command->add_option("--for", options->duration, "Time to run, such as 2s or 500ms")->excludes(scans);
+  command
+      ->add_option("--set", options->sets,
+                   "NAME=VALUE: an input, a variable or a signal of the NC, before the first scan; may be repeated")
+      ->allow_extra_args(false);
+  CLI::Option* scenario = command->add_option(
+      "--scenario", options->scenarioFile,
+      "Carry out the statements of a scenario first; without a FILE it runs the scenario's own program");
+  CLI::Option* prompt =
+      command->add_flag("-i,--prompt", options->prompt,
+                        "Then take statements from the terminal: set, scan, run 2s, toggle, watch, help …");
   command->add_option("--watch", options->watch, "Names whose changes are printed");
-  command->add_flag("--realtime", options->realtime, "On the machine's clock");
+  command->add_option("--trace", options->trace,
+                      "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
+  command->add_flag("--realtime", options->realtime, "On the machine's clock")->excludes(scenario)->excludes(prompt);
   command->add_flag("--debugger", options->debugger, "Tell gdb about code compiled in the process");
   command->add_option(
       "--retain", options->retain,
@@ -303,20 +329,16 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--cache", options->cache,
                       "Folder for compiled code of engine jit, to start the same program faster");
   addLevelOption(*command, options->level);
-  command->callback([options, &status] {
-    int64_t forUs = -1;
-    if (!options->duration.empty()) {
-      const auto us = scenario::parseDuration(options->duration);
-      if (!us.ok()) {
-        fmt::print(stderr, "rungc: --for {}: {}\n", options->duration, us.error());
-        status = kUsage;
-        return;
-      }
-      forUs = us.value();
-    }
-    const bool object = options->source.files.size() == 1 && options->source.files[0].ends_with(".so");
-    status = object ? runSharedObject(*options, forUs) : runSource(*options, forUs);
+  // The scenario may name the program, so it is read before the program is looked for.
+  command->parse_complete_callback([command, options] {
+    if (!command->remaining().empty()) return;
+    int wrong = kOk;
+    if (!options->scenarioFile.empty())
+      wrong = readRunScenario(options->scenarioFile, options->source, options->scenario);
+    if (wrong == kOk) wrong = takeProject(options->source);
+    if (wrong != kOk) throw CLI::RuntimeError(wrong);
   });
+  command->callback([options, &status] { status = runProgram(*options); });
 }
 
 } // namespace rung::rungc

@@ -10,7 +10,7 @@
 #include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
 #include "tools/rungc/junit.h"
-#include "tools/rungc/progress.h"
+#include "tools/console/progress.h"
 #include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenario_trace.h"
 #include "tools/rungc/test_pool.h"
@@ -52,7 +52,7 @@ std::string summary(const std::vector<TestCase>& tests, size_t selected, double 
 
 Outcome runOnce(const std::vector<std::string>& files, const TestOptions& options, const scenario::RunOptions& run) {
   Outcome outcome;
-  Progress progress(stdout);
+  console::Progress progress(stdout);
   const bool color = wantsColor(options.color, STDOUT_FILENO);
   const auto finished = [&](TestCase test) {
     progress.clear();

@@ -15,7 +15,7 @@ std::string setValue(Lane& lane, const Statement& s) {
   if (s.name.starts_with("NC.")) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
   const std::optional<Ref> place = lane.nc().writePlace(lane.instance(), s.name);
   if (!place && s.value.kind != ValueKind::Text && lane.nc().writeCell(s.name, cellOf(s.value))) return {};
-  if (!place) return unknownName(lane.instance(), s.name);
+  if (!place) return unknownName(lane.instance(), lane.nc(), s.name);
   lane.nc().beforeWrite(lane.instance(), *place);
   return writeValue(lane.instance(), *place, s.value);
 }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "rtlib/nc/model/refuse.h"
 #include "tools/driver/engines.h"
 
 namespace rung::scenario {
@@ -20,7 +21,22 @@ void Lane::powerOn(nc::PowerOn kind) {
 
 void Lane::advance(Advance how) {
   (nc_.get()->*how)(*instance_);
+  takeLog();
+}
+
+void Lane::takeMessages() {
+  nc_->takeMessages(*instance_);
+  takeLog();
+}
+
+void Lane::takeLog() {
   for (std::string& line : nc_->board().takeLog()) unreadLog_.push_back(std::move(line));
+}
+
+void Lane::ignore() {
+  rt::ServiceRequest request;
+  while (instance_->services().take(request)) instance_->services().complete(nc::refuse(instance_->program(), request));
+  unreadLog_.clear();
 }
 
 } // namespace rung::scenario

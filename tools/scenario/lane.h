@@ -31,6 +31,10 @@ public:
   // Runs the NC and the program: a scan, a slot or the fast part.
   using Advance = void (nc::NcModel::*)(host::Instance&);
   void advance(Advance how);
+  // After a slice that was run beside `advance`.
+  void takeMessages();
+  // Nobody will look: requests are refused, and what the log holds is dropped.
+  void ignore();
 
   void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
   void onFault(host::Instance& instance) override { nc_->onFault(instance); }
@@ -39,6 +43,8 @@ public:
   }
 
 private:
+  void takeLog();
+
   host::Engine& engine_;
   std::unique_ptr<nc::NcModel> nc_;
   std::unique_ptr<host::Instance> instance_;

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 #include <optional>
+#include <unordered_set>
+#include <utility>
 
 #include "ir/support/similar.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::scenario {
 namespace {
@@ -28,15 +31,35 @@ Result<Reading> readName(const host::Instance& instance, const nc::NcModel& nc, 
   }
   if (const std::optional<host::Ref> place = nc.readPlace(instance, name)) return readValue(instance, *place, wantReal);
   if (const std::optional<nc::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
-  return failure(unknownName(instance, name));
+  return failure(unknownName(instance, nc, name));
 }
 
-std::string unknownName(const host::Instance& instance, std::string_view name) {
+NamedValue::NamedValue(std::string name, const host::Instance& instance, const nc::NcModel& nc)
+    : name_(std::move(name)), place_(nc.readPlace(instance, name_)) {}
+
+Reading NamedValue::read(const host::Instance& instance, const nc::NcModel& nc) const {
+  if (place_) return readValue(instance, *place_, false);
+  const Result<Reading> reading = readName(instance, nc, name_, false);
+  return reading.ok() ? reading.value() : realReading(0); // a quantity that is not there yet
+}
+
+std::vector<std::string> namesOf(const host::Instance& instance, const nc::NcModel& nc) {
   const rung_program& program = instance.program();
-  const std::string_view head = headOf(name);
-  Similar similar(head);
+  std::vector<std::string> names;
   for (uint32_t i = 0; i < program.symbol_count; ++i)
-    if (program.symbols[i].name[0] != '@') similar.offer(program.symbols[i].name);
+    if ((program.symbols[i].flags & RUNG_SYMBOL_HIDDEN) == 0) names.emplace_back(program.symbols[i].name);
+  const nc::SignalTable* signals = nc::signalsOf(program.dialect);
+  if (signals == nullptr) return names;
+  std::unordered_set<std::string_view> seen(names.begin(), names.end());
+  for (const nc::Signal& signal : *signals) // not of every area, nor of every structure, a program names the rows
+    if (seen.insert(signal.symbol).second && nc.readPlace(instance, signal.symbol)) names.emplace_back(signal.symbol);
+  return names;
+}
+
+std::string unknownName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name) {
+  Similar similar(headOf(name));
+  const std::vector<std::string> names = namesOf(instance, nc);
+  for (const std::string& known : names) similar.offer(known);
   return fmt::format("'{}' is not a name of this program{}", name,
                      similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best()));
 }

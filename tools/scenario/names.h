@@ -1,5 +1,6 @@
 // Names of a scenario in a running program: what they hold, and what was meant by one that does not exist.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +13,25 @@ namespace rung::scenario {
 // A variable, a cell or a quantity of the NC. `wantReal`: two words or eight bytes are read as one double.
 Result<Reading> readName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name, bool wantReal);
 
+// A name that is read after every scan: it is looked up once.
+class NamedValue {
+public:
+  // The name can be read (readName); a quantity of the NC that does not exist yet reads 0 until it does.
+  NamedValue(std::string name, const host::Instance& instance, const nc::NcModel& nc);
+
+  const std::string& name() const { return name_; }
+  const std::optional<host::Ref>& place() const { return place_; } // else a cell or quantity of the NC
+  Reading read(const host::Instance& instance, const nc::NcModel& nc) const;
+
+private:
+  std::string name_;
+  std::optional<host::Ref> place_;
+};
+
+// What a user may write for a value: the symbols of the program, then the signals of its control.
+std::vector<std::string> namesOf(const host::Instance& instance, const nc::NcModel& nc);
 // The message about a name that does not exist, with the one that may be meant.
-std::string unknownName(const host::Instance& instance, std::string_view name);
+std::string unknownName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name);
 
 // Of all statements that read or write a value, but for quantities of the NC; the program has been started.
 std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance, const nc::NcModel& nc);

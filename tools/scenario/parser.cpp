@@ -110,11 +110,20 @@ private:
 
 } // namespace
 
-Scenario parse(std::string path, std::string_view text) {
+namespace {
+
+Scenario parseLines(std::string path, std::string_view text) {
   Scenario scenario;
   scenario.path = std::move(path);
   scenario.files.push_back(scenario.path);
   Reader(scenario).readFile(scenario.path, text);
+  return scenario;
+}
+
+} // namespace
+
+Scenario parse(std::string path, std::string_view text) {
+  Scenario scenario = parseLines(std::move(path), text);
   if (!scenario.statements.empty() && scenario.statements[0].kind == Kind::Program) return scenario;
   if (!scenario.startUnknown && takeProject(scenario)) return scenario;
   if (!scenario.startUnknown) // else a line that cannot be read may be the one
@@ -136,6 +145,12 @@ Result<Scenario> readScenario(const std::string& path) {
   const Result<std::string> text = readText(path);
   if (!text.ok()) return text.failure();
   return parse(path, text.value());
+}
+
+Result<Scenario> readStatements(const std::string& path) {
+  const Result<std::string> text = readText(path);
+  if (!text.ok()) return text.failure();
+  return parseLines(path, text.value());
 }
 
 std::string textOf(const Problem& problem) {

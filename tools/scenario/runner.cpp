@@ -95,7 +95,6 @@ private:
       }
       session_.addEngine(*engine.value());
     }
-    for (Observer* observer : options_.observers) session_.addObserver(*observer);
     return configure(*program_->compiled().dialect) && powerOn();
   }
 

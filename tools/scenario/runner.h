@@ -19,7 +19,6 @@ struct RunOptions {
   bool strict = false;
   std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
   EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run
-  std::vector<Observer*> observers;  // of the session; they outlive the run
   // Called between the start and the first statement, to attach observers, which outlive the run. A text says why the
   // scenario cannot be run.
   std::function<std::string(Session&, const driver::Compiled&)> started;

@@ -65,6 +65,7 @@ struct Statement {
   Kind kind = Kind::Scan;
   std::string file;  // that has it: of the scenario, or included
   uint32_t line = 0; // from 1
+  std::string text;  // as written, without blanks around it
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
                      // service or event; Plc: the command
   std::vector<std::string> words; // Program: files; Connect: source and destination
@@ -107,6 +108,8 @@ Scenario parse(std::string path, std::string_view text);
 std::string notAScenario(const std::string& path);
 // Fails when the file cannot be read or is a program.
 Result<Scenario> readScenario(const std::string& path);
+// A file of statements that need not begin with a program: for a session that runs already.
+Result<Scenario> readStatements(const std::string& path);
 // One line without a file. The text of a failure begins in small letters and names no line.
 Result<Statement> parseStatement(std::string_view line);
 

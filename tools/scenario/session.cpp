@@ -54,8 +54,14 @@ std::vector<nc::NcProblem> Session::start(nc::PowerOn kind) {
     if (auto problems = lane->nc().connectionProblems(); !problems.empty()) return problems;
   }
   if (std::string text = difference(); !text.empty()) return {{RUNG_NONE, std::move(text)}};
+  running_ = true;
   for (Observer* observer : observers_) observer->started(*this);
   return {};
+}
+
+void Session::addObserver(Observer& observer) {
+  observers_.push_back(&observer);
+  if (running_) observer.started(*this);
 }
 
 // ---- scans ---------------------------------------------------------------------------------------------------------
@@ -72,10 +78,31 @@ std::string Session::difference() const {
 std::string Session::advanceOnce(Lane::Advance how) {
   for (const std::unique_ptr<Lane>& lane : lanes_) lane->advance(how);
   ++scans_;
+  return afterScan();
+}
+
+std::string Session::afterScan() {
   std::string problem = difference();
-  for (const std::unique_ptr<Lane>& lane : lanes_) lane->requests().take(lane->instance());
+  for (const std::unique_ptr<Lane>& lane : lanes_) {
+    if (unattended_)
+      lane->ignore();
+    else
+      lane->requests().take(lane->instance());
+  }
   for (Observer* observer : observers_) observer->scanned(*this);
   return problem;
+}
+
+host::RealTimeStats Session::runRealTime() {
+  Lane& lane = *lanes_[0];
+  lane.nc().betweenSlices(lane.instance());
+  return host::runRealTime(lane.instance(), {}, [&] {
+    lane.takeMessages();
+    scans_ += lane.instance().atListStart() ? 1 : 0;
+    lane.nc().betweenSlices(lane.instance());
+    afterScan();
+    return !lane.instance().faulted() && !interrupted();
+  });
 }
 
 std::string Session::advance(uint64_t count, Lane::Advance how) {

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/host/realtime.h"
 #include "tools/scenario/lane.h"
 #include "tools/scenario/scenario.h"
 
@@ -28,7 +29,7 @@ std::string scanText(uint64_t scan, int64_t us);
 class Observer {
 public:
   virtual ~Observer() = default;
-  // After the program was switched on, and again after every restart.
+  // When it is added to a session that has started, or at the start; again after every restart.
   virtual void started(Session& session) { (void)session; }
   // After every scan, slot and run of the fast part, once the engines have been compared.
   virtual void scanned(const Session& session) = 0;
@@ -60,6 +61,11 @@ public:
   // Why the program stopped; "" when it runs or an expect_fault has named the fault.
   std::string unexpectedFault() const;
 
+  // Nobody will look at requests and at the log: after every scan, requests are refused and the log is dropped.
+  void setUnattended() { unattended_ = true; }
+  // On the machine's clock, slice by slice, with the first engine: until the program stops or the interrupt says so.
+  host::RealTimeStats runRealTime();
+
   // Of the first engine.
   host::Instance& instance() { return lanes_[0]->instance(); }
   const host::Instance& instance() const { return lanes_[0]->instance(); }
@@ -71,7 +77,7 @@ public:
   const Statement* statement() const { return statement_; }
 
   // The observer outlives the session.
-  void addObserver(Observer& observer) { observers_.push_back(&observer); }
+  void addObserver(Observer& observer);
   // Asked after every scan: true ends the statement, which then has no problem.
   void setInterrupt(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
 
@@ -81,6 +87,7 @@ private:
   std::string atScan(std::string problem) const;
   std::string advance(uint64_t count, Lane::Advance how);
   std::string advanceOnce(Lane::Advance how);
+  std::string afterScan();
   std::string runFor(int64_t us);
   void restart(nc::PowerOn kind);
   std::string print(const Statement& s);
@@ -102,7 +109,9 @@ private:
   std::function<bool()> interrupted_;
   const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;
+  bool running_ = false;
   bool faultExpected_ = false;
+  bool unattended_ = false;
 };
 
 } // namespace rung::scenario

@@ -20,6 +20,12 @@ constexpr Synonym kSynonyms[] = {{"wait", "run"},     {"sleep", "run"},    {"del
                                  {"step", "scan"},    {"cycle", "scan"},   {"echo", "print"},    {"show", "print"},
                                  {"log", "print"},    {"load", "program"}, {"import", "include"}};
 
+std::string withoutBlanks(std::string_view line) {
+  const size_t first = std::min(line.find_first_not_of(" \t\r"), line.size());
+  const size_t last = line.find_last_not_of(" \t\r");
+  return std::string(line.substr(first, last + 1 - first));
+}
+
 bool startsWithDigit(std::string_view text) { return !text.empty() && text[0] >= '0' && text[0] <= '9'; }
 
 // Statements that decide how the program is compiled and started.
@@ -305,7 +311,9 @@ ParsedLine parseLine(std::string_view line) {
   std::string problem = splitLine(line, words);
   if (!problem.empty()) return {{}, std::move(problem), true};
   if (words.empty()) return {};
-  return LineParser(std::move(words)).run();
+  ParsedLine parsed = LineParser(std::move(words)).run();
+  if (parsed.statement) parsed.statement->text = withoutBlanks(line);
+  return parsed;
 }
 
 Result<Statement> parseStatement(std::string_view line) {

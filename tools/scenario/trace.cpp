@@ -76,13 +76,13 @@ std::string Trace::nameProblem(const std::vector<std::string>& names, const host
 Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::vector<std::string>& names,
                                            const host::Instance& instance, const nc::NcModel& nc) {
   const rung_program& program = instance.program();
-  std::vector<Source> sources;
+  std::vector<NamedValue> sources;
   std::vector<TracedName> traced;
   for (const std::string& name : names) {
-    Source source{name, nc.readPlace(instance, name)};
-    const Reading reading = valueOf(source, instance, nc);
-    const bool inMemory = source.place && source.place->kind != host::RefKind::Constant;
-    traced.push_back({name, inMemory ? program.spaces[source.place->space].name : "NC", reading.kind, reading.width});
+    NamedValue source(name, instance, nc);
+    const Reading reading = source.read(instance, nc);
+    const bool inMemory = source.place() && source.place()->kind != host::RefKind::Constant;
+    traced.push_back({name, inMemory ? program.spaces[source.place()->space].name : "NC", reading.kind, reading.width});
     sources.push_back(std::move(source));
   }
   std::unique_ptr<Trace> trace(new Trace(path));
@@ -95,15 +95,9 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
   return trace;
 }
 
-Reading Trace::valueOf(const Source& source, const host::Instance& instance, const nc::NcModel& nc) {
-  if (source.place) return readValue(instance, *source.place, false);
-  const Result<Reading> reading = readName(instance, nc, source.name, false);
-  return reading.ok() ? reading.value() : realReading(0); // a quantity that is not there yet
-}
-
 void Trace::sample(const host::Instance& instance, const nc::NcModel& nc, uint64_t scan) {
   values_.clear();
-  for (const Source& source : sources_) values_.push_back(valueOf(source, instance, nc));
+  for (const NamedValue& source : sources_) values_.push_back(source.read(instance, nc));
   writer_->sample(instance.nowUs(), scan, values_);
 }
 

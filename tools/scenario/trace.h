@@ -7,12 +7,12 @@
 #pragma once
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "ir/support/result.h"
 #include "ir/uses/uses.h"
+#include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
 #include "tools/scenario/trace_writers.h"
 
@@ -40,17 +40,12 @@ public:
   std::string finish();
 
 private:
-  struct Source {
-    std::string name;
-    std::optional<host::Ref> place; // else a cell or quantity of the NC
-  };
   explicit Trace(std::string path) : path_(std::move(path)), out_(path_, std::ios::binary) {}
-  static Reading valueOf(const Source& source, const host::Instance& instance, const nc::NcModel& nc);
 
   std::string path_;
   std::ofstream out_;
   std::unique_ptr<TraceWriter> writer_;
-  std::vector<Source> sources_;
+  std::vector<NamedValue> sources_;
   std::vector<Reading> values_; // of the last sample
 };
 

@@ -46,6 +46,13 @@ std::string show(const Reading& reading) {
                     : fmt::format("{} (0x{:X})", number, reading.integer);
 }
 
+std::string showShort(const Reading& reading) {
+  if (reading.kind != ValueKind::Int || reading.width <= 1) return show(reading);
+  // Whether a cell has a sign is the program's affair: both readings.
+  const int64_t number = asSigned(reading.integer, reading.width);
+  return number < 0 ? fmt::format("{} ({})", reading.integer, number) : fmt::format("{}", number);
+}
+
 int64_t signedOf(const Reading& integer) { return asSigned(integer.integer, integer.width); }
 
 Reading realReading(double value) {

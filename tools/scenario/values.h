@@ -23,6 +23,8 @@ struct Reading {
 // `wantReal`: two words or eight bytes are read as one double.
 Reading readValue(const host::Instance& instance, const host::Ref& place, bool wantReal);
 std::string show(const Reading& reading);
+// Without the hexadecimal form: "65535 (-1)".
+std::string showShort(const Reading& reading);
 Reading realReading(double value);
 Reading cellReading(const nc::NcCell& cell);
 nc::NcCell cellOf(const Value& number);

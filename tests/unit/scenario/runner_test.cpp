@@ -227,7 +227,10 @@ TEST_F(ScenarioRunner, ObserversReadTheCountersOfAnInstrumentedProgram) {
   RunOptions options;
   options.engines = {EngineKind::Jit};
   options.instrument = true;
-  options.observers = {&observer};
+  options.started = [&](Session& session, const driver::Compiled&) {
+    session.addObserver(observer);
+    return std::string();
+  };
   ASSERT_TRUE(runText("scan 7\n", options).passed);
   EXPECT_EQ(observer.starts, 1);
   ASSERT_EQ(observer.counters.size(), 1u);

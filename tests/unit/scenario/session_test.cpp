@@ -81,7 +81,7 @@ TEST_F(ScenarioSession, ObserversSeeEveryScan) {
   EXPECT_EQ(session_.statement(), nullptr);
   execute("cold_start");
   execute("warm_start");
-  EXPECT_EQ(counter.starts, 2);
+  EXPECT_EQ(counter.starts, 3) << "when it is added, and after each restart";
 }
 
 TEST_F(ScenarioSession, AnInterruptEndsTheStatement) {

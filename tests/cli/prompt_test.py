@@ -1,0 +1,412 @@
+#!/usr/bin/env python3
+"""rungc run as a person uses it: inputs, scenarios, and the prompt, through a terminal of its own. prompt_test.py RUNGC"""
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+RUNGC = ""
+OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 60  # seconds until a test gives up; a loaded machine is slow, not wrong
+
+LAMP = """dialect nct
+module MAIN
+
+symbol START   5100.00
+symbol STOP    5100.01
+symbol PUMP    5101.00
+symbol READY   5101.01
+symbol T_WARM  5200
+
+rung "start/stop latch"
+|--[START]--+--[/STOP]--(PUMP)
+|--[PUMP]---+
+
+rung "warm after half a minute"
+|--[PUMP]--{TOND T_WARM #30 #1}--(READY)
+"""
+
+LAMP_SCENARIO = """program lamp.lad
+set START 1
+scan
+set START 0
+scan
+expect PUMP 1
+print PUMP "still on"
+"""
+
+LOOP = """FUNC END1
+FUNC LBL
+PRM L1
+LDI X0.0
+FUNC JMPB
+PRM L1
+FUNC END2
+"""
+
+
+def rungc(*args, cwd, stdin=""):
+    return subprocess.run([RUNGC, *args], cwd=cwd, input=stdin, capture_output=True, text=True, timeout=PATIENCE)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = self.scratch.name
+        self.file("lamp.lad", LAMP)
+        self.file("lamp.scn", LAMP_SCENARIO)
+
+    def file(self, name, text):
+        (Path(self.folder) / name).write_text(text, encoding="utf-8")
+        return name
+
+    def read(self, name):
+        return (Path(self.folder) / name).read_text(encoding="utf-8")
+
+    def run_it(self, *args, stdin=""):
+        return rungc("run", *args, cwd=self.folder, stdin=stdin)
+
+    def good(self, *args, stdin=""):
+        done = self.run_it(*args, stdin=stdin)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""), done.stdout)
+        return done.stdout
+
+    def passes(self, scenario):
+        done = rungc("test", scenario, "--strict", "--engine", "all", cwd=self.folder)
+        self.assertEqual(done.returncode, OK, done.stdout + self.read(scenario))
+
+
+class Inputs(Folder):
+    """--set and --scenario."""
+
+    def test_an_input_is_set_before_the_first_scan(self):
+        self.assertIn("10.000 ms  PUMP = 1", self.good("lamp.lad", "--set", "START=on", "--watch", "PUMP"))
+        both = self.good("lamp.lad", "--set", "START=1", "--set", "STOP=true", "--watch", "PUMP")
+        self.assertIn("10.000 ms  PUMP = 0", both)
+
+    def test_wrong_inputs(self):
+        for pair, message in (("STRAT=1", "did you mean START?"), ("START", "expected NAME=VALUE, found 'START'"),
+                              ("START=2", "a bit takes 0 or 1, not 2"), ("START=yes", "this name holds a number, not a text"),
+                              ("=1", "expected NAME=VALUE")):
+            done = self.run_it("lamp.lad", "--set", pair)
+            self.assertEqual(done.returncode, USAGE, pair)
+            self.assertIn(message, done.stderr)
+
+    def test_a_scenario_drives_the_program(self):
+        output = self.good("lamp.lad", "--scenario", "lamp.scn", "--watch", "PUMP")
+        self.assertIn("10.000 ms  PUMP = 1", output)
+        self.assertIn('scan 2: PUMP = 1, still on', output)
+        self.assertIn("2 scans, 20.000 ms", output)
+        self.assertIn("5 scans", self.good("lamp.lad", "--scenario", "lamp.scn", "--scans", "3"))
+
+    def test_a_scenario_brings_its_program(self):
+        self.assertIn("2 scans", self.good("--scenario", "lamp.scn"))
+        self.file("no.scn", "scan\n")
+        done = self.run_it("--scenario", "no.scn")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("names no program and lies in no project", done.stderr)
+
+    def test_a_scenario_of_a_project(self):
+        done = rungc("run", "--scenario", "examples/gsk-mill/tool-change.scn", cwd=ROOT)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""), done.stdout)
+
+    def test_a_scenario_brings_its_configuration(self):
+        self.file("slow.scn", "program lamp.lad\nconfig timeslice 2ms\nscan 2\nexpect PUMP 0\n")
+        self.assertIn("2 scans, 20.000 ms", self.good("--scenario", "slow.scn"))
+        self.assertIn("2 scans, 50.000 ms", self.good("--scenario", "slow.scn", "--config", "timeslice=5ms"))
+        self.file("wrong.scn", "program lamp.lad\nconfig nothing 1\nscan\n")
+        done = self.run_it("--scenario", "wrong.scn")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("nothing", done.stderr)
+
+    def test_a_scenario_that_fails_explains_itself(self):
+        self.file("bad.scn", "program lamp.lad\nscan\nexpect PUMP 1\nscan 100\n")
+        done = self.run_it("--scenario", "bad.scn")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("bad.scn:3: PUMP is 0, expected 1 (scan 1, 0.010 s)", done.stdout)
+        self.assertIn('written by rung 1 "start/stop latch"', done.stdout)
+        self.assertIn("1 scan, 10.000 ms", done.stdout)
+
+    def test_scenarios_that_cannot_be_run(self):
+        for text, status, message in (("program lamp.lad\nfrob\n", WRONG, "x.scn:2: unknown statement 'frob'"),
+                                      ("program lamp.lad\nexpect_error x\n", USAGE, "does not compile"),
+                                      ("program lamp.lad\nset NOTHING 1\n", WRONG, "is not a name of this program")):
+            self.file("x.scn", text)
+            done = self.run_it("--scenario", "x.scn")
+            self.assertEqual(done.returncode, status, text)
+            self.assertIn(message, done.stdout + done.stderr)
+        self.assertEqual(self.run_it("--scenario", "none.scn").returncode, ENVIRONMENT)
+        self.assertEqual(self.run_it("lamp.lad", "--scenario", "lamp.scn", "--realtime").returncode, USAGE)
+
+    def test_a_trace(self):
+        self.good("lamp.lad", "--set", "START=1", "--scans", "2", "--trace", "out.csv", "--watch", "PUMP")
+        self.assertEqual(len(self.read("out.csv").splitlines()), 4)  # names, the start, two scans
+        self.good("lamp.lad", "--trace", "out.vcd")
+        self.assertIn("PUMP", self.read("out.vcd"))
+        done = self.run_it("lamp.lad", "--trace", "out.txt")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("must end in .vcd or .csv", done.stderr)
+
+    def test_a_shared_object(self):
+        self.assertEqual(rungc("build", "lamp.lad", "-o", "lamp.so", cwd=self.folder).returncode, OK)
+        output = self.good("./lamp.so", "--scenario", "lamp.scn", "--watch", "PUMP")
+        self.assertIn("10.000 ms  PUMP = 1", output)
+        done = self.run_it("./lamp.so", "-i", stdin="set START 1\nscan\nwhy PUMP\nsave x.scn\n")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("run its sources", done.stdout)
+        done = self.run_it("./lamp.so", "--config", "timeslice=5ms")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("the compiler reads it", done.stderr)
+
+    def test_a_fault_names_its_explanation(self):
+        self.file("loop.pmc", LOOP)
+        done = self.run_it("loop.pmc", "--scans", "5")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("stopped with a fault: dead-loop", done.stderr)
+        self.assertIn("try `rungc explain dead-loop`", done.stderr)
+        self.assertIn("1 scan,", done.stdout)
+        done = self.run_it("loop.pmc", "-i", stdin="scan\nsave saved.scn\n")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("cold_start and warm_start restart it", done.stdout)
+        self.passes("saved.scn")
+
+
+class Piped(Folder):
+    """The prompt without a terminal: lines from a pipe."""
+
+    def prompt(self, lines, *args, status=OK, program="lamp.lad"):
+        done = self.run_it(program, "-i", *args, stdin=lines)
+        self.assertEqual((done.returncode, done.stderr), (status, ""), done.stdout)
+        return done.stdout
+
+    def test_every_command(self):
+        output = self.prompt("watch PUMP\ntoggle START\nscan\nPUMP\nexpect PUMP on\nwhy PUMP\nwatch\nunwatch PUMP\n"
+                             "toggle START\nscan 2 times\nmessages\nhelp\nhelp toggle\nprint PUMP \"text\"\nquit\nscan\n")
+        for text in ("0.000 ms  PUMP = 0", "10.000 ms  PUMP = 1", "PUMP = 1", "ok", "written by rung 1", "no messages",
+                     "toggle NAME", "scan [N]", "scan 3: PUMP = 1, text", "3 scans, 30.000 ms"):
+            self.assertIn(text, output)
+        self.assertNotIn("expect_error", output)
+
+    def test_wrong_lines(self):
+        for line, message in (("togle START", "did you mean toggle?"), ("frob", "help lists them"),
+                              ("wait 2s", "did you mean: run 250ms"), ("expect PUMP 1", "PUMP is 0, expected 1 (before the first scan)"),
+                              ("set NOTHING 1", "'NOTHING' is not a name"), ("toggle T_WARM", "is not a bit; write: set T_WARM VALUE"),
+                              ("toggle", "the command is: toggle NAME"), ("watch NOTHING", "is not a name"),
+                              ("unwatch PUMP", "PUMP is not watched"), ("why", "the command is: why NAME"),
+                              ("why NOTHING", "is not a name"), ("save x.txt", "save FILE.scn"), ("save", "save FILE.scn"),
+                              ("save none/x.scn", "cannot write 'none/x.scn'"), ("help frob", "is not a statement"),
+                              ("program x.lad", "belongs to the start of a scenario"), ("period 5ms", "belongs to the start"),
+                              ("set PUMP \"x", "a text is not closed"), ("include none.scn", "cannot read 'none.scn'"),
+                              ("set !INP 1 2", "unexpected '2'"), ("set N_FRISTCC 1", "did you mean N_FIRSTCC?")):
+            output = self.prompt(line + "\n# a comment\n\nscan\n", status=WRONG)
+            self.assertIn(message, output)
+            self.assertIn("1 scan,", output, "the session continues")
+
+    def test_the_saved_session_passes(self):
+        self.prompt("watch PUMP READY\ntoggle START\nscan\nexpect PUMP on\nexpect READY on\nset NOTHING 1\nrun 31s\n"
+                    "save saved.scn\n", status=WRONG)
+        saved = self.read("saved.scn")
+        self.assertIn("program lamp.lad\n", saved)
+        self.assertNotIn("NOTHING", saved)
+        self.assertNotIn("READY on", saved, "what failed is left out")
+        self.assertIn("expect READY 1\n", saved, "what is watched is expected")
+        self.passes("saved.scn")
+
+    def test_an_included_file(self):
+        self.file("steps.part", "set START 1\nscan 2\nexpect PUMP 1\n")
+        self.prompt("include steps.part\nset STOP 1\nscan\nexpect PUMP 0\nsave saved.scn\n")
+        self.passes("saved.scn")
+        self.file("wrong.part", "set START 1\nscan x\n")
+        self.assertIn("wrong.part:2: 'x' is not a number of runs", self.prompt("include wrong.part\n", status=WRONG))
+
+    def test_what_went_before_is_saved_too(self):
+        output = self.prompt("expect PUMP 1\nsave saved.scn\n", "--set", "START=1", "--scenario", "lamp.scn", "--scans",
+                             "2", "--config", "timeslice=2ms")
+        self.assertIn("wrote saved.scn", output)
+        self.assertIn("config timeslice 2ms", self.read("saved.scn"))
+        self.passes("saved.scn")
+
+    def test_a_hollow_session_says_so(self):
+        self.assertIn("it expects nothing yet", self.prompt("scan\nsave saved.scn\n"))
+
+    def test_in_a_project_the_program_is_the_projects(self):
+        self.assertEqual(rungc("new", "gsk", "clamp", cwd=self.folder).returncode, OK)
+        self.file("steps", "")
+        done = self.run_it("--project", "clamp", "-i", stdin="scan\nexpect R0.0 0\nsave clamp/saved.scn\nsave outside.scn\n")
+        self.assertEqual((done.returncode, done.stderr), (OK, ""), done.stdout)
+        self.assertNotIn("program", self.read("clamp/saved.scn"))
+        self.assertIn("program clamp/", self.read("outside.scn"))
+        self.passes("clamp/saved.scn")
+        self.passes("outside.scn")
+
+    def test_retained_memory_is_not_a_scenario(self):
+        output = self.prompt("scan\nsave saved.scn\n", "--retain", "image", status=WRONG)
+        self.assertIn("a scenario starts cold", output)
+
+    def test_each_dialect(self):
+        scenarios = (("gsk", "slot 2\nset X1.0 1\nscan\nexpect X1.0 1\nplc stop\n", "slot 2"),
+                     ("nct", "fast\nscan\nset N_SIMU 0\nexpect 5100 0\n", "fast"),
+                     ("technol", "scan\nset P1IN 1\nscan\nexpect P1IN 1\nplc stop\nplc start\nscan\n", "plc start"))
+        for dialect, lines, saved in scenarios:
+            self.assertEqual(rungc("new", dialect, dialect, cwd=self.folder).returncode, OK)
+            done = self.run_it("--project", dialect, "-i", stdin=lines + f"save {dialect}/saved.scn\n")
+            self.assertEqual(done.stderr, "")
+            self.assertIn(saved, self.read(f"{dialect}/saved.scn"), done.stdout)
+            self.passes(f"{dialect}/saved.scn")
+
+
+class Terminal:
+    """A program on a terminal of its own, as a person sees it."""
+
+    def __init__(self, *args, cwd):
+        self.master, slave = pty.openpty()
+        environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100", "LINES": "40"}
+        self.process = subprocess.Popen([RUNGC, *args], cwd=cwd, stdin=slave, stdout=slave, stderr=slave, env=environment,
+                                        start_new_session=True, preexec_fn=self.own_terminal)
+        os.close(slave)
+        self.seen = ""
+
+    @staticmethod
+    def own_terminal():
+        import fcntl
+        import termios
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+    def type(self, keys):
+        os.write(self.master, keys.encode())
+
+    def until(self, pattern):
+        """What the terminal shows up to this; without escape sequences."""
+        end = time.monotonic() + PATIENCE
+        while not (found := re.search(pattern, self.seen)):
+            if time.monotonic() > end or not select.select([self.master], [], [], end - time.monotonic())[0]:
+                raise AssertionError(f"no {pattern!r} in:\n{self.seen}")
+            try:
+                more = os.read(self.master, 4096)
+            except OSError:  # the other end is closed
+                more = b""
+            if not more:
+                raise AssertionError(f"ended without {pattern!r}:\n{self.seen}")
+            self.seen += re.sub(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>])", "", more.decode(errors="replace"))
+        shown, self.seen = self.seen[:found.end()], self.seen[found.end():]
+        return shown
+
+    def line(self, text, then=r"scan \d+, [\d.]+ s> $"):
+        self.type(text + "\r")
+        return self.until(then)
+
+    def end(self):
+        """The exit status."""
+        try:
+            while os.read(self.master, 4096):
+                pass
+        except OSError:
+            pass
+        return self.process.wait(PATIENCE)
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        os.close(self.master)
+
+
+class OnATerminal(Folder):
+    def start(self, *args):
+        terminal = Terminal("run", "lamp.lad", "-i", *args, cwd=self.folder)
+        self.addCleanup(terminal.close)
+        terminal.until(r"scan 0, 0.000 s> ")
+        return terminal
+
+    def test_a_session(self):
+        terminal = self.start()
+        terminal.line("watch PUMP")
+        terminal.line("toggle START")
+        self.assertIn("PUMP = 1", terminal.line("scan"))
+        self.assertIn("ok", terminal.line("expect PUMP on"))
+        self.assertIn("wrote saved.scn", terminal.line("save saved.scn"))
+        terminal.type("quit\r")
+        self.assertEqual(terminal.end(), OK)
+        self.passes("saved.scn")
+
+    def test_completion(self):
+        terminal = self.start()
+        # libedit draws what a completion adds, after the cursor was moved.
+        terminal.type("tog\t")
+        terminal.until("gle")
+        terminal.type("STA\t")
+        terminal.until("RT")
+        terminal.line("")
+        terminal.type("set ST\t\t")
+        terminal.until("START  STOP")
+        terminal.type("o\t")  # whatever the case
+        terminal.until("OP")
+        terminal.line("0")
+        terminal.line("scan")
+        self.assertIn("ok", terminal.line("expect PUMP 1"))
+        terminal.type("set N_FIRSTC\t")
+        terminal.until("C ")
+        terminal.line("1")
+        terminal.type("include lamp.\t\t")
+        terminal.until("lamp.lad  lamp.scn")
+        terminal.type("\x03")
+        terminal.until("> $")
+        terminal.type("nothing\t")
+        terminal.line("", "unknown statement 'nothing'")
+
+    def test_control_c_gives_a_line_up(self):
+        terminal = self.start()
+        terminal.type("set STOP 1")
+        terminal.until("STOP 1")
+        terminal.type("\x03")
+        terminal.until(r"\^C\s+scan 0, 0.000 s> ")
+        self.assertIn("STOP = 0", terminal.line("STOP"))
+
+    def test_control_c_interrupts_a_run(self):
+        terminal = self.start()
+        terminal.type("run 900000s\r")
+        terminal.until("\n")
+        time.sleep(0.3)
+        terminal.type("\x03")
+        shown = terminal.until(r"interrupted\s+scan (\d+), [\d.]+ s> ")
+        scans = int(re.search(r"scan (\d+), [\d.]+ s> $", shown).group(1))
+        self.assertGreater(scans, 0)
+        self.assertLess(scans, 90000000)
+        terminal.line("expect PUMP 0")
+        terminal.line("save saved.scn")
+        self.assertIn(f"run {scans * 10000}us\n", self.read("saved.scn"))
+        terminal.type("\x04")
+        self.assertEqual(terminal.end(), OK)
+
+    def test_history(self):
+        terminal = self.start()
+        terminal.line("scan 7")
+        terminal.type("\x1b[A")
+        terminal.until("scan 7")
+        terminal.line("", r"scan 14, 0.140 s> ")
+
+    def test_a_signal_ends_it(self):
+        terminal = self.start()
+        terminal.process.send_signal(signal.SIGTERM)
+        self.assertEqual(terminal.end(), OK)
+
+    def test_progress_is_shown_and_gone(self):
+        terminal = self.start()
+        terminal.type("run 900000s\r")
+        terminal.until(r"scan \d+, [\d.]+ s, running for ")
+        terminal.type("\x03")
+        terminal.until(r"interrupted")
+
+
+if __name__ == "__main__":
+    RUNGC = os.path.abspath(sys.argv.pop(1))
+    unittest.main(verbosity=1)

@@ -1,0 +1,76 @@
+// Completion of words (see completion.h).
+#include "tools/console/completion.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <strings.h>
+
+#include "rtlib/host/program_info.h"
+#include "tools/scenario/names.h"
+#include "tools/scenario/services.h"
+
+namespace rung::console {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool begins(std::string_view word, const std::string& candidate) {
+  return candidate.size() >= word.size() && strncasecmp(candidate.data(), word.data(), word.size()) == 0;
+}
+
+std::vector<std::string> beginning(std::string_view word, const std::vector<std::string>& candidates) {
+  std::vector<std::string> found;
+  std::ranges::copy_if(candidates, std::back_inserter(found),
+                       [&](const std::string& candidate) { return begins(word, candidate); });
+  return found;
+}
+
+std::vector<std::string> services(const rung_program& program) {
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < program.service_count; ++i)
+    names.push_back(scenario::ServiceSignature(host::serviceName(program, i)).name());
+  return names;
+}
+
+// Those of the folder that the word names so far; folders end in a slash.
+std::vector<std::string> files(std::string_view word) {
+  const fs::path folder = fs::path(word).parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code none;
+    names.push_back((folder / at->path().filename()).string() + (at->is_directory(none) ? "/" : ""));
+  }
+  return names;
+}
+
+} // namespace
+
+const std::vector<std::string>& Completion::values() {
+  if (values_.empty()) values_ = scenario::namesOf(session_.instance(), session_.nc());
+  return values_;
+}
+
+std::vector<std::string> Completion::of(Names names, std::string_view word) {
+  std::vector<std::string> found;
+  switch (names) {
+  case Names::None: return {};
+  case Names::Values: found = beginning(word, values()); break;
+  case Names::Services: found = beginning(word, services(session_.instance().program())); break;
+  case Names::Statements: found = beginning(word, statements_); break;
+  case Names::Files: found = beginning(word, files(word)); break;
+  case Names::PlcCommands: found = beginning(word, {"clear", "start", "stop"}); break;
+  case Names::BlockCommands: found = beginning(word, {"done", "start"}); break;
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::string commonStart(const std::vector<std::string>& words) {
+  std::string common = words.empty() ? std::string() : words[0];
+  for (const std::string& word : words)
+    common.resize(static_cast<size_t>(std::ranges::mismatch(common, word).in1 - common.begin()));
+  return common;
+}
+
+} // namespace rung::console

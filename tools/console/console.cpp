@@ -1,0 +1,278 @@
+// Lines that a person types at a running program (see console.h).
+#include "tools/console/console.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <utility>
+
+#include "ir/support/similar.h"
+#include "rtlib/nc/faults.h"
+#include "tools/console/message_text.h"
+#include "tools/scenario/names.h"
+#include "tools/scenario/words.h"
+
+namespace rung::console {
+
+using scenario::Kind;
+using scenario::Statement;
+
+namespace {
+
+// What the words after a statement's first one name.
+Names namesOf(std::string_view statement, size_t index) {
+  if (statement == "print") return Names::Values;
+  if (index != 1) return Names::None;
+  if (statement == "set" || statement == "expect" || statement == "expect_range") return Names::Values;
+  if (statement == "expect_call" || statement == "expect_no_call" || statement == "prepare") return Names::Services;
+  if (statement == "include") return Names::Files;
+  if (statement == "plc") return Names::PlcCommands;
+  return statement == "block" ? Names::BlockCommands : Names::None;
+}
+
+// Of the program's start: they have nothing to do at a prompt.
+bool isForPrompt(const scenario::StatementForm& form) {
+  constexpr std::string_view kStart[] = {"program", "dialect",      "config",         "connect",
+                                         "period",  "expect_error", "expect_warning", "allow_errors"};
+  return std::ranges::find(kStart, form.word) == std::end(kStart);
+}
+
+// By blanks; the last word may be empty.
+std::vector<std::string> typedWords(std::string_view line) {
+  std::vector<std::string> words(1);
+  for (const char c : line) {
+    if (c != ' ' && c != '\t')
+      words.back() += c;
+    else if (words.size() > 1 || !words.back().empty())
+      if (!words.back().empty()) words.emplace_back();
+  }
+  return words;
+}
+
+std::string formLine(const scenario::StatementForm& form) {
+  return fmt::format("  {:<42} {}", form.form, form.meaning);
+}
+
+bool writeText(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  return bool(out);
+}
+
+} // namespace
+
+std::string faultLine(const host::Instance& instance) {
+  const std::string text = instance.faultText();
+  const nc::Fault* fault = nc::findFault(instance.program().dialect, text);
+  if (fault == nullptr) return "the program stopped with a fault: " + text;
+  const std::string_view name = nc::shortName(*fault);
+  const bool quoted = name.find(' ') != std::string_view::npos;
+  return fmt::format("the program stopped with a fault: {}; try `rungc explain {}`", text,
+                     quoted ? fmt::format("\"{}\"", name) : std::string(name));
+}
+
+std::span<const Console::Command> Console::commands() {
+  static constexpr Command kCommands[] = {
+      {{"toggle", "toggle NAME", "a bit gets the other value"}, Names::Values, &Console::toggle},
+      {{"watch", "watch [NAME…]", "prints what they become; without names: lists them"},
+       Names::Values,
+       &Console::watch},
+      {{"unwatch", "unwatch NAME…", "prints them no more"}, Names::Values, &Console::unwatch},
+      {{"why", "why NAME", "the rungs that write it, and what they read"}, Names::Values, &Console::why},
+      {{"messages", "messages", "the messages on the screen"}, Names::None, &Console::messages},
+      {{"save", "save FILE.scn", "writes what was done as a scenario"}, Names::Files, &Console::save},
+      {{"help", "help [WORD]", "all statements, or one"}, Names::Statements, &Console::help},
+      {{"quit", "quit", "ends the run, as does Ctrl-D"}, Names::None, &Console::quit},
+  };
+  return kCommands;
+}
+
+std::vector<std::string> Console::words() {
+  std::vector<std::string> words;
+  for (const scenario::StatementForm& form : scenario::statementForms())
+    if (isForPrompt(form)) words.emplace_back(form.word);
+  for (const Command& command : commands()) words.emplace_back(command.form.word);
+  return words;
+}
+
+Console::Console(scenario::Session& session, Watch& watch, Recording& recording, const scenario::Explainer* explainer,
+                 Print print)
+    : session_(session), watch_(watch), recording_(recording), explainer_(explainer), print_(std::move(print)),
+      completion_(session, words()) {}
+
+std::string Console::prompt() const {
+  return fmt::format("scan {}, {:.3f} s> ", session_.scans(), static_cast<double>(session_.nowUs()) / 1e6);
+}
+
+Outcome Console::fail(const std::string& message) {
+  print_(message);
+  return Outcome::Failed;
+}
+
+// ---- lines ---------------------------------------------------------------------------------------------------------
+
+Outcome Console::execute(std::string_view line) {
+  std::vector<scenario::ScenarioWord> split;
+  if (const std::string problem = scenario::splitLine(line, split); !problem.empty()) return fail(problem);
+  if (split.empty()) return Outcome::Done;
+  std::vector<std::string> rest;
+  for (size_t i = 1; i < split.size(); ++i) rest.push_back(split[i].text);
+  const std::string& first = split[0].text;
+  for (const Command& command : commands())
+    if (command.form.word == first || (first == "exit" && command.form.word == "quit"))
+      return (this->*command.run)(rest);
+  const Result<Statement> statement = scenario::parseStatement(line);
+  if (!statement.ok()) return unreadable(first, rest.empty(), statement.error());
+  if (statement.value().kind == Kind::Include) return include(statement.value().name);
+  return execute(statement.value());
+}
+
+// A name alone shows its value.
+Outcome Console::unreadable(const std::string& word, bool alone, const std::string& problem) {
+  if (alone) {
+    const auto reading = scenario::readName(session_.instance(), session_.nc(), word, false);
+    if (reading.ok()) {
+      print_(fmt::format("{} = {}", word, scenario::show(reading.value())));
+      return Outcome::Done;
+    }
+  }
+  if (!problem.starts_with("unknown statement") || problem.find("did you mean") != std::string::npos)
+    return fail(problem);
+  Similar similar(word);
+  const std::vector<std::string> known = words();
+  for (const std::string& candidate : known) similar.offer(candidate);
+  return fail(similar.best().empty() ? problem + "; help lists them"
+                                     : fmt::format("{}; did you mean {}?", problem, similar.best()));
+}
+
+Outcome Console::execute(const Statement& statement) {
+  const uint64_t scans = session_.scans();
+  const int64_t us = session_.nowUs();
+  const std::optional<scenario::Problem> problem = session_.execute(statement);
+  watch_.look(session_);
+  const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
+  if (problem) {
+    const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
+    const Outcome failed = fail(text + (named && explainer_ != nullptr ? explainer_->why(statement.name) : ""));
+    reportFault();
+    return failed;
+  }
+  record(statement, scans, us);
+  if (statement.file.empty() && isExpectation(statement.kind)) print_("ok");
+  reportFault();
+  return Outcome::Done;
+}
+
+// A statement that was interrupted did less than it says.
+void Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefore) {
+  const uint64_t scans = session_.scans() - scansBefore;
+  const int64_t us = session_.nowUs() - usBefore;
+  const bool counts = s.kind == Kind::Scan || s.kind == Kind::Fast || s.kind == Kind::Slot;
+  if (counts && scans < s.count) {
+    recording_.add(fmt::format("{} {}", s.text.substr(0, s.text.find_first_of(" \t")), scans));
+  } else if (s.kind == Kind::Run && us < s.microseconds) {
+    recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
+  } else {
+    recording_.add(s.text);
+  }
+}
+
+void Console::reportFault() {
+  const bool faulted = session_.instance().faulted();
+  if (faulted && !faultReported_) print_(faultLine(session_.instance()) + "; cold_start and warm_start restart it");
+  faultReported_ = faulted;
+}
+
+Outcome Console::include(const std::string& file) {
+  const Result<scenario::Scenario> read = scenario::readStatements(file);
+  if (!read.ok()) return fail(read.error());
+  for (const scenario::Problem& problem : read.value().problems) print_(textOf(problem));
+  if (!read.value().problems.empty()) return Outcome::Failed;
+  for (const Statement& statement : read.value().statements)
+    if (const Outcome outcome = execute(statement); outcome != Outcome::Done) return outcome;
+  return Outcome::Done;
+}
+
+std::vector<std::string> Console::completions(std::string_view line) {
+  const std::vector<std::string> typed = typedWords(line);
+  if (typed.size() == 1) return completion_.of(Names::Statements, typed[0]);
+  for (const Command& command : commands())
+    if (command.form.word == typed[0]) return completion_.of(command.names, typed.back());
+  return completion_.of(namesOf(typed[0], typed.size() - 1), typed.back());
+}
+
+// ---- commands ------------------------------------------------------------------------------------------------------
+
+Outcome Console::toggle(std::span<const std::string> words) {
+  if (words.size() != 1) return fail("expected one name (the command is: toggle NAME)");
+  const std::string& name = words[0];
+  const std::optional<host::Ref> place = session_.nc().writePlace(session_.instance(), name);
+  if (!place) return fail(scenario::unknownName(session_.instance(), session_.nc(), name));
+  if (place->kind != host::RefKind::Bit) return fail(fmt::format("{0} is not a bit; write: set {0} VALUE", name));
+  return execute(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));
+}
+
+Outcome Console::watch(std::span<const std::string> words) {
+  if (words.empty()) {
+    const std::vector<std::string> names = watch_.names();
+    print_(names.empty() ? "nothing is watched" : fmt::format("{}", fmt::join(names, " ")));
+  }
+  for (const std::string& name : words)
+    if (const std::string problem = watch_.add(name, session_); !problem.empty()) return fail(problem);
+  watch_.look(session_);
+  return Outcome::Done;
+}
+
+Outcome Console::unwatch(std::span<const std::string> words) {
+  if (words.empty()) return fail("expected names (the command is: unwatch NAME…)");
+  for (const std::string& name : words)
+    if (!watch_.remove(name)) return fail(fmt::format("{} is not watched", name));
+  return Outcome::Done;
+}
+
+Outcome Console::messages(std::span<const std::string> words) {
+  if (!words.empty()) return fail("expected no more words (the command is: messages)");
+  const std::vector<nc::ShownMessage> shown = session_.nc().messages(session_.instance());
+  for (const nc::ShownMessage& message : shown) print_(messageText(session_.instance().program(), message));
+  if (shown.empty()) print_("no messages");
+  return Outcome::Done;
+}
+
+Outcome Console::why(std::span<const std::string> words) {
+  if (words.size() != 1) return fail("expected one name (the command is: why NAME)");
+  const auto reading = scenario::readName(session_.instance(), session_.nc(), words[0], false);
+  if (!reading.ok()) return fail(reading.error());
+  if (explainer_ == nullptr) return fail("a shared object does not say which rungs write a name; run its sources");
+  print_(fmt::format("{} is {}{}", words[0], scenario::show(reading.value()), explainer_->why(words[0])));
+  return Outcome::Done;
+}
+
+Outcome Console::save(std::span<const std::string> words) {
+  if (words.size() != 1 || !words[0].ends_with(".scn"))
+    return fail("expected the name of a scenario (the command is: save FILE.scn)");
+  const Result<std::string> text = recording_.scenario(words[0], session_, watch_.names());
+  if (!text.ok()) return fail(text.error());
+  if (!writeText(words[0], text.value())) return fail(fmt::format("cannot write '{}'", words[0]));
+  const scenario::Scenario saved = scenario::parse(words[0], text.value());
+  print_(fmt::format("wrote {}: `rungc test {}` runs it{}", words[0], words[0],
+                     expectsNothing(saved) ? "; it expects nothing yet: watch or expect what it is to check" : ""));
+  return Outcome::Done;
+}
+
+Outcome Console::help(std::span<const std::string> words) {
+  bool found = false;
+  const auto offer = [&](const scenario::StatementForm& form) {
+    if (!words.empty() && form.word != words[0]) return;
+    print_(formLine(form));
+    found = true;
+  };
+  for (const scenario::StatementForm& form : scenario::statementForms())
+    if (isForPrompt(form)) offer(form);
+  for (const Command& command : commands()) offer(command.form);
+  return found ? Outcome::Done : fail(fmt::format("'{}' is not a statement; help lists them", words[0]));
+}
+
+Outcome Console::quit(std::span<const std::string>) { return Outcome::Quit; }
+
+} // namespace rung::console

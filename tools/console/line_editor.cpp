@@ -1,0 +1,140 @@
+// Line editing with libedit (see line_editor.h).
+#include "tools/console/line_editor.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <clocale>
+#include <cwchar>
+#include <histedit.h>
+#include <unistd.h>
+
+#include "tools/console/completion.h"
+
+namespace rung::console {
+namespace {
+
+constexpr int kHistory = 1000;      // lines
+constexpr size_t kMostListed = 200; // completions
+constexpr size_t kUsualWidth = 80;  // columns
+constexpr size_t kGap = 2;          // between two columns
+
+size_t characters(std::string_view utf8) {
+  return static_cast<size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+// In columns, as a shell lists files.
+std::string inColumns(const std::vector<std::string>& words) {
+  size_t widest = 0;
+  const size_t shown = std::min(words.size(), kMostListed);
+  for (size_t i = 0; i < shown; ++i) widest = std::max(widest, characters(words[i]));
+  const size_t columns = std::max<size_t>(1, kUsualWidth / (widest + kGap));
+  const size_t lines = (shown + columns - 1) / columns;
+  std::string text;
+  for (size_t line = 0; line < lines; ++line) {
+    for (size_t i = line; i < shown; i += lines) {
+      text += words[i];
+      if (i + lines < shown) text.append(widest + kGap - characters(words[i]), ' ');
+    }
+    text += '\n';
+  }
+  if (shown < words.size()) text += "and " + std::to_string(words.size() - shown) + " more\n";
+  return text;
+}
+
+} // namespace
+
+struct LineEditor::State {
+  Complete complete;
+  Ended ended;
+  EditLine* edit = nullptr;
+  History* history = nullptr;
+  std::string prompt;
+  bool givenUp = false;
+
+  static State& of(EditLine* edit) {
+    void* state = nullptr;
+    el_get(edit, EL_CLIENTDATA, &state);
+    return *static_cast<State*>(state);
+  }
+  static char* showPrompt(EditLine* edit) { return of(edit).prompt.data(); }
+
+  // One character of UTF-8. Unlike libedit's own function it ends at a signal that ends the program.
+  static int readCharacter(EditLine* edit, wchar_t* character) {
+    std::mbstate_t state{};
+    for (;;) {
+      char byte = 0;
+      const ssize_t count = ::read(STDIN_FILENO, &byte, 1);
+      if (count < 0 && errno == EINTR && !of(edit).ended()) continue;
+      if (count <= 0) return 0;
+      const size_t used = std::mbrtowc(character, &byte, 1, &state);
+      if (used == static_cast<size_t>(-1)) state = {}; // not UTF-8: dropped
+      if (used <= 1) return 1;
+    }
+  }
+
+  static unsigned char giveUp(EditLine* edit, int) {
+    of(edit).givenUp = true;
+    return ::write(STDOUT_FILENO, "^C\n", 3) < 0 ? CC_ERROR : CC_NEWLINE;
+  }
+
+  static unsigned char completeWord(EditLine* edit, int) {
+    const LineInfo* info = el_line(edit);
+    const std::string_view line(info->buffer, static_cast<size_t>(info->cursor - info->buffer));
+    const std::string_view word = line.substr(line.find_last_of(" \t") + 1);
+    const std::vector<std::string> found = of(edit).complete(line);
+    if (found.empty()) return CC_REFRESH_BEEP;
+    std::string becomes = commonStart(found);
+    if (found.size() == 1 && !becomes.ends_with('/')) becomes += ' ';
+    if (becomes.size() > word.size() || (found.size() == 1 && becomes != word)) {
+      el_deletestr(edit, static_cast<int>(characters(word)));
+      el_insertstr(edit, becomes.c_str());
+      return CC_REFRESH;
+    }
+    const std::string list = "\n" + inColumns(found);
+    if (::write(STDOUT_FILENO, list.data(), list.size()) < 0) return CC_ERROR;
+    return CC_REDISPLAY;
+  }
+};
+
+LineEditor::LineEditor(Complete complete, Ended ended) : state_(std::make_unique<State>()) {
+  state_->complete = std::move(complete);
+  state_->ended = std::move(ended);
+  std::setlocale(LC_CTYPE, "C.UTF-8"); // sources and names are UTF-8 whatever the user's locale
+  state_->edit = el_init("rungc", stdin, stdout, stderr);
+  state_->history = history_init();
+  EditLine* edit = state_->edit;
+  HistEvent event;
+  history(state_->history, &event, H_SETSIZE, kHistory);
+  history(state_->history, &event, H_SETUNIQUE, 1);
+  el_set(edit, EL_CLIENTDATA, state_.get());
+  el_set(edit, EL_EDITOR, "emacs");
+  el_set(edit, EL_HIST, history, state_->history);
+  el_set(edit, EL_PROMPT, &State::showPrompt);
+  el_set(edit, EL_GETCFN, &State::readCharacter);
+  el_set(edit, EL_ADDFN, "complete-word", "completes a name", &State::completeWord);
+  el_set(edit, EL_BIND, "\t", "complete-word", nullptr);
+  el_set(edit, EL_ADDFN, "give-up", "gives the line up", &State::giveUp);
+  el_set(edit, EL_BIND, "^C", "give-up", nullptr);
+  el_set(edit, EL_SETTY, "-d", "-isig", nullptr); // Ctrl-C is a key while a line is edited
+}
+
+LineEditor::~LineEditor() {
+  history_end(state_->history);
+  el_end(state_->edit);
+}
+
+std::optional<std::string> LineEditor::read(const std::string& prompt) {
+  state_->prompt = prompt;
+  state_->givenUp = false;
+  int count = 0;
+  const char* line = el_gets(state_->edit, &count);
+  if (state_->givenUp) return std::string();
+  if (line == nullptr || count <= 0) return std::nullopt;
+  std::string text(line, static_cast<size_t>(count));
+  HistEvent event;
+  if (text.find_first_not_of(" \t\n") != std::string::npos) history(state_->history, &event, H_ENTER, text.c_str());
+  while (text.ends_with('\n') || text.ends_with('\r')) text.pop_back();
+  return text;
+}
+
+} // namespace rung::console

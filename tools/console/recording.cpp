@@ -1,0 +1,98 @@
+// A session as a scenario (see recording.h).
+#include "tools/console/recording.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "frontend/dialects/dialect.h"
+#include "tools/scenario/names.h"
+
+namespace rung::console {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folderOf(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+// A scenario in this folder runs the project's program without being told.
+bool belongsTo(const std::optional<project::Project>& project, const fs::path& folder) {
+  if (!project) return false;
+  const auto found = project::findUpwards(fs::absolute(folder).lexically_normal().string());
+  std::error_code none;
+  return found && fs::equivalent(*found, project->file, none);
+}
+
+bool isSetting(const project::Project& project, const std::string& key, const std::string& value) {
+  return std::ranges::any_of(project.config,
+                             [&](const project::Setting& s) { return s.key == key && s.value == value; });
+}
+
+std::string relativeTo(const fs::path& folder, const std::string& file) {
+  std::error_code none;
+  const fs::path relative = fs::proximate(file, folder, none);
+  return none ? file : relative.string();
+}
+
+// Files that the control reads lie relative to the scenario; those of the compiler relative to the program.
+std::string configValue(const std::string& dialect, const std::string& key, const std::string& value,
+                        const fs::path& folder) {
+  const frontend::Dialect* known = frontend::findDialect(dialect);
+  const nc::ConfigKey* row = known == nullptr ? nullptr : nc::findConfigKey(known->configKeys, key);
+  const bool file = row != nullptr && row->form == nc::ConfigForm::File && row->reader == nc::ConfigReader::Control;
+  return file ? relativeTo(folder, value) : value;
+}
+
+// "" for a value that a scenario cannot write: a text that contains a quotation mark.
+std::string expectationOf(const std::string& name, const scenario::Reading& reading) {
+  switch (reading.kind) {
+  case scenario::ValueKind::Int: return fmt::format("expect {} {}", name, reading.integer);
+  case scenario::ValueKind::Real: return fmt::format("expect {} {}", name, reading.real);
+  case scenario::ValueKind::Text: break;
+  }
+  const bool writable = reading.text.find_first_of("\"\n\r") == std::string::npos;
+  return writable ? fmt::format("expect {} \"{}\"", name, reading.text) : std::string();
+}
+
+std::string withoutRung(std::string_view fault) { // the rung and the file in brackets may change
+  return std::string(fault.substr(0, fault.find(" (")));
+}
+
+} // namespace
+
+void Recording::add(std::string statement) { statements_.push_back(std::move(statement)); }
+
+void Recording::writeStart(const std::string& path, const std::string& dialect, std::string& text) const {
+  const fs::path folder = folderOf(path);
+  const bool inProject = belongsTo(start_.project, folder);
+  if (!inProject) {
+    text += "program";
+    for (const std::string& program : start_.programs) text += " " + relativeTo(folder, program);
+    text += fmt::format("\ndialect {}\n", dialect);
+  }
+  for (const auto& [key, value] : start_.config)
+    if (!inProject || !isSetting(*start_.project, key, value))
+      text += fmt::format("config {} {}\n", key, configValue(dialect, key, value, folder));
+  for (const std::string& connect : start_.connects) text += connect + "\n";
+}
+
+Result<std::string> Recording::scenario(const std::string& path, const scenario::Session& session,
+                                        const std::vector<std::string>& watched) const {
+  if (!start_.notAScenario.empty()) return failure(start_.notAScenario);
+  std::string text = "# Written by the prompt of rungc run.\n";
+  writeStart(path, session.instance().program().dialect, text);
+  for (const std::string& statement : statements_) text += statement + "\n";
+  for (const std::string& name : watched) {
+    const Result<scenario::Reading> reading = scenario::readName(session.instance(), session.nc(), name, false);
+    if (const std::string line = reading.ok() ? expectationOf(name, reading.value()) : ""; !line.empty())
+      text += line + "\n";
+  }
+  if (!session.unexpectedFault().empty())
+    text += fmt::format("expect_fault {}\n", withoutRung(session.instance().faultText()));
+  return text;
+}
+
+} // namespace rung::console

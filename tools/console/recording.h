@@ -1,0 +1,43 @@
+// What was done to a running program, written as a scenario that does it again.
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ir/support/result.h"
+#include "tools/project/project.h"
+#include "tools/scenario/session.h"
+
+namespace rung::console {
+
+// How the program was made and started. Paths can be opened from the working directory.
+struct Start {
+  std::vector<std::string> programs;
+  std::vector<std::pair<std::string, std::string>> config; // those of the project first
+  std::vector<std::string> connects;                       // statements of a scenario
+  std::optional<project::Project> project;                 // that the files belong to
+  std::string notAScenario;                                // not empty: why no scenario can start it so
+};
+
+class Recording {
+public:
+  explicit Recording(Start start) : start_(std::move(start)) {}
+
+  const Start& start() const { return start_; }
+  // A statement that did what it says, as a scenario writes it.
+  void add(std::string statement);
+
+  // The scenario, as the file of this path: what was added, then what the watched names hold now and the fault that has
+  // stopped the program. Fails when no scenario can do the same.
+  Result<std::string> scenario(const std::string& path, const scenario::Session& session,
+                               const std::vector<std::string>& watched) const;
+
+private:
+  void writeStart(const std::string& path, const std::string& dialect, std::string& text) const;
+
+  Start start_;
+  std::vector<std::string> statements_;
+};
+
+} // namespace rung::console

@@ -1,0 +1,61 @@
+// Watched names and messages (see watch.h).
+#include "tools/console/watch.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#include "tools/console/message_text.h"
+
+namespace rung::console {
+namespace {
+
+std::string atTime(const scenario::Session& session, const std::string& what) {
+  return fmt::format("{:>12.3f} ms  {}", static_cast<double>(session.nowUs()) / 1000.0, what);
+}
+
+} // namespace
+
+std::string Watch::add(const std::string& name, const scenario::Session& session) {
+  const Result<scenario::Reading> reading = scenario::readName(session.instance(), session.nc(), name, false);
+  if (!reading.ok()) return reading.error();
+  if (std::ranges::find(watched_, name, [](const Watched& w) { return w.value.name(); }) == watched_.end())
+    watched_.push_back({{name, session.instance(), session.nc()}, ""});
+  return {};
+}
+
+bool Watch::remove(const std::string& name) {
+  return std::erase_if(watched_, [&](const Watched& w) { return w.value.name() == name; }) > 0;
+}
+
+std::vector<std::string> Watch::names() const {
+  std::vector<std::string> names;
+  for (const Watched& watched : watched_) names.push_back(watched.value.name());
+  return names;
+}
+
+void Watch::look(const scenario::Session& session) {
+  for (Watched& watched : watched_) {
+    std::string now = scenario::showShort(watched.value.read(session.instance(), session.nc()));
+    if (now == watched.last) continue;
+    print_(atTime(session, fmt::format("{} = {}", watched.value.name(), now)));
+    watched.last = std::move(now);
+  }
+  printMessages(session);
+}
+
+void Watch::printMessages(const scenario::Session& session) {
+  std::vector<nc::ShownMessage> now = session.nc().messages(session.instance());
+  if (now == shown_) return;
+  const rung_program& program = session.instance().program();
+  const auto has = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {
+    return std::ranges::find(list, message) != list.end();
+  };
+  for (const nc::ShownMessage& message : shown_)
+    if (!has(now, message)) print_(atTime(session, messageText(program, message) + " is gone"));
+  for (const nc::ShownMessage& message : now)
+    if (!has(shown_, message)) print_(atTime(session, messageText(program, message)));
+  shown_ = std::move(now);
+}
+
+} // namespace rung::console

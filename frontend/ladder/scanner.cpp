@@ -11,7 +11,7 @@ namespace rung::ladder {
 namespace {
 
 constexpr std::string_view kContactForms =
-    "[x], with '/', '@' or '%' in front of x, which is one operand without blanks";
+    "[x], with '/', '@' or '%' before x, which is one operand without blanks";
 constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
 constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
 

@@ -31,7 +31,7 @@ private:
   std::vector<rung_symbol> symbols_;
   std::vector<rung_init> inits_;
   std::vector<rung_span> retains_;
-  std::vector<rung_span> safes_;
+  std::vector<rung_span> safeSpans_;
   std::vector<rung_copy> copies_;
   std::vector<rung_chunk> chunks_;
   std::vector<rung_rung_info> rungs_;

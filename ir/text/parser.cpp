@@ -164,7 +164,7 @@ private:
     return span;
   }
   void parseRetain() { module_.retains.push_back(parseSpan()); }
-  void parseSafe() { module_.safes.push_back(parseSpan()); }
+  void parseSafe() { module_.safeSpans.push_back(parseSpan()); }
 
   void parseRoutine() {
     Routine routine;

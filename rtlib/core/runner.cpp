@@ -141,7 +141,7 @@ bool Runner::runPart(uint32_t task) noexcept {
 
 void Runner::clearSafes() noexcept {
   for (uint32_t i = 0; i < program_->safe_count; ++i)
-    std::memset(memory_ + program_->safes[i].offset, 0, program_->safes[i].size);
+    std::memset(memory_ + program_->safe_spans[i].offset, 0, program_->safe_spans[i].size);
 }
 
 void Runner::stopOnFault(uint32_t task) noexcept {

@@ -39,7 +39,7 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
 bool checkExtension(const ConvertOptions& options) {
   const std::string_view wrong = options.to == "list" ? ".lad" : ".pmc";
   if (!options.out.ends_with(wrong)) return true;
-  fmt::print(stderr, "rungc: '{}' is no name for a {}; files in this form end in {}\n", options.out,
+  fmt::print(stderr, "rungc: '{}' is not a name for a {}; files in this form end in {}\n", options.out,
              options.to == "list" ? "command list" : "ladder text", options.to == "list" ? ".pmc" : ".lad");
   return false;
 }

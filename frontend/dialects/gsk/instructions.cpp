@@ -47,7 +47,7 @@ constexpr bool rowsAreSound() {
   }
   return true;
 }
-static_assert(rowsAreSound(), "a row lacks a text, stands out of order or names an unknown kind of operand");
+static_assert(rowsAreSound(), "a row lacks a text, is out of order or names an unknown kind of operand");
 
 constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
   std::array<const InstructionInfo*, kRowCount> result{};

@@ -74,7 +74,7 @@ private:
     for (const nc::Signal& signal : nc::nctSignals())
       if (signal.direction == nc::Direction::Out)
         end = std::max(end, signal.byteOffset + signal.count * signal.strideBytes);
-    for (ir::SpaceId space : {spaces_.m, spaces_.ts}) module_.safes.push_back({space, first, end - first});
+    for (ir::SpaceId space : {spaces_.m, spaces_.ts}) module_.safeSpans.push_back({space, first, end - first});
   }
 
   void addSymbols() {

@@ -26,8 +26,8 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@BLOCK_INIT.DONE", Type::Bit, 16},
     {"@BLOCK_DONE.CONT", Type::I32, 20},
     {"@BLOCK_DONE.DONE", Type::Bit, 24},
-    {"@INIT.OWED", Type::I64, 32},
-    {"@DONE.OWED", Type::I64, 40},
+    {"@INIT.PENDING", Type::I64, 32},
+    {"@DONE.PENDING", Type::I64, 40},
     {nc::kLicenceCell, Type::I32, 28},
 };
 

@@ -36,7 +36,7 @@ bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Ope
   const Exchanged* found = symbol.exchanged == kNone ? nullptr : &program_.exchanged[symbol.exchanged];
   if (kind.info.kind == kLogicalInput) {
     if (found == nullptr || found->kind != nc::ExchangeKind::DefIn)
-      return wrongKind(out, "no input of DEF_IN", "an input of DEF_IN");
+      return wrongKind(out, "not an input of DEF_IN", "an input of DEF_IN");
     const int64_t count = nc::isText(found->type) ? 1 : found->count;
     const bool given = out.tokens.size() > 1;
     if (given && (out.value < 0 || out.value >= count)) {

@@ -252,7 +252,7 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
     else if (name == kInclude)
       program_.diagnostics.report(Diag::OperandCount, head.range()) << name << "1 operand" << 0;
     else
-      program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO in front" << name;
+      program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
     return true;
   }
   const Macro* macro = row == nullptr || macros_.first() ? macros_.find(head.text) : nullptr;

@@ -17,7 +17,7 @@ inline constexpr Row kMechanismRows[] = {
               .operands = {in("mech", "declaration", "a new name")},
               .stateful = true,
               .ref = "4.2, l.2037",
-              .doc = "Begins a mechanism: code that is carried out a little further in each cycle while its bit is 1. "
+              .doc = "Begins a mechanism: code that is executed one part per cycle while its bit is 1. "
                      "Declares the bit and the word NAME_LINE.",
               .example = "MECH_BEGIN CLAMP\nFL   1,PUMP\nEX\nLDR  READY\nEX0\nFL   0,PUMP\nMECH_END CLAMP"},
      .role = Role::MechBegin},
@@ -44,7 +44,7 @@ inline constexpr Row kMechanismRows[] = {
               .stateful = true,
               .tasks = kSequentialUnits,
               .ref = "4.2, l.2055",
-              .doc = "Stops the unit for this cycle; it goes on behind EX in the next.",
+              .doc = "Stops the unit for this cycle; it continues after EX in the next.",
               .example = "FL   1,PUMP\nEX\nFL   0,PUMP"},
      .effects = kWaits,
      .lower = lowerEx},
@@ -56,7 +56,7 @@ inline constexpr Row kMechanismRows[] = {
               .tasks = kSequentialUnits,
               .ref = "4.2, l.2056",
               .doc =
-                  "While RLO is 0 the unit is left; in the next cycle it goes on behind the last state that it passed.",
+                  "While RLO is 0 the unit is left; in the next cycle it continues after the last state that it passed.",
               .example = "LDR  READY\nEX0"},
      .effects = kWaits | kKeepsDr | kReadsRlo,
      .lower = lowerExWhile,
@@ -69,7 +69,7 @@ inline constexpr Row kMechanismRows[] = {
               .tasks = kSequentialUnits,
               .ref = "4.2, l.2057",
               .doc =
-                  "While RLO is 1 the unit is left; in the next cycle it goes on behind the last state that it passed.",
+                  "While RLO is 1 the unit is left; in the next cycle it continues after the last state that it passed.",
               .example = "LDR  DOOR\nEX1"},
      .effects = kWaits | kKeepsDr | kReadsRlo,
      .lower = lowerExWhile,
@@ -81,7 +81,7 @@ inline constexpr Row kMechanismRows[] = {
               .stateful = true,
               .tasks = kSequentialUnits,
               .ref = "4.2, l.2058",
-              .doc = "Does not wait; a state further on that waits returns here.",
+              .doc = "Does not wait; a later state that waits returns here.",
               .example = "BEX\nMOVR LAMP,DOOR\nLDR  READY\nEX0"},
      .effects = kWaits,
      .lower = lowerBex},

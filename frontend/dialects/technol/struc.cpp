@@ -194,7 +194,7 @@ bool Structures::repeated(Element element, std::span<const Token> tokens, size_t
     return false;
   }
   const std::span<const Token> inner = tokens.subspan(dup + 1);
-  if (inner.size() < 2 || !inner[0].is('(') || !inner.back().is(')')) return syntax("(value) behind DUP", inner, at);
+  if (inner.size() < 2 || !inner[0].is('(') || !inner.back().is(')')) return syntax("(value) after DUP", inner, at);
   Bytes once;
   if (!values(element, inner.subspan(1, inner.size() - 2), at, once)) return false;
   if (!room(static_cast<int64_t>(out.size()) + *count * static_cast<int64_t>(once.size()), at)) return false;

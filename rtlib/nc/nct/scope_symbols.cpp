@@ -57,7 +57,7 @@ constexpr ScopeSymbol kSymbols[] = {
     {"NActSp", "speed from the encoder [rev/min]", kSpindle, kZero, ScopeSource::Nc, 3359},
     {"NSetSp", "speed command after override, at the input of the spindle handler [rev/min]", kSpindle, kZero,
      ScopeSource::Nc, 3360},
-    {"NCommandSp", "command to the drive behind the spindle handler [rev/min]", kSpindle, kZero, ScopeSource::Nc, 3361},
+    {"NCommandSp", "command to the drive after the spindle handler [rev/min]", kSpindle, kZero, ScopeSource::Nc, 3361},
     {"SyncVTargetSp", "speed of the master spindle, synchronised [rev/s]", kSlaveSpindle, kZero, ScopeSource::Nc, 3362},
     {"SyncVSlaveSp", "speed of the slave spindle, synchronised [rev/s]", kSpindle, kZero, ScopeSource::Nc, 3365},
     {"SyncErrSp", "slave minus master position, synchronised [rev]", kSpindle, kZero, ScopeSource::Nc, 3366},

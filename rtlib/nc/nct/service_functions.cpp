@@ -362,7 +362,7 @@ constexpr bool codesAreSound() {
     if (kCodes[i].code <= kCodes[i - 1].code) return false;
   return true;
 }
-static_assert(codesAreSound(), "execution codes stand out of order");
+static_assert(codesAreSound(), "execution codes are out of order");
 
 constexpr bool isSound(const ServiceFunction& f) {
   if (f.title.empty() || f.section.empty() || f.line == 0 || f.amounts[0].first == 0 || f.codes[0].last < 2)
@@ -382,7 +382,7 @@ constexpr bool functionsAreSound() {
   }
   return true;
 }
-static_assert(functionsAreSound(), "a service function stands twice, lacks its place in the manual or a word");
+static_assert(functionsAreSound(), "a service function appears twice, lacks its place in the manual or a word");
 
 } // namespace
 

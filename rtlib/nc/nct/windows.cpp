@@ -56,7 +56,7 @@ constexpr bool isSound() {
     if (kWindows[i].identifier <= kWindows[i - 1].identifier) return false;
   return true;
 }
-static_assert(isSound(), "windows stand out of order");
+static_assert(isSound(), "windows are out of order");
 
 } // namespace
 

@@ -229,7 +229,7 @@ void Channel::showState() {
   set(signals_.buffered, mode_ == Mode::Mdi || program() != nullptr); // l.9543-9547
   set(signals_.waiting, run().waiting >= 0);
   const bool moves = control_.signals.get(signals_.feedOverride, channel_) != 0;
-  set(signals_.standing, !start_ || !moves);
+  set(signals_.stopped, !start_ || !moves);
   set(signals_.empty, !running() || !run().motion.moving());
 }
 

@@ -163,14 +163,14 @@ void Messages::timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost
   press(signals, slice != Slice::Alone);
   if (lost != lost_) dropUnwanted();
   lost_ = lost;
-  tell(signals);
+  report(signals);
 }
 
 void Messages::endCycle() {
   if (std::erase_if(list_, [](const Entry& entry) { return entry.clearing; }) != 0) changed_ = true;
 }
 
-void Messages::tell(const SignalMemory& signals) {
+void Messages::report(const SignalMemory& signals) {
   signals.set(any_, !list_.empty());
   signals.set(plc_, !list_.empty());
   signals.set(active_, 0, list_.empty() ? 0 : static_cast<int32_t>(list_.back().code));

@@ -224,7 +224,7 @@ void Spindles::writeSignals(uint32_t i) {
   const double angle = real(parameters_.basicAngle, i) / 360;
   put(signals_.ramped, i, there && ramped);
   put(signals_.atSpeed, i, there && deviation <= tolerance);
-  put(signals_.standing, i, there && std::abs(state.speed) <= real(parameters_.zeroWindow, i));
+  put(signals_.stopped, i, there && std::abs(state.speed) <= real(parameters_.zeroWindow, i));
   put(signals_.fluctuating, i, there && ramped && deviation > fluctuation);
   put(signals_.loopClosed, i, there && state.closed);
   put(signals_.oriented, i, there && state.closed && state.oriented);

@@ -107,7 +107,7 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
   } else if (const auto given = integerOf(value)) {
     number = *given;
   } else {
-    return "the constant '" + std::string(id) + "' is no number, SA0INT, SA0REAL or PLCCOMMAND: '" +
+    return "the constant '" + std::string(id) + "' is not a number, SA0INT, SA0REAL or PLCCOMMAND: '" +
            std::string(value) + "'";
   }
   constants_.insert_or_assign(memoryText(id), number);

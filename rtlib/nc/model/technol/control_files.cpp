@@ -393,7 +393,7 @@ void Reader::end() {
 bool Reader::isNew(std::string_view what, const std::string& id, const FilePlace& at) {
   if (id.empty()) return false;
   const auto [entry, fresh] = known_.emplace(std::string(what) + " " + id, at);
-  if (!fresh) complain(entry->first + " is defined again; the first one stands at " + entry->second);
+  if (!fresh) complain(entry->first + " is defined again; the first definition is at " + entry->second);
   return fresh;
 }
 

@@ -50,7 +50,7 @@ uint64_t integerOf(double value, ExchangeType type) {
 }
 
 double through(const Stage& stage, double x) {
-  x = (std::min(std::max(x, stage.least), stage.most) + stage.before) * stage.scale + stage.behind;
+  x = (std::min(std::max(x, stage.least), stage.most) + stage.before) * stage.scale + stage.after;
   return std::min(std::max(x, stage.low), stage.high);
 }
 

@@ -62,7 +62,7 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
   const bool extraWeight = hasExtraWeight(exits);
   if (extraWeight) out += "u32 extra = 0;\n";
   RungWriter writer(layout, names, options, extraWeight, out);
-  std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung stand above it
+  std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung are above it
   const auto label = [&](const Destination& to) {
     if (to.inside()) labels[to.rung - chunk.firstRung] = true;
   };

@@ -207,7 +207,7 @@ void Wiring::joinColumns() {
   }
 }
 
-/// A `|` goes on above and below; a `+` joins at least two things.
+/// A `|` continues above and below; a `+` joins at least two things.
 void Wiring::checkMark(const Mark& mark) {
   const Token& token = drawing_.tokens[mark.token];
   const Slice slice = drawing_.lines[mark.line].tokens;

@@ -155,7 +155,7 @@ private:
       out.part_first = static_cast<uint32_t>(image_.partEnds_.size());
       const std::vector<uint32_t>& ends = layout_.partEnds(TaskId{i});
       image_.partEnds_.insert(image_.partEnds_.end(), ends.begin(), ends.end());
-      // A short program gives fewer borders than parts: the parts behind the last border are empty.
+      // A short program gives fewer borders than parts: the parts after the last border are empty.
       image_.partEnds_.insert(image_.partEnds_.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
       image_.tasks_.push_back(out);

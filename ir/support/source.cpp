@@ -15,7 +15,7 @@
 namespace rung {
 
 struct SourceManager::File {
-  /// Characters in front of every kStep-th byte are counted once, so that the column in a line of megabytes costs no
+  /// Characters before every kStep-th byte are counted once, so that the column in a line of megabytes costs no
   /// walk over the line.
   static constexpr size_t kStep = 1024;
 

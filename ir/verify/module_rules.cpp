@@ -136,7 +136,7 @@ void checkCopies(ModuleCheck& check) {
   }
 }
 
-// Borders are rungs behind the first one, ascending, and leave no part over.
+// Borders are rungs after the first one, ascending, and leave no part over.
 bool hasSoundBorders(const Module& module, const Task& task) {
   if (task.borders.size() >= std::max(task.parts, 1u)) return false;
   uint32_t last = 0;

@@ -1,4 +1,4 @@
-// dlopen with checks that tell what to do.
+// dlopen with checks that say what to do.
 #include "rtlib/host/so_engine.h"
 
 #include <dlfcn.h>

@@ -31,7 +31,7 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
   return std::nullopt;
 }
 
-// The file is there when it is whole: what a failure leaves behind goes.
+// The file is there when it is whole: what a failure leaves is removed.
 int write(const std::string& text, const std::string& out) {
   const std::string part = out + ".part";
   std::ofstream file(part, std::ios::binary);

@@ -133,7 +133,7 @@ private:
     return {transfer};
   }
 
-  // Behind the last byte of the NC area in which the two memories can differ: where the signals lie, and what the
+  // After the last byte of the NC area in which the two memories can differ: where the signals lie, and what the
   // program touches beyond them. It is copied in every cycle, so the words that nobody uses are left out.
   uint32_t synchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;

@@ -58,7 +58,7 @@ bool OperandParser::address(std::span<const Token> tokens, Address& out) {
   return true;
 }
 
-// ( address ) | number | 'c' | name, each with [BX] and members behind it
+// ( address ) | number | 'c' | name, each with [BX] and members after it
 bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) {
   const Token& head = tokens[0];
   size_t i = 1;
@@ -165,7 +165,7 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
   return false;
 }
 
-// A member of an interface structure brings its type, too; behind any other address a member is a constant offset.
+// A member of an interface structure brings its type, too; after any other address a member is a constant offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
   if (out.own != kNone && addOwnMember(member, out)) return true;
   if (const Symbol* inside = program_.symbols.findMember(out.structure, member.text)) {

@@ -109,7 +109,7 @@ std::string reference() {
 
 namespace {
 
-// In upper case without what stands in brackets: BLK[0].M[3] is BLK.M.
+// In upper case without what is in brackets: BLK[0].M[3] is BLK.M.
 std::string plainWord(std::string_view name) {
   std::string word;
   int depth = 0;
@@ -142,15 +142,15 @@ bool names(const std::string& word, const nc::Signal& signal) {
 std::string explainWord(std::string_view name) {
   std::string text;
   const std::string word = ofItsStructure(plainWord(name));
-  std::vector<std::string> told; // weights and members repeat in many groups
+  std::vector<std::string> seen; // weights and members repeat in many groups
   for (const nc::Signal& signal : nc::technolSignals()) {
     if (!names(word, signal)) continue;
     std::string entry =
         fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal), signal.meaning);
     if (const std::string use = useText(signal); !use.empty()) entry += fmt::format("  Use: {}.\n", use);
     entry += fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
-    if (std::find(told.begin(), told.end(), entry) != told.end()) continue;
-    told.push_back(entry);
+    if (std::find(seen.begin(), seen.end(), entry) != seen.end()) continue;
+    seen.push_back(entry);
     text += entry;
   }
   for (const Predefined& constant : predefinedConstants())

@@ -90,7 +90,7 @@ void Structures::abandon(SourceRange at, std::string_view found) {
   open_ = false;
 }
 
-// The same structure again is no error: an include file may be read by several files. Its value tells that it is.
+// The same structure again is not an error: an include file may be read by several files. Its value shows that it is the same.
 void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)

@@ -14,7 +14,7 @@ using enum WordUse;
 
 // --- execution codes ------------------------------------------------------------------------------------------------
 // 20-25 belong to functions that the manual does not describe. 118-137: the line of 118 + n is printed for the first
-// three and the last; 341 and 342 stand behind them.
+// three and the last; 341 and 342 come after them.
 constexpr ExecutionCode kCodes[] = {
     {0, "normal execution", 6327},
     {1, "invalid function code", 6328},

@@ -42,7 +42,7 @@ void dropDialects(Gap& gap) {
   }
 }
 
-// One dialect statement, in front of all other statements.
+// One dialect statement, before all other statements.
 void settleDialect(SourceProgram& program) {
   Gap& gap = firstGap(program);
   const auto at = std::find_if(gap.begin(), gap.end(), [](const Item& item) { return item.kind == Kind::Dialect; });

@@ -97,7 +97,7 @@ void Messages::accept(const rung_message& message) {
   if (list_.size() < list_.capacity()) list_.push_back({.code = code, .clearing = false, .message = message});
 }
 
-// Where the program could not tell the end of a message: no box wants it any more.
+// Where the program could not report the end of a message: no box wants it any more.
 void Messages::dropUnwanted() {
   std::erase_if(list_, [&](const Entry& entry) {
     for (uint32_t box = 0; box < cells(); ++box)
@@ -136,7 +136,7 @@ std::string Messages::cancel(const std::vector<NcArgument>& keys) {
   return {};
 }
 
-// N_CLRMSG is 1 for the one cycle behind a button; set by somebody else it clears the message on top with its rising
+// N_CLRMSG is 1 for the one cycle after a button; set by somebody else it clears the message on top with its rising
 // edge.
 void Messages::press(const SignalMemory& signals, bool inCycle) {
   const bool pressed = signals.get(clear_);

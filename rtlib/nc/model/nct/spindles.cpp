@@ -8,7 +8,7 @@ namespace rung::nc::nct {
 namespace {
 
 constexpr double kNear = 1e-9;
-constexpr uint32_t kFirstDrive = 33; // drives of spindles stand behind those of the axes
+constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
 
 } // namespace
 

@@ -26,7 +26,7 @@ std::optional<int64_t> duration(std::string_view text) {
 
 } // namespace
 
-// NAME, NAME.BB of a double word, with ,#INDEX behind it.
+// NAME, NAME.BB of a double word, with ,#INDEX after it.
 std::optional<Wiring::Place> Wiring::place(std::string_view name) {
   const size_t comma = std::min(name.find(",#"), name.size());
   const auto index = comma == name.size() ? std::optional<uint32_t>(0) : number(name.substr(comma + 2));

@@ -21,7 +21,7 @@ int digitOf(char c) {
   return -1;
 }
 
-// Gives the bytes that a text stands for, one at a time: its characters, or those of pairs of hexadecimal digits with
+// Gives the bytes that a text means, one at a time: its characters, or those of pairs of hexadecimal digits with
 // blanks between them.
 class Bytes {
 public:
@@ -142,7 +142,7 @@ std::optional<int64_t> Configuration::constantInMemory(std::string_view id) cons
   return found == constants_.end() ? std::nullopt : std::optional(found->second);
 }
 
-// What is no value of the wanted kind counts as not found.
+// What is not a value of the wanted kind counts as not found.
 void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const {
   char room[kConfigurationBytes];
   const std::string_view id = charactersOf(std::span(request.args).subspan(kConfigurationHead), room);

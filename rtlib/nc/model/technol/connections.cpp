@@ -330,7 +330,7 @@ void Connections::addWire(const Connection& connection, const End& from, const E
   wires_.push_back(wire);
 }
 
-// What an EtherCAT element is, the other end of its connection tells.
+// The other end of its connection says what an EtherCAT element is.
 void Connections::openCells(Resolver& resolver, ModuleCells& cells) const {
   for (const Connection& connection : connections_) {
     std::string problem;

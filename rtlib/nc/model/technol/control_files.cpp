@@ -346,7 +346,7 @@ Element Reader::elementOf(std::string_view name) {
   return kind_ == ControlFileKind::Channel ? inChannel(parent, name) : Element::Foreign;
 }
 
-// What stands around an element is no text of the ones read here.
+// What is around an element is not a text of the ones read here.
 void Reader::checkText() {
   const bool foreign =
       open_.empty() || open_.back().element == Element::Foreign || open_.back().element == Element::Plc;

@@ -9,7 +9,7 @@
 namespace rung::nc::technol {
 namespace {
 
-// Whether the bytes lie one behind the other in the block, unexpanded.
+// Whether the bytes lie one after the other in the block, unexpanded.
 bool isPlain(const rt::Memory& memory, const host::Ref& place, uint32_t bytes, uint32_t& offset) {
   const rt::BitPlace first = memory.bitPlace(place.space, place.byte, 7);
   offset = first.offset;

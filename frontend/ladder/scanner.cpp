@@ -10,8 +10,7 @@
 namespace rung::ladder {
 namespace {
 
-constexpr std::string_view kContactForms =
-    "[x], with '/', '@' or '%' before x, which is one operand without blanks";
+constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' before x, which is one operand without blanks";
 constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
 constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
 

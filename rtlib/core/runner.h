@@ -5,8 +5,8 @@
 // border at or after the end of part k outside every subroutine, a jump over that border suspends at its target, and a
 // run that ended early idles until its n steps are over, so that the schedule and the parts stay in phase.
 //
-// A fault stops everything: it is recorded in the context, the safe-state spans are zeroed, the fault hook is called once (it
-// may run tasks: TECHNOL's MODULE_HALT), and from then on scans and tasks do nothing until `reset`.
+// A fault stops everything: it is recorded in the context, the safe-state spans are zeroed, the fault hook is called
+// once (it may run tasks: TECHNOL's MODULE_HALT), and from then on scans and tasks do nothing until `reset`.
 #pragma once
 #include <cstdint>
 

@@ -60,7 +60,8 @@ public:
   // The same, but the retained spans keep their contents.
   void warmStart();
 
-  // From the present place of the schedule: to its end, to the end of a slot; one run of the fast list. Nothing after a fault.
+  // From the present place of the schedule: to its end, to the end of a slot; one run of the fast list. Nothing after a
+  // fault.
   void scan();
   void slot();
   void fast();

@@ -9,7 +9,8 @@ constexpr Fault kGsk[] = {
      "One run of Level 1 or of a part of Level 2 does not end: a jump leads backwards and its condition "
      "never "
      "changes within the run. The rung in brackets is the one where the budget of steps was used up; look at the jumps "
-     "around it. A loop that has to wait for the machine must be spread over several cycles: leave the program and test again "
+     "around it. A loop that has to wait for the machine must be spread over several cycles: leave the program and "
+     "test again "
      "in "
      "the next one."}};
 

@@ -38,8 +38,8 @@ struct Compiled {
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
 
-// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it; that
-// is reported.
+// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it;
+// that is reported.
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
                                        const std::string& name, Diagnostics& diagnostics);
 

@@ -149,8 +149,9 @@ private:
     if (words.size() < 5) return 1;
     const std::optional<double> factor = realOf(words[4]);
     if (pinType == PinType::Float && factor && std::isfinite(*factor) && *factor != 0) return factor;
-    error(pinType == PinType::Float ? "'" + std::string(words[4]) + "' is not a scale: a number other than 0 is expected"
-                                    : "a scale is possible only for float");
+    error(pinType == PinType::Float
+              ? "'" + std::string(words[4]) + "' is not a scale: a number other than 0 is expected"
+              : "a scale is possible only for float");
     return std::nullopt;
   }
 

@@ -137,8 +137,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
   badLabel_ = labelled && label == kNone;
   if (count == 0) return;
   if (program_.tokens[first].is(':')) {
-    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range())
-        << "a name before ':'" << "none";
+    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
     return;
   }
   if (macroLine(first, count, line) || instance(first, count, line)) return;

@@ -43,7 +43,8 @@ std::string useText(const nc::Signal& signal) {
   if (area == "W") return "a weight, after an address: `CELL." + std::string(signal.symbol) + "`";
   if (area == "BLK") return "of the queued block n: `BLK[n]" + std::string(signal.symbol).substr(area.size() + 2) + "`";
   if (area.starts_with("RTM.")) return "a logical input or output after `" + std::string(area) + "[x].`";
-  if (area.starts_with("SHARE") || area == "RtmVar") return "shared with the panel by this name; not a name of a program";
+  if (area.starts_with("SHARE") || area == "RtmVar")
+    return "shared with the panel by this name; not a name of a program";
   return "a member of the structure " + std::string(area);
 }
 
@@ -81,7 +82,8 @@ void constants(Page& page) {
 void listingSection(Page& page) {
   page.heading("## Control listing");
   page.line("`rungc build main.plc more.plc -o program.so --listing program.ls1` writes the lines of the program with "
-            "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. `name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
+            "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. "
+            "`name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
             "0 when it is not active. The numbers count in each file of the program; a statement of a macro counts in "
             "the line of its use. Manual: l.2210-2217.");
 }

@@ -55,8 +55,7 @@ inline constexpr Row kMechanismRows[] = {
               .stateful = true,
               .tasks = kSequentialUnits,
               .ref = "4.2, l.2056",
-              .doc =
-                  "While RLO is 0 the unit is left; in the next cycle it continues after the last state that it passed.",
+              .doc = "While RLO is 0 the unit is left; in the next cycle it continues after the last state passed.",
               .example = "LDR  READY\nEX0"},
      .effects = kWaits | kKeepsDr | kReadsRlo,
      .lower = lowerExWhile,
@@ -68,8 +67,7 @@ inline constexpr Row kMechanismRows[] = {
               .stateful = true,
               .tasks = kSequentialUnits,
               .ref = "4.2, l.2057",
-              .doc =
-                  "While RLO is 1 the unit is left; in the next cycle it continues after the last state that it passed.",
+              .doc = "While RLO is 1 the unit is left; in the next cycle it continues after the last state passed.",
               .example = "LDR  DOOR\nEX1"},
      .effects = kWaits | kKeepsDr | kReadsRlo,
      .lower = lowerExWhile,

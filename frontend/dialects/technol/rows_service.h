@@ -92,8 +92,8 @@ inline constexpr OperandList kIdentNumberFrom = {
 
 inline constexpr Row kServiceRows[] = {
     // ---- CAN bus (man. ch. 9, 13.14) ----
-    serviceRow("CAN_SEND", "CAN-BUS", {kCan, kPacket}, "9.4, l.3709", "Sends a packet; DR shows whether it was accepted.",
-               kSetsDr),
+    serviceRow("CAN_SEND", "CAN-BUS", {kCan, kPacket}, "9.4, l.3709",
+               "Sends a packet; DR shows whether it was accepted.", kSetsDr),
     serviceRow("CAN_RECV", "CAN-BUS", {kCan, out("pmsg", "address", "place of 12 bytes for a packet")}, "9.4, l.3743",
                "Takes a packet that was received; DR shows whether there was one.", kSetsDr),
     serviceRow("CAN_RECV_REQ", "CAN-BUS", kReceiveRequest, "9.4, l.3779",

@@ -90,7 +90,8 @@ void Structures::abandon(SourceRange at, std::string_view found) {
   open_ = false;
 }
 
-// The same structure again is not an error: an include file may be read by several files. Its value shows that it is the same.
+// The same structure again is not an error: an include file may be read by several files. Its value shows that it is
+// the same.
 void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)

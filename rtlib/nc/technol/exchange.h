@@ -1,5 +1,5 @@
-// How a TECHNOL program reports to its control which variables it exchanges with other modules and shows to screens (man.
-// ch. 10, 18.2, 27): two services that the control answers at once.
+// How a TECHNOL program reports to its control which variables it exchanges with other modules and shows to screens
+// (man. ch. 10, 18.2, 27): two services that the control answers at once.
 #pragma once
 #include <cstdint>
 #include <string_view>

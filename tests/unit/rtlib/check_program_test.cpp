@@ -79,7 +79,7 @@ const Case kCases[] = {
     {"ScanTask", [](TestProgram& t) { t.scan[0].task = 1; }, "scan step"},
     {"FastOp", [](TestProgram& t) { t.fast[0].op = 9; }, "fast step 0 is unknown"},
     {"MainTask", [](TestProgram& t) { t.program.main_task = 4; }, "main task"},
-    {"Texts", [](TestProgram& t) { t.program.text_count = 3; }, "no pairs"},
+    {"Texts", [](TestProgram& t) { t.program.text_count = 3; }, "not pairs"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, CheckProgram, testing::ValuesIn(kCases),

@@ -1,6 +1,6 @@
 // The messages of a program on the screen of the NCT control (man. §6.13, N_CLRMSG l.7987-8013): a list in which the
-// last one sent is on top. It takes what the program sent, deletes what the operator clears, and reports to the program by
-// the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG what is displayed.
+// last one sent is on top. It takes what the program sent, deletes what the operator clears, and reports to the program
+// by the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG what is displayed.
 //
 // A code is displayed once: sent again it comes to the top with its new number. A message that the operator clears goes
 // at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870); it comes back

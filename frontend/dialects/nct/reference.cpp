@@ -99,8 +99,8 @@ std::string codesOf(const nc::nct::ServiceFunction& function) {
 void functions(Page& page) {
   page.heading("## Functions of MR and MW");
   page.line(
-      "The block: word 0 execution code, word 1 amount of data, then the words of data. `rungc explain` also takes "
-      "`MR 104`. Manual: l.3390-6320.");
+      "The block: word 0 execution code, word 1 amount of data, then the words of data. `rungc explain 'MR 104'` shows "
+      "one function. Manual: l.3390-6320.");
   for (const nc::nct::ServiceFunction& function : nc::nct::serviceFunctions()) {
     page.heading(fmt::format("### {} {}", mnemonicOf(function.access), function.code));
     page.line("{}. Amount of data: {}. Execution codes: {}. Manual: {}, l.{}.\n", function.title, amountsOf(function),

@@ -10,8 +10,7 @@
 namespace rung::ladder {
 namespace {
 
-constexpr std::string_view kContactForms =
-    "[x], with '/', '@' or '%' in front of x, which is one operand without blanks";
+constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' before x, which is one operand without blanks";
 constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
 constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
 
@@ -109,7 +108,7 @@ void LineScanner::strayText() {
   diagnostics_.report(Diag::StrayText, line_.range(at_, end)) << text_.substr(at_, end - at_);
 }
 
-/// The comment behind the line belongs to its last element.
+/// The comment after the line belongs to its last element.
 void LineScanner::remark(const DrawnLine& drawn) {
   const std::span<const Token> tokens = drawing_.tokensOf(drawn);
   const auto last =
@@ -154,7 +153,7 @@ bool LineScanner::badCharacter(size_t offset) {
   return false;
 }
 
-/// The closing bracket of a contact or coil; no other bracket may stand before it.
+/// The closing bracket of a contact or coil; no other bracket may come before it.
 std::optional<size_t> LineScanner::simpleEnd(char close) {
   const size_t end = text_.find_first_of("[](){}", at_ + 1);
   if (end != std::string_view::npos && text_[end] == close) return end;
@@ -162,7 +161,7 @@ std::optional<size_t> LineScanner::simpleEnd(char close) {
   return std::nullopt;
 }
 
-/// The operand of a contact or coil, perhaps with an edge in front.
+/// The operand of a contact or coil, perhaps with an edge before it.
 bool LineScanner::operand(Element& element, size_t begin, size_t end, std::string_view forms) {
   if (begin < end && (text_[begin] == '@' || text_[begin] == '%')) {
     element.edge = text_[begin];
@@ -192,7 +191,7 @@ bool LineScanner::contact(Element& element) {
   return true;
 }
 
-/// `(S x)` and `(R x)` are told from a coil on S or R by the second word.
+/// `(S x)` and `(R x)` are distinguished from a coil on S or R by the second word.
 bool LineScanner::coil(Element& element) {
   const std::optional<size_t> close = simpleEnd(')');
   if (!close) return false;

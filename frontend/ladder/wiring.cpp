@@ -144,7 +144,7 @@ void Wiring::connect(uint32_t line, uint32_t left, uint32_t right) {
     return;
   }
   if (a.kind == TokenKind::Element && drawing_.isPinLine(a.element)) {
-    loose(line, b.begin, b.end, "the output of a box is on its first line, not behind a pin");
+    loose(line, b.begin, b.end, "the output of a box is on its first line, not after a pin");
     return;
   }
   uint32_t node = kRailNode;
@@ -207,7 +207,7 @@ void Wiring::joinColumns() {
   }
 }
 
-/// A `|` goes on above and below; a `+` joins at least two things.
+/// A `|` continues above and below; a `+` joins at least two things.
 void Wiring::checkMark(const Mark& mark) {
   const Token& token = drawing_.tokens[mark.token];
   const Slice slice = drawing_.lines[mark.line].tokens;

@@ -83,7 +83,7 @@ public:
   std::vector<ValueId> loop(uint32_t count, std::span<const ValueId> carried = {});
   std::vector<ValueId> endLoop(std::span<const ValueId> next = {});
 
-  // `op` is a enum rung_message_op; number, channel and index are i32, value is i64 or f64.
+  // `op` is an enum rung_message_op; number, channel and index are i32, value is i64 or f64.
   void message(uint32_t op, ValueId number, ValueId channel, ValueId index, ValueId value);
   ValueId serviceRequest(ServiceId service, std::span<const ValueId> args);
   ValueId servicePoll(ValueId ticket);

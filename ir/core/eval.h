@@ -1,7 +1,7 @@
 // The value of an operation without effects, by the functions of sem.hpp. The constant folder and the interpreter both
 // call it, so a folded operation cannot differ from one that ran.
 //
-// A value is the bits of its type in the low end of a uint64_t, zero above: a bit is 0 or 1, a f64 is its IEEE bits.
+// A value is the bits of its type in the low end of a uint64_t, zero above: a bit is 0 or 1, an f64 is its IEEE bits.
 #pragma once
 #include <cstdint>
 

@@ -14,7 +14,7 @@ namespace rung::ir {
 
 enum class MarkKind : uint8_t {
   Contact, // the value says whether it conducts
-  Result,  // of a box or an instruction that is no logic of the rung's contacts; decides as a contact does
+  Result,  // of a box or an instruction that is not logic of the rung's contacts; decides as a contact does
   Coil,    // the value is the power into it
   Input,   // of a box or an instruction: decided as a coil is
 };

@@ -162,7 +162,7 @@ struct Module {
   std::vector<Symbol> symbols;
   std::vector<Init> inits;
   std::vector<SpaceSpan> retains;
-  std::vector<SpaceSpan> safes; // cleared by a fault
+  std::vector<SpaceSpan> safeSpans; // cleared by a fault
   std::vector<std::string> faults;
   std::vector<std::string> services;
   std::vector<MessageText> messages;

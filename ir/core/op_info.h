@@ -37,7 +37,7 @@ enum class Constraint : uint8_t {
   Variadic, // last entry only: any number of operands, each of any type
 };
 
-// What stands behind the operands, and which fields of Op carry it.
+// What follows the operands, and which fields of Op carry it.
 enum class Attr : uint8_t {
   None,
   Literal,   // imm: the constant's bits

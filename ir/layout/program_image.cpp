@@ -32,7 +32,7 @@ public:
     addInits();
     addSpans(module_.retains, image_.retains_);
     addRetainedSlots();
-    addSpans(module_.safes, image_.safes_);
+    addSpans(module_.safeSpans, image_.safeSpans_);
     addTasks();
     addChunks();
     addRungs();
@@ -155,7 +155,7 @@ private:
       out.part_first = static_cast<uint32_t>(image_.partEnds_.size());
       const std::vector<uint32_t>& ends = layout_.partEnds(TaskId{i});
       image_.partEnds_.insert(image_.partEnds_.end(), ends.begin(), ends.end());
-      // A short program gives fewer borders than parts: the parts behind the last border are empty.
+      // A short program gives fewer borders than parts: the parts after the last border are empty.
       image_.partEnds_.insert(image_.partEnds_.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
       image_.tasks_.push_back(out);
@@ -202,7 +202,7 @@ private:
     point(image_.symbols_, p.symbols, p.symbol_count);
     point(image_.inits_, p.inits, p.init_count);
     point(image_.retains_, p.retains, p.retain_count);
-    point(image_.safes_, p.safes, p.safe_count);
+    point(image_.safeSpans_, p.safe_spans, p.safe_count);
     point(image_.copies_, p.copies, p.copy_count);
     point(image_.chunks_, p.chunks, p.chunk_count);
     point(image_.rungs_, p.rungs, p.rung_count);

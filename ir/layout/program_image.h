@@ -1,5 +1,5 @@
 // The tables of a rung_program, made from a module and its layout, with their storage. The interpreter and the JIT use
-// the image as it stands; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns and
+// the image as it is; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns and
 // run_chunk are null here: whoever owns code fills them in.
 #pragma once
 #include <deque>
@@ -31,7 +31,7 @@ private:
   std::vector<rung_symbol> symbols_;
   std::vector<rung_init> inits_;
   std::vector<rung_span> retains_;
-  std::vector<rung_span> safes_;
+  std::vector<rung_span> safeSpans_;
   std::vector<rung_copy> copies_;
   std::vector<rung_chunk> chunks_;
   std::vector<rung_rung_info> rungs_;

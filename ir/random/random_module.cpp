@@ -56,7 +56,7 @@ private:
     for (uint32_t i = 0; i < module_.spaces.size(); ++i)
       for (uint32_t n = random_.below(3); n > 0; --n) addInit(SpaceId{i});
     module_.retains.push_back({SpaceId{2}, random_.below(32), random_.between(1, 32)});
-    module_.safes.push_back({SpaceId{1}, 0, kSpaceBytes});
+    module_.safeSpans.push_back({SpaceId{1}, 0, kSpaceBytes});
     addSymbols();
   }
 

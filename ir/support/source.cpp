@@ -15,7 +15,7 @@
 namespace rung {
 
 struct SourceManager::File {
-  /// Characters in front of every kStep-th byte are counted once, so that the column in a line of megabytes costs no
+  /// Characters before every kStep-th byte are counted once, so that the column in a line of megabytes costs no
   /// walk over the line.
   static constexpr size_t kStep = 1024;
 
@@ -123,7 +123,7 @@ std::string_view SourceManager::lineText(FileId id, uint32_t line) const {
 
 SourcePos SourceManager::position(FileId id, size_t offset) const {
   const File& f = file(id);
-  RUNG_CHECK(offset <= f.text.size(), "offset behind the end of the source");
+  RUNG_CHECK(offset <= f.text.size(), "offset beyond the end of the source");
   return {f.base + static_cast<uint32_t>(offset)};
 }
 

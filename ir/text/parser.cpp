@@ -67,7 +67,7 @@ private:
     module_.messages.push_back(std::move(message));
   }
 
-  // Flags as words in any order, and what no word stands for as #N.
+  // Flags as words in any order, and what no word names as #N.
   uint32_t parseFlags(std::span<const Keyword> list) {
     uint32_t flags = 0;
     for (bool found = true; found && scanner_.ok();) {
@@ -164,7 +164,7 @@ private:
     return span;
   }
   void parseRetain() { module_.retains.push_back(parseSpan()); }
-  void parseSafe() { module_.safes.push_back(parseSpan()); }
+  void parseSafe() { module_.safeSpans.push_back(parseSpan()); }
 
   void parseRoutine() {
     Routine routine;

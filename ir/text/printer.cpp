@@ -198,7 +198,7 @@ void Printer::printMemory() {
   }
   for (const SpaceSpan& span : module_.retains)
     put("retain {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
-  for (const SpaceSpan& span : module_.safes)
+  for (const SpaceSpan& span : module_.safeSpans)
     put("safe {} size {}\n", bytePlace(span.space.index, span.byte), span.size);
 }
 

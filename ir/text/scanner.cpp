@@ -121,7 +121,7 @@ std::string Scanner::text() {
       else if (c == 'x') {
         const int high = more() ? hexValue(text_[pos_]) : -1;
         const int low = pos_ + 1 < text_.size() ? hexValue(text_[pos_ + 1]) : -1;
-        if (high < 0 || low < 0) fail("two hexadecimal digits expected behind \\x");
+        if (high < 0 || low < 0) fail("two hexadecimal digits expected after \\x");
         pos_ = std::min(pos_ + 2, text_.size());
         c = static_cast<char>(high * 16 + low);
       } else if (c != '"' && c != '\\')

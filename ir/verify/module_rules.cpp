@@ -110,7 +110,7 @@ void checkSpans(ModuleCheck& check) {
   for (const SpaceSpan& span : check.module.retains)
     if (!check.inside(span.space, span.byte, span.size))
       check.fail(Rule::Spans, fmt::format("a retained piece at byte {} lies outside its space", span.byte));
-  for (const SpaceSpan& span : check.module.safes)
+  for (const SpaceSpan& span : check.module.safeSpans)
     if (!check.inside(span.space, span.byte, span.size))
       check.fail(Rule::Spans, fmt::format("a safe piece at byte {} lies outside its space", span.byte));
 }
@@ -136,7 +136,7 @@ void checkCopies(ModuleCheck& check) {
   }
 }
 
-// Borders are rungs behind the first one, ascending, and leave no part over.
+// Borders are rungs after the first one, ascending, and leave no part over.
 bool hasSoundBorders(const Module& module, const Task& task) {
   if (task.borders.size() >= std::max(task.parts, 1u)) return false;
   uint32_t last = 0;
@@ -155,7 +155,7 @@ void checkTasks(ModuleCheck& check) {
     if (task.entry.index >= check.module.routines.size())
       fail("has no entry");
     else if (!hasSoundBorders(check.module, task))
-      fail("has borders of parts that are no rungs in order, or too many");
+      fail("has borders of parts that are not rungs in order, or too many");
     if (task.budgetFault.index >= check.module.faults.size()) fail("has no fault for its budget");
     if (task.parts == 0) fail("has no parts");
     if (task.budget == 0) fail("has no budget");

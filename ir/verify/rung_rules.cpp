@@ -69,7 +69,7 @@ void RungCheck::header() {
   if (begin.file.valid() ? begin.file.index >= module_.files.size() : begin.line != 0)
     fail(Rule::Header, kNoOp, "the file does not exist");
   if (rung_.lastLine != 0 && rung_.lastLine < begin.line)
-    fail(Rule::Header, kNoOp, "the last line stands before the first");
+    fail(Rule::Header, kNoOp, "the last line is before the first");
   if (rung_.weight == 0) fail(Rule::Header, kNoOp, "the weight is 0");
 }
 

@@ -70,7 +70,7 @@ uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcep
   return RUNG_PC_FAULT;
 }
 
-// Runs from `pc` to the end of the run, a fault, or a chunk at or behind `limit` outside every subroutine.
+// Runs from `pc` to the end of the run, a fault, or a chunk at or after `limit` outside every subroutine.
 uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   const rung_chunk* chunks = program_->chunks;
   const rung_chunk_fn* functions = program_->chunk_fns;
@@ -125,7 +125,7 @@ bool Runner::runPart(uint32_t task) noexcept {
     state.pc = t.entry;
     state.budget = t.budget;
   }
-  // A jump may have left parts behind: the run goes on at once, up to the first border that is still ahead.
+  // A jump may have left parts behind: the run continues at once, up to the first border that is still ahead.
   uint32_t limit = RUNG_PC_DONE;
   for (uint32_t k = state.part; k < t.part_count; ++k) {
     if (program_->part_ends[t.part_first + k] <= state.pc) continue;
@@ -141,7 +141,7 @@ bool Runner::runPart(uint32_t task) noexcept {
 
 void Runner::clearSafes() noexcept {
   for (uint32_t i = 0; i < program_->safe_count; ++i)
-    std::memset(memory_ + program_->safes[i].offset, 0, program_->safes[i].size);
+    std::memset(memory_ + program_->safe_spans[i].offset, 0, program_->safe_spans[i].size);
 }
 
 void Runner::stopOnFault(uint32_t task) noexcept {
@@ -185,7 +185,7 @@ void Runner::doStep(const rung_step& step) noexcept {
   }
 }
 
-// Does the step that comes next; false when it was the last of the list, which then stands at its beginning again.
+// Does the step that comes next; false when it was the last of the list, which then is at its beginning again.
 bool Runner::stepOnce() noexcept {
   if (position_ == 0) advance(untimedPeriodUs_);
   if (position_ < program_->scan_count) doStep(program_->scan[position_]);

@@ -2,11 +2,11 @@
 // by its list of steps. Memory, context and part states are the caller's; the runner allocates nothing.
 //
 // Parts. A run of a task that is cut into n parts takes exactly n RUNG_STEP_PART steps: part k stops at the first chunk
-// border at or behind the end of part k outside every subroutine, a jump over that border suspends at its target, and a
+// border at or after the end of part k outside every subroutine, a jump over that border suspends at its target, and a
 // run that ended early idles until its n steps are over, so that the schedule and the parts stay in phase.
 //
-// A fault stops everything: it is recorded in the context, the `safes` are zeroed, the fault hook is called once (it
-// may run tasks: TECHNOL's MODULE_HALT), and from then on scans and tasks do nothing until `reset`.
+// A fault stops everything: it is recorded in the context, the safe-state spans are zeroed, the fault hook is called
+// once (it may run tasks: TECHNOL's MODULE_HALT), and from then on scans and tasks do nothing until `reset`.
 #pragma once
 #include <cstdint>
 
@@ -17,7 +17,7 @@ namespace rung::rt {
 // rung_fault::code when a chunk reported a fault without naming it, or returned a chunk that does not exist.
 inline constexpr uint32_t kUndescribedFault = 0xFFFFFFFEu;
 
-// Where the run of a cut task stands.
+// Where the run of a cut task is.
 struct PartState {
   uint32_t pc = RUNG_PC_DONE;
   uint32_t part = 0; // the part that the next step runs; 0: a new run begins
@@ -39,14 +39,14 @@ public:
   Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept;
 
   void setHooks(RunnerHooks hooks) noexcept { hooks_ = hooks; }
-  // Forgets the fault, all runs under way and the place in the schedule; the clock goes on.
+  // Forgets the fault, all runs under way and the place in the schedule; the clock continues.
   void reset() noexcept;
 
   // False: a fault, now or before; or called from within a task.
   bool runTask(uint32_t task) noexcept;
   bool runPart(uint32_t task) noexcept;
 
-  // The schedule goes on from where it stands: to the end of the list, or to the end of a slot.
+  // The schedule continues from where it is: to the end of the list, or to the end of a slot.
   void scan() noexcept;
   void slot() noexcept;
   // The fast list from its beginning; the scan list stays where it is.
@@ -58,7 +58,7 @@ public:
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
 
-  // The host stops the program, as a fault of its own would. False: it stands already, or a task is running.
+  // The host stops the program, as a fault of its own would. False: it is stopped already, or a task is running.
   bool halt(uint32_t fault) noexcept;
 
   int64_t nowUs() const noexcept { return ctx_->now_us; }
@@ -67,7 +67,7 @@ public:
 
   bool faulted() const noexcept { return faulted_; }
   const rung_fault& fault() const noexcept { return ctx_->fault; }
-  // A stopped program (the operator's stop) only lets the clock go on. Tasks can still be run by hand.
+  // A stopped program (the operator's stop) only lets the clock advance. Tasks can still be run by hand.
   void setStopped(bool stopped) noexcept { stopped_ = stopped; }
   bool stopped() const noexcept { return stopped_; }
 

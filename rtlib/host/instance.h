@@ -55,12 +55,13 @@ public:
   void setHooks(ScheduleHooks* hooks) { hooks_ = hooks; }
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
 
-  // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile go on.
+  // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
   void coldStart();
   // The same, but the retained spans keep their contents.
   void warmStart();
 
-  // From where the schedule stands: to its end, to the end of a slot; one run of the fast list. Nothing after a fault.
+  // From the present place of the schedule: to its end, to the end of a slot; one run of the fast list. Nothing after a
+  // fault.
   void scan();
   void slot();
   void fast();
@@ -69,7 +70,7 @@ public:
   // One run of a task by itself, outside the schedule. False: fault, unknown task, or called from within a task.
   bool runTask(uint32_t task);
   bool runTask(std::string_view name);
-  // Stops the program with one of its own faults. False: it has no such fault, or stands already.
+  // Stops the program with one of its own faults. False: it has no such fault, or is stopped already.
   bool halt(std::string_view fault);
   // For a real clock; see rt::Runner.
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
@@ -112,7 +113,7 @@ public:
   std::span<const rung_prof> profile() const { return profile_; }
   void clearProfile();
 
-  // The retained spans, one behind the other: what RetainStore keeps. restoreRetained is false when the size is wrong.
+  // The retained spans, one after the other: what RetainStore keeps. restoreRetained is false when the size is wrong.
   uint32_t retainedSize() const { return static_cast<uint32_t>(retained_.size()); }
   void copyRetained(std::span<uint8_t> to) const; // of retainedSize()
   bool restoreRetained(std::span<const uint8_t> from);

@@ -41,7 +41,7 @@ private:
       fail("the program's description has " + std::to_string(p_.size) + " bytes, this runtime needs " +
            std::to_string(sizeof(rung_program)));
     } else if (p_.memory_align == 0 || (p_.memory_align & (p_.memory_align - 1)) != 0) {
-      fail("the alignment of the memory block is no power of two");
+      fail("the alignment of the memory block is not a power of two");
     } else if (p_.name == nullptr || p_.dialect == nullptr || p_.compiler == nullptr) {
       fail("a text of the program's description is missing");
     } else if (p_.chunk_count != 0 && p_.chunk_fns == nullptr && p_.run_chunk == nullptr) {
@@ -56,7 +56,7 @@ private:
     present("symbols", p_.symbol_count, p_.symbols);
     present("initial contents", p_.init_count, p_.inits);
     present("retained spans", p_.retain_count, p_.retains);
-    present("safe spans", p_.safe_count, p_.safes);
+    present("safe spans", p_.safe_count, p_.safe_spans);
     present("copies", p_.copy_count, p_.copies);
     present("chunks", p_.chunk_count, p_.chunks);
     present("rungs", p_.rung_count, p_.rungs);
@@ -76,7 +76,7 @@ private:
     for (uint32_t i = 0; i < p_.symbol_count; ++i) checkSymbol(i);
     for (uint32_t i = 0; i < p_.init_count; ++i) block("initial contents", i, p_.inits[i].offset, p_.inits[i].size);
     for (uint32_t i = 0; i < p_.retain_count; ++i) block("retained span", i, p_.retains[i].offset, p_.retains[i].size);
-    for (uint32_t i = 0; i < p_.safe_count; ++i) block("safe span", i, p_.safes[i].offset, p_.safes[i].size);
+    for (uint32_t i = 0; i < p_.safe_count; ++i) block("safe span", i, p_.safe_spans[i].offset, p_.safe_spans[i].size);
     for (uint32_t i = 0; i < p_.copy_count; ++i) checkCopy(i);
     for (uint32_t i = 0; i < p_.chunk_count; ++i) checkChunk(i);
     for (uint32_t i = 0; i < p_.rung_count; ++i) {
@@ -88,7 +88,7 @@ private:
     for (uint32_t i = 0; i < p_.fast_count; ++i) checkStep("fast step", i, p_.fast[i]);
     if (p_.main_task != RUNG_NONE) index("the main task", 0, p_.main_task, p_.task_count);
     if (p_.fast_task != RUNG_NONE) index("the fast task", 0, p_.fast_task, p_.task_count);
-    if (p_.text_count % 2 != 0) fail("the message texts are no pairs");
+    if (p_.text_count % 2 != 0) fail("the message texts are not pairs");
   }
 
   void checkSpace(uint32_t number) {

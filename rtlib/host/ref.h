@@ -1,4 +1,4 @@
-// A place that a name stands for, and typed access to it. A Ref is plain data: resolve once, use for the life of the
+// The place that a name refers to, and typed access to it. A Ref is plain data: resolve once, use for the life of the
 // program. Multi-byte values are little-endian; integers are unsigned here, readers that want a sign extend by `width`.
 #pragma once
 #include <cstdint>

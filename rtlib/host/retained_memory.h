@@ -12,7 +12,7 @@ public:
   RetainedMemory(const rung_program& program, const std::string& file,
                  std::chrono::milliseconds period = std::chrono::milliseconds(200));
 
-  // Before the program's warm start; false: nothing could be taken, and it starts cold. `report` says what to tell the
+  // Before the program's warm start; false: nothing could be taken, and it starts cold. `report` is a message for the
   // user, "" when there was no file. The first image is written at once, so that a place that cannot be written shows:
   // then `error` says why.
   bool load(Instance& instance, std::string& report, std::string& error);
@@ -24,7 +24,7 @@ public:
   bool written() const noexcept { return saver_->idle(); }
   uint64_t failed() const noexcept { return saver_->failed(); }
 
-  // Behind the last scan: the image of now is on disk when it returns; "" or what has gone wrong since the start.
+  // After the last scan: the image of now is on disk when it returns; "" or what has gone wrong since the start.
   std::string finish(const Instance& instance);
 
 private:

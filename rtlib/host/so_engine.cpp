@@ -1,4 +1,4 @@
-// dlopen with checks that tell what to do.
+// dlopen with checks that say what to do.
 #include "rtlib/host/so_engine.h"
 
 #include <dlfcn.h>
@@ -27,7 +27,7 @@ std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& e
   const auto* program = static_cast<const rung_program*>(dlsym(library, RUNG_PROGRAM_SYMBOL));
   error.clear();
   if (program == nullptr) {
-    error = path + " is no compiled PLC program: it has no symbol " RUNG_PROGRAM_SYMBOL;
+    error = path + " is not a compiled PLC program: it has no symbol " RUNG_PROGRAM_SYMBOL;
   } else if (const std::string wrong = checkProgram(*program); !wrong.empty()) {
     error = path + " cannot be run: " + wrong + "; compile it again";
   }

@@ -13,7 +13,7 @@ enum class Loaded : uint8_t { WithEngine, WithProcess };
 
 class SoEngine final : public Engine {
 public:
-  // Null, and `error` says why, when the file cannot be loaded or is no program of this version.
+  // Null, and `error` says why, when the file cannot be loaded or is not a program of this version.
   static std::unique_ptr<SoEngine> open(const std::string& path, std::string& error,
                                         Loaded loaded = Loaded::WithEngine);
   ~SoEngine() override;

@@ -6,16 +6,17 @@ namespace {
 
 constexpr Fault kGsk[] = {
     {kGskDeadLoop,
-     "One run of Level 1 or of a part of Level 2 does not come to its end: a jump leads backwards and its condition "
+     "One run of Level 1 or of a part of Level 2 does not end: a jump leads backwards and its condition "
      "never "
      "changes within the run. The rung in brackets is the one where the budget of steps was used up; look at the jumps "
-     "around it. A loop that has to wait for the machine belongs into several cycles: leave the program and test again "
+     "around it. A loop that has to wait for the machine must be spread over several cycles: leave the program and "
+     "test again "
      "in "
      "the next one."}};
 
 constexpr Fault kNct[] = {
     {kNctTimeout,
-     "MAIN or INT0 does not come to its end in one run (man. l.540): a jump leads backwards and its condition never "
+     "MAIN or INT0 does not end in one run (man. l.540): a jump leads backwards and its condition never "
      "changes, or subroutines call far too much. The rung in brackets is the one where the budget of steps was used "
      "up. "
      "Inputs are constant during a run: a loop that waits for one never ends."}};
@@ -31,13 +32,13 @@ constexpr Fault kTechnol[] = {
                           "allows (man. l.5356): a "
                           "loop in it does not end, or it does too much. Move work to MODULE_MAIN."},
     {kTechnolProtection,
-     "A computed address lies outside of the program's data (man. l.5352). Look at the index of the instruction in "
+     "A computed address lies outside the program's data (man. l.5352). Look at the index of the instruction in "
      "brackets, and at what is added to it."},
     {kTechnolEdef,
-     "An EDEF was carried out with ever new bits. Its bits are tied once; let the instruction name fixed ones."},
+     "An EDEF was executed with more and more different bits. Bits are tied once; name fixed bits in the instruction."},
     {kTechnolWatchdog,
-     "A module or an event procedure does not come to its end: a jump leads backwards and its condition never changes. "
-     "Waiting belongs into a mechanism (EX, TEX0, TIM), which goes on in the next cycle."}};
+     "A module or an event procedure does not end: a jump leads backwards and its condition never changes. "
+     "Waiting belongs in a mechanism (EX, TEX0, TIM), which continues in the next cycle."}};
 
 } // namespace
 

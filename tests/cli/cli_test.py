@@ -270,9 +270,9 @@ class TechnolConnections(Cli):
     """connect: an end that does not exist, or does not fit, fails the scenario with its reason."""
 
     WRONG = {
-        "PLC.Input.Nothing PLC.Input.Feed": "'PLC.Input.Nothing' is no end of a connection: the program defines no input of this identifier",
+        "PLC.Input.Nothing PLC.Input.Feed": "'PLC.Input.Nothing' is not an end of a connection: the program defines no input of this identifier",
         "PLC.Output.Nothing PLC.Input.Feed": "the program defines no output of this identifier",
-        "PLC.Output.Speed[4] PLC.Input.Feed": "'PLC.Output.Speed[4]' is no end of a connection: it has 4 elements",
+        "PLC.Output.Speed[4] PLC.Input.Feed": "'PLC.Output.Speed[4]' is not an end of a connection: it has 4 elements",
         "PLC.Output.Speed.Bit[16] LIMIT": "it has no bit 16",
         "PLC.Input.Feed PLC.Output.Speed": "'PLC.Input.Feed' is an input: a connection cannot begin there",
         "P1IN.0 LAMP": "'LAMP' is an output: a connection cannot end there",
@@ -305,7 +305,7 @@ class TechnolConnections(Cli):
         self.file("program.plc", CONNECTED)
         scenario = self.file("wrong.scn", "program program.plc\nconfig Limit.Invert yes\nconnect P1IN.0 LIMIT\nscan\n")
         done = rungc("test", scenario, "--engine", "interp")
-        self.assertIn("Limit.Invert is no number: 'yes'", (done.stdout + done.stderr).decode())
+        self.assertIn("Limit.Invert is not a number: 'yes'", (done.stdout + done.stderr).decode())
 
 
 class RetainedTables(Cli):

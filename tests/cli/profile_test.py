@@ -140,7 +140,7 @@ class Profile(unittest.TestCase):
         done = rungc("profile", one, two)
         self.assertEqual(done.returncode, 3, done.stdout)
         self.assertIn("two.scn", done.stdout)
-        self.assertIn("another program", done.stdout)
+        self.assertIn("a different program", done.stdout)
 
     def test_rungs_that_never_ran_are_counted_and_listed(self):
         scenario = self.scenario("one.scn", "scan 5")

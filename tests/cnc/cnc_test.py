@@ -177,7 +177,7 @@ def mistakes(bench, _options):
     expect("program.map:4: NOWHERE: the program has no such name or address" in output, "line 4")
     expect("cannot make pin rung.fault" in load("out bit fault Y0.0\n"), "a reserved name")
     expect("rung_hal: cannot load /nowhere.so: " in load("", "so=/nowhere.so"), "a missing program")
-    expect("is no compiled PLC program" in load("", "so=/usr/lib/linuxcnc/modules/and2.so"), "not a program")
+    expect("is not a compiled PLC program" in load("", "so=/usr/lib/linuxcnc/modules/and2.so"), "not a program")
     expect("rung_hal: cannot read /nowhere.map" in load("", "map=/nowhere.map"), "a missing map")
 
 

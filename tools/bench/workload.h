@@ -8,7 +8,7 @@
 namespace rung::bench {
 
 struct Workload {
-  std::string file; // its ending tells the dialect
+  std::string file; // its ending says the dialect
   std::string text;
   uint32_t units = 0;  // rungs, or steps
   uint32_t inputs = 0; // of `bits`, the first ones

@@ -15,7 +15,7 @@
 namespace rung::driver {
 
 struct CompileRequest {
-  std::string dialect;              // empty: the files tell
+  std::string dialect;              // empty: the files say it
   frontend::CompileOptions options; // configuration and strictness
   bool instrument = false;          // count and time rungs
   bool marks = false;               // note contacts and coils; the module stays as it was built
@@ -38,12 +38,12 @@ struct Compiled {
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
 
-// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing tells; that
-// is reported.
+// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it;
+// that is reported.
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
                                        const std::string& name, Diagnostics& diagnostics);
 
-// Nothing when the program has errors; they stand in `diagnostics`.
+// Nothing when the program has errors; they are in `diagnostics`.
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics);
 

@@ -45,7 +45,7 @@ std::string_view outputText(Output output) {
 
 std::string_view placementText(Placement placement) {
   switch (placement) {
-  case Placement::BehindContact: return "behind a condition";
+  case Placement::BehindContact: return "after a condition";
   case Placement::AtRail: return "at the left rail";
   case Placement::Anywhere: return "anywhere";
   }
@@ -80,7 +80,7 @@ void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::
                      o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
     out += '\n';
   }
-  fmt::format_to(put, "Output: {}. Stands {}{}{}.{}\n\n", outputText(row.output), placementText(row.placement),
+  fmt::format_to(put, "Output: {}. Place: {}{}{}.{}\n\n", outputText(row.output), placementText(row.placement),
                  row.tasks.empty() ? "" : ", in ", row.tasks, row.terminating ? " Closes the logic equation." : "");
   if (!row.example.empty()) fmt::format_to(put, "```\n{}\n```\n\n", row.example);
   fmt::format_to(put, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");

@@ -235,10 +235,11 @@ private:
         if (!outcome_.result.passed) return false;
         if (measurement.program() == nullptr) return fail(scenario.path, "it runs no program");
         if (measurement.differs())
-          return fail(scenario.path,
-                      fmt::format("it runs another program than {} (other files, or a configuration that the compiler "
-                                  "reads): profile them one at a time",
-                                  request_.scenarios[0].path));
+          return fail(
+              scenario.path,
+              fmt::format("it runs a different program from {} (other files, or a configuration that the compiler "
+                          "reads): profile them one at a time",
+                          request_.scenarios[0].path));
       }
     }
     return true;

@@ -21,7 +21,7 @@ public:
 
   // In every call of the scan function: notices edges.
   void sample(const PinCell* pins) noexcept;
-  // In front of every slice of the program.
+  // Before every slice of the program.
   void advance(const rt::Memory& memory, const PinCell* pins) noexcept;
 
   // Functions that found the queue full.

@@ -59,7 +59,7 @@ private:
     if (type == PinType::Float) place = floatPlace(*place);
     const bool isBit = place->kind == host::RefKind::Bit;
     if (type == PinType::Bit && !isBit)
-      return fail(line, name + " is no bit; s32, u32, float or a bit of it is possible");
+      return fail(line, name + " is not a bit; s32, u32, float or a bit of it is possible");
     if (type != PinType::Bit && isBit) return fail(line, name + " is a bit, not " + std::string(pinTypeName(type)));
     if (type != PinType::Float && place->kind == host::RefKind::Real)
       return fail(line, name + " is a real number; its type is float");
@@ -78,7 +78,7 @@ private:
     if (error != std::errc() || rest != end || axis == 0 || axis > axes)
       return fail(line, name + ": axes are 1 to " + std::to_string(axes));
     if (access == Access::Read) return fail(line, name + " is written by HAL, not by the program");
-    if (type == PinType::Bit) return fail(line, name + " is no bit; s32, u32 or float is possible");
+    if (type == PinType::Bit) return fail(line, name + " is not a bit; s32, u32 or float is possible");
     return host::intRef(space, kPositionBytes * (axis - 1), 8 * kPositionBytes);
   }
 

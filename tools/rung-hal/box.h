@@ -32,7 +32,7 @@ public:
   // retained memory, and of parts of the program that never run here.
   static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
                                    const std::string& retain, std::vector<std::string>& warnings);
-  // Behind the last step: what is retained is on disk then; "" or why not.
+  // After the last step: what is retained is on disk then; "" or why not.
   std::string close();
 
   const std::vector<MapPin>& pins() const { return map_.pins; }
@@ -40,7 +40,7 @@ public:
   void connect(const PinCell* cells) { cells_ = cells; }
   void setMessageSink(MessageSink sink) { sink_ = sink; }
 
-  // The clock of the thread goes on by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
+  // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
   // runs nothing only watches for edges. After a fault all output pins are 0 for good.
   StepResult step(int64_t ns) noexcept;
 
@@ -72,7 +72,7 @@ private:
   std::unique_ptr<host::RetainedMemory> retained_; // null: nothing is kept
   const PinCell* cells_ = nullptr;
   MessageSink sink_ = nullptr;
-  int64_t owedNs_ = 0; // time that the program's clock is behind
+  int64_t owedNs_ = 0; // time that the program's clock lags
   uint32_t scans_ = 0;
   bool failed_ = false;
 };

@@ -113,7 +113,7 @@ private:
   // The pin of that name, made when it is new.
   std::optional<uint32_t> pin(std::string_view name, PinType wanted, bool output) {
     if (!isPinName(name)) {
-      error("'" + std::string(name) + "' is no pin name: letters, digits, '-', '_' and '.' are allowed");
+      error("'" + std::string(name) + "' is not a pin name: letters, digits, '-', '_' and '.' are allowed");
       return std::nullopt;
     }
     for (uint32_t i = 0; i < map_.pins.size(); ++i) {
@@ -125,7 +125,7 @@ private:
         return std::nullopt;
       }
       if (old.type == wanted && old.output == output) return i;
-      error("pin '" + old.name + "' is already there as " + (old.output ? "out " : "in ") +
+      error("pin '" + old.name + "' is already defined as " + (old.output ? "out " : "in ") +
             std::string(pinTypeName(old.type)));
       return std::nullopt;
     }
@@ -149,8 +149,9 @@ private:
     if (words.size() < 5) return 1;
     const std::optional<double> factor = realOf(words[4]);
     if (pinType == PinType::Float && factor && std::isfinite(*factor) && *factor != 0) return factor;
-    error(pinType == PinType::Float ? "'" + std::string(words[4]) + "' is no scale: a number other than 0 is expected"
-                                    : "a scale is possible for float alone");
+    error(pinType == PinType::Float
+              ? "'" + std::string(words[4]) + "' is not a scale: a number other than 0 is expected"
+              : "a scale is possible only for float");
     return std::nullopt;
   }
 
@@ -159,15 +160,15 @@ private:
     const std::optional<PinType> constType = type(words[1]);
     if (!constType) return;
     const std::optional<double> value = valueOf(*constType, words[3]);
-    if (!value) return error("'" + std::string(words[3]) + "' is no value of type " + std::string(words[1]));
+    if (!value) return error("'" + std::string(words[3]) + "' is not a value of type " + std::string(words[1]));
     map_.constants.push_back({*constType, std::string(words[2]), *value, line_});
   }
 
   void channel(const Words& words) {
     if (!hasForm(words, 5, 6, "channel CHANNEL STROBE CODE DONE [keep]")) return;
     if (words.size() == 6 && words[5] != "keep")
-      return error("'" + std::string(words[5]) + "' stands where only keep may");
-    if (findChannel(words[1])) return error("channel '" + std::string(words[1]) + "' is already there");
+      return error("'" + std::string(words[5]) + "' where only 'keep' is allowed");
+    if (findChannel(words[1])) return error("channel '" + std::string(words[1]) + "' is already defined");
     map_.channels.push_back({std::string(words[1]), std::string(words[2]), std::string(words[3]), std::string(words[4]),
                              words.size() == 6, line_});
   }

@@ -1,4 +1,4 @@
-// The mapping file: which HAL pins there are, and which names of the PLC program they stand for. docs/linuxcnc.md
+// The mapping file: which HAL pins there are, and which names of the PLC program they refer to. docs/linuxcnc.md
 // describes the lines. This is the text alone; bind.h looks the names up in a program.
 #pragma once
 #include <cstdint>

@@ -35,11 +35,11 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
   return gsk::convertProgram(sources, files, compile, form, diagnostics);
 }
 
-// The compiler tells the two forms by their extensions: a list in a .lad file could not be read again.
+// The compiler distinguishes the two forms by their extensions: a list in a .lad file could not be read again.
 bool checkExtension(const ConvertOptions& options) {
   const std::string_view wrong = options.to == "list" ? ".lad" : ".pmc";
   if (!options.out.ends_with(wrong)) return true;
-  fmt::print(stderr, "rungc: '{}' is no name for a {}; files in this form end in {}\n", options.out,
+  fmt::print(stderr, "rungc: '{}' is not a name for a {}; files in this form end in {}\n", options.out,
              options.to == "list" ? "command list" : "ladder text", options.to == "list" ? ".pmc" : ".lad");
   return false;
 }
@@ -53,7 +53,7 @@ int run(const ConvertOptions& options) {
   if (!files) return status;
   Diagnostics diagnostics;
   const auto text = convert(sources, *files, options, compile, diagnostics);
-  // With --json the diagnostics go to standard output: behind a program there they would spoil it.
+  // With --json the diagnostics go to standard output: after a program there they would corrupt it.
   if (!options.source.json || !text || !options.out.empty()) printDiagnostics(diagnostics, sources, options.source);
   return text ? write(*text, options.out) : kWrong;
 }

@@ -91,9 +91,9 @@ void addCoverageOptions(CLI::App& command, CoverageOptions& options) {
       "--coverage-html", options.html,
       "Write a page with the coverage on the drawing of the program; of several programs, FILE-2.html and so on");
   command
-      .add_option("--coverage-merge", options.former, "Add the coverage of a former run, written by --coverage-json")
+      .add_option("--coverage-merge", options.former, "Add the coverage of an earlier run, written by --coverage-json")
       ->allow_extra_args(false);
-  command.add_option("--coverage-min", options.least, "Fail where one of the four shares is less than so many percent")
+  command.add_option("--coverage-min", options.least, "Fail if one of the four shares is less than this percentage")
       ->check(CLI::Range(0.0, 100.0));
 }
 

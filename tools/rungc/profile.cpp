@@ -114,10 +114,10 @@ void addProfile(CLI::App& app, int& status) {
                    "Order: operations (exact, the same in every run) or time (of all scans, interruptions left out)")
       ->check(CLI::IsMember({"operations", "time"}))
       ->capture_default_str();
-  command->add_option("--repeat", options->repeat, "Times are those of so many runs")
+  command->add_option("--repeat", options->repeat, "How many runs are timed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--top", options->text.top, "Lines a table; 0: all")->capture_default_str();
+  command->add_option("--top", options->text.top, "Lines per table; 0: all")->capture_default_str();
   command->add_flag("--never", options->text.never, "List the rungs that never ran");
   command->add_option("--baseline", options->baseline, "Compare with a profile that --json wrote");
   command->add_option("--html", options->html,

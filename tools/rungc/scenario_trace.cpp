@@ -7,7 +7,8 @@ namespace rung::rungc {
 
 void ScenarioTrace::addTo(CLI::App& command) {
   CLI::Option* trace = command.add_option(
-      "--trace", path_, "Write the values of names after every scan to FILE.vcd (changes) or FILE.csv (a row a scan)");
+      "--trace", path_,
+      "Write the values of names after every scan to FILE.vcd (changes) or FILE.csv (one row per scan)");
   command.add_option("--watch", names_, "Names to trace; default: every name and address that the rungs use")
       ->needs(trace)
       ->allow_extra_args();

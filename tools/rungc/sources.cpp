@@ -18,9 +18,9 @@ void addSourceOptions(CLI::App& command, SourceOptions& options) {
                      "without any, the project (rung.toml) of the working directory or of a folder above it");
   CLI::Option* project =
       command.add_option("--project", options.projectFile, "The project file, or its folder, instead of the one found");
-  command.add_flag("--no-project", options.noProject, "The named files alone, without the project that they belong to")
+  command.add_flag("--no-project", options.noProject, "Only the named files, without the project that they belong to")
       ->excludes(project);
-  command.add_option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not tell");
+  command.add_option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not name it");
   command.add_option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated")
       ->allow_extra_args(false);
   command.add_flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");

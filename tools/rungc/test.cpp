@@ -157,7 +157,7 @@ void addTest(CLI::App& app, int& status) {
       "project of the working directory");
   command->add_option("--engine", options->engines, "interp, cpp, llvm, jit, a list of them with commas, or all")
       ->capture_default_str();
-  command->add_option("-j,--jobs", options->threads, "So many scenarios at a time; default: one a processor")
+  command->add_option("-j,--jobs", options->threads, "How many scenarios run at a time; default: one per processor")
       ->check(CLI::Range(1u, 256u));
   command
       ->add_option("--filter", options->filters,

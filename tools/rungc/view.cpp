@@ -31,7 +31,7 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
   return std::nullopt;
 }
 
-// The file is there when it is whole: what a failure leaves behind goes.
+// The file is there when it is whole: what a failure leaves is removed.
 int write(const std::string& text, const std::string& out) {
   const std::string part = out + ".part";
   std::ofstream file(part, std::ios::binary);
@@ -45,7 +45,7 @@ int write(const std::string& text, const std::string& out) {
 int run(const ViewOptions& options) {
   const bool page = options.out.ends_with(".html");
   if (!page && !options.out.ends_with(".svg")) {
-    fmt::print(stderr, "rungc: '{}' is no name for a drawing; pages end in .html, pictures in .svg\n", options.out);
+    fmt::print(stderr, "rungc: '{}' is not a name for a drawing; pages end in .html, pictures in .svg\n", options.out);
     return kUsage;
   }
   SourceManager sources;
@@ -76,7 +76,7 @@ void addView(CLI::App& app, int& status) {
   command->add_option("--revision", options->revision, "The revision, to be printed on every sheet");
   command
       ->add_option("--link", options->link,
-                   "Where a line of the source leads: {file} as seen from the page, {path} in full, {line}; "
+                   "The link of a line of the source: {file} as seen from the page, {path} in full, {line}; "
                    "empty: nowhere")
       ->capture_default_str();
   command->callback([options, &status] { status = run(*options); });

@@ -78,7 +78,7 @@ void Requests::clear() {
 
 std::string Requests::expectCall(Instance& instance, const Statement& s) {
   take(instance);
-  if (waiting_.empty()) return fmt::format("no request waits; expected {}", s.name);
+  if (waiting_.empty()) return fmt::format("no request is pending; expected {}", s.name);
   const rt::ServiceRequest next = waiting_.front();
   const ServiceSignature signature = signatureOf(instance, next);
   std::string difference = requestDifference(signature, next, s.name, s.keys, &instance);
@@ -93,7 +93,7 @@ std::string Requests::expectNoCall(Instance& instance, const Statement& s) {
   take(instance);
   for (const rt::ServiceRequest& waiting : waiting_) {
     const ServiceSignature signature = signatureOf(instance, waiting);
-    if (s.name.empty() || signature.isNamed(s.name)) return fmt::format("a request {} waits", signature.name());
+    if (s.name.empty() || signature.isNamed(s.name)) return fmt::format("a request {} is pending", signature.name());
   }
   return {};
 }

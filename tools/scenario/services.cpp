@@ -101,7 +101,7 @@ bool isScopeName(const ServiceSignature& signature, const KeyValue& key) {
 
 std::string scopeDifference(const ServiceSignature& signature, int64_t found, const KeyValue& key) {
   const auto wanted = nc::nct::findScopeSymbol(key.value.text);
-  if (!wanted) return fmt::format("'{}' is no symbol of SCP", key.value.text);
+  if (!wanted) return fmt::format("'{}' is not a symbol of SCP", key.value.text);
   if (found == *wanted) return {};
   const auto symbols = nc::nct::scopeSymbols();
   const bool known = found >= 0 && static_cast<size_t>(found) < symbols.size();
@@ -184,7 +184,7 @@ std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyV
   for (const KeyValue& key : arguments) {
     if (signature.argument(key.key) < 0 && !blockKey(signature, key.key)) return unknownArgument(signature, key.key);
     if (isScopeName(signature, key) && !nc::nct::findScopeSymbol(key.value.text))
-      return fmt::format("'{}' is no symbol of SCP", key.value.text);
+      return fmt::format("'{}' is not a symbol of SCP", key.value.text);
   }
   for (const KeyValue& key : results) {
     const std::optional<BlockKey> word = blockKey(signature, key.key);

@@ -10,7 +10,7 @@
 
 namespace rung::scenario {
 
-// A service as rung_program names it: "NAME arg1 arg2 -> result1 result2". A name with ":f" behind it is a real, whose
+// A service as rung_program names it: "NAME arg1 arg2 -> result1 result2". A name with ":f" after it is a real, whose
 // bits travel. Without "->" the service takes no answer. With an argument `block` the request has an operand block (see
 // rtlib/nc/nct/operand_block.h), whose words are arguments and results too: w4, or d4 for the double in words 4 and 5.
 class ServiceSignature {

@@ -6,7 +6,7 @@
 //   session.addEngine(engine);            // one or several, all of one program
 //   session.config("KEY", "VALUE");       // what the NC reads; the compiler's keys are the caller's
 //   session.start();
-//   if (auto problem = session.execute(statement)) …     // the session goes on all the same
+//   if (auto problem = session.execute(statement)) …     // the session continues all the same
 #pragma once
 #include <functional>
 #include <memory>

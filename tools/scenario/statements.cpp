@@ -138,7 +138,7 @@ private:
     return takeWord(s_.words[0], "a source") && takeWord(s_.words[1], "a destination");
   }
   bool config() { return takeWord(s_.name, "a key") && takeText(); }
-  bool period() { return takeDuration() && (s_.microseconds > 0 || fail("a period is longer than nothing")); }
+  bool period() { return takeDuration() && (s_.microseconds > 0 || fail("a period must be longer than 0")); }
   bool call() { return takeWord(s_.name, "a service") && takeKeys(s_.keys); }
   bool event() { return takeWord(s_.name, "an event") && takeKeys(s_.keys); }
   bool noCall() { return done() || takeWord(s_.name, "a service"); }
@@ -176,9 +176,9 @@ const P::Row P::kRows[] = {
     {{"period", "period 10ms", "the main task's period"}, Kind::Period, &P::period},
     {{"set", "set NAME VALUE", "writes a variable, an input or a signal of the NC"}, Kind::Set, &P::set},
     {{"scan", "scan [N]", "runs N scans of the main task"}, Kind::Scan, &P::takeCount},
-    {{"fast", "fast [N]", "runs the fast task alone N times"}, Kind::Fast, &P::takeCount},
+    {{"fast", "fast [N]", "runs only the fast task, N times"}, Kind::Fast, &P::takeCount},
     {{"slot", "slot [N]", "GSK: runs N slots of 8 ms"}, Kind::Slot, &P::takeCount},
-    {{"run", "run 250ms", "runs scans until so much time has passed"}, Kind::Run, &P::takeDuration},
+    {{"run", "run 250ms", "runs scans until this much time has passed"}, Kind::Run, &P::takeDuration},
     {{"expect", "expect NAME VALUE | expect NAME ~ VALUE TOLERANCE", "NAME has this value"}, Kind::Expect, &P::expect},
     {{"expect_range", "expect_range NAME LOW HIGH", "NAME lies between them"}, Kind::ExpectRange, &P::expectRange},
     {{"expect_message", "expect_message NUMBER [on|off] [KEY=VALUE …]", "the message is, or is not, displayed"},
@@ -188,7 +188,7 @@ const P::Row P::kRows[] = {
     {{"expect_call", "expect_call SERVICE [KEY=VALUE …]", "the next request is this one; it is taken"},
      Kind::ExpectCall,
      &P::call},
-    {{"expect_no_call", "expect_no_call [SERVICE]", "no such request waits"}, Kind::ExpectNoCall, &P::noCall},
+    {{"expect_no_call", "expect_no_call [SERVICE]", "no such request is pending"}, Kind::ExpectNoCall, &P::noCall},
     {{"reply", "reply [KEY=VALUE …]", "answers the oldest pending request"}, Kind::Reply, &P::reply},
     {{"prepare", "prepare SERVICE [KEY=VALUE …] -> [KEY=VALUE …]", "the answer to the next such request"},
      Kind::Prepare,

@@ -1,4 +1,4 @@
-// The colours of drawings and pages. A picture that stands alone has those of paper; a page names them, so that it can
+// The colours of drawings and pages. A picture of its own has those of paper; a page names them, so that it can
 // have others in the dark.
 #pragma once
 #include <array>

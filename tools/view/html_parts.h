@@ -134,9 +134,9 @@ function search(){
  var rung=/^\d+$/.test(what)&&doc.getElementById('r'+what);
  if(rung)hits.unshift(rung.querySelector('figcaption b,th'));
  hits.forEach(function(e){e.classList.add('hit');});
- at=-1;tell();
+ at=-1;report();
 }
-function tell(){note.textContent=!search.what?'':!hits.length?'not found':
+function report(){note.textContent=!search.what?'':!hits.length?'not found':
  at<0?hits.length+(hits.length>1?' hits':' hit'):(at+1)+' of '+hits.length;}
 function go(step){
  if(!hits.length)return;
@@ -146,7 +146,7 @@ function go(step){
  e.classList.add('now');
  if(home&&home.id)location.replace('#'+home.id);
  e.scrollIntoView({block:'center',inline:'nearest'});
- tell();
+ report();
 }
 input.oninput=function(){clearTimeout(wait);wait=setTimeout(search,150);};
 input.onkeydown=function(e){

@@ -1,10 +1,10 @@
 // The geometry of a rung: a sheet of cells to lines, symbols and texts at places. Pure functions, linear in the cells
 // (but for a sort); the writers only print what they give.
 //
-// Rows keep the order of the source and are as high as what stands in them. Cells go from left to right as far as the
-// cells on their left make room; a joint stands in one place in all its rows. What closes a branch stands at the right
+// Rows keep the order of the source and are as high as what is in them. Cells go from left to right as far as the
+// cells on their left make room; a joint is in one place in all its rows. What closes a branch is at the right
 // rail. A rung that is wider than the rails allow is cut between its cells into bands, one below the other; a wire that
-// was cut ends at a number and goes on behind the same number.
+// was cut ends at a number and continues after the same number.
 #pragma once
 #include <string>
 #include <vector>
@@ -59,7 +59,7 @@ struct Text {
   std::vector<LinkedText::Part> links;
 };
 
-// A wire that was cut: its end, and where it goes on.
+// A wire that was cut: its end, and where it continues.
 struct Jump {
   Point from;
   Point to;

@@ -25,12 +25,12 @@ public:
   Names(const frontend::Dialect& dialect, const ir::Module& module, const std::vector<ladder::LadderFile>& files);
 
   Named find(std::string_view operand) const;
-  // What a constant stands for: its value as declared, otherwise the text itself.
+  // What a constant means: its value as declared, otherwise the text itself.
   std::string_view valueOf(std::string_view operand) const;
   bool isGsk() const { return gsk_; }
 
 private:
-  // A place in memory; what is not fixed stands as written behind it.
+  // A place in memory; what is not fixed follows it as it is written.
   struct Place {
     std::string_view space;
     uint32_t byte = 0;

@@ -7,7 +7,7 @@
 namespace rung::view {
 
 // Pieces of at most `most` pixels where the rows allow it, from top to bottom, with the coordinates of the whole; the
-// drawing itself when it is not higher. Every shape is in one piece; vertical wires go on from piece to piece.
+// drawing itself when it is not higher. Every shape is in one piece; vertical wires continue from piece to piece.
 std::vector<Picture> piecesOf(const Picture& picture, int most);
 
 } // namespace rung::view

@@ -41,7 +41,7 @@ struct Block {
   enum class Kind : uint8_t { File, Module, Section, Comment, Rung };
   Kind kind = Kind::Comment;
   std::string text;    // Comment: its lines
-  std::string comment; // behind the statement
+  std::string comment; // after the statement
   std::string title;   // Module: what the section or comment before it says it is
   CrossReference callers;
   Place place;

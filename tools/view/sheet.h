@@ -1,4 +1,4 @@
-// A rung as a sheet of cells, ready to be laid out: its rows are the lines of the drawing in the source, what stands in
+// A rung as a sheet of cells, ready to be laid out: its rows are the lines of the drawing in the source, what is in
 // them is in the order of the source, and all texts are what the reader shall see.
 #pragma once
 #include <cstdint>
@@ -48,7 +48,7 @@ struct Cell {
   uint32_t column = 0; // in the source: left and right of each other
   uint32_t firstRow = 0;
   uint32_t lastRow = 0;
-  bool closing = false; // nothing stands on its right: it leads to the right rail
+  bool closing = false; // nothing is on its right: it leads to the right rail
   std::string mark;     // contacts and coils: "/" negated, "P" and "N" edges, "I" immediate, "S", "R"
   Operand operand;      // contacts and coils
   std::string title;    // boxes
@@ -62,7 +62,7 @@ struct Cell {
   std::string detail; // of the run, in full
 };
 
-// A cell where a row meets it; a joint or a box stands in all its rows.
+// A cell where a row meets it; a joint or a box is in all its rows.
 struct Stop {
   uint32_t cell = 0;
   bool joined = false; // by a wire to the stop on its left

@@ -16,7 +16,7 @@ void appendPicture(std::string& out, const Picture& picture, bool onPage);
 // The rules of style that pictures need; on a page colours are named (see colours.h).
 std::string pictureStyle(bool onPage);
 
-// Where the right rail of all rungs stands that can be cut to it.
+// Where the right rail is of all rungs that can be cut to it.
 int commonRail(const Program& program);
 // "Rung 3: start/stop latch".
 std::string nameOf(const Figure& figure);

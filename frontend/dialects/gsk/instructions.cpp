@@ -47,7 +47,7 @@ constexpr bool rowsAreSound() {
   }
   return true;
 }
-static_assert(rowsAreSound(), "a row lacks a text, stands out of order or names an unknown kind of operand");
+static_assert(rowsAreSound(), "a row lacks a text, is out of order or names an unknown kind of operand");
 
 constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
   std::array<const InstructionInfo*, kRowCount> result{};
@@ -56,7 +56,7 @@ constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
 }
 constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
 
-// The names of all pins, one behind the other, so that furtherPinsOf can give a span of them.
+// The names of all pins, one after the other, so that furtherPinsOf can give a span of them.
 struct PinNames {
   std::array<std::array<std::string_view, 6>, kRowCount> names{};
 };

@@ -1,4 +1,4 @@
-// Sections of the reference page behind the instructions.
+// Sections of the reference page after the instructions.
 #include "frontend/dialects/gsk/reference.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::string_view accessOf(Area area) {
 void areas(Page& page) {
   page.heading("## Address areas");
   page.line(
-      "An address is a byte, `R10`, or a bit of one, `R10.3`; leading zeros mean nothing. Data of 2 or 4 bytes begin "
+      "An address is a byte, `R10`, or a bit of one, `R10.3`; leading zeros are ignored. Data of 2 or 4 bytes begin "
       "at their low byte. R{} to R{} belong to the control: R{} has the flags of the arithmetic (bit 0 zero, 1 "
       "negative, 5 overflow), R{} to R{} DIVB's remainder; each level has its own. Manual: l.564-805.\n",
       kSystemRelays, areaInfo(Area::R).bytes - 1, kResultFlags, kRemainder, kResultFlags + kResultBytes - 1);
@@ -171,7 +171,7 @@ void signals(Page& page) {
   constexpr uint32_t kBytesOfBlock = 16;
   page.heading("## Signals");
   page.line(
-      "{} names that need no declaration, in the order of their addresses. A name stands in an operand as it is "
+      "{} names that need no declaration, in the order of their addresses. A name is written in an operand as it is "
       "printed "
       "here, with `*` (active at 0), `+`, `-`, `.` and `~`, also where it equals a command (`LD RST`). T00 to T31 are "
       "the exception: they are addresses of area T, so these signals are written F26.0 to F29.7. A field of several "

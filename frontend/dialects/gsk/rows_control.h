@@ -13,7 +13,7 @@ inline constexpr Row kControlRows[] = {
               .ref = "5.34, l.2782",
               .doc = "ACT=0: until COME every OUT becomes 0 and every OUTI 1, whatever its condition; SET and RST do "
                      "nothing; functions run as usual and "
-                     "only the coils behind them are forced (P41). ACT=1: no effect.",
+                     "only the coils after them are forced (P41). ACT=1: no effect.",
               .example = "LD X9.0\nFUNC 33"},
      .control = Control::Com,
      .lower = &lowerCommonLine},
@@ -34,8 +34,8 @@ inline constexpr Row kControlRows[] = {
               .pins = {kAct},
               .operands = {number("coils", 0, 0, "number of coils: always 0")},
               .ref = "5.36, l.2829",
-              .doc = "ACT=1: everything up to JMPE is not executed; coils keep their state, timers stand still (P19). "
-                     "Regions do not nest (P42).",
+              .doc = "ACT=1: everything up to JMPE is not executed; coils keep their state, timers are frozen (P19). "
+                     "Regions cannot be nested (P42).",
               .example = "LD X9.0\nFUNC 35\nPRM 0"},
      .control = Control::Jmp,
      .lower = &lowerJump},
@@ -56,7 +56,7 @@ inline constexpr Row kControlRows[] = {
               .pins = {kAct},
               .operands = {kSubprogram},
               .ref = "5.38, l.2879",
-              .doc = "ACT=1: runs the subprogram, then goes on behind the call. Coils of a subprogram that is not "
+              .doc = "ACT=1: runs the subprogram, then continues after the call. Coils of a subprogram that is not "
                      "called keep their state.",
               .example = "LD X9.0\nFUNC 37\nPRM P1"},
      .control = Control::Call,
@@ -79,7 +79,7 @@ inline constexpr Row kControlRows[] = {
               .pins = {kAct},
               .operands = {kLabel},
               .ref = "5.40, l.2940",
-              .doc = "ACT=1: goes on at the label, forward or backward, in the same level or subprogram. A loop that "
+              .doc = "ACT=1: continues at the label, forward or backward, in the same level or subprogram. A loop that "
                      "does not end is stopped with the fault "
                      "dead-loop (P6).",
               .example = "LD X9.0\nFUNC 39\nPRM L1"},
@@ -93,7 +93,7 @@ inline constexpr Row kControlRows[] = {
               .operands = {kLabel},
               .tasks = "subprograms of Level 2",
               .ref = "5.41, l.2982",
-              .doc = "ACT=1: leaves all subprograms and goes on at a label of the Level 2 main program (P43).",
+              .doc = "ACT=1: leaves all subprograms and continues at a label of the Level 2 main program (P43).",
               .example = "LD X9.0\nFUNC 40\nPRM L1"},
      .control = Control::Jmpc,
      .lower = &lowerLeave},
@@ -104,8 +104,8 @@ inline constexpr Row kControlRows[] = {
               .operands = {kLabel},
               .placement = Placement::Anywhere,
               .ref = "5.42, l.3016",
-              .doc = "The place that JMPB and JMPC lead to. A number stands once in the whole program (P44). A "
-                     "condition in front has no effect (P13).",
+              .doc = "The place that JMPB and JMPC lead to. A number appears once in the whole program (P44). A "
+                     "condition before it has no effect (P13).",
               .example = "FUNC 41\nPRM L1"},
      .control = Control::Lbl,
      .lower = &lowerMark},
@@ -115,9 +115,9 @@ inline constexpr Row kControlRows[] = {
               .number = 42,
               .operands = {kSubprogram},
               .placement = Placement::AtRail,
-              .tasks = "behind END2",
+              .tasks = "the part after END2",
               .ref = "5.43, l.3040",
-              .doc = "Begins a subprogram. A condition in front has no effect (P13).",
+              .doc = "Begins a subprogram. A condition before it has no effect (P13).",
               .example = "FUNC 42\nPRM P1"},
      .control = Control::Sp,
      .lower = &lowerMark},
@@ -126,7 +126,7 @@ inline constexpr Row kControlRows[] = {
               .group = "subprograms",
               .number = 43,
               .placement = Placement::AtRail,
-              .tasks = "behind END2",
+              .tasks = "the part after END2",
               .ref = "5.44, l.3069",
               .doc = "Returns to the caller.",
               .example = "FUNC 43"},

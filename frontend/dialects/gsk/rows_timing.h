@@ -34,8 +34,9 @@ inline constexpr Row kTimingRows[] = {
               .output = Output::Always,
               .stateful = true,
               .ref = "5.4, l.1118",
-              .doc = "As TMR, but the preset stands in the program, in milliseconds and units of 8 ms. Its numbers are "
-                     "a set of their own.",
+              .doc =
+                  "As TMR, but the preset is part of the program, in milliseconds and units of 8 ms. Its numbers are "
+                  "a set of their own.",
               .example = "LD X9.0\nFUNC 3\nPRM 1\nPRM 1000\nOUT Y9.0"},
      .numbers = Row::Numbers::Timer,
      .lower = &lowerTimer,

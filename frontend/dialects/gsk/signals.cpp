@@ -88,7 +88,7 @@ std::string explainSignal(std::string_view word) {
   for (const nc::Signal& signal : nc::gskSignals())
     if (covers(signal, address)) text += textOf(signal);
   if (text.size() == before)
-    text += fmt::format("[gsk] {}: area {} ({}), no signal of the manual\n", textOf(address),
+    text += fmt::format("[gsk] {}: area {} ({}), not a signal of the manual\n", textOf(address),
                         areaInfo(address.area).letter, areaInfo(address.area).doc);
   return text;
 }

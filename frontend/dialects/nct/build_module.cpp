@@ -74,7 +74,7 @@ private:
     for (const nc::Signal& signal : nc::nctSignals())
       if (signal.direction == nc::Direction::Out)
         end = std::max(end, signal.byteOffset + signal.count * signal.strideBytes);
-    for (ir::SpaceId space : {spaces_.m, spaces_.ts}) module_.safes.push_back({space, first, end - first});
+    for (ir::SpaceId space : {spaces_.m, spaces_.ts}) module_.safeSpans.push_back({space, first, end - first});
   }
 
   void addSymbols() {
@@ -133,7 +133,7 @@ private:
     return {transfer};
   }
 
-  // Behind the last byte of the NC area in which the two memories can differ: where the signals lie, and what the
+  // After the last byte of the NC area in which the two memories can differ: where the signals lie, and what the
   // program touches beyond them. It is copied in every cycle, so the words that nobody uses are left out.
   uint32_t synchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;

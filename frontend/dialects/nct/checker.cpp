@@ -320,7 +320,7 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
   if (symbols_.isInputWord(address.word) || (isDouble && symbols_.isInputWord(address.word + 1)))
     diagnostics_.report(Diag::WriteToInput, range)
             .severity(Severity::Warning)
-            .note("the value stands until the NC writes the input again")
+            .note("the value stays until the NC writes the input again")
         << operand.source->text;
   return true;
 }

@@ -194,7 +194,7 @@ private:
       if (text.size() == 1 && allDigits(text)) report.note("write .0" + std::string(text));
       const size_t modifier = text.find_first_of("@%!");
       if (modifier != std::string_view::npos)
-        report.note("'" + std::string(1, text[modifier]) + "' stands in front of the operand");
+        report.note("'" + std::string(1, text[modifier]) + "' is written before the operand");
       return false;
     }
     result_.address.bit = static_cast<uint32_t>(decimalValue(text));

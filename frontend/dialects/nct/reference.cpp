@@ -1,4 +1,4 @@
-// Sections of the reference page behind the instructions.
+// Sections of the reference page after the instructions.
 #include "frontend/dialects/nct/reference.h"
 
 #include "frontend/dialects/nct/config.h"
@@ -98,8 +98,9 @@ std::string codesOf(const nc::nct::ServiceFunction& function) {
 
 void functions(Page& page) {
   page.heading("## Functions of MR and MW");
-  page.line("The block: word 0 execution code, word 1 amount of data, the words behind it. `MR 104` may be asked of "
-            "`rungc explain`, too. Manual: l.3390-6320.");
+  page.line(
+      "The block: word 0 execution code, word 1 amount of data, then the words of data. `rungc explain 'MR 104'` shows "
+      "one function. Manual: l.3390-6320.");
   for (const nc::nct::ServiceFunction& function : nc::nct::serviceFunctions()) {
     page.heading(fmt::format("### {} {}", mnemonicOf(function.access), function.code));
     page.line("{}. Amount of data: {}. Execution codes: {}. Manual: {}, l.{}.\n", function.title, amountsOf(function),
@@ -188,7 +189,7 @@ void messages(Page& page) {
       nc::nct::kMessages);
   page.heading("### What the program sees");
   page.line(
-      "The output is TRUE while the code is on the screen (REM, REMF: since it is in the log), from the cycle behind "
+      "The output is TRUE while the code is on the screen (REM, REMF: since it is in the log), from the cycle after "
       "the one in which it was sent, in INT0 from the next time slice on; FALSE while the input is. The last message "
       "sent is on top: N_ACTMSG holds its code, N_MSGA and N_MSG0 are 1 while there is one. A message that found no "
       "room in the queue of its cycle is neither shown nor logged, and the output stays FALSE.\n");

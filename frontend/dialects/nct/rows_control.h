@@ -21,19 +21,19 @@ constexpr NctInstruction controlRow(RowText text, std::string_view operand, Plac
 
 inline constexpr NctInstruction kControlRows[] = {
     controlRow({"END", "end of the cyclic part of a module", "6.14.1, l.2918",
-                "The cycle of the module ends here. Behind it stand the subroutines; without any it may be left out.",
+                "The cycle of the module ends here. The subroutines follow it; without any it may be left out.",
                 "|--{END}"},
                "", Placement::AtRail, Flow::End),
     controlRow({"JMP", "conditional jump", "6.14.2, l.2936",
-                "With power the program goes on at the JME of this number. What is jumped over keeps its outputs and "
+                "With power the program continues at the JME of this number. What is jumped over keeps its outputs and "
                 "its memory of edges.",
                 "|--[SKIP]--{JMP #5}"},
                "Jump Number", Placement::BehindContact, Flow::Jump),
-    controlRow({"JME", "target of a jump", "6.14.2, l.2966", "Marks the place at which a JMP of this number goes on.",
+    controlRow({"JME", "target of a jump", "6.14.2, l.2966", "Marks the place at which a JMP of this number continues.",
                 "|--{JME #5}"},
                "Jump Number", Placement::AtRail, Flow::Label),
     controlRow({"SBS", "subroutine call", "6.14.3, l.2984",
-                "With power the subroutine is executed; then the program goes on behind this rung.",
+                "With power the subroutine is executed; then the program continues after this rung.",
                 "|--[N_ON]--{SBS #10}"},
                "Subroutine Number", Placement::BehindContact, Flow::Call),
     controlRow({"SBN", "start of a subroutine", "6.14.3, l.3020",

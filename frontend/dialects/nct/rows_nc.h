@@ -91,7 +91,7 @@ inline constexpr NctInstruction kNcRows[] = {
     arrayServiceRow(
         {"MR", "read data of the NC", "6.18.1, l.3394",
          "Requests data from the NC. Word 0 of the block is the execution code, word 1 the amount of data (the "
-         "number of words behind it); the rest depends on the function. The request takes several cycles: the "
+         "number of words after it); the rest depends on the function. The request takes several cycles: the "
          "output is TRUE when the answer is in the block, whatever its code, and stays so until EN is FALSE. "
          "When EN is FALSE too early the answer is dropped. A block that does not fit into memory gets code 2, "
          "an unknown function code 1, at once.",

@@ -115,7 +115,7 @@ inline constexpr NctInstruction kWordRows[] = {
     convertRow({"MVN", "move the complement of a double word", "6.3.1, l.1281",
                 "Result := NOT Operand, bit by bit. A constant is hexadecimal.", "|--[N_ON]--{MVN 7000 #$FF}"},
                "data-move", "word", "hex", lowerMove, kMoveComplement),
-    convertRow({"MOVF", "move a double", "6.3.2, l.1294", "Result and the word behind it := Operand, as a bit pattern.",
+    convertRow({"MOVF", "move a double", "6.3.2, l.1294", "Result and the word after it := Operand, as a bit pattern.",
                 "|--[N_ON]--{MOVF 7000 *3.5}"},
                "data-move", "double", "float", lowerMoveDouble, 0),
 

@@ -132,7 +132,7 @@ void SymbolTable::resolveAll() {
 void SymbolTable::resolve(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (symbol.resolving) {
-    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a circle";
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a cycle";
     symbol.pending = false;
     return;
   }

@@ -30,12 +30,12 @@ void lowerClear(Lowering& l, std::span<const Operand> o, int) {
   };
   if (keywords[0]) return wrong(o[1], "an address", "ALL");
   if (keywords[1]) return wrong(o[1], "a keyword", "an address");
-  if (o[0].place.space != o[1].place.space) return wrong(o[1], "in another memory", "an address behind the first");
+  if (o[0].place.space != o[1].place.space) return wrong(o[1], "in another memory", "an address after the first");
   l.out().cut();
   const Area begin = areaOf(l, o[0]), end = areaOf(l, o[1]);
   ir::RungBuilder& b = l.b();
   if (begin.fixed && end.fixed) {
-    if (end.first < begin.first) return wrong(o[1], "in front of the first", "an address behind the first");
+    if (end.first < begin.first) return wrong(o[1], "before the first", "an address after the first");
     clearRange(l, begin.space, begin.first, end.first);
   } else {
     l.protect(b.ltU(end.at, begin.at));

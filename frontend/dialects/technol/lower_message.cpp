@@ -137,7 +137,7 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
     message.bit.type = Type::Bit;
     message.bit.place.bit = o[1].place.bit;
   } else if (!o[1].place.space.valid()) {
-    OperandParser::wrongKind(l.program(), o[1], "a bit number", "a bit, or its byte in front");
+    OperandParser::wrongKind(l.program(), o[1], "a bit number", "a bit, or its byte before it");
     return;
   }
   bool varies = !o[2].isConstant() || (o[3].given() && !o[3].isConstant()) || message.bit.indexed;

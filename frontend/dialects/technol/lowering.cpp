@@ -26,8 +26,8 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@BLOCK_INIT.DONE", Type::Bit, 16},
     {"@BLOCK_DONE.CONT", Type::I32, 20},
     {"@BLOCK_DONE.DONE", Type::Bit, 24},
-    {"@INIT.OWED", Type::I64, 32},
-    {"@DONE.OWED", Type::I64, 40},
+    {"@INIT.PENDING", Type::I64, 32},
+    {"@DONE.PENDING", Type::I64, 40},
     {nc::kLicenceCell, Type::I32, 28},
 };
 
@@ -84,7 +84,7 @@ ir::ServiceId Lowering::service(std::string_view signature) {
 
 RungSource Lowering::sourceOf(const Statement& statement) const {
   const FileId file = program_.sources.fileOf(statement.pos);
-  // A statement of a macro has its own text elsewhere; it stands in the line of the use.
+  // A statement of a macro has its own text elsewhere; it counts in the line of the use.
   const LineCol at = program_.sources.lineCol(statement.pos);
   const bool here = file == program_.files[statement.file].id && at.line == statement.line;
   return {.sources = &program_.sources,
@@ -113,7 +113,7 @@ void Lowering::run() {
 
 void Lowering::lowerModule(ModuleKind kind) {
   kind_ = kind;
-  // The end of the shutdown may be owed by a program without MODULE_DONE.
+  // The end of the shutdown may be pending in a program without MODULE_DONE.
   bool present = kind == ModuleKind::Done && filesOwing(&SourceFile::finishesDone) != 0;
   for (const ModulePart& part : program_.parts) present = present || part.kind == kind;
   if (!present) return;
@@ -135,7 +135,7 @@ int64_t Lowering::filesOwing(bool SourceFile::* finishes) const {
   return static_cast<int64_t>(mask);
 }
 
-// What the compiler adds in front of a module.
+// What the compiler adds before a module.
 void Lowering::prologue(ModuleKind kind) {
   if (kind == ModuleKind::Init) out_->call(start_);
   if (kind == ModuleKind::Done) {
@@ -189,7 +189,7 @@ void Lowering::bindLabels(const Statement& statement, uint32_t index) {
 void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   statement_ = &statement;
   if (statement.label != kNone) bindLabels(statement, index);
-  if (statement.row == nullptr) { // told already; it may have been what ends the equation
+  if (statement.row == nullptr) { // reported already; it may have been what ends the equation
     spoiled_ = true;
     return;
   }
@@ -219,8 +219,8 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   }
 }
 
-// The flags of a macro override what its statements did (man. l.20536). One that pushes does so in front of them, as
-// LDR in front of its load.
+// The flags of a macro override what its statements did (man. l.20536). One that pushes does so before them, as
+// LDR before its load.
 void Lowering::beginMacro(MacroStack stack) {
   macroStates_.push_back({depth_, equationOpen_, program_.diagnostics.errorCount()});
   if (stack != MacroStack::Push) return;
@@ -295,7 +295,7 @@ void Lowering::markDecision(const Row& row) {
   mark(coil ? ir::MarkKind::Coil : ir::MarkKind::Input, r().rlo());
 }
 
-// RLO of a comparison, an edge or a timer, as far as the rung goes on: contacts have marked themselves.
+// RLO of a comparison, an edge or a timer, as far as the rung continues: contacts have marked themselves.
 void Lowering::markResult(const Row& row, uint32_t rung) {
   const bool asksBit = row.lower == &lowerLoadBit;
   if ((row.effects & kSetsRlo) == 0 || isLogic(row) || asksBit || !out_->isOpen() || out_->openRung() != rung) return;
@@ -309,7 +309,7 @@ void Lowering::beginRungFor(const Row& row) {
   if (begins || (loads && out_->length() >= kLongRung) || out_->length() >= kLongestRung) out_->cut();
 }
 
-// Values beyond the stack's end are lost; that is told once, also where they are taken off.
+// Values beyond the stack's end are lost; that is reported once, also where they are taken off.
 void Lowering::pushRlo() {
   if (depth_ < kStackDepth) {
     r().setStack(depth_++, r().rlo());
@@ -420,7 +420,7 @@ void Lowering::makeResets() {
   }
 }
 
-// Runs in front of MODULE_INIT: edges are taken over anew (man. l.300), the periods of timed blocks begin, presets of
+// Runs before MODULE_INIT: edges are recorded anew (man. l.300), the periods of timed blocks begin, presets of
 // the interface.
 void Lowering::makeStart() {
   constexpr size_t kStoresPerRung = 64;

@@ -58,7 +58,7 @@ bool OperandParser::address(std::span<const Token> tokens, Address& out) {
   return true;
 }
 
-// ( address ) | number | 'c' | name, each with [BX] and members behind it
+// ( address ) | number | 'c' | name, each with [BX] and members after it
 bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) {
   const Token& head = tokens[0];
   size_t i = 1;
@@ -165,7 +165,7 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
   return false;
 }
 
-// A member of an interface structure brings its type, too; behind any other address a member is a constant offset.
+// A member of an interface structure brings its type, too; after any other address a member is a constant offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
   if (out.own != kNone && addOwnMember(member, out)) return true;
   if (const Symbol* inside = program_.symbols.findMember(out.structure, member.text)) {
@@ -224,7 +224,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
   const size_t point = lastPoint(tokens);
   if (point != std::string_view::npos) {
     if (point + 2 != tokens.size() || tokens[point + 1].kind != TokenKind::Name)
-      return syntax("the name of a bit behind the point", tokens.subspan(point));
+      return syntax("the name of a bit after the point", tokens.subspan(point));
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, kind, tokens[0], out);
@@ -264,13 +264,13 @@ bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, co
   }
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) return wrongKind(out, "no bit", "a bit");
   if (!symbol.space.valid() && !kind.weight)
-    return wrongKind(out, "a bit number", "a bit, with the address of its byte in front");
+    return wrongKind(out, "a bit number", "a bit, with the address of its byte before it");
   out.place = {.space = symbol.space, .byte = symbol.byte, .bit = symbol.bit};
   return checkWrite(info, symbol.protection, name.text, out.range);
 }
 
 bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where, const Token& name, Operand& out) {
-  if (where.empty()) return syntax("an address in front of the point", where);
+  if (where.empty()) return syntax("an address before the point", where);
   Address address;
   const bool own = where[0].is('$');
   const bool hasBase =
@@ -285,7 +285,7 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
     program_.diagnostics.report(Diag::WrongOperandKind, name.range()) << name.text << "no bit" << "a bit";
     return false;
   }
-  if (own && (address.hasBase || !symbol.space.valid())) return syntax("a number of bytes behind $", where);
+  if (own && (address.hasBase || !symbol.space.valid())) return syntax("a number of bytes after $", where);
   if (!own && !address.hasBase) return wrongKind(out, "a constant", "the address of a bit");
   if (own) {
     address.space = symbol.space;

@@ -36,7 +36,7 @@ bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Ope
   const Exchanged* found = symbol.exchanged == kNone ? nullptr : &program_.exchanged[symbol.exchanged];
   if (kind.info.kind == kLogicalInput) {
     if (found == nullptr || found->kind != nc::ExchangeKind::DefIn)
-      return wrongKind(out, "no input of DEF_IN", "an input of DEF_IN");
+      return wrongKind(out, "not an input of DEF_IN", "an input of DEF_IN");
     const int64_t count = nc::isText(found->type) ? 1 : found->count;
     const bool given = out.tokens.size() > 1;
     if (given && (out.value < 0 || out.value >= count)) {
@@ -44,7 +44,7 @@ bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Ope
       return false;
     }
   } else if (found == nullptr || &program_.statements[found->statement] != statement_) {
-    return false; // the name is another symbol's, which is told already
+    return false; // the name is another symbol's, which is reported already
   }
   out.form = symbol.kind == SymbolKind::Bit ? Operand::Form::Bit : Operand::Form::Cell;
   out.type = symbol.type;

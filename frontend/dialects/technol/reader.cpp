@@ -19,7 +19,7 @@ std::string describe(std::span<const Token> tokens) {
 
 } // namespace
 
-// `A-B:` is a label that is no name; a colon has no other meaning.
+// `A-B:` is a label that is not a name; a colon has no other meaning.
 bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const auto colon = std::find_if(tokens.begin(), tokens.end(), [](const Token& token) { return token.is(':'); });
@@ -137,8 +137,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
   badLabel_ = labelled && label == kNone;
   if (count == 0) return;
   if (program_.tokens[first].is(':')) {
-    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range())
-        << "a name in front of ':'" << "none";
+    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
     return;
   }
   if (macroLine(first, count, line) || instance(first, count, line)) return;
@@ -197,7 +196,7 @@ void FileReader::checkEightBits(const Statement& statement) {
   if (!all) program_.diagnostics.report(Diag::DfmNeedsEight, statement.range());
 }
 
-// Labels are this file's alone; they stand in the unit that is open here.
+// Labels are this file's alone; they belong to the unit that is open here.
 void FileReader::attachLabels(Statement& statement, uint32_t index) {
   pendingLabels_.insert(pendingLabels_.begin(), codeLabels_.begin(), codeLabels_.end());
   codeLabels_.clear();
@@ -249,7 +248,7 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
   }
   const size_t errors = program_.diagnostics.errorCount();
   program_.symbols.declare(symbol);
-  // Of a longer name nothing is left that tells it from the mechanism.
+  // Of a longer name nothing is left that distinguishes it from the mechanism.
   if (kind != SymbolKind::Mechanism || name.text.size() >= kSignificant) return;
   if (program_.diagnostics.errorCount() > errors) return;
   // name_LINE, a WORD (man. l.2210)
@@ -331,7 +330,7 @@ bool FileReader::mayStandThere(const Statement& statement) const {
   return unit.kind == UnitKind::Procedure || (unit.kind == UnitKind::Module && unit.module == ModuleKind::Init);
 }
 
-// What stands in the wrong place is told first: it would stay wrong.
+// What is in the wrong place is reported first: it would stay wrong.
 void FileReader::notBuilt(Statement& statement, Diag code) {
   if (!structure_.allowsCode(statement)) {
     statement.row = nullptr;

@@ -18,7 +18,7 @@ std::string folderOf(std::string_view path) {
   return slash == std::string_view::npos ? std::string() : std::string(path.substr(0, slash + 1));
 }
 
-// Stand around the statements of a macro that has its own effect on the stack.
+// Around the statements of a macro that has its own effect on the stack.
 const Row* markRow(Role role, MacroStack stack) {
   constexpr int kStacks = 5;
   static constexpr auto kMarks = [] {
@@ -153,7 +153,7 @@ bool FileReader::isInclude(std::string_view text) {
   return start != std::string_view::npos && startsWith(text.substr(start), kInclude);
 }
 
-// T_INCLUDE path | 'name'. A path is no sequence of tokens, so that the line is looked at as a text (man. l.20313).
+// T_INCLUDE path | 'name'. A path is not a sequence of tokens, so that the line is looked at as a text (man. l.20313).
 bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   if (!isInclude(line.text)) return false;
   std::string_view name = trimmed(line.text.substr(line.text.find_first_not_of(" \t") + kInclude.size()));
@@ -215,7 +215,7 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
   return {paths[0], std::nullopt};
 }
 
-// Included files hold constants, data and macros; what runs stands in macros (man. l.20320).
+// Included files hold constants, data and macros; what runs is in macros (man. l.20320).
 bool FileReader::allowedInInclude(const Statement& statement) {
   if (includeDepth_ == 0 || !expanding_.empty()) return true;
   switch (statement.row->role) {
@@ -252,7 +252,7 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
     else if (name == kInclude)
       program_.diagnostics.report(Diag::OperandCount, head.range()) << name << "1 operand" << 0;
     else
-      program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO in front" << name;
+      program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
     return true;
   }
   const Macro* macro = row == nullptr || macros_.first() ? macros_.find(head.text) : nullptr;
@@ -282,7 +282,7 @@ void FileReader::useMacro(const Macro& macro, uint32_t first, uint32_t count, ui
   for (const Macro::Line& made : lines) {
     const auto at = static_cast<uint32_t>(program_.tokens.size());
     program_.tokens.insert(program_.tokens.end(), made.tokens.begin(), made.tokens.end());
-    // Statements of a macro stand in the line of its use: what a mechanism shows and a debugger steps through.
+    // Statements of a macro count in the line of its use: what a mechanism shows and a debugger steps through.
     logicalLine(at, static_cast<uint32_t>(made.tokens.size()), line);
   }
   expanding_.pop_back();

@@ -40,10 +40,11 @@ std::string_view accessText(const nc::Signal& signal) {
 std::string useText(const nc::Signal& signal) {
   const std::string_view area = signal.area;
   if (area == "I") return "";
-  if (area == "W") return "a weight, behind an address: `CELL." + std::string(signal.symbol) + "`";
+  if (area == "W") return "a weight, after an address: `CELL." + std::string(signal.symbol) + "`";
   if (area == "BLK") return "of the queued block n: `BLK[n]" + std::string(signal.symbol).substr(area.size() + 2) + "`";
-  if (area.starts_with("RTM.")) return "a logical input or output behind `" + std::string(area) + "[x].`";
-  if (area.starts_with("SHARE") || area == "RtmVar") return "shared with the panel by this name; no name of a program";
+  if (area.starts_with("RTM.")) return "a logical input or output after `" + std::string(area) + "[x].`";
+  if (area.starts_with("SHARE") || area == "RtmVar")
+    return "shared with the panel by this name; not a name of a program";
   return "a member of the structure " + std::string(area);
 }
 
@@ -81,8 +82,9 @@ void constants(Page& page) {
 void listingSection(Page& page) {
   page.heading("## Control listing");
   page.line("`rungc build main.plc more.plc -o program.so --listing program.ls1` writes the lines of the program with "
-            "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. `name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
-            "0 when it is not active. The numbers count in each file of the program; a statement of a macro stands in "
+            "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. "
+            "`name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
+            "0 when it is not active. The numbers count in each file of the program; a statement of a macro counts in "
             "the line of its use. Manual: l.2210-2217.");
 }
 
@@ -109,7 +111,7 @@ std::string reference() {
 
 namespace {
 
-// In upper case without what stands in brackets: BLK[0].M[3] is BLK.M.
+// In upper case without what is in brackets: BLK[0].M[3] is BLK.M.
 std::string plainWord(std::string_view name) {
   std::string word;
   int depth = 0;
@@ -142,15 +144,15 @@ bool names(const std::string& word, const nc::Signal& signal) {
 std::string explainWord(std::string_view name) {
   std::string text;
   const std::string word = ofItsStructure(plainWord(name));
-  std::vector<std::string> told; // weights and members repeat in many groups
+  std::vector<std::string> seen; // weights and members repeat in many groups
   for (const nc::Signal& signal : nc::technolSignals()) {
     if (!names(word, signal)) continue;
     std::string entry =
         fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal), signal.meaning);
     if (const std::string use = useText(signal); !use.empty()) entry += fmt::format("  Use: {}.\n", use);
     entry += fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
-    if (std::find(told.begin(), told.end(), entry) != told.end()) continue;
-    told.push_back(entry);
+    if (std::find(seen.begin(), seen.end(), entry) != seen.end()) continue;
+    seen.push_back(entry);
     text += entry;
   }
   for (const Predefined& constant : predefinedConstants())

@@ -67,7 +67,7 @@ inline constexpr Row kBitRows[] = {
               .stateful = true,
               .ref = "3.6, l.288",
               .doc = "RLO is 1 in the run in which the bit goes from 0 to 1, else 0. The first run after a start only "
-                     "takes the bit over.",
+                     "records the bit.",
               .example = "EDGE_H GO\nFL1  1,PUMP"},
      .effects = kSetsRlo,
      .lower = lowerEdge,
@@ -79,7 +79,7 @@ inline constexpr Row kBitRows[] = {
               .stateful = true,
               .ref = "3.6, l.289",
               .doc = "RLO is 1 in the run in which the bit goes from 1 to 0, else 0. The first run after a start only "
-                     "takes the bit over.",
+                     "records the bit.",
               .example = "EDGE_L GO\nFL1  0,PUMP"},
      .effects = kSetsRlo,
      .lower = lowerEdge,
@@ -158,7 +158,7 @@ inline constexpr Row kBitRows[] = {
               .group = "jump",
               .operands = {in("adr", "label", "where control goes")},
               .ref = "3.8, l.484",
-              .doc = "Control goes to the label, which stands in the same unit.",
+              .doc = "Control goes to the label, which is in the same unit.",
               .example = "      JUM  NEXT\n      FL   1,LAMP\nNEXT: LOD  COUNT"},
      .effects = kJumps,
      .lower = lowerJump,

@@ -200,7 +200,7 @@ inline constexpr Row kDataRows[] = {
               .title = "increment BCD",
               .group = "DR operation",
               .ref = "3.13, l.1203",
-              .doc = "DR plus 1 as four decimal digits; behind 9999 comes 0.",
+              .doc = "DR plus 1 as four decimal digits; 0 follows 9999.",
               .example = "LOD  COUNT\nINRBCD\nSTO  COUNT"},
      .effects = kReadsDr | kSetsDr,
      .lower = lowerIncrementBcd},
@@ -248,7 +248,7 @@ inline constexpr Row kDataRows[] = {
               .group = "comparison",
               .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1369",
-              .doc = "RLO tells whether DR equals the operand, signed, in the operand's width; with REAL. or a real "
+              .doc = "RLO shows whether DR equals the operand, signed, in the operand's width; with REAL. or a real "
                      "constant DR_REAL.",
               .example = "LOD  COUNT\nEQ   LIMIT\nWR   LAMP"},
      .effects = kReadsDr | kSetsRlo,
@@ -259,7 +259,7 @@ inline constexpr Row kDataRows[] = {
               .group = "comparison",
               .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1371",
-              .doc = "RLO tells whether DR is less than the operand, signed, in the operand's width; with REAL. or a "
+              .doc = "RLO shows whether DR is less than the operand, signed, in the operand's width; with REAL. or a "
                      "real constant DR_REAL.",
               .example = "LOD  COUNT\nLT   LIMIT\nWR   LAMP"},
      .effects = kReadsDr | kSetsRlo,
@@ -270,7 +270,7 @@ inline constexpr Row kDataRows[] = {
               .group = "comparison",
               .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1372",
-              .doc = "RLO tells whether DR is greater than the operand, signed, in the operand's width; with REAL. or "
+              .doc = "RLO shows whether DR is greater than the operand, signed, in the operand's width; with REAL. or "
                      "a real constant DR_REAL.",
               .example = "LOD  COUNT\nGT   LIMIT\nWR   LAMP"},
      .effects = kReadsDr | kSetsRlo,
@@ -281,7 +281,7 @@ inline constexpr Row kDataRows[] = {
               .group = "comparison",
               .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1373",
-              .doc = "RLO tells whether DR is less than or equal to the operand, signed, in the operand's width; with "
+              .doc = "RLO shows whether DR is less than or equal to the operand, signed, in the operand's width; with "
                      "REAL. or a real constant DR_REAL.",
               .example = "LOD  COUNT\nLE   LIMIT\nWR   LAMP"},
      .effects = kReadsDr | kSetsRlo,
@@ -292,7 +292,7 @@ inline constexpr Row kDataRows[] = {
               .group = "comparison",
               .operands = {in("val", "value", "compared with DR")},
               .ref = "3.14, l.1374",
-              .doc = "RLO tells whether DR is greater than or equal to the operand, signed, in the operand's width; "
+              .doc = "RLO shows whether DR is greater than or equal to the operand, signed, in the operand's width; "
                      "with REAL. or a real constant DR_REAL.",
               .example = "LOD  COUNT\nGE   LIMIT\nWR   LAMP"},
      .effects = kReadsDr | kSetsRlo,
@@ -324,7 +324,7 @@ inline constexpr Row kDataRows[] = {
               .optional =
                   true}},
           .ref = "3.15, l.1461",
-          .doc = "RLO tells whether DR is not 0 in 16 bits, with DWRD in 32; with a number RLO becomes that bit of DR.",
+          .doc = "RLO shows whether DR is not 0 in 16 bits, with DWRD in 32; with a number RLO becomes that bit of DR.",
           .example = "LOD  COUNT\nCONDR 7\nWR   LAMP"},
      .effects = kReadsDr | kSetsRlo,
      .lower = lowerDrToRlo},

@@ -45,7 +45,7 @@ inline constexpr Row kNcRows[] = {
               .operands = {kNewInput, kIdentifier, kDefaultBit, kFast},
               .ref = "10.4, l.5767",
               .doc = "Declares a bit that is copied from the input port its configuration names, inverted where "
-                     "that says so, in front of each cycle, with FAST each millisecond. The variable is declared "
+                     "that says so, before each cycle, with FAST each millisecond. The variable is declared "
                      "by this instruction alone, without DFM or DS, and is known in all files. Where the "
                      "identifier has no configuration, the variable takes the default, which else is the "
                      "configuration's. Shared by itself.",
@@ -58,7 +58,7 @@ inline constexpr Row kNcRows[] = {
               .group = "inputs and outputs",
               .operands = {kNewInput, kIdentifier, kDefaultBit, kFast},
               .ref = "10.4, l.5768",
-              .doc = "Declares a bit that is copied to the output port its configuration names behind each cycle, "
+              .doc = "Declares a bit that is copied to the output port its configuration names after each cycle, "
                      "with FAST each millisecond. Several outputs on one bit are ORed. The variable is declared by "
                      "this instruction alone, without DFM or DS, and is known in all files. Where the identifier "
                      "has no configuration, the variable takes the default, which else is the configuration's. "
@@ -100,7 +100,7 @@ inline constexpr Row kNcRows[] = {
               .ref = "27.6, l.13299",
               .doc = "Declares a variable of the type, or with `[n]` an array of n elements (of TYPE_STR a text of "
                      "n characters, of TYPE_BIN n bytes), which a connection may set, as PLC.Input.ID. Elements "
-                     "lie one behind the other, a bit in each byte of an array of bits. The name is known in all "
+                     "lie one after the other, a bit in each byte of an array of bits. The name is known in all "
                      "files; DFM and DS declare it no second time. The variable takes the default, if there is "
                      "one. Shared by itself.",
               .example = "DEF_IN FEED,'Feed',TYPE_DWORD,222,ONDEMAND"},
@@ -114,7 +114,7 @@ inline constexpr Row kNcRows[] = {
               .ref = "27.6, l.13300",
               .doc = "Declares a variable of the type, or with `[n]` an array of n elements (of TYPE_STR a text of "
                      "n characters, of TYPE_BIN n bytes), from which connections may take their values, as "
-                     "PLC.Output.ID. Elements lie one behind the other, a bit in each byte of an array of bits. "
+                     "PLC.Output.ID. Elements lie one after the other, a bit in each byte of an array of bits. "
                      "The name is known in all files; DFM and DS declare it no second time. The variable takes the "
                      "default, if there is one. Shared by itself.",
               .example = "DEF_OUT TORQUE[8],'Torque',TYPE_REAL"},

@@ -92,12 +92,12 @@ inline constexpr OperandList kIdentNumberFrom = {
 
 inline constexpr Row kServiceRows[] = {
     // ---- CAN bus (man. ch. 9, 13.14) ----
-    serviceRow("CAN_SEND", "CAN-BUS", {kCan, kPacket}, "9.4, l.3709", "Sends a packet; DR tells whether it was taken.",
-               kSetsDr),
+    serviceRow("CAN_SEND", "CAN-BUS", {kCan, kPacket}, "9.4, l.3709",
+               "Sends a packet; DR shows whether it was accepted.", kSetsDr),
     serviceRow("CAN_RECV", "CAN-BUS", {kCan, out("pmsg", "address", "place of 12 bytes for a packet")}, "9.4, l.3743",
-               "Takes a packet that was received; DR tells whether there was one.", kSetsDr),
+               "Takes a packet that was received; DR shows whether there was one.", kSetsDr),
     serviceRow("CAN_RECV_REQ", "CAN-BUS", kReceiveRequest, "9.4, l.3779",
-               "Orders packets for an event procedure; RLO tells whether it "
+               "Orders packets for an event procedure; RLO shows whether it "
                "was accepted, DR holds the handle.",
                kSetsRlo | kSetsDr),
     serviceRow("CAN_RECV_DEL", "CAN-BUS", {in("handle", "dword cell", "handle of the order")}, "9.4, l.3848",
@@ -140,7 +140,7 @@ inline constexpr Row kServiceRows[] = {
                {out("status", "address", "status record of two bytes"),
                 in("feed", "dword cell", "speed, 1/64000 mm/min"), in("mp", "bit or nothing", "allows the motion"),
                 kAxis},
-               "19.3, l.12240", "Controls a motion and tells its state."),
+               "19.3, l.12240", "Controls a motion and reports its state."),
     // ---- shared area, tables (man. ch. 17, 18) ----
     pollingRow("SA_READ", "shared area", kShared, "18.3.1, l.15500", "Reads from a shared area."),
     pollingRow("SA_WRITE", "shared area", kSharedFrom, "18.3.1, l.15501", "Writes into a shared area."),
@@ -158,15 +158,15 @@ inline constexpr Row kServiceRows[] = {
     pollingRow("PLCT_COL_ID", "PLC table", {kTable, inout("Poin", "address", "number of the column, then its name")},
                "17.4.2, l.18786", "Finds the name of a column."),
     pollingRow("PLCT_COL_TYPE", "PLC table", {kTable, kColumn, out("Val", "integer cell", "the type")},
-               "17.4.3, l.18880", "Tells the type of a column."),
+               "17.4.3, l.18880", "Reports the type of a column."),
     pollingRow("PLCT_GET_SELLINE", "PLC table", {kTable, out("Val", "integer cell", "the line")}, "17.4.4, l.18941",
-               "Tells the selected line."),
+               "Reports the selected line."),
     pollingRow("PLCT_SET_SELLINE", "PLC table", {kTable, wordNumber("Val", "the line")}, "17.4.4, l.18942",
                "Selects a line."),
     pollingRow("PLCT_CHANGED", "PLC table", {kTable, out("Val", "integer cell", "what has changed")}, "17.4.5, l.18997",
-               "Tells what has changed in a table."),
+               "Reports what has changed in a table."),
     pollingRow("PLCT_GET_LINESCOUNT", "PLC table", {kTable, out("Val", "integer cell", "number of lines")},
-               "17.4.6, l.19042", "Tells how many lines a table has."),
+               "17.4.6, l.19042", "Reports how many lines a table has."),
     // ---- EtherCAT, serial lines (man. ch. 23, 26) ----
     pollingRow("ECAT_COE_READ", "EtherCAT", kObject, "26.4.1, l.17996", "Reads an object of a slave."),
     pollingRow("ECAT_COE_WRITE", "EtherCAT", kObjectFrom, "26.4.1, l.17997", "Writes an object of a slave."),
@@ -184,7 +184,7 @@ inline constexpr Row kServiceRows[] = {
     serviceRow("COM_RECV", "serial COM", {kCom, optional(out("val", "integer cell", "becomes the character; else DR"))},
                "23.3.2, l.21138", "Takes a character that was received; RLO 1: there was none.", kSetsRlo | kSetsDr),
     serviceRow("COM_CONTROL", "serial COM", {kCom, in("mode", "line command", "what to do")}, "23.3.2, l.21165",
-               "Empties the queue of a line, counts it, or tells the line's "
+               "Empties the queue of a line, counts it, or reports the line's "
                "state in DR.",
                kSetsDr),
 };

@@ -40,7 +40,7 @@ inline constexpr Row kTextRows[] = {
               .group = "text",
               .operands = {kTarget, kSource, kCharacters},
               .ref = "3.18, l.1700",
-              .doc = "Copies characters from the second text to the first: with the terminator behind the last one, "
+              .doc = "Copies characters from the second text to the first: with the terminator after the last one, "
                      "until the first text is full, or, without a terminator, as many as the third operand says.",
               .example = "STRCPY TEXT1,'READY'\nSTRCPY TEXT1+2,'AB',2"},
      .lower = lowerCopyText},
@@ -59,7 +59,7 @@ inline constexpr Row kTextRows[] = {
               .ref = "3.18, l.1808",
               .doc =
                   "DR becomes decimal digits, as many as the text has characters, with leading zeros: 16 bits without "
-                  "sign, with DWRD 32. Digits in front of those are lost.",
+                  "sign, with DWRD 32. Digits before those are lost.",
               .example = "LOD    COUNT\nBINSTR TEXT1"},
      .effects = kReadsDr,
      .lower = lowerNumberToText,

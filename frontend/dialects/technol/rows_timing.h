@@ -67,7 +67,7 @@ inline constexpr Row kTimingRows[] = {
               .operands = {inout("count", "counter cell", "is counted")},
               .stateful = true,
               .ref = "3.11, l.955",
-              .doc = "Counts when RLO goes from 0 to 1. Then RLO tells whether the count equals the preset in DR, and "
+              .doc = "Counts when RLO goes from 0 to 1. Then RLO shows whether the count equals the preset in DR, and "
                      "DR becomes the count.",
               .example = "LDR  GO\nLOD  LIMIT\nCU   COUNT\nWR   LAMP"},
      .effects = kReadsRlo | kSetsRlo | kReadsDr | kSetsDr,
@@ -79,7 +79,7 @@ inline constexpr Row kTimingRows[] = {
               .operands = {inout("count", "counter cell", "is counted")},
               .stateful = true,
               .ref = "3.11, l.956",
-              .doc = "Counts when RLO goes from 0 to 1. Then RLO tells whether the count equals the preset in DR, and "
+              .doc = "Counts when RLO goes from 0 to 1. Then RLO shows whether the count equals the preset in DR, and "
                      "DR becomes the count.",
               .example = "LDR  GO\nLOD  LIMIT\nCD   COUNT\nWR   LAMP"},
      .effects = kReadsRlo | kSetsRlo | kReadsDr | kSetsDr,
@@ -91,7 +91,7 @@ inline constexpr Row kTimingRows[] = {
               .operands = {inout("count", "counter cell", "is counted")},
               .stateful = true,
               .ref = "3.11, l.957",
-              .doc = "Counts when RLO goes from 0 to 1. Then RLO tells whether the count equals the preset in DR, and "
+              .doc = "Counts when RLO goes from 0 to 1. Then RLO shows whether the count equals the preset in DR, and "
                      "DR becomes the count.",
               .example = "LDR  GO\nLOD  LIMIT\nCUBCD COUNT\nWR   LAMP"},
      .effects = kReadsRlo | kSetsRlo | kReadsDr | kSetsDr,

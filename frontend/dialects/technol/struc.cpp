@@ -90,7 +90,8 @@ void Structures::abandon(SourceRange at, std::string_view found) {
   open_ = false;
 }
 
-// The same structure again is no error: an include file may be read by several files. Its value tells that it is.
+// The same structure again is not an error: an include file may be read by several files. Its value shows that it is
+// the same.
 void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)
@@ -194,7 +195,7 @@ bool Structures::repeated(Element element, std::span<const Token> tokens, size_t
     return false;
   }
   const std::span<const Token> inner = tokens.subspan(dup + 1);
-  if (inner.size() < 2 || !inner[0].is('(') || !inner.back().is(')')) return syntax("(value) behind DUP", inner, at);
+  if (inner.size() < 2 || !inner[0].is('(') || !inner.back().is(')')) return syntax("(value) after DUP", inner, at);
   Bytes once;
   if (!values(element, inner.subspan(1, inner.size() - 2), at, once)) return false;
   if (!room(static_cast<int64_t>(out.size()) + *count * static_cast<int64_t>(once.size()), at)) return false;

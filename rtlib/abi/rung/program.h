@@ -4,7 +4,7 @@
  * is entered at its head only). The host owns all memory: one block of `memory_size` bytes per instance, laid out as
  * the tables say, and one `rung_ctx`. Generated code has no globals, so instances and generations can coexist.
  *
- * Rules for changes: fields are added at the end only; `size` tells what is there; every offset is asserted by a test.
+ * Rules for changes: fields are added at the end only; `size` says what is there; every offset is asserted by a test.
  * A `.so` exports exactly one symbol, the data object `rung_program_v1`.
  */
 #ifndef RUNG_PROGRAM_H
@@ -156,7 +156,7 @@ typedef struct rung_task {
 enum rung_step_op {
   RUNG_STEP_ADVANCE = 0, /* the clock moves on by `arg` microseconds */
   RUNG_STEP_RUN = 1,     /* run `task` `arg` times */
-  RUNG_STEP_PART = 2,    /* run the next part of `task`; behind the last part of a run a new run begins */
+  RUNG_STEP_PART = 2,    /* run the next part of `task`; after the last part of a run a new run begins */
   RUNG_STEP_HOOK = 3,    /* the dialect's NC model does its work number `arg` */
   RUNG_STEP_SLOT = 4,    /* a slot ends here */
 };
@@ -268,8 +268,8 @@ typedef struct rung_program {
   const rung_space *spaces;
   const rung_symbol *symbols;
   const rung_init *inits;
-  const rung_span *retains; /* kept through power-off */
-  const rung_span *safes;   /* cleared when a fault stops the program */
+  const rung_span *retains;    /* kept through power-off */
+  const rung_span *safe_spans; /* cleared when a fault stops the program */
   const rung_copy *copies;
   const rung_chunk *chunks;
   const rung_rung_info *rungs;

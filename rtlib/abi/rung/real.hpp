@@ -3,7 +3,7 @@
 // results are the double nearest to the exact value. Part of sem.hpp, which includes it; nobody else does.
 //
 // Values in here are fixed-point numbers of 128 bits ("Q1.127": one bit before the point) and Wide, a floating-point
-// number with 128 bits. Helpers that stand in many places are calls: programs carry one copy of each.
+// number with 128 bits. Helpers that are used in many places are calls: programs carry one copy of each.
 #ifndef RUNG_REAL_HPP
 #define RUNG_REAL_HPP
 

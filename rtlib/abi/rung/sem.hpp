@@ -1,6 +1,6 @@
-// The arithmetic of the IR: every decision that is not the machine's own stands here, once. The constant folder, the
+// The arithmetic of the IR: every decision that is not the machine's own is here, once. The constant folder, the
 // interpreter and generated C++ call these functions; the LLVM back end links them as bitcode. All are total: there is
-// no input without a defined result. Freestanding: no header but <stdint.h>. Sine and its relatives stand in real.hpp.
+// no input without a defined result. Freestanding: no header but <stdint.h>. Sine and its relatives are in real.hpp.
 #ifndef RUNG_SEM_HPP
 #define RUNG_SEM_HPP
 

@@ -28,7 +28,7 @@ private:
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// The number at the start of text from `pos`; moves pos behind it; no digit there gives false.
+/// The number at the start of text from `pos`; moves pos past it; no digit there gives false.
 bool readNumber(std::string_view text, size_t& pos, uint32_t& value);
 
 /// "PREFIX<number>" and nothing else.

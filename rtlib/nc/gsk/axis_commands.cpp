@@ -46,7 +46,7 @@ constexpr bool isSound() {
     if (kCommands[i].code <= kCommands[i - 1].code) return false;
   return true;
 }
-static_assert(isSound(), "an axis command stands out of order");
+static_assert(isSound(), "an axis command is out of order");
 
 constexpr AxisGroup kGroups[kAxisGroups] = {
     {'A', 142, 143, 130, 131, 132, 150, 151}, {'B', 154, 155, 133, 134, 135, 162, 163},

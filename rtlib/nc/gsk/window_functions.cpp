@@ -104,7 +104,7 @@ constexpr bool isSound() {
     return !f.title.empty() && f.listLine != 0 && (f.status == ClosedInList) == f.section.empty();
   });
 }
-static_assert(isSound(), "a window function stands out of order or lacks its place in the manual");
+static_assert(isSound(), "a window function is out of order or lacks its place in the manual");
 
 } // namespace
 

@@ -30,7 +30,7 @@ enum WindowEnd : uint16_t {
   kWindowProtected = 7,
 };
 
-// The control block: words, low byte first, and the data behind them (tables l.8688-8945).
+// The control block: words, low byte first, and the data after them (tables l.8688-8945).
 inline constexpr uint32_t kWindowFunctionAt = 0;
 inline constexpr uint32_t kWindowEndAt = 2;
 inline constexpr uint32_t kWindowLengthAt = 4;

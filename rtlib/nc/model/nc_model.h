@@ -43,12 +43,12 @@ struct NcArgument {
 
 class NcModel : public host::ScheduleHooks {
 public:
-  // Files named by `config` without a full path stand in this folder; without one, in the working folder.
+  // Files named by `config` without a full path are in this folder; without one, in the working folder.
   void setFolder(std::string folder) { folder_ = std::move(folder); }
   // Before the first power-on.
   virtual std::string config(std::string_view key, std::string_view value);
   virtual std::string connect(std::string_view source, std::string_view destination);
-  // Behind a power-on: the connections whose ends do not exist or do not fit. They are not served.
+  // After a power-on: the connections whose ends do not exist or do not fit. They are not served.
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
   // Switches the program on: memory, presets, what the control runs before the first scan. Warm keeps what the dialect
@@ -58,16 +58,16 @@ public:
   virtual void powerOff(host::Instance& instance);
 
   // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it
-  // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` stands before powerOn, whose kind is then
+  // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` comes before powerOn, whose kind is then
   // the program's alone; an empty image is that of an NC as it was delivered.
   virtual uint32_t keptSize() { return 0; }
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
-  // The program's retained memory was there but could not be restored: stands before powerOn.
+  // The program's retained memory was there but could not be restored: called before powerOn.
   virtual void reportRetainedLost() {}
 
   // TECHNOL saves its retained memory at a power-off and when the program asks, and at no other time: a host that
-  // stores it says so before the power-on, looks between two scans whether the program asks, and tells when it is on
+  // stores it says so before the power-on, looks between two scans whether the program asks, and reports when it is on
   // disk.
   virtual bool savesOnRequest() const { return false; }
   virtual void setStored(bool stored) { (void)stored; }

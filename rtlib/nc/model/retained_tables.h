@@ -18,7 +18,7 @@ public:
   bool load(std::string& report, std::string& error);
   // Scan thread, after every scan: copies at most once a period, never waits and allocates nothing.
   void offer() noexcept;
-  // Behind the last scan: what is kept is on disk; "" or what has gone wrong since the start.
+  // After the last scan: what is kept is on disk; "" or what has gone wrong since the start.
   std::string finish();
 
 private:

@@ -1,6 +1,6 @@
 // The buffer through which an MR or MW box and the NC hand each other an operand block (man. l.3440-3465, 3510-3540).
 // Every box owns one in the space "@MB": kBlockWords words as the manual numbers them (0 the execution code, 1 the
-// amount of data, from 2 on what the function says), and behind them a mask with one bit a word, set for every word
+// amount of data, from 2 on what the function says), and after them a mask with one bit a word, set for every word
 // that the NC answered. The box copies its block here, whatever its amount says, and clears the mask when it asks; the
 // NC answers here before it completes the request; the box takes word 0 and the masked words back.
 #pragma once

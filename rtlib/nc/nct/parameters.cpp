@@ -119,7 +119,7 @@ constexpr bool sorted() {
     if (kRows[i].number < kRows[i - 1].number + kRows[i - 1].numbers) return false;
   return true;
 }
-static_assert(sorted(), "parameters stand in the order of their numbers and do not overlap");
+static_assert(sorted(), "parameters are in the order of their numbers and do not overlap");
 
 } // namespace
 

@@ -14,7 +14,7 @@ using enum WordUse;
 
 // --- execution codes ------------------------------------------------------------------------------------------------
 // 20-25 belong to functions that the manual does not describe. 118-137: the line of 118 + n is printed for the first
-// three and the last; 341 and 342 stand behind them.
+// three and the last; 341 and 342 come after them.
 constexpr ExecutionCode kCodes[] = {
     {0, "normal execution", 6327},
     {1, "invalid function code", 6328},
@@ -362,7 +362,7 @@ constexpr bool codesAreSound() {
     if (kCodes[i].code <= kCodes[i - 1].code) return false;
   return true;
 }
-static_assert(codesAreSound(), "execution codes stand out of order");
+static_assert(codesAreSound(), "execution codes are out of order");
 
 constexpr bool isSound(const ServiceFunction& f) {
   if (f.title.empty() || f.section.empty() || f.line == 0 || f.amounts[0].first == 0 || f.codes[0].last < 2)
@@ -382,7 +382,7 @@ constexpr bool functionsAreSound() {
   }
   return true;
 }
-static_assert(functionsAreSound(), "a service function stands twice, lacks its place in the manual or a word");
+static_assert(functionsAreSound(), "a service function appears twice, lacks its place in the manual or a word");
 
 } // namespace
 

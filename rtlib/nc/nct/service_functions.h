@@ -56,7 +56,7 @@ struct ServiceFunction {
   // more of them, by what its words say.
   std::array<NumberRange, 3> amounts = {}; // unused entries begin with 0
   std::span<const BlockWord> words = {};   // from word 2 on
-  std::array<NumberRange, 5> codes = {};   // execution codes; unused entries behind the first begin with 0
+  std::array<NumberRange, 5> codes = {};   // execution codes; unused entries after the first begin with 0
   std::string_view section = {};
   uint16_t line = 0;
 

@@ -1,4 +1,4 @@
-// The list of windows (see windows.h). The rows of parameter 1 = -1 stand in the manual one row above the identifier
+// The list of windows (see windows.h). The rows of parameter 1 = -1 are in the manual one row above the identifier
 // that they belong to, without it (l.4159, l.4164).
 #include "rtlib/nc/nct/windows.h"
 
@@ -56,7 +56,7 @@ constexpr bool isSound() {
     if (kWindows[i].identifier <= kWindows[i - 1].identifier) return false;
   return true;
 }
-static_assert(isSound(), "windows stand out of order");
+static_assert(isSound(), "windows are out of order");
 
 } // namespace
 

@@ -11,7 +11,7 @@ namespace rung::nc {
 
 enum class CodePage : uint8_t { Windows1250, Cp852 };
 
-// Which of the two a Czech text is written in, by its letters; Windows-1250 when they do not tell.
+// Which of the two a Czech text is written in, by its letters; Windows-1250 when they do not decide it.
 CodePage guessCodePage(std::string_view text);
 
 // The character of a byte. Bytes that the code page leaves free keep their number.

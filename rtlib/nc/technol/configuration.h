@@ -16,7 +16,7 @@ enum class ConfigurationKind : uint8_t { Integer, Real, Text, Binary, Bit, Const
 inline constexpr std::string_view kConfigurationService =
     "@CNF_GET kind part id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 id12 id13 -> found length v0 v1 v2 v3 v4 v5 "
     "v6 v7 v8 v9 v10 v11 v12 v13";
-inline constexpr uint32_t kConfigurationHead = 2; // words in front of the identifier and of the value
+inline constexpr uint32_t kConfigurationHead = 2; // words before the identifier and the value
 inline constexpr uint32_t kConfigurationWords = RUNG_MAX_SERVICE_ARGS - kConfigurationHead;
 inline constexpr uint32_t kConfigurationBytes = kConfigurationWords * 8; // longest identifier, and a part of a text
 

@@ -1,5 +1,5 @@
-// How a TECHNOL program tells its control which variables it exchanges with other modules and shows to screens (man.
-// ch. 10, 18.2, 27): two services that the control answers at once.
+// How a TECHNOL program reports to its control which variables it exchanges with other modules and shows to screens
+// (man. ch. 10, 18.2, 27): two services that the control answers at once.
 #pragma once
 #include <cstdint>
 #include <string_view>
@@ -74,7 +74,7 @@ constexpr int64_t exchangeArgument(ExchangeKind kind, ExchangeType type, Exchang
 // Results: 1 where it is done; 1 where the configuration has a default value; its bits, in the variable's type.
 inline constexpr std::string_view kDefineService =
     "@DEFINE what place min max id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 -> done configured value";
-inline constexpr uint32_t kDefineHead = 4; // words in front of the identifier, eight characters each
+inline constexpr uint32_t kDefineHead = 4; // words before the identifier, eight characters each
 inline constexpr uint32_t kDefineWords = RUNG_MAX_SERVICE_ARGS - kDefineHead;
 inline constexpr uint32_t kDefineBytes = kDefineWords * 8; // longest identifier
 
@@ -85,7 +85,7 @@ inline constexpr std::string_view kUpdateService = "@UPDATE_IN place -> found va
 // Hooks of the schedule at which connections run.
 inline constexpr uint32_t kHookBehindMain = 2;
 inline constexpr uint32_t kHookBeforeInput = 3;
-inline constexpr uint32_t kHookFast = 4;    // in front of MODULE_FAST and MODULE_CYCLICOPERATION
-inline constexpr uint32_t kHookFastest = 5; // in front of and behind MODULE_FASTEST
+inline constexpr uint32_t kHookFast = 4;    // before MODULE_FAST and MODULE_CYCLICOPERATION
+inline constexpr uint32_t kHookFastest = 5; // before and after MODULE_FASTEST
 
 } // namespace rung::nc

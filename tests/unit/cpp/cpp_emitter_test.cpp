@@ -27,7 +27,7 @@ Module sampleModule() {
               {.name = "Y", .unitBytes = 1, .units = 4, .flags = RUNG_SPACE_OUTPUT, .packedOnly = false},
               {.name = "D", .unitBytes = 1, .units = 16, .flags = 0, .packedOnly = false}};
   m.symbols.push_back({.name = "LAMP", .comment = "", .space = SpaceId{1}, .byte = 0, .bit = 0});
-  m.safes.push_back({SpaceId{1}, 0, 4});
+  m.safeSpans.push_back({SpaceId{1}, 0, 4});
   m.routines.resize(2);
   m.routines[0].name = "MAIN";
   m.routines[0].rungs.resize(2);

@@ -160,7 +160,7 @@ TEST(Signals, ExplainKnowsNamesAndAddresses) {
   EXPECT_EQ(explainSignal("F007.0"), explainSignal("MF"));
   EXPECT_NE(explainSignal("F10").find("M00~M31: F10 (4 bytes)"), std::string::npos);
   EXPECT_NE(explainSignal("F13.7").find("M31: F13.7"), std::string::npos);
-  EXPECT_NE(explainSignal("R10.0").find("no signal"), std::string::npos);
+  EXPECT_NE(explainSignal("R10.0").find("not a signal"), std::string::npos);
   EXPECT_EQ(explainSignal("R10.8"), "");
   EXPECT_EQ(explainSignal("X128"), "");
   EXPECT_EQ(explainSignal("NO_SUCH"), "");

@@ -271,7 +271,7 @@ TEST(TextParse, ErrorsSayWhere) {
       {"module \"m\" dialect \"d", 1, 20, "text without its closing quote"},
       {"module \"m\" dialect \"d\" x", 1, 24, "end of line expected"},
       {"module \"\\q\" dialect \"\"", 1, 8, "unknown escape"},
-      {"module \"\\x4\" dialect \"\"", 1, 8, "two hexadecimal digits expected behind \\x"},
+      {"module \"\\x4\" dialect \"\"", 1, 8, "two hexadecimal digits expected after \\x"},
   };
   const Mistake declarations[] = {
       {"nonsense", 2, 1, "there is no declaration 'nonsense'"},

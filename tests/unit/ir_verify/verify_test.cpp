@@ -28,7 +28,7 @@ Module goodModule() {
                {.name = "C", .type = RUNG_TYPE_I64, .flags = RUNG_SYMBOL_CONST, .value = 3}};
   m.inits = {{kD, 62, {1, 2}}};
   m.retains = {{kD, 0, kSpaceBytes}};
-  m.safes = {{SpaceId{1}, kSpaceBytes, 0}};
+  m.safeSpans = {{SpaceId{1}, kSpaceBytes, 0}};
   m.faults = {"budget"};
   m.services = {"ASK"};
   m.messages = {{1, "one"}};
@@ -151,7 +151,7 @@ TEST(VerifyModule, Spans) {
   expectBroken([](Module& m) { m.inits[0].space = {}; }, Rule::Spans, "initial value");
   expectBroken([](Module& m) { m.retains[0].byte = 1; }, Rule::Spans, "retained");
   expectBroken([](Module& m) { m.retains[0].size = UINT32_MAX, m.retains[0].byte = 1; }, Rule::Spans, "retained");
-  expectBroken([](Module& m) { m.safes[0].size = 1; }, Rule::Spans, "safe");
+  expectBroken([](Module& m) { m.safeSpans[0].size = 1; }, Rule::Spans, "safe");
 }
 
 TEST(VerifyModule, Copies) {

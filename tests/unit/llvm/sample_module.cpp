@@ -18,7 +18,7 @@ Module sampleModule() {
               {.name = "D", .unitBytes = 1, .units = 16}};
   m.symbols.push_back({.name = "LAMP", .comment = {}, .space = SpaceId{1}});
   m.inits.push_back({.space = SpaceId{2}, .byte = 4, .data = {0, 0, 7}});
-  m.safes.push_back({SpaceId{1}, 0, 4});
+  m.safeSpans.push_back({SpaceId{1}, 0, 4});
   m.routines.resize(2);
   m.routines[0].name = "MAIN";
   m.routines[0].rungs.resize(2);

@@ -56,7 +56,7 @@ TEST(ChannelProgram, ConditionsAssignmentsJumps) {
 TEST(ChannelProgram, Mistakes) {
   EXPECT_EQ(wrong(""), "the program has no blocks");
   EXPECT_EQ(wrong(";;"), "the program has no blocks");
-  EXPECT_EQ(wrong("M1; M"), "block 2: a number is missing behind M");
+  EXPECT_EQ(wrong("M1; M"), "block 2: a number is missing after M");
   EXPECT_EQ(wrong("M1 M2 M3 M4 M5 M6 M7 M8 M9"), "block 1: more than eight M codes");
   EXPECT_EQ(wrong("G12"), "block 1: a G code that is not simulated");
   EXPECT_EQ(wrong("M98 P1"), "block 1: subprograms are not simulated");
@@ -64,9 +64,9 @@ TEST(ChannelProgram, Mistakes) {
   EXPECT_EQ(wrong("T100000000"), "block 1: T takes no such number");
   EXPECT_EQ(wrong("(open"), "block 1: a comment without ')'");
   EXPECT_EQ(wrong("GOTO 5"), "there is no block N5");
-  EXPECT_EQ(wrong("GOTO"), "block 1: expected the number of a block behind GOTO");
-  EXPECT_EQ(wrong("IF 5"), "block 1: expected a macro variable behind IF");
-  EXPECT_EQ(wrong("IF #5=3"), "block 1: expected '=' or a comparison behind the macro variable");
+  EXPECT_EQ(wrong("GOTO"), "block 1: expected the number of a block after GOTO");
+  EXPECT_EQ(wrong("IF 5"), "block 1: expected a macro variable after IF");
+  EXPECT_EQ(wrong("IF #5=3"), "block 1: expected '=' or a comparison after the macro variable");
   EXPECT_EQ(wrong("#5 EQ 1 M3"), "block 1: expected GOTO");
   EXPECT_EQ(wrong("#0=1"), "block 1: expected the number of a macro variable");
   EXPECT_EQ(wrong("S17=100"), "block 1: spindles are S1 to S16");
@@ -137,7 +137,7 @@ TEST_F(ChannelsTest, LoadsAndSelects) {
   EXPECT_EQ(load({number("number", 0), text("blocks", "M3")}), "event program takes number=1 to 99999999");
   EXPECT_EQ(load({number("number", 1), number("channel", 9), text("blocks", "M3")}), "channels are 1 to 8");
   EXPECT_EQ(load({number("number", 1), text("block", "M3")}), "event program does not know 'block'");
-  EXPECT_EQ(load({number("number", 1), text("blocks", "M")}), "block 1: a number is missing behind M");
+  EXPECT_EQ(load({number("number", 1), text("blocks", "M")}), "block 1: a number is missing after M");
   channels_.powerOn(PowerOn::Warm);
   EXPECT_TRUE(channels_.hasProgram(100));
   channels_.powerOn(PowerOn::Cold);
@@ -161,7 +161,7 @@ TEST_F(ChannelsTest, EntersBlocks) {
   };
   EXPECT_EQ(enter("M8"), ""); // jog mode after power-on
   EXPECT_EQ(enter("M8; M9"), "the manual modes execute a single block");
-  EXPECT_EQ(enter("M"), "block 1: a number is missing behind M");
+  EXPECT_EQ(enter("M"), "block 1: a number is missing after M");
   EXPECT_EQ(enter("K8"), "the channel has no address K");
   EXPECT_EQ(channels_.event("mdi", {}), "event mdi takes channel=1 to 8 and blocks=\"…\"");
   EXPECT_EQ(channels_.event("reset", {number("channel", 0)}), "channels are 1 to 8");

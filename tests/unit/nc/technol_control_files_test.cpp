@@ -120,7 +120,7 @@ TEST(ControlFiles, TwiceDefinedIsAMistakeAlsoOverFiles) {
   const std::string one = message("No='7' Type='Err' Validity='Transient'");
   EXPECT_EQ(parseControlFile(Kind::Messages, "a", one, files), "");
   EXPECT_EQ(parseControlFile(Kind::Messages, "b", one, files),
-            "b:2:1: message 7 is defined again; the first one stands at a:2:1");
+            "b:2:1: message 7 is defined again; the first definition is at a:2:1");
   EXPECT_EQ(files.messages.size(), 1u);
 }
 
@@ -148,7 +148,7 @@ TEST(ControlFiles, WrongConstants) {
             "f:1:15: <Constant> lacks the attribute Value");
   EXPECT_EQ(mistakes(Kind::Constants,
                      "<PlcConstants><Constant ID='A' Value='1'/><Constant ID='A' Value='2'/></PlcConstants>"),
-            "f:1:43: constant A is defined again; the first one stands at f:1:15");
+            "f:1:43: constant A is defined again; the first definition is at f:1:15");
 }
 
 // The channel's configuration holds much of other parts of the control (l.5575-5757, l.13280-13291, l.16105).
@@ -216,7 +216,7 @@ TEST(ControlFiles, WrongChannel) {
   EXPECT_EQ(plc("<AnalogInput ID='a' Scale='1,5'/>"), "f:2:1: attribute Scale is '1,5', expected a number");
   EXPECT_EQ(plc("<AnalogOutput ID='a' MinVal='2' MaxVal='1'/>"), "f:2:1: MinVal is greater than MaxVal");
   EXPECT_EQ(plc("<Input ID='a'/><AnalogInput ID='a'/>"),
-            "f:2:16: input or output a is defined again; the first one stands at f:2:1");
+            "f:2:16: input or output a is defined again; the first definition is at f:2:1");
   EXPECT_EQ(plc("<PlcParam ID='a' Type='Int'>1.5</PlcParam>"), "f:2:1: parameter a is '1.5', expected an integer");
   EXPECT_EQ(plc("<PlcParam ID='a' Type='Real'>x</PlcParam>"), "f:2:1: parameter a is 'x', expected a number");
   EXPECT_EQ(plc("<PlcParam ID='a' Type='Text'>x</PlcParam>"),
@@ -305,7 +305,7 @@ TEST(ControlFiles, TheModelReadsThemBesideTheScenario) {
   const std::unique_ptr<NcModel> model = makeTechnolModel();
   model->setFolder(folder.string());
   EXPECT_EQ(model->config("PlcConstants", name),
-            (folder / name).string() + ":2:1: the constant 'A' is no number, SA0INT, SA0REAL or PLCCOMMAND: 'x'");
+            (folder / name).string() + ":2:1: the constant 'A' is not a number, SA0INT, SA0REAL or PLCCOMMAND: 'x'");
   EXPECT_THAT(model->config("PlcErrors", "there-is-no-such-file"), HasSubstr("cannot be read"));
   EXPECT_THAT(model->config("PlcConfig", name), "");
   EXPECT_THAT(model->config("PlcErrors", (folder / name).string()), HasSubstr("holds no <Constant>"));

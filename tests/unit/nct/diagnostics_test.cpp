@@ -460,7 +460,7 @@ TEST(NctDiagnostics, HintsHowToMend) {
                         {"rung\n|--[N_ON]--{MOV 7000 5}", "a constant #5"},
                         {"rung\n|--[N_ON]--{MOV 7000 12345}", "a constant is written #12345"},
                         {"rung\n|--[N_ON]--(7001.5)", "write .05"},
-                        {"rung\n|--[7000.00@]--(7001.00)", "'@' stands in front of the operand"},
+                        {"rung\n|--[7000.00@]--(7001.00)", "'@' is written before the operand"},
                         {"rung\n|--[N_ON]--{MOV 7000, #5}", "without commas"},
                         {"rung\n|--[N_ON]--(S7001.00)", "(S 7001.00)"},
                         {"rung\n|--[N_ON]--(RLAMP)", "(R LAMP)"},

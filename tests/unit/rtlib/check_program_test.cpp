@@ -27,7 +27,7 @@ TestProgram soundProgram() {
   static const uint8_t kOne = 1;
   test.inits = {{0, 1, &kOne}};
   test.retains = {{0, 4}};
-  test.safes = {{0, 4}};
+  test.safeSpans = {{0, 4}};
   test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
   const uint32_t task = test.addTask("MAIN", 0);
   test.addBeginCopy(task, {RUNG_COPY_MASKED, 0, 4, 8, 2});
@@ -66,7 +66,7 @@ const Case kCases[] = {
     {"SymbolOrder", [](TestProgram& t) { std::swap(t.symbols[0], t.symbols[1]); }, "not sorted"},
     {"Init", [](TestProgram& t) { t.inits[0].size = 300; }, "initial contents 0"},
     {"Retain", [](TestProgram& t) { t.retains[0].offset = 254; }, "retained span 0"},
-    {"Safe", [](TestProgram& t) { t.safes[0].offset = 0xFFFFFFFF; }, "safe span 0"},
+    {"Safe", [](TestProgram& t) { t.safeSpans[0].offset = 0xFFFFFFFF; }, "safe span 0"},
     {"CopyTo", [](TestProgram& t) { t.copies[0].to = 255; }, "copy 0"},
     {"CopyMask", [](TestProgram& t) { t.copies[0].mask = 255; }, "copy 0"},
     {"ChunkRungs", [](TestProgram& t) { t.chunks[0].rung_count = 2; }, "rungs that do not exist"},
@@ -79,7 +79,7 @@ const Case kCases[] = {
     {"ScanTask", [](TestProgram& t) { t.scan[0].task = 1; }, "scan step"},
     {"FastOp", [](TestProgram& t) { t.fast[0].op = 9; }, "fast step 0 is unknown"},
     {"MainTask", [](TestProgram& t) { t.program.main_task = 4; }, "main task"},
-    {"Texts", [](TestProgram& t) { t.program.text_count = 3; }, "no pairs"},
+    {"Texts", [](TestProgram& t) { t.program.text_count = 3; }, "not pairs"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, CheckProgram, testing::ValuesIn(kCases),

@@ -21,7 +21,7 @@ protected:
     static const uint8_t kInit = 17;
     test.inits = {{2, 1, &kInit}};
     test.retains = {{1, 1}, {40, 2}};
-    test.safes = {{3, 1}};
+    test.safeSpans = {{3, 1}};
     test.addChunk([](uint8_t* mem, rung_ctx* ctx) {
       ++mem[0];
       mem[3] = 1;

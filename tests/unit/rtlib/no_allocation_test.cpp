@@ -37,7 +37,7 @@ void build(TestProgram& test) {
   test.addBeginCopy(main, {RUNG_COPY_ALL, 8, 16, 0, 4});
   test.addEndCopy(main, {RUNG_COPY_MASKED, 8, 16, 24, 4});
   test.retains = {{4, 4}};
-  test.safes = {{0, 2}};
+  test.safeSpans = {{0, 2}};
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000},
                {RUNG_STEP_HOOK, RUNG_NONE, 1},
                {RUNG_STEP_PART, main, 0},

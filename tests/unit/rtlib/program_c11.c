@@ -156,7 +156,7 @@ AT(rung_program, spaces, 136);
 AT(rung_program, symbols, 144);
 AT(rung_program, inits, 152);
 AT(rung_program, retains, 160);
-AT(rung_program, safes, 168);
+AT(rung_program, safe_spans, 168);
 AT(rung_program, copies, 176);
 AT(rung_program, chunks, 184);
 AT(rung_program, rungs, 192);

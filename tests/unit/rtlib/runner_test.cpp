@@ -76,7 +76,7 @@ TEST_F(RunnerTest, RunsChunksOfAnInterpreter) {
 TEST_F(RunnerTest, BudgetStopsAnEndlessLoopAndNamesItsRung) {
   test.addChunk(step<0, 1>);
   test.addChunk([](uint8_t* mem, rung_ctx*) { return ++mem[0], 1u; }, 10);
-  test.safes = {{16, 4}};
+  test.safeSpans = {{16, 4}};
   const uint32_t task = test.addTask("MAIN", 0, 100);
   start();
   memory[15] = memory[16] = memory[19] = memory[20] = 1;
@@ -377,7 +377,7 @@ TEST_F(RunnerTest, FaultHookRunsOnceBehindTheSafeState) {
   });
   test.addTask("MAIN", 0);
   test.addTask("HALT", 1);
-  test.safes = {{16, 2}};
+  test.safeSpans = {{16, 2}};
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, 0, 3}, {RUNG_STEP_RUN, 0, 1}};
   start();
   runner->setHooks({nullptr, [](void* data) { EXPECT_FALSE(static_cast<Runner*>(data)->runTask(1)); }, runner.get()});

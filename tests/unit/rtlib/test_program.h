@@ -24,7 +24,7 @@ struct TestProgram {
   std::vector<rung_symbol> symbols;
   std::vector<rung_init> inits;
   std::vector<rung_span> retains;
-  std::vector<rung_span> safes;
+  std::vector<rung_span> safeSpans;
   std::vector<rung_copy> copies;
   std::vector<rung_chunk_fn> functions;
   std::vector<uint32_t> weights; // of chunks; 1 where it is shorter
@@ -105,7 +105,7 @@ struct TestProgram {
     point(symbols, program.symbols, program.symbol_count);
     point(inits, program.inits, program.init_count);
     point(retains, program.retains, program.retain_count);
-    point(safes, program.safes, program.safe_count);
+    point(safeSpans, program.safe_spans, program.safe_count);
     point(copies, program.copies, program.copy_count);
     point(chunks, program.chunks, program.chunk_count);
     point(rungs, program.rungs, program.rung_count);

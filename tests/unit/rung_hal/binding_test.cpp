@@ -53,7 +53,7 @@ TEST(Binding, MachinePositions) {
   EXPECT_EQ(bound.binding.inputs[1].scale, 1);
   EXPECT_THAT(gskErrors("in bit a NC.MPOS.1\nin s32 b NC.MPOS.9\nin s32 c NC.MPOS.0\nout s32 d NC.MPOS.1\n"
                         "in s32 e NC.MPOS.x\n"),
-              ElementsAre("m.map:1: NC.MPOS.1 is no bit; s32, u32 or float is possible",
+              ElementsAre("m.map:1: NC.MPOS.1 is not a bit; s32, u32 or float is possible",
                           "m.map:2: NC.MPOS.9: axes are 1 to 8", "m.map:3: NC.MPOS.0: axes are 1 to 8",
                           "m.map:5: NC.MPOS.x: axes are 1 to 8",
                           "m.map:4: NC.MPOS.1 is written by HAL, not by the program"));
@@ -98,14 +98,14 @@ TEST(Binding, NamesThatDoNotFit) {
   EXPECT_THAT(gskErrors("const bit Y0.0 1"),
               ElementsAre("m.map:1: Y0.0 is an output of the program; it cannot be written"));
   EXPECT_THAT(gskErrors("out bit a D0"),
-              ElementsAre("m.map:1: D0 is no bit; s32, u32, float or a bit of it is possible"));
+              ElementsAre("m.map:1: D0 is not a bit; s32, u32, float or a bit of it is possible"));
   EXPECT_THAT(gskErrors("out u32 a SYM"), ElementsAre("m.map:1: SYM is a bit, not u32"));
   EXPECT_THAT(gskErrors("out s32 a LIMIT"), ElementsAre("m.map:1: LIMIT is a constant of the program"));
   EXPECT_THAT(boundTo(testing::technolProgram(), "out s32 a NAME").errors,
               ElementsAre("m.map:1: NAME is a text; HAL has no pins for texts"));
   EXPECT_THAT(gskErrors("channel M Q0.0 F10 SYM\nchannel N F7.0 F10:4 D0\n"),
               ElementsAre("m.map:1: Q0.0: the program has no such name or address",
-                          "m.map:2: D0 is no bit; s32, u32, float or a bit of it is possible"));
+                          "m.map:2: D0 is not a bit; s32, u32, float or a bit of it is possible"));
 }
 
 TEST(Binding, ChannelsOfNctAreRefused) {

@@ -90,9 +90,9 @@ TEST(MapFile, EveryMistakeIsReportedWithItsLine) {
   EXPECT_THAT(errorsOf("in word a X0"),
               ElementsAre("m.map:1: unknown type 'word': bit, s32, u32 or float is expected"));
   EXPECT_THAT(errorsOf("in bit a/b X0.0"),
-              ElementsAre("m.map:1: 'a/b' is no pin name: letters, digits, '-', '_' and '.' are allowed"));
-  EXPECT_THAT(errorsOf("in bit a X0.0\nin s32 a X1"), ElementsAre("m.map:2: pin 'a' is already there as in bit"));
-  EXPECT_THAT(errorsOf("in bit a X0.0\nout bit a Y0.0"), ElementsAre("m.map:2: pin 'a' is already there as in bit"));
+              ElementsAre("m.map:1: 'a/b' is not a pin name: letters, digits, '-', '_' and '.' are allowed"));
+  EXPECT_THAT(errorsOf("in bit a X0.0\nin s32 a X1"), ElementsAre("m.map:2: pin 'a' is already defined as in bit"));
+  EXPECT_THAT(errorsOf("in bit a X0.0\nout bit a Y0.0"), ElementsAre("m.map:2: pin 'a' is already defined as in bit"));
   EXPECT_THAT(errorsOf("out bit a Y0.0\nout bit a Y0.1"), ElementsAre("m.map:2: output pin 'a' is already mapped"));
 }
 
@@ -106,21 +106,21 @@ TEST(MapFile, Scales) {
   ASSERT_EQ(map.outputs.size(), 1u);
   EXPECT_EQ(map.outputs[0].scale, -0.5);
   parseMap("in s32 a D0:4 10\nin float b D0:4 0\nout float c D0:4 x\nin float d D0:4 inf\n", "m.map", errors);
-  EXPECT_THAT(errors, ElementsAre("m.map:1: a scale is possible for float alone",
-                                  "m.map:2: '0' is no scale: a number other than 0 is expected",
-                                  "m.map:3: 'x' is no scale: a number other than 0 is expected",
-                                  "m.map:4: 'inf' is no scale: a number other than 0 is expected"));
+  EXPECT_THAT(errors, ElementsAre("m.map:1: a scale is possible only for float",
+                                  "m.map:2: '0' is not a scale: a number other than 0 is expected",
+                                  "m.map:3: 'x' is not a scale: a number other than 0 is expected",
+                                  "m.map:4: 'inf' is not a scale: a number other than 0 is expected"));
 }
 
 TEST(MapFile, BadValues) {
-  EXPECT_THAT(errorsOf("const bit X0.0 2"), ElementsAre("m.map:1: '2' is no value of type bit"));
-  EXPECT_THAT(errorsOf("const u32 D0 -1"), ElementsAre("m.map:1: '-1' is no value of type u32"));
-  EXPECT_THAT(errorsOf("const u32 D0 4294967296"), ElementsAre("m.map:1: '4294967296' is no value of type u32"));
-  EXPECT_THAT(errorsOf("const s32 D0 2147483648"), ElementsAre("m.map:1: '2147483648' is no value of type s32"));
-  EXPECT_THAT(errorsOf("const s32 D0 12x"), ElementsAre("m.map:1: '12x' is no value of type s32"));
-  EXPECT_THAT(errorsOf("const s32 D0 0x"), ElementsAre("m.map:1: '0x' is no value of type s32"));
-  EXPECT_THAT(errorsOf("const s32 D0 --5"), ElementsAre("m.map:1: '--5' is no value of type s32"));
-  EXPECT_THAT(errorsOf("const float D0 1,5"), ElementsAre("m.map:1: '1,5' is no value of type float"));
+  EXPECT_THAT(errorsOf("const bit X0.0 2"), ElementsAre("m.map:1: '2' is not a value of type bit"));
+  EXPECT_THAT(errorsOf("const u32 D0 -1"), ElementsAre("m.map:1: '-1' is not a value of type u32"));
+  EXPECT_THAT(errorsOf("const u32 D0 4294967296"), ElementsAre("m.map:1: '4294967296' is not a value of type u32"));
+  EXPECT_THAT(errorsOf("const s32 D0 2147483648"), ElementsAre("m.map:1: '2147483648' is not a value of type s32"));
+  EXPECT_THAT(errorsOf("const s32 D0 12x"), ElementsAre("m.map:1: '12x' is not a value of type s32"));
+  EXPECT_THAT(errorsOf("const s32 D0 0x"), ElementsAre("m.map:1: '0x' is not a value of type s32"));
+  EXPECT_THAT(errorsOf("const s32 D0 --5"), ElementsAre("m.map:1: '--5' is not a value of type s32"));
+  EXPECT_THAT(errorsOf("const float D0 1,5"), ElementsAre("m.map:1: '1,5' is not a value of type float"));
 }
 
 TEST(MapFile, BadFunctions) {
@@ -128,12 +128,12 @@ TEST(MapFile, BadFunctions) {
   EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nsend a up M 3"),
               ElementsAre("m.map:2: 'up': rise or fall is expected"));
   EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nchannel M F7.0 F10 G4.3"),
-              ElementsAre("m.map:2: channel 'M' is already there"));
-  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3 hold"), ElementsAre("m.map:1: 'hold' stands where only keep may"));
+              ElementsAre("m.map:2: channel 'M' is already defined"));
+  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3 hold"), ElementsAre("m.map:1: 'hold' where only 'keep' is allowed"));
   EXPECT_THAT(errorsOf("channel M F7.0 F10\n"),
               ElementsAre("m.map:1: the form is: channel CHANNEL STROBE CODE DONE [keep]"));
   EXPECT_THAT(errorsOf("out bit a Y0.0\nchannel M F7.0 F10 G4.3\nsend a rise M 3"),
-              ElementsAre("m.map:3: pin 'a' is already there as out bit"));
+              ElementsAre("m.map:3: pin 'a' is already defined as out bit"));
   // Two acknowledges on one pin, or one that a name feeds too, would fight.
   EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nout bit d Y0.0\nsend a rise M 3 d"),
               ElementsAre("m.map:3: output pin 'd' is already mapped"));

@@ -166,7 +166,7 @@ const rung_program& gskProgram() {
     p.symbol_count = 2;
     p.symbols = kGskSymbols;
     p.safe_count = 2;
-    p.safes = kGskSafes;
+    p.safe_spans = kGskSafes;
     p.retain_count = 1;
     p.retains = kGskRetains;
     return p;

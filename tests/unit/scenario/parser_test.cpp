@@ -150,7 +150,7 @@ TEST(ScenarioParser, Mistakes) {
   EXPECT_NE(problemOf("block").find("start or done"), std::string::npos);
   EXPECT_NE(problemOf("prepare windr function=1").find("->"), std::string::npos);
   EXPECT_NE(problemOf("event X Y").find("KEY=VALUE"), std::string::npos);
-  EXPECT_NE(problemOf("period 0ms").find("longer than nothing"), std::string::npos);
+  EXPECT_NE(problemOf("period 0ms").find("longer than 0"), std::string::npos);
 }
 
 TEST(ScenarioParser, MisspelledStatementsAreSuggested) {

@@ -62,7 +62,7 @@ TEST_F(ScenarioRunner, UnknownNamesAndKeysAreProblems) {
   EXPECT_NE(problemOf("slot\n").find("only the second level of a GSK program"), std::string::npos);
   EXPECT_NE(problemOf("event FIRE\n").find("unknown event"), std::string::npos);
   EXPECT_NE(problemOf("reply x=1\n").find("no request is pending"), std::string::npos);
-  EXPECT_NE(problemOf("expect_call windr\n").find("no request waits"), std::string::npos);
+  EXPECT_NE(problemOf("expect_call windr\n").find("no request is pending"), std::string::npos);
   EXPECT_NE(problemOf("expect_fault dead-loop\n").find("the program runs"), std::string::npos);
   EXPECT_NE(problemOf("expect_message 5\n").find("not displayed"), std::string::npos);
   EXPECT_NE(problemOf("expect_log text\n").find("no log entry"), std::string::npos);

@@ -100,9 +100,9 @@ TEST(ScenarioServices, QuantitiesOfScpGoByTheirNames) {
   };
   EXPECT_EQ(difference("symbol=ActPosAx p1=2 p2=0"), "");
   EXPECT_EQ(difference("symbol=ComPosAx"), "SCP: symbol is ActPosAx, expected ComPosAx");
-  EXPECT_EQ(difference("symbol=Position"), "'Position' is no symbol of SCP");
+  EXPECT_EQ(difference("symbol=Position"), "'Position' is not a symbol of SCP");
   const Statement prepared = statement("prepare SCP symbol=Position -> value=1");
-  EXPECT_EQ(keyProblem(scp, prepared.keys, prepared.results), "'Position' is no symbol of SCP");
+  EXPECT_EQ(keyProblem(scp, prepared.keys, prepared.results), "'Position' is not a symbol of SCP");
 }
 
 TEST(ScenarioServices, WordsOfBlocksAreKeys) {

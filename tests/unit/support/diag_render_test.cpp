@@ -37,7 +37,7 @@ TEST(RenderText, ShowsLabelsNotesAndFixes) {
           .fix(f.range(22, 22), "2")
           .fix(f.range(23, 25), "")
       << "A";
-  EXPECT_EQ(f.text(), R"(main.lad:2:8: error: 'A' is declared already [duplicate-symbol]
+  EXPECT_EQ(f.text(), R"(main.lad:2:8: error: 'A' is already declared [duplicate-symbol]
     2 | symbol A 57
       |        ^
     2 | symbol A 57
@@ -119,7 +119,7 @@ TEST(RenderText, SortedByPositionAndSaysWhatIsLeftOut) {
   f.diags.report(Diag::BadOperand, f.range(0, 1)) << "a" << "number";
   f.diags.report(Diag::BadOperand, f.range(1, 2)) << "b" << "number";
   const std::string text = f.text();
-  EXPECT_LT(text.find("'a' is no number"), text.find("'c' is no number"));
+  EXPECT_LT(text.find("'a' is not a number"), text.find("'c' is not a number"));
   EXPECT_NE(text.find("(1 more diagnostics are not shown)"), std::string::npos);
 }
 
@@ -132,7 +132,7 @@ TEST(RenderJson, HasPlaceMessageNotesAndFixes) {
   const auto list = nlohmann::json::parse(renderJson(f.diags, f.sources));
   ASSERT_EQ(list.size(), 1u);
   const nlohmann::json expected = nlohmann::json::parse(R"({
-    "code": "duplicate-symbol", "severity": "error", "message": "'A' is declared already", "file": "main.lad",
+    "code": "duplicate-symbol", "severity": "error", "message": "'A' is already declared", "file": "main.lad",
     "line": 2, "column": 8, "endLine": 2, "endColumn": 9, "labels": [],
     "notes": [{"message": "first declared here", "file": "main.lad", "line": 1, "column": 8, "endLine": 1, "endColumn": 9}],
     "fixes": [{"replacement": "B", "file": "main.lad", "line": 2, "column": 8, "endLine": 2, "endColumn": 9}]})");

@@ -106,7 +106,7 @@ TEST(Diagnostics, CountsBySeverity) {
 TEST(Diagnostics, MessageTakesTextAndNumbers) {
   Diagnostics diags;
   diags.report(Diag::WrongConditionCount, rangeAt(1)) << "ADDB" << 2 << uint8_t{3};
-  EXPECT_EQ(messageOf(diags.reported()[0]), "ADDB has 2 conditions, not 3");
+  EXPECT_EQ(messageOf(diags.reported()[0]), "wrong number of conditions for ADDB: expected 2, found 3");
   diags.report(Diag::UnclosedElement, rangeAt(2)) << ']';
   EXPECT_EQ(messageOf(diags.reported()[1]), "this element is not closed; ']' expected");
 }
@@ -114,7 +114,7 @@ TEST(Diagnostics, MessageTakesTextAndNumbers) {
 TEST(Diagnostics, MissingArgumentIsShownAsSuch) {
   Diagnostics diags;
   diags.report(Diag::WrongConditionCount) << "ADDB";
-  EXPECT_EQ(messageOf(diags.reported()[0]), "ADDB has ? conditions, not ?");
+  EXPECT_EQ(messageOf(diags.reported()[0]), "wrong number of conditions for ADDB: expected ?, found ?");
 }
 
 TEST(Diagnostics, LongArgumentsAreCutBetweenCharacters) {

@@ -286,9 +286,9 @@ TEST(TechnolStart, InitLearnsWhyAndFinishIsMarked) {
   m.set("@DR", 1);
   m.start();
   EXPECT_EQ(m.get("W"), 1);
-  EXPECT_EQ(m.get("@INIT.OWED"), 1);
+  EXPECT_EQ(m.get("@INIT.PENDING"), 1);
   m.scan();
-  EXPECT_EQ(m.get("@INIT.OWED"), 0);
+  EXPECT_EQ(m.get("@INIT.PENDING"), 0);
 }
 
 TEST(TechnolFiles, FurtherFilesContinueMain) {

@@ -42,7 +42,7 @@ void dropDialects(Gap& gap) {
   }
 }
 
-// One dialect statement, in front of all other statements.
+// One dialect statement, before all other statements.
 void settleDialect(SourceProgram& program) {
   Gap& gap = firstGap(program);
   const auto at = std::find_if(gap.begin(), gap.end(), [](const Item& item) { return item.kind == Kind::Dialect; });
@@ -70,7 +70,7 @@ SourceProgram collect(Context& context, const Reading& reading, const std::vecto
   Collector collector{context, networks};
   for (FileId file : reading.lists()) collectList(collector, file);
   for (const ladder::LadderFile& file : reading.ladders()) collectLadder(collector, file);
-  RUNG_CHECK(collector.networks.empty(), "every network stands in a file");
+  RUNG_CHECK(collector.networks.empty(), "every network is in a file");
   collector.program.tail = collector.takeGap();
   settleDialect(collector.program);
   splitPreamble(collector.program);

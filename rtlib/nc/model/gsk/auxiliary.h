@@ -23,7 +23,7 @@ struct AuxiliaryCodes {
 
 class Auxiliary {
 public:
-  // The codes stand in F from now on.
+  // The codes are in F from now on.
   void start(const AuxiliaryCodes& codes, const SignalsIo& io, const Tables& tables);
   void step(const SignalsIo& io);
   // Strobes fall at once, codes of M go away (l.5257).

@@ -20,7 +20,7 @@ constexpr double unitsPerSlot(double mmPerMin) { return mmPerMin * kUnitsPerMm *
 
 struct Axis {
   int64_t machine = 0;
-  int64_t commanded = 0; // goes on while the machine is locked (l.5305)
+  int64_t commanded = 0; // continues while the machine is locked (l.5305)
   int64_t relative = 0;
   double rest = 0;       // of a unit, of the motion under way
   bool moving = false;   // a command is being executed, even if interlock holds it (l.4127)
@@ -45,7 +45,7 @@ public:
   void beginSlot(const SignalsIo& io, Alarms& alarms);
   void writeSignals(const SignalsIo& io, const Tables& tables, bool rapid) const;
 
-  // Moves by `delta`; the machine stands still under machine lock.
+  // Moves by `delta`; the machine does not move under machine lock.
   void move(uint32_t axis, int64_t delta);
   // Towards `target` (in terms of `commanded`) by at most `units`; true when it is there.
   bool moveTowards(uint32_t axis, int64_t target, double units);

@@ -1,6 +1,6 @@
 // The axes of the machine: positions, motions on the commands of MOVCMND (man. 6.15), by hand (jog, increments, hand
 // wheels, reference point) and for part programs, and the signals AN_…, AP_… (man. 7.13). Motions have no ramps: an
-// axis moves with its speed or stands. Positions are in the unit of the machine (mm, degrees), speeds in units per
+// axis moves with its speed or is at rest. Positions are in the unit of the machine (mm, degrees), speeds in units per
 // minute.
 //
 // A machine position is that of the command; the encoder follows by kLag of the velocity.
@@ -13,7 +13,7 @@
 
 namespace rung::nc::nct {
 
-inline constexpr double kLag = 0.02;           // s: what the measured position is behind the command
+inline constexpr double kLag = 0.02;           // s: by which the measured position lags the command
 inline constexpr double kPulsesPerUnit = 1000; // of an axis' encoder
 inline constexpr int32_t kHandwheels = 4;
 

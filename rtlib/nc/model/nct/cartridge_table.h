@@ -1,7 +1,7 @@
-// The cartridge management table (man. 6.26.2, l.4443-4497): which tool, by its data number, stands in which pot.
+// The cartridge management table (man. 6.26.2, l.4443-4497): which tool, by its data number, is in which pot.
 // Cartridges 1-4 are magazines, 10 * s is spindle s and 10 * s + 1 its standby cartridge, both of one pot.
 //
-// Invariant: a data number stands in one pot at most.
+// Invariant: a data number is in one pot at most.
 #pragma once
 #include <cstdint>
 #include <optional>

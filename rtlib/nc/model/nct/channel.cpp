@@ -147,7 +147,7 @@ void Channel::followToggles() {
 void Channel::followConditions() {
   set(signals_.wheelOffset, get(signals_.wheelOffsetRequest) && (automatic() || mode_ == Mode::Mdi));
   set(signals_.misaligned, get(signals_.misalignedRequest) && manual());
-  // N3200: 1 head-head, 2 head-table, 3 table-table; others are no five-axis machines.
+  // N3200: 1 head-head, 2 head-table, 3 table-table; others are not five-axis machines.
   const int32_t mechanics = control_.parameters->dword(parameters_.mechanics, channel_);
   const bool head = mechanics == 1 || mechanics == 2, table = mechanics == 2 || mechanics == 3;
   const bool able[] = {head, head, head || table, table};
@@ -229,7 +229,7 @@ void Channel::showState() {
   set(signals_.buffered, mode_ == Mode::Mdi || program() != nullptr); // l.9543-9547
   set(signals_.waiting, run().waiting >= 0);
   const bool moves = control_.signals.get(signals_.feedOverride, channel_) != 0;
-  set(signals_.standing, !start_ || !moves);
+  set(signals_.stopped, !start_ || !moves);
   set(signals_.empty, !running() || !run().motion.moving());
 }
 

@@ -1,6 +1,6 @@
 // One channel of the simulated NCT control (man. 7.15): its mode and the conditions of the operator, start and stop,
 // and the execution of part programs: automatic mode, MDI mode, and single blocks in the manual modes. It works once in
-// a PLC cycle, in front of it.
+// a PLC cycle, before it.
 //
 // A block is done when its motion has ended and CP_FIN=1, which is looked at one PLC cycle after the strobes.
 #pragma once

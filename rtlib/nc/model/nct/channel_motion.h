@@ -1,5 +1,5 @@
 // What a channel's part program does besides handing over functions: modal codes, motions of its axes, dwells, and the
-// signals that tell of them (man. l.9578-9730). Axes of a block start and end together; circles are chords.
+// signals that report them (man. l.9578-9730). Axes of a block start and end together; circles are chords.
 #pragma once
 #include <array>
 
@@ -22,12 +22,12 @@ public:
   void prepare(const ProgramBlock& block, bool locked);
   bool done() const { return next_ >= count_ && dwellUs_ <= 0 && !checking_; }
 
-  // In front of a PLC cycle, while the program runs; writes the signals of the block under way.
+  // Before a PLC cycle, while the program runs; writes the signals of the block under way.
   void cycle(bool running, int64_t us);
-  // In front of a time slice: holds the axes that may not move.
+  // Before a time slice: holds the axes that may not move.
   void timeSlice(bool running) const;
 
-  // The block's motion ends; `resume` goes on with it, from where it began or from where it was interrupted.
+  // The block's motion ends; `resume` continues it, from where it began or from where it was interrupted.
   void interrupt();
   void resume(bool toStart, bool toInterruption);
   void cancel();
@@ -97,7 +97,7 @@ private:
   std::array<Waypoint, kWaypoints> way_{};
   uint32_t count_ = 0;
   uint32_t next_ = 0;
-  bool started_ = false; // the axes have been told
+  bool started_ = false; // the axes have their commands
   bool locked_ = false;
   bool checking_ = false; // CN_POSCHK
   double restUs_ = 0;     // of a locked motion

@@ -79,7 +79,7 @@ private:
     const bool conditional = take("IF");
     skipBlanks();
     if (here() == '#') return readVariable(block, conditional);
-    if (conditional) return "expected a macro variable behind IF";
+    if (conditional) return "expected a macro variable after IF";
     if (!isLetter(here())) return std::string("unexpected character '") + text_[at_] + "'";
     return readWord(block);
   }
@@ -87,7 +87,7 @@ private:
   std::string readTarget(ProgramBlock& block, ProgramJump jump) {
     skipBlanks();
     double target = 0;
-    if (!readNumber(target) || target < 1) return "expected the number of a block behind GOTO";
+    if (!readNumber(target) || target < 1) return "expected the number of a block after GOTO";
     jump.target = static_cast<uint32_t>(target);
     block.jump = jump;
     return {};
@@ -101,7 +101,7 @@ private:
     skipBlanks();
     if (!conditional && take("=")) {
       ProgramAssignment assignment{.variable = number, .value = {}};
-      if (!readValue(assignment.value)) return "a number is missing behind '='";
+      if (!readValue(assignment.value)) return "a number is missing after '='";
       block.assignments.push_back(assignment);
       return {};
     }
@@ -111,22 +111,22 @@ private:
     for (const auto& [name, test] : kTests) {
       if (!take(name)) continue;
       ProgramJump jump{.test = test, .variable = number, .value = {}, .target = 0};
-      if (!readValue(jump.value)) return "a number is missing behind " + std::string(name);
+      if (!readValue(jump.value)) return "a number is missing after " + std::string(name);
       skipBlanks();
       return take("GOTO") ? readTarget(block, jump) : "expected GOTO";
     }
-    return "expected '=' or a comparison behind the macro variable";
+    return "expected '=' or a comparison after the macro variable";
   }
 
   std::string readWord(ProgramBlock& block) {
     ProgramWord word;
     word.letter = here();
     ++at_;
-    if (!readValue(word.value)) return std::string("a number is missing behind ") + word.letter;
+    if (!readValue(word.value)) return std::string("a number is missing after ") + word.letter;
     if (word.letter == 'S' && take("=")) {
       if (word.value.number < 1 || word.value.number > 16) return "spindles are S1 to S16";
       word.spindle = static_cast<uint32_t>(word.value.number);
-      if (!readValue(word.value)) return "a number is missing behind '='";
+      if (!readValue(word.value)) return "a number is missing after '='";
     }
     const double number = word.value.number;
     if (word.letter == 'N' || word.letter == 'O') {

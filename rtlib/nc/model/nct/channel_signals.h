@@ -37,7 +37,7 @@ struct ChannelSignals {
   BitSignal toolRequest[4] = {BitSignal("CP_TAXF"), BitSignal("CP_TRGAF"), BitSignal("CP_TTCRF"), BitSignal("CP_TBLB")};
   BitSignal toolMode[4] = {BitSignal("CN_TAXF"), BitSignal("CN_TRGAF"), BitSignal("CN_TTCRF"), BitSignal("CN_TBLB")};
 
-  BitSignal standing{"CN_IPSTP"}, empty{"CN_IPEPTY"}, feedRequest{"CN_CBFR"}, feedEnabled{"CP_CBFEN"};
+  BitSignal stopped{"CN_IPSTP"}, empty{"CN_IPEPTY"}, feedRequest{"CN_CBFR"}, feedEnabled{"CP_CBFEN"};
   BitSignal hold{"CP_HOLD"}, holdAll{"P_HOLD0"}, rapidKey{"CP_JOGRAP"};
   BitSignal overrideDisabled{"CN_OVDIS"}, thread{"CN_THRD"}, threadCycle{"CN_THRDC"}, tapping{"CN_TAP"};
   BitSignal rigidTapping{"CN_RTAP"}, reference{"CN_REFPG"}, dwell{"CN_DWELL"}, skip{"CN_SKIP"}, perTurn{"CN_FREV"};

@@ -97,7 +97,7 @@ void Messages::accept(const rung_message& message) {
   if (list_.size() < list_.capacity()) list_.push_back({.code = code, .clearing = false, .message = message});
 }
 
-// Where the program could not tell the end of a message: no box wants it any more.
+// Where the program could not report the end of a message: no box wants it any more.
 void Messages::dropUnwanted() {
   std::erase_if(list_, [&](const Entry& entry) {
     for (uint32_t box = 0; box < cells(); ++box)
@@ -136,7 +136,7 @@ std::string Messages::cancel(const std::vector<NcArgument>& keys) {
   return {};
 }
 
-// N_CLRMSG is 1 for the one cycle behind a button; set by somebody else it clears the message on top with its rising
+// N_CLRMSG is 1 for the one cycle after a button; set by somebody else it clears the message on top with its rising
 // edge.
 void Messages::press(const SignalMemory& signals, bool inCycle) {
   const bool pressed = signals.get(clear_);
@@ -163,14 +163,14 @@ void Messages::timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost
   press(signals, slice != Slice::Alone);
   if (lost != lost_) dropUnwanted();
   lost_ = lost;
-  tell(signals);
+  report(signals);
 }
 
 void Messages::endCycle() {
   if (std::erase_if(list_, [](const Entry& entry) { return entry.clearing; }) != 0) changed_ = true;
 }
 
-void Messages::tell(const SignalMemory& signals) {
+void Messages::report(const SignalMemory& signals) {
   signals.set(any_, !list_.empty());
   signals.set(plc_, !list_.empty());
   signals.set(active_, 0, list_.empty() ? 0 : static_cast<int32_t>(list_.back().code));

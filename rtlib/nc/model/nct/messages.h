@@ -1,6 +1,6 @@
 // The messages of a program on the screen of the NCT control (man. §6.13, N_CLRMSG l.7987-8013): a list in which the
-// last one sent is on top. It takes what the program sent, deletes what the operator clears, and tells the program by
-// the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG what is displayed.
+// last one sent is on top. It takes what the program sent, deletes what the operator clears, and reports to the program
+// by the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG what is displayed.
 //
 // A code is displayed once: sent again it comes to the top with its new number. A message that the operator clears goes
 // at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870); it comes back
@@ -24,10 +24,10 @@ public:
   void accept(const rung_message& message);
   // The operator: CANCEL (the message on top), the selected message, or all of them. "" or what is wrong.
   std::string cancel(const std::vector<NcArgument>& keys);
-  // In front of a time slice. `lost` counts messages that found no room in the program's queue.
+  // Before a time slice. `lost` counts messages that found no room in the program's queue.
   enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
   void timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost);
-  // Behind a PLC cycle; the first time slice of the next one makes up for it where nobody called.
+  // After a PLC cycle; the first time slice of the next one makes up for it where nobody called.
   void endCycle();
 
   std::vector<ShownMessage> shown(const rung_program& program) const;
@@ -45,7 +45,7 @@ private:
   void remove(uint32_t code);
   void registered(uint32_t code);
   void dropUnwanted();
-  void tell(const SignalMemory& signals);
+  void report(const SignalMemory& signals);
   void press(const SignalMemory& signals, bool inCycle);
 
   BitSignal clear_{"N_CLRMSG"};

@@ -2,7 +2,7 @@
 // loading-unloading point; 0 is virtual: data of pallets that left the machine. A place holds a pallet if it has an
 // identifier; the status belongs to the place.
 //
-// Invariant: an identifier stands in one place at most.
+// Invariant: an identifier is in one place at most.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -11,7 +11,7 @@
 namespace rung::nc::nct {
 
 // The place of a signal of signals.csv, found when its owner is made. A name that is not there ends the program: the
-// names stand in this code alone.
+// names are in this code alone.
 class SignalPlace {
 public:
   uint32_t count() const { return count_; }

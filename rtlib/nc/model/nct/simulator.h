@@ -36,7 +36,7 @@ public:
 
   // The program's memory has been started.
   void powerOn(host::Instance& instance, PowerOn kind);
-  // In front of every time slice; `cycle`: it is the first one of a PLC cycle.
+  // Before every time slice; `cycle`: it is the first one of a PLC cycle.
   void timeSlice(host::Instance& instance, bool cycle);
   // MACR, MACW, SCP, MOVCMND; false: another service.
   bool respond(const rt::ServiceRequest& request, rt::ServiceReply& reply);

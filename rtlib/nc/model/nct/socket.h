@@ -50,7 +50,7 @@ public:
     bool nothing = false; // neither data nor an error
     Endpoint from;
   };
-  // A datagram, what is behind `to` is lost; or what the stream has, at most `to`.
+  // A datagram, what is beyond the end of `to` is lost; or what the stream has, at most `to`.
   Received receive(std::span<uint8_t> to, bool peek = false);
   struct Sent {
     size_t bytes = 0;

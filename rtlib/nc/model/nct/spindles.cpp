@@ -8,7 +8,7 @@ namespace rung::nc::nct {
 namespace {
 
 constexpr double kNear = 1e-9;
-constexpr uint32_t kFirstDrive = 33; // drives of spindles stand behind those of the axes
+constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
 
 } // namespace
 
@@ -224,7 +224,7 @@ void Spindles::writeSignals(uint32_t i) {
   const double angle = real(parameters_.basicAngle, i) / 360;
   put(signals_.ramped, i, there && ramped);
   put(signals_.atSpeed, i, there && deviation <= tolerance);
-  put(signals_.standing, i, there && std::abs(state.speed) <= real(parameters_.zeroWindow, i));
+  put(signals_.stopped, i, there && std::abs(state.speed) <= real(parameters_.zeroWindow, i));
   put(signals_.fluctuating, i, there && ramped && deviation > fluctuation);
   put(signals_.loopClosed, i, there && state.closed);
   put(signals_.oriented, i, there && state.closed && state.oriented);

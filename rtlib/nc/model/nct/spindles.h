@@ -19,7 +19,7 @@ struct SpindleSignals {
   WordSignal programmed{"SP_PRG"}, range{"SP_RNG"}, master{"SP_MAST"};
   RealSignal speedOverride{"SP_SOVER"};
 
-  BitSignal ramped{"SN_RMPD"}, atSpeed{"SN_NS"}, standing{"SN_N0"}, fluctuating{"SN_FLU"};
+  BitSignal ramped{"SN_RMPD"}, atSpeed{"SN_NS"}, stopped{"SN_N0"}, fluctuating{"SN_FLU"};
   BitSignal loopClosed{"SN_LPCLSD"}, oriented{"SN_ORIP"}, inPosition{"SN_SINPOS"};
   BitSignal synchronised{"SN_SSYNA"}, phaseShifted{"SN_PHSHFTA"};
   BitSignal wantsPositive{"SN_SMTNRP"}, wantsNegative{"SN_SMTNRN"}, wantsRapid{"SN_SRAPR"};

@@ -1,6 +1,6 @@
 // Tool management of the simulated NCT control (man. 6.26): the tables, the services MW 100 to MR 108, what the
 // operator and the configuration write into the tables, and the signals of life management. Channels ask it where a
-// tool stands.
+// tool is.
 #pragma once
 #include <array>
 #include <string>

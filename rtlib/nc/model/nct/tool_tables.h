@@ -13,7 +13,7 @@ namespace rung::nc::nct {
 // What the NC finds for a T code (l.4362-4372, 10742-10772).
 struct ToolPick {
   bool expired = false;    // CN_TLLE: tools of the type are expired or broken, none is left (l.9733)
-  uint32_t dataNumber = 0; // 0: none that can be searched stands in a pot
+  uint32_t dataNumber = 0; // 0: none that can be searched is in a pot
   PotPlace place;          // of it, else 0, 0
 };
 

@@ -1,8 +1,8 @@
 // One topic of the simulated NCT control: a table, a device, the axes … Each is a class of its own that the Simulator
 // (simulator.h) holds; a topic reaches the signals, the PLC memory and the other topics through Control.
 //
-// Order of things: config before the first power-on; powerOn; then `timeSlice` in front of every time slice of the PLC,
-// `cycle` in front of the first one of a PLC cycle. Between two scans the requests of MR and MW are answered by
+// Order of things: config before the first power-on; powerOn; then `timeSlice` before every time slice of the PLC,
+// `cycle` before the first one of a PLC cycle. Between two scans the requests of MR and MW are answered by
 // `service`. What runs in the scan (timeSlice, cycle, service) allocates nothing and never blocks.
 #pragma once
 #include <optional>
@@ -93,7 +93,7 @@ int64_t integerKey(const std::vector<NcArgument>& keys, std::string_view key, in
 std::string unknownKey(std::string_view event, const std::vector<NcArgument>& keys,
                        std::initializer_list<std::string_view> known);
 std::optional<double> numberOf(std::string_view text);
-// The numbers behind a prefix: "MPOS.3" with "MPOS." gives {3}, "param.0516.2" with "param." {516, 2}. Nothing when the
+// The numbers after a prefix: "MPOS.3" with "MPOS." gives {3}, "param.0516.2" with "param." {516, 2}. Nothing when the
 // prefix or the form is another.
 std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::string_view prefix);
 

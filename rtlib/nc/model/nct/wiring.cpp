@@ -26,7 +26,7 @@ std::optional<int64_t> duration(std::string_view text) {
 
 } // namespace
 
-// NAME, NAME.BB of a double word, with ,#INDEX behind it.
+// NAME, NAME.BB of a double word, with ,#INDEX after it.
 std::optional<Wiring::Place> Wiring::place(std::string_view name) {
   const size_t comma = std::min(name.find(",#"), name.size());
   const auto index = comma == name.size() ? std::optional<uint32_t>(0) : number(name.substr(comma + 2));
@@ -50,7 +50,7 @@ Handled Wiring::config(std::string_view key, std::string_view value) {
   wire.inverted = value.starts_with('/');
   const auto source = place(value.substr(wire.inverted ? 1 : 0, at - (wire.inverted ? 1 : 0)));
   const auto delay = at == value.size() ? std::optional<int64_t>(0) : duration(value.substr(at + 1));
-  if (!input) return std::string(key) + ": expected the bit of a signal behind 'follow.'";
+  if (!input) return std::string(key) + ": expected the bit of a signal after 'follow.'";
   if (!source || !delay)
     return std::string(key) + ": expected a bit such as OUT010.00, /OUT010.00 or OUT010.00@100ms, found '" +
            std::string(value) + "'";

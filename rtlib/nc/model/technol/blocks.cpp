@@ -43,7 +43,7 @@ void Blocks::reset(const host::Instance& instance) {
   const auto task = [&](std::string_view name) { return host::findTask(instance.program(), name); };
   init_ = {task("BLOCK_INIT"), hostCell(instance, "@BLOCK_INIT.CONT"), hostCell(instance, "@BLOCK_INIT.DONE")};
   done_ = {task("BLOCK_DONE"), hostCell(instance, "@BLOCK_DONE.CONT"), hostCell(instance, "@BLOCK_DONE.DONE")};
-  initOwed_ = hostCell(instance, "@INIT.OWED");
+  initOwed_ = hostCell(instance, "@INIT.PENDING");
   startDisable_ = interfaceCell(instance, "START_DISABLE");
   startSuspend_ = interfaceCell(instance, "START_SUSPEND");
   statusRestart_ = interfaceCell(instance, "STATUS_RESTART");
@@ -60,7 +60,7 @@ void Blocks::reset(const host::Instance& instance) {
 }
 
 std::string Blocks::start(host::Instance& instance, std::span<const NcArgument> cells) {
-  if (phase_ != Phase::Idle) return "a block is under way already";
+  if (phase_ != Phase::Idle) return "a block is already under way";
   for (const NcArgument& cell : cells) {
     if (cell.isText) return "'" + cell.key + "' is a number, not a text";
     const auto place = commandCell(instance, cell.key);

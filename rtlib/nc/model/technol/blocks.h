@@ -14,7 +14,7 @@ public:
   // After power-on.
   void reset(const host::Instance& instance);
 
-  // "" or why not. The names stand for cells of the command block.
+  // "" or why not. The names refer to cells of the command block.
   std::string start(host::Instance& instance, std::span<const NcArgument> cells);
   // The programmed position has been reached; while MODULE_BLOCK_INIT runs: the block has no motion.
   std::string reached(host::Instance& instance);

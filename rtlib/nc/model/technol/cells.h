@@ -11,7 +11,7 @@
 namespace rung::nc::technol {
 
 // The interface's own names: a cell, `STRUCTURE.MEMBER`, `CELL.WEIGHT`, `BLK[n].ELEMENT`, `BLK[n].ELEMENT[k]`, a type
-// in front of the element or not.
+// before the element or not.
 std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name);
 std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name);
 std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& signal);

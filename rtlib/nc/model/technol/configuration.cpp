@@ -21,7 +21,7 @@ int digitOf(char c) {
   return -1;
 }
 
-// Gives the bytes that a text stands for, one at a time: its characters, or those of pairs of hexadecimal digits with
+// Gives the bytes that a text means, one at a time: its characters, or those of pairs of hexadecimal digits with
 // blanks between them.
 class Bytes {
 public:
@@ -107,7 +107,7 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
   } else if (const auto given = integerOf(value)) {
     number = *given;
   } else {
-    return "the constant '" + std::string(id) + "' is no number, SA0INT, SA0REAL or PLCCOMMAND: '" +
+    return "the constant '" + std::string(id) + "' is not a number, SA0INT, SA0REAL or PLCCOMMAND: '" +
            std::string(value) + "'";
   }
   constants_.insert_or_assign(memoryText(id), number);
@@ -142,7 +142,7 @@ std::optional<int64_t> Configuration::constantInMemory(std::string_view id) cons
   return found == constants_.end() ? std::nullopt : std::optional(found->second);
 }
 
-// What is no value of the wanted kind counts as not found.
+// What is not a value of the wanted kind counts as not found.
 void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const {
   char room[kConfigurationBytes];
   const std::string_view id = charactersOf(std::span(request.args).subspan(kConfigurationHead), room);

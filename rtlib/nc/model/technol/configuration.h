@@ -15,7 +15,7 @@ namespace rung::nc::technol {
 
 class Configuration {
 public:
-  // `config KEY VALUE`: a parameter, with `const.` in front of its identifier a constant, with `licence.` in front of
+  // `config KEY VALUE`: a parameter, with `const.` before its identifier a constant, with `licence.` before
   // its name a licence. "" or what is wrong.
   std::string set(std::string_view key, std::string_view value);
   // What the control's files say. "" or what is wrong, with its place.

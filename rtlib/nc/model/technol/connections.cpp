@@ -45,7 +45,7 @@ void Connections::configure(std::string_view key, std::string_view value) {
     if (std::string_view(name).substr(point + 1) != attribute) continue;
     Attributes& attributes = attributes_[name.substr(0, point)];
     attributes.*member = realOf(value);
-    if (!(attributes.*member)) attributes.wrong = std::string(key) + " is no number: " + quoted(value);
+    if (!(attributes.*member)) attributes.wrong = std::string(key) + " is not a number: " + quoted(value);
   }
 }
 
@@ -112,7 +112,7 @@ public:
   // Nothing, with the reason in `problem`, where there is no such end.
   std::optional<End> end(std::string_view written, std::string& problem) {
     const std::string name = canonicalOf(written);
-    problem = quoted(written) + " is no end of a connection";
+    problem = quoted(written) + " is not an end of a connection";
     std::string_view rest = name;
     std::optional<End> made;
     if (takePrefix(rest, "PLC.INPUT."))
@@ -275,7 +275,7 @@ void Connections::shape(Wire& wire, const Connection& connection, const End& fro
     if (attributes && isFlag(attributes->invert)) wire.invert = !wire.invert;
   const bool bits = wire.from.type == ExchangeType::Bit && wire.to.type == ExchangeType::Bit;
   if (bits) return;
-  const auto scaled = [](double scale, double offset) { return Stage{.scale = scale, .behind = offset}; };
+  const auto scaled = [](double scale, double offset) { return Stage{.scale = scale, .after = offset}; };
   if (output) {
     Stage stage = scaled(output->scale.value_or(1), output->offset.value_or(0));
     const bool mapped = from.variable->kind == ExchangeKind::MapAout; // l.5735-5748
@@ -330,7 +330,7 @@ void Connections::addWire(const Connection& connection, const End& from, const E
   wires_.push_back(wire);
 }
 
-// What an EtherCAT element is, the other end of its connection tells.
+// The other end of its connection says what an EtherCAT element is.
 void Connections::openCells(Resolver& resolver, ModuleCells& cells) const {
   for (const Connection& connection : connections_) {
     std::string problem;

@@ -1,5 +1,5 @@
 // The connections of logical inputs and outputs, and the configuration of mapped ones (man. ch. 10, 27): a table of
-// wires, made when the program has told what it has.
+// wires, made when the program has declared what it has.
 #pragma once
 #include <compare>
 #include <map>
@@ -44,7 +44,7 @@ public:
 private:
   struct Attributes {
     std::optional<double> invert, scale, offset, least, most, otherwise, connected, port, bit, physical;
-    std::string wrong; // an attribute that is no number
+    std::string wrong; // an attribute that is not a number
     FilePlace place;   // where it was read, "" without a file
   };
   struct Connection {

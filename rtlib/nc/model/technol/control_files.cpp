@@ -346,7 +346,7 @@ Element Reader::elementOf(std::string_view name) {
   return kind_ == ControlFileKind::Channel ? inChannel(parent, name) : Element::Foreign;
 }
 
-// What stands around an element is no text of the ones read here.
+// What is around an element is not a text of the ones read here.
 void Reader::checkText() {
   const bool foreign =
       open_.empty() || open_.back().element == Element::Foreign || open_.back().element == Element::Plc;
@@ -393,7 +393,7 @@ void Reader::end() {
 bool Reader::isNew(std::string_view what, const std::string& id, const FilePlace& at) {
   if (id.empty()) return false;
   const auto [entry, fresh] = known_.emplace(std::string(what) + " " + id, at);
-  if (!fresh) complain(entry->first + " is defined again; the first one stands at " + entry->second);
+  if (!fresh) complain(entry->first + " is defined again; the first definition is at " + entry->second);
   return fresh;
 }
 

@@ -14,7 +14,7 @@
 
 namespace rung::nc::technol {
 
-// Where something stands, for messages about it: "FILE:LINE:COLUMN".
+// Where something is written, for messages about it: "FILE:LINE:COLUMN".
 using FilePlace = std::string;
 
 enum class MessageKind : uint8_t { ErrCritical, Err, Wrn1, Wrn2, Wrn3, Info, Event };
@@ -25,7 +25,7 @@ struct MessageDefinition {
   uint32_t number = 0; // 0 to 65535
   MessageKind kind = MessageKind::Err;
   Validity validity = Validity::Transient;
-  std::string text; // in one line; %d, %x or %X stand for the values of the message, three at most
+  std::string text; // in one line; %d, %x or %X are places for the values of the message, three at most
   FilePlace place;
 };
 

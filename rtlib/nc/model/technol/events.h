@@ -13,7 +13,7 @@ namespace rung::nc::technol {
 // The number of a PLC constant by its identifier.
 using ConstantOf = std::function<std::optional<int64_t>(std::string_view)>;
 
-// PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is no such event.
+// PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is not such an event.
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf);
 

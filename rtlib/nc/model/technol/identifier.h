@@ -1,5 +1,5 @@
 // Identifiers of logical inputs and outputs: dotted names in any case (man. l.12679-12709). An index of zero is the
-// same as none and leading zeros do not count; `CNC.` may stand in front.
+// same as none and leading zeros do not count; `CNC.` may come first.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,7 @@ namespace rung::nc::technol {
 // The one way to write it: upper case, indices without leading zeros, none that is zero, nothing around it.
 std::string canonical(std::string_view identifier);
 
-// What a connection adds to a canonical identifier: `.BIT[k]`, and in front of it the index of an element.
+// What a connection adds to a canonical identifier: `.BIT[k]`, and before it the index of an element.
 struct Reference {
   std::string_view base;
   uint32_t element = 0;

@@ -21,7 +21,7 @@ struct ModuleElement {
   bool isSource = true, isDestination = true;
 };
 
-// By a canonical identifier, without `.Bit[k]`. Nothing: there is no such element; `problem` tells why where the module
+// By a canonical identifier, without `.Bit[k]`. Nothing: there is no such element; `problem` says why where the module
 // is known.
 std::optional<ModuleElement> moduleElement(std::string_view identifier, std::string& problem);
 

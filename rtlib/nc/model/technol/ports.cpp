@@ -23,7 +23,7 @@ bool Ports::configure(std::string_view key, std::string_view value, std::string&
   const uint32_t unit = takeIndex(rest).value_or(0);
   const auto control = decimal(value);
   if (rest != ".CONTROL" || unit >= kUnits)
-    problem = "'" + std::string(key) + "' is no unit's control byte: CAN[1].INOUT08[0].CONTROL to [31]";
+    problem = "'" + std::string(key) + "' is not a unit's control byte: CAN[1].INOUT08[0].CONTROL to [31]";
   else if (!control || *control > 255)
     problem = "'" + std::string(key) + "' takes 0 to 255";
   else

@@ -1,6 +1,6 @@
-// The ports of the input and output units: forced bits and shorted outputs (man. l.3498-3609). Inputs are forced in
-// front of the program, outputs behind it; what the machine or the program itself put there comes back in front of the
-// next cycle. Without forcing and errors a cycle looks at half a kilobyte and goes on.
+// The ports of the input and output units: forced bits and shorted outputs (man. l.3498-3609). Inputs are forced
+// before the program, outputs after it; what the machine or the program itself put there comes back before the next
+// cycle. Without forcing and errors a cycle only looks at half a kilobyte.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@ public:
   static constexpr uint32_t kInputs = 128, kOutputs = 96, kUnits = 32;
 
   // `config CAN[1].INOUT08[i].CONTROL n`: the control byte of a unit, of which IO_DIS_ERPIS counts here. False: another
-  // key. `problem` tells what is wrong with the value.
+  // key. `problem` says what is wrong with the value.
   bool configure(std::string_view key, std::string_view value, std::string& problem);
   void reset(const host::Instance& instance);
 
@@ -31,7 +31,7 @@ public:
 private:
   struct Port {
     uint8_t own = 0;    // what the machine or the program put there
-    uint8_t forced = 0; // what stands there since
+    uint8_t forced = 0; // what has been there since
     bool active = false;
   };
   struct Family { // of cells that are numbered

@@ -16,9 +16,9 @@ void ProgramLife::powerOn(host::Instance& instance) {
   runWith(instance, "INIT", kPower, false);
 }
 
-bool ProgramLife::owesDone(const host::Instance& instance) const { return readCell(instance, "@DONE.OWED") != 0; }
+bool ProgramLife::owesDone(const host::Instance& instance) const { return readCell(instance, "@DONE.PENDING") != 0; }
 
-// A program that stands has had its shutdown.
+// A program that is stopped has had its shutdown.
 bool ProgramLife::powerOff(host::Instance& instance) {
   if (instance.stopped()) return false;
   runWith(instance, "DONE", kPower, false);

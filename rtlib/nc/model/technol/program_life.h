@@ -7,9 +7,9 @@ namespace rung::nc::technol {
 
 class ProgramLife {
 public:
-  // Behind the reset of the memory. DR = 0 tells MODULE_INIT that the control was switched on.
+  // After the reset of the memory. DR = 0 informs MODULE_INIT that the control was switched on.
   void powerOn(host::Instance& instance);
-  // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is owed.
+  // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is pending.
   bool powerOff(host::Instance& instance);
   bool owesDone(const host::Instance& instance) const;
 
@@ -17,7 +17,7 @@ public:
   void start(host::Instance& instance);
   void stop(host::Instance& instance);
   void clear(host::Instance& instance);
-  // The program stands when it no longer owes the end of its shutdown.
+  // The program stops when the end of its shutdown is no longer pending.
   void afterScan(host::Instance& instance);
 
 private:

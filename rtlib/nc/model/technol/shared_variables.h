@@ -1,5 +1,5 @@
 // The variables of a running program that its control knows by names: mapped and logical inputs and outputs, and what
-// SHARE_VAR and SHARE_BIT share (man. ch. 10, 18.2, 27). The program tells them while it starts.
+// SHARE_VAR and SHARE_BIT share (man. ch. 10, 18.2, 27). The program declares them while it starts.
 #pragma once
 #include <optional>
 #include <string>
@@ -37,14 +37,14 @@ class SharedVariables {
 public:
   SharedVariables() { all_.reserve(kUsual); }
   void clear();
-  // False where the name has another meaning already, or the place is not in the program's memory. `isNew` tells
+  // False where the name has another meaning already, or the place is not in the program's memory. `isNew` says
   // whether something has changed.
   bool define(const rung_program& program, SharedVariable variable, bool& isNew);
 
   const std::vector<SharedVariable>& all() const { return all_; }
   // By a canonical identifier of a DEF_IN or DEF_OUT.
   const SharedVariable* logical(ExchangeKind kind, std::string_view identifier) const;
-  // By the name that a screen uses: of any kind, with the index of an element and `.Bit[k]` behind it, as `PLC.Input.`
+  // By the name that a screen uses: of any kind, with the index of an element and `.Bit[k]` after it, as `PLC.Input.`
   // or `PLC.Output.` identifier or the identifier alone.
   std::optional<host::Ref> find(std::string_view name, bool toWrite) const;
   // Of MAP_* and DEF_*: the variable that holds the place, and which of its elements.
@@ -59,7 +59,7 @@ private:
   std::unordered_map<std::string, uint32_t> byKey_;
 };
 
-// What kDefineService tells.
+// What kDefineService declares.
 std::optional<SharedVariable> variableOf(const rt::ServiceRequest& request);
 
 } // namespace rung::nc::technol

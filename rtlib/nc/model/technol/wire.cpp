@@ -9,7 +9,7 @@
 namespace rung::nc::technol {
 namespace {
 
-// Whether the bytes lie one behind the other in the block, unexpanded.
+// Whether the bytes lie one after the other in the block, unexpanded.
 bool isPlain(const rt::Memory& memory, const host::Ref& place, uint32_t bytes, uint32_t& offset) {
   const rt::BitPlace first = memory.bitPlace(place.space, place.byte, 7);
   offset = first.offset;
@@ -50,7 +50,7 @@ uint64_t integerOf(double value, ExchangeType type) {
 }
 
 double through(const Stage& stage, double x) {
-  x = (std::min(std::max(x, stage.least), stage.most) + stage.before) * stage.scale + stage.behind;
+  x = (std::min(std::max(x, stage.least), stage.most) + stage.before) * stage.scale + stage.after;
   return std::min(std::max(x, stage.low), stage.high);
 }
 

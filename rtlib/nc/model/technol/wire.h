@@ -27,11 +27,11 @@ struct Pin {
 };
 Pin pinAt(const rung_program& program, const host::Ref& place, ExchangeType type);
 
-// (min(max(x, least), most) + before) * scale + behind, then held between low and high.
+// (min(max(x, least), most) + before) * scale + after, then held between low and high.
 struct Stage {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double least = -kInfinity, most = kInfinity;
-  double before = 0, scale = 1, behind = 0;
+  double before = 0, scale = 1, after = 0;
   double low = -kInfinity, high = kInfinity;
   bool operator==(const Stage&) const = default;
 };

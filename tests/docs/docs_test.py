@@ -4,7 +4,7 @@
 A block ```sh is what a reader types, one command after the other, each page from the root of the repository. All commands
 succeed, but for the last one of a block ```sh exit=N, which ends with N. A block ```text is what the commands of the block
 before it print; wall-clock times and the widths of columns do not count, and a line … is any number of lines. With
-RUNG_UPDATE=1 these blocks are written anew.
+RUNG_UPDATE=1 these blocks and the picture of first-machine.md are written anew.
 """
 import csv
 import os
@@ -21,7 +21,7 @@ RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Pages whose commands are run, in the order in which a newcomer reads them; all write into the scratch folder alone.
-RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("guide.md", "linuxcnc.md"))]
+RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "linuxcnc.md"))]
 SCRATCH = "out"
 # Not run: what builds, what is interactive, and what tests/debug runs.
 SKIPPED_COMMANDS = ("./dev", "gdb", "valgrind", "callgrind_annotate", "perf")
@@ -88,6 +88,10 @@ class Docs(unittest.TestCase):
             (folder / "build" / "bin").symlink_to(Path(RUNGC).parent)
             for page in RUN_PAGES:
                 Reader(self, folder, page).read()
+            picture = (folder / SCRATCH / "pump" / "pump.svg").read_text()
+        if UPDATE:
+            (ROOT / "docs" / "first-machine.svg").write_text(picture)
+        self.assertEqual(picture, (ROOT / "docs" / "first-machine.svg").read_text(), "docs/first-machine.svg is stale: run tests/update")
 
     def test_outputs_are_compared(self):
         for shown_text, printed, same in (

@@ -214,10 +214,11 @@ class Debug(unittest.TestCase):
     def guide_commands(self, *programs):
         """The lines of the guide's section that start with one of these programs, after what they need has been built."""
         section = Path("docs/guide.md").read_text().split("\n## Profile and debug\n")[1].split("\n## ")[0]
+        (self.folder / "out").mkdir()
         (self.folder / "build").mkdir()
         (self.folder / "build/bin").symlink_to(Path(RUNGC).parent)
         (self.folder / "examples").symlink_to(Path("examples").resolve())
-        done = run(RUNGC, "build", "examples/gsk-mill/mill.pmc", "-o", str(self.folder / "mill.so"), "-g")
+        done = run(RUNGC, "build", "examples/gsk-mill/mill.pmc", "-o", str(self.folder / "out/mill.so"), "-g")
         self.assertEqual(done.returncode, 0, done.stdout)
         return [line for line in section.splitlines() if line.split(" ")[0] in programs]
 

@@ -1,22 +1,40 @@
 #!/usr/bin/env python3
-"""Checks README.md, CONTRIBUTING.md and docs/ against the tree and the program. docs_test.py RUNGC"""
+"""Checks README.md, CONTRIBUTING.md and docs/ against the tree and the program. docs_test.py RUNGC
+
+A block ```sh is what a reader types, one command after the other, each page from the root of the repository. All commands
+succeed, but for the last one of a block ```sh exit=N, which ends with N. A block ```text is what the commands of the block
+before it print; wall-clock times and the widths of columns do not count, and a line … is any number of lines. With
+RUNG_UPDATE=1 these blocks and the picture of first-machine.md are written anew.
+"""
 import csv
 import os
 import re
-import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 from pathlib import Path
 
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
-# Blocks of these pages whose commands are run.
-RUN_PAGES = [ROOT / "docs" / "guide.md"]
-# Not run: interactive, or for a machine that has to be set up first.
-SKIPPED_COMMANDS = ("gdb",)
+# Pages whose commands are run, in the order in which a newcomer reads them; all write into the scratch folder alone.
+RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "linuxcnc.md"))]
+SCRATCH = "out"
+# Not run: what builds, what is interactive, and what tests/debug runs.
+SKIPPED_COMMANDS = ("./dev", "gdb", "valgrind", "callgrind_annotate", "perf")
+# What differs from run to run.
+WALL_CLOCK = (
+    # rungc test
+    (re.compile(r"(?<= scans, )[\d.]+ m?s(?=\)$)|(?<= failed in )[\d.]+ m?s$"), "TIME"),
+    # rungc profile: tables of times, of sums, of rungs
+    (re.compile(r"(?<=\d)( +[\d.e+]+ [num]?s){4}( +[\d.]+%(?= of ))?"), " TIMES"),
+    (re.compile(r"(?<=% ) *[\d.]+(?=  [^\d\s])"), "TIME"),
+    (re.compile(r"(?<=%)( +[\d.]+){4}(?=  \S+:\d+  )"), " TIMES"),
+)
+UPDATE = os.environ.get("RUNG_UPDATE") == "1"
 
 
 def shown(path):
@@ -59,21 +77,146 @@ class Docs(unittest.TestCase):
                 if "://" not in target:
                     self.assertTrue((page.parent / target).exists(), f"{shown(page)} links to {target}")
 
-    def test_commands_of_the_guide_run(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for name in ("examples", "docs"):
-                os.symlink(ROOT / name, Path(folder) / name)
-            (Path(folder) / "build").mkdir()
-            os.symlink(Path(RUNGC).parent, Path(folder) / "build" / "bin")
+    def test_commands_run_as_written(self):
+        self.assertTrue((ROOT / SCRATCH / ".gitignore").is_file(), "a clone has the scratch folder")
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name).resolve()
+            for part in ("examples", "docs"):
+                shutil.copytree(ROOT / part, folder / part)
+            (folder / SCRATCH).mkdir()
+            (folder / "build").mkdir()
+            (folder / "build" / "bin").symlink_to(Path(RUNGC).parent)
             for page in RUN_PAGES:
-                for block in re.findall(r"^```\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
-                    for command in block.splitlines():
-                        if not command.startswith(SKIPPED_COMMANDS) and "/" in command.split()[0]:
-                            self.run_command(page, command, folder)
+                Reader(self, folder, page).read()
+            picture = (folder / SCRATCH / "pump" / "pump.svg").read_text()
+        if UPDATE:
+            (ROOT / "docs" / "first-machine.svg").write_text(picture)
+        self.assertEqual(picture, (ROOT / "docs" / "first-machine.svg").read_text(), "docs/first-machine.svg is stale: run tests/update")
 
-    def run_command(self, page, command, folder):
-        done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, timeout=120)
-        self.assertEqual(done.returncode, 0, f"{shown(page)}: {shlex.quote(command)}\n{done.stdout.decode()[-800:]}{done.stderr.decode()[-800:]}")
+    def test_outputs_are_compared(self):
+        for shown_text, printed, same in (
+            ("a\nb\n", "a\nb\n", True),
+            ("a\nb\n", "a\nc\n", False),
+            ("a\n", "a\nb\n", False),
+            ("a\n…\nd\n", "a\nb\nc\nd\n", True),
+            ("a\n…\nd\n", "a\nb\nc\n", False),
+            ("…\n(x|y)  1\n", "a\n(x|y) 1\n", True),
+            ("ok      a.scn (12 scans, 3 ms)\n", "ok      a.scn (12 scans, 1.25 s)\n", True),
+            ("ok      a.scn (12 scans, 3 ms)\n", "ok      a.scn (13 scans, 3 ms)\n", False),
+            ("1 passed, 0 failed in 3 ms\n", "1 passed, 1 failed in 3 ms\n", False),
+            ("T is 0 (scan 2, 0.020 s)\n", "T is 0 (scan 2, 0.030 s)\n", False),
+            ("MAIN  276  80.3 ns  79.7 ns  9.7 ns  189.9 ns  0.002% of 10 ms\n", "MAIN  276  1.2 us  1e+03 us  9.7 ns  1.2 ms  12.345% of 10 ms\n", True),
+            ("MAIN  276  80.3 ns  79.7 ns  9.7 ns  189.9 ns  0.002% of 10 ms\n", "MAIN  277  80.3 ns  79.7 ns  9.7 ns  189.9 ns  0.002% of 10 ms\n", False),
+            ("4  276  6900  33.8%  0.0  9.7  8.3  9.7  a.lad:32  x\n", "4  276  6900  33.8%  10.0  9.0  8.0  9.8  a.lad:32  x\n", True),
+            ("4  276  6900  33.8%  0.0  9.7  8.3  9.7  a.lad:32  x\n", "4  276  6901  33.8%  0.0  9.7  8.3  9.7  a.lad:32  x\n", False),
+            ("4 4  1104  20426  100.0%  7.8  MAIN\n", "4 4  1104  20426  100.0%  6.1  MAIN\n", True),
+        ):
+            with self.subTest(shown=shown_text, printed=printed):
+                self.assertEqual(same_output(shown_text, printed), same)
+
+    def test_a_here_document_is_one_command(self):
+        self.assertEqual(commands_of("a\ncat > x <<'END'\n| b\n\nEND\nc \\\n  d\n"), ["a", "cat > x <<'END'\n| b\n\nEND", "c \\\n  d"])
+
+    def test_files_outside_the_scratch_folder_are_found(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for part in ("docs", SCRATCH):
+                (folder / part).mkdir()
+            (folder / "docs" / "a").write_text("a")
+            before = files_outside(folder)
+            (folder / SCRATCH / "a").write_text("a")
+            self.assertEqual(changed_files(before, files_outside(folder)), [])
+            (folder / "docs" / "a").write_text("ab")
+            (folder / "b").write_text("b")
+            self.assertEqual(changed_files(before, files_outside(folder)), ["b", "docs/a"])
+
+
+def commands_of(block):
+    """The commands of a block: lines, with those that a backslash or a here-document adds."""
+    commands, lines = [], iter(block.splitlines())
+    for line in lines:
+        command = line
+        if end := re.search(r"<<'(\w+)'", line):
+            for more in lines:
+                command += "\n" + more
+                if more == end.group(1):
+                    break
+        while command.endswith("\\"):
+            command += "\n" + next(lines)
+        if command.strip():
+            commands.append(command)
+    return commands
+
+
+def without_times(line):
+    for pattern, instead in WALL_CLOCK:
+        line = pattern.sub(instead, line)
+    return " ".join(line.split())
+
+
+def same_output(expected, printed):
+    """Whether a block shows what was printed."""
+    pattern = "".join(r"(?:.*\n)*" if line.strip() == "…" else re.escape(without_times(line)) + r"\n" for line in expected.splitlines())
+    return re.fullmatch(pattern, "".join(without_times(line) + "\n" for line in printed.splitlines())) is not None
+
+
+def files_outside(folder):
+    """State of each file but those in the scratch folder and those of the build."""
+    files = {}
+    for place, folders, names in os.walk(folder):
+        if Path(place) == folder:
+            folders[:] = [name for name in folders if name not in (SCRATCH, "build")]
+        for name in names:
+            path = Path(place) / name
+            files[path.relative_to(folder).as_posix()] = (path.stat().st_mtime_ns, path.stat().st_size)
+    return files
+
+
+def changed_files(before, after):
+    return sorted(name for name in before.keys() | after.keys() if before.get(name) != after.get(name))
+
+
+class Reader:
+    """Types the commands of a page into one shell: the folder and PATH hold from command to command."""
+
+    def __init__(self, test, folder, page):
+        self.test, self.folder, self.page = test, folder, page
+        self.place, self.path = str(folder), os.environ["PATH"]
+        self.files = files_outside(folder)
+        self.printed = None
+
+    def read(self):
+        text = re.sub(r"^( *)```(sh|text)(?: exit=(\d+))?\n(.*?)^\1```", self.block, self.page.read_text(), flags=re.MULTILINE | re.DOTALL)
+        if UPDATE:
+            self.page.write_text(text)
+
+    def block(self, match):
+        indent, kind, status, body = match.groups()
+        body = re.sub(f"^{indent}", "", body, flags=re.MULTILINE)
+        if kind == "sh":
+            commands = commands_of(body)
+            statuses = [0] * (len(commands) - 1) + [int(status or 0)]
+            self.printed = "".join(map(self.run, commands, statuses))
+            return match.group(0)
+        if same_output(body, self.printed):
+            return match.group(0)
+        if UPDATE and "…" not in body:
+            return textwrap.indent(f"```text\n{self.printed}```", indent)
+        self.test.fail(f"{shown(self.page)} shows\n{body}\nbut the commands before it print\n{self.printed}\nrun tests/update; a block with … is edited by hand")
+
+    def run(self, command, status):
+        if command.startswith(SKIPPED_COMMANDS):
+            return ""
+        state = self.folder / "build" / "state"
+        script = f'{command}\nstatus=$?\nprintf "%s\\n" "$PWD" "$PATH" > "{state}"\nexit $status\n'
+        done = subprocess.run(["bash", "-c", script], cwd=self.place, env={**os.environ, "PATH": self.path}, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
+        printed = done.stdout.decode()
+        self.test.assertEqual(done.returncode, status, f"{shown(self.page)}: {command}\n{printed[-1600:]}")
+        self.place, self.path = state.read_text().splitlines()
+        before, self.files = self.files, files_outside(self.folder)
+        self.test.assertEqual(changed_files(before, self.files), [], f"{shown(self.page)}: {command}\nchanges files outside {SCRATCH}/")
+        return printed
 
 
 if __name__ == "__main__":

@@ -61,7 +61,8 @@ struct Param {
   bool isAddress = false;
   bool bad = false; // reported
   Address address;
-  int64_t value = 0; // constant, number, mask, label, subprogram, format as a00n
+  uint32_t bytes = 1; // from the address on; of a data table all that could belong to it
+  int64_t value = 0;  // constant, number, mask, label, subprogram, format as a00n
   SourceRange range;
 };
 

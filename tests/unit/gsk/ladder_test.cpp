@@ -182,7 +182,7 @@ TEST(GskLadderErrors, Operands) {
 TEST(GskLadderErrors, Modules) {
   const auto codes = [](const std::string& text) { return compileLadder("dialect gsk\n" + text)->codes(); };
   const std::string rung = "rung\n|--[X0.0]--(Y0.0)\n";
-  EXPECT_EQ(codes("module LEVEL1\n" + rung + "module LEVEL2\n" + rung), Codes{});
+  EXPECT_EQ(codes("module LEVEL1\nrung\n|--[X0.0]--(Y0.1)\nmodule LEVEL2\n" + rung), Codes{});
   EXPECT_EQ(codes("module LEVEL2\n" + rung), Codes{}) << "Level 1 may be missing";
   EXPECT_EQ(codes("module LEVEL2\n" + rung + "module LEVEL2\n" + rung), (Codes{"5 duplicate-module"}));
   EXPECT_EQ(codes("module MAIN\n" + rung), (Codes{"2 malformed-statement"}));
@@ -199,7 +199,7 @@ TEST(GskLadderErrors, Modules) {
 TEST(GskLadderErrors, ProgramSize) {
   const auto codes = [](int rungs, const std::string& rest) {
     std::string text = "dialect gsk\nmodule LEVEL2\n"; // two steps: END1, END2
-    for (int i = 0; i < rungs; ++i) text += "rung\n|--[X0.0]--(Y0.0)\n";
+    for (int i = 0; i < rungs; ++i) text += "rung\n|--[X0.0]--(R9.0)\n";
     return compileLadder(text + rest)->codes();
   };
   EXPECT_EQ(codes(5999, ""), Codes{}) << "12000 steps";

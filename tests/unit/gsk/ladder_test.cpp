@@ -207,6 +207,41 @@ TEST(GskLadderErrors, ProgramSize) {
   const std::string sub = "rung\n|--{CALLU P1}\nmodule SUB P1\n"; // five steps
   EXPECT_EQ(codes(5996, sub), Codes{}) << "11999 steps";
   EXPECT_EQ(codes(5997, sub), (Codes{"11999 program-too-large"})) << "12001 steps; SPE is one too many";
+  const std::string condition = "; condition: LD X0.0\n";
+  EXPECT_EQ(codes(5996, sub + condition), (Codes{"11998 condition-ignored"})) << "12000 steps";
+  EXPECT_EQ(codes(5996, sub + condition + "; condition: AND X0.0\n"),
+            (Codes{"11997 program-too-large", "11998 condition-ignored"}))
+      << "12001 steps; SPE, counted last, is one too many";
+}
+
+// Comments directly after `module SUB Pn` are the condition before SP where a list would take them for one (P13).
+TEST(GskLadderErrors, ConditionBeforeSp) {
+  const auto compiled = [](const std::string& comments) {
+    return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--{CALLU P1}\nmodule SUB P1\n" + comments +
+                         "rung\n|--[X0.0]--(Y0.0)\n");
+  };
+  const auto codes = [&](const std::string& comments) { return compiled(comments)->codes(); };
+  const std::string load = "; condition: LD X0.0\n";
+  const Codes ignored{"6 condition-ignored"};
+  EXPECT_EQ(codes(load), ignored);
+  EXPECT_EQ(codes(load + "; condition: ANI MF\n"), ignored) << "a signal";
+  EXPECT_EQ(codes(load + load + "; condition: ORB\n; a title\n"), ignored);
+  EXPECT_EQ(codes("\n" + load), Codes{}) << "not directly";
+  EXPECT_EQ(codes("; condition: OR X0.0\n"), Codes{}) << "nothing to join";
+  EXPECT_EQ(codes(load + load), Codes{}) << "two values";
+  EXPECT_EQ(codes("; condition: LD X0.9\n"), Codes{}) << "not a bit";
+  std::string deep = load;
+  for (int i = 0; i < 8; ++i) deep += load;
+  std::string joined;
+  for (int i = 0; i < 8; ++i) joined += "; condition: ORB\n";
+  EXPECT_EQ(codes(deep + joined), ignored) << "nine values";
+  EXPECT_EQ(codes(load + deep + joined + "; condition: ORB\n"), Codes{}) << "ten values";
+  const auto titleOf = [&](const std::string& comments) {
+    return compiled(comments)->module->routines.back().rungs.front().title;
+  };
+  EXPECT_EQ(titleOf(load), "");
+  EXPECT_EQ(titleOf(load + "; a title\n"), "a title");
+  EXPECT_EQ(titleOf(load + load), "condition: LD X0.0") << "a comment like any other";
 }
 
 TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {

@@ -63,6 +63,24 @@ class Discovery(Cli):
             self.rungc("build", cwd=cwd)
         self.assertTrue((self.path / (self.path.name + ".so")).exists())
 
+    def test_a_drawing_has_its_name(self):
+        self.project()
+        name = self.path.name
+        page = self.path / (name + ".html")
+        below = self.path / "below"
+        below.mkdir()
+        for cwd in (self.path, below):
+            out, err = self.rungc("view", cwd=cwd)
+            self.assertRegex(out, rf"^wrote (\.\./)?{re.escape(name)}\.html$")
+            self.assertEqual(err, "")
+            self.assertIn(f"<title>{name}</title>", page.read_text())
+            page.unlink()
+        self.rungc("view", "--title", "Lamp 7", "-o", "lamp.svg")
+        self.assertIn("<title>Lamp 7</title>", (self.path / "lamp.svg").read_text())
+        self.rungc("view", "-o", "lamp.svg")
+        self.assertIn(f"<title>{name}</title>", (self.path / "lamp.svg").read_text())
+        self.assertFalse(page.exists())
+
     def test_a_folder_and_project_name_it(self):
         self.project(folder="machine/")
         for args in (["machine"], ["machine/rung.toml"], ["--project", "machine"], ["--project", "machine/rung.toml"]):

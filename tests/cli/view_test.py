@@ -117,8 +117,9 @@ class View(unittest.TestCase):
         text = Path(self.html).read_text()
         self.assertIn("<title>Lathe &lt;7&gt;</title>", text)
         self.assertIn('content:"Revision C2, 1 March"', text)
-        self.assertIn("<h1>nct-lathe</h1>", (self.page(*LATHE), Path(self.html).read_text())[1])
-        self.assertIn("<h1>mill.pmc</h1>", (self.page("examples/gsk-mill/mill.pmc"), Path(self.html).read_text())[1])
+        self.assertIn("<h1>lathe</h1>", (self.page(*LATHE), Path(self.html).read_text())[1], "the name of the project")
+        self.assertIn("<h1>nct-lathe</h1>", (self.page(*LATHE, "--no-project"), Path(self.html).read_text())[1])
+        self.assertIn("<h1>mill.pmc</h1>", (self.page("examples/gsk-mill/mill.pmc", "--no-project"), Path(self.html).read_text())[1])
 
     def test_a_picture_is_xml(self):
         source = self.file("t.lad", 'dialect nct\nmodule MAIN\nsymbol A<B&C 7000.00 ; <b> "\u4e3b" \' ]]>\n'
@@ -159,7 +160,10 @@ class View(unittest.TestCase):
         self.assertEqual(self.left_over(), ["out.svg"])
 
     def test_wrong_use(self):
-        self.assertEqual(self.view(LATHE[0]).returncode, USAGE)
+        done = self.view("docs/lamp.lad")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn(b"only a project has a name for it", done.stderr)
+        self.assertEqual(self.view(*LATHE, "--no-project").returncode, USAGE)
         done = self.view(*LATHE, "-o", str(Path(self.folder.name) / "out.pdf"))
         self.assertEqual((done.returncode, self.left_over()), (USAGE, []))
         self.assertIn(b".svg", done.stderr)

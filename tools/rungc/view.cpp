@@ -42,7 +42,18 @@ int write(const std::string& text, const std::string& out) {
   return environmentError(fmt::format("cannot write '{}'", out));
 }
 
-int run(const ViewOptions& options) {
+// Of a project, what the command line does not say.
+void fillIn(ViewOptions& options) {
+  if (!options.source.project) return;
+  if (options.title.empty()) options.title = options.source.project->name;
+  if (options.out.empty()) options.out = project::productOf(*options.source.project, ".html");
+}
+
+int run(ViewOptions options) {
+  const bool named = !options.out.empty();
+  fillIn(options);
+  if (options.out.empty())
+    return usageError("view: -o says which file to write, .html or .svg; only a project has a name for it");
   const bool page = options.out.ends_with(".html");
   if (!page && !options.out.ends_with(".svg")) {
     fmt::print(stderr, "rungc: '{}' is not a name for a drawing; pages end in .html, pictures in .svg\n", options.out);
@@ -60,7 +71,9 @@ int run(const ViewOptions& options) {
   if (!options.title.empty()) program->title = options.title;
   if (!page) return write(view::renderSvg(*program), options.out);
   const view::LinkTo links = options.link.empty() ? view::LinkTo() : view::sourceLinks(options.out, options.link);
-  return write(view::renderHtml(*program, {options.date, options.revision, links}), options.out);
+  status = write(view::renderHtml(*program, {options.date, options.revision, links}), options.out);
+  if (status == kOk && !named) fmt::print("wrote {}\n", options.out);
+  return status;
 }
 
 } // namespace
@@ -69,9 +82,12 @@ void addView(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("view", "Draw the ladder of a program, as a page or a picture");
   auto options = std::make_shared<ViewOptions>();
   addSourceOptions(*command, options->source);
-  command->add_option("-o,--output", options->out, "The file to write: .html, a page for screen and paper; .svg")
-      ->required();
-  command->add_option("--title", options->title, "The machine or program, as the page and its sheets of paper call it");
+  command->add_option("-o,--output", options->out,
+                      "The file to write: .html, a page for screen and paper; .svg; in a project NAME.html beside its "
+                      "rung.toml without it");
+  command->add_option(
+      "--title", options->title,
+      "The machine or program, as the page and its sheets of paper call it; default: the name of the project");
   command->add_option("--date", options->date, "The date, to be printed on every sheet");
   command->add_option("--revision", options->revision, "The revision, to be printed on every sheet");
   command

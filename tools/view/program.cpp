@@ -115,7 +115,7 @@ private:
   Link onUse(const OperandUse& use) override;
   Link onTarget(TargetRole role, std::string_view operand, uint32_t row) override;
   void beginModule(const ladder::Module& module, std::string_view remark, const Place& place);
-  void titleFromSection(Block& module);
+  void titleFromSection(Block& block, const ladder::Module& module);
   void splitUses();
   CrossReference readersOf(uint32_t entry) const;
   CrossReference writersOf(uint32_t entry, std::string_view lead, uint32_t without, size_t most) const;
@@ -308,17 +308,18 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
   return !said.empty() && whole.ends_with(said) ? trimmed(title.substr(colon + 1)) : title;
 }
 
-// The section, or the last line of comment, just before a module says what it is. The section is not another one then.
-void Reader::titleFromSection(Block& module) {
+// The section just before a module, or the last line of comment before a subprogram of GSK, says what it is. The
+// section is not another one then. Before a level comments speak of the program.
+void Reader::titleFromSection(Block& block, const ladder::Module& module) {
   if (program_.blocks.empty()) return;
   const Block& before = program_.blocks.back();
   if (before.kind == Block::Kind::Section) {
-    module.title = withoutName(before.text, module.text);
-    if (module.comment.empty()) module.comment = before.comment;
+    block.title = withoutName(before.text, block.text);
+    if (block.comment.empty()) block.comment = before.comment;
     program_.blocks.pop_back();
-  } else if (before.kind == Block::Kind::Comment && names_->isGsk()) {
+  } else if (before.kind == Block::Kind::Comment && names_->isGsk() && module.name.size() == 2) {
     const std::string_view line = std::string_view(before.text).substr(before.text.find_last_of('\n') + 1);
-    if (line.size() <= kTitle) module.title = withoutName(line, module.text);
+    if (line.size() <= kTitle) block.title = withoutName(line, block.text);
   }
 }
 
@@ -326,7 +327,7 @@ void Reader::beginModule(const ladder::Module& module, std::string_view remark, 
   std::string name;
   for (const Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
   Block block{.kind = Block::Kind::Module, .text = name, .comment = std::string(remark), .place = place};
-  titleFromSection(block);
+  titleFromSection(block, module);
   if (!names_->isGsk()) {
     module_ = name;
     block.text = "Module " + name;

@@ -135,6 +135,7 @@ public:
     spread();
     resolveJumps();
     reportUnused();
+    if (!diagnostics_.hasErrors()) checkCoils(diagnostics_, program_, order_); // a mistake may hide a read
     checkNumbers();
   }
 

@@ -19,7 +19,7 @@ std::vector<ir::MessageText> configuredMessages(SourceManager& sources, FileId p
 
 std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
                                     const frontend::CompileOptions& options, Diagnostics& diagnostics) {
-  if (options.strict) diagnostics.raiseToError({Diag::DuplicateCounter}); // P29
+  if (options.strict) diagnostics.raiseToError({Diag::DuplicateCounter, Diag::DoubleCoil, Diag::MixedOutput}); // P29
   Context context{sources, diagnostics, {}, 0};
   Program program;
   checkConfig(options, diagnostics);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/condition.h"
 #include "frontend/dialects/gsk/network_builder.h"
 #include "frontend/dialects/gsk/title.h"
 
@@ -314,6 +315,7 @@ public:
 
 private:
   void module(const ladder::Module& module);
+  void condition(const ladder::Module& module);
   void readRung(const ladder::Rung& rung);
   void take(Network&& network) {
     network.firstLine = rung_->firstLine;
@@ -328,6 +330,7 @@ private:
   NetworkBuilder builder_;
   const ladder::Rung* rung_ = nullptr;
   uint32_t unit_ = kNone;
+  uint32_t conditionEnd_ = 0; // the last line of the condition of a subprogram; it is not a title
 };
 
 void LadderReader::module(const ladder::Module& module) {
@@ -343,6 +346,7 @@ void LadderReader::module(const ladder::Module& module) {
     if (checkFunction(context_, {module.name[1]}, {}, sp))
       unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range,
                                 module.name[1].range);
+    condition(module);
   } else {
     context_.diagnostics.report(Diag::MalformedStatement, module.range)
         << "module" << "module LEVEL1, module LEVEL2 or module SUB Pn";
@@ -350,17 +354,26 @@ void LadderReader::module(const ladder::Module& module) {
   if (unit_ == kNone) units_.setGarbled();
 }
 
+// Warned of and counted as in a command list (P1, P13).
+void LadderReader::condition(const ladder::Module& module) {
+  const Condition condition = conditionAfter(context_, file_.file, context_.sources.lineCol(module.range.begin).line);
+  conditionEnd_ = condition.lastLine;
+  if (condition.commands.empty()) return;
+  context_.diagnostics.report(Diag::ConditionIgnored, condition.commands.front().range) << "SP";
+  for (const Written& written : condition.commands) countStep(context_, written.range);
+}
+
 // The text behind the word `rung`; where there is none that can be a title, the rule of command lists.
-std::string_view titleOf(const SourceManager& sources, FileId file, const ladder::Rung& rung) {
+std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t from, const ladder::Rung& rung) {
   const std::string_view own = trimmed(rung.comment);
-  return isTitle(own) ? own : titleAbove(sources, file, rung.firstLine);
+  return isTitle(own) ? own : titleAbove(sources, file, from, rung.firstLine);
 }
 
 void LadderReader::readRung(const ladder::Rung& rung) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
   if (rung.bad) return units_.setGarbled();
-  RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, rung));
+  RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, conditionEnd_, rung));
   if (!reader.read() && reader.shapesProgram()) units_.setGarbled();
 }
 

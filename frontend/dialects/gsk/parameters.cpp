@@ -173,6 +173,7 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
   if (!address) return false;
   param.isAddress = true;
   param.address = *address;
+  param.bytes = param.kind == Kind::DataTable ? areaInfo(address->area).bytes - address->byte : length;
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }
 

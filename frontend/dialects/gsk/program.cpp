@@ -46,6 +46,30 @@ Command commandOf(Logic kind, bool negated) {
   return Command::Ld;
 }
 
+Logic logicOf(Command command) {
+  switch (command) {
+  case Command::Ld:
+  case Command::Ldi: return Logic::Load;
+  case Command::And:
+  case Command::Ani: return Logic::And;
+  case Command::Or:
+  case Command::Ori: return Logic::Or;
+  case Command::Orb: return Logic::OrBlock;
+  case Command::Anb: return Logic::AndBlock;
+  case Command::Out:
+  case Command::Outi:
+  case Command::Set:
+  case Command::Rst:
+  case Command::Func:
+  case Command::Prm:
+  case Command::Table:
+  case Command::Dialect:
+  case Command::Symbol:
+  case Command::Const: break;
+  }
+  return Logic::Load;
+}
+
 Command commandOf(Coil kind) {
   switch (kind) {
   case Coil::Out: return Command::Out;

@@ -24,6 +24,8 @@ inline constexpr std::array<std::string_view, 18> kCommandNames = {
     "LD", "LDI", "AND", "ANI", "OR", "ORI", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM", "TABLE",
     "DIALECT", "SYMBOL", "CONST"};
 // clang-format on
+constexpr bool isBlock(Command command) { return command == Command::Orb || command == Command::Anb; }
+constexpr bool isLogic(Command command) { return command <= Command::Anb; }
 constexpr std::string_view nameOf(Command command) { return kCommandNames[static_cast<size_t>(command)]; }
 
 // A command with its operand as written, for conversions. In ladder form it is what a part of the drawing stands for.
@@ -47,6 +49,8 @@ struct LogicStep {
 enum class Coil : uint8_t { Out, OutInverted, Set, Reset };
 
 Command commandOf(Logic kind, bool negated);
+// A logic command as the stack register sees it.
+Logic logicOf(Command command);
 Command commandOf(Coil kind);
 
 struct CoilStep {
@@ -61,7 +65,8 @@ struct Param {
   bool isAddress = false;
   bool bad = false; // reported
   Address address;
-  int64_t value = 0; // constant, number, mask, label, subprogram, format as a00n
+  uint32_t bytes = 1; // from the address on; of a data table all that could belong to it
+  int64_t value = 0;  // constant, number, mask, label, subprogram, format as a00n
   SourceRange range;
 };
 

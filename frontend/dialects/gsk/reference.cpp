@@ -80,9 +80,9 @@ void warnings(Page& page) {
   page.heading("## Warnings");
   page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
   page.table("| code | meaning |");
-  for (const Diag id :
-       {Diag::ConditionIgnored, Diag::DuplicateTimer, Diag::DuplicateCounter, Diag::DuplicateEdgeNumber,
-        Diag::SystemAreaWrite, Diag::LabelZero, Diag::LabelUnused, Diag::SubprogramUnused, Diag::SignalOfOtherMachine})
+  for (const Diag id : {Diag::ConditionIgnored, Diag::DuplicateTimer, Diag::DuplicateCounter, Diag::DuplicateEdgeNumber,
+                        Diag::DoubleCoil, Diag::MixedOutput, Diag::SystemAreaWrite, Diag::LabelZero, Diag::LabelUnused,
+                        Diag::SubprogramUnused, Diag::SignalOfOtherMachine})
     page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
 }
 

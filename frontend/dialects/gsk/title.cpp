@@ -39,9 +39,9 @@ void TitleRule::comment(std::string_view text) {
   inBlock_ = true;
 }
 
-std::string_view titleAbove(const SourceManager& sources, FileId file, uint32_t line) {
+std::string_view titleAbove(const SourceManager& sources, FileId file, uint32_t from, uint32_t line) {
   uint32_t first = line;
-  while (first > 1) {
+  while (first > from + 1) {
     const std::string_view above = trimmed(sources.lineText(file, first - 1));
     if (!above.empty() && above[0] != ';') break;
     --first;

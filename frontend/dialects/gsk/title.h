@@ -29,7 +29,7 @@ private:
   bool inBlock_ = false; // the line above was a comment with words
 };
 
-// The title from the comment lines above a line of ladder text.
-std::string_view titleAbove(const SourceManager& sources, FileId file, uint32_t line);
+// The title from the comment lines above a line of ladder text, those after the line `from`.
+std::string_view titleAbove(const SourceManager& sources, FileId file, uint32_t from, uint32_t line);
 
 } // namespace rung::gsk

@@ -51,6 +51,24 @@ Expectations expectationsOf(const fs::path& path) {
   return result;
 }
 
+TEST(GskErrorScenarios, DoubleCoils) {
+  size_t count = 0;
+  for (const auto& entry : fs::directory_iterator("tests/scenarios/gsk")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("double-coil") || entry.path().extension() != ".scn") continue;
+    ++count;
+    Expectations expected = expectationsOf(entry.path());
+    auto compiled = compileFiles(expected.programs, expected.options);
+    Codes codes = compiled->codes();
+    std::sort(codes.begin(), codes.end());
+    EXPECT_EQ(codes, expected.codes) << name << "\n" << compiled->text();
+    EXPECT_NE(compiled->module, nullptr) << name;
+    expected.options.strict = true;
+    EXPECT_EQ(compileFiles(expected.programs, expected.options)->module == nullptr, !codes.empty()) << name;
+  }
+  EXPECT_EQ(count, 4u);
+}
+
 TEST(GskErrorScenarios, NothingElseIsReported) {
   size_t count = 0;
   for (const auto& entry : fs::directory_iterator("tests/scenarios/gsk")) {

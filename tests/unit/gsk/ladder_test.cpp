@@ -182,7 +182,7 @@ TEST(GskLadderErrors, Operands) {
 TEST(GskLadderErrors, Modules) {
   const auto codes = [](const std::string& text) { return compileLadder("dialect gsk\n" + text)->codes(); };
   const std::string rung = "rung\n|--[X0.0]--(Y0.0)\n";
-  EXPECT_EQ(codes("module LEVEL1\n" + rung + "module LEVEL2\n" + rung), Codes{});
+  EXPECT_EQ(codes("module LEVEL1\nrung\n|--[X0.0]--(Y0.1)\nmodule LEVEL2\n" + rung), Codes{});
   EXPECT_EQ(codes("module LEVEL2\n" + rung), Codes{}) << "Level 1 may be missing";
   EXPECT_EQ(codes("module LEVEL2\n" + rung + "module LEVEL2\n" + rung), (Codes{"5 duplicate-module"}));
   EXPECT_EQ(codes("module MAIN\n" + rung), (Codes{"2 malformed-statement"}));
@@ -199,7 +199,7 @@ TEST(GskLadderErrors, Modules) {
 TEST(GskLadderErrors, ProgramSize) {
   const auto codes = [](int rungs, const std::string& rest) {
     std::string text = "dialect gsk\nmodule LEVEL2\n"; // two steps: END1, END2
-    for (int i = 0; i < rungs; ++i) text += "rung\n|--[X0.0]--(Y0.0)\n";
+    for (int i = 0; i < rungs; ++i) text += "rung\n|--[X0.0]--(R9.0)\n";
     return compileLadder(text + rest)->codes();
   };
   EXPECT_EQ(codes(5999, ""), Codes{}) << "12000 steps";
@@ -207,6 +207,41 @@ TEST(GskLadderErrors, ProgramSize) {
   const std::string sub = "rung\n|--{CALLU P1}\nmodule SUB P1\n"; // five steps
   EXPECT_EQ(codes(5996, sub), Codes{}) << "11999 steps";
   EXPECT_EQ(codes(5997, sub), (Codes{"11999 program-too-large"})) << "12001 steps; SPE is one too many";
+  const std::string condition = "; condition: LD X0.0\n";
+  EXPECT_EQ(codes(5996, sub + condition), (Codes{"11998 condition-ignored"})) << "12000 steps";
+  EXPECT_EQ(codes(5996, sub + condition + "; condition: AND X0.0\n"),
+            (Codes{"11997 program-too-large", "11998 condition-ignored"}))
+      << "12001 steps; SPE, counted last, is one too many";
+}
+
+// Comments directly after `module SUB Pn` are the condition before SP where a list would take them for one (P13).
+TEST(GskLadderErrors, ConditionBeforeSp) {
+  const auto compiled = [](const std::string& comments) {
+    return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--{CALLU P1}\nmodule SUB P1\n" + comments +
+                         "rung\n|--[X0.0]--(Y0.0)\n");
+  };
+  const auto codes = [&](const std::string& comments) { return compiled(comments)->codes(); };
+  const std::string load = "; condition: LD X0.0\n";
+  const Codes ignored{"6 condition-ignored"};
+  EXPECT_EQ(codes(load), ignored);
+  EXPECT_EQ(codes(load + "; condition: ANI MF\n"), ignored) << "a signal";
+  EXPECT_EQ(codes(load + load + "; condition: ORB\n; a title\n"), ignored);
+  EXPECT_EQ(codes("\n" + load), Codes{}) << "not directly";
+  EXPECT_EQ(codes("; condition: OR X0.0\n"), Codes{}) << "nothing to join";
+  EXPECT_EQ(codes(load + load), Codes{}) << "two values";
+  EXPECT_EQ(codes("; condition: LD X0.9\n"), Codes{}) << "not a bit";
+  std::string deep = load;
+  for (int i = 0; i < 8; ++i) deep += load;
+  std::string joined;
+  for (int i = 0; i < 8; ++i) joined += "; condition: ORB\n";
+  EXPECT_EQ(codes(deep + joined), ignored) << "nine values";
+  EXPECT_EQ(codes(load + deep + joined + "; condition: ORB\n"), Codes{}) << "ten values";
+  const auto titleOf = [&](const std::string& comments) {
+    return compiled(comments)->module->routines.back().rungs.front().title;
+  };
+  EXPECT_EQ(titleOf(load), "");
+  EXPECT_EQ(titleOf(load + "; a title\n"), "a title");
+  EXPECT_EQ(titleOf(load + load), "condition: LD X0.0") << "a comment like any other";
 }
 
 TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {

@@ -202,9 +202,9 @@ TEST(GskList, OneRunReportsAllErrors) {
 
 TEST(GskList, ProgramSize) {
   std::string text = "FUNC 0\n";
-  for (int i = 0; i < 5999; ++i) text += "LD X0.0\nOUT Y0.0\n";
+  for (int i = 0; i < 5999; ++i) text += "LD X0.0\nOUT R9.0\n";
   EXPECT_EQ(compileList(text + "FUNC 1\n")->codes(), Codes{}) << "12000 steps";
-  EXPECT_EQ(compileList(text + "LD X0.0\nOUT Y0.0\nFUNC 1\n")->codes(), (Codes{"12001 program-too-large"}));
+  EXPECT_EQ(compileList(text + "LD X0.0\nOUT R9.0\nFUNC 1\n")->codes(), (Codes{"12001 program-too-large"}));
 }
 
 // "LINE:COLUMN CODE" of every report.

@@ -50,8 +50,8 @@ void appendUses(const CsvRow& row, const std::string& operand, std::string& text
     text += "LD " + operand + "\nOUT R0.0\n";
     if (!row.isInput) text += "LDI R0.1\nSET " + operand + "\n";
   } else {
-    text += "LD R0.0\nFUNC MOVB\nPRM " + operand + "\nPRM R10\n";
-    if (!row.isInput) text += "LD R0.0\nFUNC MOVB\nPRM R10\nPRM " + operand + "\n";
+    text += "LD R0.2\nFUNC MOVB\nPRM " + operand + "\nPRM R10\n";
+    if (!row.isInput) text += "LD R0.2\nFUNC MOVB\nPRM R10\nPRM " + operand + "\n";
   }
 }
 

@@ -155,16 +155,69 @@ TEST(GskLabels, Jmpc) {
 }
 
 TEST(GskNumbers, TwiceIsAWarning) {
-  const std::string tmr = "LD X0.0\nFUNC TMR\nPRM 5\nOUT Y0.0\n"; // four lines
-  const std::string tmrb = "LD X0.0\nFUNC TMRB\nPRM 5\nPRM 80\nOUT Y0.0\n";
+  const std::string tmr = "LD X0.0\nFUNC TMR\nPRM 5\nOUT R9.0\n"; // four lines
+  const std::string tmrb = "LD X0.0\nFUNC TMRB\nPRM 5\nPRM 80\nOUT R9.0\n";
   EXPECT_EQ(level2(tmr + tmrb), Codes{});
   EXPECT_EQ(level2(tmr + tmr), (Codes{"8 duplicate-timer"}));
   EXPECT_EQ(level2("LD X0.0\nFUNC DIFU\nPRM 5\nOUT R0.0\nLD X0.0\nFUNC DIFD\nPRM 5\nOUT R0.1\n"),
             (Codes{"8 duplicate-edge-number"}));
-  const std::string ctr = "LD R0.0\nLD R0.1\nLD R0.2\nLD X0.0\nFUNC CTR\nPRM 7\nOUT Y0.0\n"; // seven lines
+  const std::string ctr = "LD R0.0\nLD R0.1\nLD R0.2\nLD X0.0\nFUNC CTR\nPRM 7\nOUT R9.0\n"; // seven lines
   EXPECT_EQ(level2(ctr + ctr), (Codes{"14 duplicate-counter"}));
   EXPECT_NE(compileList("FUNC 0\n" + ctr + ctr + "FUNC 1\n")->module, nullptr);
   EXPECT_EQ(compileList("FUNC 0\n" + ctr + ctr + "FUNC 1\n", {.strict = true})->module, nullptr);
+}
+
+TEST(GskCoils, OnlyOfAProgramWithoutErrors) {
+  const std::string twice = "LD X0.0\nOUT Y0.0\nLD X0.1\nOUT Y0.0\n"; // four lines, from line 2 on
+  EXPECT_EQ(level2(twice), (Codes{"5 double-coil"}));
+  EXPECT_EQ(level2(twice + "LD X0.0\nFUNC CALL\nPRM P9\n"), (Codes{"8 undefined-subprogram"}));
+  EXPECT_EQ(level2(twice + "LD R2000.0\nOUT Y1.0\n"), (Codes{"6 address-out-of-range"}))
+      << "the contact may read what the coils write";
+}
+
+TEST(GskCoils, StrictMakesThemErrors) {
+  const std::string twice = "FUNC 0\nLD X0.0\nOUT Y0.0\nLD X0.1\nOUT Y0.0\nFUNC 1\n";
+  const std::string latched = "FUNC 0\nLD X0.0\nSET Y0.0\nLD X0.1\nOUT Y0.0\nFUNC 1\n";
+  for (const std::string& text : {twice, latched}) {
+    EXPECT_NE(compileList(text)->module, nullptr);
+    EXPECT_EQ(compileList(text, {.strict = true})->module, nullptr);
+  }
+}
+
+TEST(GskCoils, BothPlacesAreNamed) {
+  const std::string text = compileList("LD X0.0\nOUT Y0.0\nFUNC 0\nLD X0.1\nOUT Y0.0\nFUNC 1\n")->text();
+  EXPECT_NE(text.find("test.pmc:5:1: warning: Y0.0 is driven by two coils"), std::string::npos) << text;
+  EXPECT_NE(text.find("test.pmc:2:1: note: the other coil is here, in LEVEL1"), std::string::npos) << text;
+}
+
+// A jump that does not always pass the second coil, or leads back, and a subprogram that JMPC leaves.
+TEST(GskCoils, JumpsChoose) {
+  const std::string one = "LD X0.0\nOUT Y0.0\n";
+  const std::string two = "LD X0.1\nOUT Y0.0\n";
+  const std::string jump = "LD X0.7\nFUNC JMPB\nPRM L1\n";
+  const std::string label = "FUNC LBL\nPRM L1\n";
+  EXPECT_EQ(level2(one + jump + two + label), Codes{});
+  EXPECT_EQ(level2(jump + one + two + label), (Codes{"8 double-coil"}));
+  EXPECT_EQ(level2(jump + one + label + two), (Codes{"10 double-coil"}));
+  EXPECT_EQ(level2(one + jump + label + two), (Codes{"10 double-coil"}));
+  EXPECT_EQ(level2(label + one + jump + two), Codes{}) << "it may go round for ever";
+  const std::string sub = "FUNC SP\nPRM P1\nLD X0.7\nFUNC JMPC\nPRM L1\nFUNC SPE\n";
+  EXPECT_EQ(codes("FUNC 0\n" + one + "FUNC CALLU\nPRM P1\n" + two + label + "FUNC 1\n" + sub), Codes{});
+}
+
+TEST(GskCoils, SubprogramsThatCallEachOther) {
+  const auto sub = [](int number, const std::string& body) {
+    return "FUNC SP\nPRM P" + std::to_string(number) + "\n" + body + "FUNC SPE\n";
+  };
+  const std::string coil = "LD X0.0\nOUT Y0.0\n";
+  const std::string one = "FUNC CALLU\nPRM P1\n";
+  const std::string two = "FUNC CALLU\nPRM P2\n";
+  EXPECT_EQ(codes("FUNC 0\n" + one + two + "FUNC 1\n" + sub(1, coil) + sub(2, one)), Codes{}) << "one coil, run twice";
+  EXPECT_EQ(codes("FUNC 0\n" + two + coil + "FUNC 1\n" + sub(1, coil) + sub(2, one)), (Codes{"5 double-coil"}));
+  EXPECT_EQ(codes(coil + "FUNC 0\n" + two + "FUNC 1\n" + sub(1, coil) + sub(2, one)), (Codes{"10 double-coil"}));
+  EXPECT_EQ(
+      codes("FUNC 0\nLD X0.1\nFUNC CALL\nPRM P1\nLD X0.2\nFUNC CALL\nPRM P2\nFUNC 1\n" + sub(1, coil) + sub(2, coil)),
+      Codes{});
 }
 
 TEST(GskRecovery, ALostFunctionCausesNoFurtherErrors) {

@@ -158,6 +158,16 @@ TEST(ViewContents, SubprogramsHaveTheTitlesOfTheirSections) {
   EXPECT_EQ(textOf(contentsOf(commented->program)), "Level 2||1-1\nSubprogram P1|turns the table|2-2\n");
 }
 
+TEST(ViewContents, LevelsHaveTheTitlesOfTheirSectionsOnly) {
+  const std::string rung = "rung\n|--[X0.0]--(Y0.0)\n";
+  const auto commented =
+      draw("t.lad", "dialect gsk\n; the panel of the mill\nmodule LEVEL1\n" + rung +
+                        "; what follows can take its time\nmodule LEVEL2\nrung\n|--[X0.0]--(Y0.1)\n");
+  EXPECT_EQ(textOf(contentsOf(commented->program)), "Level 1||1-1\nLevel 2||2-2\n");
+  const auto sections = draw("t.lad", "dialect gsk\nsection \"fast\"\nmodule LEVEL1\n" + rung);
+  EXPECT_EQ(textOf(contentsOf(sections->program)), "Level 1|fast|1-1\n");
+}
+
 TEST(ViewContents, SectionsAreInTheirModules) {
   EXPECT_EQ(textOf(contentsOf(draw("t.lad", std::string(kCalls))->program)),
             "Module MAIN||1-6\n calls||1-3\n five||4-6\n");

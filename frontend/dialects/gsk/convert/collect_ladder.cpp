@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/condition.h"
 #include "frontend/dialects/gsk/convert/collector.h"
 #include "frontend/dialects/gsk/convert/hints.h"
 #include "frontend/dialects/gsk/title.h"
@@ -137,7 +138,6 @@ public:
   void run() {
     LineReader lines(out_.context.sources, file_.file);
     for (SourceLine line; lines.next(line);) read(line);
-    closeCondition();
   }
 
 private:
@@ -145,11 +145,9 @@ private:
   void statement(const SourceLine& line);
   void comment(const SourceLine& line, std::string_view text);
   void drawn(const SourceLine& line);
-  void module();
+  void module(uint32_t line);
   void openRung();
   void insertTitle(std::string text);
-  void closeCondition();
-  bool isCondition() const;
 
   Collector& out_;
   const ladder::LadderFile& file_;
@@ -158,14 +156,12 @@ private:
   const ladder::Rung* rung_ = nullptr; // whose drawing has not ended
   RungText text_;
   uint32_t unit_ = 0;
-  bool inCondition_ = false;                // behind `module SUB Pn`
-  std::vector<std::string_view> condition_; // comments that may be it
+  uint32_t conditionEnd_ = 0; // the last line of the condition of a subprogram
 };
 
 void LadderCollector::read(const SourceLine& line) {
   const std::string_view text = trimmed(line.text);
   const bool isComment = !text.empty() && text[0] == ';';
-  if (!isComment) closeCondition();
   if (text.empty())
     out_.blank();
   else if (isComment)
@@ -177,11 +173,7 @@ void LadderCollector::read(const SourceLine& line) {
 }
 
 void LadderCollector::comment(const SourceLine& line, std::string_view text) {
-  if (inCondition_ && parseConditionHint(text)) {
-    condition_.push_back(text);
-    return;
-  }
-  closeCondition();
+  if (line.number <= conditionEnd_) return;
   if (rung_ != nullptr)
     text_.lines.push_back({line.number, clean(text)});
   else
@@ -208,7 +200,7 @@ void LadderCollector::statement(const SourceLine& line) {
   splitWords(line, {}, words_);
   const std::string_view keyword = words_.words[0].text;
   if (keyword == "rung") return openRung();
-  if (keyword == "module") return module();
+  if (keyword == "module") return module(line.number);
   if (keyword == "dialect") return out_.statement(Item::Kind::Dialect, {}, words_.comment);
   if (keyword == "symbol") return out_.statement(Item::Kind::Symbol, words_.words, words_.comment);
   if (keyword == "const") return out_.statement(Item::Kind::Const, words_.words, words_.comment);
@@ -232,7 +224,7 @@ void LadderCollector::openRung() {
   if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
 }
 
-void LadderCollector::module() {
+void LadderCollector::module(uint32_t line) {
   const std::string_view name = words_.words[1].text;
   SourceUnit unit;
   unit.kind = words_.words.size() > 2       ? UnitKind::Subprogram
@@ -241,35 +233,14 @@ void LadderCollector::module() {
   if (unit.kind == UnitKind::Subprogram) unit.number = words_.words[2].text;
   unit.lead = out_.takeGap();
   unit.comment = clean(words_.comment);
-  inCondition_ = unit.kind == UnitKind::Subprogram;
+  if (unit.kind == UnitKind::Subprogram) {
+    const Condition condition = conditionAfter(out_.context, file_.file, line);
+    for (const Written& written : condition.commands)
+      unit.condition.push_back({written.command, written.operand, written.range, {}, {}});
+    conditionEnd_ = condition.lastLine;
+  }
   unit_ = static_cast<uint32_t>(out_.program.units.size());
   out_.program.units.push_back(std::move(unit));
-}
-
-bool LadderCollector::isCondition() const {
-  Diagnostics unheard;
-  Context context{.sources = out_.context.sources, .diagnostics = unheard, .names = out_.context.names};
-  context.machine = out_.context.machine;
-  const SourceRange somewhere = out_.context.sources.range(file_.file, 0, 0);
-  std::vector<Logic> logic;
-  for (std::string_view text : condition_) {
-    const auto command = parseConditionHint(text);
-    logic.push_back(logicOf(command->command));
-    if (!isBlock(command->command) && !bitOperand(context, Word{command->operand, somewhere, false})) return false;
-  }
-  const auto trees = treesOf(logic);
-  return trees && trees->size() == 1;
-}
-
-void LadderCollector::closeCondition() {
-  inCondition_ = false;
-  if (condition_.empty()) return;
-  if (isCondition()) {
-    for (std::string_view text : condition_) out_.program.units[unit_].condition.push_back(*parseConditionHint(text));
-  } else {
-    for (std::string_view text : condition_) out_.comment(text);
-  }
-  condition_.clear();
 }
 
 } // namespace

@@ -6,14 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/canonical.h"
-#include "frontend/dialects/gsk/list_reader.h"
 #include "frontend/dialects/gsk/title.h"
 
 namespace rung::gsk::convert {
 namespace {
 
-constexpr std::string_view kCondition = "; condition:"; // with a further ';' it is no title
 constexpr std::string_view kBefore = "->";
 
 // PRM by the name of its operand, TABLE by its number.
@@ -88,22 +85,6 @@ std::optional<Tagged> parseTag(std::string_view comment) {
 
 std::string tagged(bool before, std::string_view tag, std::string_view text) {
   return fmt::format("{}{}{}{}", before ? "-> " : "", tag, text.empty() ? "" : " ", text);
-}
-
-std::string conditionHint(const SourceCommand& command) {
-  return fmt::format("{} {}{}{}", kCondition, nameOf(command.command), command.operand.empty() ? "" : " ",
-                     command.operand);
-}
-
-std::optional<SourceCommand> parseConditionHint(std::string_view comment) {
-  if (!comment.starts_with(kCondition)) return std::nullopt;
-  const auto words = wordsIn(comment.substr(kCondition.size()));
-  const auto command = words.empty() ? std::nullopt : findCommand(words[0]);
-  if (!command || !isLogic(*command) || words.size() != (isBlock(*command) ? 1 : 2)) return std::nullopt;
-  SourceCommand result;
-  result.command = *command;
-  if (words.size() == 2) result.operand = words[1];
-  return result;
 }
 
 } // namespace rung::gsk::convert

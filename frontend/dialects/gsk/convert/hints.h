@@ -1,9 +1,8 @@
 // Comments of a drawing that say where in a command list something belongs (docs/dialects/gsk.md):
 //   ; [A] text               behind the command of contact [A]; its second one is [A]#2
 //   ; -> {TMRB preset} text  a comment line in front of the parameter `preset`
-//   ;; condition: LD X1.3    behind `module SUB Pn`: the condition in front of SP, which has no effect
-// Beside these, canonical.h has the hint of other blocks. A comment that only looks like one, naming nothing that is
-// there, is a comment like any other.
+// Beside these, canonical.h has the hint of other blocks, and condition.h the condition of a subprogram. A comment that
+// only looks like one, naming nothing that is there, is a comment like any other.
 #pragma once
 #include <optional>
 #include <string>
@@ -27,9 +26,5 @@ struct Tagged {
 };
 std::optional<Tagged> parseTag(std::string_view comment);
 std::string tagged(bool before, std::string_view tag, std::string_view text);
-
-std::string conditionHint(const SourceCommand& command);
-// Views into the comment.
-std::optional<SourceCommand> parseConditionHint(std::string_view comment);
 
 } // namespace rung::gsk::convert

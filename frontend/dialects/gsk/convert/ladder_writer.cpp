@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/condition.h"
 #include "frontend/dialects/gsk/convert/drawing.h"
 #include "frontend/dialects/gsk/convert/gap_writer.h"
 #include "frontend/dialects/gsk/convert/hints.h"
@@ -23,7 +24,7 @@ public:
 
 private:
   void begin(const SourceUnit& unit);
-  void network(const SourceNetwork& network, bool afterModule);
+  void network(const SourceNetwork& network);
   void rung(Gap gap, std::string_view title);
   void drawing(const SourceNetwork& network);
 
@@ -38,7 +39,9 @@ void LadderWriter::begin(const SourceUnit& unit) {
   case UnitKind::Level2: page_.line("module LEVEL2", unit.comment); break;
   case UnitKind::Subprogram: page_.line(fmt::format("module SUB {}", unit.number), unit.comment); break;
   }
-  for (const SourceCommand& command : unit.condition) page_.comment(conditionHint(command));
+  for (const SourceCommand& command : unit.condition)
+    page_.comment(fmt::format("{} {}{}{}", kConditionComment, nameOf(command.command),
+                              command.operand.empty() ? "" : " ", command.operand));
 }
 
 // The title stands behind the word `rung` where it begins the last block of comments: so it is found again there.
@@ -87,13 +90,10 @@ void LadderWriter::drawing(const SourceNetwork& network) {
   }
 }
 
-void LadderWriter::network(const SourceNetwork& network, bool afterModule) {
-  Gap gap = tidy(protect(network.gap, network.title));
-  // Behind `module SUB` the first comments are asked whether they are a condition.
-  for (size_t i = 0; afterModule && i < gap.size() && gap[i].kind == Kind::Comment; ++i)
-    if (parseConditionHint(gap[i].text)) gap[i].text.insert(0, "; ");
+// After `module SUB Pn` the blank line ends the condition, or says that the comments after it are none.
+void LadderWriter::network(const SourceNetwork& network) {
   page_.blank();
-  rung(std::move(gap), network.title);
+  rung(tidy(protect(network.gap, network.title)), network.title);
   drawing(network);
 }
 
@@ -103,7 +103,7 @@ std::string LadderWriter::run(const SourceProgram& program) {
     const bool nothing = unit.lead.empty() && unit.comment.empty() && unit.networks.empty();
     if (unit.kind == UnitKind::Level1 && nothing) continue;
     begin(unit);
-    for (const SourceNetwork& network : unit.networks) this->network(network, &network == unit.networks.data());
+    for (const SourceNetwork& network : unit.networks) this->network(network);
   }
   page_.blank();
   page_.gap(tidy(program.tail));

@@ -29,8 +29,6 @@ struct SourceCommand {
   std::string comment;             // behind it
 };
 
-constexpr bool isBlock(Command command) { return command == Command::Orb || command == Command::Anb; }
-constexpr bool isLogic(Command command) { return command <= Command::Anb; }
 constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
 constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Rst; }
 
@@ -59,7 +57,6 @@ struct SourceProgram {
 };
 
 // The logic commands as the stack register sees them.
-Logic logicOf(Command command);
 std::vector<Logic> logicOf(const std::vector<SourceCommand>& commands);
 
 // Control characters become blanks, blanks at the ends go.

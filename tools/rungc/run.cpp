@@ -322,7 +322,7 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--trace", options->trace,
                       "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
   command->add_flag("--realtime", options->realtime, "On the machine's clock")->excludes(scenario)->excludes(prompt);
-  command->add_flag("--debugger", options->debugger, "Tell gdb about code compiled in the process");
+  command->add_flag("--debugger", options->debugger, "Let gdb see code compiled in the process");
   command->add_option(
       "--retain", options->retain,
       "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");

@@ -147,7 +147,7 @@ bool RungReader::checkBox() {
   case Control::Sp:
   case Control::Spe:
     diagnostics_.report(Diag::UnsupportedElement, box_->range)
-        << fmt::format("a box {}", row_->info.mnemonic) << "the `module` statements stand for it";
+        << fmt::format("a box {}", row_->info.mnemonic) << "a `module` statement begins and ends what it would";
     return false;
   case Control::Plain:
   case Control::Jmp:

@@ -300,9 +300,10 @@ class Terminal:
         shown, self.seen = self.seen[:found.end()], self.seen[found.end():]
         return shown
 
-    def line(self, text, then=r"scan \d+, [\d.]+ s> $"):
+    def line(self, text, then=r"[\s\S]*scan \d+, [\d.]+ s> $"):
+        """Types a line; what is shown after it, up to the next prompt."""
         self.type(text + "\r")
-        return self.until(then)
+        return self.until(re.escape(text) + r"\s*\n" + then)
 
     def end(self):
         """The exit status."""
@@ -392,7 +393,7 @@ class OnATerminal(Folder):
         terminal.line("scan 7")
         terminal.type("\x1b[A")
         terminal.until("scan 7")
-        terminal.line("", r"scan 14, 0.140 s> ")
+        terminal.line("", r"[\s\S]*scan 14, 0.140 s> ")
 
     def test_a_signal_ends_it(self):
         terminal = self.start()

@@ -6,7 +6,9 @@
 #include <clocale>
 #include <cwchar>
 #include <histedit.h>
+#include <poll.h>
 #include <unistd.h>
+#include <utility>
 
 #include "tools/console/completion.h"
 
@@ -16,7 +18,8 @@ namespace {
 constexpr int kHistory = 1000;      // lines
 constexpr size_t kMostListed = 200; // completions
 constexpr size_t kUsualWidth = 80;  // columns
-constexpr size_t kGap = 2;          // between two columns
+constexpr wchar_t kControlC = 3;
+constexpr size_t kGap = 2; // between two columns
 
 size_t characters(std::string_view utf8) {
   return static_cast<size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -44,8 +47,10 @@ std::string inColumns(const std::vector<std::string>& words) {
 } // namespace
 
 struct LineEditor::State {
+  State(Complete complete, Signal& signal) : complete(std::move(complete)), signal(signal) {}
+
   Complete complete;
-  Ended ended;
+  Signal& signal;
   EditLine* edit = nullptr;
   History* history = nullptr;
   std::string prompt;
@@ -58,13 +63,35 @@ struct LineEditor::State {
   }
   static char* showPrompt(EditLine* edit) { return of(edit).prompt.data(); }
 
-  // One character of UTF-8. Unlike libedit's own function it ends at a signal that ends the program.
+  // Waits for input or a signal; none is missed that comes before the wait.
+  static void waitForInput(const Signal& signal) {
+    sigset_t both;
+    sigset_t before;
+    sigemptyset(&both);
+    sigaddset(&both, SIGINT);
+    sigaddset(&both, SIGTERM);
+    sigprocmask(SIG_BLOCK, &both, &before);
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (signal == 0) ppoll(&input, 1, nullptr, &before);
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+  }
+
+  // One character of UTF-8. libedit's own function would not return at a signal. Until the terminal is in libedit's
+  // mode, Ctrl-C is a signal too.
   static int readCharacter(EditLine* edit, wchar_t* character) {
+    Signal& signal = of(edit).signal;
     std::mbstate_t state{};
     for (;;) {
+      waitForInput(signal);
+      if (signal == SIGINT) {
+        signal = 0;
+        *character = kControlC;
+        return 1;
+      }
+      if (signal != 0) return 0;
       char byte = 0;
       const ssize_t count = ::read(STDIN_FILENO, &byte, 1);
-      if (count < 0 && errno == EINTR && !of(edit).ended()) continue;
+      if (count < 0 && errno == EINTR) continue;
       if (count <= 0) return 0;
       const size_t used = std::mbrtowc(character, &byte, 1, &state);
       if (used == static_cast<size_t>(-1)) state = {}; // not UTF-8: dropped
@@ -96,9 +123,8 @@ struct LineEditor::State {
   }
 };
 
-LineEditor::LineEditor(Complete complete, Ended ended) : state_(std::make_unique<State>()) {
-  state_->complete = std::move(complete);
-  state_->ended = std::move(ended);
+LineEditor::LineEditor(Complete complete, Signal& signal)
+    : state_(std::make_unique<State>(std::move(complete), signal)) {
   std::setlocale(LC_CTYPE, "C.UTF-8"); // sources and names are UTF-8 whatever the user's locale
   state_->edit = el_init("rungc", stdin, stdout, stderr);
   state_->history = history_init();

@@ -1,5 +1,6 @@
 // Lines typed at a terminal, with editing, history and completion (libedit).
 #pragma once
+#include <csignal>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,15 +10,17 @@
 
 namespace rung::console {
 
+// Signals between a handler and what it interrupts: the number of the last one, 0 for none.
+using Signal = volatile std::sig_atomic_t;
+
 class LineEditor {
 public:
   // What the last word of a line can become; the line is that before the cursor.
   using Complete = std::function<std::vector<std::string>(std::string_view line)>;
-  // Asked when a signal has arrived: true ends the input.
-  using Ended = std::function<bool()>;
 
-  // On standard input and output, which are a terminal.
-  LineEditor(Complete complete, Ended ended);
+  // On standard input and output, which are a terminal. While a line is read, SIGINT in `signal` gives it up and
+  // another signal ends the input; handlers for both are installed.
+  LineEditor(Complete complete, Signal& signal);
   ~LineEditor();
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;

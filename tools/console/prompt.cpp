@@ -4,25 +4,23 @@
 #include <iostream>
 #include <optional>
 #include <unistd.h>
-
-#include "tools/console/line_editor.h"
-
 namespace rung::console {
 namespace {
 
 bool ends(Signal& signal) { return signal != 0 && signal != SIGINT; }
 
 void runTerminal(Console& console, Signal& signal, const std::function<void()>& begins) {
-  LineEditor editor([&](std::string_view line) { return console.completions(line); }, [&] { return ends(signal); });
+  LineEditor editor([&](std::string_view line) { return console.completions(line); }, signal);
   std::cout << "Statements as in a scenario; Tab completes, help lists them, quit ends." << std::endl;
   while (!ends(signal)) {
     const std::optional<std::string> line = editor.read(console.prompt());
     if (!line) std::cout << std::endl; // the shell's prompt gets a line of its own
     if (!line || ends(signal)) return;
-    signal = 0;
     begins();
     if (console.execute(*line) == Outcome::Quit) return;
-    if (signal == SIGINT) std::cout << "interrupted" << std::endl;
+    if (signal != SIGINT) continue;
+    signal = 0;
+    std::cout << "interrupted" << std::endl;
   }
 }
 

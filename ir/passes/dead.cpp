@@ -14,7 +14,7 @@ bool hasEffect(const Op& op) {
 }
 
 class DeadOps {
- public:
+public:
   void run(Rung& rung) {
     rung_ = &rung;
     findRegions(rung, regions_);
@@ -27,7 +27,7 @@ class DeadOps {
     writer_.finish(rung);
   }
 
- private:
+private:
   const Op& op(uint32_t i) const { return rung_->ops[i]; }
   void use(const Op& op, uint32_t k) { used_[rung_->args[op.firstArg + k].index] = 1; }
   void useAll(const Op& op) {
@@ -87,8 +87,10 @@ class DeadOps {
       return effect_[i] != 0 || anyUsed(end);
     }
     if (!isNeeded(i)) return false;
-    if (o.code == OpCode::EndIf) useYields(o, o);
-    else useAll(o);
+    if (o.code == OpCode::EndIf)
+      useYields(o, o);
+    else
+      useAll(o);
     return true;
   }
 
@@ -102,8 +104,10 @@ class DeadOps {
   // The operands of an endif or else for which the endif's results are used.
   void useYields(const Op& op, const Op& end) {
     for (uint32_t k = 0; k < op.argCount; ++k) {
-      if (isUsed(end, k)) use(op, k);
-      else changes_ = true;
+      if (isUsed(end, k))
+        use(op, k);
+      else
+        changes_ = true;
     }
   }
 

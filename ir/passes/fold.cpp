@@ -9,7 +9,7 @@ namespace rung::ir {
 namespace {
 
 class Folder {
- public:
+public:
   explicit Folder(const Module& module) : module_(module) {}
 
   void run(Rung& rung, uint32_t number) {
@@ -22,7 +22,7 @@ class Folder {
     foldTransfer(rung.transfer, number);
   }
 
- private:
+private:
   // An open region. Inlined: its brackets are not written.
   struct Frame {
     bool inlined;
@@ -32,7 +32,8 @@ class Folder {
   const Op& op(uint32_t i) const { return rung_->ops[i]; }
   // What stands for the results of operation i, from the result `skip` on: the operands of `from`.
   void resultsAre(uint32_t i, const Op& from, uint32_t skip = 0) {
-    for (uint32_t k = 0; k < from.argCount; ++k) writer_.replace({op(i).result.index + skip + k}, writer_.nowArg(from, k));
+    for (uint32_t k = 0; k < from.argCount; ++k)
+      writer_.replace({op(i).result.index + skip + k}, writer_.nowArg(from, k));
   }
 
   uint32_t fold(uint32_t i) {
@@ -40,9 +41,12 @@ class Folder {
     if (code == OpCode::If) return beginIf(i);
     if (code == OpCode::Else) return divideIf(i);
     if (code == OpCode::Loop) return beginLoop(i);
-    if (code == OpCode::EndIf) endIf(i);
-    else if (code == OpCode::EndLoop) endLoop(i);
-    else if (!simplify(module_, writer_, op(i))) writer_.copy(op(i));
+    if (code == OpCode::EndIf)
+      endIf(i);
+    else if (code == OpCode::EndLoop)
+      endLoop(i);
+    else if (!simplify(module_, writer_, op(i)))
+      writer_.copy(op(i));
     return i;
   }
 
@@ -78,7 +82,8 @@ class Folder {
       writer_.copy(op(i));
       // What both regions yield was there before.
       for (uint32_t k = 0; k < op(i).argCount; ++k)
-        if (const ValueId yield = writer_.nowArg(op(i), k); yield == open_.back().yields[k]) writer_.replace({op(i).result.index + k}, yield);
+        if (const ValueId yield = writer_.nowArg(op(i), k); yield == open_.back().yields[k])
+          writer_.replace({op(i).result.index + k}, yield);
     }
     open_.pop_back();
   }
@@ -100,8 +105,10 @@ class Folder {
   }
 
   void endLoop(uint32_t i) {
-    if (open_.back().inlined) resultsAre(i, op(i));
-    else writer_.copy(op(i));
+    if (open_.back().inlined)
+      resultsAre(i, op(i));
+    else
+      writer_.copy(op(i));
     open_.pop_back();
   }
 

@@ -1,4 +1,5 @@
-// The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does stands in its file.
+// The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does stands in its
+// file.
 #pragma once
 #include "ir/core/module.h"
 

@@ -9,7 +9,7 @@ namespace rung::ir {
 namespace {
 
 class Pipeline {
- public:
+public:
   Pipeline(Module& module, bool verifyEach) : module_(module), verifyEach_(verifyEach) {}
 
   void run(void (*pass)(Module&)) {
@@ -20,7 +20,7 @@ class Pipeline {
     RUNG_CHECK(errors.empty(), text.c_str());
   }
 
- private:
+private:
   Module& module_;
   bool verifyEach_;
 };

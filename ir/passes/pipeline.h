@@ -1,7 +1,7 @@
 // The passes that a module goes through between front end and layout, in one fixed order (pipeline.cpp). They keep
 // everything that a program shows: memory after every run of a task, messages, services and faults in their order, and
-// rungs, keys and source lines. Slots that are `transient` show nowhere and may differ. Time and space are nearly linear
-// in the size of the module.
+// rungs, keys and source lines. Slots that are `transient` show nowhere and may differ. Time and space are nearly
+// linear in the size of the module.
 #pragma once
 #include "ir/core/module.h"
 

@@ -1,7 +1,7 @@
-// Reuse: an operation without effects that stands above with the same operands is not done again. A load takes the value
-// that an earlier load of the same place and type gave, or an earlier store put there, unless something between may have
-// written over it. Values of a region are known within it only; writes count from where they stand, whether their region
-// runs or not; and a loop that writes at all makes everything unknown that was read before it.
+// Reuse: an operation without effects that stands above with the same operands is not done again. A load takes the
+// value that an earlier load of the same place and type gave, or an earlier store put there, unless something between
+// may have written over it. Values of a region are known within it only; writes count from where they stand, whether
+// their region runs or not; and a loop that writes at all makes everything unknown that was read before it.
 #include <algorithm>
 #include <utility>
 
@@ -14,12 +14,13 @@ namespace rung::ir {
 namespace {
 
 bool isCommutative(OpCode code) {
-  return code == OpCode::Add || code == OpCode::Mul || code == OpCode::And || code == OpCode::Or || code == OpCode::Xor || code == OpCode::Eq ||
-         code == OpCode::Ne || code == OpCode::FAdd || code == OpCode::FMul || code == OpCode::FEq;
+  return code == OpCode::Add || code == OpCode::Mul || code == OpCode::And || code == OpCode::Or ||
+         code == OpCode::Xor || code == OpCode::Eq || code == OpCode::Ne || code == OpCode::FAdd ||
+         code == OpCode::FMul || code == OpCode::FEq;
 }
 
 class Reuser {
- public:
+public:
   explicit Reuser(const Module& module) : writes_(module) {}
 
   void run(Rung& rung) {
@@ -33,7 +34,7 @@ class Reuser {
     if (reused != 0) writer_.finish(rung);
   }
 
- private:
+private:
   // Whether the results of operation i are there already.
   bool visit(uint32_t i) {
     const Op& op = rung_->ops[i];
@@ -46,7 +47,8 @@ class Reuser {
     writer_.copy(op);
     if ((info.effects & kWrites) != 0) {
       writes_.write(op, time);
-      if (op.code == OpCode::Store || op.code == OpCode::SlotStore) table_.enter(keyOf(op), writer_.nowArg(op, 0), time);
+      if (op.code == OpCode::Store || op.code == OpCode::SlotStore)
+        table_.enter(keyOf(op), writer_.nowArg(op, 0), time);
     }
     return false;
   }
@@ -67,8 +69,10 @@ class Reuser {
   // A store has the key of the load that reads its place.
   ValueKey keyOf(const Op& op) const {
     ValueKey key{.code = op.code, .type = op.type, .ref = op.ref, .count = op.count, .imm = op.imm, .args = {0, 0, 0}};
-    if (op.code == OpCode::Store) key.code = OpCode::Load;
-    else if (op.code == OpCode::SlotStore) key.code = OpCode::SlotLoad;
+    if (op.code == OpCode::Store)
+      key.code = OpCode::Load;
+    else if (op.code == OpCode::SlotStore)
+      key.code = OpCode::SlotLoad;
     else
       for (uint32_t i = 0; i < op.argCount; ++i) key.args[i] = writer_.nowArg(op, i).index;
     if (isCommutative(op.code) && key.args[0] > key.args[1]) std::swap(key.args[0], key.args[1]);

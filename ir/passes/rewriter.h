@@ -18,7 +18,7 @@ struct Region {
 void findRegions(const Rung& rung, std::vector<Region>& regions);
 
 class RungRewriter {
- public:
+public:
   void start(const Rung& rung);
 
   // What stands for an old value in the new rung; invalid while it has no value there.
@@ -30,7 +30,8 @@ class RungRewriter {
   Op& copy(const Op& op);
   // The same for an endif or else of which only some yields are kept; keep[i] belongs to operand and result i.
   Op& copySome(const Op& op, std::span<const uint8_t> keep);
-  // Another operation in the place of `op`, with new operands and one result or none, which `op`'s result then stands for.
+  // Another operation in the place of `op`, with new operands and one result or none, which `op`'s result then stands
+  // for.
   Op& put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args);
   ValueId putConstant(const Op& op, Type type, uint64_t bits);
 
@@ -42,7 +43,7 @@ class RungRewriter {
   // Puts the new operations into the rung, also as conditions of its transfer.
   void finish(Rung& rung);
 
- private:
+private:
   Op& append(const Op& op);
   ValueId newValue(Type type);
 

@@ -4,7 +4,8 @@
 namespace rung::ir {
 
 // Calls visit(from, to).
-template <class Visit> void RungGraph::eachEdge(const Module& module, Visit visit) const {
+template <class Visit>
+void RungGraph::eachEdge(const Module& module, Visit visit) const {
   for (uint32_t r = 0; r < module.routines.size(); ++r) {
     const std::vector<Rung>& rungs = module.routines[r].rungs;
     const uint32_t wayOut = rungCount_ + r;
@@ -14,17 +15,17 @@ template <class Visit> void RungGraph::eachEdge(const Module& module, Visit visi
       const uint32_t below = i + 1 < rungs.size() ? node + 1 : wayOut;
       if (transfer.cond.valid() || transfer.kind == TransferKind::Next) visit(node, below);
       switch (transfer.kind) {
-        case TransferKind::Goto: visit(node, firstNode_[r] + transfer.target); break;
-        case TransferKind::Call:
-          visit(node, firstNode_[transfer.callee.index]);
-          visit(rungCount_ + transfer.callee.index, below);
-          break;
-        case TransferKind::Ret: visit(node, wayOut); break;
-        case TransferKind::Switch:
-          for (uint32_t target : transfer.targets) visit(node, firstNode_[r] + target);
-          break;
-        case TransferKind::Next:
-        case TransferKind::End: break;
+      case TransferKind::Goto: visit(node, firstNode_[r] + transfer.target); break;
+      case TransferKind::Call:
+        visit(node, firstNode_[transfer.callee.index]);
+        visit(rungCount_ + transfer.callee.index, below);
+        break;
+      case TransferKind::Ret: visit(node, wayOut); break;
+      case TransferKind::Switch:
+        for (uint32_t target : transfer.targets) visit(node, firstNode_[r] + target);
+        break;
+      case TransferKind::Next:
+      case TransferKind::End: break;
       }
     }
   }

@@ -9,7 +9,7 @@
 namespace rung::ir {
 
 class RungGraph {
- public:
+public:
   explicit RungGraph(const Module& module);
 
   uint32_t nodeCount() const { return rungCount_ + static_cast<uint32_t>(firstNode_.size()); }
@@ -18,8 +18,9 @@ class RungGraph {
     return {from_.data() + firstFrom_[node], from_.data() + firstFrom_[node + 1]};
   }
 
- private:
-  template <class Visit> void eachEdge(const Module& module, Visit visit) const;
+private:
+  template <class Visit>
+  void eachEdge(const Module& module, Visit visit) const;
 
   std::vector<uint32_t> firstNode_; // by routine
   uint32_t rungCount_ = 0;

@@ -1,10 +1,10 @@
 // Stores to transient slots, the registers between rungs, that no load reads on any way that control can take: within
 // the rung (overwritten first) and over the rungs that follow, up to the end of the task's run.
 //
-// A slot that a task may read before it has stored it is left alone, for it carries a value from one run to the next. So
-// is one that is needed where a part of a task may end, when another task stores it too. Each slot is followed backward
-// from its loads only as far as it is needed, so slots that live shortly cost little; should all of them together take
-// more than some walks over the whole program, the rest is left alone.
+// A slot that a task may read before it has stored it is left alone, for it carries a value from one run to the next.
+// So is one that is needed where a part of a task may end, when another task stores it too. Each slot is followed
+// backward from its loads only as far as it is needed, so slots that live shortly cost little; should all of them
+// together take more than some walks over the whole program, the rest is left alone.
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 #include "ir/passes/rung_graph.h"
@@ -18,9 +18,9 @@ constexpr uint64_t kMaxWalks = 256; // over the whole program
 struct Access {
   uint32_t slot;
   uint32_t node;
-  bool exposed = false;    // may be loaded before this rung stores it
+  bool exposed = false; // may be loaded before this rung stores it
   bool stores = false;
-  bool kills = false;      // is certainly stored
+  bool kills = false; // is certainly stored
   bool loadsInLoop = false;
   bool neededBehind = true;
   bool leftAlone = false;
@@ -28,16 +28,18 @@ struct Access {
 
 // The accesses of all rungs to transient slots.
 class AccessList {
- public:
+public:
   explicit AccessList(const Module& module) : module_(module), indexOf_(module.slots.size(), 0) {
     firstOfNode_.push_back(0);
     for (const Routine& routine : module.routines)
       for (const Rung& rung : routine.rungs) add(rung);
   }
   std::vector<Access>& all() { return all_; }
-  std::span<Access> of(uint32_t node) { return {all_.data() + firstOfNode_[node], all_.data() + firstOfNode_[node + 1]}; }
+  std::span<Access> of(uint32_t node) {
+    return {all_.data() + firstOfNode_[node], all_.data() + firstOfNode_[node + 1]};
+  }
 
- private:
+private:
   Access& accessTo(uint32_t slot) {
     const uint32_t first = firstOfNode_.back();
     uint32_t& index = indexOf_[slot];
@@ -89,7 +91,7 @@ class AccessList {
 
 // Follows each slot from the rungs that need it back to those that store it.
 class SlotFlow {
- public:
+public:
   SlotFlow(const Module& module, std::vector<Access>& accesses) : module_(module), graph_(module), accesses_(accesses) {
     needed_.assign(graph_.nodeCount(), 0);
     neededBehind_.assign(graph_.nodeCount(), 0);
@@ -116,7 +118,7 @@ class SlotFlow {
       if (first[slot] != first[slot + 1]) follow(slot, {order.data() + first[slot], order.data() + first[slot + 1]});
   }
 
- private:
+private:
   // Marks of a slot are its number plus one.
   void follow(uint32_t slot, std::span<const uint32_t> accesses) {
     const uint32_t mark = slot + 1;
@@ -129,8 +131,10 @@ class SlotFlow {
       const uint32_t node = open_.back();
       open_.pop_back();
       for (uint32_t before : graph_.predecessors(node)) {
-        if (work_ == 0) leaveAlone_ = true;
-        else --work_;
+        if (work_ == 0)
+          leaveAlone_ = true;
+        else
+          --work_;
         neededBehind_[before] = mark;
         if (killed_[before] != mark && !leaveAlone_) need(before, slot);
       }
@@ -154,7 +158,8 @@ class SlotFlow {
     std::vector<uint32_t> taskOf(module_.slots.size(), kNobody); // the last that stores it
     shared_.assign(module_.slots.size(), false);
     std::vector<uint32_t> routineOfNode;
-    for (uint32_t r = 0; r < module_.routines.size(); ++r) routineOfNode.insert(routineOfNode.end(), module_.routines[r].rungs.size(), r);
+    for (uint32_t r = 0; r < module_.routines.size(); ++r)
+      routineOfNode.insert(routineOfNode.end(), module_.routines[r].rungs.size(), r);
     std::vector<std::vector<uint32_t>> storedIn(module_.routines.size());
     for (const Access& access : accesses_)
       if (access.stores) storedIn[routineOfNode[access.node]].push_back(access.slot);
@@ -199,13 +204,15 @@ class SlotFlow {
 
 // Takes the dead stores out of one rung.
 class StoreRemover {
- public:
+public:
   explicit StoreRemover(const Module& module) : module_(module), state_(module.slots.size()) {}
 
   void run(Rung& rung, std::span<const Access> accesses) {
     bool stores = false;
     for (const Access& access : accesses) {
-      state_[access.slot] = {.needed = access.neededBehind || access.leftAlone, .leftAlone = access.leftAlone, .loadsInLoop = access.loadsInLoop};
+      state_[access.slot] = {.needed = access.neededBehind || access.leftAlone,
+                             .leftAlone = access.leftAlone,
+                             .loadsInLoop = access.loadsInLoop};
       stores = stores || (access.stores && !access.leftAlone);
     }
     if (!stores || !findDead(rung)) return;
@@ -215,7 +222,7 @@ class StoreRemover {
     writer_.finish(rung);
   }
 
- private:
+private:
   struct State {
     bool needed = true; // at the point that the walk has reached
     bool leftAlone = false;

@@ -1,5 +1,5 @@
-// The values that a rung has at hand, by what they are: an operation on operands, or what a place of memory held at some
-// time. Scoped: what was entered in a region is forgotten at its end, and an older entry shows again.
+// The values that a rung has at hand, by what they are: an operation on operands, or what a place of memory held at
+// some time. Scoped: what was entered in a region is forgotten at its end, and an older entry shows again.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ValueKey {
 };
 
 class ValueTable {
- public:
+public:
   struct Entry {
     ValueKey key;
     ValueId value;
@@ -37,7 +37,8 @@ class ValueTable {
   void open() { scopes_.push_back(static_cast<uint32_t>(entries_.size())); }
   void close() {
     // The entries of a chain are in order, so the last one entered is its head.
-    for (; entries_.size() > scopes_.back(); entries_.pop_back()) heads_[bucket(entries_.back().key)] = entries_.back().below;
+    for (; entries_.size() > scopes_.back(); entries_.pop_back())
+      heads_[bucket(entries_.back().key)] = entries_.back().below;
     scopes_.pop_back();
   }
 
@@ -58,7 +59,7 @@ class ValueTable {
     head = static_cast<uint32_t>(entries_.size()) - 1;
   }
 
- private:
+private:
   size_t bucket(const ValueKey& key) const {
     uint64_t hash = static_cast<uint64_t>(key.imm);
     const auto mix = [&](uint64_t word) { hash = (std::rotl(hash, 27) ^ word) * 0x9E3779B97F4A7C15ull; };

@@ -11,7 +11,8 @@ constexpr uint64_t kFree = ~0ull;
 constexpr uint64_t kSlots = RUNG_NONE - 1; // stands for a space
 
 bool isFixed(const Op& op) {
-  return op.code == OpCode::Load || op.code == OpCode::Store || op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore;
+  return op.code == OpCode::Load || op.code == OpCode::Store || op.code == OpCode::SlotLoad ||
+         op.code == OpCode::SlotStore;
 }
 
 } // namespace
@@ -53,8 +54,10 @@ void WriteTimes::write(const Op& op, uint32_t time) {
   for (uint32_t i = 0; i < place.bytes; ++i) {
     Byte& byte = *findByte(place.firstByte + i);
     byte.key = place.firstByte + i;
-    if (place.bit < 0) byte.whole = time;
-    else byte.bit[place.bit] = byte.anyBit = time;
+    if (place.bit < 0)
+      byte.whole = time;
+    else
+      byte.bit[place.bit] = byte.anyBit = time;
   }
 }
 

@@ -9,7 +9,7 @@
 namespace rung::ir {
 
 class WriteTimes {
- public:
+public:
   explicit WriteTimes(const Module& module) : module_(module), spaces_(module.spaces.size()) {}
 
   void start(const Rung& rung);
@@ -20,7 +20,7 @@ class WriteTimes {
   // Whether nothing has written since `time` to what `op` (a load or store of any kind) reads or writes.
   bool unchanged(const Op& op, uint32_t time) const;
 
- private:
+private:
   struct Place {
     uint64_t firstByte; // with the space; slots have one of their own
     uint32_t bytes;

@@ -12,7 +12,7 @@
 namespace rung::ir {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string out = "\"";
   for (char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -40,7 +40,7 @@ bool isWord(std::string_view name) {
   return true;
 }
 
-std::string nameText(std::string_view name) { return isWord(name) ? std::string(name) : quoted(name); }
+std::string nameText(std::string_view name) { return isWord(name) ? std::string(name) : inQuotes(name); }
 
 // Names of one kind, as a reference writes them: by name when it is unique, else by index.
 class References {
@@ -89,13 +89,13 @@ public:
   }
 
   void printModule() {
-    put("module {} dialect {}{}\n", quoted(module_.name), quoted(module_.dialect),
+    put("module {} dialect {}{}\n", inQuotes(module_.name), inQuotes(module_.dialect),
         module_.instrumented ? " instrumented" : "");
-    for (const std::string& file : module_.files) put("file {}\n", quoted(file));
+    for (const std::string& file : module_.files) put("file {}\n", inQuotes(file));
     printMemory();
     for (const std::string& fault : module_.faults) put("fault {}\n", nameText(fault));
     for (const std::string& service : module_.services) put("service {}\n", nameText(service));
-    for (const MessageText& message : module_.messages) put("message {} {}\n", message.number, quoted(message.text));
+    for (const MessageText& message : module_.messages) put("message {} {}\n", message.number, inQuotes(message.text));
     for (const Routine& routine : module_.routines) {
       put("\nroutine {} {{\n", nameText(routine.name));
       for (uint32_t i = 0; i < routine.rungs.size(); ++i) printRung(routine.rungs[i], i, {});
@@ -180,7 +180,7 @@ void Printer::printMemory() {
   for (size_t i = 0; i < module_.slots.size(); ++i) {
     const Slot& slot = module_.slots[i];
     put("slot ${} {} init {}{}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init),
-        slot.retain ? " retain" : "", slot.transient ? " transient" : "", quoted(slot.key));
+        slot.retain ? " retain" : "", slot.transient ? " transient" : "", inQuotes(slot.key));
   }
   for (const Symbol& s : module_.symbols) {
     const Keyword* type = findKeyword(kSymbolTypes, s.type);
@@ -189,7 +189,7 @@ void Printer::printMemory() {
         type != nullptr ? std::string(type->word) : fmt::format("#{}", s.type),
         bit ? bitPlace(s.space.index, uint64_t{s.byte} * 8 + s.bit) : bytePlace(s.space.index, s.byte), s.count);
     printFlags(kSymbolFlags, s.flags);
-    put(" value {} {}\n", s.value, quoted(s.comment));
+    put(" value {} {}\n", s.value, inQuotes(s.comment));
   }
   for (const Init& init : module_.inits) {
     put("init {} ", bytePlace(init.space.index, init.byte));
@@ -251,7 +251,7 @@ std::string Printer::attribute(const Rung& rung, const Op& op) const {
   case Attr::Service: return services_.text(op.ref);
   case Attr::ResultNo: return fmt::format("{}", op.imm);
   case Attr::Fault: return faults_.text(op.ref);
-  case Attr::Text: return op.ref < rung.notes.size() ? quoted(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
+  case Attr::Text: return op.ref < rung.notes.size() ? inQuotes(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
   }
   return {};
 }
@@ -290,7 +290,7 @@ void Printer::printOp(const Rung& rung, const Op& op) {
     put("{}%{}", lead, at < rung.args.size() ? fmt::format("{}", rung.args[at].index) : "?");
   }
   if (op.line != 0) put(" @{}", op.line);
-  if (const std::string_view name = comment(op); !name.empty()) put(" ; {}", quoted(name));
+  if (const std::string_view name = comment(op); !name.empty()) put(" ; {}", inQuotes(name));
   put("\n");
 }
 
@@ -321,12 +321,12 @@ void Printer::printRemark(const Remark& remark, size_t index, size_t indent) {
 
 void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark) {
   const std::string drawn = rung.number == 0 ? "" : fmt::format("drawn {} ", rung.number);
-  put("  rung {} {}{} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, drawn, quoted(rung.title),
+  put("  rung {} {}{} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, drawn, inQuotes(rung.title),
       files_.text(rung.begin.file.index), rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
   std::string_view source = rung.sourceText;
   for (bool more = !source.empty(); more;) {
     const size_t end = source.find('\n');
-    put("    source {}\n", quoted(source.substr(0, end)));
+    put("    source {}\n", inQuotes(source.substr(0, end)));
     more = end != std::string_view::npos;
     source.remove_prefix(more ? end + 1 : source.size());
   }

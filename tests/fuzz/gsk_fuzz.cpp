@@ -1,5 +1,5 @@
-// libFuzzer target: any bytes as a GSK program, a command list or, beginning with "dialect gsk", ladder text. What compiles
-// converts to both forms and back; the conversion itself looks that it made the same program.
+// libFuzzer target: any bytes as a GSK program, a command list or, beginning with "dialect gsk", ladder text. What
+// compiles converts to both forms and back; the conversion itself looks that it made the same program.
 #include <cstddef>
 #include <cstdint>
 #include <string>

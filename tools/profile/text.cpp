@@ -16,8 +16,9 @@ std::string scansText(const Profile& profile) {
 std::string headText(const Profile& profile) {
   const Report& report = profile.report;
   const size_t rungs = report.rows.size() + report.never.size();
-  std::string text = fmt::format("{} ({}): {}, timed in {} runs on {}\n{} of {} rungs ran", report.program, report.dialect,
-                                 scansText(profile), profile.repeat, profile.engine, report.rows.size(), rungs);
+  std::string text =
+      fmt::format("{} ({}): {}, timed in {} runs on {}\n{} of {} rungs ran", report.program, report.dialect,
+                  scansText(profile), profile.repeat, profile.engine, report.rows.size(), rungs);
   if (!report.never.empty()) text += fmt::format("; {} never (--never lists them)", report.never.size());
   return text + "\n";
 }

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <iterator>
 
+#include "tools/console/progress.h"
 #include "tools/profile/text.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/profile_page.h"
-#include "tools/console/progress.h"
 #include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenarios.h"
 

@@ -6,11 +6,11 @@
 #include <thread>
 #include <unistd.h>
 
+#include "tools/console/progress.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
 #include "tools/rungc/junit.h"
-#include "tools/console/progress.h"
 #include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenario_trace.h"
 #include "tools/rungc/test_pool.h"

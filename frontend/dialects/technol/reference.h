@@ -1,4 +1,5 @@
-// Sections of the reference page behind the instructions, and what `rungc explain` says about the names of the interface.
+// Sections of the reference page behind the instructions, and what `rungc explain` says about the names of the
+// interface.
 #pragma once
 
 #include <string>

@@ -27,7 +27,7 @@ extern "C" {
 typedef struct rung_ctx rung_ctx;
 
 /* Runs one chunk on the memory block; returns the next chunk, RUNG_PC_DONE or RUNG_PC_FAULT. */
-typedef uint32_t (*rung_chunk_fn)(uint8_t *mem, rung_ctx *ctx);
+typedef uint32_t (*rung_chunk_fn)(uint8_t* mem, rung_ctx* ctx);
 
 /* ---- memory -------------------------------------------------------------------------------------------------- */
 
@@ -52,12 +52,12 @@ enum rung_space_flags {
 
 /* An address space of the dialect. Multi-byte values are little-endian in every space. */
 typedef struct rung_space {
-  const char *name;
+  const char* name;
   uint32_t unit_bytes; /* 1, 2, 4 or 8: what one address number counts */
   uint32_t byte_count;
   uint32_t flags; /* enum rung_space_flags */
   uint32_t range_count;
-  const rung_range *ranges;
+  const rung_range* ranges;
 } rung_space;
 
 enum rung_type {
@@ -78,8 +78,8 @@ enum rung_symbol_flags {
 
 /* A name of the program. Sorted by strcmp of `name`; case-insensitive dialects store upper case. */
 typedef struct rung_symbol {
-  const char *name;
-  const char *comment; /* "" when there is none */
+  const char* name;
+  const char* comment; /* "" when there is none */
   uint32_t space;
   uint32_t byte;  /* logical byte within the space */
   uint32_t bit;   /* 0..7, for RUNG_TYPE_BIT */
@@ -99,7 +99,7 @@ typedef struct rung_span {
 typedef struct rung_init {
   uint32_t offset;
   uint32_t size;
-  const uint8_t *data;
+  const uint8_t* data;
 } rung_init;
 
 enum rung_copy_kind {
@@ -125,7 +125,7 @@ typedef struct rung_chunk {
 } rung_chunk;
 
 typedef struct rung_rung_info {
-  const char *title; /* the rung's comment, "" when there is none */
+  const char* title; /* the rung's comment, "" when there is none */
   uint32_t file;     /* in `files`; RUNG_NONE: made by the compiler */
   uint32_t first_line;
   uint32_t last_line;
@@ -140,7 +140,7 @@ typedef struct rung_rung_info {
  * program reaches its end early, the parts that are left do nothing. Part i runs until control comes to a chunk that is
  * not below part_ends[part_first + i], outside of calls. `begin` belongs to the first part and `end` to every part. */
 typedef struct rung_task {
-  const char *name;
+  const char* name;
   uint32_t entry;        /* chunk */
   uint32_t period_us;    /* 0: only when the schedule or the NC model starts it */
   uint32_t budget;       /* weight that one run may use up, else the fault `budget_fault` */
@@ -212,19 +212,19 @@ enum rung_service_state {
 typedef struct rung_host_api {
   uint32_t size;
   uint32_t reserved;
-  void (*message)(rung_ctx *ctx, const rung_message *message);
+  void (*message)(rung_ctx* ctx, const rung_message* message);
   /* Puts a request into the queue; returns its ticket, or 0 when the queue is full (counted, reported). */
-  uint32_t (*service_request)(rung_ctx *ctx, uint32_t service, const int64_t *args, uint32_t count);
-  uint32_t (*service_poll)(rung_ctx *ctx, uint32_t ticket); /* enum rung_service_state */
-  int64_t (*service_result)(rung_ctx *ctx, uint32_t ticket, uint32_t index);
+  uint32_t (*service_request)(rung_ctx* ctx, uint32_t service, const int64_t* args, uint32_t count);
+  uint32_t (*service_poll)(rung_ctx* ctx, uint32_t ticket); /* enum rung_service_state */
+  int64_t (*service_result)(rung_ctx* ctx, uint32_t ticket, uint32_t index);
 } rung_host_api;
 
 struct rung_ctx {
   int64_t now_us; /* fixed while a task runs */
-  const rung_host_api *host;
-  void *host_data;
-  rung_prof *prof; /* one per rung; only instrumented programs touch it */
-  void *engine;    /* the interpreter's own */
+  const rung_host_api* host;
+  void* host_data;
+  rung_prof* prof; /* one per rung; only instrumented programs touch it */
+  void* engine;    /* the interpreter's own */
   rung_fault fault;
   uint32_t sp;           /* used entries of `stack` */
   uint32_t extra_weight; /* by which a chunk's way was heavier than its weight; the host takes it */
@@ -236,9 +236,9 @@ struct rung_ctx {
 typedef struct rung_program {
   uint32_t size; /* of this struct, as the compiler knew it */
   uint32_t abi_version;
-  const char *name;
-  const char *dialect;
-  const char *compiler;
+  const char* name;
+  const char* dialect;
+  const char* compiler;
   uint64_t layout_hash; /* equal hashes: memory images are interchangeable */
   uint64_t code_hash;
   uint32_t memory_size;
@@ -265,27 +265,27 @@ typedef struct rung_program {
   uint32_t service_count;
   uint32_t text_count;
 
-  const rung_space *spaces;
-  const rung_symbol *symbols;
-  const rung_init *inits;
-  const rung_span *retains;    /* kept through power-off */
-  const rung_span *safe_spans; /* cleared when a fault stops the program */
-  const rung_copy *copies;
-  const rung_chunk *chunks;
-  const rung_rung_info *rungs;
-  const char *const *routines;
-  const char *const *files;
-  const rung_task *tasks;
-  const uint32_t *part_ends; /* chunk before which a part ends; RUNG_PC_DONE for the last part of a task */
-  const rung_step *scan;     /* one scan of the main task; repeated */
-  const rung_step *fast;     /* one run of the fast task alone */
-  const char *const *faults;
-  const char *const *services;
-  const char *const *texts; /* message texts: pairs of number (decimal) and text */
+  const rung_space* spaces;
+  const rung_symbol* symbols;
+  const rung_init* inits;
+  const rung_span* retains;    /* kept through power-off */
+  const rung_span* safe_spans; /* cleared when a fault stops the program */
+  const rung_copy* copies;
+  const rung_chunk* chunks;
+  const rung_rung_info* rungs;
+  const char* const* routines;
+  const char* const* files;
+  const rung_task* tasks;
+  const uint32_t* part_ends; /* chunk before which a part ends; RUNG_PC_DONE for the last part of a task */
+  const rung_step* scan;     /* one scan of the main task; repeated */
+  const rung_step* fast;     /* one run of the fast task alone */
+  const char* const* faults;
+  const char* const* services;
+  const char* const* texts; /* message texts: pairs of number (decimal) and text */
 
-  const rung_chunk_fn *chunk_fns; /* by chunk; null when `run_chunk` is there */
+  const rung_chunk_fn* chunk_fns; /* by chunk; null when `run_chunk` is there */
   /* How an interpreter runs a chunk; null in compiled programs. */
-  uint32_t (*run_chunk)(uint8_t *mem, rung_ctx *ctx, uint32_t chunk);
+  uint32_t (*run_chunk)(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 } rung_program;
 
 #ifdef __cplusplus

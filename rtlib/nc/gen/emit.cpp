@@ -33,7 +33,7 @@ const char* directionName(Direction direction) {
   return "";
 }
 
-std::string quoted(const std::string& text) {
+std::string literal(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -50,10 +50,10 @@ std::string sortKey(std::string name, bool ignoreCase) {
 }
 
 void emitRow(std::ostream& out, const Row& row) {
-  out << "    Signal{" << quoted(row.symbol) << ", " << quoted(row.address) << ", " << quoted(row.area) << ", "
+  out << "    Signal{" << literal(row.symbol) << ", " << literal(row.address) << ", " << literal(row.area) << ", "
       << row.byteOffset << ", " << row.bit << ", SignalType::" << typeName(row.type)
       << ", Direction::" << directionName(row.direction) << ", " << row.count << ", " << row.strideBytes << ", "
-      << quoted(row.structure) << ", " << quoted(row.group) << ", " << quoted(row.meaning) << ", " << row.manualLine
+      << literal(row.structure) << ", " << literal(row.group) << ", " << literal(row.meaning) << ", " << row.manualLine
       << ", " << (row.inferred ? "true" : "false") << "},\n";
 }
 

@@ -8,7 +8,8 @@
 namespace rung::nc {
 namespace {
 
-// Unicode of the bytes 0x80 to 0xFF.
+// Unicode of the bytes 0x80 to 0xFF, eight to a line.
+// clang-format off
 constexpr uint16_t kWindows1250[128] = {
     0x20AC, 0x0081, 0x201A, 0x0083, 0x201E, 0x2026, 0x2020, 0x2021,
     0x0088, 0x2030, 0x0160, 0x2039, 0x015A, 0x0164, 0x017D, 0x0179,
@@ -45,9 +46,12 @@ constexpr uint16_t kCp852[128] = {
     0x00AD, 0x02DD, 0x02DB, 0x02C7, 0x02D8, 0x00A7, 0x00F7, 0x00B8,
     0x00B0, 0x00A8, 0x02D9, 0x0171, 0x0158, 0x0159, 0x25A0, 0x00A0,
 };
+// clang-format on
 
-constexpr std::u16string_view kSmall = u"\u00E1\u010D\u010F\u00E9\u011B\u00ED\u0148\u00F3\u0159\u0161\u0165\u00FA\u016F\u00FD\u017E";
-constexpr std::u16string_view kCapital = u"\u00C1\u010C\u010E\u00C9\u011A\u00CD\u0147\u00D3\u0158\u0160\u0164\u00DA\u016E\u00DD\u017D";
+constexpr std::u16string_view kSmall =
+    u"\u00E1\u010D\u010F\u00E9\u011B\u00ED\u0148\u00F3\u0159\u0161\u0165\u00FA\u016F\u00FD\u017E";
+constexpr std::u16string_view kCapital =
+    u"\u00C1\u010C\u010E\u00C9\u011A\u00CD\u0147\u00D3\u0158\u0160\u0164\u00DA\u016E\u00DD\u017D";
 
 constexpr const uint16_t* tableOf(CodePage page) { return page == CodePage::Cp852 ? kCp852 : kWindows1250; }
 
@@ -118,7 +122,8 @@ std::optional<uint8_t> windows1250Of(uint32_t codePoint) {
 std::string memoryText(std::string_view utf8) {
   std::string out;
   out.reserve(utf8.size());
-  for (size_t at = 0; at < utf8.size();) out.push_back(static_cast<char>(windows1250Of(nextCharacter(utf8, at)).value_or('?')));
+  for (size_t at = 0; at < utf8.size();)
+    out.push_back(static_cast<char>(windows1250Of(nextCharacter(utf8, at)).value_or('?')));
   return out;
 }
 

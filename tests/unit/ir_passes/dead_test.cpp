@@ -7,7 +7,9 @@
 namespace rung::ir {
 namespace {
 
-std::string alive(std::string_view lines, std::string_view transfer = "}") { return after(removeDeadOps, lines, transfer); }
+std::string alive(std::string_view lines, std::string_view transfer = "}") {
+  return after(removeDeadOps, lines, transfer);
+}
 void expectUnchanged(std::string_view lines) { EXPECT_EQ(alive(lines), bodyOf(moduleOf(lines))); }
 
 TEST(Dead, UnusedResults) {
@@ -37,7 +39,8 @@ trap F, %4)");
 }
 
 TEST(Dead, ValueOfASwitch) {
-  EXPECT_EQ(alive("%0:i32 = load D[0]\n%1:i32 = load D[1]", "} switch %1 [2, 3]"), "%0:i32 = load D[1]\n} switch %0 [2, 3]\n");
+  EXPECT_EQ(alive("%0:i32 = load D[0]\n%1:i32 = load D[1]", "} switch %1 [2, 3]"),
+            "%0:i32 = load D[1]\n} switch %0 [2, 3]\n");
 }
 
 TEST(Dead, RegionsGoAsAWhole) {

@@ -28,11 +28,13 @@ Module moduleOf(const std::vector<RoutineText>& routines, const std::vector<std:
   for (const RoutineText& routine : routines) {
     text += fmt::format("routine {} {{\n", routine.name);
     for (size_t i = 0; i < routine.rungs.size(); ++i)
-      text += fmt::format("rung {} \"\" loc(\"t.lad\":{}:1-{}) key(1) weight 1 {{\n{}\n{}\n", i, i + 1, i + 1, routine.rungs[i].lines, routine.rungs[i].transfer);
+      text += fmt::format("rung {} \"\" loc(\"t.lad\":{}:1-{}) key(1) weight 1 {{\n{}\n{}\n", i, i + 1, i + 1,
+                          routine.rungs[i].lines, routine.rungs[i].transfer);
     text += "}\n";
   }
   for (size_t i = 0; i < entries.size(); ++i)
-    text += fmt::format("task T{} entry {} period 1000 budget 1000 fault F parts {} {{\n}}\n", i, entries[i], i == 0 ? parts : 1);
+    text += fmt::format("task T{} entry {} period 1000 budget 1000 fault F parts {} {{\n}}\n", i, entries[i],
+                        i == 0 ? parts : 1);
   text += "schedule main T0 fast -\n";
   ParseOutcome outcome = parse(text);
   if (!outcome.module) {
@@ -47,7 +49,8 @@ Module moduleOf(const std::vector<RoutineText>& routines, const std::vector<std:
 Module moduleOf(std::string_view lines, std::string_view transfer) {
   // Rungs 1 to 3 and the routine Q are there for transfers to go to.
   const RungText nothing;
-  return moduleOf({{"R", {{std::string(lines), std::string(transfer)}, nothing, nothing, nothing}}, {"Q", {nothing}}}, {"R"});
+  return moduleOf({{"R", {{std::string(lines), std::string(transfer)}, nothing, nothing, nothing}}, {"Q", {nothing}}},
+                  {"R"});
 }
 
 std::string bodyOf(const Module& module, RoutineId routine, uint32_t rung) {

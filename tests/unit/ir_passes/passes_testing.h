@@ -20,8 +20,8 @@ struct RoutineText {
   std::vector<RungText> rungs;
 };
 
-// Spaces: B (bytes), D (double words); slots: $0 i32, $1 i32 transient, $2 bit transient; fault F; service S. A task for
-// each of `entries`; `parts` of the first. Fails the test, and gives an empty module, when the text is not valid.
+// Spaces: B (bytes), D (double words); slots: $0 i32, $1 i32 transient, $2 bit transient; fault F; service S. A task
+// for each of `entries`; `parts` of the first. Fails the test, and gives an empty module, when the text is not valid.
 Module moduleOf(const std::vector<RoutineText>& routines, const std::vector<std::string>& entries, uint32_t parts = 1);
 
 // A module with one routine R of one rung.

@@ -69,7 +69,8 @@ store.i32 D[6], %2
 }
 
 TEST(Reuse, Interference) {
-  const std::string head = "%0:i32 = load D[60]\n%1:i16 = load D[61]\n%2:i64 = load D[56]\n%3:bit = load D[63.0]\n%4:i32 = const 3\n";
+  const std::string head =
+      "%0:i32 = load D[60]\n%1:i16 = load D[61]\n%2:i64 = load D[56]\n%3:bit = load D[63.0]\n%4:i32 = const 3\n";
   struct Pair {
     const char* load;
     const char* store;
@@ -99,7 +100,8 @@ TEST(Reuse, Interference) {
       {"bit = load D[2.31]", "store_bit_at.bit D[2 count 1], %0, %0, %3", true},
       {"bit = load D[2.31]", "store_bit_at.bit D[3 count 1], %0, %0, %3", false},
       {"i32 = load_at D[2 count 2], %0", "store.bit D[2.0], %3", true},
-      {"i32 = load_at D[2 count 2], %0", "store_at.i32 D[2 count 2], %0, %0", true}, // outside of the window it would read 0
+      {"i32 = load_at D[2 count 2], %0", "store_at.i32 D[2 count 2], %0, %0",
+       true}, // outside of the window it would read 0
       {"i32 = load_at D[2 count 2], %0", "store.i32 B[0], %0", false},
       {"i32 = load_at D[2 count 2], %0", "slot_store.i32 $0, %0", false},
       {"bit = load_bit_at D[2 count 2], %0, %4", "store.i32 D[2], %0", true},
@@ -219,7 +221,8 @@ TEST(Reuse, HostCallsAreAllMade) {
 }
 
 TEST(Reuse, TransfersFollow) {
-  EXPECT_EQ(after(reuseValues, "%0:bit = load B[0.0]\n%1:bit = load B[0.0]", "} goto 2 if %1"), "%0:bit = load B[0.0]\n} goto 2 if %0\n");
+  EXPECT_EQ(after(reuseValues, "%0:bit = load B[0.0]\n%1:bit = load B[0.0]", "} goto 2 if %1"),
+            "%0:bit = load B[0.0]\n} goto 2 if %0\n");
 }
 
 } // namespace

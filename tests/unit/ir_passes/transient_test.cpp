@@ -15,10 +15,12 @@ const std::string kBit = "%0:bit = load B[0.0]\n";
 // Whether a module stores $1 in a rung of the first routine, after the pass.
 std::vector<bool> stores(Module& module, RoutineId routine = RoutineId{0}) {
   std::vector<bool> out;
-  for (uint32_t i = 0; i < module.at(routine).rungs.size(); ++i) out.push_back(bodyOf(module, routine, i).find("slot_store.i32 $1") != std::string::npos);
+  for (uint32_t i = 0; i < module.at(routine).rungs.size(); ++i)
+    out.push_back(bodyOf(module, routine, i).find("slot_store.i32 $1") != std::string::npos);
   return out;
 }
-std::vector<bool> storesAfter(const std::vector<RoutineText>& routines, const std::vector<std::string>& entries, uint32_t parts = 1) {
+std::vector<bool> storesAfter(const std::vector<RoutineText>& routines, const std::vector<std::string>& entries,
+                              uint32_t parts = 1) {
   Module module = moduleOf(routines, entries, parts);
   if (module.routines.empty()) return {};
   removeTransientStores(module);
@@ -27,11 +29,14 @@ std::vector<bool> storesAfter(const std::vector<RoutineText>& routines, const st
   return stores(module);
 }
 // One routine and task.
-std::vector<bool> storesAfter(const std::vector<RungText>& rungs, uint32_t parts = 1) { return storesAfter({{"R", rungs}}, {"R"}, parts); }
+std::vector<bool> storesAfter(const std::vector<RungText>& rungs, uint32_t parts = 1) {
+  return storesAfter({{"R", rungs}}, {"R"}, parts);
+}
 
 using Bools = std::vector<bool>;
 
-// ---- within a rung ---------------------------------------------------------------------------------------------------
+// ---- within a rung
+// ---------------------------------------------------------------------------------------------------
 
 std::string oneRung(std::string_view lines) { return after(removeTransientStores, lines); }
 void expectUnchanged(std::string_view lines) { EXPECT_EQ(oneRung(lines), bodyOf(moduleOf(lines))); }
@@ -94,9 +99,12 @@ endloop)");
   EXPECT_EQ(oneRung("%0:i32 = loop 3\n  slot_store.i32 $1, %0\nendloop"), "%0:i32 = loop 3\nendloop\n");
 }
 
-TEST(Transient, AValueFromTheRunBeforeIsKept) { expectUnchanged("%0:i32 = slot_load $1\nstore.i32 D[0], %0\nslot_store.i32 $1, %0"); }
+TEST(Transient, AValueFromTheRunBeforeIsKept) {
+  expectUnchanged("%0:i32 = slot_load $1\nstore.i32 D[0], %0\nslot_store.i32 $1, %0");
+}
 
-// ---- over rungs ------------------------------------------------------------------------------------------------------
+// ---- over rungs
+// ------------------------------------------------------------------------------------------------------
 
 TEST(Transient, OverRungs) {
   EXPECT_EQ(storesAfter({{kStore}, {kStore}, {}, {kLoad}, {kStore}}), (Bools{false, true, false, false, false}));
@@ -104,24 +112,30 @@ TEST(Transient, OverRungs) {
 
 TEST(Transient, JumpsAndEnds) {
   // Past the rung that overwrites.
-  EXPECT_EQ(storesAfter({{kStore + "%1:bit = load B[0.0]\n", "} goto 2 if %1"}, {kStore}, {kLoad}}), (Bools{true, true, false}));
+  EXPECT_EQ(storesAfter({{kStore + "%1:bit = load B[0.0]\n", "} goto 2 if %1"}, {kStore}, {kLoad}}),
+            (Bools{true, true, false}));
   // Past the rung that loads.
   EXPECT_EQ(storesAfter({{kStore, "} goto 2"}, {kLoad}, {}}), (Bools{false, false, false}));
   EXPECT_EQ(storesAfter({{kStore, "} end"}, {kLoad}}), (Bools{false, false}));
   EXPECT_EQ(storesAfter({{kStore, "} ret"}, {kLoad}}), (Bools{false, false}));
   EXPECT_EQ(storesAfter({{kStore + "%1:bit = load B[0.0]\n", "} ret if %1"}, {kLoad}}), (Bools{true, false}));
   // Backward.
-  EXPECT_EQ(storesAfter({{kStore}, {kLoad}, {kStore + "%1:bit = load B[0.0]\n", "} goto 1 if %1"}}), (Bools{true, false, true}));
+  EXPECT_EQ(storesAfter({{kStore}, {kLoad}, {kStore + "%1:bit = load B[0.0]\n", "} goto 1 if %1"}}),
+            (Bools{true, false, true}));
   EXPECT_EQ(storesAfter({{kStore, "} switch %0 [1, 2]"}, {kStore, "} end"}, {kLoad}}), (Bools{true, false, false}));
 }
 
 TEST(Transient, AConditionalStoreDoesNotOverwrite) {
-  EXPECT_EQ(storesAfter({{kStore}, {kBit + "%1:i32 = const 1\nif %0\n  slot_store.i32 $1, %1\nendif\n"}, {kLoad}}), (Bools{true, true, false}));
+  EXPECT_EQ(storesAfter({{kStore}, {kBit + "%1:i32 = const 1\nif %0\n  slot_store.i32 $1, %1\nendif\n"}, {kLoad}}),
+            (Bools{true, true, false}));
 }
 
-TEST(Transient, ReadBeforeItIsStoredInTheRung) { EXPECT_EQ(storesAfter({{kStore}, {kLoad + "slot_store.i32 $1, %0\n"}}), (Bools{true, false})); }
+TEST(Transient, ReadBeforeItIsStoredInTheRung) {
+  EXPECT_EQ(storesAfter({{kStore}, {kLoad + "slot_store.i32 $1, %0\n"}}), (Bools{true, false}));
+}
 
-// ---- calls -----------------------------------------------------------------------------------------------------------
+// ---- calls
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(Transient, TheCalleeReads) {
   EXPECT_EQ(storesAfter({{"R", {{kStore, "} call Q"}, {}}}, {"Q", {{}, {kLoad}}}}, {"R"}), (Bools{true, false}));
@@ -132,11 +146,15 @@ TEST(Transient, TheCalleeLeavesItForTheCaller) {
   EXPECT_EQ(storesAfter({{"R", {{kStore, "} call Q"}, {kLoad}}}, {"Q", {{}}}}, {"R"}), (Bools{true, false}));
   // The callee always stores it; where the call is conditional, the caller's value may be read.
   EXPECT_EQ(storesAfter({{"R", {{kStore, "} call Q"}, {kLoad}}}, {"Q", {{kStore}}}}, {"R"}), (Bools{false, false}));
-  EXPECT_EQ(storesAfter({{"R", {{kStore + "%1:bit = load B[0.0]\n", "} call Q if %1"}, {kLoad}}}, {"Q", {{kStore}}}}, {"R"}), (Bools{true, false}));
+  EXPECT_EQ(
+      storesAfter({{"R", {{kStore + "%1:bit = load B[0.0]\n", "} call Q if %1"}, {kLoad}}}, {"Q", {{kStore}}}}, {"R"}),
+      (Bools{true, false}));
 }
 
 TEST(Transient, TheCallerReadsWhatTheCalleeStored) {
-  Module module = moduleOf({{"R", {{{}, "} call Q"}, {kLoad}}}, {"Q", {{kStore + "%1:bit = load B[0.0]\n", "} ret if %1"}, {kStore}}}}, {"R"});
+  Module module = moduleOf(
+      {{"R", {{{}, "} call Q"}, {kLoad}}}, {"Q", {{kStore + "%1:bit = load B[0.0]\n", "} ret if %1"}, {kStore}}}},
+      {"R"});
   removeTransientStores(module);
   EXPECT_EQ(stores(module, RoutineId{1}), (Bools{true, true}));
   // Through a call in the last rung.
@@ -150,7 +168,8 @@ TEST(Transient, TheCallerReadsWhatTheCalleeStored) {
   EXPECT_EQ(stores(module, RoutineId{0}), (Bools{false, false}));
 }
 
-// ---- tasks and parts -------------------------------------------------------------------------------------------------
+// ---- tasks and parts
+// -------------------------------------------------------------------------------------------------
 
 TEST(Transient, EachTaskForItself) {
   EXPECT_EQ(storesAfter({{"R", {{kStore}, {}}}, {"Q", {{kStore}, {kLoad}}}}, {"R", "Q"}), (Bools{false, false}));
@@ -167,7 +186,8 @@ TEST(Transient, AnotherTaskBetweenTwoParts) {
   removeTransientStores(module);
   EXPECT_EQ(stores(module, RoutineId{1}), (Bools{true}));
   // Nothing else stores it.
-  EXPECT_EQ(storesAfter({{"R", {{kStore}, {}, {kLoad}, {kStore}}}, {"Q", {{}}}}, {"R", "Q"}, 2), (Bools{true, false, false, false}));
+  EXPECT_EQ(storesAfter({{"R", {{kStore}, {}, {kLoad}, {kStore}}}, {"Q", {{}}}}, {"R", "Q"}, 2),
+            (Bools{true, false, false, false}));
 }
 
 } // namespace

@@ -22,8 +22,14 @@ TEST(CodePage, LettersOfBothPages) {
 TEST(CodePage, WhatHasNoByteIsAQuestionMark) { EXPECT_EQ(memoryText("a\u4E2Db\U0001F600"), "a?b?"); }
 
 TEST(CodePage, GuessesByTheLetters) {
-  EXPECT_EQ(guessCodePage("\x8Er\xE1" "dlo, \xE8" "erpadlo"), CodePage::Windows1250);
-  EXPECT_EQ(guessCodePage("\xA6r\xA0" "dlo, \x9F" "erpadlo"), CodePage::Cp852);
+  EXPECT_EQ(guessCodePage("\x8Er\xE1"
+                          "dlo, \xE8"
+                          "erpadlo"),
+            CodePage::Windows1250);
+  EXPECT_EQ(guessCodePage("\xA6r\xA0"
+                          "dlo, \x9F"
+                          "erpadlo"),
+            CodePage::Cp852);
   EXPECT_EQ(guessCodePage("plain"), CodePage::Windows1250);
 }
 

@@ -16,7 +16,8 @@ std::vector<std::string> Compiled::codes() const {
       const LineCol at = sources.lineCol(d->range.begin);
       place = fmt::format("{}:{}", at.line, at.column);
     }
-    codes.push_back(fmt::format("{} {}{}", place, diagInfo(d->id).code, d->severity == Severity::Warning ? " (w)" : ""));
+    codes.push_back(
+        fmt::format("{} {}{}", place, diagInfo(d->id).code, d->severity == Severity::Warning ? " (w)" : ""));
   }
   return codes;
 }

@@ -69,8 +69,9 @@ protected:
 
 TEST_F(HostWrite, NctInputsAreWrittenInTheTimeSliceMemory) {
   start("nct", kNct);
-  const std::string lost = "a value written to B_CLAMP is lost: !B_CLAMP is copied over it before the program reads it; "
-                           "write !B_CLAMP";
+  const std::string lost =
+      "a value written to B_CLAMP is lost: !B_CLAMP is copied over it before the program reads it; "
+      "write !B_CLAMP";
   EXPECT_EQ(instance_->write(*instance_->resolve("B_CLAMP"), 1), lost);
   EXPECT_EQ(instance_->write("B_CLAMP", 1), lost);
   ASSERT_EQ(instance_->write("!B_CLAMP", 1), "");

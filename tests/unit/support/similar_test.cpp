@@ -15,11 +15,11 @@ std::string_view best(std::string_view word, std::initializer_list<std::string_v
 }
 
 TEST(Similar, OneChange) {
-  EXPECT_EQ(best("ADB", {"SUBB", "ADDB"}), "ADDB");  // one less
+  EXPECT_EQ(best("ADB", {"SUBB", "ADDB"}), "ADDB");   // one less
   EXPECT_EQ(best("ADDDB", {"SUBB", "ADDB"}), "ADDB"); // one more
-  EXPECT_EQ(best("ADCB", {"SUBB", "ADDB"}), "ADDB"); // another
-  EXPECT_EQ(best("DADB", {"SUBB", "ADDB"}), "ADDB"); // exchanged
-  EXPECT_EQ(best("addb", {"ADDA", "ADDB"}), "ADDB"); // case counts as none
+  EXPECT_EQ(best("ADCB", {"SUBB", "ADDB"}), "ADDB");  // another
+  EXPECT_EQ(best("DADB", {"SUBB", "ADDB"}), "ADDB");  // exchanged
+  EXPECT_EQ(best("addb", {"ADDA", "ADDB"}), "ADDB");  // case counts as none
 }
 
 TEST(Similar, TwoChangesInLongerWordsOnly) {

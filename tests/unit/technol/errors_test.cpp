@@ -19,6 +19,7 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 // With one line of data the main module's lines begin at 7; with none at 6.
+// clang-format off: a case a line
 const Case kCases[] = {
     {"Balanced", "DFM A,B\n", " LDR A\n LDR B\n LO\n WR A\n", {}, {}},
     {"UnbalancedAtModuleEnd", "DFM A,B\n", " LDR A\n LDR B\n WR A\n", {"0:10 unbalanced-stack"}, {}},
@@ -98,6 +99,7 @@ const Case kCases[] = {
     {"StringTooLong", "S: STR 2,'abc'\n", "", {}, {"0:2 string-too-long"}},
     {"SeveralErrorsOneRun", "DFM A\n", " LDR X\n WR A\n LOD A\n STO Y\n FOO\n", {"0:7 undefined-symbol", "0:9 wrong-operand-kind", "0:10 undefined-symbol", "0:11 unknown-instruction"}, {}},
 };
+// clang-format on
 
 class TechnolErrors : public testing::TestWithParam<Case> {};
 
@@ -109,12 +111,14 @@ TEST_P(TechnolErrors, AreReportedAtTheirLines) {
   EXPECT_EQ(result.module != nullptr, c.errors.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Codes, TechnolErrors, testing::ValuesIn(kCases), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Codes, TechnolErrors, testing::ValuesIn(kCases),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 Lines errorsOf(const std::vector<std::string>& files) { return compile(files).errors(); }
 
-constexpr const char* kRest = "MODULE_BLOCK_INIT\nMODULE_BLOCK_INIT_END\nMODULE_BLOCK_DONE\nMODULE_BLOCK_DONE_END\nMODULE_INIT\nMODULE_INIT_END\n"
-                              "MODULE_CLEAR\nMODULE_CLEAR_END\nMODULE_HALT\nMODULE_HALT_END\n"; // 10 lines
+constexpr const char* kRest =
+    "MODULE_BLOCK_INIT\nMODULE_BLOCK_INIT_END\nMODULE_BLOCK_DONE\nMODULE_BLOCK_DONE_END\nMODULE_INIT\nMODULE_INIT_END\n"
+    "MODULE_CLEAR\nMODULE_CLEAR_END\nMODULE_HALT\nMODULE_HALT_END\n";              // 10 lines
 constexpr const char* kFirst = "DATA\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\n"; // 4 lines
 constexpr const char* kMain = "MODULE_MAIN\nMODULE_MAIN_END\n";
 
@@ -147,7 +151,8 @@ TEST(TechnolStructure, AnEmptyFileIsToldAtItsFirstLine) {
 }
 
 TEST(TechnolStructure, DataComesFirst) {
-  EXPECT_EQ(errorsOf({std::string("MODULE_INPUT\nMODULE_INPUT_END\nDATA\nDATA_END\n") + kMain + kRest + "STOP\n"}), (Lines{"0:1 data-not-first"}));
+  EXPECT_EQ(errorsOf({std::string("MODULE_INPUT\nMODULE_INPUT_END\nDATA\nDATA_END\n") + kMain + kRest + "STOP\n"}),
+            (Lines{"0:1 data-not-first"}));
 }
 
 TEST(TechnolStructure, MissingModulesAndStop) {
@@ -160,13 +165,17 @@ TEST(TechnolStructure, DuplicateModule) {
 
 TEST(TechnolStructure, NotClosed) {
   EXPECT_EQ(errorsOf({std::string(kFirst) + "MODULE_MAIN\n" + kRest + "STOP\n"}), (Lines{"0:6 module-not-closed"}));
-  EXPECT_EQ(errorsOf({std::string(kFirst) + "MODULE_MAIN\nMODULE_INIT_END\n" + kRest + "STOP\n"}), (Lines{"0:6 module-not-closed"}));
-  EXPECT_EQ(errorsOf({std::string(kFirst) + kRest + "MODULE_MAIN\n"}), (Lines{"0:15 module-not-closed", "0:15 missing-stop"}));
+  EXPECT_EQ(errorsOf({std::string(kFirst) + "MODULE_MAIN\nMODULE_INIT_END\n" + kRest + "STOP\n"}),
+            (Lines{"0:6 module-not-closed"}));
+  EXPECT_EQ(errorsOf({std::string(kFirst) + kRest + "MODULE_MAIN\n"}),
+            (Lines{"0:15 module-not-closed", "0:15 missing-stop"}));
 }
 
 TEST(TechnolStructure, CodeOutsideModules) {
-  EXPECT_EQ(errorsOf({std::string(kFirst) + "LOD 5\nCA\n" + kMain + kRest + "STOP\n"}), (Lines{"0:5 code-outside-module"}));
-  EXPECT_EQ(errorsOf({std::string("DATA\nCA\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\n") + kMain + kRest + "STOP\n"}), (Lines{"0:2 code-outside-module"}));
+  EXPECT_EQ(errorsOf({std::string(kFirst) + "LOD 5\nCA\n" + kMain + kRest + "STOP\n"}),
+            (Lines{"0:5 code-outside-module"}));
+  EXPECT_EQ(errorsOf({std::string("DATA\nCA\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\n") + kMain + kRest + "STOP\n"}),
+            (Lines{"0:2 code-outside-module"}));
 }
 
 TEST(TechnolStructure, TextAfterStop) {
@@ -178,7 +187,8 @@ TEST(TechnolStructure, TextAfterStop) {
 TEST(TechnolStructure, FurtherFiles) {
   const std::string first = std::string(kFirst) + kMain + kRest + "STOP\n";
   EXPECT_TRUE(errorsOf({first, "DATA\nDATA_END\nMODULE_MAIN\nMODULE_MAIN_END\n"}).empty());
-  EXPECT_EQ(errorsOf({first, "DATA\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\nMODULE_MAIN\nMODULE_MAIN_END\n"}), (Lines{"1:3 module-not-allowed"}));
+  EXPECT_EQ(errorsOf({first, "DATA\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\nMODULE_MAIN\nMODULE_MAIN_END\n"}),
+            (Lines{"1:3 module-not-allowed"}));
   EXPECT_EQ(errorsOf({first, "DATA\nDATA_END\n"}), (Lines{"1:2 missing-module"}));
   EXPECT_EQ(errorsOf({first, "MODULE_MAIN\nMODULE_MAIN_END\n"}), (Lines{"1:1 data-not-first"}));
 }

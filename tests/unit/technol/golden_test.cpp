@@ -32,7 +32,8 @@ TEST(TechnolGolden, AllPrograms) {
   for (const std::filesystem::path& program : programs) {
     const Compilation result = compile({readFile(program)});
     const std::string text = result.module ? ir::print(*result.module) : result.text();
-    const std::filesystem::path expected = std::filesystem::path(program).replace_extension(result.module ? ".ir" : ".diag");
+    const std::filesystem::path expected =
+        std::filesystem::path(program).replace_extension(result.module ? ".ir" : ".diag");
     if (std::getenv("RUNG_UPDATE") != nullptr) std::ofstream(expected, std::ios::binary) << text;
     EXPECT_EQ(readFile(expected), text) << expected;
   }

@@ -51,7 +51,8 @@ TEST_F(TechnolInclude, CodeAndCircles) {
   file("code.inc", "  LOD 5\n  CA\n");
   file("a.inc", "T_INCLUDE b.inc\n");
   file("b.inc", "T_INCLUDE a.inc\n");
-  EXPECT_EQ(codes(compile({programText({.main = "  T_INCLUDE " + path("code.inc") + "\n"})})), (Lines{"code-in-include"}));
+  EXPECT_EQ(codes(compile({programText({.main = "  T_INCLUDE " + path("code.inc") + "\n"})})),
+            (Lines{"code-in-include"}));
   EXPECT_EQ(codes(compile({programText({.data = "T_INCLUDE " + path("a.inc") + "\n"})})), (Lines{"include-cycle"}));
 }
 
@@ -73,7 +74,8 @@ TEST_F(TechnolInclude, IsFoundInAnyCaseAndBesideTheProgramFirst) {
 }
 
 TEST(TechnolOptions, OfUnknownValueAreTold) {
-  for (const auto& [key, value] : {std::pair("encoding", "CP437"), std::pair("period_us", "0"), std::pair("period_us", "2ms")}) {
+  for (const auto& [key, value] :
+       {std::pair("encoding", "CP437"), std::pair("period_us", "0"), std::pair("period_us", "2ms")}) {
     frontend::CompileOptions options;
     options.config[key] = value;
     EXPECT_EQ(compile({programText({})}, options).errors(), (Lines{"-:0 operand-range"})) << key << " " << value;
@@ -84,7 +86,8 @@ TEST(TechnolOptions, OfUnknownValueAreTold) {
 }
 
 TEST(TechnolMacros, OperandsLocalsAndNegation) {
-  Machine m(Parts{.data = "DEF_T_MACRO PUT V,BITV\n T_LOCAL OVER\n LDR -TMAC.BITV\n JL1 OVER\n LOD TMAC.V\n STO W\nOVER:\nEND_T_MACRO T_END\nW: DS 2\nDFM A,B\n",
+  Machine m(Parts{.data = "DEF_T_MACRO PUT V,BITV\n T_LOCAL OVER\n LDR -TMAC.BITV\n JL1 OVER\n LOD TMAC.V\n STO "
+                          "W\nOVER:\nEND_T_MACRO T_END\nW: DS 2\nDFM A,B\n",
                   .main = "  PUT 7,A\n  PUT BYTE.9,B\n"});
   m.set("A", 1);
   m.scan();
@@ -95,13 +98,15 @@ TEST(TechnolMacros, OperandsLocalsAndNegation) {
 }
 
 TEST(TechnolMacros, AddressOfAParameter) {
-  Machine m(Parts{.data = "DEF_T_MACRO MARK WEIGHT,AT\n FL 1,TMAC.AT.WEIGHT\nEND_T_MACRO\nW: DS 2\nDFM B0,B1\n", .main = "  MARK B1,W\n"});
+  Machine m(Parts{.data = "DEF_T_MACRO MARK WEIGHT,AT\n FL 1,TMAC.AT.WEIGHT\nEND_T_MACRO\nW: DS 2\nDFM B0,B1\n",
+                  .main = "  MARK B1,W\n"});
   m.scan();
   EXPECT_EQ(m.get("W"), 2);
 }
 
 TEST(TechnolMacros, StatesOfAMechanismStandInTheLineOfTheUse) {
-  Machine m(Parts{.data = "DEF_T_MACRO WAITFOR B\n LDR TMAC.B\n EX0\nEND_T_MACRO\nDFM GO\n", .main = "  MECH_BEGIN M\n  WAITFOR GO\n  MECH_END M\n"});
+  Machine m(Parts{.data = "DEF_T_MACRO WAITFOR B\n LDR TMAC.B\n EX0\nEND_T_MACRO\nDFM GO\n",
+                  .main = "  MECH_BEGIN M\n  WAITFOR GO\n  MECH_END M\n"});
   m.set("M", 1);
   m.scan();
   EXPECT_EQ(m.get("M_LINE"), 12);
@@ -117,9 +122,18 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 const Case kCases[] = {
     {"NotClosed", "DEF_T_MACRO M\n", "", {"0:2 macro-not-closed"}},
-    {"OperandCount", "DEF_T_MACRO M P\n LOD TMAC.P\nEND_T_MACRO\n", " M\n M 1,2\n M 1\n", {"0:9 macro-operand-count", "0:10 macro-operand-count"}},
-    {"Recursion", "DEF_T_MACRO M\n M\nEND_T_MACRO\nDEF_T_MACRO A\n B\nEND_T_MACRO\nDEF_T_MACRO B\n A\nEND_T_MACRO\n", " M\n A\n", {"0:3 macro-recursion", "0:9 macro-recursion"}},
-    {"EightBits", "DEF_T_MACRO M\nDATA_LOCAL\nDFM A,B,C,D,E,F,G\nDATA_LOCAL_END\nEND_T_MACRO\n", " M\n", {"0:4 dfm-needs-eight"}},
+    {"OperandCount",
+     "DEF_T_MACRO M P\n LOD TMAC.P\nEND_T_MACRO\n",
+     " M\n M 1,2\n M 1\n",
+     {"0:9 macro-operand-count", "0:10 macro-operand-count"}},
+    {"Recursion",
+     "DEF_T_MACRO M\n M\nEND_T_MACRO\nDEF_T_MACRO A\n B\nEND_T_MACRO\nDEF_T_MACRO B\n A\nEND_T_MACRO\n",
+     " M\n A\n",
+     {"0:3 macro-recursion", "0:9 macro-recursion"}},
+    {"EightBits",
+     "DEF_T_MACRO M\nDATA_LOCAL\nDFM A,B,C,D,E,F,G\nDATA_LOCAL_END\nEND_T_MACRO\n",
+     " M\n",
+     {"0:4 dfm-needs-eight"}},
     {"LocalsTwice", "DEF_T_MACRO M\nL: LOD 5\nEND_T_MACRO\n", " M\n M\n", {"0:3 duplicate-symbol"}},
     {"EndWithoutBeginning", "END_T_MACRO\n", "", {"0:2 syntax-error"}},
     {"UnknownFlag", "DEF_T_MACRO M\nEND_T_MACRO T_MAYBE\n", "", {"0:3 syntax-error"}},
@@ -133,7 +147,8 @@ TEST_P(TechnolMacroErrors, AreReportedAtTheirLines) {
   EXPECT_EQ(c.errors(), GetParam().errors) << c.text();
 }
 
-INSTANTIATE_TEST_SUITE_P(Codes, TechnolMacroErrors, testing::ValuesIn(kCases), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Codes, TechnolMacroErrors, testing::ValuesIn(kCases),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 } // namespace
 } // namespace rung::technol_test

@@ -124,7 +124,9 @@ TEST(TechnolMechanism, InitClearsTheCount) {
 }
 
 TEST(TechnolMechanism, TimLetsPassInTheScanOfItsTime) {
-  Machine m(Parts{.data = "DFM A,B\nN: DS 2\n", .main = "  MECH_BEGIN M\n  LOD N\n  INR\n  STO N\n  TIM -,3\n  FL 1,A\n  EX\n  FL 1,B\n  MECH_END M\n"});
+  Machine m(
+      Parts{.data = "DFM A,B\nN: DS 2\n",
+            .main = "  MECH_BEGIN M\n  LOD N\n  INR\n  STO N\n  TIM -,3\n  FL 1,A\n  EX\n  FL 1,B\n  MECH_END M\n"});
   m.set("M", 1);
   m.scan(3);
   EXPECT_EQ(m.get("A"), 0);
@@ -138,8 +140,10 @@ TEST(TechnolMechanism, TimLetsPassInTheScanOfItsTime) {
 }
 
 TEST(TechnolMechanism, BexMovesThePointOfReturn) {
-  Machine m(Parts{.data = "DFM GO\nN: DS 2\nK: DS 2\n",
-             .main = "  MECH_BEGIN M\n  LOD N\n  INR\n  STO N\n  BEX\n  LOD K\n  INR\n  STO K\n  LDR GO\n  EX0\n  MECH_END M\n"});
+  Machine m(Parts{
+      .data = "DFM GO\nN: DS 2\nK: DS 2\n",
+      .main =
+          "  MECH_BEGIN M\n  LOD N\n  INR\n  STO N\n  BEX\n  LOD K\n  INR\n  STO K\n  LDR GO\n  EX0\n  MECH_END M\n"});
   m.set("M", 1);
   m.scan(4);
   EXPECT_EQ(m.get("N"), 1);
@@ -149,8 +153,9 @@ TEST(TechnolMechanism, BexMovesThePointOfReturn) {
 // A mechanism below the statement that activates it starts in the same scan, one above in the next.
 TEST(TechnolMechanism, OrderOfActivation) {
   Machine m(Parts{.data = "DFM GO\nA: DS 1\nB: DS 1\n",
-             .main = "  MECH_BEGIN ABOVE\n  LOD A\n  INR\n  STO A\n  MECH_END ABOVE\n  LDR GO\n  FL1 1,ABOVE,BELOW\n"
-                     "  MECH_BEGIN BELOW\n  LOD B\n  INR\n  STO B\n  MECH_END BELOW\n"});
+                  .main =
+                      "  MECH_BEGIN ABOVE\n  LOD A\n  INR\n  STO A\n  MECH_END ABOVE\n  LDR GO\n  FL1 1,ABOVE,BELOW\n"
+                      "  MECH_BEGIN BELOW\n  LOD B\n  INR\n  STO B\n  MECH_END BELOW\n"});
   m.set("GO", 1);
   m.scan();
   EXPECT_EQ(m.get("A"), 0);
@@ -162,7 +167,9 @@ TEST(TechnolMechanism, OrderOfActivation) {
 }
 
 TEST(TechnolBlockModules, WaitLikeMechanisms) {
-  Machine m(Parts{.data = "DFM GO,A,B\n", .blockInit = "  FL 1,A\n  LDR GO\n  EX0\n  FL 1,B\n", .blockDone = "  TIM -,2\n  FL 0,B\n"});
+  Machine m(Parts{.data = "DFM GO,A,B\n",
+                  .blockInit = "  FL 1,A\n  LDR GO\n  EX0\n  FL 1,B\n",
+                  .blockDone = "  TIM -,2\n  FL 0,B\n"});
   m.blockInit = true;
   m.scan(2);
   EXPECT_TRUE(m.blockInit);
@@ -183,8 +190,8 @@ TEST(TechnolBlockModules, WaitLikeMechanisms) {
 
 TEST(TechnolTimed, BlocksRunOncePerPeriod) {
   Machine m(Parts{.data = "N: DS 2\nS: DS 2\nF: DS 2\n",
-             .main = "  DFTM01 E1\n  LOD N\n  INR\n  STO N\nE1:\n  DFTM1 E2\n  LOD S\n  INR\n  STO S\nE2:\n",
-             .fast = "  DFTM01 E3\n  LOD F\n  INR\n  STO F\nE3:\n"});
+                  .main = "  DFTM01 E1\n  LOD N\n  INR\n  STO N\nE1:\n  DFTM1 E2\n  LOD S\n  INR\n  STO S\nE2:\n",
+                  .fast = "  DFTM01 E3\n  LOD F\n  INR\n  STO F\nE3:\n"});
   m.scan(4);
   EXPECT_EQ(m.get("N"), 0);
   m.scan();
@@ -212,7 +219,8 @@ TEST(TechnolTimed, TimerReachesItsPresetInTheRunBehindIt) {
 
 TEST(TechnolTimed, CountersCountRisingInputs) {
   Machine m(Parts{.data = "DFM IN,AT3,AT0,AT10\nU: DS 1\nD: DS 2\nB: DS 1\nV: DS 4\n",
-             .main = "  LOD 3\n  LDR IN\n  CU U\n  WR AT3\n  STO V\n  LOD 0\n  LDR IN\n  CD D\n  WR AT0\n  LOD 10h\n  LDR IN\n  CUBCD B\n  WR AT10\n"});
+                  .main = "  LOD 3\n  LDR IN\n  CU U\n  WR AT3\n  STO V\n  LOD 0\n  LDR IN\n  CD D\n  WR AT0\n  LOD "
+                          "10h\n  LDR IN\n  CUBCD B\n  WR AT10\n"});
   m.set("D", 3);
   for (int i = 1; i <= 10; ++i) {
     m.set("IN", 1);
@@ -230,7 +238,8 @@ TEST(TechnolTimed, CountersCountRisingInputs) {
 
 TEST(TechnolProcedures, RegistersGoInAndComeOut) {
   Machine m(Parts{.data = "A: DS 2\nB: DS 2\nDFM T,U\n",
-             .main = "  LOD 5\n  LDR T\n  PROC_CALL DOUBLE\n  STO A\n  WR U\n  PROC_BEGIN DOUBLE\n  MULB 2\n  CA\n  PROC_END DOUBLE\n  LOD A\n  PROC_CALL DOUBLE\n  STO B\n"});
+                  .main = "  LOD 5\n  LDR T\n  PROC_CALL DOUBLE\n  STO A\n  WR U\n  PROC_BEGIN DOUBLE\n  MULB 2\n  "
+                          "CA\n  PROC_END DOUBLE\n  LOD A\n  PROC_CALL DOUBLE\n  STO B\n"});
   m.scan();
   EXPECT_EQ(m.get("A"), 10);
   EXPECT_EQ(m.get("B"), 20);
@@ -238,8 +247,9 @@ TEST(TechnolProcedures, RegistersGoInAndComeOut) {
 }
 
 TEST(TechnolMessages, NumberParametersAndCondition) {
-  Machine m(Parts{.data = "DFM GO\nV: DS 2\nSEEN: DS 2\n",
-             .main = "  LDR GO\n  ESET1 12,-,-,V,-,3\n  ESET 13,7,1\n  ESET 13,7,0\n  LOD 14\n  ESET\n  STO SEEN\n"});
+  Machine m(
+      Parts{.data = "DFM GO\nV: DS 2\nSEEN: DS 2\n",
+            .main = "  LDR GO\n  ESET1 12,-,-,V,-,3\n  ESET 13,7,1\n  ESET 13,7,0\n  LOD 14\n  ESET\n  STO SEEN\n"});
   m.set("V", 300);
   m.scan();
   EXPECT_EQ(m.messages(), (Lines{"13p/7/0/0/0", "-13p/7/0/0/0", "14/0/0/0/0"}));
@@ -249,7 +259,9 @@ TEST(TechnolMessages, NumberParametersAndCondition) {
 }
 
 TEST(TechnolMessages, EventProcedureGetsTheNumberAndKeepsRegisters) {
-  Machine m(Parts{.data = "N: DS 2\nX: DS 2\nDFM A\n", .main = "  LOD 77\n  LDR A\n  ESET 9\n  STO X\n  PROC_BEGIN _ON_ESET\n  STO N\n  LOD 1\n  PROC_END _ON_ESET\n"});
+  Machine m(Parts{
+      .data = "N: DS 2\nX: DS 2\nDFM A\n",
+      .main = "  LOD 77\n  LDR A\n  ESET 9\n  STO X\n  PROC_BEGIN _ON_ESET\n  STO N\n  LOD 1\n  PROC_END _ON_ESET\n"});
   m.scan();
   EXPECT_EQ(m.get("N"), 9);
   EXPECT_EQ(m.get("X"), 77);
@@ -257,8 +269,8 @@ TEST(TechnolMessages, EventProcedureGetsTheNumberAndKeepsRegisters) {
 
 TEST(TechnolMessages, EventProcedureIsCalledWhenAMessageComesUp) {
   Machine m(Parts{.data = "N: DS 2\nCOUNT: DS 2\nSHOW: DS 1\nDFM A\n",
-             .main = "  LDR A\n  ESET1 40000\n  ESET 9,-,SHOW\n  ESET 8,-,0\n"
-                     "  PROC_BEGIN _ON_ESET\n  STO N\n  LOD COUNT\n  INR\n  STO COUNT\n  PROC_END _ON_ESET\n"});
+                  .main = "  LDR A\n  ESET1 40000\n  ESET 9,-,SHOW\n  ESET 8,-,0\n"
+                          "  PROC_BEGIN _ON_ESET\n  STO N\n  LOD COUNT\n  INR\n  STO COUNT\n  PROC_END _ON_ESET\n"});
   m.scan();
   EXPECT_EQ(m.get("COUNT"), 0);
   m.set("A", 1);
@@ -292,8 +304,10 @@ TEST(TechnolStart, InitLearnsWhyAndFinishIsMarked) {
 }
 
 TEST(TechnolFiles, FurtherFilesContinueMain) {
-  Machine m(std::vector<std::string>{programText({.data = "A: DS 2\n", .main = "  LOD 1\n  STO A\nL: LOD A\n  STO B\n"}),
-             "DATA\nB: DS 2\nDATA_LOCAL\nLOC: DS 2\nDATA_LOCAL_END\nDATA_END\nMODULE_MAIN\nL: LOD B\n  INR\n  STO B\n  STO LOC\nMODULE_MAIN_END\n"});
+  Machine m(
+      std::vector<std::string>{programText({.data = "A: DS 2\n", .main = "  LOD 1\n  STO A\nL: LOD A\n  STO B\n"}),
+                               "DATA\nB: DS 2\nDATA_LOCAL\nLOC: DS 2\nDATA_LOCAL_END\nDATA_END\nMODULE_MAIN\nL: LOD "
+                               "B\n  INR\n  STO B\n  STO LOC\nMODULE_MAIN_END\n"});
   m.scan();
   EXPECT_EQ(m.get("B"), 2);
   EXPECT_EQ(m.get("LOC"), 2);
@@ -301,7 +315,8 @@ TEST(TechnolFiles, FurtherFilesContinueMain) {
 
 TEST(TechnolIndex, ReachesByBxAndStopsOutside) {
   Machine m(Parts{.data = "TAB: DS 20\nV: DS 2\nI: DS 2\nDFM B0,B1\nFL1T: DS 1\n",
-             .main = "  LOD I\n  MOV BX, CX\n  LOD WORD.TAB[BX]\n  STO V\n  LOD 7\n  STO BYTE.(TAB[BX]+1)\n  LDR TAB[BX].B1\n  WR FL1T.B0\n"});
+                  .main = "  LOD I\n  MOV BX, CX\n  LOD WORD.TAB[BX]\n  STO V\n  LOD 7\n  STO BYTE.(TAB[BX]+1)\n  LDR "
+                          "TAB[BX].B1\n  WR FL1T.B0\n"});
   m.set("TAB[4]", 0x34);
   m.set("TAB[5]", 0x12);
   m.set("I", 4);
@@ -317,7 +332,8 @@ TEST(TechnolIndex, ReachesByBxAndStopsOutside) {
 
 TEST(TechnolReal, ConvertsAndFaults) {
   Machine m(Parts{.data = "R: DS 8\nS: DS 8\nN: DS 4\nDFM BIG\n",
-             .main = "  LOD REAL.R\n  MULB CNST.2.5\n  AD CNST.-1.0\n  STO REAL.S\n  STO N\n  GT CNST.10.0\n  WR BIG\n  LOD N\n  REAL DWRD\n  DIVB REAL.R\n  STO REAL.R\n"});
+                  .main = "  LOD REAL.R\n  MULB CNST.2.5\n  AD CNST.-1.0\n  STO REAL.S\n  STO N\n  GT CNST.10.0\n  WR "
+                          "BIG\n  LOD N\n  REAL DWRD\n  DIVB REAL.R\n  STO REAL.R\n"});
   m.setReal("R", 5);
   m.scan();
   EXPECT_EQ(m.real("S"), 11.5);
@@ -330,10 +346,12 @@ TEST(TechnolReal, ConvertsAndFaults) {
 }
 
 TEST(TechnolConversions, BitsShiftsAndBcd) {
-  Machine m(Parts{.data = "A: DS 2\nB: DS 2\nC: DS 2\nD: DS 4\nE: DS 4\nF: DS 4\nG: DS 4\nDFM X,Y,Z\nS: DS 1\n",
-             .main = "  LOD 9999h\n  INRBCD\n  STO A\n  LOD 1234h\n  BIN\n  STO B\n  LOD 4321\n  BCD\n  STO C\n  LOD 80000012h\n  BIN DWRD\n  STO D\n"
-                     "  LOD 12345678\n  BCD DWRD\n  STO E\n  LOD 0FFFF8001h\n  RR S\n  STO F\n  LOD 1\n  RL 31,DWRD\n  STO G\n"
-                     "  CONDR 31\n  WR X\n  CONDR\n  WR Y\n  CONRD\n  STO WORD.A+0\n  INV\n  STO S\n"});
+  Machine m(Parts{
+      .data = "A: DS 2\nB: DS 2\nC: DS 2\nD: DS 4\nE: DS 4\nF: DS 4\nG: DS 4\nDFM X,Y,Z\nS: DS 1\n",
+      .main = "  LOD 9999h\n  INRBCD\n  STO A\n  LOD 1234h\n  BIN\n  STO B\n  LOD 4321\n  BCD\n  STO C\n  LOD "
+              "80000012h\n  BIN DWRD\n  STO D\n"
+              "  LOD 12345678\n  BCD DWRD\n  STO E\n  LOD 0FFFF8001h\n  RR S\n  STO F\n  LOD 1\n  RL 31,DWRD\n  STO G\n"
+              "  CONDR 31\n  WR X\n  CONDR\n  WR Y\n  CONRD\n  STO WORD.A+0\n  INV\n  STO S\n"});
   m.set("S", 15);
   m.scan();
   EXPECT_EQ(m.get("B"), 1234);
@@ -350,7 +368,8 @@ TEST(TechnolConversions, BitsShiftsAndBcd) {
 
 TEST(TechnolCompare, WidthsSignsAndChains) {
   Machine m(Parts{.data = "BC: DS 1\nDW: DS 4\nDFM R1,R2,R3,R4,R5\n",
-             .main = "  LOD DW\n  EQ BC\n  WR R1\n  EQ CNST.41h\n  WR R2\n  LOD -5\n  LT 3\n  WR R3\n  LOD DW\n  EQ BC\n  EQ1 321\n  WR R4\n  EQ 1\n  EQ1 BC\n  WR R5\n"});
+                  .main = "  LOD DW\n  EQ BC\n  WR R1\n  EQ CNST.41h\n  WR R2\n  LOD -5\n  LT 3\n  WR R3\n  LOD DW\n  "
+                          "EQ BC\n  EQ1 321\n  WR R4\n  EQ 1\n  EQ1 BC\n  WR R5\n"});
   m.set("DW", 0x141);
   m.set("BC", 0x41);
   m.scan();
@@ -363,7 +382,7 @@ TEST(TechnolCompare, WidthsSignsAndChains) {
 
 TEST(TechnolStore, ConditionalStoresAndMoves) {
   Machine m(Parts{.data = "A: DS 2\nB: DS 2\nC: DS 2\nD: DS 2\nDFM T,U,V,W\n",
-             .main = "  LOD 5\n  LDR T\n  STO1 A\n  STO0 B\n  MOVE1 C,A\n  MOVE D,C\n  MOVR1 U,-T\n  MOVR V,T\n"});
+                  .main = "  LOD 5\n  LDR T\n  STO1 A\n  STO0 B\n  MOVE1 C,A\n  MOVE D,C\n  MOVR1 U,-T\n  MOVR V,T\n"});
   m.set("U", 1);
   m.scan();
   EXPECT_EQ(m.get("A"), 0);
@@ -382,7 +401,8 @@ TEST(TechnolStore, ConditionalStoresAndMoves) {
 
 TEST(TechnolInterface, CellsMembersAndBlocks) {
   Machine m(Parts{.data = "X: DS 1\nDFM A,B,C\nDFM B0\n",
-             .main = "  LDR M03PI\n  WR A\n  LDR TL2W.TL_Fun1State.B0\n  WR B\n  LOD PB06\n  STO X\n  LDR P2IN.C\n  WR P1OUT.B\n  LDR BLK[0].M3\n  WR C\n"});
+                  .main = "  LDR M03PI\n  WR A\n  LDR TL2W.TL_Fun1State.B0\n  WR B\n  LOD PB06\n  STO X\n  LDR "
+                          "P2IN.C\n  WR P1OUT.B\n  LDR BLK[0].M3\n  WR C\n"});
   m.set("M03PI", 1);
   m.set("PB06", 4);
   m.set("P2IN", 4);

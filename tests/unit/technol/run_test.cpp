@@ -18,7 +18,7 @@ TEST(TechnolRun, NullProgram) {
 
 TEST(TechnolRun, WorkedExampleOfBits) {
   Machine m(Parts{.data = "DFM A1,A2,A3,B1,B2,C1\nDFM X,Y,Z\n",
-             .main = "  LDR A1\n  LA -A2\n  LDR B1\n  LA B2\n  LO\n  LX C1\n  WR X,Y\n  CA\n  FL1 1,Z\n"});
+                  .main = "  LDR A1\n  LA -A2\n  LDR B1\n  LA B2\n  LO\n  LX C1\n  WR X,Y\n  CA\n  FL1 1,Z\n"});
   for (int v = 0; v < 64; ++v) {
     const char* names[] = {"A1", "A2", "A3", "B1", "B2", "C1"};
     for (int i = 0; i < 6; ++i) m.set(names[i], v >> i & 1);
@@ -33,8 +33,9 @@ TEST(TechnolRun, WorkedExampleOfBits) {
 
 // l.361: [(/A1.A2./A3)+(/B1.B2)].(C2+/C3)
 TEST(TechnolRun, BracketsOfTheManual) {
-  Machine m(Parts{.data = "DFM A1,A2,A3,B1,B2,C2,C3,X\n",
-             .main = "  LDR -A1\n  LA A2\n  LA -A3\n  LDR -B1\n  LA B2\n  LO\n  LDR C2\n  LO -C3\n  LA\n  WR X\n"});
+  Machine m(
+      Parts{.data = "DFM A1,A2,A3,B1,B2,C2,C3,X\n",
+            .main = "  LDR -A1\n  LA A2\n  LA -A3\n  LDR -B1\n  LA B2\n  LO\n  LDR C2\n  LO -C3\n  LA\n  WR X\n"});
   for (int v = 0; v < 128; ++v) {
     const char* names[] = {"A1", "A2", "A3", "B1", "B2", "C2", "C3"};
     bool b[7];
@@ -67,9 +68,10 @@ TEST(TechnolRun, EdgesTakeOverAtTheStart) {
 }
 
 TEST(TechnolRun, AddressesOfBits) {
-  Machine m(Parts{.data = "BUN: DS 4\n DFM B0,B1,B2,B3\nBUN5: DFM C0,C1,C2\n DFM D0\nEQUI OFS,2\n",
-             .main = "  FL 1,BUN.B1\n  FL 1,(BUN+3).B2\n  FL 1,BUN+1.B3\n  FL 1,$+1.C1\n  FL 1,C0.B3\n  FL 1,(BUN+OFS-1).B0\n"
-                     "  LDR -(BUN+3).B2\n  CA\n  WR BUN5.B0\n"});
+  Machine m(Parts{
+      .data = "BUN: DS 4\n DFM B0,B1,B2,B3\nBUN5: DFM C0,C1,C2\n DFM D0\nEQUI OFS,2\n",
+      .main = "  FL 1,BUN.B1\n  FL 1,(BUN+3).B2\n  FL 1,BUN+1.B3\n  FL 1,$+1.C1\n  FL 1,C0.B3\n  FL 1,(BUN+OFS-1).B0\n"
+              "  LDR -(BUN+3).B2\n  CA\n  WR BUN5.B0\n"});
   m.scan();
   EXPECT_EQ(m.get("BUN.0"), 0);
   EXPECT_EQ(m.get("BUN.1"), 1);
@@ -82,8 +84,9 @@ TEST(TechnolRun, AddressesOfBits) {
 
 TEST(TechnolRun, LoadsAndWidths) {
   Machine m(Parts{.data = "B: DS 1\nW: DS 2\nD: DS 4\nQ: DS 8\nR: DS 8\nW2: DS 2\nD2: DS 4\nD3: DS 4\n",
-             .main = "  LOD B\n  STO D\n  LOD 0FFh\n  AD BYTE.1\n  STO W\n  LOD -B\n  STO QWRD.Q\n  LOD CNST.1.5\n  STO REAL.R\n  STO W2\n"
-                     "  LOD WORD.B+1\n  STO D2\n  LOD HIGH.W\n  STO D3\n"});
+                  .main = "  LOD B\n  STO D\n  LOD 0FFh\n  AD BYTE.1\n  STO W\n  LOD -B\n  STO QWRD.Q\n  LOD "
+                          "CNST.1.5\n  STO REAL.R\n  STO W2\n"
+                          "  LOD WORD.B+1\n  STO D2\n  LOD HIGH.W\n  STO D3\n"});
   m.set("B", 0x80);
   m.set("W", 0x1234);
   m.scan();
@@ -98,7 +101,8 @@ TEST(TechnolRun, LoadsAndWidths) {
 
 TEST(TechnolRun, Arithmetic) {
   Machine m(Parts{.data = "B: DS 1\nW: DS 2\nD: DS 4\nQ: DS 8\nX: DS 4\nY: DS 4\nZ: DS 4\n",
-             .main = "  LOD B\n  MULB BYTE.7\n  STO X\n  LOD D\n  DIVB W\n  STO Y\n  LOD -7\n  DIVB 2\n  STO Z\n  LOD D\n  SU 1\n  STO QWRD.Q\n"});
+                  .main = "  LOD B\n  MULB BYTE.7\n  STO X\n  LOD D\n  DIVB W\n  STO Y\n  LOD -7\n  DIVB 2\n  STO Z\n  "
+                          "LOD D\n  SU 1\n  STO QWRD.Q\n"});
   m.set("B", -3);
   m.set("D", 100000);
   m.set("W", -7);
@@ -116,8 +120,9 @@ TEST(TechnolRun, Arithmetic) {
 // Jumps back and forward; the loop adds 1..N.
 TEST(TechnolRun, JumpsAndLoops) {
   Machine m(Parts{.data = "N: DS 2\nSUM: DS 2\nI: DS 2\n",
-             .main = "  LOD 0\n  STO SUM\n  STO I\nAGAIN: LOD I\n  INR\n  STO I\n  LOD SUM\n  AD I\n  STO SUM\n  LOD I\n  LT N\n  JL1 AGAIN\n"
-                     "  JUM OVER\n  LOD 0\n  STO SUM\nOVER:\n"});
+                  .main = "  LOD 0\n  STO SUM\n  STO I\nAGAIN: LOD I\n  INR\n  STO I\n  LOD SUM\n  AD I\n  STO SUM\n  "
+                          "LOD I\n  LT N\n  JL1 AGAIN\n"
+                          "  JUM OVER\n  LOD 0\n  STO SUM\nOVER:\n"});
   m.set("N", 100);
   m.scan();
   EXPECT_EQ(m.get("SUM"), 5050);
@@ -127,7 +132,8 @@ TEST(TechnolRun, EndlessLoopMeetsTheWatchdog) {
   Machine m(Parts{.main = "LOOP: JUM LOOP\n"});
   m.scan();
   EXPECT_TRUE(m.instance().faulted());
-  EXPECT_NE(m.instance().faultText().find("watchdog: endless loop in MODULE_MAIN"), std::string::npos) << m.instance().faultText();
+  EXPECT_NE(m.instance().faultText().find("watchdog: endless loop in MODULE_MAIN"), std::string::npos)
+      << m.instance().faultText();
 }
 
 } // namespace

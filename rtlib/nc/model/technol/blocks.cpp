@@ -68,8 +68,7 @@ std::string Blocks::start(host::Instance& instance, std::span<const NcArgument> 
     if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
       return "'" + cell.key + "' is a bit";
   }
-  for (const std::string_view name : kUntilNextStart)
-    put(instance, interfaceCell(instance, name), 0);
+  for (const std::string_view name : kUntilNextStart) put(instance, interfaceCell(instance, name), 0);
   for (const NcArgument& cell : cells) {
     const host::Ref place = *commandCell(instance, cell.key);
     if (cell.isReal || place.kind == host::RefKind::Real)

@@ -19,7 +19,7 @@ constexpr std::string_view kAnalogueIn = "ANALOG_INPUT_PHYSICAL", kAnalogueOut =
 
 std::string canonicalOf(std::string_view written) { return canonical(memoryText(written)); }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 bool isFlag(const std::optional<double>& attribute) { return attribute.value_or(0) != 0; }
 
@@ -45,7 +45,7 @@ void Connections::configure(std::string_view key, std::string_view value) {
     if (std::string_view(name).substr(point + 1) != attribute) continue;
     Attributes& attributes = attributes_[name.substr(0, point)];
     attributes.*member = realOf(value);
-    if (!(attributes.*member)) attributes.wrong = std::string(key) + " is not a number: " + quoted(value);
+    if (!(attributes.*member)) attributes.wrong = std::string(key) + " is not a number: " + inQuotes(value);
   }
 }
 
@@ -112,7 +112,7 @@ public:
   // Nothing, with the reason in `problem`, where there is no such end.
   std::optional<End> end(std::string_view written, std::string& problem) {
     const std::string name = canonicalOf(written);
-    problem = quoted(written) + " is not an end of a connection";
+    problem = inQuotes(written) + " is not an end of a connection";
     std::string_view rest = name;
     std::optional<End> made;
     if (takePrefix(rest, "PLC.INPUT."))
@@ -310,16 +310,16 @@ void Connections::add(Resolver& resolver, const Connection& connection) {
 
 void Connections::addWire(const Connection& connection, const End& from, const End& to) {
   if (!from.isSource)
-    return report(connection, quoted(connection.source) + " is an input: a connection cannot begin there");
+    return report(connection, inQuotes(connection.source) + " is an input: a connection cannot begin there");
   if (!to.isDestination)
-    return report(connection, quoted(connection.destination) + " is an output: a connection cannot end there");
+    return report(connection, inQuotes(connection.destination) + " is an output: a connection cannot end there");
   for (const End* end : {&from, &to})
     if (const Attributes* used = end->variable ? attributesOf(*end->variable) : nullptr; used && !used->wrong.empty())
       return report(connection, used->wrong);
   const bool fromText = from.pin.kind == Pin::Kind::Text, toText = to.pin.kind == Pin::Kind::Text;
   if (fromText != toText)
-    return report(connection,
-                  quoted(connection.source) + " and " + quoted(connection.destination) + " do not fit: one is a text");
+    return report(connection, inQuotes(connection.source) + " and " + inQuotes(connection.destination) +
+                                  " do not fit: one is a text");
   Wire wire;
   wire.from = from.pin;
   wire.to = to.pin;

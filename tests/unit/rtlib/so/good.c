@@ -5,7 +5,7 @@
 #define RUNG_TEST_VERSION RUNG_ABI_VERSION
 #endif
 
-static uint32_t count(uint8_t *mem, rung_ctx *ctx) {
+static uint32_t count(uint8_t* mem, rung_ctx* ctx) {
   (void)ctx;
   ++mem[0];
   return RUNG_PC_DONE;
@@ -15,9 +15,9 @@ static const rung_range ranges[] = {{0, 4, 0, RUNG_REPR_PACKED}};
 static const rung_space spaces[] = {{"D", 1, 4, 0, 1, ranges}};
 static const rung_chunk chunks[] = {{0, 1, 1}};
 static const rung_rung_info rungs[] = {{"", 0, 1, 1, 0, 0, 1, 0}};
-static const char *const routines[] = {"MAIN"};
-static const char *const files[] = {"good.lad"};
-static const char *const faults[] = {"dead-loop"};
+static const char* const routines[] = {"MAIN"};
+static const char* const files[] = {"good.lad"};
+static const char* const faults[] = {"dead-loop"};
 static const uint32_t part_ends[] = {RUNG_PC_DONE};
 static const rung_task tasks[] = {{"MAIN", 0, 8000, 10, 0, 0, 0, 0, 0, 0, 1}};
 static const rung_step scan[] = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};

@@ -1,6 +1,8 @@
 // Tokens → nets. Wires, vertical bars and the joints between neighbouring elements are nodes of a union-find structure;
 // a net is one of its classes. Every line yields at most one error: what is wrong on it mostly has one cause.
+#include <fmt/format.h>
 #include <numeric>
+#include <optional>
 
 #include "frontend/ladder/drawing.h"
 
@@ -82,6 +84,16 @@ private:
     uint32_t line;
     uint32_t token;
   };
+  /// A '+' with its column, and the column of the branch that has none; both from 0.
+  struct Join {
+    SourceRange place;
+    uint32_t column;
+    uint32_t here;
+  };
+  std::optional<Join> nearestJoin(const OpenEnd& end) const;
+  /// A wire is ASCII: a column a byte.
+  static uint32_t columnOf(const Token& wire, uint32_t offset) { return wire.column + (offset - wire.begin); }
+
   std::vector<OpenEnd> openEnds_; ///< wires with nothing on their right
 };
 
@@ -312,9 +324,38 @@ void Wiring::checkOpenEnds() {
     } else if (onlyCoilsDrive(net)) {
       diagnostics_.report(Diag::ElementAfterClosing, range) << "a coil";
     } else {
-      diagnostics_.report(Diag::MissingClosingElement, range) << "a wire";
+      DiagBuilder report = diagnostics_.report(Diag::MissingClosingElement, range);
+      report << "a wire";
+      if (const auto join = nearestJoin(end))
+        report.note(join->place, fmt::format("this '+' is in column {}, the end of the branch in column {}: branches "
+                                             "join where one '+' is under the other",
+                                             join->column + 1, join->here + 1));
     }
   }
+}
+
+/// Where the line above or below has the '+' that this branch, which ends in one, may have been meant for: a name that
+/// became longer moves it.
+std::optional<Wiring::Join> Wiring::nearestJoin(const OpenEnd& end) const {
+  const Token& wire = drawing_.tokens[end.token];
+  if (drawing_.lines[end.line].source.text[wire.end - 1] != '+') return std::nullopt;
+  const uint32_t here = columnOf(wire, wire.end - 1);
+  std::optional<Join> nearest;
+  uint32_t least = kNone;
+  for (const uint32_t line : {end.line - 1, end.line + 1}) { // the first has none above it, whose number is too large
+    if (line >= drawing_.lines.size()) continue;
+    for (const Token& token : drawing_.tokensOf(drawing_.lines[line])) {
+      if (token.kind != TokenKind::Wire) continue;
+      for (uint32_t at = token.begin; at < token.end; ++at) {
+        const uint32_t column = columnOf(token, at);
+        const uint32_t distance = column < here ? here - column : column - here;
+        if (drawing_.lines[line].source.text[at] != '+' || distance >= least) continue;
+        least = distance;
+        nearest = {drawing_.lines[line].source.range(at, at + 1), column, here};
+      }
+    }
+  }
+  return nearest;
 }
 
 void Wiring::checkNets() {

@@ -391,6 +391,13 @@ class Statuses(Cli):
         for args in ([], ["frobnicate"], ["check"], ["build", "x.lad"], ["test", "x.scn", "--engine", "abacus"]):
             self.assertEqual(rungc(*args).returncode, USAGE, args)
 
+    def test_a_name_that_became_longer_moves_a_join(self):
+        path = self.file("moved.lad", "dialect nct\nmodule MAIN\nsymbol BUTTON_CLAMP 5100.00\nsymbol CLAMPED 5100.01\n"
+                         "symbol VALVE 5101.00\n\nrung\n|--[BUTTON_CLAMP]--+--[/CLAMPED]--(VALVE)\n|--[VALVE]----+\n")
+        done = rungc("check", path)
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("this '+' is in column 20, the end of the branch in column 15", done.stderr.decode())
+
     def test_missing_file(self):
         done = rungc("check", str(Path(self.folder.name) / "none.lad"))
         self.assertEqual(done.returncode, ENVIRONMENT)

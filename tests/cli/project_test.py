@@ -228,7 +228,7 @@ class Words(Cli):
 
     def test_emit_writes_a_file(self):
         self.write("lamp.lad", LAMP)
-        self.assertEqual(self.rungc("emit", "ir", "lamp.lad", "-o", "lamp.ir")[0], "")
+        self.assertEqual(self.rungc("emit", "ir", "lamp.lad", "-o", "lamp.ir")[0], "wrote lamp.ir\n")
         self.assertEqual((self.path / "lamp.ir").read_text(), self.rungc("emit", "ir", "lamp.lad")[0])
 
     def test_wrong_words_get_one_line(self):

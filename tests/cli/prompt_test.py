@@ -94,8 +94,8 @@ class Inputs(Folder):
         self.assertIn("10.000 ms  PUMP = 0", both)
 
     def test_wrong_inputs(self):
-        for pair, message in (("STRAT=1", "did you mean START?"), ("START", "expected NAME=VALUE, found 'START'"),
-                              ("START=2", "a bit takes 0 or 1, not 2"), ("START=yes", "this name holds a number, not a text"),
+        for pair, message in (("STRAT=1", "did you mean START?"), ("START", "--set START: expected NAME=VALUE"),
+                              ("START=2", "a bit takes 0 or 1, not 2"), ("START=yes", "'yes' is not a value: expected a number"),
                               ("=1", "expected NAME=VALUE")):
             done = self.run_it("lamp.lad", "--set", pair)
             self.assertEqual(done.returncode, USAGE, pair)
@@ -147,6 +147,38 @@ class Inputs(Folder):
         self.assertEqual(self.run_it("--scenario", "none.scn").returncode, ENVIRONMENT)
         self.assertEqual(self.run_it("lamp.lad", "--scenario", "lamp.scn", "--realtime").returncode, USAGE)
 
+    def test_for_counts_after_a_scenario_too(self):
+        self.assertIn("102 scans", self.good("lamp.lad", "--scenario", "lamp.scn", "--for", "1s"))
+        self.assertIn("100 scans", self.good("lamp.lad", "--for", "1s", "-i"))
+
+    def test_texts_need_no_quotes(self):
+        self.assertEqual(rungc("new", "technol", "t", cwd=self.folder).returncode, OK)
+        for value, message in (("3x", "'3x' is not a value"), ("=1", "'=1' is not a value"), ("1s", "is a time"),
+                               ("1 2", "unexpected '2'")):
+            done = self.run_it("lamp.lad", "--set", f"START={value}")
+            self.assertEqual(done.returncode, USAGE)
+            self.assertIn(message, done.stderr)
+        done = self.run_it("lamp.lad", "--set", "NC.MPOS.1=x")
+        self.assertIn("holds a number, not a text", done.stderr)
+
+    def test_output_can_be_read_by_programs(self):
+        self.assertEqual(self.good("lamp.lad", "-q"), "")
+        done = self.run_it("lamp.lad", "--json", "--watch", "PUMP")
+        self.assertEqual(done.stdout.strip(), "[]")
+        self.assertIn("PUMP = 0", done.stderr)
+
+    def test_too_many_scans(self):
+        self.assertEqual(self.run_it("lamp.lad", "--scans", "18446744073709551616").returncode, USAGE)
+
+    def test_places_in_the_scenario_are_named(self):
+        self.file("x.scn", "program lamp.lad\nscan 0\n")
+        self.file("wrong.scn", "program lamp.lad\n\nconnect A B\nscan\n")
+        done = self.run_it("--scenario", "wrong.scn")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("wrong.scn:3: this dialect has no connections", done.stderr)
+        self.file("gsk.scn", "program other.pmc\ndialect gsk\nset START 1\nscan\nexpect PUMP 1\n")
+        self.good("lamp.lad", "--scenario", "gsk.scn")  # another program: its dialect does not count
+
     def test_a_trace(self):
         self.good("lamp.lad", "--set", "START=1", "--scans", "2", "--trace", "out.csv", "--watch", "PUMP")
         self.assertEqual(len(self.read("out.csv").splitlines()), 4)  # names, the start, two scans
@@ -163,6 +195,10 @@ class Inputs(Folder):
         done = self.run_it("./lamp.so", "-i", stdin="set START 1\nscan\nwhy PUMP\nsave x.scn\n")
         self.assertEqual(done.returncode, WRONG)
         self.assertIn("run its sources", done.stdout)
+        self.file("slow.scn", "program lamp.lad\nperiod 40ms\nscan\n")
+        done = self.run_it("./lamp.so", "--scenario", "slow.scn")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("the scenario chooses the period", done.stderr)
         done = self.run_it("./lamp.so", "--config", "timeslice=5ms")
         self.assertEqual(done.returncode, USAGE)
         self.assertIn("the compiler reads it", done.stderr)
@@ -234,6 +270,45 @@ class Piped(Folder):
         self.assertIn("wrote saved.scn", output)
         self.assertIn("config timeslice 2ms", self.read("saved.scn"))
         self.passes("saved.scn")
+
+    def test_the_period_of_a_scenario_is_saved(self):
+        self.file("slow.scn", "program lamp.lad\nperiod 40ms\nset START 1\nscan 2\n")
+        self.prompt("scan\nwatch T_WARM\nsave saved.scn\n", "--scenario", "slow.scn")
+        self.assertIn("period 40000us\n", self.read("saved.scn"))
+        self.passes("saved.scn")
+
+    def test_names_of_files_with_blanks(self):
+        self.file("my lamp.lad", LAMP)
+        self.prompt("toggle START\nscan\nexpect PUMP 1\nsave saved.scn\n", program="my lamp.lad")
+        self.assertIn('program "my lamp.lad"', self.read("saved.scn"))
+        self.passes("saved.scn")
+
+    def test_another_program_in_the_folder_of_a_project(self):
+        self.assertEqual(rungc("new", "nct", "p", cwd=self.folder).returncode, OK)
+        self.file("p/lamp.lad", LAMP)
+        self.prompt("toggle START\nscan\nexpect PUMP 1\nsave p/saved.scn\n", "--project", "p", program="p/lamp.lad")
+        self.passes("p/saved.scn")
+
+    def test_a_program_that_needs_its_project(self):
+        self.assertEqual(rungc("new", "technol", "t", cwd=self.folder).returncode, OK)
+        done = self.run_it("--project", "t", "-i", stdin="scan\nwatch P1IN\nsave t/saved.scn\nsave saved.scn\n")
+        self.passes("t/saved.scn")
+        if "include" in self.read("t/rung.toml"):
+            self.assertIn("save the scenario in the folder of the project", done.stdout)
+
+    def test_a_fault_that_was_not_the_expected_one(self):
+        self.file("loop.pmc", LOOP)
+        self.assertEqual(self.run_it("loop.pmc", "-i", stdin="expect_fault foo\nscan\nsave saved.scn\n").returncode, WRONG)
+        self.assertIn("expect_fault dead-loop", self.read("saved.scn"))
+        self.passes("saved.scn")
+
+    def test_one_standard_input(self):
+        done = self.run_it("-", "--dialect", "nct", "-i", stdin=LAMP)
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("cannot both come from standard input", done.stderr)
+
+    def test_a_wrong_name_among_the_watched(self):
+        self.assertIn("STOP = 0", self.prompt("watch START NOPE STOP\n", status=WRONG))
 
     def test_a_hollow_session_says_so(self):
         self.assertIn("it expects nothing yet", self.prompt("scan\nsave saved.scn\n"))
@@ -387,6 +462,49 @@ class OnATerminal(Folder):
         self.assertIn(f"run {scans * 10000}us\n", self.read("saved.scn"))
         terminal.type("\x04")
         self.assertEqual(terminal.end(), OK)
+
+    def test_control_c_ends_an_included_file(self):
+        self.file("long.part", "run 900000s\nset STOP 1\nscan 5\n")
+        terminal = self.start()
+        terminal.type("include long.part\r")
+        terminal.until("\n")
+        time.sleep(0.3)
+        terminal.type("\x03")
+        terminal.until(r"interrupted\s+scan \d+, [\d.]+ s> $")
+        self.assertIn("STOP = 0", terminal.line("STOP"))
+
+    def test_control_c_ends_a_scenario(self):
+        self.file("long.scn", "program lamp.lad\nrun 900000s\n")
+        terminal = Terminal("run", "--scenario", "long.scn", cwd=self.folder)
+        self.addCleanup(terminal.close)
+        time.sleep(1)
+        terminal.type("\x03")
+        terminal.until(r"interrupted at long.scn:2")
+        self.assertEqual(terminal.end(), WRONG)
+
+    def test_a_broken_character_is_dropped(self):
+        terminal = self.start()
+        os.write(terminal.master, b"PUMP\xc3\r")
+        terminal.until("PUMP = 0")
+
+    def test_names_of_files_are_completed_by_characters(self):
+        for name in ("ñé.part", "ñè.part", "with space.part"):
+            self.file(name, "scan\n")
+        terminal = self.start()
+        terminal.type("include ñ\t\t")
+        terminal.until("ñè.part  ñé.part")
+        terminal.type("\x03")
+        terminal.until("> $")
+        terminal.type("include with\t\r")
+        terminal.until(r"scan 1, 0.010 s> $")
+
+    def test_long_compilations_show_that_they_live(self):
+        rungs = "".join(f"rung\n|--[{7100 + i // 30}.{i % 30:02}]--{{ADD 8000 8001 8002}}\n" for i in range(20000))
+        self.file("big.lad", "dialect nct\nmodule MAIN\n\n" + rungs)
+        terminal = Terminal("build", "big.lad", "-o", "big.so", cwd=self.folder)
+        self.addCleanup(terminal.close)
+        terminal.until(r"making machine code, \d+ s")
+        terminal.type("\x03")
 
     def test_history(self):
         terminal = self.start()

@@ -63,7 +63,7 @@ class View(unittest.TestCase):
 
     def page(self, *args):
         done = self.view(*args, "-o", self.html)
-        self.assertEqual((done.returncode, done.stdout), (OK, b""), done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (OK, f"wrote {self.html}\n".encode()), done.stderr)
         return Page(Path(self.html).read_text())
 
     def left_over(self):

@@ -44,6 +44,15 @@ std::vector<std::string> files(std::string_view word) {
   return names;
 }
 
+std::string_view withoutQuote(std::string_view word) { return word.starts_with('"') ? word.substr(1) : word; }
+
+// Names with blanks, as a statement takes them.
+std::vector<std::string> inQuotes(std::vector<std::string> names) {
+  for (std::string& name : names)
+    if (name.find(' ') != std::string::npos) name = '"' + name + '"';
+  return names;
+}
+
 } // namespace
 
 const std::vector<std::string>& Completion::values() {
@@ -58,7 +67,7 @@ std::vector<std::string> Completion::of(Names names, std::string_view word) {
   case Names::Values: found = beginning(word, values()); break;
   case Names::Services: found = beginning(word, services(session_.instance().program())); break;
   case Names::Statements: found = beginning(word, statements_); break;
-  case Names::Files: found = beginning(word, files(word)); break;
+  case Names::Files: found = inQuotes(beginning(withoutQuote(word), files(withoutQuote(word)))); break;
   case Names::PlcCommands: found = beginning(word, {"clear", "start", "stop"}); break;
   case Names::BlockCommands: found = beginning(word, {"done", "start"}); break;
   }
@@ -68,8 +77,11 @@ std::vector<std::string> Completion::of(Names names, std::string_view word) {
 
 std::string commonStart(const std::vector<std::string>& words) {
   std::string common = words.empty() ? std::string() : words[0];
-  for (const std::string& word : words)
-    common.resize(static_cast<size_t>(std::ranges::mismatch(common, word).in1 - common.begin()));
+  for (const std::string& word : words) {
+    size_t same = static_cast<size_t>(std::ranges::mismatch(common, word).in1 - common.begin());
+    while (same > 0 && same < word.size() && (word[same] & 0xC0) == 0x80) --same; // not within a character
+    common.resize(same);
+  }
   return common;
 }
 

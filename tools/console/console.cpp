@@ -113,6 +113,12 @@ Outcome Console::fail(const std::string& message) {
 // ---- lines ---------------------------------------------------------------------------------------------------------
 
 Outcome Console::execute(std::string_view line) {
+  const Outcome outcome = executeLine(line);
+  reportFault();
+  return outcome;
+}
+
+Outcome Console::executeLine(std::string_view line) {
   std::vector<scenario::ScenarioWord> split;
   if (const std::string problem = scenario::splitLine(line, split); !problem.empty()) return fail(problem);
   if (split.empty()) return Outcome::Done;
@@ -154,28 +160,26 @@ Outcome Console::execute(const Statement& statement) {
   const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
   if (problem) {
     const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
-    const Outcome failed = fail(text + (named && explainer_ != nullptr ? explainer_->why(statement.name) : ""));
-    reportFault();
-    return failed;
+    return fail(text + (named && explainer_ != nullptr ? explainer_->why(statement.name) : ""));
   }
-  record(statement, scans, us);
   if (statement.file.empty() && isExpectation(statement.kind)) print_("ok");
-  reportFault();
-  return Outcome::Done;
+  return record(statement, scans, us);
 }
 
-// A statement that was interrupted did less than it says.
-void Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefore) {
+Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefore) {
   const uint64_t scans = session_.scans() - scansBefore;
   const int64_t us = session_.nowUs() - usBefore;
   const bool counts = s.kind == Kind::Scan || s.kind == Kind::Fast || s.kind == Kind::Slot;
   if (counts && scans < s.count) {
     recording_.add(fmt::format("{} {}", s.text.substr(0, s.text.find_first_of(" \t")), scans));
-  } else if (s.kind == Kind::Run && us < s.microseconds) {
-    recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
-  } else {
-    recording_.add(s.text);
+    return Outcome::Interrupted;
   }
+  if (s.kind == Kind::Run && us < s.microseconds) {
+    recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
+    return Outcome::Interrupted;
+  }
+  recording_.add(s.text);
+  return Outcome::Done;
 }
 
 void Console::reportFault() {
@@ -210,7 +214,7 @@ Outcome Console::toggle(std::span<const std::string> words) {
   const std::optional<host::Ref> place = session_.nc().writePlace(session_.instance(), name);
   if (!place) return fail(scenario::unknownName(session_.instance(), session_.nc(), name));
   if (place->kind != host::RefKind::Bit) return fail(fmt::format("{0} is not a bit; write: set {0} VALUE", name));
-  return execute(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));
+  return executeLine(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));
 }
 
 Outcome Console::watch(std::span<const std::string> words) {
@@ -218,10 +222,11 @@ Outcome Console::watch(std::span<const std::string> words) {
     const std::vector<std::string> names = watch_.names();
     print_(names.empty() ? "nothing is watched" : fmt::format("{}", fmt::join(names, " ")));
   }
+  Outcome outcome = Outcome::Done;
   for (const std::string& name : words)
-    if (const std::string problem = watch_.add(name, session_); !problem.empty()) return fail(problem);
+    if (const std::string problem = watch_.add(name, session_); !problem.empty()) outcome = fail(problem);
   watch_.look(session_);
-  return Outcome::Done;
+  return outcome;
 }
 
 Outcome Console::unwatch(std::span<const std::string> words) {

@@ -15,7 +15,7 @@
 
 namespace rung::console {
 
-enum class Outcome : uint8_t { Done, Failed, Quit };
+enum class Outcome : uint8_t { Done, Failed, Interrupted, Quit };
 
 class Console {
 public:
@@ -23,7 +23,7 @@ public:
   Console(scenario::Session& session, Watch& watch, Recording& recording, const scenario::Explainer* explainer,
           Print print);
 
-  // One line as it was typed; empty lines and comments do nothing.
+  // One line as it was typed; empty lines and comments do nothing. A fault is reported.
   Outcome execute(std::string_view line);
   // A statement that is not typed: of --set and --scenario.
   Outcome execute(const scenario::Statement& statement);
@@ -42,10 +42,12 @@ private:
   static std::span<const Command> commands();
   static std::vector<std::string> words();
 
+  Outcome executeLine(std::string_view line);
   Outcome fail(const std::string& message);
   Outcome unreadable(const std::string& word, bool alone, const std::string& problem);
   Outcome include(const std::string& file);
-  void record(const scenario::Statement& s, uint64_t scansBefore, int64_t usBefore);
+  // Interrupted when the statement did less than it says.
+  Outcome record(const scenario::Statement& s, uint64_t scansBefore, int64_t usBefore);
   void reportFault();
 
   Outcome toggle(std::span<const std::string> words);

@@ -93,9 +93,13 @@ struct LineEditor::State {
       const ssize_t count = ::read(STDIN_FILENO, &byte, 1);
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) return 0;
-      const size_t used = std::mbrtowc(character, &byte, 1, &state);
-      if (used == static_cast<size_t>(-1)) state = {}; // not UTF-8: dropped
+      size_t used = std::mbrtowc(character, &byte, 1, &state);
+      if (used == static_cast<size_t>(-1)) { // the bytes so far are not UTF-8: dropped; this one may begin anew
+        state = {};
+        used = std::mbrtowc(character, &byte, 1, &state);
+      }
       if (used <= 1) return 1;
+      if (used == static_cast<size_t>(-1)) state = {};
     }
   }
 

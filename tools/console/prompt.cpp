@@ -36,7 +36,7 @@ bool runPrompt(Console& console, Signal& signal, const std::function<void()>& be
     begins();
     const Outcome outcome = console.execute(line);
     if (outcome == Outcome::Quit) break;
-    passed = passed && outcome == Outcome::Done;
+    passed = passed && outcome != Outcome::Failed;
   }
   return passed;
 }

@@ -18,14 +18,6 @@ fs::path folderOf(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-// A scenario in this folder runs the project's program without being told.
-bool belongsTo(const std::optional<project::Project>& project, const fs::path& folder) {
-  if (!project) return false;
-  const auto found = project::findUpwards(fs::absolute(folder).lexically_normal().string());
-  std::error_code none;
-  return found && fs::equivalent(*found, project->file, none);
-}
-
 bool isSetting(const project::Project& project, const std::string& key, const std::string& value) {
   return std::ranges::any_of(project.config,
                              [&](const project::Setting& s) { return s.key == key && s.value == value; });
@@ -35,6 +27,12 @@ std::string relativeTo(const fs::path& folder, const std::string& file) {
   std::error_code none;
   const fs::path relative = fs::proximate(file, folder, none);
   return none ? file : relative.string();
+}
+
+// As a word, or the last words, of a statement.
+std::string asWord(const std::string& text) {
+  const bool plain = !text.starts_with('#') && text.find_first_of(" \t") == std::string::npos;
+  return plain ? text : '"' + text + '"';
 }
 
 // Files that the control reads lie relative to the scenario; those of the compiler relative to the program.
@@ -65,23 +63,35 @@ std::string withoutRung(std::string_view fault) { // the rung and the file in br
 
 void Recording::add(std::string statement) { statements_.push_back(std::move(statement)); }
 
+bool Recording::isProjectsOwn(const std::string& folder) const {
+  if (!start_.project || start_.programs != start_.project->files) return false;
+  const auto found = project::findUpwards(fs::absolute(folder).lexically_normal().string());
+  std::error_code none;
+  return found && fs::equivalent(*found, start_.project->file, none);
+}
+
 void Recording::writeStart(const std::string& path, const std::string& dialect, std::string& text) const {
   const fs::path folder = folderOf(path);
-  const bool inProject = belongsTo(start_.project, folder);
+  const bool inProject = isProjectsOwn(folder.string());
   if (!inProject) {
     text += "program";
-    for (const std::string& program : start_.programs) text += " " + relativeTo(folder, program);
+    for (const std::string& program : start_.programs) text += " " + asWord(relativeTo(folder, program));
     text += fmt::format("\ndialect {}\n", dialect);
   }
   for (const auto& [key, value] : start_.config)
     if (!inProject || !isSetting(*start_.project, key, value))
-      text += fmt::format("config {} {}\n", key, configValue(dialect, key, value, folder));
+      text += fmt::format("config {} {}\n", key, asWord(configValue(dialect, key, value, folder)));
+  if (start_.periodUs > 0) text += fmt::format("period {}us\n", start_.periodUs);
   for (const std::string& connect : start_.connects) text += connect + "\n";
 }
 
 Result<std::string> Recording::scenario(const std::string& path, const scenario::Session& session,
                                         const std::vector<std::string>& watched) const {
   if (!start_.notAScenario.empty()) return failure(start_.notAScenario);
+  if (start_.project && !start_.project->includePaths.empty() && !isProjectsOwn(folderOf(path).string()))
+    return failure(fmt::format("the program needs the include folders of {}: save the scenario in the folder of the "
+                               "project, and run the program of the project",
+                               start_.project->file));
   std::string text = "# Written by the prompt of rungc run.\n";
   writeStart(path, session.instance().program().dialect, text);
   for (const std::string& statement : statements_) text += statement + "\n";

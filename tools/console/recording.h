@@ -16,6 +16,7 @@ struct Start {
   std::vector<std::string> programs;
   std::vector<std::pair<std::string, std::string>> config; // those of the project first
   std::vector<std::string> connects;                       // statements of a scenario
+  int64_t periodUs = 0;                                    // that a scenario chose; 0: the program's own
   std::optional<project::Project> project;                 // that the files belong to
   std::string notAScenario;                                // not empty: why no scenario can start it so
 };
@@ -34,6 +35,8 @@ public:
                                const std::vector<std::string>& watched) const;
 
 private:
+  // Whether a scenario in this folder runs this program without naming it.
+  bool isProjectsOwn(const std::string& folder) const;
   void writeStart(const std::string& path, const std::string& dialect, std::string& text) const;
 
   Start start_;

@@ -218,9 +218,20 @@ std::string operationReference() {
 
 namespace {
 
+// A message as it is for no place: its arguments {0}, {1} … are left open.
+std::string openMessage(std::string_view message) {
+  std::string text;
+  for (size_t i = 0; i < message.size(); ++i) {
+    const bool argument = message[i] == '{' && i + 2 < message.size() && message[i + 2] == '}';
+    text += argument ? "…" : std::string(1, message[i]);
+    i += argument ? 2 : 0;
+  }
+  return text;
+}
+
 std::string shownDiagnostic(const DiagInfo& info) {
   return fmt::format("{} ({})\n  {}\n\n{}\n", info.code, info.severity == Severity::Error ? "error" : "warning",
-                     info.message, info.explanation);
+                     openMessage(info.message), info.explanation);
 }
 
 // A fault by its text, or by the part before its colon or its module: `halt-status 13`, `watchdog`.

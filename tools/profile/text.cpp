@@ -4,8 +4,19 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <set>
 
 namespace rung::profile {
+
+DrawnRungs drawnRungs(const Report& report) {
+  std::set<uint32_t> numbers;
+  for (const Row& row : report.rows) numbers.insert(row.number);
+  numbers.erase(0);
+  const size_t ran = numbers.size();
+  for (const Row& row : report.never) numbers.insert(row.number);
+  numbers.erase(0);
+  return {ran, numbers.size()};
+}
 namespace {
 
 std::string scansText(const Profile& profile) {
@@ -15,11 +26,10 @@ std::string scansText(const Profile& profile) {
 
 std::string headText(const Profile& profile) {
   const Report& report = profile.report;
-  const size_t rungs = report.rows.size() + report.never.size();
-  std::string text =
-      fmt::format("{} ({}): {}, timed in {} runs on {}\n{} of {} rungs ran", report.program, report.dialect,
-                  scansText(profile), profile.repeat, profile.engine, report.rows.size(), rungs);
-  if (!report.never.empty()) text += fmt::format("; {} never (--never lists them)", report.never.size());
+  const auto [ran, rungs] = drawnRungs(report);
+  std::string text = fmt::format("{} ({}): {}, timed in {} runs on {}\n{} of {} rungs ran", report.program,
+                                 report.dialect, scansText(profile), profile.repeat, profile.engine, ran, rungs);
+  if (rungs > ran) text += fmt::format("; {} never (--never lists them)", rungs - ran);
   return text + "\n";
 }
 

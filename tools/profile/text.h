@@ -12,6 +12,13 @@ struct TextOptions {
   bool never = false; // list the rungs that never ran
 };
 
+// Rungs as drawn; one that calls has several rows in the report.
+struct DrawnRungs {
+  size_t ran = 0;
+  size_t all = 0;
+};
+DrawnRungs drawnRungs(const Report& report);
+
 std::string profileText(const Profile& profile, const TextOptions& options);
 std::string comparisonText(const Profile& profile, const Comparison& comparison, uint32_t top);
 // `comparison` may be null.

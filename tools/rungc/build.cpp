@@ -6,6 +6,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/text/text.h"
+#include "tools/console/working.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 
@@ -50,6 +51,7 @@ codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
 }
 
 int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
+  const console::Working working("making machine code");
   if (options.via == "llvm") {
     const Result<void> built =
         codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options), options.out);
@@ -82,7 +84,8 @@ std::string writtenBy(const BuildOptions& options) {
   return options.listing.empty() ? text : text + " and " + options.listing;
 }
 
-int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
+Result<std::string> textOf(const driver::Compiled& compiled, const BuildOptions& options) {
+  const console::Working working("writing the " + options.what);
   Result<std::string> text = failure("");
   if (options.what == "cpp")
     text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {.debugInfo = options.debugInfo});
@@ -94,8 +97,14 @@ int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
     text = codegen::emitLlvmIr(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   else
     text = codegen::emitAssembly(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
+  return text;
+}
+
+int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
+  const Result<std::string> text = textOf(compiled, options);
   if (!text.ok()) return environmentError(text.error());
-  if (!options.out.empty() && options.out != "-") return writeFile(text.value(), options.out);
+  if (!options.out.empty() && options.out != "-")
+    return sayWrote(writeFile(text.value(), options.out), options.out, options.source);
   std::cout << text.value();
   return kOk;
 }

@@ -55,6 +55,8 @@ int usageError(const std::string& message);
 int environmentError(const std::string& message);
 // "mill.pmc, 540 rungs, no warnings" on standard output, with what was written; nothing with --quiet or --json.
 void printSummary(const driver::Compiled& compiled, const SourceOptions& options, const std::string& written);
+// "wrote mill.html" when the status is good; nothing with --quiet or --json. Gives the status.
+int sayWrote(int status, const std::string& out, const SourceOptions& options);
 // Gives the exit status.
 int writeFile(const std::string& text, const std::string& out);
 

@@ -4,6 +4,7 @@
 
 #include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/dialects/gsk/gsk.h"
+#include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -52,10 +53,16 @@ int run(const ConvertOptions& options) {
   const auto files = addSources(sources, options.source, compile, status);
   if (!files) return status;
   Diagnostics diagnostics;
-  const auto text = convert(sources, *files, options, compile, diagnostics);
+  const auto text = [&] {
+    const console::Working working("converting");
+    return convert(sources, *files, options, compile, diagnostics);
+  }();
   // With --json the diagnostics go to standard output: after a program there they would corrupt it.
   if (!options.source.json || !text || !options.out.empty()) printDiagnostics(diagnostics, sources, options.source);
-  return text ? write(*text, options.out) : kWrong;
+  if (!text) return kWrong;
+  status = write(*text, options.out);
+  const bool toFile = !options.out.empty() && options.out != "-";
+  return toFile ? sayWrote(status, options.out, options.source) : status;
 }
 
 } // namespace

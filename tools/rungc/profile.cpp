@@ -5,7 +5,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "tools/console/progress.h"
+#include "tools/console/working.h"
 #include "tools/profile/text.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/profile_page.h"
@@ -74,10 +74,11 @@ int runProfile(const ProfileOptions& options) {
     if (!read.ok()) return environmentError(read.error());
     baseline = std::move(read).value();
   }
-  console::Progress progress(stderr);
-  request.progress = [&](const std::string& text) { progress.show(text); };
-  const profile::Outcome outcome = profile::profileScenarios(request);
-  progress.clear();
+  const profile::Outcome outcome = [&] {
+    console::Working working("compiling");
+    request.progress = [&](const std::string& text) { working.say(text); };
+    return profile::profileScenarios(request);
+  }();
   if (!outcome.done) {
     printResult({outcome.scenario, 0, outcome.result});
     return outcome.result.environment.empty() ? kWrong : kEnvironment;

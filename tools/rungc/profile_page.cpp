@@ -34,11 +34,12 @@ view::Overlay overlayOf(const profile::Profile& profile) {
   view::Overlay overlay;
   overlay.title = "Profile";
   overlay.heat = report.order == profile::Order::Operations ? "share of all operations" : "share of the whole time";
+  const profile::DrawnRungs rungs = profile::drawnRungs(report);
   overlay.summary = {
       fmt::format("{}: {} scans, {} operations", fmt::join(profile.scenarios, ", "), profile.scans, report.operations),
       fmt::format("a scan: {:.0f} operations, {}; the longest {} of {}", profile.scanOperations.median,
                   durationText(scan.ns.median), durationText(scan.ns.max), durationText(scan.periodUs * 1000)),
-      fmt::format("{} of {} rungs ran", report.rows.size(), report.rows.size() + report.never.size())};
+      fmt::format("{} of {} rungs ran", rungs.ran, rungs.all)};
   for (const std::vector<profile::Row>* rows : {&report.rows, &report.never})
     for (const profile::Row& row : *rows) overlay.rungs.push_back({row.number, {row.file, row.line, 0}, runOf(row)});
   return overlay;

@@ -12,6 +12,7 @@
 #include "tools/console/console.h"
 #include "tools/console/progress.h"
 #include "tools/console/prompt.h"
+#include "tools/console/working.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
@@ -41,6 +42,8 @@ struct RunOptions {
   std::string cache;
 };
 
+constexpr uint64_t kMostScans = 1'000'000'000'000;
+
 console::Signal gSignal = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
 
 void catchSignals() {
@@ -48,16 +51,6 @@ void catchSignals() {
   action.sa_handler = [](int signal) { gSignal = signal; };
   sigaction(SIGINT, &action, nullptr); // without SA_RESTART: a prompt that reads must notice
   sigaction(SIGTERM, &action, nullptr);
-}
-
-// The statement of `--set NAME=VALUE`; a value that is not a number is a text.
-Result<scenario::Statement> setStatement(const std::string& pair) {
-  const size_t equals = pair.find('=');
-  if (equals == std::string::npos || equals == 0) return failure("expected NAME=VALUE, found '" + pair + "'");
-  const std::string name = pair.substr(0, equals);
-  const std::string value = pair.substr(equals + 1);
-  Result<scenario::Statement> plain = scenario::parseStatement(fmt::format("set {} {}", name, value));
-  return plain.ok() ? std::move(plain) : scenario::parseStatement(fmt::format("set {} \"{}\"", name, value));
 }
 
 // One run of a program, from its start to the end that the options set.
@@ -77,11 +70,17 @@ public:
 
 private:
   static console::Start startOf(const RunOptions& options, const driver::Compiled* compiled) {
-    console::Start start{options.source.files, {}, options.scenario.connects, options.source.project, ""};
+    console::Start start;
+    start.programs = options.source.files;
+    start.project = options.source.project;
+    start.periodUs = options.scenario.periodUs;
+    for (const scenario::Statement& connect : options.scenario.connects) start.connects.push_back(connect.text);
     for (const std::string& pair : options.source.config) {
       const size_t equals = std::min(pair.find('='), pair.size());
       start.config.emplace_back(pair.substr(0, equals), pair.substr(std::min(equals + 1, pair.size())));
     }
+    if (std::ranges::find(start.programs, "-") != start.programs.end())
+      start.notAScenario = "a scenario names sources, and this program came from standard input";
     if (compiled == nullptr)
       start.notAScenario = "a scenario names sources, and this is a shared object: run its sources";
     if (!options.retain.empty()) start.notAScenario = "a scenario starts cold, and this run began with --retain";
@@ -101,11 +100,11 @@ private:
         return fmt::format("--config {0}: the compiler reads it: rungc build --config {0}={1}", key, value);
       if (std::string wrong = session_.config(key, value); !wrong.empty()) return wrong;
     }
-    for (const std::string& line : options_.scenario.connects) {
-      const Result<scenario::Statement> connect = scenario::parseStatement(line);
-      if (std::string wrong = session_.connect(connect.value().words[0], connect.value().words[1]); !wrong.empty())
-        return wrong;
-    }
+    if (compiled_ == nullptr && options_.scenario.periodUs > 0)
+      return "the scenario chooses the period, which is the compiler's to know: run the sources";
+    for (const scenario::Statement& connect : options_.scenario.connects)
+      if (std::string wrong = session_.connect(connect.words[0], connect.words[1]); !wrong.empty())
+        return textOf(problemAt(connect, std::move(wrong)));
     return {};
   }
 
@@ -159,27 +158,48 @@ private:
     catchSignals();
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario();
-    if (status == kOk || options_.prompt) status = std::max(status, runScans());
-    if (!options_.prompt) return status;
+    if (status == kOk) status = runScans();
+    if (!options_.prompt || gSignal == SIGTERM) return status;
+    gSignal = 0;
     session_.setInterrupt([this] { return interrupted(); });
     return console::runPrompt(*console_, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
   }
 
   int setInputs() {
     for (const std::string& pair : options_.sets) {
-      const Result<scenario::Statement> set = setStatement(pair);
-      if (!set.ok()) return usageError("--set: " + set.error());
-      if (const auto problem = session_.execute(set.value()))
-        return usageError(fmt::format("--set {}: {}", pair, problem->message));
-      recording_.add(set.value().text);
+      const Result<std::string> done = setInput(pair);
+      if (!done.ok()) return usageError(fmt::format("--set {}: {}", pair, done.error()));
+      recording_.add(done.value());
     }
     return kOk;
   }
 
+  // The statement that did it. A value that is not a number may be a text, which here needs no quotes.
+  Result<std::string> setInput(const std::string& pair) {
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0) return failure("expected NAME=VALUE");
+    const std::string name = pair.substr(0, equals);
+    const std::string value = pair.substr(equals + 1);
+    const Result<std::string> plain = executeLine(fmt::format("set {} {}", name, value));
+    if (plain.ok()) return plain;
+    const Result<std::string> quoted = executeLine(fmt::format("set {} \"{}\"", name, value));
+    return quoted.ok() || !session_.nc().writePlace(session_.instance(), name) ? quoted : plain;
+  }
+
+  Result<std::string> executeLine(const std::string& line) {
+    const Result<scenario::Statement> statement = scenario::parseStatement(line);
+    if (!statement.ok()) return statement.failure();
+    if (const auto problem = session_.execute(statement.value())) return failure(problem->message);
+    return statement.value().text;
+  }
+
   int runScenario() {
     session_.setInterrupt([this] { return interrupted(); });
-    for (const scenario::Statement& s : options_.scenario.statements)
-      if (gSignal != 0 || console_->execute(s) == console::Outcome::Failed) return kWrong;
+    for (const scenario::Statement& s : options_.scenario.statements) {
+      const console::Outcome outcome = console_->execute(s);
+      if (outcome == console::Outcome::Interrupted) print_(fmt::format("interrupted at {}:{}", s.file, s.line));
+      if (outcome != console::Outcome::Done) return kWrong;
+    }
     return kOk;
   }
 
@@ -194,7 +214,7 @@ private:
     advance.text = options_.duration.empty() ? fmt::format("scan {}", advance.count) : "run " + options_.duration;
     if (options_.realtime) {
       runRealTime(advance);
-    } else if (advance.count > 0) {
+    } else if (advance.count > 0 || advance.kind == scenario::Kind::Run) {
       return console_->execute(advance) == console::Outcome::Failed ? kWrong : kOk;
     }
     return kOk;
@@ -206,8 +226,8 @@ private:
       return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
     });
     const host::RealTimeStats stats = session_.runRealTime();
-    fmt::print("{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices, stats.missed,
-               static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
+    fmt::print(out_, "{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
+               stats.missed, static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
   }
 
   // After every scan.
@@ -223,8 +243,9 @@ private:
 
   int finish(int status) {
     progress_.clear();
-    fmt::print("{} scan{}, {:.3f} ms of the program's time, engine {}\n", session_.scans(),
-               session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0, engine_.name());
+    if (!options_.source.quiet)
+      fmt::print(out_, "{} scan{}, {:.3f} ms of the program's time, engine {}\n", session_.scans(),
+                 session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0, engine_.name());
     if (retained_)
       if (const std::string error = retained_->finish(); !error.empty()) return environmentError(error);
     if (trace_)
@@ -246,11 +267,12 @@ private:
   const driver::Compiled* compiled_;
   scenario::Session session_{""};
   console::Recording recording_;
+  std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json nothing but that is on standard output
   console::Progress progress_{stderr};
   console::Print print_ = [this](const std::string& line) {
     progress_.clear();
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+    fmt::print(out_, "{}\n", line);
+    std::fflush(out_);
   };
   console::Watch watch_{print_};
   Printer printer_{print_};
@@ -280,11 +302,17 @@ int runSource(const RunOptions& options) {
   engineOptions.debugger = options.debugger;
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
-  const Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
+  const Result<std::unique_ptr<host::Engine>> engine = [&] {
+    const console::Working working("making machine code");
+    return driver::makeEngine(*kind, *compiled, engineOptions);
+  }();
   return engine.ok() ? Run(options, *engine.value(), &*compiled).run() : environmentError(engine.error());
 }
 
 int runProgram(RunOptions& options) {
+  const bool piped = std::ranges::find(options.source.files, "-") != options.source.files.end();
+  if (piped && options.prompt && isatty(STDIN_FILENO) == 0)
+    return usageError("the program and the lines of the prompt cannot both come from standard input");
   if (!options.duration.empty()) {
     const auto us = scenario::parseDuration(options.duration);
     if (!us.ok()) return usageError(fmt::format("--for {}: {}", options.duration, us.error()));
@@ -305,8 +333,10 @@ void addRun(CLI::App& app, int& status) {
   addSourceOptions(*command, options->source);
   command->add_option("--engine", options->engine, "interp, cpp, llvm or jit; a shared object brings its own")
       ->capture_default_str();
-  CLI::Option* scans = command->add_option("--scans", options->scans,
-                                           "Number of scans; default: 1, with --scenario or --prompt none of its own");
+  CLI::Option* scans = command
+                           ->add_option("--scans", options->scans,
+                                        "Number of scans; default: 1, with --scenario or --prompt none of its own")
+                           ->check(CLI::Range(uint64_t{0}, kMostScans));
   command->add_option("--for", options->duration, "Time to run, such as 2s or 500ms")->excludes(scans);
   command
       ->add_option("--set", options->sets,

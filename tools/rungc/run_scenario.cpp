@@ -52,16 +52,15 @@ int readRunScenario(const std::string& path, SourceOptions& options, RunScenario
   if (!read.value().problems.empty()) return kWrong;
   std::vector<std::string> programs;
   std::vector<std::string> config;
+  std::string dialect;
   for (Statement& s : read.value().statements) {
     switch (s.kind) {
     case Kind::Program:
       for (const std::string& file : s.words) programs.push_back(inFolderOf(s.file, file));
       break;
-    case Kind::Dialect:
-      if (options.dialect.empty()) options.dialect = s.name;
-      break;
+    case Kind::Dialect: dialect = s.name; break;
     case Kind::Config: config.push_back(configOf(s)); break;
-    case Kind::Connect: scenario.connects.push_back(s.text); break;
+    case Kind::Connect: scenario.connects.push_back(std::move(s)); break;
     case Kind::Period: scenario.periodUs = s.microseconds; break;
     case Kind::ExpectError:
       return usageError(
@@ -72,6 +71,8 @@ int readRunScenario(const std::string& path, SourceOptions& options, RunScenario
     }
   }
   options.config.insert(options.config.begin(), config.begin(), config.end());
+  const bool ownProgram = options.files.empty() && options.projectFile.empty();
+  if (ownProgram && options.dialect.empty()) options.dialect = dialect;
   return findProgram(path, programs, options);
 }
 

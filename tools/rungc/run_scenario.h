@@ -10,8 +10,8 @@ namespace rung::rungc {
 
 struct RunScenario {
   std::vector<scenario::Statement> statements; // for the running program
-  std::vector<std::string> connects;           // as they are written
-  int64_t periodUs = 0;                        // 0: the program's own
+  std::vector<scenario::Statement> connects;
+  int64_t periodUs = 0; // 0: the program's own
 };
 
 // Reads the file. Program, dialect and configuration go into the options, before those of the command line; where the

@@ -4,9 +4,11 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <set>
 #include <unistd.h>
 
 #include "ir/support/diag_render.h"
+#include "tools/console/working.h"
 #include "tools/driver/configuration.h"
 #include "tools/rungc/commands.h"
 
@@ -57,6 +59,11 @@ int environmentError(const std::string& message) {
   return kEnvironment;
 }
 
+int sayWrote(int status, const std::string& out, const SourceOptions& options) {
+  if (status == kOk && !options.quiet && !options.json) fmt::print("wrote {}\n", out);
+  return status;
+}
+
 int writeFile(const std::string& text, const std::string& out) {
   std::ofstream file(out, std::ios::binary);
   file << text << std::flush;
@@ -70,10 +77,11 @@ std::string counted(size_t count, std::string_view what) {
 }
 
 size_t rungsOf(const ir::Module& module) {
-  size_t count = 0;
+  std::set<uint32_t> numbers; // a drawn rung that calls is several in the module
   for (const ir::Routine& routine : module.routines)
-    for (const ir::Rung& rung : routine.rungs) count += rung.number != 0 ? 1 : 0; // the others are the compiler's
-  return count;
+    for (const ir::Rung& rung : routine.rungs) numbers.insert(rung.number);
+  numbers.erase(0); // the compiler's
+  return numbers.size();
 }
 
 std::string closingLine(const Diagnostics& diagnostics) {
@@ -189,7 +197,10 @@ std::optional<driver::Compiled> compileSources(SourceManager& sources, const Sou
   const auto files = addSources(sources, options, request.options, status);
   if (!files) return std::nullopt;
   Diagnostics diagnostics;
-  std::optional<driver::Compiled> compiled = driver::compile(sources, *files, request, diagnostics);
+  std::optional<driver::Compiled> compiled = [&] {
+    const console::Working working("compiling");
+    return driver::compile(sources, *files, request, diagnostics);
+  }();
   if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
   if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fstream>
 
+#include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/drawing.h"
 #include "tools/view/html.h"
@@ -49,13 +50,18 @@ void fillIn(ViewOptions& options) {
   if (options.out.empty()) options.out = project::productOf(*options.source.project, ".html");
 }
 
+int draw(const view::Program& program, const ViewOptions& options) {
+  const console::Working working("drawing");
+  if (!options.out.ends_with(".html")) return write(view::renderSvg(program), options.out);
+  const view::LinkTo links = options.link.empty() ? view::LinkTo() : view::sourceLinks(options.out, options.link);
+  return write(view::renderHtml(program, {options.date, options.revision, links}), options.out);
+}
+
 int run(ViewOptions options) {
-  const bool named = !options.out.empty();
   fillIn(options);
   if (options.out.empty())
     return usageError("view: -o says which file to write, .html or .svg; only a project has a name for it");
-  const bool page = options.out.ends_with(".html");
-  if (!page && !options.out.ends_with(".svg")) {
+  if (!options.out.ends_with(".html") && !options.out.ends_with(".svg")) {
     fmt::print(stderr, "rungc: '{}' is not a name for a drawing; pages end in .html, pictures in .svg\n", options.out);
     return kUsage;
   }
@@ -65,15 +71,14 @@ int run(ViewOptions options) {
   const auto files = addSources(sources, options.source, compile, status);
   if (!files) return status;
   Diagnostics diagnostics;
-  auto program = read(sources, *files, options, compile, diagnostics);
+  auto program = [&] {
+    const console::Working working("drawing");
+    return read(sources, *files, options, compile, diagnostics);
+  }();
   printDiagnostics(diagnostics, sources, options.source);
   if (!program) return kWrong;
   if (!options.title.empty()) program->title = options.title;
-  if (!page) return write(view::renderSvg(*program), options.out);
-  const view::LinkTo links = options.link.empty() ? view::LinkTo() : view::sourceLinks(options.out, options.link);
-  status = write(view::renderHtml(*program, {options.date, options.revision, links}), options.out);
-  if (status == kOk && !named) fmt::print("wrote {}\n", options.out);
-  return status;
+  return sayWrote(draw(*program, options), options.out, options.source);
 }
 
 } // namespace

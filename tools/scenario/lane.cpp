@@ -1,12 +1,18 @@
 // One engine's run (see lane.h).
 #include "tools/scenario/lane.h"
 
+#include <iterator>
 #include <utility>
 
 #include "rtlib/nc/model/refuse.h"
 #include "tools/driver/engines.h"
 
 namespace rung::scenario {
+namespace {
+
+constexpr ptrdiff_t kMostUnread = 50'000; // entries of the log; a session of hours must not fill the memory
+
+} // namespace
 
 Lane::Lane(host::Engine& engine, std::string folder)
     : engine_(engine), nc_(nc::makeNcModel(engine.program().dialect)), instance_(driver::makeInstance(engine, this)) {
@@ -31,6 +37,7 @@ void Lane::takeMessages() {
 
 void Lane::takeLog() {
   for (std::string& line : nc_->board().takeLog()) unreadLog_.push_back(std::move(line));
+  if (std::ssize(unreadLog_) > 2 * kMostUnread) unreadLog_.erase(unreadLog_.begin(), unreadLog_.end() - kMostUnread);
 }
 
 void Lane::ignore() {

@@ -210,7 +210,11 @@ std::string Session::run(const Statement& s) {
   case Kind::ColdStart: restart(nc::PowerOn::Cold); return {};
   case Kind::WarmStart: restart(nc::PowerOn::Warm); return {};
   case Kind::Print: return print(s);
-  case Kind::ExpectFault: faultExpected_ = true; return forLanes([&](Lane& lane) { return expectFault(lane, s); });
+  case Kind::ExpectFault: {
+    std::string problem = forLanes([&](Lane& lane) { return expectFault(lane, s); });
+    faultExpected_ = faultExpected_ || problem.empty();
+    return problem;
+  }
   }
   return {};
 }

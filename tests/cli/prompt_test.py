@@ -382,12 +382,13 @@ class Terminal:
 
     def end(self):
         """The exit status."""
+        end = time.monotonic() + PATIENCE
         try:
-            while os.read(self.master, 4096):
+            while select.select([self.master], [], [], max(0, end - time.monotonic()))[0] and os.read(self.master, 4096):
                 pass
-        except OSError:
+        except OSError:  # the other end is closed
             pass
-        return self.process.wait(PATIENCE)
+        return self.process.wait(max(1, end - time.monotonic()))
 
     def close(self):
         if self.process.poll() is None:

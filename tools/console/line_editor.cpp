@@ -157,6 +157,7 @@ std::optional<std::string> LineEditor::read(const std::string& prompt) {
   state_->prompt = prompt;
   state_->givenUp = false;
   int count = 0;
+  el_set(state_->edit, EL_PREP_TERM, 1); // before the prompt can be seen: what is typed at it is a key
   const char* line = el_gets(state_->edit, &count);
   if (state_->givenUp) return std::string();
   if (line == nullptr || count <= 0) return std::nullopt;

@@ -1,4 +1,4 @@
-// The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does stands in its
+// The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does is said in its
 // file.
 #pragma once
 #include "ir/core/module.h"

@@ -1,4 +1,4 @@
-// Reuse: an operation without effects that stands above with the same operands is not done again. A load takes the
+// Reuse: an operation without effects that was done before with the same operands is not done again. A load takes the
 // value that an earlier load of the same place and type gave, or an earlier store put there, unless something between
 // may have written over it. Values of a region are known within it only; writes count from where they stand, whether
 // their region runs or not; and a loop that writes at all makes everything unknown that was read before it.

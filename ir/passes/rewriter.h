@@ -21,7 +21,7 @@ class RungRewriter {
 public:
   void start(const Rung& rung);
 
-  // What stands for an old value in the new rung; invalid while it has no value there.
+  // What an old value has become in the new rung; invalid while it has no value there.
   ValueId now(ValueId old) const { return now_[old.index]; }
   ValueId nowArg(const Op& op, uint32_t i) const { return now(rung_->args[op.firstArg + i]); }
   void replace(ValueId old, ValueId by) { now_[old.index] = by; }
@@ -30,8 +30,8 @@ public:
   Op& copy(const Op& op);
   // The same for an endif or else of which only some yields are kept; keep[i] belongs to operand and result i.
   Op& copySome(const Op& op, std::span<const uint8_t> keep);
-  // Another operation in the place of `op`, with new operands and one result or none, which `op`'s result then stands
-  // for.
+  // Another operation in the place of `op`, with new operands and one result or none, which `op`'s result then
+  // means.
   Op& put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args);
   ValueId putConstant(const Op& op, Type type, uint64_t bits);
 

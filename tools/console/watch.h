@@ -1,4 +1,4 @@
-// Prints what watched names become, and which messages come and go, each with the time.
+// Prints what watched names become, which messages come and go, each with the time, and the lines of print statements.
 #pragma once
 #include <functional>
 #include <string>
@@ -22,6 +22,7 @@ public:
   std::vector<std::string> names() const;
 
   void scanned(const scenario::Session& session) override { look(session); }
+  void printed(const std::string& line) override { print_(line); }
   // Prints what has changed since the last look.
   void look(const scenario::Session& session);
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/driver/compile.h"
@@ -44,6 +45,9 @@ void addLevelOption(CLI::App& command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
 std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
                                                driver::CompileRequest request, int& status);
+using ConfigPairs = std::vector<std::pair<std::string, std::string>>;
+// Nothing, and `status` says why, where one is not KEY=VALUE.
+std::optional<ConfigPairs> configPairs(const std::vector<std::string>& config, int& status);
 // The files and the configuration of these options; nothing, and `status` says why, when they cannot be had.
 std::optional<std::vector<FileId>> addSources(SourceManager& sources, const SourceOptions& options,
                                               frontend::CompileOptions& compile, int& status);

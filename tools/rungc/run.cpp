@@ -25,6 +25,7 @@ namespace {
 
 struct RunOptions {
   SourceOptions source;
+  ConfigPairs config; // of the source options
   std::string engine = "jit";
   std::optional<uint64_t> scans; // one, where nothing else drives the program
   std::string duration;
@@ -75,10 +76,7 @@ private:
     start.project = options.source.project;
     start.periodUs = options.scenario.periodUs;
     for (const scenario::Statement& connect : options.scenario.connects) start.connects.push_back(connect.text);
-    for (const std::string& pair : options.source.config) {
-      const size_t equals = std::min(pair.find('='), pair.size());
-      start.config.emplace_back(pair.substr(0, equals), pair.substr(std::min(equals + 1, pair.size())));
-    }
+    start.config = options.config;
     if (std::ranges::find(start.programs, "-") != start.programs.end())
       start.notAScenario = "a scenario names sources, and this program came from standard input";
     if (compiled == nullptr)
@@ -128,7 +126,6 @@ private:
     for (const std::string& name : options_.watch)
       if (const std::string wrong = watch_.add(name, session_); !wrong.empty()) return usageError("--watch: " + wrong);
     session_.addObserver(watch_);
-    session_.addObserver(printer_);
     if (const int status = openTrace(); status != kOk) return status;
     const bool asked = options_.prompt || !options_.scenarioFile.empty();
     if (asked && compiled_ != nullptr) {
@@ -255,13 +252,6 @@ private:
     return kWrong;
   }
 
-  struct Printer final : scenario::Observer {
-    explicit Printer(const console::Print& print) : print(print) {}
-    void scanned(const scenario::Session&) override {}
-    void printed(const std::string& line) override { print(line); }
-    const console::Print& print;
-  };
-
   const RunOptions& options_;
   host::Engine& engine_;
   const driver::Compiled* compiled_;
@@ -275,7 +265,6 @@ private:
     std::fflush(out_);
   };
   console::Watch watch_{print_};
-  Printer printer_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<scenario::Trace> trace_;
   std::optional<scenario::Explainer> explainer_; // once the session has started
@@ -321,6 +310,10 @@ int runProgram(RunOptions& options) {
   if (!options.trace.empty())
     if (const std::string wrong = scenario::traceFileProblem(options.trace); !wrong.empty())
       return usageError("--trace: " + wrong);
+  int status = kOk;
+  auto config = configPairs(options.source.config, status);
+  if (!config) return status;
+  options.config = std::move(*config);
   const bool object = options.source.files.size() == 1 && options.source.files[0].ends_with(".so");
   return object ? runSharedObject(options) : runSource(options);
 }

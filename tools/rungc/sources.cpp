@@ -118,6 +118,19 @@ void printSummary(const driver::Compiled& compiled, const SourceOptions& options
              written.empty() ? "" : "; wrote " + written);
 }
 
+std::optional<ConfigPairs> configPairs(const std::vector<std::string>& config, int& status) {
+  ConfigPairs pairs;
+  for (const std::string& pair : config) {
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      status = usageError(fmt::format("--config takes KEY=VALUE, found '{}'", pair));
+      return std::nullopt;
+    }
+    pairs.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+  }
+  return pairs;
+}
+
 namespace {
 
 // The project file was read into another SourceManager; the same places in this one.
@@ -132,22 +145,6 @@ std::map<std::string, SourceRange> placesOf(const project::Project& project,
   return places;
 }
 
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-
-// Nothing, and `status` says why, where one is not KEY=VALUE.
-std::optional<Pairs> pairsOf(const std::vector<std::string>& config, int& status) {
-  Pairs pairs;
-  for (const std::string& pair : config) {
-    const size_t equals = pair.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      status = usageError(fmt::format("--config takes KEY=VALUE, found '{}'", pair));
-      return std::nullopt;
-    }
-    pairs.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
-  }
-  return pairs;
-}
-
 const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const FileId> files,
                                    const SourceOptions& options) {
   Diagnostics unheard; // who compiles reports it
@@ -155,7 +152,7 @@ const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const
 }
 
 // Those of --config; the project's have been checked with their places.
-int checkNamedConfig(const frontend::Dialect& dialect, const Pairs& config) {
+int checkNamedConfig(const frontend::Dialect& dialect, const ConfigPairs& config) {
   int status = kOk;
   for (const driver::ConfigProblem& problem : driver::checkConfiguration(dialect, config, ""))
     status = usageError("--config " + problem.text);
@@ -164,7 +161,7 @@ int checkNamedConfig(const frontend::Dialect& dialect, const Pairs& config) {
 
 void checkNames(const driver::Compiled& compiled, const SourceManager& sources, const frontend::CompileOptions& compile,
                 Diagnostics& diagnostics) {
-  const Pairs pairs(compile.config.begin(), compile.config.end());
+  const ConfigPairs pairs(compile.config.begin(), compile.config.end());
   for (const driver::ConfigProblem& problem : driver::checkNamesOfProgram(*compiled.dialect, sources, pairs))
     driver::report(problem, *compiled.dialect, compile.placeOf(problem.key), diagnostics);
 }
@@ -174,7 +171,7 @@ void checkNames(const driver::Compiled& compiled, const SourceManager& sources, 
 std::optional<std::vector<FileId>> addSources(SourceManager& sources, const SourceOptions& options,
                                               frontend::CompileOptions& compile, int& status) {
   compile.strict = options.strict;
-  const auto pairs = pairsOf(options.config, status);
+  const auto pairs = configPairs(options.config, status);
   if (!pairs) return std::nullopt;
   for (const auto& [key, value] : *pairs) compile.config[key] = value;
   const Result<std::vector<FileId>> files = driver::addFiles(sources, options.files);

@@ -68,7 +68,7 @@ public:
   }
   // Whether a jump leads past `network`.
   bool canPass(uint32_t network) const { return cover_[network] != kNone; }
-  // Whether one behind `from` does.
+  // Whether one after `from` does.
   bool canPass(uint32_t from, uint32_t network) const { return canPass(network) && cover_[network] > from; }
 
 private:

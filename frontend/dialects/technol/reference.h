@@ -1,4 +1,4 @@
-// Sections of the reference page behind the instructions, and what `rungc explain` says about the names of the
+// Sections of the reference page after the instructions, and what `rungc explain` says about the names of the
 // interface.
 #pragma once
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "ir/support/check.h"
-#include "rtlib/nc/model/technol/control_files.h"
+#include "tools/sim/technol/control_files.h"
 
 using namespace rung::nc::technol;
 

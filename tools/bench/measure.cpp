@@ -15,7 +15,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/bench/gsk_workload.h"
 #include "tools/bench/technol_workload.h"
 #include "tools/driver/engines.h"

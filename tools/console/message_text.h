@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "rtlib/nc/model/message_board.h"
+#include "tools/sim/message_board.h"
 #include "rung/program.h"
 
 namespace rung::console {

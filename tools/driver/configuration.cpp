@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/similar.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 
 namespace rung::driver {
 namespace {

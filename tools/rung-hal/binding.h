@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/rung-hal/map_file.h"
 
 namespace rung::hal {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "rtlib/host/program_info.h"
-#include "rtlib/nc/model/refuse.h"
+#include "tools/sim/refuse.h"
 
 namespace rung::hal {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "rtlib/host/instance.h"
 #include "rtlib/host/retained_memory.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/rung-hal/aux_functions.h"
 #include "tools/rung-hal/binding.h"
 #include "tools/rung-hal/map_file.h"
@@ -54,7 +54,7 @@ private:
 
   void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
   void onFault(host::Instance& instance) override { nc_->onFault(instance); }
-  // No CNC here can answer: the program learns it at once (rtlib/nc/model/refuse.h).
+  // No CNC here can answer: the program learns it at once (tools/sim/refuse.h).
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
 
   bool start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings);

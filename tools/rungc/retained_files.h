@@ -5,7 +5,7 @@
 #include <string>
 
 #include "rtlib/host/retained_memory.h"
-#include "rtlib/nc/model/retained_tables.h"
+#include "tools/sim/retained_tables.h"
 #include "tools/scenario/session.h"
 
 namespace rung::rungc {

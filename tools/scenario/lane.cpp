@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "rtlib/nc/model/refuse.h"
+#include "tools/sim/refuse.h"
 #include "tools/driver/engines.h"
 
 namespace rung::scenario {

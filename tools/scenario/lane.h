@@ -7,7 +7,7 @@
 
 #include "rtlib/host/engine.h"
 #include "rtlib/host/instance.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/scenario/requests.h"
 
 namespace rung::scenario {

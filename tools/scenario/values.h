@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {

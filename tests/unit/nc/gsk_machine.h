@@ -2,7 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace rung::nc::test {

@@ -3,11 +3,11 @@
 
 #include <random>
 
-#include "rtlib/nc/model/nct/axes.h"
-#include "rtlib/nc/model/nct/channels.h"
-#include "rtlib/nc/model/nct/macros.h"
-#include "rtlib/nc/model/nct/spindles.h"
-#include "rtlib/nc/model/nct/tool_management.h"
+#include "tools/sim/nct/axes.h"
+#include "tools/sim/nct/channels.h"
+#include "tools/sim/nct/macros.h"
+#include "tools/sim/nct/spindles.h"
+#include "tools/sim/nct/tool_management.h"
 
 namespace rung::nc::nct {
 namespace {

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "rtlib/nc/model/retained_tables.h"
+#include "tools/sim/retained_tables.h"
 #include "rtlib/nc/nct/parameters.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "tests/unit/nc/nct_machine.h"

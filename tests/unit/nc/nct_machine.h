@@ -3,7 +3,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "tests/unit/rtlib/test_program.h"
 

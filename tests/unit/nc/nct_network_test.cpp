@@ -2,7 +2,7 @@
 // time, partners outside of the model.
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/model/nct/socket.h"
+#include "tools/sim/nct/socket.h"
 #include "tests/unit/nc/nct_machine.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <random>
 
-#include "rtlib/nc/model/nct/channels.h"
-#include "rtlib/nc/model/nct/pallet_management.h"
+#include "tools/sim/nct/channels.h"
+#include "tools/sim/nct/pallet_management.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nc/nct_block.h"
 

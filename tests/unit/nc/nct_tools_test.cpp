@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "rtlib/nc/model/nct/tool_management.h"
+#include "tools/sim/nct/tool_management.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nc/nct_block.h"
 

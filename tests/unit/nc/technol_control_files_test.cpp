@@ -6,8 +6,8 @@
 #include <fstream>
 #include <memory>
 
-#include "rtlib/nc/model/nc_model.h"
-#include "rtlib/nc/model/technol/control_files.h"
+#include "tools/sim/nc_model.h"
+#include "tools/sim/technol/control_files.h"
 
 namespace rung::nc::technol {
 namespace {

@@ -1,8 +1,8 @@
 // Identifiers of logical inputs and outputs, and the elements of modules that are not simulated.
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/model/technol/identifier.h"
-#include "rtlib/nc/model/technol/module_cells.h"
+#include "tools/sim/technol/identifier.h"
+#include "tools/sim/technol/module_cells.h"
 
 namespace rung::nc::technol {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "rtlib/nc/model/message_board.h"
+#include "tools/sim/message_board.h"
 #include "rtlib/nc/technol/messages.h"
 
 namespace rung::nc {

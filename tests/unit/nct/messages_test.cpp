@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/diag_render.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/driver/engines.h"
 
 namespace rung::nct::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/diag_render.h"
-#include "rtlib/nc/model/nc_model.h"
+#include "tools/sim/nc_model.h"
 #include "tools/driver/engines.h"
 
 namespace rung {

@@ -1,0 +1,58 @@
+// PLC axis control of the simulated CNC: the groups A-H take blocks from G, buffer and execute them on the axes that
+// parameter 7010 gives them and EAX hands over (man. §9.2, l.7566-8289).
+#pragma once
+#include <array>
+#include <optional>
+
+#include "rtlib/nc/gsk/axis_commands.h"
+#include "tools/sim/gsk/machine.h"
+
+namespace rung::nc::gsk {
+
+class PlcAxes {
+public:
+  void step(const SignalsIo& io, Machine& machine, bool emergencyStop);
+
+private:
+  struct Command {
+    uint8_t code = 0;
+    bool noStop = false; // EMSBK
+    uint16_t data1 = 0;
+    int32_t data2 = 0;
+  };
+  enum class AuxPhase : uint8_t { None, Code, Strobe, EfinFalls };
+  // What runs and the two buffers before it (l.7675-7686).
+  struct Group {
+    std::optional<Command> executing, waiting, input;
+    uint8_t axes = 0; // bit n-1
+    bool ebsy = false;
+    bool begun = false;
+    bool blockStop = false; // ESBK holds the next block
+    bool alarm = false;
+    bool pausing = false;
+    std::array<int64_t, kAxes> target = {};
+    double dwellMs = 0;
+    AuxPhase aux = AuxPhase::None;
+    bool busy() const { return executing || waiting || input; }
+  };
+  struct Step; // a group's part of a slot
+
+  void assign(const SignalsIo& io, Machine& machine);
+  void clear(Group& group, const AxisGroup& place, const SignalsIo& io, Machine& machine);
+  void take(Step& step);
+  void shift(Step& step);
+  void execute(Step& step);
+  void begin(Step& step);
+  bool runMotion(Step& step);
+  bool runContinuous(Step& step);
+  bool runAuxiliary(Step& step);
+  double speed(const Step& step, uint32_t axis) const;
+  double cuttingOverride(const Step& step) const;
+  void writeGroup(Step& step);
+  void writeCommon(const SignalsIo& io, const Machine& machine);
+
+  std::array<Group, kAxisGroups> groups_;
+  bool selected_ = false; // *EAXSL of the last slot
+};
+
+} // namespace rung::nc::gsk

@@ -1,0 +1,276 @@
+// The CNC beside a GSK25i PLC: messages of the A area, window requests, machine positions, and in simulated mode the
+// CNC itself (gsk/simulator.h). Presets of timers and counters are the compiler's configuration: initial contents of T
+// and C.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <deque>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/config_key.h"
+#include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/gsk/window_functions.h"
+#include "tools/sim/gsk/simulator.h"
+#include "tools/sim/nc_model.h"
+#include "tools/sim/refuse.h"
+
+namespace rung::nc {
+namespace {
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// "tmr.3" with prefix "tmr." gives 3.
+std::optional<uint32_t> numberBehind(std::string_view key, std::string_view prefix) {
+  if (!key.starts_with(prefix)) return std::nullopt;
+  const std::string_view digits = key.substr(prefix.size());
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+// The events and their keys.
+struct EventKeys {
+  std::string_view event;
+  std::array<std::string_view, 2> keys;
+};
+constexpr EventKeys kEvents[] = {{"program", {"blocks", "block"}},
+                                 {"mdi", {"blocks", "block"}},
+                                 {"reset", {}},
+                                 {"handwheel", {"pulses", "wheel"}},
+                                 {"alarm", {"number"}}};
+
+const NcArgument* find(const std::vector<NcArgument>& keys, std::string_view key) {
+  for (const NcArgument& argument : keys)
+    if (argument.key == key) return &argument;
+  return nullptr;
+}
+
+class GskModel final : public NcModel {
+public:
+  std::string config(std::string_view key, std::string_view value) override;
+
+  // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
+  void powerOn(host::Instance& instance, PowerOn kind) override {
+    const std::vector<uint8_t> machine = readArea(instance, "X");
+    const std::vector<uint8_t> cnc = readArea(instance, "F");
+    NcModel::powerOn(instance, kind);
+    writeArea(instance, "X", machine);
+    if (!simulated_) writeArea(instance, "F", cnc);
+    simulator_.powerOn(kind == PowerOn::Warm);
+    waiting_.clear();
+  }
+
+  // Slot by slot, to the end of the cycle of Level 2.
+  void scan(host::Instance& instance) override {
+    do slot(instance);
+    while (!instance.atListStart() && !instance.faulted());
+  }
+  void slot(host::Instance& instance) override {
+    beforeSlot(instance);
+    NcModel::slot(instance);
+    takeRequests(instance);
+  }
+  void fast(host::Instance& instance) override {
+    beforeSlot(instance);
+    NcModel::fast(instance);
+    takeRequests(instance);
+  }
+
+  // A slice is a slot.
+  void betweenSlices(host::Instance& instance) override {
+    takeRequests(instance);
+    beforeSlot(instance);
+  }
+
+  // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
+  // function is not provided (inventory §18).
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    const auto window = windowRequest(instance, request);
+    if (!window) return false;
+    const gsk::WindowFunction* function = gsk::findWindowFunction(window->function);
+    if (function == nullptr || function->speed != gsk::WindowSpeed::High) return false;
+    reply = replyOf(request, window->write,
+                    simulated_ ? simulator_.answer(*window, gsk::SignalsIo(instance))
+                               : gsk::WindowAnswer{gsk::kWindowNotProvided, 0});
+    return true;
+  }
+
+  std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override;
+
+  std::string setQuantity(std::string_view name, double value) override {
+    if (simulated_) return simulator_.setQuantity(name, value);
+    const auto axis = numberBehind(name, "MPOS.");
+    if (!axis || *axis < 1 || *axis > gsk::kAxes)
+      return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
+    return NcModel::setQuantity(name, value);
+  }
+  std::optional<double> quantity(std::string_view name) const override {
+    return simulated_ ? simulator_.quantity(name) : NcModel::quantity(name);
+  }
+
+  // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
+  std::vector<ShownMessage> messages(const host::Instance& instance) const override {
+    std::vector<ShownMessage> shown = board_.shown();
+    const uint32_t area = host::findSpace(instance.program(), "A");
+    if (area == RUNG_NONE) return shown;
+    for (uint32_t bit = 0; bit < instance.program().spaces[area].byte_count * 8; ++bit) {
+      if (instance.read(host::bitRef(area, bit / 8, bit % 8)) == 0) continue;
+      const uint32_t message = bit + 1;
+      shown.push_back({message, 0, 0, 0, false, std::string(host::messageText(instance.program(), message))});
+    }
+    return shown;
+  }
+
+protected:
+  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override {
+    const Signal* found = findSignal(gskSignals(), name);
+    if (found == nullptr) return std::nullopt;
+    const uint32_t space = host::findSpace(instance.program(), found->area);
+    if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
+    const uint32_t bytes = elementBytes(found->type);
+    if (bytes == 0) return std::nullopt;
+    return host::intRef(space, found->byteOffset, bytes * 8);
+  }
+
+private:
+  struct Waiting {
+    rt::ServiceRequest request;
+    uint32_t slots = 0;
+  };
+
+  void beforeSlot(host::Instance& instance) {
+    if (simulated_ && !instance.faulted()) {
+      simulator_.step(gsk::SignalsIo(instance));
+      answerLowSpeed(instance);
+    }
+    writePositions(instance);
+  }
+
+  // What PSGNL and PSGN2 read: 8 positions of 4 bytes in 0.001 mm.
+  void writePositions(host::Instance& instance) const {
+    const uint32_t space = host::findSpace(instance.program(), "@MPOS");
+    if (space == RUNG_NONE) return;
+    for (uint32_t axis = 0; axis < gsk::kAxes; ++axis) {
+      const double position = quantity("MPOS." + std::to_string(axis + 1)).value_or(0);
+      instance.memory().write(space, 4 * axis, 4, static_cast<uint64_t>(std::llround(position)));
+    }
+  }
+
+  void takeRequests(host::Instance& instance) {
+    rt::ServiceRequest request;
+    while (simulated_ && instance.services().take(request)) waiting_.push_back({request, gsk::kLowSpeedSlots});
+  }
+
+  void answerLowSpeed(host::Instance& instance) {
+    for (Waiting& waiting : waiting_) --waiting.slots;
+    while (!waiting_.empty() && waiting_.front().slots == 0) {
+      const rt::ServiceRequest& next = waiting_.front().request;
+      const auto window = windowRequest(instance, next);
+      instance.services().complete(
+          window ? replyOf(next, window->write, simulator_.answer(*window, gsk::SignalsIo(instance)))
+                 : refuse(instance.program(), next));
+      waiting_.pop_front();
+    }
+  }
+
+  // `windr function length number attribute`, `windw … data`.
+  static std::optional<gsk::WindowRequest> windowRequest(const host::Instance& instance,
+                                                         const rt::ServiceRequest& request) {
+    const std::string_view name = host::serviceName(instance.program(), request.service);
+    gsk::WindowRequest window;
+    window.write = name.starts_with("windw");
+    if (!window.write && !name.starts_with("windr")) return std::nullopt;
+    window.function = static_cast<uint32_t>(request.args[0]);
+    window.length = static_cast<uint32_t>(request.args[1]);
+    window.number = static_cast<uint32_t>(request.args[2]);
+    window.attribute = static_cast<uint32_t>(request.args[3]);
+    window.data = window.write ? request.args[4] : 0;
+    return window;
+  }
+
+  static rt::ServiceReply replyOf(const rt::ServiceRequest& request, bool write, const gsk::WindowAnswer& answer) {
+    rt::ServiceReply reply{.ticket = request.ticket, .resultCount = write ? 1u : 2u};
+    reply.results[0] = answer.end;
+    reply.results[1] = answer.data;
+    return reply;
+  }
+
+  static std::vector<uint8_t> readArea(const host::Instance& instance, const char* area) {
+    const uint32_t space = host::findSpace(instance.program(), area);
+    std::vector<uint8_t> bytes(space == RUNG_NONE ? 0 : instance.program().spaces[space].byte_count);
+    for (uint32_t i = 0; i < bytes.size(); ++i) bytes[i] = instance.memory().readByte(space, i);
+    return bytes;
+  }
+  static void writeArea(host::Instance& instance, const char* area, const std::vector<uint8_t>& bytes) {
+    const uint32_t space = host::findSpace(instance.program(), area);
+    for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
+  }
+
+  bool simulated_ = false;
+  gsk::Simulator simulator_;
+  std::deque<Waiting> waiting_; // low-speed window requests
+};
+
+std::string GskModel::config(std::string_view key, std::string_view value) {
+  const ConfigKey* row = findConfigKey(gskConfigKeys(), key);
+  if (row == nullptr || row->reader != ConfigReader::Control) return NcModel::config(key, value);
+  if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
+  if (key == "axes") return simulator_.setAxes(value);
+  if (key == "nc") simulated_ = value == "simulated";
+  if (key == "overtravel") simulator_.setLimitSwitches(value == "on");
+  if (key == "encoders") simulator_.setAbsoluteEncoders(value == "absolute");
+  if (key == "protect") simulator_.setProtected(value == "on");
+  if (key == "jog") simulator_.setJogSpeed(number(value).value_or(0));
+  if (!key.starts_with("param.")) return {};
+  // param.N, or param.N.A for axis A alone.
+  const size_t dot = key.find('.', 6);
+  const auto parameter = numberBehind(key.substr(0, dot), "param.");
+  const uint32_t axis = dot == std::string_view::npos ? 1 : numberBehind(key.substr(dot), ".").value_or(0);
+  if (!parameter) return std::string(key) + ": a parameter has a number, param.7010";
+  if (axis < 1 || axis > gsk::kAxes) return std::string(key) + ": there are axes 1 to 8";
+  simulator_.setParameter(*parameter, axis - 1, number(value).value_or(0));
+  return {};
+}
+
+std::string GskModel::event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) {
+  const auto known = std::ranges::find(kEvents, name, &EventKeys::event);
+  if (known == std::end(kEvents)) return NcModel::event(instance, name, keys);
+  if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
+  for (const NcArgument& key : keys)
+    if (std::ranges::find(known->keys, key.key) == known->keys.end())
+      return "event " + std::string(name) + " does not know '" + key.key + "'";
+  if (name == "program" || name == "mdi") {
+    const NcArgument* blocks = find(keys, "blocks") != nullptr ? find(keys, "blocks") : find(keys, "block");
+    if (blocks == nullptr || !blocks->isText) return "event " + std::string(name) + " takes blocks=\"...\"";
+    return simulator_.loadProgram(blocks->text, name == "mdi");
+  }
+  if (name == "reset") {
+    simulator_.pressReset();
+    return {};
+  }
+  if (name == "alarm") {
+    const NcArgument* alarm = find(keys, "number");
+    if (alarm == nullptr || alarm->integer <= 0) return "event alarm takes number=N";
+    simulator_.raiseAlarm(static_cast<uint32_t>(alarm->integer));
+    return {};
+  }
+  const NcArgument* pulses = find(keys, "pulses");
+  const NcArgument* wheel = find(keys, "wheel");
+  const int64_t which = wheel == nullptr ? 1 : wheel->integer;
+  if (pulses == nullptr || which < 1 || which > 2) return "event handwheel takes pulses=N and wheel=1 or wheel=2";
+  simulator_.turnWheel(static_cast<uint32_t>(which), pulses->integer);
+  return {};
+}
+
+} // namespace
+
+std::unique_ptr<NcModel> makeGskModel() { return std::make_unique<GskModel>(); }
+
+} // namespace rung::nc

@@ -1,0 +1,188 @@
+// The messages on the screen (see messages.h).
+#include "tools/sim/nct/messages.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "rtlib/host/program_info.h"
+#include "tools/sim/nct/topic.h"
+
+namespace rung::nc::nct {
+namespace {
+
+uint32_t codeOf(const rung_message& message) {
+  return messageCode(message.number, static_cast<uint32_t>(message.channel), static_cast<uint32_t>(message.index));
+}
+
+// Room for a text with its numbers.
+size_t roomFor(std::string_view text) {
+  constexpr size_t kNumber = 340; // the longest one
+  return text.size() + kNumber * static_cast<size_t>(std::ranges::count(text, '{'));
+}
+
+std::string filled(const rung_program& program, const rung_message& message) {
+  const std::string_view text = host::messageText(program, message.number);
+  std::string out(roomFor(text), '\0');
+  out.resize(fillText(text, message, out));
+  return out;
+}
+
+} // namespace
+
+std::string logLine(const rung_program& program, const rung_message& message) {
+  std::string out(16 + roomFor(host::messageText(program, message.number)), '\0');
+  out.resize(describeMessage(program, message, out));
+  return out;
+}
+
+// ---- cells -------------------------------------------------------------------------------------------------------
+
+void Messages::powerOn(host::Instance& instance) {
+  cells_ = {};
+  const uint32_t space = host::findSpace(instance.program(), kMessageSpace);
+  if (space != RUNG_NONE) {
+    const rung_space& shown = instance.program().spaces[space];
+    if (shown.range_count == 1 && shown.ranges[0].repr == RUNG_REPR_PACKED)
+      cells_ = instance.block().subspan(shown.ranges[0].offset, shown.byte_count);
+  }
+  // More than one a box only between a loss in the queue and its discovery.
+  const size_t room = cells() + rt::kMessageCapacity;
+  list_.clear();
+  list_.reserve(room);
+  cleared_.clear();
+  cleared_.reserve(room);
+  sorted_.reserve(room);
+  lost_ = 0;
+  cancel_ = pressed_ = ownSignal_ = false;
+  changed_ = true;
+}
+
+uint32_t Messages::cell(uint32_t box, uint32_t word) const {
+  uint32_t value = 0;
+  std::memcpy(&value, cells_.data() + (box * kMessageWords + word) * 4, sizeof value);
+  return value;
+}
+
+void Messages::setShown(uint32_t box, bool shown) {
+  const uint32_t value = shown ? 1 : 0;
+  std::memcpy(cells_.data() + (box * kMessageWords + kShownWord) * 4, &value, sizeof value);
+}
+
+// ---- list --------------------------------------------------------------------------------------------------------
+
+bool Messages::isShown(uint32_t code) const {
+  return std::ranges::any_of(list_, [&](const Entry& entry) { return entry.code == code; });
+}
+
+void Messages::remove(uint32_t code) {
+  std::erase_if(list_, [&](const Entry& entry) { return entry.code == code; });
+}
+
+void Messages::registered(uint32_t code) {
+  for (uint32_t box = 0; box < cells(); ++box)
+    if (cell(box, kWantedWord) == (code | kLogCell)) setShown(box, true);
+}
+
+void Messages::accept(const rung_message& message) {
+  const uint32_t code = codeOf(message);
+  changed_ = true;
+  switch (static_cast<rung_message_op>(message.op)) {
+  case RUNG_MESSAGE_CLEAR: return remove(code);
+  case RUNG_MESSAGE_LOG: return registered(code);
+  case RUNG_MESSAGE_SHOW:
+  case RUNG_MESSAGE_SHOW_LOG: break;
+  }
+  remove(code);
+  if (list_.size() == list_.capacity()) dropUnwanted();
+  if (list_.size() < list_.capacity()) list_.push_back({.code = code, .clearing = false, .message = message});
+}
+
+// Where the program could not report the end of a message: no box wants it any more.
+void Messages::dropUnwanted() {
+  std::erase_if(list_, [&](const Entry& entry) {
+    for (uint32_t box = 0; box < cells(); ++box)
+      if (cell(box, kWantedWord) == entry.code) return false;
+    return true;
+  });
+  changed_ = true;
+}
+
+std::vector<ShownMessage> Messages::shown(const rung_program& program) const {
+  std::vector<ShownMessage> out;
+  for (const Entry& entry : list_) {
+    const rung_message& m = entry.message;
+    out.push_back({m.number, m.channel, m.index, m.value, m.real != 0, filled(program, m)});
+  }
+  return out;
+}
+
+// ---- operator ----------------------------------------------------------------------------------------------------
+
+std::string Messages::cancel(const std::vector<NcArgument>& keys) {
+  if (std::string wrong = unknownKey("cancel", keys, {"number", "channel", "index", "all"}); !wrong.empty())
+    return wrong;
+  if (findKey(keys, "number") != nullptr) {
+    const uint32_t code = messageCode(static_cast<uint32_t>(integerKey(keys, "number", 0)),
+                                      static_cast<uint32_t>(integerKey(keys, "channel", 0)),
+                                      static_cast<uint32_t>(integerKey(keys, "index", 0)));
+    if (!isShown(code)) return "event cancel: this message is not displayed";
+    cleared_.push_back(code);
+  } else if (integerKey(keys, "all", 0) != 0) {
+    for (const Entry& entry : list_) cleared_.push_back(entry.code);
+  } else if (!list_.empty()) {
+    cleared_.push_back(list_.back().code);
+  }
+  cancel_ = true;
+  return {};
+}
+
+// N_CLRMSG is 1 for the one cycle after a button; set by somebody else it clears the message on top with its rising
+// edge.
+void Messages::press(const SignalMemory& signals, bool inCycle) {
+  const bool pressed = signals.get(clear_);
+  if (pressed && !pressed_ && !ownSignal_ && !list_.empty()) {
+    if (inCycle)
+      list_.back().clearing = true;
+    else
+      cleared_.push_back(list_.back().code);
+  }
+  pressed_ = pressed;
+}
+
+// ---- time --------------------------------------------------------------------------------------------------------
+
+void Messages::timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost) {
+  if (slice == Slice::First) {
+    endCycle();
+    if (ownSignal_ || cancel_) signals.set(clear_, cancel_);
+    ownSignal_ = cancel_;
+    cancel_ = false;
+    for (Entry& entry : list_) entry.clearing = std::ranges::find(cleared_, entry.code) != cleared_.end();
+    cleared_.clear();
+  }
+  press(signals, slice != Slice::Alone);
+  if (lost != lost_) dropUnwanted();
+  lost_ = lost;
+  report(signals);
+}
+
+void Messages::endCycle() {
+  if (std::erase_if(list_, [](const Entry& entry) { return entry.clearing; }) != 0) changed_ = true;
+}
+
+void Messages::report(const SignalMemory& signals) {
+  signals.set(any_, !list_.empty());
+  signals.set(plc_, !list_.empty());
+  signals.set(active_, 0, list_.empty() ? 0 : static_cast<int32_t>(list_.back().code));
+  if (!changed_) return;
+  changed_ = false;
+  sorted_.clear();
+  for (const Entry& entry : list_) sorted_.push_back(entry.code);
+  std::ranges::sort(sorted_);
+  for (uint32_t box = 0; box < cells(); ++box) {
+    const uint32_t wanted = cell(box, kWantedWord);
+    if (wanted != 0 && (wanted & kLogCell) == 0) setShown(box, std::ranges::binary_search(sorted_, wanted));
+  }
+}
+
+} // namespace rung::nc::nct

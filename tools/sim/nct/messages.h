@@ -1,0 +1,69 @@
+// The messages of a program on the screen of the NCT control (man. §6.13, N_CLRMSG l.7987-8013): a list in which the
+// last one sent is on top. It takes what the program sent, deletes what the operator clears, and reports to the program
+// by the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG what is displayed.
+//
+// A code is displayed once: sent again it comes to the top with its new number. A message that the operator clears goes
+// at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870); it comes back
+// with the next rising edge only. Nothing here allocates after powerOn, but `shown`.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/sim/nc_model.h"
+#include "tools/sim/nct/signal_memory.h"
+#include "rtlib/nc/nct/messages.h"
+
+namespace rung::nc::nct {
+
+class Messages {
+public:
+  // The program's memory has been started.
+  void powerOn(host::Instance& instance);
+  // What the program sent.
+  void accept(const rung_message& message);
+  // The operator: CANCEL (the message on top), the selected message, or all of them. "" or what is wrong.
+  std::string cancel(const std::vector<NcArgument>& keys);
+  // Before a time slice. `lost` counts messages that found no room in the program's queue.
+  enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
+  void timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost);
+  // After a PLC cycle; the first time slice of the next one makes up for it where nobody called.
+  void endCycle();
+
+  std::vector<ShownMessage> shown(const rung_program& program) const;
+
+private:
+  struct Entry {
+    uint32_t code;
+    bool clearing; // goes at the end of this cycle
+    rung_message message;
+  };
+  uint32_t cells() const { return static_cast<uint32_t>(cells_.size() / (kMessageWords * 4)); }
+  uint32_t cell(uint32_t box, uint32_t word) const;
+  void setShown(uint32_t box, bool shown);
+  bool isShown(uint32_t code) const;
+  void remove(uint32_t code);
+  void registered(uint32_t code);
+  void dropUnwanted();
+  void report(const SignalMemory& signals);
+  void press(const SignalMemory& signals, bool inCycle);
+
+  BitSignal clear_{"N_CLRMSG"};
+  BitSignal any_{"N_MSGA"};
+  BitSignal plc_{"N_MSG0"};
+  WordSignal active_{"N_ACTMSG"};
+  std::span<uint8_t> cells_;      // the space @SHOWN
+  std::vector<Entry> list_;       // the top is the last one; room for a message of each box
+  std::vector<uint32_t> cleared_; // by the operator since the last cycle
+  std::vector<uint32_t> sorted_;  // scratch: the codes of the list
+  uint32_t lost_ = 0;
+  bool cancel_ = false;    // the operator pressed a button since the last cycle
+  bool pressed_ = false;   // N_CLRMSG as it was in the last time slice
+  bool ownSignal_ = false; // N_CLRMSG is 1 because of that button
+  bool changed_ = true;
+};
+
+// The 8 digits of the code and the text with its number.
+std::string logLine(const rung_program& program, const rung_message& message);
+
+} // namespace rung::nc::nct

@@ -1,0 +1,63 @@
+// The network of the PLC program: MW 60, 61, MR 62, MW 63 (man. 6.22), UDP and TCP through real sockets that are only
+// looked at between two scans and never wait.
+//
+// `config network isolated` (default): every control has an address of its own on the loopback, so that any number of
+// them run at a time with the same ports; whatever target a program names is the simulated device. `config network
+// loopback`: the control is 127.0.0.1 and reaches other programs on 127.0.0.0/8 by their addresses and ports.
+#pragma once
+#include <array>
+
+#include "tools/sim/nct/network_device.h"
+
+namespace rung::nc::nct {
+
+class Network final : public Topic {
+public:
+  using Topic::Topic;
+
+  bool serves(bool write, uint32_t function) const override;
+  std::optional<int32_t> service(uint32_t function, Block& block) override;
+  Handled config(std::string_view key, std::string_view value) override;
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
+  std::optional<double> quantity(std::string_view name) const override;
+  void powerOn(PowerOn kind) override;
+  void cycle() override;
+  void dropRequests() override { close(); }
+
+private:
+  enum class Protocol : uint8_t { None, Udp, Server, Client };
+  using Buffer = std::array<uint8_t, kMostNetworkWords * 4>;
+
+  std::optional<int32_t> open(Block& block);
+  std::optional<int32_t> connecting(Block& block);
+  int32_t receive(Block& block);
+  int32_t receiveFrom(Block& block, Socket& socket);
+  std::optional<int32_t> send(Block& block);
+  int32_t failed(Block& block, int32_t error);
+  void close();
+  void claimAddress();
+  void acceptClient();
+  bool flush();
+  Endpoint own() const { return {ownAddress_, port_}; }
+  Endpoint reachable(Endpoint target) const;
+  bool isolated() const { return isolated_; }
+
+  bool isolated_ = true;
+  Socket guard_; // its port, unique on this machine, makes the addresses unique
+  uint32_t ownAddress_ = 0;
+  uint32_t deviceAddress_ = 0;
+
+  Protocol protocol_ = Protocol::None; // of the connection
+  bool connecting_ = false;
+  int64_t connectingSince_ = 0;
+  Socket listener_;
+  Socket socket_;
+  uint32_t target_ = 0; // as the program wrote it
+  uint16_t port_ = 0;
+  Buffer unsent_{}; // of a stream that had no room
+  size_t unsentBytes_ = 0;
+  size_t unsentAt_ = 0;
+  mutable NetworkDevice device_;
+};
+
+} // namespace rung::nc::nct

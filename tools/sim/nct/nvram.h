@@ -1,0 +1,28 @@
+// The 1024 non-volatile double words of controls that do not keep PLCNVRAM by themselves: MR 10 and MW 11 (man. 6.19).
+#pragma once
+#include <array>
+
+#include "tools/sim/nct/topic.h"
+
+namespace rung::nc::nct {
+
+inline constexpr int32_t kNvramWords = 1024;
+
+class Nvram final : public Topic {
+public:
+  explicit Nvram(Control& control);
+
+  bool serves(bool write, uint32_t function) const override;
+  std::optional<int32_t> service(uint32_t function, Block& block) override;
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
+  std::optional<double> quantity(std::string_view name) const override;
+  Handled setQuantity(std::string_view name, double value) override;
+  void powerOn(PowerOn kind) override;
+  void keep(Kept& kept) override;
+
+private:
+  std::array<int32_t, kNvramWords> words_{};
+  uint32_t checksum_ = 0;
+};
+
+} // namespace rung::nc::nct

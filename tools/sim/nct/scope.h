@@ -1,0 +1,24 @@
+// The internal quantities of the control that SCP queries (man. 6.17).
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "tools/sim/nct/topic.h"
+
+namespace rung::nc::nct {
+
+class Scope {
+public:
+  explicit Scope(const Control& control);
+
+  // `symbol` is an index in scopeSymbols(). Nothing: there is no such symbol, or its parameters are outside its limits.
+  std::optional<double> read(int64_t symbol, int64_t parameter1, int64_t parameter2) const;
+
+  using Read = double (*)(const Control& control, uint32_t parameter1, uint32_t parameter2);
+
+private:
+  const Control& control_;
+  std::vector<Read> reads_; // by symbol
+};
+
+} // namespace rung::nc::nct

@@ -1,0 +1,96 @@
+// The simulated NCT control beside a PLC program (`config nc simulated`): it holds the topics, gives each request of MR
+// and MW to the one that serves it, between two scans, and answers MACR, MACW, SCP and MOVCMND within the cycle.
+// A new topic is a member here and an entry of topics_, in the order in which they work.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "tools/sim/nct/axes.h"
+#include "tools/sim/nct/channels.h"
+#include "tools/sim/nct/drives.h"
+#include "tools/sim/nct/machine_on.h"
+#include "tools/sim/nct/macros.h"
+#include "tools/sim/nct/mailbox.h"
+#include "tools/sim/nct/network.h"
+#include "tools/sim/nct/nvram.h"
+#include "tools/sim/nct/pallet_management.h"
+#include "tools/sim/nct/parameters.h"
+#include "tools/sim/nct/program_selection.h"
+#include "tools/sim/nct/scope.h"
+#include "tools/sim/nct/screen.h"
+#include "tools/sim/nct/spindles.h"
+#include "tools/sim/nct/tool_management.h"
+#include "tools/sim/nct/wiring.h"
+
+namespace rung::nc::nct {
+
+class Simulator {
+public:
+  Simulator();
+
+  // Nothing: no topic knows it.
+  Handled config(std::string_view key, std::string_view value);
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys);
+  std::optional<double> quantity(std::string_view name) const;
+  Handled setQuantity(std::string_view name, double value);
+
+  // The program's memory has been started.
+  void powerOn(host::Instance& instance, PowerOn kind);
+  // Before every time slice; `cycle`: it is the first one of a PLC cycle.
+  void timeSlice(host::Instance& instance, bool cycle);
+  // MACR, MACW, SCP, MOVCMND; false: another service.
+  bool respond(const rt::ServiceRequest& request, rt::ServiceReply& reply);
+  // Takes the requests of MR and MW and answers what can be answered, oldest first; one that is still at work does not
+  // hold up the others.
+  void betweenScans(host::Instance& instance);
+  void setRealTime() { control_.realTime = true; }
+
+  void keep(Kept& kept);
+  // The tables of a control as it is delivered, with the configuration.
+  void deliver();
+
+private:
+  enum class Service : uint8_t { Other, Mr, Mw, Macr, Macw, Scp, Movcmnd };
+  void attach(host::Instance& instance);
+  void findServices(const rung_program& program);
+  Service serviceOf(const rt::ServiceRequest& request) const;
+  // The execution code of a request; nothing: still at work.
+  std::optional<int32_t> execute(const rt::ServiceRequest& request);
+  // The services of one cycle; nothing: not now.
+  enum class Outcome : uint8_t { Done, Refused, Later };
+  Outcome answer(Service service, const int64_t* args, rt::ServiceReply& reply);
+
+  Control links();
+
+  Control control_ = links(); // before all topics: they use it when they are made
+  Parameters parameters_{control_};
+  Nvram nvram_{control_};
+  MachineOn machineOn_{control_};
+  Wiring wiring_{control_};
+  Spindles spindles_{control_};
+  Axes axes_{control_};
+  Macros macros_{control_};
+  Screen screen_{control_};
+  Drives drives_{control_};
+  Scope scope_{control_};
+  Network network_{control_};
+  Mailbox mailbox_{control_};
+  Channels channels_{control_};
+  ProgramSelection programSelection_{control_};
+  ToolManagement tools_{control_};
+  PalletManagement pallets_{control_};
+  std::vector<Topic*> topics_; // in the order in which they work
+
+  std::vector<Service> services_; // by rung_program::services
+  std::span<uint8_t> blocks_;     // the space @MB
+  struct Waiting {
+    rt::ServiceRequest request;
+    int64_t sinceUs = 0;
+  };
+  std::vector<Waiting> waiting_; // oldest first; room for all that can be pending
+  uint32_t waitingCount_ = 0;
+  int64_t sliceUs_ = 0;                        // the clock at the last time slice
+  std::array<uint32_t, kBlockStride> words_{}; // the block that is being worked on
+};
+
+} // namespace rung::nc::nct

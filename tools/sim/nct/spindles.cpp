@@ -1,0 +1,299 @@
+// The spindles (see spindles.h).
+#include "tools/sim/nct/spindles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rung::nc::nct {
+namespace {
+
+constexpr double kNear = 1e-9;
+constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
+
+} // namespace
+
+Spindles::Spindles(Control& control) : Topic(control) { number(4); }
+
+void Spindles::number(uint32_t count) {
+  for (uint32_t i = 0; i < kSpindles; ++i) {
+    control().parameters->setInitial(601, i, i < count ? kFirstDrive + i : 0);
+    control().parameters->setInitial(603, i, i < count ? kFirstDrive + i : 0);
+    control().parameters->setInitial(607, i, i < count ? 1 : 0);
+  }
+}
+
+bool Spindles::exists(uint32_t spindle) const {
+  return spindle < kSpindles && control().parameters->bit(parameters_.config, 0, spindle) &&
+         !spindles_[spindle].detached;
+}
+
+uint32_t Spindles::master(uint32_t spindle) const {
+  const int32_t index = control().signals.get(signals_.master, spindle);
+  return index >= 0 && index < static_cast<int32_t>(kSpindles) ? static_cast<uint32_t>(index) : spindle;
+}
+
+double Spindles::fraction(uint32_t spindle) const {
+  const double position = spindles_[spindle].position;
+  return position - std::floor(position);
+}
+
+double Spindles::synchronousError(uint32_t spindle) const {
+  if (!spindles_[spindle].synchronised) return 0;
+  const double shift = get(signals_.shiftPhase, spindle) ? real(parameters_.phaseShift, spindle) / 360 : 0;
+  const double direction = get(signals_.negative, spindle) ? -1 : 1;
+  return std::remainder(spindles_[spindle].position - direction * spindles_[master(spindle)].position - shift, 1.0);
+}
+
+// SP_RNG 11 to 18 selects the parameters (l.9249-9255); another code is range 1.
+uint32_t Spindles::gear(uint32_t spindle) const {
+  const int32_t range = control().signals.get(signals_.range, spindle);
+  return range >= 11 && range <= 18 ? static_cast<uint32_t>(range) - 11 : 0;
+}
+
+Spindles::Order Spindles::orderOf(uint32_t spindle) const {
+  if (get(signals_.start, spindle)) return Order::Rotate;
+  if (get(signals_.orient, spindle)) return Order::Orient;
+  if (get(signals_.synchronise, spindle)) return Order::Synchronise;
+  return get(signals_.closeLoop, spindle) ? Order::CloseLoop : Order::None;
+}
+
+// SN_NCOM's rules (l.9212-9220), but for constant surface speed, which the program copies to SP_PRG.
+double Spindles::rotationSpeed(uint32_t spindle) const {
+  const uint32_t range = gear(spindle);
+  const double direction = get(signals_.negative, spindle) ? -1 : 1;
+  if (get(signals_.jog, spindle)) return direction * real(parameters_.jogSpeed[range], spindle);
+  const SignalMemory& signals = control().signals;
+  const double programmed = std::abs(static_cast<double>(signals.get(signals_.programmed, spindle)));
+  const double speed = programmed * signals.get(signals_.speedOverride, spindle);
+  const double least = real(parameters_.minimum[range], spindle);
+  return direction * std::clamp(speed, least, std::max(least, real(parameters_.maximum[range], spindle)));
+}
+
+bool Spindles::ramp(uint32_t spindle, double target) {
+  Spindle& state = spindles_[spindle];
+  const uint32_t range = gear(spindle);
+  const bool up = std::abs(target) > std::abs(state.command) && target * state.command >= 0;
+  const double perSecond = real((up ? parameters_.rampUp : parameters_.rampDown)[range], spindle);
+  const double step = perSecond > 0 ? perSecond * seconds() : std::abs(target - state.command);
+  state.command += std::clamp(target - state.command, -step, step);
+  return std::abs(state.command - target) < kNear;
+}
+
+// ---- orders ------------------------------------------------------------------------------------------------------
+
+void Spindles::step(uint32_t spindle) {
+  Spindle& state = spindles_[spindle];
+  const Order order = get(signals_.enable, spindle) ? orderOf(spindle) : Order::None;
+  if (order != state.order) {
+    state.positioning = state.oriented = state.synchronised = false;
+    state.order = order;
+  }
+  state.wantsPositive = state.wantsNegative = false;
+  state.closed = false;
+  switch (order) {
+  case Order::None:
+  case Order::CloseLoop: state.set = 0; break;
+  case Order::Rotate: state.set = rotationSpeed(spindle); break;
+  case Order::Orient: return orient(spindle);
+  case Order::Synchronise: return synchronise(spindle);
+  }
+  const bool there = ramp(spindle, state.set);
+  state.closed = order == Order::CloseLoop && there;
+  turn(spindle);
+}
+
+// The way to the orientation position (N0684, l.8983-9000): on from a turning spindle in its direction, from standstill
+// in that of SP_NEG, or the shorter one.
+double Spindles::orientationWay(uint32_t spindle) const {
+  const Spindle& state = spindles_[spindle];
+  const double to = real(parameters_.gridShift, spindle) / 360;
+  double ahead = to - fraction(spindle);
+  ahead -= std::floor(ahead); // 0 to 1, positive
+  const bool turning = std::abs(state.command) > kNear;
+  const bool negative = turning ? state.command < 0 : get(signals_.negative, spindle);
+  const bool shorter = !turning && get(signals_.shortest, spindle) && state.referenced &&
+                       control().parameters->bit(parameters_.config, 4, spindle);
+  if (ahead < kNear || ahead > 1 - kNear) return 0;
+  if (shorter) return ahead <= 0.5 ? ahead : ahead - 1;
+  return negative ? ahead - 1 : ahead;
+}
+
+void Spindles::orient(uint32_t spindle) {
+  Spindle& state = spindles_[spindle];
+  const double speed = real(parameters_.orientSpeed[gear(spindle)], spindle);
+  if (!state.positioning && !state.oriented) {
+    const double direction = state.command < 0 ? -1 : 1;
+    const bool turning = std::abs(state.command) > kNear;
+    state.set = turning ? direction * speed : 0;
+    if (turning && !ramp(spindle, state.set)) return turn(spindle);
+    state.toGo = orientationWay(spindle);
+    state.positioning = true;
+  }
+  state.closed = true;
+  if (state.oriented) {
+    state.set = state.command = state.speed = 0;
+    return;
+  }
+  const bool positive = state.toGo > 0;
+  const double step = std::min(speed / 60 * seconds(), std::abs(state.toGo));
+  if (std::abs(state.toGo) > kNear) {
+    (positive ? state.wantsPositive : state.wantsNegative) = true;
+    state.command = state.speed = 0;
+    if (get(positive ? signals_.noPositive : signals_.noNegative, spindle) || get(signals_.noFeed, spindle)) return;
+    state.position += positive ? step : -step;
+    state.toGo += positive ? -step : step;
+    state.command = state.speed = positive ? speed : -speed;
+  }
+  if (std::abs(state.toGo) > kNear) return;
+  state.command = state.speed = state.set = 0;
+  state.oriented = state.referenced = true;
+  state.positioning = false;
+}
+
+// The slave takes the speed of its master (l.9026-9034), then its phase.
+void Spindles::synchronise(uint32_t spindle) {
+  Spindle& state = spindles_[spindle];
+  const uint32_t other = master(spindle);
+  if (other == spindle || !exists(other)) {
+    ramp(spindle, state.set = 0);
+    return turn(spindle);
+  }
+  Spindle& leader = spindles_[other];
+  leader.masterOf = true;
+  leader.closed = true;
+  state.closed = true;
+  const double direction = get(signals_.negative, spindle) ? -1 : 1;
+  state.set = direction * leader.command;
+  if (!state.synchronised) {
+    const bool there = ramp(spindle, state.set);
+    turn(spindle);
+    if (!there) return;
+    state.synchronised = true;
+    state.position -= synchronousError(spindle);
+    return;
+  }
+  state.command = state.set;
+  turn(spindle);
+  state.position -= synchronousError(spindle);
+}
+
+void Spindles::turn(uint32_t spindle) {
+  Spindle& state = spindles_[spindle];
+  state.speed = state.command + state.disturbance;
+  state.position += state.command / 60 * seconds();
+}
+
+// ---- time --------------------------------------------------------------------------------------------------------
+
+// Masters turn before their slaves, so that a slave follows the speed of this time slice.
+void Spindles::timeSlice() {
+  for (Spindle& state : spindles_) state.masterOf = false;
+  for (const bool slaves : {false, true})
+    for (uint32_t i = 0; i < kSpindles; ++i) {
+      const bool slave = get(signals_.enable, i) && orderOf(i) == Order::Synchronise;
+      if (slave == slaves && exists(i)) step(i);
+    }
+  for (uint32_t i = 0; i < kSpindles; ++i) writeSignals(i);
+}
+
+void Spindles::cycle() {
+  for (uint32_t i = 0; i < kSpindles; ++i) {
+    Spindle& state = spindles_[i];
+    const bool detach = get(signals_.detachRequest, i) && control().parameters->bit(parameters_.config, 0, i);
+    if (detach == state.detached || state.speed != 0) continue;
+    const double position = state.position;
+    state = {};
+    state.position = position;
+    state.detached = detach;
+    state.referenced = !detach && absolute_; // l.9082
+    put(signals_.detached, i, detach);
+  }
+}
+
+void Spindles::writeSignals(uint32_t i) {
+  const Spindle& state = spindles_[i];
+  const bool there = exists(i);
+  const uint32_t range = gear(i);
+  const double window = real(parameters_.inPosition[range], i);
+  const double deviation = std::abs(state.speed - state.set);
+  const double tolerance =
+      std::max(std::abs(state.set) * real(parameters_.percent, i) / 100, real(parameters_.window, i));
+  const double fluctuation = std::max(std::abs(state.set) * real(parameters_.fluctuationPercent, i) / 100,
+                                      real(parameters_.fluctuationWindow, i));
+  const bool ramped = std::abs(state.command - state.set) < kNear;
+  const double angle = real(parameters_.basicAngle, i) / 360;
+  put(signals_.ramped, i, there && ramped);
+  put(signals_.atSpeed, i, there && deviation <= tolerance);
+  put(signals_.stopped, i, there && std::abs(state.speed) <= real(parameters_.zeroWindow, i));
+  put(signals_.fluctuating, i, there && ramped && deviation > fluctuation);
+  put(signals_.loopClosed, i, there && state.closed);
+  put(signals_.oriented, i, there && state.closed && state.oriented);
+  const bool held = state.closed && (state.oriented || state.order == Order::CloseLoop);
+  put(signals_.inPosition, i, there && (held || state.synchronised));
+  put(signals_.synchronised, i, there && state.synchronised);
+  put(signals_.phaseShifted, i, there && state.synchronised && get(signals_.shiftPhase, i));
+  put(signals_.wantsPositive, i, there && state.wantsPositive);
+  put(signals_.wantsNegative, i, there && state.wantsNegative);
+  put(signals_.wantsRapid, i, false);
+  put(signals_.alarm, i, there && state.alarm);
+  put(signals_.referenced, i, there && state.referenced);
+  put(signals_.atIndex, i, there && angle > 0 && std::abs(std::remainder(state.position, angle)) < window);
+  const bool rotating = get(signals_.start, i);
+  control().signals.set(signals_.command, i, there && rotating ? static_cast<int32_t>(std::lround(state.command)) : 0);
+  control().signals.set(signals_.actual, i, there ? static_cast<int32_t>(std::lround(state.speed)) : 0);
+}
+
+void Spindles::powerOn(PowerOn kind) {
+  for (Spindle& state : spindles_) {
+    const double position = state.position;
+    state = {};
+    if (kind == PowerOn::Warm) state.position = position;
+    state.referenced = absolute_;
+  }
+  for (uint32_t i = 0; i < kSpindles; ++i) writeSignals(i);
+}
+
+void Spindles::keep(Kept& kept) {
+  for (Spindle& state : spindles_) kept.value(state.position);
+}
+
+// ---- configuration, events, quantities ---------------------------------------------------------------------------
+
+Handled Spindles::config(std::string_view key, std::string_view value) {
+  if (key == "encoders") { // for the axes, too
+    absolute_ = value == "absolute";
+    return std::nullopt;
+  }
+  if (key != "spindles") return std::nullopt;
+  number(static_cast<uint32_t>(numberOf(value).value_or(0)));
+  return "";
+}
+
+Handled Spindles::event(std::string_view name, const std::vector<NcArgument>& keys) {
+  if (name != "spindle") return std::nullopt;
+  if (std::string wrong = unknownKey(name, keys, {"number", "alarm", "disturbance"}); !wrong.empty()) return wrong;
+  const int64_t number = integerKey(keys, "number", 1);
+  if (number < 1 || number > kSpindles) return "event spindle takes number=1 to 16";
+  Spindle& state = spindles_[static_cast<size_t>(number) - 1];
+  if (findKey(keys, "alarm") != nullptr) state.alarm = integerKey(keys, "alarm", 0) != 0;
+  if (findKey(keys, "disturbance") != nullptr)
+    state.disturbance = static_cast<double>(integerKey(keys, "disturbance", 0));
+  return "";
+}
+
+std::optional<double> Spindles::quantity(std::string_view name) const {
+  const bool speed = name.starts_with("SPINDLE.");
+  const auto key = numbersBehind(name, speed ? "SPINDLE." : "SPOS.");
+  if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > kSpindles) return std::nullopt;
+  return speed ? spindles_[(*key)[0] - 1].speed : spindles_[(*key)[0] - 1].position;
+}
+
+Handled Spindles::setQuantity(std::string_view name, double value) {
+  const auto key = numbersBehind(name, "SPOS.");
+  if (!key) return std::nullopt;
+  if (key->size() != 1 || (*key)[0] < 1 || (*key)[0] > kSpindles) return "there are spindles 1 to 16";
+  spindles_[(*key)[0] - 1].position = value;
+  return "";
+}
+
+} // namespace rung::nc::nct

@@ -1,0 +1,86 @@
+// Inputs that follow outputs (see wiring.h).
+#include "tools/sim/nct/wiring.h"
+
+#include <charconv>
+
+#include "rtlib/nc/nct/signals.h"
+
+namespace rung::nc::nct {
+namespace {
+
+std::optional<uint32_t> number(std::string_view digits) {
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+// "100ms", "2s", "500us".
+std::optional<int64_t> duration(std::string_view text) {
+  const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  const auto value = number(text.substr(0, digits));
+  const std::string_view unit = text.substr(digits);
+  if (!value || (unit != "ms" && unit != "s" && unit != "us")) return std::nullopt;
+  return int64_t{*value} * (unit == "s" ? 1'000'000 : unit == "ms" ? 1000 : 1);
+}
+
+} // namespace
+
+// NAME, NAME.BB of a double word, with ,#INDEX after it.
+std::optional<Wiring::Place> Wiring::place(std::string_view name) {
+  const size_t comma = std::min(name.find(",#"), name.size());
+  const auto index = comma == name.size() ? std::optional<uint32_t>(0) : number(name.substr(comma + 2));
+  name = name.substr(0, comma);
+  const size_t dot = std::min(name.find('.'), name.size());
+  const Signal* signal = findSignal(nctSignals(), name.substr(0, dot));
+  const bool isBit = signal != nullptr && signal->type == SignalType::Bit;
+  const auto bit =
+      dot == name.size() ? std::optional<uint32_t>(isBit ? signal->bit : 32) : number(name.substr(dot + 1));
+  if (signal == nullptr || !index || *index >= signal->count || !bit || *bit > 31) return std::nullopt;
+  if (isBit != (dot == name.size()) || signal->type == SignalType::Real) return std::nullopt;
+  return Place{(signal->byteOffset + *index * signal->strideBytes) / 4, *bit};
+}
+
+Handled Wiring::config(std::string_view key, std::string_view value) {
+  constexpr std::string_view kPrefix = "follow.";
+  if (!key.starts_with(kPrefix)) return std::nullopt;
+  Wire wire;
+  const auto input = place(key.substr(kPrefix.size()));
+  const size_t at = std::min(value.find('@'), value.size());
+  wire.inverted = value.starts_with('/');
+  const auto source = place(value.substr(wire.inverted ? 1 : 0, at - (wire.inverted ? 1 : 0)));
+  const auto delay = at == value.size() ? std::optional<int64_t>(0) : duration(value.substr(at + 1));
+  if (!input) return std::string(key) + ": expected the bit of a signal after 'follow.'";
+  if (!source || !delay)
+    return std::string(key) + ": expected a bit such as OUT010.00, /OUT010.00 or OUT010.00@100ms, found '" +
+           std::string(value) + "'";
+  wire.input = *input;
+  wire.source = *source;
+  wire.delayUs = *delay;
+  wires_.push_back(wire);
+  return "";
+}
+
+// Everything has been as it is for long.
+void Wiring::powerOn(PowerOn) {
+  for (Wire& wire : wires_) {
+    wire.level = control().signals.bit(wire.source.word, wire.source.bit);
+    wire.sinceUs = control().nowUs - wire.delayUs;
+    control().signals.setBit(wire.input.word, wire.input.bit, wire.level != wire.inverted);
+  }
+}
+
+void Wiring::timeSlice() {
+  const SignalMemory& signals = control().signals;
+  for (Wire& wire : wires_) {
+    const bool level = signals.bit(wire.source.word, wire.source.bit);
+    if (level != wire.level) {
+      wire.level = level;
+      wire.sinceUs = control().nowUs;
+    }
+    if (control().nowUs - wire.sinceUs >= wire.delayUs)
+      signals.setBit(wire.input.word, wire.input.bit, level != wire.inverted);
+  }
+}
+
+} // namespace rung::nc::nct

@@ -1,0 +1,148 @@
+// The supervisor of part-program blocks (see blocks.h).
+#include "tools/sim/technol/blocks.h"
+
+#include <algorithm>
+
+#include "tools/sim/technol/cells.h"
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::nc::technol {
+namespace {
+
+// STATUS_RESTART (man. l.6626-6632).
+enum : uint64_t { kIdle = 0, kInit = 1, kMove = 2, kDone = 4 };
+
+// Change pulses and dynamic functions last one block (man. l.6819, l.6852-6856, l.6958, l.6968).
+bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || name.ends_with("PID") || name == "M60PI"; }
+
+// The mode and G00, G33 of a block stay until the next start (man. l.6752-6780).
+constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
+
+// Every program has these cells. A program's own cell of the same name is not the interface's.
+host::Ref hostCell(const host::Instance& instance, std::string_view name) {
+  return cellPlace(instance, name).value_or(host::Ref{});
+}
+host::Ref interfaceCell(const host::Instance& instance, std::string_view name) {
+  return signalPlace(instance, name).value_or(host::Ref{});
+}
+void put(host::Instance& instance, const host::Ref& place, uint64_t value) {
+  host::writeRaw(instance.memory(), place, value);
+}
+std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name) {
+  const std::optional<host::Ref> place = signalPlace(instance, name);
+  return place ? place : cellPlace(instance, name);
+}
+
+} // namespace
+
+void Blocks::reset(const host::Instance& instance) {
+  phase_ = Phase::Idle;
+  reached_ = first_ = false;
+  lastOneBlock_.clear();
+  motionBits_.clear();
+  const auto task = [&](std::string_view name) { return host::findTask(instance.program(), name); };
+  init_ = {task("BLOCK_INIT"), hostCell(instance, "@BLOCK_INIT.CONT"), hostCell(instance, "@BLOCK_INIT.DONE")};
+  done_ = {task("BLOCK_DONE"), hostCell(instance, "@BLOCK_DONE.CONT"), hostCell(instance, "@BLOCK_DONE.DONE")};
+  initOwed_ = hostCell(instance, "@INIT.PENDING");
+  startDisable_ = interfaceCell(instance, "START_DISABLE");
+  startSuspend_ = interfaceCell(instance, "START_SUSPEND");
+  statusRestart_ = interfaceCell(instance, "STATUS_RESTART");
+  blockInProgress_ = interfaceCell(instance, "PO_F");
+  positionReached_ = interfaceCell(instance, "PO_POL");
+  for (const Signal& signal : technolSignals()) {
+    const std::string_view name = signal.symbol;
+    if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
+      continue;
+    const auto place = placeOf(instance, signal);
+    if (place && lastsOneBlock(name)) lastOneBlock_.push_back(*place);
+    if (place && name.starts_with("PO_OS")) motionBits_.push_back(*place);
+  }
+}
+
+std::string Blocks::start(host::Instance& instance, std::span<const NcArgument> cells) {
+  if (phase_ != Phase::Idle) return "a block is already under way";
+  for (const NcArgument& cell : cells) {
+    if (cell.isText) return "'" + cell.key + "' is a number, not a text";
+    const auto place = commandCell(instance, cell.key);
+    if (!place) return "unknown signal '" + cell.key + "'";
+    if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
+      return "'" + cell.key + "' is a bit";
+  }
+  for (const std::string_view name : kUntilNextStart) put(instance, interfaceCell(instance, name), 0);
+  for (const NcArgument& cell : cells) {
+    const host::Ref place = *commandCell(instance, cell.key);
+    if (cell.isReal || place.kind == host::RefKind::Real)
+      host::writeReal(instance.memory(), place, cell.real);
+    else
+      put(instance, place, static_cast<uint64_t>(cell.integer));
+  }
+  put(instance, positionReached_, 0);
+  phase_ = Phase::Starting;
+  reached_ = false;
+  return {};
+}
+
+std::string Blocks::reached(host::Instance& instance) {
+  if (phase_ == Phase::Idle || phase_ == Phase::Done) return "no block is in motion";
+  reached_ = true;
+  if (phase_ == Phase::Motion) endMotion(instance);
+  return {};
+}
+
+// Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
+// l.6456-6467).
+bool Blocks::mayStart(const host::Instance& instance) const {
+  return instance.read(initOwed_) == 0 && instance.read(startDisable_) == 0 && instance.read(startSuspend_) == 0;
+}
+
+void Blocks::enter(host::Instance& instance, Phase phase) {
+  phase_ = phase;
+  first_ = true;
+  switch (phase) {
+  case Phase::Idle: put(instance, statusRestart_, kIdle); return;
+  case Phase::Starting: return;
+  case Phase::Init: put(instance, statusRestart_, kInit); return;
+  case Phase::Motion: put(instance, statusRestart_, kMove); return;
+  case Phase::Done: put(instance, statusRestart_, kDone); return;
+  }
+}
+
+void Blocks::supervise(host::Instance& instance) {
+  if (phase_ == Phase::Starting && mayStart(instance)) {
+    put(instance, blockInProgress_, 1);
+    enter(instance, Phase::Init);
+  }
+  if (phase_ == Phase::Init && pass(instance, init_)) {
+    enter(instance, Phase::Motion);
+    if (reached_) endMotion(instance);
+  }
+  if (phase_ == Phase::Motion && reached_) enter(instance, Phase::Done);
+  if (phase_ == Phase::Done && pass(instance, done_)) finish(instance);
+}
+
+// True when the module ran through. It starts at its beginning with every block.
+bool Blocks::pass(host::Instance& instance, const Module& module) {
+  if (first_) {
+    put(instance, module.cont, 0);
+    put(instance, module.done, 0);
+  }
+  first_ = false;
+  return instance.runTask(module.task) && instance.read(module.done) != 0;
+}
+
+void Blocks::endMotion(host::Instance& instance) {
+  put(instance, positionReached_, 1);
+  for (const host::Ref& bit : motionBits_) put(instance, bit, 0);
+}
+
+void Blocks::finish(host::Instance& instance) {
+  put(instance, blockInProgress_, 0);
+  for (const host::Ref& bit : lastOneBlock_) put(instance, bit, 0);
+  const uint32_t queue = host::findSpace(instance.program(), "BLK");
+  if (queue != RUNG_NONE)
+    for (uint32_t byte = 0; byte < instance.program().spaces[queue].byte_count; ++byte)
+      put(instance, host::intRef(queue, byte, 8), 0);
+  enter(instance, Phase::Idle);
+}
+
+} // namespace rung::nc::technol

@@ -1,0 +1,48 @@
+// The supervisor's way through a part-program block: MODULE_BLOCK_INIT, motion, MODULE_BLOCK_DONE (man. l.2682-2711),
+// and what the command block shows meanwhile (man. l.6746-6968).
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/sim/nc_model.h"
+
+namespace rung::nc::technol {
+
+class Blocks {
+public:
+  // After power-on.
+  void reset(const host::Instance& instance);
+
+  // "" or why not. The names refer to cells of the command block.
+  std::string start(host::Instance& instance, std::span<const NcArgument> cells);
+  // The programmed position has been reached; while MODULE_BLOCK_INIT runs: the block has no motion.
+  std::string reached(host::Instance& instance);
+  // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
+  void supervise(host::Instance& instance);
+
+private:
+  enum class Phase : uint8_t { Idle, Starting, Init, Motion, Done };
+  // A block module: its task, the state in which it waits, whether it has run through.
+  struct Module {
+    uint32_t task = RUNG_NONE;
+    host::Ref cont, done;
+  };
+
+  bool mayStart(const host::Instance& instance) const;
+  void enter(host::Instance& instance, Phase phase);
+  bool pass(host::Instance& instance, const Module& module);
+  void endMotion(host::Instance& instance);
+  void finish(host::Instance& instance);
+
+  Phase phase_ = Phase::Idle;
+  bool reached_ = false;
+  // Looked up once, as every scan may need them.
+  Module init_, done_;
+  host::Ref initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_;
+  bool first_ = false;                  // pass of the module
+  std::vector<host::Ref> lastOneBlock_; // zero again at the end of the block
+  std::vector<host::Ref> motionBits_;   // PO_OS...
+};
+
+} // namespace rung::nc::technol

@@ -1,0 +1,113 @@
+// Access to the cells of a TECHNOL program by name (see cells.h).
+#include "tools/sim/technol/cells.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::nc::technol {
+namespace {
+
+constexpr const char* kCells = "I";
+constexpr const char* kBlocks = "BLK";
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// The type that a program writes in front of an element; the host reads and writes elements in their own.
+std::string_view withoutType(std::string_view element) {
+  for (const std::string_view type : {"BYTE.", "WORD.", "DWRD.", "QWRD.", "REAL."})
+    if (element.size() > type.size() && equalIgnoringCase(element.substr(0, type.size()), type))
+      return element.substr(type.size());
+  return element;
+}
+
+std::optional<host::Ref> blockElement(const host::Instance& instance, std::string_view name) {
+  name.remove_prefix(std::string_view(kBlocks).size());
+  const std::optional<uint32_t> block = takeIndex(name);
+  const uint32_t space = host::findSpace(instance.program(), kBlocks);
+  if (!block || space == RUNG_NONE || name.empty() || name.front() != '.') return std::nullopt;
+  std::string_view element = withoutType(name.substr(1));
+  const size_t bracket = std::min(element.find('['), element.size());
+  std::string_view rest = element.substr(bracket);
+  const std::optional<uint32_t> index = rest.empty() ? 0 : takeIndex(rest);
+  const Signal* found = findSignal(technolSignals(), "BLK[]." + std::string(element.substr(0, bracket)), kBlocks);
+  if (found == nullptr || !index || !rest.empty() || *index >= found->count) return std::nullopt;
+  const uint32_t blockBytes = areaBytes(technolSignals(), kBlocks);
+  if (*block >= instance.program().spaces[space].byte_count / blockBytes) return std::nullopt;
+  const uint32_t byte = *block * blockBytes + found->byteOffset + *index * found->strideBytes;
+  if (found->type == SignalType::Bit) return host::bitRef(space, byte, found->bit);
+  if (found->type == SignalType::Real) return host::realRef(space, byte);
+  return host::intRef(space, byte, elementBytes(found->type) * 8);
+}
+
+} // namespace
+
+bool equalIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& signal) {
+  const uint32_t space = host::findSpace(instance.program(), "NCI");
+  if (space == RUNG_NONE) return std::nullopt;
+  if (signal.type == SignalType::Bit) return host::bitRef(space, signal.byteOffset, signal.bit);
+  const uint32_t bytes = elementBytes(signal.type);
+  if (bytes == 0) return std::nullopt;
+  host::Ref place = signal.type == SignalType::Real ? host::realRef(space, signal.byteOffset)
+                                                    : host::intRef(space, signal.byteOffset, bytes * 8);
+  place.count = signal.count;
+  return place;
+}
+
+// STRUCTURE.MEMBER, and CELL.WEIGHT with a weight of the interface.
+static std::optional<host::Ref> partPlace(const host::Instance& instance, std::string_view name) {
+  const size_t point = name.rfind('.');
+  if (point == std::string_view::npos) return std::nullopt;
+  const std::string_view whole = name.substr(0, point), part = name.substr(point + 1);
+  if (const Signal* weight = findSignal(technolSignals(), part, "W")) {
+    const std::optional<host::Ref> cell = cellPlace(instance, whole);
+    if (!cell || cell->kind != host::RefKind::Int) return std::nullopt;
+    return host::bitRef(cell->space, cell->byte, weight->bit);
+  }
+  const Signal* found = findSignal(technolSignals(), whole, kCells);
+  if (found == nullptr || found->type != SignalType::Struct) return std::nullopt;
+  const Signal* member =
+      findSignal(technolSignals(), std::string(found->structure) + "." + std::string(part), found->structure);
+  if (member == nullptr) return std::nullopt;
+  Signal inside = *member;
+  inside.byteOffset += found->byteOffset;
+  return placeOf(instance, inside);
+}
+
+std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name) {
+  if (name.size() > 4 && equalIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(instance, name);
+  const Signal* found = findSignal(technolSignals(), name, kCells);
+  return found == nullptr ? partPlace(instance, name) : placeOf(instance, *found);
+}
+
+std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name) {
+  return instance.resolve(name, [&](std::string_view unknown) { return signalPlace(instance, unknown); });
+}
+
+uint64_t readCell(const host::Instance& instance, std::string_view name) {
+  const auto place = cellPlace(instance, name);
+  return place ? instance.read(*place) : 0;
+}
+
+void writeCell(host::Instance& instance, std::string_view name, uint64_t value) {
+  if (const auto place = cellPlace(instance, name)) host::writeRaw(instance.memory(), *place, value);
+}
+
+bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo) {
+  if (host::findTask(instance.program(), task) == RUNG_NONE) return false;
+  writeCell(instance, "@DR", dr);
+  writeCell(instance, "@RLO", rlo ? 1 : 0);
+  const bool done = instance.runTask(task);
+  writeCell(instance, "@DR", 0);
+  writeCell(instance, "@RLO", 0);
+  return done;
+}
+
+} // namespace rung::nc::technol

@@ -1,0 +1,20 @@
+// Events for which the control calls a procedure of the program, if it has one (man. l.1609-1644).
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tools/sim/nc_model.h"
+
+namespace rung::nc::technol {
+
+// The number of a PLC constant by its identifier.
+using ConstantOf = std::function<std::optional<int64_t>(std::string_view)>;
+
+// PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is not such an event.
+std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
+                                     const ConstantOf& constantOf);
+
+} // namespace rung::nc::technol

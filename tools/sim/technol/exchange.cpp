@@ -1,0 +1,71 @@
+// What the control exchanges with a program (see exchange.h).
+#include "tools/sim/technol/exchange.h"
+
+#include "rtlib/host/program_info.h"
+
+namespace rung::nc::technol {
+
+std::string Exchange::configure(std::string_view key, std::string_view value) {
+  std::string problem;
+  if (!ports_.configure(key, value, problem)) connections_.configure(key, value);
+  return problem;
+}
+
+void Exchange::beforeInit(host::Instance& instance, bool powerOn) {
+  shared_.clear();
+  defined_ = false;
+  if (powerOn) {
+    cells_.reset();
+    ports_.reset(instance);
+  }
+  connections_.preset(instance);
+}
+
+void Exchange::behindInit(host::Instance& instance) {
+  connections_.build(instance, shared_, cells_);
+  defined_ = false;
+}
+
+void Exchange::onHook(host::Instance& instance, uint32_t hook) {
+  if (defined_) behindInit(instance); // by a procedure that runs outside MODULE_INIT
+  switch (hook) {
+  case kHookBeforeInput:
+    ports_.beforeProgram(instance);
+    connections_.copy(instance, cells_, ExchangePeriod::Slow);
+    return;
+  case kHookBehindMain:
+    connections_.copy(instance, cells_, ExchangePeriod::Slow);
+    ports_.behindProgram(instance);
+    return;
+  case kHookFast: connections_.copy(instance, cells_, ExchangePeriod::Fast); return;
+  case kHookFastest: connections_.copy(instance, cells_, ExchangePeriod::Fastest); return;
+  default: return;
+  }
+}
+
+void Exchange::define(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  const auto variable = variableOf(request);
+  if (!variable) return;
+  bool isNew = false;
+  if (!shared_.define(instance.program(), *variable, isNew)) return;
+  defined_ = defined_ || isNew;
+  reply.results[0] = 1;
+  const auto otherwise = connections_.defaultOf(*variable);
+  reply.results[1] = otherwise ? 1 : 0;
+  reply.results[2] = static_cast<int64_t>(otherwise.value_or(0));
+}
+
+bool Exchange::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  const std::string_view service = host::serviceName(instance.program(), request.service);
+  if (service != kDefineService && service != kUpdateService) return false;
+  reply.ticket = request.ticket;
+  reply.state = RUNG_SERVICE_DONE;
+  reply.resultCount = 3;
+  if (service == kDefineService)
+    define(instance, request, reply);
+  else
+    connections_.update(instance, cells_, request, reply);
+  return true;
+}
+
+} // namespace rung::nc::technol

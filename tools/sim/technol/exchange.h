@@ -1,0 +1,49 @@
+// Everything that the simulated control exchanges with a program beside its interface cells: shared variables,
+// connections, module cells, ports (man. ch. 9, 10, 18, 27), in the order of a cycle.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/sim/technol/connections.h"
+#include "tools/sim/technol/ports.h"
+
+namespace rung::nc::technol {
+
+class Exchange {
+public:
+  // Before the program runs; "" or what is wrong.
+  std::string configure(std::string_view key, std::string_view value);
+  void connect(std::string_view source, std::string_view destination) { connections_.connect(source, destination); }
+  // Of the control's files.
+  void take(std::span<const ConnectionDefinition> connections, std::span<const TerminalDefinition> terminals) {
+    connections_.take(connections, terminals);
+  }
+
+  // Memory has been started; the program's MODULE_INIT follows. `powerOn`: not a mere start of the program.
+  void beforeInit(host::Instance& instance, bool powerOn);
+  void behindInit(host::Instance& instance);
+  // Hooks of the schedule.
+  void onHook(host::Instance& instance, uint32_t hook);
+  void beforeWrite(host::Instance& instance, const host::Ref& place) { ports_.beforeWrite(instance, place); }
+  // The services kDefineService and kUpdateService; false: another one.
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+
+  const SharedVariables& shared() const { return shared_; }
+  ModuleCells& cells() { return cells_; }
+  const ModuleCells& cells() const { return cells_; }
+  const std::vector<NcProblem>& problems() const { return connections_.problems(); }
+
+private:
+  void define(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+
+  SharedVariables shared_;
+  ModuleCells cells_;
+  Connections connections_;
+  Ports ports_;
+  bool defined_ = false; // something that the table of connections does not know
+};
+
+} // namespace rung::nc::technol

@@ -1,0 +1,49 @@
+// Start, stop and end of the PLC program (see program_life.h).
+#include "tools/sim/technol/program_life.h"
+
+#include "tools/sim/technol/cells.h"
+
+namespace rung::nc::technol {
+namespace {
+
+enum : uint64_t { kPower = 0, kCommand = 1 }; // in DR (man. l.2583, l.2627)
+
+} // namespace
+
+void ProgramLife::powerOn(host::Instance& instance) {
+  stopping_ = false;
+  instance.setStopped(false);
+  runWith(instance, "INIT", kPower, false);
+}
+
+bool ProgramLife::owesDone(const host::Instance& instance) const { return readCell(instance, "@DONE.PENDING") != 0; }
+
+// A program that is stopped has had its shutdown.
+bool ProgramLife::powerOff(host::Instance& instance) {
+  if (instance.stopped()) return false;
+  runWith(instance, "DONE", kPower, false);
+  return owesDone(instance);
+}
+
+void ProgramLife::start(host::Instance& instance) {
+  stopping_ = false;
+  instance.setStopped(false);
+  runWith(instance, "INIT", kCommand, false);
+}
+
+void ProgramLife::stop(host::Instance& instance) {
+  if (instance.stopped() || stopping_) return;
+  runWith(instance, "DONE", kCommand, false);
+  stopping_ = true;
+  afterScan(instance);
+}
+
+void ProgramLife::clear(host::Instance& instance) { runWith(instance, "CLEAR", 0, false); }
+
+void ProgramLife::afterScan(host::Instance& instance) {
+  if (!stopping_ || owesDone(instance)) return;
+  stopping_ = false;
+  instance.setStopped(true);
+}
+
+} // namespace rung::nc::technol

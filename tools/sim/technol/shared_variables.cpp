@@ -1,0 +1,137 @@
+// Variables that the control knows by names (see shared_variables.h).
+#include "tools/sim/technol/shared_variables.h"
+
+#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/technol/code_page.h"
+
+namespace rung::nc::technol {
+namespace {
+
+// One name space each for logical inputs, logical outputs, and all others.
+char spaceOf(ExchangeKind kind) {
+  if (kind == ExchangeKind::DefIn) return 'I';
+  return kind == ExchangeKind::DefOut ? 'O' : 'S';
+}
+
+std::string keyOf(ExchangeKind kind, std::string_view identifier) {
+  return std::string(1, spaceOf(kind)).append(canonical(identifier));
+}
+
+uint32_t bytesOf(const SharedVariable& variable) { return nc::bytesOf(variable.type) * variable.count; }
+
+bool sameMeaning(const SharedVariable& a, const SharedVariable& b) {
+  return a.kind == b.kind && a.type == b.type && a.period == b.period && a.count == b.count && a.space == b.space &&
+         a.byte == b.byte && a.bit == b.bit && a.least == b.least && a.most == b.most;
+}
+
+std::optional<host::Ref> limitOf(int64_t argument) {
+  if (argument == kNoPlace) return std::nullopt;
+  const ExchangePlace place = placeOfArgument(argument);
+  return host::realRef(place.space, place.byte);
+}
+
+} // namespace
+
+std::optional<SharedVariable> variableOf(const rt::ServiceRequest& request) {
+  SharedVariable made;
+  const auto what = static_cast<uint64_t>(request.args[0]);
+  made.kind = static_cast<ExchangeKind>(what & 0xFF);
+  made.type = static_cast<ExchangeType>(what >> 8 & 0xFF);
+  made.period = static_cast<ExchangePeriod>(what >> 16 & 0xFF);
+  made.count = static_cast<uint32_t>(what >> 24);
+  const ExchangePlace place = placeOfArgument(request.args[1]);
+  made.space = place.space;
+  made.byte = place.byte;
+  made.bit = place.bit;
+  made.least = limitOf(request.args[2]);
+  made.most = limitOf(request.args[3]);
+  char name[kDefineBytes];
+  made.name = charactersOf(std::span(request.args).subspan(kDefineHead), name);
+  if (made.name.empty() || made.kind > ExchangeKind::Bit || made.type > ExchangeType::Binary) return std::nullopt;
+  return made;
+}
+
+host::Ref placeOf(const SharedVariable& variable, uint32_t element) {
+  const uint32_t bytes = nc::bytesOf(variable.type);
+  const uint32_t byte = variable.byte + element * bytes;
+  switch (variable.type) {
+  case ExchangeType::Bit: return host::bitRef(variable.space, byte, variable.bit);
+  case ExchangeType::Real: return host::realRef(variable.space, byte);
+  case ExchangeType::Text:
+  case ExchangeType::Binary: {
+    host::Ref text = host::intRef(variable.space, variable.byte, 8);
+    text.kind = host::RefKind::Text;
+    text.count = variable.count;
+    return text;
+  }
+  case ExchangeType::Int8:
+  case ExchangeType::Uns8:
+  case ExchangeType::Int16:
+  case ExchangeType::Uns16:
+  case ExchangeType::Int32:
+  case ExchangeType::Uns32:
+  case ExchangeType::Int64:
+  case ExchangeType::Uns64: return host::intRef(variable.space, byte, bytes * 8);
+  }
+  return {};
+}
+
+void SharedVariables::clear() {
+  all_.clear();
+  byKey_.clear();
+}
+
+bool SharedVariables::define(const rung_program& program, SharedVariable variable, bool& isNew) {
+  isNew = false;
+  const rt::Memory bounds(program, nullptr);
+  if (!bounds.contains(variable.space, variable.byte, bytesOf(variable))) return false;
+  for (const auto& limit : {variable.least, variable.most})
+    if (limit && !bounds.contains(limit->space, limit->byte, 8)) return false;
+  const auto [entry, added] = byKey_.emplace(keyOf(variable.kind, variable.name), static_cast<uint32_t>(all_.size()));
+  if (!added) return sameMeaning(all_[entry->second], variable);
+  all_.push_back(std::move(variable));
+  isNew = true;
+  return true;
+}
+
+const SharedVariable* SharedVariables::logical(ExchangeKind kind, std::string_view identifier) const {
+  const auto found = byKey_.find(std::string(1, spaceOf(kind)).append(identifier));
+  return found == byKey_.end() ? nullptr : &all_[found->second];
+}
+
+const SharedVariable* SharedVariables::byName(std::string_view name, bool toWrite) const {
+  const bool in = takePrefix(name, "PLC.INPUT.");
+  const bool out = !in && takePrefix(name, "PLC.OUTPUT.");
+  const auto fits = [&](const SharedVariable* v) { return v != nullptr && (!toWrite || v->isInput()); };
+  const SharedVariable* input = out ? nullptr : logical(ExchangeKind::DefIn, name);
+  if (fits(input)) return input;
+  const SharedVariable* output = in ? nullptr : logical(ExchangeKind::DefOut, name);
+  if (fits(output)) return output;
+  const SharedVariable* other = in || out ? nullptr : logical(ExchangeKind::Variable, name);
+  return fits(other) ? other : nullptr;
+}
+
+std::optional<host::Ref> SharedVariables::find(std::string_view name, bool toWrite) const {
+  const std::string inMemory = canonical(memoryText(name));
+  const Reference whole{.base = inMemory, .element = 0, .bit = {}}, bit = withoutBit(inMemory);
+  for (const Reference& tried : {whole, withoutIndex(whole), bit, withoutIndex(bit)}) {
+    const SharedVariable* found = byName(tried.base, toWrite);
+    if (found == nullptr) continue;
+    if (tried.element >= (found->isText() ? 1 : found->count)) return std::nullopt;
+    const host::Ref place = placeOf(*found, tried.element);
+    return tried.bit ? host::bitOf(place, *tried.bit) : place;
+  }
+  return std::nullopt;
+}
+
+const SharedVariable* SharedVariables::at(const host::Ref& place, uint32_t& element) const {
+  for (const SharedVariable& variable : all_) {
+    if (!variable.isMapped() && !variable.isLogical()) continue;
+    if (variable.space != place.space || place.byte < variable.byte) continue;
+    element = (place.byte - variable.byte) / nc::bytesOf(variable.type);
+    if (place.byte - variable.byte < bytesOf(variable)) return &variable;
+  }
+  return nullptr;
+}
+
+} // namespace rung::nc::technol

@@ -1,0 +1,144 @@
+// Copying along a connection (see wire.h).
+#include "tools/sim/technol/wire.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace rung::nc::technol {
+namespace {
+
+// Whether the bytes lie one after the other in the block, unexpanded.
+bool isPlain(const rt::Memory& memory, const host::Ref& place, uint32_t bytes, uint32_t& offset) {
+  const rt::BitPlace first = memory.bitPlace(place.space, place.byte, 7);
+  offset = first.offset;
+  for (uint32_t i = 0; i < bytes; ++i) {
+    const rt::BitPlace at = memory.bitPlace(place.space, place.byte + i, 7);
+    if (at.mask != 0x80 || at.offset != first.offset + i) return false;
+  }
+  return true;
+}
+
+bool isSigned(ExchangeType type) {
+  return type == ExchangeType::Int8 || type == ExchangeType::Int16 || type == ExchangeType::Int32 ||
+         type == ExchangeType::Int64;
+}
+
+uint64_t extended(uint64_t bits, ExchangeType type) {
+  const uint32_t width = widthOf(type);
+  if (width == 64) return bits;
+  const uint64_t value = bits & ((uint64_t{1} << width) - 1);
+  const uint64_t sign = uint64_t{1} << (width - 1);
+  return isSigned(type) ? (value ^ sign) - sign : value;
+}
+
+double realOf(uint64_t bits, ExchangeType type) {
+  if (type == ExchangeType::Real) return std::bit_cast<double>(bits);
+  const uint64_t value = extended(bits, type);
+  return type == ExchangeType::Uns64 ? static_cast<double>(value) : static_cast<double>(static_cast<int64_t>(value));
+}
+
+// To the nearest integer, to the even one of two; held in the type's range. No number is 0.
+uint64_t integerOf(double value, ExchangeType type) {
+  const int bits = static_cast<int>(widthOf(type)) - (isSigned(type) ? 1 : 0);
+  const double end = std::ldexp(1.0, bits), rounded = std::nearbyint(value);
+  if (std::isnan(value)) return 0;
+  if (rounded >= end) return bits == 64 ? UINT64_MAX : (uint64_t{1} << bits) - 1;
+  if (isSigned(type)) return static_cast<uint64_t>(static_cast<int64_t>(std::max(rounded, -end)));
+  return rounded <= 0 ? 0 : static_cast<uint64_t>(rounded);
+}
+
+double through(const Stage& stage, double x) {
+  x = (std::min(std::max(x, stage.least), stage.most) + stage.before) * stage.scale + stage.after;
+  return std::min(std::max(x, stage.low), stage.high);
+}
+
+uint64_t converted(const Wire& wire, uint64_t bits) {
+  const ExchangeType from = wire.from.type, to = wire.to.type;
+  if (from == ExchangeType::Bit && wire.invert) bits ^= 1;
+  const bool numeric = wire.stageCount > 0 || from == ExchangeType::Real || to == ExchangeType::Real;
+  if (!numeric) {
+    if (to != ExchangeType::Bit) return extended(bits, from);
+    return (extended(bits, from) != 0) != (wire.invert && from != ExchangeType::Bit) ? 1 : 0;
+  }
+  double value = realOf(bits, from);
+  for (uint8_t i = 0; i < wire.stageCount; ++i) value = through(wire.stages[i], value);
+  if (to == ExchangeType::Bit) return (value != 0) != (wire.invert && from != ExchangeType::Bit) ? 1 : 0;
+  return to == ExchangeType::Real ? std::bit_cast<uint64_t>(value) : integerOf(value, to);
+}
+
+} // namespace
+
+Pin pinAt(const rung_program& program, const host::Ref& place, ExchangeType type) {
+  const rt::Memory memory(program, nullptr);
+  Pin pin{.type = type, .place = place};
+  if (place.kind == host::RefKind::Text) {
+    pin.kind = Pin::Kind::Text;
+  } else if (place.kind == host::RefKind::Bit) {
+    const rt::BitPlace bit = memory.bitPlace(place.space, place.byte, place.bit);
+    pin.kind = Pin::Kind::Bit;
+    pin.offset = bit.offset;
+    pin.mask = bit.mask;
+  } else {
+    pin.kind = isPlain(memory, place, bytesOf(type), pin.offset) ? Pin::Kind::Plain : Pin::Kind::Scattered;
+  }
+  return pin;
+}
+
+uint64_t WireMemory::read(const Pin& pin) const {
+  switch (pin.kind) {
+  case Pin::Kind::Bit: return (memory_.block()[pin.offset] & pin.mask) != 0 ? 1 : 0;
+  case Pin::Kind::Plain: {
+    uint64_t bits = 0; // memory of programs is little-endian, and so are the machines they run on
+    std::memcpy(&bits, memory_.block() + pin.offset, bytesOf(pin.type));
+    return bits;
+  }
+  case Pin::Kind::Scattered: return memory_.read(pin.place.space, pin.place.byte, bytesOf(pin.type));
+  case Pin::Kind::Cell: return cells_->at(pin.offset).bits;
+  case Pin::Kind::CellBit: return cells_->at(pin.offset).bits >> pin.mask & 1;
+  case Pin::Kind::Text: return 0;
+  }
+  return 0;
+}
+
+void WireMemory::write(const Pin& pin, uint64_t bits) const {
+  switch (pin.kind) {
+  case Pin::Kind::Bit: memory_.writePlace({pin.offset, pin.mask}, bits != 0); return;
+  case Pin::Kind::Plain: std::memcpy(memory_.block() + pin.offset, &bits, bytesOf(pin.type)); return;
+  case Pin::Kind::Scattered: memory_.write(pin.place.space, pin.place.byte, bytesOf(pin.type), bits); return;
+  case Pin::Kind::Cell: {
+    const uint32_t width = widthOf(pin.type);
+    cells_->at(pin.offset).bits = width == 64 ? bits : bits & ((uint64_t{1} << width) - 1);
+    return;
+  }
+  case Pin::Kind::CellBit: {
+    uint64_t& cell = cells_->at(pin.offset).bits;
+    cell = (cell & ~(uint64_t{1} << pin.mask)) | uint64_t{bits != 0} << pin.mask;
+    return;
+  }
+  case Pin::Kind::Text: return;
+  }
+}
+
+// As far as the target holds it; the last byte of a text is its terminator.
+void WireMemory::copyText(const Wire& wire) const {
+  const host::Ref &from = wire.from.place, &to = wire.to.place;
+  const bool terminated = wire.to.type == ExchangeType::Text;
+  const uint32_t room = terminated ? to.count - 1 : to.count;
+  for (uint32_t i = 0; i < to.count; ++i) {
+    const uint8_t byte = i < room && i < from.count ? memory_.readByte(from.space, from.byte + i) : 0;
+    memory_.writeByte(to.space, to.byte + i, byte);
+  }
+}
+
+uint64_t WireMemory::valueOf(const Wire& wire) const { return converted(wire, read(wire.from)); }
+
+void WireMemory::copy(const Wire& wire) const {
+  if (wire.to.kind == Pin::Kind::Text) return copyText(wire);
+  const uint64_t value = valueOf(wire);
+  if (wire.joins && value == 0) return;
+  write(wire.to, value);
+}
+
+} // namespace rung::nc::technol

@@ -1,0 +1,70 @@
+// One connection as it is served: from where, to where, how the value changes on the way. Made before the program runs;
+// copying allocates nothing and looks nothing up.
+#pragma once
+#include <limits>
+
+#include "rtlib/host/instance.h"
+#include "tools/sim/technol/module_cells.h"
+#include "rtlib/nc/technol/exchange.h"
+
+namespace rung::nc::technol {
+
+// A place that a connection begins or ends at: a bit, a number or a text.
+struct Pin {
+  enum class Kind : uint8_t {
+    Bit,       // `mask` of the byte at `offset` of the block
+    Plain,     // the bytes at `offset` of the block
+    Scattered, // at `place`, in expanded bytes
+    Text,      // at `place`
+    Cell,      // of a module
+    CellBit,   // bit `mask` of a module's cell
+  };
+  Kind kind = Kind::Bit;
+  ExchangeType type = ExchangeType::Bit;
+  uint8_t mask = 0;
+  uint32_t offset = 0; // in the block; or the number of a cell
+  host::Ref place;
+};
+Pin pinAt(const rung_program& program, const host::Ref& place, ExchangeType type);
+
+// (min(max(x, least), most) + before) * scale + after, then held between low and high.
+struct Stage {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double least = -kInfinity, most = kInfinity;
+  double before = 0, scale = 1, after = 0;
+  double low = -kInfinity, high = kInfinity;
+  bool operator==(const Stage&) const = default;
+};
+
+struct Wire {
+  static constexpr size_t kStages = 3;
+  Pin from, to;
+  bool invert = false;
+  bool joins = false; // ORed to what another wire has put there
+  uint8_t stageCount = 0;
+  Stage stages[kStages];
+  ExchangePeriod period = ExchangePeriod::Slow;
+  uint64_t target = kNoTarget; // the element of a DEF_IN that it ends in
+  bool whole = true;           // and not in a bit of it
+
+  static constexpr uint64_t kNoTarget = UINT64_MAX;
+  static uint64_t targetOf(uint32_t space, uint32_t byte) { return uint64_t{space} << 32 | byte; }
+};
+
+class WireMemory {
+public:
+  WireMemory(host::Instance& instance, ModuleCells& cells) : memory_(instance.memory()), cells_(&cells) {}
+  void copy(const Wire& wire) const;
+  // The value that would be copied, in the bits of the wire's end; not of texts.
+  uint64_t valueOf(const Wire& wire) const;
+
+private:
+  uint64_t read(const Pin& pin) const;
+  void write(const Pin& pin, uint64_t bits) const;
+  void copyText(const Wire& wire) const;
+
+  rt::Memory memory_;
+  ModuleCells* cells_;
+};
+
+} // namespace rung::nc::technol

@@ -20,7 +20,7 @@ void checkMistakes(std::string_view mistakes, const ControlFiles& files) {
 }
 
 void checkFiles(const ControlFiles& files) {
-  for (const MessageDefinition& message : files.messages) {
+  for (const PlacedMessage& message : files.messages) {
     RUNG_CHECK(message.number <= 65535, "the number of a message is a WORD");
     RUNG_CHECK(message.text.find('\n') == std::string::npos, "a text has one line");
   }

@@ -238,7 +238,7 @@ Outcome Console::unwatch(std::span<const std::string> words) {
 
 Outcome Console::messages(std::span<const std::string> words) {
   if (!words.empty()) return fail("expected no more words (the command is: messages)");
-  const std::vector<nc::ShownMessage> shown = session_.nc().messages(session_.instance());
+  const std::vector<nc::ShownMessage> shown = session_.nc().control().messages(session_.instance());
   for (const nc::ShownMessage& message : shown) print_(messageText(session_.instance().program(), message));
   if (shown.empty()) print_("no messages");
   return Outcome::Done;

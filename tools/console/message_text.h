@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "tools/sim/message_board.h"
+#include "rtlib/nc/control/shown_message.h"
 #include "rung/program.h"
 
 namespace rung::console {

@@ -45,7 +45,7 @@ void Watch::look(const scenario::Session& session) {
 }
 
 void Watch::printMessages(const scenario::Session& session) {
-  std::vector<nc::ShownMessage> now = session.nc().messages(session.instance());
+  std::vector<nc::ShownMessage> now = session.nc().control().messages(session.instance());
   if (now == shown_) return;
   const rung_program& program = session.instance().program();
   const auto has = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {

@@ -15,8 +15,9 @@ enum class Access : uint8_t { Read, Write }; // by HAL
 
 class Binder {
 public:
-  Binder(const MapFile& map, const host::Instance& instance, const nc::NcModel& nc, std::vector<std::string>& errors)
-      : map_(map), instance_(instance), nc_(nc), errors_(errors) {}
+  Binder(const MapFile& map, const host::Instance& instance, const nc::Control& control,
+         std::vector<std::string>& errors)
+      : map_(map), instance_(instance), control_(control), errors_(errors) {}
 
   Binding run() {
     Binding binding;
@@ -50,7 +51,7 @@ private:
   std::optional<host::Ref> find(const std::string& name, PinType type, Access access, uint32_t line) {
     if (name.starts_with(kPositions)) return position(name, type, access, line);
     // What the NC and the machine write is also what they see: for NCT both are the time-slice copy.
-    std::optional<host::Ref> place = nc_.writePlace(instance_, name);
+    std::optional<host::Ref> place = control_.writePlace(instance_, name);
     if (!place) return fail(line, name + ": the program has no such name or address");
     if (place->kind == host::RefKind::Constant) return fail(line, name + " is a constant of the program");
     if (place->kind == host::RefKind::Text) return fail(line, name + " is a text; HAL has no pins for texts");
@@ -101,15 +102,15 @@ private:
 
   const MapFile& map_;
   const host::Instance& instance_;
-  const nc::NcModel& nc_;
+  const nc::Control& control_;
   std::vector<std::string>& errors_;
 };
 
 } // namespace
 
-Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::NcModel& nc,
+Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::Control& control,
                 std::vector<std::string>& errors) {
-  return Binder(map, instance, nc, errors).run();
+  return Binder(map, instance, control, errors).run();
 }
 
 } // namespace rung::hal

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
-#include "tools/sim/nc_model.h"
+#include "rtlib/nc/control/control.h"
 #include "tools/rung-hal/map_file.h"
 
 namespace rung::hal {
@@ -38,7 +38,7 @@ struct Binding {
 };
 
 // Every name that does not exist or does not suit its line is one entry of `errors`, "PATH:LINE: what is wrong".
-Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::NcModel& nc,
+Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::Control& control,
                 std::vector<std::string>& errors);
 
 } // namespace rung::hal

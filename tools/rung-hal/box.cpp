@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "rtlib/host/program_info.h"
-#include "tools/sim/refuse.h"
 
 namespace rung::hal {
 namespace {
@@ -60,7 +59,7 @@ void warnOfBlocks(const rung_program& program, std::vector<std::string>& warning
 } // namespace
 
 Box::Box(const rung_program& program, MapFile map)
-    : map_(std::move(map)), nc_(nc::makeNcModel(program.dialect)), instance_(program, this) {}
+    : map_(std::move(map)), control_(nc::makeControl(program.dialect)), instance_(program, control_.get()) {}
 
 std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
                                const std::string& retain, std::vector<std::string>& warnings) {
@@ -69,7 +68,7 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
     return nullptr;
   }
   std::unique_ptr<Box> box(new Box(program, std::move(map)));
-  box->binding_ = bindMap(box->map_, box->instance_, *box->nc_, errors);
+  box->binding_ = bindMap(box->map_, box->instance_, *box->control_, errors);
   if (!errors.empty()) return nullptr;
   box->functions_ = std::make_unique<AuxFunctions>(box->map_.sends, box->binding_.channels);
   if (!box->start(retain, errors, warnings)) return nullptr;
@@ -88,19 +87,17 @@ bool Box::start(const std::string& retain, std::vector<std::string>& errors, std
     if (!report.empty()) warnings.push_back(report);
   }
   if (!errors.empty()) return false;
-  nc_->powerOn(instance_, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
+  control_->powerOn(instance_, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
   return true;
 }
 
 std::string Box::close() {
   if (!retained_) return {};
-  if (!failed_) nc_->powerOff(instance_);
+  if (!failed_ && control_->powerOff(instance_)) {
+    for (uint32_t i = 0; i < nc::Control::kMostLastScans && !instance_.faulted() && control_->endsLater(instance_); ++i)
+      instance_.scan();
+  }
   return retained_->finish(instance_);
-}
-
-bool Box::respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
-  reply = nc::refuse(program(), request);
-  return true;
 }
 
 StepResult Box::step(int64_t ns) noexcept {
@@ -125,6 +122,7 @@ void Box::slice() noexcept {
   functions_->advance(instance_.memory(), cells_);
   readPins();
   instance_.slice();
+  control_->afterSlice(instance_);
   if (retained_) retained_->offer(instance_);
   passMessages();
   if (instance_.faulted()) return;
@@ -157,8 +155,8 @@ void Box::clearPins() noexcept {
 void Box::passMessages() noexcept {
   rung_message message;
   for (uint32_t i = 0; i < rt::kMessageCapacity && instance_.messages().pop(message); ++i) {
-    nc_->accept(message);
-    if (sink_ != nullptr) sink_(instance_.program(), message);
+    control_->accept(message);
+    if (sink_ != nullptr) sink_(*control_, instance_.program(), message);
   }
 }
 

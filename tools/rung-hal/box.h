@@ -8,7 +8,7 @@
 
 #include "rtlib/host/instance.h"
 #include "rtlib/host/retained_memory.h"
-#include "tools/sim/nc_model.h"
+#include "rtlib/nc/control/control.h"
 #include "tools/rung-hal/aux_functions.h"
 #include "tools/rung-hal/binding.h"
 #include "tools/rung-hal/map_file.h"
@@ -23,9 +23,9 @@ enum class StepResult : uint8_t {
 };
 
 // Takes a message of the program in the scan.
-using MessageSink = void (*)(const rung_program& program, const rung_message& message);
+using MessageSink = void (*)(const nc::Control& control, const rung_program& program, const rung_message& message);
 
-class Box : private host::ScheduleHooks {
+class Box {
 public:
   // Null, and `errors` say why, when the map does not fit the program, which outlives the box. The start is cold, or
   // with the memory that `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the
@@ -52,11 +52,6 @@ public:
 private:
   Box(const rung_program& program, MapFile map);
 
-  void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
-  void onFault(host::Instance& instance) override { nc_->onFault(instance); }
-  // No CNC here can answer: the program learns it at once (tools/sim/refuse.h).
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
-
   bool start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings);
   void slice() noexcept;
   void readPins() noexcept;
@@ -65,7 +60,7 @@ private:
   void passMessages() noexcept;
 
   MapFile map_;
-  std::unique_ptr<nc::NcModel> nc_;
+  std::unique_ptr<nc::Control> control_;
   host::Instance instance_;
   Binding binding_;
   std::unique_ptr<AuxFunctions> functions_;        // once the map is bound

@@ -132,10 +132,10 @@ bool makePins(Component& c) {
   return ok;
 }
 
-void printMessage(const rung_program& program, const rung_message& message) {
+void printMessage(const nc::Control& control, const rung_program& program, const rung_message& message) {
   if (message.op == RUNG_MESSAGE_CLEAR) return;
-  char line[400];
-  line[nc::describeMessage(program, message, std::span(line).first(sizeof line - 1))] = '\0';
+  char line[nc::kMessageLine];
+  line[control.describe(program, message, std::span(line).first(sizeof line - 1))] = '\0';
   rtapi_print("%s: message %s\n", kModule, line);
 }
 

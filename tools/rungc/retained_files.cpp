@@ -18,9 +18,9 @@ void report(const std::string& text) {
 
 RetainedFiles::RetainedFiles(scenario::Session& session, const std::string& file, bool realTime)
     : session_(session),
-      memory_(session.instance().program(), file, session.nc().savesOnRequest() ? kAtRequest : kAlways),
+      memory_(session.instance().program(), file, session.nc().control().savesOnRequest() ? kAtRequest : kAlways),
       tables_(session.nc(), file), realTime_(realTime) {
-  session.nc().setStored(true);
+  session.nc().control().setStored(true);
 }
 
 std::optional<nc::PowerOn> RetainedFiles::load(std::string& error) {
@@ -28,7 +28,7 @@ std::optional<nc::PowerOn> RetainedFiles::load(std::string& error) {
   const bool found = memory_.load(session_.instance(), text, error);
   if (!error.empty()) return std::nullopt;
   report(text);
-  if (!found && !text.empty()) session_.nc().reportRetainedLost();
+  if (!found && !text.empty()) session_.nc().control().reportRetainedLost();
   text.clear();
   tables_.load(text, error);
   if (!error.empty()) return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<nc::PowerOn> RetainedFiles::load(std::string& error) {
 }
 
 void RetainedFiles::scanned(const scenario::Session& session) {
-  if (session.nc().savesOnRequest())
+  if (session.nc().control().savesOnRequest())
     saveOnRequest();
   else
     memory_.offer(session.instance());
@@ -47,7 +47,7 @@ void RetainedFiles::scanned(const scenario::Session& session) {
 // On the real clock the scans continue while the image is written; a failure is tried again. On the virtual clock the
 // scan ends when the image is on disk.
 void RetainedFiles::saveOnRequest() {
-  nc::NcModel& nc = session_.nc();
+  nc::Control& nc = session_.nc().control();
   host::Instance& instance = session_.instance();
   if (saving_ && !memory_.written()) return;
   if (saving_ && memory_.failed() == failures_) nc.saved(instance);

@@ -33,7 +33,7 @@ std::string expectValue(const Lane& lane, const Statement& s) {
 std::string expectMessage(const Lane& lane, const Statement& s) {
   std::string seen;
   std::string difference;
-  for (const nc::ShownMessage& message : lane.nc().messages(lane.instance())) {
+  for (const nc::ShownMessage& message : lane.nc().control().messages(lane.instance())) {
     seen += fmt::format("{}{}", seen.empty() ? "" : ", ", message.number);
     if (message.number != s.number) continue;
     std::string own = messageDifference(message, s.keys);

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "tools/sim/refuse.h"
+#include "rtlib/nc/control/refuse.h"
 #include "tools/driver/engines.h"
 
 namespace rung::scenario {
@@ -36,7 +36,7 @@ void Lane::takeMessages() {
 }
 
 void Lane::takeLog() {
-  for (std::string& line : nc_->board().takeLog()) unreadLog_.push_back(std::move(line));
+  for (std::string& line : nc_->takeLog()) unreadLog_.push_back(std::move(line));
   if (std::ssize(unreadLog_) > 2 * kMostUnread) unreadLog_.erase(unreadLog_.begin(), unreadLog_.end() - kMostUnread);
 }
 

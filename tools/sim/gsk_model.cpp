@@ -9,11 +9,11 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/config_key.h"
-#include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/control/gsk/gsk_control.h"
+#include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tools/sim/gsk/simulator.h"
 #include "tools/sim/nc_model.h"
-#include "tools/sim/refuse.h"
 
 namespace rung::nc {
 namespace {
@@ -56,13 +56,11 @@ class GskModel final : public NcModel {
 public:
   std::string config(std::string_view key, std::string_view value) override;
 
-  // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
+  Control& control() override { return control_; }
+
   void powerOn(host::Instance& instance, PowerOn kind) override {
-    const std::vector<uint8_t> machine = readArea(instance, "X");
-    const std::vector<uint8_t> cnc = readArea(instance, "F");
     NcModel::powerOn(instance, kind);
-    writeArea(instance, "X", machine);
-    if (!simulated_) writeArea(instance, "F", cnc);
+    if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
     simulator_.powerOn(kind == PowerOn::Warm);
     waiting_.clear();
   }
@@ -85,6 +83,7 @@ public:
 
   // A slice is a slot.
   void betweenSlices(host::Instance& instance) override {
+    NcModel::betweenSlices(instance);
     takeRequests(instance);
     beforeSlot(instance);
   }
@@ -113,30 +112,6 @@ public:
   }
   std::optional<double> quantity(std::string_view name) const override {
     return simulated_ ? simulator_.quantity(name) : NcModel::quantity(name);
-  }
-
-  // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
-  std::vector<ShownMessage> messages(const host::Instance& instance) const override {
-    std::vector<ShownMessage> shown = board_.shown();
-    const uint32_t area = host::findSpace(instance.program(), "A");
-    if (area == RUNG_NONE) return shown;
-    for (uint32_t bit = 0; bit < instance.program().spaces[area].byte_count * 8; ++bit) {
-      if (instance.read(host::bitRef(area, bit / 8, bit % 8)) == 0) continue;
-      const uint32_t message = bit + 1;
-      shown.push_back({message, 0, 0, 0, false, std::string(host::messageText(instance.program(), message))});
-    }
-    return shown;
-  }
-
-protected:
-  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override {
-    const Signal* found = findSignal(gskSignals(), name);
-    if (found == nullptr) return std::nullopt;
-    const uint32_t space = host::findSpace(instance.program(), found->area);
-    if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
-    const uint32_t bytes = elementBytes(found->type);
-    if (bytes == 0) return std::nullopt;
-    return host::intRef(space, found->byteOffset, bytes * 8);
   }
 
 private:
@@ -202,18 +177,14 @@ private:
     return reply;
   }
 
-  static std::vector<uint8_t> readArea(const host::Instance& instance, const char* area) {
+  static void clearArea(host::Instance& instance, const char* area) {
     const uint32_t space = host::findSpace(instance.program(), area);
-    std::vector<uint8_t> bytes(space == RUNG_NONE ? 0 : instance.program().spaces[space].byte_count);
-    for (uint32_t i = 0; i < bytes.size(); ++i) bytes[i] = instance.memory().readByte(space, i);
-    return bytes;
-  }
-  static void writeArea(host::Instance& instance, const char* area, const std::vector<uint8_t>& bytes) {
-    const uint32_t space = host::findSpace(instance.program(), area);
-    for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
+    if (space == RUNG_NONE) return;
+    for (uint32_t i = 0; i < instance.program().spaces[space].byte_count; ++i) instance.memory().writeByte(space, i, 0);
   }
 
   bool simulated_ = false;
+  GskControl control_;
   gsk::Simulator simulator_;
   std::deque<Waiting> waiting_; // low-speed window requests
 };

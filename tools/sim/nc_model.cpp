@@ -16,36 +16,63 @@ std::string NcModel::inFolder(std::string_view file) const {
 std::string NcModel::connect(std::string_view, std::string_view) { return "this dialect has no connections"; }
 
 void NcModel::powerOn(host::Instance& instance, PowerOn kind) {
-  if (kind == PowerOn::Cold)
-    instance.coldStart();
-  else
-    instance.warmStart();
-  board_.clear();
+  log_.clear();
+  control().powerOn(instance, kind);
 }
 
-void NcModel::powerOff(host::Instance&) {}
+void NcModel::powerOff(host::Instance& instance) {
+  if (!control().powerOff(instance)) return;
+  for (uint32_t i = 0; i < Control::kMostLastScans && !instance.faulted() && control().endsLater(instance); ++i)
+    scan(instance);
+}
 
 void NcModel::scan(host::Instance& instance) {
   instance.scan();
-  takeMessages(instance);
+  finishSlice(instance);
 }
 
 void NcModel::slot(host::Instance& instance) {
   instance.slot();
-  takeMessages(instance);
+  finishSlice(instance);
 }
 
 void NcModel::fast(host::Instance& instance) {
   instance.fast();
+  finishSlice(instance);
+}
+
+void NcModel::finishSlice(host::Instance& instance) {
   takeMessages(instance);
+  control().afterSlice(instance);
 }
 
-std::optional<host::Ref> NcModel::readPlace(const host::Instance& instance, std::string_view name) const {
-  return instance.resolve(name, [&](std::string_view unknown) { return signal(instance, unknown); });
+// ---- messages ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+std::string logLine(const Control& control, const rung_program& program, const rung_message& message) {
+  std::string line(kMessageLine, '\0');
+  size_t length = control.describe(program, message, line);
+  while (length == line.size()) {
+    line.resize(2 * line.size());
+    length = control.describe(program, message, line);
+  }
+  line.resize(length);
+  return line;
 }
 
-std::optional<host::Ref> NcModel::writePlace(const host::Instance& instance, std::string_view name) const {
-  return readPlace(instance, name);
+} // namespace
+
+bool NcModel::isLogged(const rung_message& message) const {
+  return message.op == RUNG_MESSAGE_SHOW_LOG || message.op == RUNG_MESSAGE_LOG;
+}
+
+void NcModel::takeMessages(host::Instance& instance) {
+  rung_message message;
+  while (instance.messages().pop(message)) {
+    if (isLogged(message)) log_.push_back(logLine(control(), instance.program(), message));
+    control().accept(message);
+  }
 }
 
 std::optional<NcCell> NcModel::readCell(std::string_view) const { return std::nullopt; }
@@ -73,15 +100,25 @@ std::string NcModel::plcCommand(host::Instance&, std::string_view) {
   return "this dialect has no operator commands to the PLC";
 }
 
-std::vector<ShownMessage> NcModel::messages(const host::Instance&) const { return board_.shown(); }
+namespace {
 
-std::optional<host::Ref> NcModel::signal(const host::Instance&, std::string_view) const { return std::nullopt; }
+class PlainModel final : public NcModel {
+public:
+  Control& control() override { return control_; }
+
+private:
+  Control control_;
+};
+
+} // namespace
+
+std::unique_ptr<NcModel> makePlainModel() { return std::make_unique<PlainModel>(); }
 
 std::unique_ptr<NcModel> makeNcModel(std::string_view dialect) {
   if (dialect == "gsk") return makeGskModel();
   if (dialect == "nct") return makeNctModel();
   if (dialect == "technol") return makeTechnolModel();
-  return std::make_unique<NcModel>();
+  return makePlainModel();
 }
 
 } // namespace rung::nc

@@ -1,5 +1,6 @@
-// The simulated NC beside a running program: what the control's own software does around the PLC. One class a dialect;
-// a scenario or `rungc run` drives it. It knows the program only through its tables.
+// The simulated NC beside a running program: the control that every host has (rtlib/nc/control), and around it the
+// machine: axes, part programs, devices, an operator. One class a dialect; a scenario or `rungc run` drives it. It
+// knows the program only through its tables.
 //
 // Errors of the caller (an unknown key, a name that does not exist) come back as a text; "" means done.
 #pragma once
@@ -9,14 +10,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rtlib/host/instance.h"
-#include "tools/sim/message_board.h"
+#include "rtlib/nc/control/control.h"
 
 namespace rung::nc {
-
-enum class PowerOn : uint8_t { Cold, Warm };
 
 // The value of a cell that lies in the NC itself and not in the program's memory.
 struct NcCell {
@@ -51,11 +51,16 @@ public:
   // After a power-on: the connections whose ends do not exist or do not fit. They are not served.
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
-  // Switches the program on: memory, presets, what the control runs before the first scan. Warm keeps what the dialect
-  // keeps.
+  virtual Control& control() = 0;
+  const Control& control() const { return const_cast<NcModel*>(this)->control(); }
+
+  // Switches the control and the machine on.
   virtual void powerOn(host::Instance& instance, PowerOn kind);
-  // What the control runs before a regular power-off.
-  virtual void powerOff(host::Instance& instance);
+  // A regular power-off, with the scans that the program still needs.
+  void powerOff(host::Instance& instance);
+
+  void onHook(host::Instance& instance, uint32_t work) override { control().onHook(instance, work); }
+  void onFault(host::Instance& instance) override { control().onFault(instance); }
 
   // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it
   // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` comes before powerOn, whose kind is then
@@ -63,29 +68,19 @@ public:
   virtual uint32_t keptSize() { return 0; }
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
-  // The program's retained memory was there but could not be restored: called before powerOn.
-  virtual void reportRetainedLost() {}
-
-  // TECHNOL saves its retained memory at a power-off and when the program asks, and at no other time: a host that
-  // stores it says so before the power-on, looks between two scans whether the program asks, and reports when it is on
-  // disk.
-  virtual bool savesOnRequest() const { return false; }
-  virtual void setStored(bool stored) { (void)stored; }
-  virtual bool asksToSave(const host::Instance& instance) const {
-    (void)instance;
-    return false;
-  }
-  virtual void saved(host::Instance& instance) { (void)instance; }
-
   virtual void scan(host::Instance& instance);
   virtual void slot(host::Instance& instance);
   virtual void fast(host::Instance& instance);
   // For a real clock: what the NC does before the first and between two slices.
-  virtual void betweenSlices(host::Instance& instance) { (void)instance; }
+  virtual void betweenSlices(host::Instance& instance) { control().afterSlice(instance); }
 
   // The place that `expect` reads and the one that `set` writes.
-  virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
-  virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const;
+  virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const {
+    return control().readPlace(instance, name);
+  }
+  virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const {
+    return control().writePlace(instance, name);
+  }
   // The machine or a user is going to write there: what the control has put over the real value gives way to it.
   virtual void beforeWrite(host::Instance& instance, const host::Ref& place) { (void)instance, (void)place; }
 
@@ -102,28 +97,28 @@ public:
   virtual std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(host::Instance& instance, std::string_view command);
 
-  // Empties the program's message queue.
-  virtual void takeMessages(host::Instance& instance) { board_.take(instance); }
-  // For a host that empties it itself and cannot allocate: what the program must learn of this message.
-  virtual void accept(const rung_message& message) { (void)message; }
-  // Messages on the screen now.
-  virtual std::vector<ShownMessage> messages(const host::Instance& instance) const;
-  MessageBoard& board() { return board_; }
+  // Empties the program's message queue: what is shown is the control's, what is logged is kept here.
+  void takeMessages(host::Instance& instance);
+  // Entries of the log since the last call.
+  std::vector<std::string> takeLog() { return std::exchange(log_, {}); }
 
 protected:
-  // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
-  virtual std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const;
+  // Whether the log gets a line for this message.
+  virtual bool isLogged(const rung_message& message) const;
+  // After a scan, a slot or the fast part: messages, and what the control does then.
+  void finishSlice(host::Instance& instance);
 
   std::string inFolder(std::string_view file) const;
 
   std::string folder_;
-  MessageBoard board_;
+  std::vector<std::string> log_;
   std::map<std::string, double, std::less<>> quantities_;
 };
 
 // By rung_program::dialect; a plain model for a dialect that has none of its own.
 std::unique_ptr<NcModel> makeNcModel(std::string_view dialect);
 
+std::unique_ptr<NcModel> makePlainModel(); // of a dialect without a control of its own
 std::unique_ptr<NcModel> makeGskModel();
 std::unique_ptr<NcModel> makeNctModel();
 std::unique_ptr<NcModel> makeTechnolModel();

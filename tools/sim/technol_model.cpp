@@ -1,69 +1,41 @@
-// The NC beside a TECHNOL PLC, composed of the topics in technol/: the life of the program, part-program blocks,
-// events, messages (man. ch. 3.17, 5, 14).
+// The simulated NC beside a TECHNOL PLC: configuration, connections and events, and the operator's commands (man. ch.
+// 3.17, 5, 14, 16, 27).
 #include <iterator>
 #include <span>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/config_key.h"
+#include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/control/technol/technol_control.h"
 #include "rtlib/nc/faults.h"
+#include "rtlib/nc/technol/configuration.h"
+#include "rtlib/nc/technol/licences.h"
 #include "tools/sim/nc_model.h"
-#include "tools/sim/technol/backup.h"
-#include "tools/sim/technol/blocks.h"
-#include "tools/sim/technol/cells.h"
 #include "tools/sim/technol/configuration.h"
 #include "tools/sim/technol/control_files.h"
 #include "tools/sim/technol/events.h"
 #include "tools/sim/technol/exchange.h"
-#include "tools/sim/technol/messages.h"
-#include "tools/sim/technol/program_life.h"
-#include "rtlib/nc/technol/configuration.h"
-#include "rtlib/nc/technol/licences.h"
 
 namespace rung::nc {
 namespace {
 
-constexpr int kShutdownScans = 500;  // at most, while MODULE_DONE_FINISHED is owed
-constexpr uint32_t kBehindInput = 1; // hooks of the scan, see assemble.cpp of the dialect
-
 class TechnolModel final : public NcModel {
 public:
+  Control& control() override { return control_; }
+
   void powerOn(host::Instance& instance, PowerOn kind) override {
-    NcModel::powerOn(instance, kind);
-    messages_.clear();
-    blocks_.reset(instance);
+    log_.clear();
+    control_.prepare(instance, kind);
     technol::writeCell(instance, kLicenceCell, configuration_.licences());
-    backup_.powerOn(instance);
     exchange_.beforeInit(instance, true);
-    life_.powerOn(instance);
-    exchange_.behindInit(instance);
+    control_.start(instance);
+    exchange_.afterInit(instance);
     takeMessages(instance);
   }
 
-  void powerOff(host::Instance& instance) override {
-    if (!life_.powerOff(instance)) return;
-    for (int i = 0; i < kShutdownScans && !instance.faulted() && life_.owesDone(instance); ++i) scan(instance);
-  }
-
   void onHook(host::Instance& instance, uint32_t work) override {
-    if (work == kBehindInput) return blocks_.supervise(instance);
-    exchange_.onHook(instance, work);
-    if (work == kHookBehindMain) backup_.behindMain(instance);
-  }
-
-  void onFault(host::Instance& instance) override { technol::runWith(instance, "HALT", 0, false); }
-
-  void scan(host::Instance& instance) override {
-    NcModel::scan(instance);
-    life_.afterScan(instance);
-  }
-
-  void slot(host::Instance& instance) override {
-    NcModel::slot(instance);
-    life_.afterScan(instance);
-  }
-
-  void betweenSlices(host::Instance& instance) override {
-    if (instance.atListStart()) life_.afterScan(instance);
+    if (work != kHookAfterInput) exchange_.onHook(instance, work);
+    control_.onHook(instance, work);
   }
 
   std::string config(std::string_view key, std::string_view value) override {
@@ -79,20 +51,15 @@ public:
     exchange_.connect(source, destination);
     return {};
   }
-  bool savesOnRequest() const override { return true; }
-  void setStored(bool stored) override { backup_.setStored(stored); }
-  bool asksToSave(const host::Instance& instance) const override { return backup_.asked(instance); }
-  void saved(host::Instance& instance) override { backup_.saved(instance); }
-
   std::vector<NcProblem> connectionProblems() const override { return exchange_.problems(); }
 
   // Shared variables have their names beside the program's own; screens write inputs only (man. l.13609).
   std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const override {
-    const auto place = NcModel::readPlace(instance, name);
+    const auto place = control_.readPlace(instance, name);
     return place ? place : exchange_.shared().find(name, false);
   }
   std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override {
-    const auto place = NcModel::readPlace(instance, name);
+    const auto place = control_.readPlace(instance, name);
     return place ? place : exchange_.shared().find(name, true);
   }
   void beforeWrite(host::Instance& instance, const host::Ref& place) override {
@@ -108,17 +75,14 @@ public:
     return true;
   }
 
-  void takeMessages(host::Instance& instance) override { messages_.take(instance, board_); }
-  std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
-
-  std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) override {
-    return blocks_.start(instance, keys);
+  std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) override;
+  std::string blockDone(host::Instance& instance) override {
+    return control_.blocks().reached(instance) ? "" : "no block is in motion";
   }
-  std::string blockDone(host::Instance& instance) override { return blocks_.reached(instance); }
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
     if (technol::equalIgnoringCase(name, "CONFIRM")) {
-      messages_.confirm();
+      control_.list().confirm();
       return {};
     }
     if (technol::equalIgnoringCase(name, "HALT")) {
@@ -135,21 +99,19 @@ public:
 
   std::string plcCommand(host::Instance& instance, std::string_view command) override {
     if (command == "stop") {
-      life_.stop(instance);
+      control_.life().stop(instance);
     } else if (command == "start") {
-      messages_.clear(); // as at power-up
+      control_.list().clear(); // as at power-up
       start(instance);
     } else {
-      life_.clear(instance);
+      control_.life().clear(instance);
     }
     takeMessages(instance);
     return {};
   }
 
 protected:
-  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override {
-    return technol::signalPlace(instance, name);
-  }
+  bool isLogged(const rung_message& message) const override { return control_.list().begins(message); }
 
 private:
   std::string readFile(technol::ControlFileKind kind, std::string_view file) {
@@ -162,25 +124,38 @@ private:
     if (!wrong.empty()) return wrong;
     exchange_.take(added(files.connections, files_.connections), added(files.terminals, files_.terminals));
     files_ = std::move(files);
-    messages_.define(files_.messages);
+    for (const technol::PlacedMessage& message : files_.messages) control_.list().define(message);
     return {};
   }
 
   // MODULE_INIT tells its variables again.
   void start(host::Instance& instance) {
     exchange_.beforeInit(instance, false);
-    life_.start(instance);
-    exchange_.behindInit(instance);
+    control_.life().start(instance);
+    exchange_.afterInit(instance);
   }
 
-  technol::Blocks blocks_;
-  technol::ProgramLife life_;
+  TechnolControl control_;
   technol::ControlFiles files_;
   technol::Configuration configuration_;
-  technol::Messages messages_;
   technol::Exchange exchange_;
-  technol::Backup backup_;
 };
+
+// The keys are names of cells of the command block.
+std::string TechnolModel::blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) {
+  if (control_.blocks().busy()) return "a block is already under way";
+  std::vector<technol::CommandValue> values;
+  for (const NcArgument& cell : keys) {
+    if (cell.isText) return "'" + cell.key + "' is a number, not a text";
+    const auto place = technol::commandCell(instance, cell.key);
+    if (!place) return "unknown signal '" + cell.key + "'";
+    if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
+      return "'" + cell.key + "' is a bit";
+    values.push_back({*place, cell.isReal || place->kind == host::RefKind::Real, cell.integer, cell.real});
+  }
+  control_.blocks().start(instance, values);
+  return {};
+}
 
 } // namespace
 

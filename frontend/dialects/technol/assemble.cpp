@@ -262,14 +262,13 @@ void TaskMaker::make() {
   module_.fastTask = of(ModuleKind::Fast);
   const ir::TaskId none{RUNG_NONE};
   const auto step = [&](uint32_t op, uint32_t arg) { module_.scan.push_back({.op = op, .task = none, .arg = arg}); };
-  // The host's hook 1 runs the block modules (§12.2 of the inventory).
   step(RUNG_STEP_ADVANCE, periodUs_);
   step(RUNG_STEP_HOOK, nc::kHookBeforeInput);
   run(module_.scan, ModuleKind::Input);
   fastSteps(module_.scan, std::max(1u, periodUs_ / kFastPeriodUs));
-  step(RUNG_STEP_HOOK, 1);
+  step(RUNG_STEP_HOOK, nc::kHookAfterInput);
   run(module_.scan, ModuleKind::Main);
-  step(RUNG_STEP_HOOK, nc::kHookBehindMain);
+  step(RUNG_STEP_HOOK, nc::kHookAfterMain);
   run(module_.scan, ModuleKind::Cont);
   if (const LoweredModule& messages = lowering_.bitMessages(); messages.routine.valid())
     module_.scan.push_back(

@@ -82,8 +82,9 @@ inline constexpr uint32_t kDefineBytes = kDefineWords * 8; // longest identifier
 // bits of the value; always 0: asking again is not needed.
 inline constexpr std::string_view kUpdateService = "@UPDATE_IN place -> found value again";
 
-// Hooks of the schedule at which connections run.
-inline constexpr uint32_t kHookBehindMain = 2;
+// Hooks of the schedule: what the control does between the modules.
+inline constexpr uint32_t kHookAfterInput = 1; // the block modules run there (inventory 12.2)
+inline constexpr uint32_t kHookAfterMain = 2;
 inline constexpr uint32_t kHookBeforeInput = 3;
 inline constexpr uint32_t kHookFast = 4;    // before MODULE_FAST and MODULE_CYCLICOPERATION
 inline constexpr uint32_t kHookFastest = 5; // before and after MODULE_FASTEST

@@ -15,6 +15,7 @@ inline constexpr uint32_t kByBit = 1u << 17;            // of EDEF
 
 struct MessageValues {
   uint32_t number, subId, par[3];
+  bool operator==(const MessageValues&) const = default;
 };
 inline MessageValues valuesOf(const rung_message& message) {
   const auto both = static_cast<uint64_t>(message.value);

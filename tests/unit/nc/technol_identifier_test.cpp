@@ -1,7 +1,7 @@
 // Identifiers of logical inputs and outputs, and the elements of modules that are not simulated.
 #include <gtest/gtest.h>
 
-#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/control/technol/identifier.h"
 #include "tools/sim/technol/module_cells.h"
 
 namespace rung::nc::technol {

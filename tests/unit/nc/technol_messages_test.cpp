@@ -1,11 +1,10 @@
-// How a TECHNOL message is told by hosts that know no texts of it.
+// The line of a TECHNOL message in the log, with and without a text of the control's files.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
 
-#include "tools/sim/message_board.h"
-#include "rtlib/nc/technol/messages.h"
+#include "rtlib/nc/control/technol/messages.h"
 
 namespace rung::nc {
 namespace {
@@ -20,27 +19,37 @@ rung_message messageOf(uint32_t number, uint32_t subId, uint32_t par1, uint32_t 
   return message;
 }
 
-std::string told(const rung_message& message, size_t room) {
-  rung_program program{};
-  program.dialect = "technol";
-  std::array<char, 100> line;
-  line.fill('#');
-  const size_t length = describeMessage(program, message, std::span(line).first(room));
-  EXPECT_EQ(line[room], '#');
-  return std::string(line.data(), length);
+std::string line(const technol::Messages& messages, const rung_message& message, size_t room) {
+  std::array<char, 100> out;
+  out.fill('#');
+  const size_t length = messages.describe(message, std::span(out).first(room));
+  EXPECT_EQ(out[room], '#');
+  return std::string(out.data(), length);
 }
 
 TEST(TechnolMessages, NumberSubidAndThreeValues) {
-  EXPECT_EQ(told(messageOf(12, 0, 0, 0, 0), 90), "PLC00012 0 0 0 0");
-  EXPECT_EQ(told(messageOf(65535 | technol::kByBit | technol::kPersistentWanted, 0xFFFFFFFF, 0xFFFFFFFF, 0x80000000,
+  EXPECT_EQ(line({}, messageOf(12, 0, 0, 0, 0), 90), "PLC00012 0 0 0 0");
+  EXPECT_EQ(line({},
+                 messageOf(65535 | technol::kByBit | technol::kPersistentWanted, 0xFFFFFFFF, 0xFFFFFFFF, 0x80000000,
                            0xFFFFFFFE),
                  90),
             "PLC65535 4294967295 4294967295 2147483648 4294967294");
 }
 
 TEST(TechnolMessages, WhatDoesNotFitIsCutOff) {
-  EXPECT_EQ(told(messageOf(12, 1, 2, 3, 4), 10), "PLC00012 1");
-  EXPECT_EQ(told(messageOf(12, 1, 2, 3, 4), 0), "");
+  EXPECT_EQ(line({}, messageOf(12, 1, 2, 3, 4), 10), "PLC00012 1");
+  EXPECT_EQ(line({}, messageOf(12, 1, 2, 3, 4), 0), "");
+}
+
+TEST(TechnolMessages, TheTextComesWithItsValues) {
+  technol::Messages messages;
+  messages.define({12, technol::MessageKind::Err, technol::Validity::Transient, "at %d, code %X, %x; %d 100 %"});
+  EXPECT_EQ(line(messages, messageOf(12, 1, 0xFFFFFFFE, 0xAB, 0xCD), 90),
+            "PLC00012 1 4294967294 171 205 at -2, code AB, cd; %d 100 %");
+  EXPECT_EQ(line(messages, messageOf(12, 1, 0xFFFFFFFE, 0xAB, 0xCD), 36), "PLC00012 1 4294967294 171 205 at -2,");
+  messages.accept(messageOf(12, 1, 7, 8, 9));
+  ASSERT_EQ(messages.shown().size(), 1u);
+  EXPECT_EQ(messages.shown()[0].text, "at 7, code 8, 9; %d 100 %");
 }
 
 } // namespace

@@ -90,8 +90,8 @@ public:
       sum += static_cast<uint32_t>(read(fmt::format("{:04}.{:02}", first + i / 32, i % 32)));
     return sum;
   }
-  std::vector<nc::ShownMessage> shown() { return nc_->messages(*instance_); }
-  std::vector<std::string> log() { return nc_->board().takeLog(); }
+  std::vector<nc::ShownMessage> shown() { return nc_->control().messages(*instance_); }
+  std::vector<std::string> log() { return nc_->takeLog(); }
   uint32_t lost() { return instance_->messages().lost(); }
 
 private:

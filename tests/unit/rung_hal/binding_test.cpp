@@ -23,8 +23,8 @@ Bound boundTo(const rung_program& program, std::string_view text) {
   Bound bound;
   const MapFile map = parseMap(text, "m.map", bound.errors);
   host::Instance instance(program);
-  const std::unique_ptr<nc::NcModel> nc = nc::makeNcModel(program.dialect);
-  bound.binding = bindMap(map, instance, *nc, bound.errors);
+  const std::unique_ptr<nc::Control> control = nc::makeControl(program.dialect);
+  bound.binding = bindMap(map, instance, *control, bound.errors);
   return bound;
 }
 

@@ -203,9 +203,9 @@ TEST(Box, RetainedMemoryGoesOn) {
 
 std::vector<uint32_t> shown;
 
-TEST(Box, MessagesAreHandedOn) {
+TEST(Box, MessagesReachTheSink) {
   Bench b(testing::gskProgram(), "in bit show X1.2\n");
-  b.box->setMessageSink([](const rung_program&, const rung_message& message) { shown.push_back(message.number); });
+  b.box->setMessageSink([](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.number); });
   b["show"].bit = true;
   b.scans(2);
   EXPECT_THAT(shown, ElementsAre(7u, 7u));
@@ -225,7 +225,7 @@ TEST(Box, NctMessages) {
                                  "out u32 code N_ACTMSG\n");
   ASSERT_THAT(b.errors, IsEmpty());
   shown.clear();
-  b.box->setMessageSink([](const rung_program&, const rung_message& message) { shown.push_back(message.op); });
+  b.box->setMessageSink([](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.op); });
   const auto cycle = [&] { b.box->step(10 * kMs); };
   b["show"].bit = true;
   cycle();

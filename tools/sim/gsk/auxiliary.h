@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/sim/gsk/signals_io.h"
+#include "rtlib/nc/control/gsk/signals_io.h"
 #include "tools/sim/gsk/tables.h"
 
 namespace rung::nc::gsk {

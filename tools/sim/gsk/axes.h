@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "rtlib/nc/control/gsk/signals_io.h"
 #include "tools/sim/gsk/alarms.h"
-#include "tools/sim/gsk/signals_io.h"
 #include "tools/sim/gsk/tables.h"
 
 namespace rung::nc::gsk {

@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-#include "tools/sim/gsk/signals_io.h"
+#include "rtlib/nc/control/gsk/signals_io.h"
 #include "tools/sim/gsk/tables.h"
 
 namespace rung::nc::gsk {

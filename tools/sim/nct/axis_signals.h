@@ -1,7 +1,7 @@
 // The signals and parameters that the axes work with (man. 7.10, 7.13, 7.15), found once.
 #pragma once
+#include "rtlib/nc/control/nct/signal_memory.h"
 #include "tools/sim/nct/parameters.h"
-#include "tools/sim/nct/signal_memory.h"
 
 namespace rung::nc::nct {
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/nc/control/nct/signal_memory.h"
+#include "rtlib/nc/nct/operand_block.h"
 #include "tools/sim/nc_model.h"
 #include "tools/sim/nct/kept.h"
-#include "tools/sim/nct/signal_memory.h"
-#include "rtlib/nc/nct/operand_block.h"
 
 namespace rung::nc::nct {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "tools/sim/technol/cells.h"
-#include "tools/sim/technol/identifier.h"
-#include "tools/sim/technol/values.h"
+#include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"

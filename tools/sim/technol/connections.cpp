@@ -5,12 +5,12 @@
 #include <bit>
 #include <unordered_map>
 
-#include "tools/sim/technol/cells.h"
-#include "tools/sim/technol/identifier.h"
-#include "tools/sim/technol/ports.h"
-#include "tools/sim/technol/values.h"
+#include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/signals.h"
+#include "tools/sim/technol/ports.h"
 
 namespace rung::nc::technol {
 namespace {

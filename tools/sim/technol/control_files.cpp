@@ -14,8 +14,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "tools/sim/technol/cells.h"
-#include "tools/sim/technol/values.h"
+#include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 
 namespace rung::nc::technol {
@@ -235,7 +235,7 @@ int knowEncoding(void*, const XML_Char* name, XML_Encoding* encoding) {
 
 Reader::Reader(ControlFileKind kind, std::string_view name, const ControlFiles& earlier)
     : kind_(kind), name_(name), parser_(XML_ParserCreate(nullptr)) {
-  for (const MessageDefinition& message : earlier.messages)
+  for (const PlacedMessage& message : earlier.messages)
     known_.emplace("message " + std::to_string(message.number), message.place);
   for (const ConstantDefinition& constant : earlier.constants)
     known_.emplace("constant " + constant.id, constant.place);
@@ -399,7 +399,7 @@ bool Reader::isNew(std::string_view what, const std::string& id, const FilePlace
 
 void Reader::beginMessage(const char** list) {
   Attributes attributes(*this, list);
-  MessageDefinition& message = found_.messages.emplace_back();
+  PlacedMessage& message = found_.messages.emplace_back();
   message.place = place();
   hasText_ = false;
   const std::string number = attributes.required("No");
@@ -416,7 +416,7 @@ void Reader::beginMessage(const char** list) {
 void Reader::endMessage() {
   if (hasText_) complain("<PlcError> has a second <Text>");
   hasText_ = true;
-  MessageDefinition& message = found_.messages.back();
+  PlacedMessage& message = found_.messages.back();
   message.text = inOneLine(text_);
   if (const int values = valuesIn(message.text); values > kMostValues)
     complain("the text takes " + std::to_string(values) + " values, a message has " + std::to_string(kMostValues));

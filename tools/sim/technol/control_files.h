@@ -12,20 +12,15 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/nc/control/technol/messages.h"
+
 namespace rung::nc::technol {
 
 // Where something is written, for messages about it: "FILE:LINE:COLUMN".
 using FilePlace = std::string;
 
-enum class MessageKind : uint8_t { ErrCritical, Err, Wrn1, Wrn2, Wrn3, Info, Event };
-enum class Validity : uint8_t { Transient, Persistent };
-
 // <PlcError No="4" Type="Err" Validity="Transient"><Text>... %d</Text></PlcError>
-struct MessageDefinition {
-  uint32_t number = 0; // 0 to 65535
-  MessageKind kind = MessageKind::Err;
-  Validity validity = Validity::Transient;
-  std::string text; // in one line; %d, %x or %X are places for the values of the message, three at most
+struct PlacedMessage : MessageDefinition {
   FilePlace place;
 };
 
@@ -74,7 +69,7 @@ struct TerminalDefinition {
 };
 
 struct ControlFiles {
-  std::vector<MessageDefinition> messages;
+  std::vector<PlacedMessage> messages;
   std::vector<ParameterDefinition> parameters;
   std::vector<ConstantDefinition> constants;
   std::vector<ConnectionDefinition> connections;

@@ -1,7 +1,7 @@
 // Event procedures (see events.h).
 #include "tools/sim/technol/events.h"
 
-#include "tools/sim/technol/cells.h"
+#include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::nc::technol {
 namespace {

@@ -21,21 +21,21 @@ void Exchange::beforeInit(host::Instance& instance, bool powerOn) {
   connections_.preset(instance);
 }
 
-void Exchange::behindInit(host::Instance& instance) {
+void Exchange::afterInit(host::Instance& instance) {
   connections_.build(instance, shared_, cells_);
   defined_ = false;
 }
 
 void Exchange::onHook(host::Instance& instance, uint32_t hook) {
-  if (defined_) behindInit(instance); // by a procedure that runs outside MODULE_INIT
+  if (defined_) afterInit(instance); // by a procedure that runs outside MODULE_INIT
   switch (hook) {
   case kHookBeforeInput:
     ports_.beforeProgram(instance);
     connections_.copy(instance, cells_, ExchangePeriod::Slow);
     return;
-  case kHookBehindMain:
+  case kHookAfterMain:
     connections_.copy(instance, cells_, ExchangePeriod::Slow);
-    ports_.behindProgram(instance);
+    ports_.afterProgram(instance);
     return;
   case kHookFast: connections_.copy(instance, cells_, ExchangePeriod::Fast); return;
   case kHookFastest: connections_.copy(instance, cells_, ExchangePeriod::Fastest); return;

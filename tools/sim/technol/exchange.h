@@ -24,7 +24,7 @@ public:
 
   // Memory has been started; the program's MODULE_INIT follows. `powerOn`: not a mere start of the program.
   void beforeInit(host::Instance& instance, bool powerOn);
-  void behindInit(host::Instance& instance);
+  void afterInit(host::Instance& instance);
   // Hooks of the schedule.
   void onHook(host::Instance& instance, uint32_t hook);
   void beforeWrite(host::Instance& instance, const host::Ref& place) { ports_.beforeWrite(instance, place); }

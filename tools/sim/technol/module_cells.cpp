@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/signals.h"
 

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "rtlib/host/program_info.h"
-#include "tools/sim/technol/cells.h"
-#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/control/technol/identifier.h"
 
 namespace rung::nc::technol {
 namespace {
@@ -147,7 +147,7 @@ void Ports::beforeProgram(host::Instance& instance) {
   active_ = now;
 }
 
-void Ports::behindProgram(host::Instance& instance) {
+void Ports::afterProgram(host::Instance& instance) {
   if (!anySwitch(instance)) return;
   active_ = true;
   for (uint32_t i = 0; i < kOutputs; ++i) {

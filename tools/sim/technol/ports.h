@@ -24,7 +24,7 @@ public:
   void reset(const host::Instance& instance);
 
   void beforeProgram(host::Instance& instance);
-  void behindProgram(host::Instance& instance);
+  void afterProgram(host::Instance& instance);
   // The value that comes may be equal to a forced one, so the ports it goes to get their own back first.
   void beforeWrite(host::Instance& instance, const host::Ref& place);
 

@@ -1,7 +1,7 @@
 // Variables that the control knows by names (see shared_variables.h).
 #include "tools/sim/technol/shared_variables.h"
 
-#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
 
 namespace rung::nc::technol {

@@ -1,11 +1,11 @@
 // Access to the cells of a TECHNOL program by name (see cells.h).
-#include "tools/sim/technol/cells.h"
+#include "rtlib/nc/control/technol/cells.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::nc::technol {

@@ -1,23 +1,38 @@
 // The supervisor's way through a part-program block: MODULE_BLOCK_INIT, motion, MODULE_BLOCK_DONE (man. l.2682-2711),
 // and what the command block shows meanwhile (man. l.6746-6968).
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "tools/sim/nc_model.h"
+#include "rtlib/host/instance.h"
 
 namespace rung::nc::technol {
+
+// A cell of the command block by its name. Nothing: there is no such cell.
+std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name);
+
+// What a block puts into a cell of the command block.
+struct CommandValue {
+  host::Ref place;
+  bool isReal = false; // else `integer`; an integer cell gets a real rounded
+  int64_t integer = 0;
+  double real = 0;
+};
 
 class Blocks {
 public:
   // After power-on.
   void reset(const host::Instance& instance);
 
-  // "" or why not. The names refer to cells of the command block.
-  std::string start(host::Instance& instance, std::span<const NcArgument> cells);
-  // The programmed position has been reached; while MODULE_BLOCK_INIT runs: the block has no motion.
-  std::string reached(host::Instance& instance);
+  // False: a block is under way already.
+  bool start(host::Instance& instance, std::span<const CommandValue> values);
+  // The programmed position has been reached; while MODULE_BLOCK_INIT runs: the block has no motion. False: no block is
+  // in motion.
+  bool reached(host::Instance& instance);
+  bool busy() const { return phase_ != Phase::Idle; }
   // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
   void supervise(host::Instance& instance);
 
@@ -43,6 +58,8 @@ private:
   bool first_ = false;                  // pass of the module
   std::vector<host::Ref> lastOneBlock_; // zero again at the end of the block
   std::vector<host::Ref> motionBits_;   // PO_OS...
+  std::vector<host::Ref> untilNextStart_;
+  uint32_t queue_ = RUNG_NONE; // the space of the queue of command blocks
 };
 
 } // namespace rung::nc::technol

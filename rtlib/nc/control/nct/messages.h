@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/sim/nc_model.h"
-#include "tools/sim/nct/signal_memory.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/control/nct/signal_memory.h"
+#include "rtlib/nc/control/shown_message.h"
 #include "rtlib/nc/nct/messages.h"
 
 namespace rung::nc::nct {
@@ -22,8 +23,11 @@ public:
   void powerOn(host::Instance& instance);
   // What the program sent.
   void accept(const rung_message& message);
-  // The operator: CANCEL (the message on top), the selected message, or all of them. "" or what is wrong.
-  std::string cancel(const std::vector<NcArgument>& keys);
+  // The operator's buttons: CANCEL takes the message on top, others the selected one or all of them. False: the
+  // selected one is not displayed.
+  void cancelTop();
+  void cancelAll();
+  bool cancel(uint32_t code);
   // Before a time slice. `lost` counts messages that found no room in the program's queue.
   enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
   void timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost);
@@ -63,7 +67,8 @@ private:
   bool changed_ = true;
 };
 
-// The 8 digits of the code and the text with its number.
-std::string logLine(const rung_program& program, const rung_message& message);
+// The 8 digits of the code and the text with its number: the characters written, what does not fit is cut off.
+// Allocates nothing.
+size_t logLine(const rung_program& program, const rung_message& message, std::span<char> out) noexcept;
 
 } // namespace rung::nc::nct

@@ -12,7 +12,7 @@ public:
   // Whether the host keeps the memory on disk; without it there is nothing to wait for.
   void setStored(bool stored) { stored_ = stored; }
   void powerOn(const host::Instance& instance);
-  void behindMain(host::Instance& instance);
+  void afterMain(host::Instance& instance);
   bool asked(const host::Instance& instance) const { return request_ && instance.read(*request_) != 0; }
   void saved(host::Instance& instance) {
     if (request_) host::writeRaw(instance.memory(), *request_, 0);

@@ -1,5 +1,5 @@
 // The refusal of a request (see refuse.h).
-#include "tools/sim/refuse.h"
+#include "rtlib/nc/control/refuse.h"
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/window_functions.h"

@@ -1,11 +1,10 @@
 // The messages on the screen (see messages.h).
-#include "tools/sim/nct/messages.h"
+#include "rtlib/nc/control/nct/messages.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "rtlib/host/program_info.h"
-#include "tools/sim/nct/topic.h"
 
 namespace rung::nc::nct {
 namespace {
@@ -29,10 +28,15 @@ std::string filled(const rung_program& program, const rung_message& message) {
 
 } // namespace
 
-std::string logLine(const rung_program& program, const rung_message& message) {
-  std::string out(16 + roomFor(host::messageText(program, message.number)), '\0');
-  out.resize(describeMessage(program, message, out));
-  return out;
+size_t logLine(const rung_program& program, const rung_message& message, std::span<char> out) noexcept {
+  constexpr uint32_t kDigits = 8;
+  char head[kDigits + 1] = {};
+  uint32_t rest = codeOf(message);
+  for (uint32_t i = kDigits; i > 0; --i, rest /= 10) head[i - 1] = static_cast<char>('0' + rest % 10);
+  head[kDigits] = ' ';
+  const size_t shown = std::min(out.size(), sizeof head);
+  std::copy_n(head, shown, out.data());
+  return shown + fillText(host::messageText(program, message.number), message, out.subspan(shown));
 }
 
 // ---- cells -------------------------------------------------------------------------------------------------------
@@ -118,22 +122,21 @@ std::vector<ShownMessage> Messages::shown(const rung_program& program) const {
 
 // ---- operator ----------------------------------------------------------------------------------------------------
 
-std::string Messages::cancel(const std::vector<NcArgument>& keys) {
-  if (std::string wrong = unknownKey("cancel", keys, {"number", "channel", "index", "all"}); !wrong.empty())
-    return wrong;
-  if (findKey(keys, "number") != nullptr) {
-    const uint32_t code = messageCode(static_cast<uint32_t>(integerKey(keys, "number", 0)),
-                                      static_cast<uint32_t>(integerKey(keys, "channel", 0)),
-                                      static_cast<uint32_t>(integerKey(keys, "index", 0)));
-    if (!isShown(code)) return "event cancel: this message is not displayed";
-    cleared_.push_back(code);
-  } else if (integerKey(keys, "all", 0) != 0) {
-    for (const Entry& entry : list_) cleared_.push_back(entry.code);
-  } else if (!list_.empty()) {
-    cleared_.push_back(list_.back().code);
-  }
+void Messages::cancelTop() {
+  if (!list_.empty()) cleared_.push_back(list_.back().code);
   cancel_ = true;
-  return {};
+}
+
+void Messages::cancelAll() {
+  for (const Entry& entry : list_) cleared_.push_back(entry.code);
+  cancel_ = true;
+}
+
+bool Messages::cancel(uint32_t code) {
+  if (!isShown(code)) return false;
+  cleared_.push_back(code);
+  cancel_ = true;
+  return true;
 }
 
 // N_CLRMSG is 1 for the one cycle after a button; set by somebody else it clears the message on top with its rising

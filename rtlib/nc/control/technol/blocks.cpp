@@ -1,9 +1,8 @@
 // The supervisor of part-program blocks (see blocks.h).
-#include "tools/sim/technol/blocks.h"
+#include "rtlib/nc/control/technol/blocks.h"
 
-#include <algorithm>
-
-#include "tools/sim/technol/cells.h"
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::nc::technol {
@@ -28,18 +27,22 @@ host::Ref interfaceCell(const host::Instance& instance, std::string_view name) {
 void put(host::Instance& instance, const host::Ref& place, uint64_t value) {
   host::writeRaw(instance.memory(), place, value);
 }
+
+} // namespace
+
 std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name) {
   const std::optional<host::Ref> place = signalPlace(instance, name);
   return place ? place : cellPlace(instance, name);
 }
-
-} // namespace
 
 void Blocks::reset(const host::Instance& instance) {
   phase_ = Phase::Idle;
   reached_ = first_ = false;
   lastOneBlock_.clear();
   motionBits_.clear();
+  untilNextStart_.clear();
+  for (const std::string_view name : kUntilNextStart) untilNextStart_.push_back(interfaceCell(instance, name));
+  queue_ = host::findSpace(instance.program(), "BLK");
   const auto task = [&](std::string_view name) { return host::findTask(instance.program(), name); };
   init_ = {task("BLOCK_INIT"), hostCell(instance, "@BLOCK_INIT.CONT"), hostCell(instance, "@BLOCK_INIT.DONE")};
   done_ = {task("BLOCK_DONE"), hostCell(instance, "@BLOCK_DONE.CONT"), hostCell(instance, "@BLOCK_DONE.DONE")};
@@ -59,34 +62,26 @@ void Blocks::reset(const host::Instance& instance) {
   }
 }
 
-std::string Blocks::start(host::Instance& instance, std::span<const NcArgument> cells) {
-  if (phase_ != Phase::Idle) return "a block is already under way";
-  for (const NcArgument& cell : cells) {
-    if (cell.isText) return "'" + cell.key + "' is a number, not a text";
-    const auto place = commandCell(instance, cell.key);
-    if (!place) return "unknown signal '" + cell.key + "'";
-    if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
-      return "'" + cell.key + "' is a bit";
-  }
-  for (const std::string_view name : kUntilNextStart) put(instance, interfaceCell(instance, name), 0);
-  for (const NcArgument& cell : cells) {
-    const host::Ref place = *commandCell(instance, cell.key);
-    if (cell.isReal || place.kind == host::RefKind::Real)
-      host::writeReal(instance.memory(), place, cell.real);
+bool Blocks::start(host::Instance& instance, std::span<const CommandValue> values) {
+  if (busy()) return false;
+  for (const host::Ref& place : untilNextStart_) put(instance, place, 0);
+  for (const CommandValue& value : values) {
+    if (value.isReal)
+      host::writeReal(instance.memory(), value.place, value.real);
     else
-      put(instance, place, static_cast<uint64_t>(cell.integer));
+      put(instance, value.place, static_cast<uint64_t>(value.integer));
   }
   put(instance, positionReached_, 0);
   phase_ = Phase::Starting;
   reached_ = false;
-  return {};
+  return true;
 }
 
-std::string Blocks::reached(host::Instance& instance) {
-  if (phase_ == Phase::Idle || phase_ == Phase::Done) return "no block is in motion";
+bool Blocks::reached(host::Instance& instance) {
+  if (phase_ == Phase::Idle || phase_ == Phase::Done) return false;
   reached_ = true;
   if (phase_ == Phase::Motion) endMotion(instance);
-  return {};
+  return true;
 }
 
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
@@ -138,10 +133,9 @@ void Blocks::endMotion(host::Instance& instance) {
 void Blocks::finish(host::Instance& instance) {
   put(instance, blockInProgress_, 0);
   for (const host::Ref& bit : lastOneBlock_) put(instance, bit, 0);
-  const uint32_t queue = host::findSpace(instance.program(), "BLK");
-  if (queue != RUNG_NONE)
-    for (uint32_t byte = 0; byte < instance.program().spaces[queue].byte_count; ++byte)
-      put(instance, host::intRef(queue, byte, 8), 0);
+  if (queue_ != RUNG_NONE)
+    for (uint32_t byte = 0; byte < instance.program().spaces[queue_].byte_count; ++byte)
+      put(instance, host::intRef(queue_, byte, 8), 0);
   enter(instance, Phase::Idle);
 }
 

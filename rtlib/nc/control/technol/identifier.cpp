@@ -1,10 +1,10 @@
 // Identifiers (see identifier.h).
-#include "tools/sim/technol/identifier.h"
+#include "rtlib/nc/control/technol/identifier.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "tools/sim/technol/values.h"
+#include "rtlib/nc/control/technol/values.h"
 
 namespace rung::nc::technol {
 namespace {

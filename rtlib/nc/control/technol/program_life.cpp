@@ -1,7 +1,7 @@
 // Start, stop and end of the PLC program (see program_life.h).
-#include "tools/sim/technol/program_life.h"
+#include "rtlib/nc/control/technol/program_life.h"
 
-#include "tools/sim/technol/cells.h"
+#include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::nc::technol {
 namespace {

@@ -1,5 +1,5 @@
 // Numbers of the configuration (see values.h).
-#include "tools/sim/technol/values.h"
+#include "rtlib/nc/control/technol/values.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Places of signals, the NC area and the PLC memory (see signal_memory.h).
-#include "tools/sim/nct/signal_memory.h"
+#include "rtlib/nc/control/nct/signal_memory.h"
 
 #include <bit>
 #include <cstdlib>

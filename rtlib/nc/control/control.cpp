@@ -1,0 +1,50 @@
+// What the controls of all dialects have in common (see control.h).
+#include "rtlib/nc/control/control.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/control/gsk/gsk_control.h"
+#include "rtlib/nc/control/nct/nct_control.h"
+#include "rtlib/nc/control/refuse.h"
+#include "rtlib/nc/control/technol/technol_control.h"
+
+namespace rung::nc {
+
+void Control::prepare(host::Instance& instance, PowerOn kind) {
+  if (kind == PowerOn::Cold)
+    instance.coldStart();
+  else
+    instance.warmStart();
+}
+
+bool Control::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  reply = refuse(instance.program(), request);
+  return true;
+}
+
+std::optional<host::Ref> Control::readPlace(const host::Instance& instance, std::string_view name) const {
+  return instance.resolve(name, [&](std::string_view unknown) { return signal(instance, unknown); });
+}
+
+size_t Control::describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept {
+  char head[16];
+  char* end = std::to_chars(head, head + sizeof head, message.number).ptr;
+  *end++ = ' ';
+  const std::string_view number(head, end);
+  const std::string_view text = host::messageText(program, message.number);
+  const std::string_view shownNumber = number.substr(0, out.size());
+  const std::string_view shownText = text.substr(0, out.size() - shownNumber.size());
+  std::ranges::copy(shownText, std::ranges::copy(shownNumber, out.begin()).out);
+  return shownNumber.size() + shownText.size();
+}
+
+std::unique_ptr<Control> makeControl(std::string_view dialect) {
+  if (dialect == "gsk") return std::make_unique<GskControl>();
+  if (dialect == "nct") return std::make_unique<NctControl>();
+  if (dialect == "technol") return std::make_unique<TechnolControl>();
+  return std::make_unique<Control>();
+}
+
+} // namespace rung::nc

@@ -1,0 +1,82 @@
+// What the software of a CNC does around its PLC program, whatever the machine: power-on and power-off, signals that
+// the program takes for granted (clocks, first cycle, "ready"), messages, retained cells, names. One class a dialect
+// (gsk/, nct/, technol/). A host that drives a real machine and the simulation alike put it beside the program.
+//
+// A control belongs to one instance and to its thread. What runs while the program is scanned (the hooks, accept,
+// describe, afterSlice) allocates nothing, takes no lock and never blocks; the rest is for start, end and the operator.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/control/shown_message.h"
+
+namespace rung::nc {
+
+enum class PowerOn : uint8_t { Cold, Warm };
+
+class Control : public host::ScheduleHooks {
+public:
+  // The program is switched on in two steps, so that others can prepare memory in between. `prepare`: memory, presets
+  // and signals of the control; a warm start keeps what the dialect keeps. `start`: what the control runs before the
+  // first scan.
+  virtual void prepare(host::Instance& instance, PowerOn kind);
+  virtual void start(host::Instance& instance) { (void)instance; }
+  void powerOn(host::Instance& instance, PowerOn kind) {
+    prepare(instance, kind);
+    start(instance);
+  }
+
+  // What the control runs before a regular power-off. True: the program must be scanned on while `endsLater`, but not
+  // more than kMostLastScans times.
+  static constexpr uint32_t kMostLastScans = 500;
+  virtual bool powerOff(host::Instance& instance) { return (void)instance, false; }
+  virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
+
+  // After a scan, a slot or a slice.
+  virtual void afterSlice(host::Instance& instance) { (void)instance; }
+
+  // No CNC is there to answer: see refuse.h.
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
+
+  // The place that a name of the program or of the NC's interface refers to for somebody who reads it, and for the NC
+  // or the machine that writes it. Nothing: there is no such name.
+  virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
+  virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const {
+    return readPlace(instance, name);
+  }
+
+  // A message that the host has taken from the program's queue, and those that the operator sees now.
+  virtual void accept(const rung_message& message) { (void)message; }
+  virtual std::vector<ShownMessage> messages(const host::Instance& instance) const {
+    return (void)instance, std::vector<ShownMessage>();
+  }
+  // The line of a log: the message's number as the dialect writes it, and its text. Gives the characters written; what
+  // does not fit is cut off.
+  virtual size_t describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept;
+
+  // The program's retained memory was there but could not be restored: called before the power-on.
+  virtual void reportRetainedLost() {}
+  // TECHNOL saves its retained memory at a power-off and when the program asks, and at no other time: a host that
+  // stores it says so before the power-on, looks between two scans whether the program asks, and reports when it is on
+  // disk.
+  virtual bool savesOnRequest() const { return false; }
+  virtual void setStored(bool stored) { (void)stored; }
+  virtual bool asksToSave(const host::Instance& instance) const { return (void)instance, false; }
+  virtual void saved(host::Instance& instance) { (void)instance; }
+
+protected:
+  // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
+  virtual std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const {
+    return (void)instance, (void)name, std::nullopt;
+  }
+};
+
+// By rung_program::dialect; a plain control for a dialect that has none of its own.
+std::unique_ptr<Control> makeControl(std::string_view dialect);
+
+} // namespace rung::nc

@@ -1,0 +1,57 @@
+// Power-on, messages and names of GSK (see gsk_control.h).
+#include "rtlib/nc/control/gsk/gsk_control.h"
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/gsk/signals.h"
+
+namespace rung::nc {
+namespace {
+
+std::vector<uint8_t> readArea(const host::Instance& instance, const char* area) {
+  const uint32_t space = host::findSpace(instance.program(), area);
+  std::vector<uint8_t> bytes(space == RUNG_NONE ? 0 : instance.program().spaces[space].byte_count);
+  for (uint32_t i = 0; i < bytes.size(); ++i) bytes[i] = instance.memory().readByte(space, i);
+  return bytes;
+}
+
+void writeArea(host::Instance& instance, const char* area, const std::vector<uint8_t>& bytes) {
+  const uint32_t space = host::findSpace(instance.program(), area);
+  for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
+}
+
+} // namespace
+
+void GskControl::prepare(host::Instance& instance, PowerOn kind) {
+  const std::vector<uint8_t> machine = readArea(instance, "X");
+  const std::vector<uint8_t> cnc = readArea(instance, "F");
+  Control::prepare(instance, kind);
+  writeArea(instance, "X", machine);
+  writeArea(instance, "F", cnc);
+}
+
+std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) const {
+  std::vector<ShownMessage> shown;
+  const uint32_t area = host::findSpace(instance.program(), "A");
+  if (area == RUNG_NONE) return shown;
+  for (uint32_t byte = 0; byte < instance.program().spaces[area].byte_count; ++byte) {
+    const uint8_t bits = instance.memory().readByte(area, byte);
+    for (uint32_t bit = 0; bit < 8; ++bit) {
+      if ((bits >> bit & 1) == 0) continue;
+      const uint32_t number = 8 * byte + bit + 1;
+      shown.push_back({number, 0, 0, 0, false, std::string(host::messageText(instance.program(), number))});
+    }
+  }
+  return shown;
+}
+
+std::optional<host::Ref> GskControl::signal(const host::Instance& instance, std::string_view name) const {
+  const Signal* found = findSignal(gskSignals(), name);
+  if (found == nullptr) return std::nullopt;
+  const uint32_t space = host::findSpace(instance.program(), found->area);
+  if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
+  const uint32_t bytes = elementBytes(found->type);
+  if (bytes == 0) return std::nullopt;
+  return host::intRef(space, found->byteOffset, bytes * 8);
+}
+
+} // namespace rung::nc

@@ -1,0 +1,19 @@
+// The control of a GSK25i PLC: the machine's and the CNC's signals outlive the PLC's power, messages are bits of the A
+// area.
+#pragma once
+#include "rtlib/nc/control/control.h"
+
+namespace rung::nc {
+
+class GskControl final : public Control {
+public:
+  // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
+  void prepare(host::Instance& instance, PowerOn kind) override;
+  // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
+  std::vector<ShownMessage> messages(const host::Instance& instance) const override;
+
+protected:
+  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,100 @@
+// Signals, messages and names of NCT (see nct_control.h).
+#include "rtlib/nc/control/nct/nct_control.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/nct/messages.h"
+#include "rtlib/nc/nct/signals.h"
+
+namespace rung::nc {
+namespace {
+
+constexpr uint32_t kFirstNcByte = 8; // words 0000 and 0001 are the program's
+
+uint32_t hooksOf(const rung_program& program) {
+  const std::span steps(program.scan, program.scan_count);
+  return static_cast<uint32_t>(std::ranges::count(steps, RUNG_STEP_HOOK, &rung_step::op));
+}
+
+} // namespace
+
+// N_SIMU stays 0: the software does not run on the manufacturer's simulator (man. l.7927).
+void NctControl::prepare(host::Instance& instance, PowerOn kind) {
+  Control::prepare(instance, kind);
+  ts_ = nct::SignalMemory(instance);
+  slicesOfCycle_ = std::max(hooksOf(instance.program()), 1u);
+  timeSlices_ = cycles_ = slice_ = 0;
+  messages_.powerOn(instance);
+  writeConstants();
+  retainedLost_ = false;
+}
+
+void NctControl::writeConstants() {
+  for (const nct::BitSignal& signal : {on_, ready_, nvramOk_, firstCycle_}) ts_.set(signal, true);
+  if (retainedLost_) ts_.set(nvramOk_, false);
+  for (uint32_t i = 0; i < bufferEmpty_.count(); ++i) {
+    ts_.set(bufferEmpty_, i, true);
+    ts_.set(motionDone_, i, true);
+  }
+}
+
+void NctControl::start(host::Instance& instance) {
+  const uint32_t memory = host::findSpace(instance.program(), "M");
+  const uint32_t slice = host::findSpace(instance.program(), "TS");
+  if (memory == RUNG_NONE || slice == RUNG_NONE) return;
+  const uint32_t end = areaBytes(nctSignals(), "M");
+  for (uint32_t byte = kFirstNcByte; byte < end; ++byte)
+    instance.memory().writeByte(memory, byte, instance.memory().readByte(slice, byte));
+}
+
+// The first time slice of a scan begins a PLC cycle; one that is run by itself belongs to none.
+void NctControl::onHook(host::Instance& instance, uint32_t) {
+  using Slice = nct::Messages::Slice;
+  if (instance.atListStart())
+    now_ = Slice::Alone;
+  else
+    now_ = slice_++ % slicesOfCycle_ == 0 ? Slice::First : Slice::Further;
+  if (now_ == Slice::First) beginCycle();
+  ts_.set(timeSliceClock_, ++timeSlices_ % 2 != 0);
+  for (const Clock& clock : clocks_) ts_.set(clock.signal, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
+  messages_.timeSlice(ts_, now_, instance.messages().lost());
+}
+
+void NctControl::beginCycle() {
+  ts_.set(firstCycle_, cycles_ == 0);
+  ts_.set(cycleClock_, cycles_++ % 2 != 0);
+}
+
+void NctControl::afterSlice(host::Instance& instance) {
+  if (instance.atListStart()) messages_.endCycle();
+}
+
+std::optional<host::Ref> NctControl::writePlace(const host::Instance& instance, std::string_view name) const {
+  std::optional<host::Ref> place = readPlace(instance, name);
+  const uint32_t memory = host::findSpace(instance.program(), "M");
+  const uint32_t slice = host::findSpace(instance.program(), "TS");
+  if (place && slice != RUNG_NONE && place->space == memory && place->byte >= kFirstNcByte &&
+      place->byte < instance.program().spaces[slice].byte_count)
+    place->space = slice;
+  return place;
+}
+
+size_t NctControl::describe(const rung_program& program, const rung_message& message,
+                            std::span<char> out) const noexcept {
+  return nct::logLine(program, message, out);
+}
+
+std::optional<host::Ref> NctControl::signal(const host::Instance& instance, std::string_view name) const {
+  const Signal* found = findSignal(nctSignals(), name);
+  if (found == nullptr) return std::nullopt;
+  const uint32_t memory = host::findSpace(instance.program(), "M");
+  if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
+  host::Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)
+                                                    : host::intRef(memory, found->byteOffset, 32);
+  place.count = found->count;
+  return place;
+}
+
+} // namespace rung::nc

@@ -1,0 +1,70 @@
+// The control of an NCT PLC: constant and clock signals in the NC area's hardware side (the time-slice memory), what
+// the program learns of its messages, names of the NC area.
+#pragma once
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/nct/messages.h"
+#include "rtlib/nc/control/nct/signal_memory.h"
+
+namespace rung::nc {
+
+class NctControl final : public Control {
+public:
+  void prepare(host::Instance& instance, PowerOn kind) override;
+  // At power-on both memories hold what the NC says.
+  void start(host::Instance& instance) override;
+
+  // Before every time slice, while NC inputs go to the time-slice memory.
+  void onHook(host::Instance& instance, uint32_t work) override;
+  void afterSlice(host::Instance& instance) override;
+  // The time slice that runs now.
+  nct::Messages::Slice slice() const { return now_; }
+
+  // The NC and the hardware write the time-slice memory; the program sees it at the next synchronisation.
+  std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override;
+
+  void accept(const rung_message& message) override { messages_.accept(message); }
+  std::vector<ShownMessage> messages(const host::Instance& instance) const override {
+    return messages_.shown(instance.program());
+  }
+  // The number is the code of 8 digits; the text has its numbers filled in.
+  size_t describe(const rung_program& program, const rung_message& message,
+                  std::span<char> out) const noexcept override;
+  nct::Messages& list() { return messages_; }
+
+  void reportRetainedLost() override { retainedLost_ = true; }
+
+protected:
+  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+
+private:
+  // Clock signals with their periods, 50 % duty (man. 7.12, l.7892-7896).
+  struct Clock {
+    nct::BitSignal signal;
+    int64_t periodUs;
+  };
+
+  void writeConstants();
+  void beginCycle();
+
+  nct::BitSignal on_{"N_ON"};
+  nct::BitSignal ready_{"N_NCREADY"};
+  nct::BitSignal nvramOk_{"N_NVRAMOK"};
+  nct::BitSignal firstCycle_{"N_FIRSTCC"};
+  nct::BitSignal timeSliceClock_{"N_P2MS"};
+  nct::BitSignal cycleClock_{"N_P2T"};
+  nct::BitSignal bufferEmpty_{"AN_BEPTY"};
+  nct::BitSignal motionDone_{"AN_IEPTY"};
+  Clock clocks_[3] = {{nct::BitSignal("N_P100MS"), 100'000},
+                      {nct::BitSignal("N_P1S"), 1'000'000},
+                      {nct::BitSignal("N_P1M"), 60'000'000}};
+  nct::SignalMemory ts_;
+  nct::Messages messages_;
+  nct::Messages::Slice now_ = nct::Messages::Slice::Alone;
+  uint64_t timeSlices_ = 0;
+  uint64_t cycles_ = 0;
+  uint32_t slice_ = 0;         // of all PLC cycles
+  uint32_t slicesOfCycle_ = 1; // of one
+  bool retainedLost_ = false;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,49 @@
+// The control of a TECHNOL PLC: the life of the program, part-program blocks, messages, names of the interface (man.
+// ch. 3.17, 5, 14).
+#pragma once
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/technol/backup.h"
+#include "rtlib/nc/control/technol/blocks.h"
+#include "rtlib/nc/control/technol/messages.h"
+#include "rtlib/nc/control/technol/program_life.h"
+
+namespace rung::nc {
+
+class TechnolControl final : public Control {
+public:
+  void prepare(host::Instance& instance, PowerOn kind) override;
+  void start(host::Instance& instance) override { life_.powerOn(instance); }
+  bool powerOff(host::Instance& instance) override { return life_.powerOff(instance); }
+  bool endsLater(const host::Instance& instance) const override { return life_.owesDone(instance); }
+
+  void onHook(host::Instance& instance, uint32_t work) override;
+  void onFault(host::Instance& instance) override;
+  void afterSlice(host::Instance& instance) override;
+
+  void accept(const rung_message& message) override { messages_.accept(message); }
+  std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
+  size_t describe(const rung_program& program, const rung_message& message,
+                  std::span<char> out) const noexcept override;
+
+  bool savesOnRequest() const override { return true; }
+  void setStored(bool stored) override { backup_.setStored(stored); }
+  bool asksToSave(const host::Instance& instance) const override { return backup_.asked(instance); }
+  void saved(host::Instance& instance) override { backup_.saved(instance); }
+
+  // What the operator and the part program do.
+  technol::ProgramLife& life() { return life_; }
+  technol::Messages& list() { return messages_; }
+  const technol::Messages& list() const { return messages_; }
+  technol::Blocks& blocks() { return blocks_; }
+
+protected:
+  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+
+private:
+  technol::Blocks blocks_;
+  technol::ProgramLife life_;
+  technol::Messages messages_;
+  technol::Backup backup_;
+};
+
+} // namespace rung::nc

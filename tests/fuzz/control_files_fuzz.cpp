@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "ir/support/check.h"
-#include "tools/sim/technol/control_files.h"
+#include "tools/control-files/control_files.h"
 
-using namespace rung::nc::technol;
+using namespace rung::control_files;
 
 namespace {
 

@@ -15,10 +15,10 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
-#include "tools/sim/nc_model.h"
 #include "tools/bench/gsk_workload.h"
 #include "tools/bench/technol_workload.h"
 #include "tools/driver/engines.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung::bench {
 namespace {

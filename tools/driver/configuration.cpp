@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/similar.h"
-#include "tools/sim/nc_model.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung::driver {
 namespace {
@@ -64,7 +64,7 @@ std::string unknownKeyText(const frontend::Dialect& dialect, std::string_view ke
 std::vector<ConfigProblem> checkConfiguration(const frontend::Dialect& dialect, ConfigPairs config,
                                               const std::string& folder) {
   std::vector<ConfigProblem> problems;
-  const std::unique_ptr<nc::NcModel> model = nc::makeNcModel(dialect.name);
+  const std::unique_ptr<sim::SimulatedNc> model = sim::makeSimulatedNc(dialect.name);
   model->setFolder(folder);
   for (const auto& [key, value] : config) {
     const nc::ConfigKey* row = nc::findConfigKey(dialect.configKeys, key);

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "rtlib/host/retained_memory.h"
-#include "tools/sim/retained_tables.h"
 #include "tools/scenario/session.h"
+#include "tools/sim/retained_tables.h"
 
 namespace rung::rungc {
 
@@ -29,7 +29,7 @@ private:
 
   scenario::Session& session_;
   host::RetainedMemory memory_;
-  nc::RetainedTables tables_;
+  sim::RetainedTables tables_;
   bool realTime_;
   bool saving_ = false;   // an image that the program asked for is being written
   uint64_t failures_ = 0; // before it

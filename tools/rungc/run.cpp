@@ -116,8 +116,8 @@ private:
       if (!loaded) return environmentError(error);
       kind = *loaded;
     }
-    const std::vector<nc::NcProblem> problems = session_.start(kind);
-    for (const nc::NcProblem& problem : problems) fmt::print(stderr, "rungc: {}\n", problem.text);
+    const std::vector<sim::NcProblem> problems = session_.start(kind);
+    for (const sim::NcProblem& problem : problems) fmt::print(stderr, "rungc: {}\n", problem.text);
     return problems.empty() ? observe() : int{kUsage};
   }
 

@@ -15,7 +15,8 @@ constexpr ptrdiff_t kMostUnread = 50'000; // entries of the log; a session of ho
 } // namespace
 
 Lane::Lane(host::Engine& engine, std::string folder)
-    : engine_(engine), nc_(nc::makeNcModel(engine.program().dialect)), instance_(driver::makeInstance(engine, this)) {
+    : engine_(engine), nc_(sim::makeSimulatedNc(engine.program().dialect)),
+      instance_(driver::makeInstance(engine, this)) {
   nc_->setFolder(std::move(folder));
 }
 

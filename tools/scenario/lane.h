@@ -7,8 +7,8 @@
 
 #include "rtlib/host/engine.h"
 #include "rtlib/host/instance.h"
-#include "tools/sim/nc_model.h"
 #include "tools/scenario/requests.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung::scenario {
 
@@ -21,15 +21,15 @@ public:
   std::string_view engineName() const { return engine_.name(); }
   host::Instance& instance() { return *instance_; }
   const host::Instance& instance() const { return *instance_; }
-  nc::NcModel& nc() { return *nc_; }
-  const nc::NcModel& nc() const { return *nc_; }
+  sim::SimulatedNc& nc() { return *nc_; }
+  const sim::SimulatedNc& nc() const { return *nc_; }
   Requests& requests() { return requests_; }
   std::vector<std::string>& unreadLog() { return unreadLog_; } // since the last expect_log
 
   // Switches the program on; what was to be looked at is dropped.
   void powerOn(nc::PowerOn kind);
   // Runs the NC and the program: a scan, a slot or the fast part.
-  using Advance = void (nc::NcModel::*)(host::Instance&);
+  using Advance = void (sim::SimulatedNc::*)(host::Instance&);
   void advance(Advance how);
   // After a slice that was run beside `advance`.
   void takeMessages();
@@ -46,7 +46,7 @@ private:
   void takeLog();
 
   host::Engine& engine_;
-  std::unique_ptr<nc::NcModel> nc_;
+  std::unique_ptr<sim::SimulatedNc> nc_;
   std::unique_ptr<host::Instance> instance_;
   Requests requests_;
   std::vector<std::string> unreadLog_;

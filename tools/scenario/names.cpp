@@ -24,26 +24,27 @@ std::string_view headOf(std::string_view name) {
 
 } // namespace
 
-Result<Reading> readName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name, bool wantReal) {
+Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name,
+                         bool wantReal) {
   if (name.starts_with(kQuantity)) {
     if (const auto quantity = nc.quantity(name.substr(kQuantity.size()))) return realReading(*quantity);
     return failure(fmt::format("the simulated NC has no quantity '{}'", name));
   }
   if (const std::optional<host::Ref> place = nc.readPlace(instance, name)) return readValue(instance, *place, wantReal);
-  if (const std::optional<nc::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
+  if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
   return failure(unknownName(instance, nc, name));
 }
 
-NamedValue::NamedValue(std::string name, const host::Instance& instance, const nc::NcModel& nc)
+NamedValue::NamedValue(std::string name, const host::Instance& instance, const sim::SimulatedNc& nc)
     : name_(std::move(name)), place_(nc.readPlace(instance, name_)) {}
 
-Reading NamedValue::read(const host::Instance& instance, const nc::NcModel& nc) const {
+Reading NamedValue::read(const host::Instance& instance, const sim::SimulatedNc& nc) const {
   if (place_) return readValue(instance, *place_, false);
   const Result<Reading> reading = readName(instance, nc, name_, false);
   return reading.ok() ? reading.value() : realReading(0); // a quantity that is not there yet
 }
 
-std::vector<std::string> namesOf(const host::Instance& instance, const nc::NcModel& nc) {
+std::vector<std::string> namesOf(const host::Instance& instance, const sim::SimulatedNc& nc) {
   const rung_program& program = instance.program();
   std::vector<std::string> names;
   for (uint32_t i = 0; i < program.symbol_count; ++i)
@@ -56,7 +57,7 @@ std::vector<std::string> namesOf(const host::Instance& instance, const nc::NcMod
   return names;
 }
 
-std::string unknownName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name) {
+std::string unknownName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name) {
   Similar similar(headOf(name));
   const std::vector<std::string> names = namesOf(instance, nc);
   for (const std::string& known : names) similar.offer(known);
@@ -64,7 +65,8 @@ std::string unknownName(const host::Instance& instance, const nc::NcModel& nc, s
                      similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best()));
 }
 
-std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance, const nc::NcModel& nc) {
+std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance,
+                                  const sim::SimulatedNc& nc) {
   std::vector<Problem> problems;
   const auto check = [&](const Statement& s, const std::string& name) {
     if (name.starts_with(kQuantity)) return; // some exist only once they have been set
@@ -80,7 +82,7 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance
   return problems;
 }
 
-Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const nc::NcModel& nc,
+Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const sim::SimulatedNc& nc,
                                 uint64_t scans) {
   std::string line = fmt::format("{:.3f} ms, scan {}:", static_cast<double>(instance.nowUs()) / 1000, scans);
   bool first = true;

@@ -11,17 +11,18 @@
 namespace rung::scenario {
 
 // A variable, a cell or a quantity of the NC. `wantReal`: two words or eight bytes are read as one double.
-Result<Reading> readName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name, bool wantReal);
+Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name,
+                         bool wantReal);
 
 // A name that is read after every scan: it is looked up once.
 class NamedValue {
 public:
   // The name can be read (readName); a quantity of the NC that does not exist yet reads 0 until it does.
-  NamedValue(std::string name, const host::Instance& instance, const nc::NcModel& nc);
+  NamedValue(std::string name, const host::Instance& instance, const sim::SimulatedNc& nc);
 
   const std::string& name() const { return name_; }
   const std::optional<host::Ref>& place() const { return place_; } // else a cell or quantity of the NC
-  Reading read(const host::Instance& instance, const nc::NcModel& nc) const;
+  Reading read(const host::Instance& instance, const sim::SimulatedNc& nc) const;
 
 private:
   std::string name_;
@@ -29,15 +30,15 @@ private:
 };
 
 // What a user may write for a value: the symbols of the program, then the signals of its control.
-std::vector<std::string> namesOf(const host::Instance& instance, const nc::NcModel& nc);
+std::vector<std::string> namesOf(const host::Instance& instance, const sim::SimulatedNc& nc);
 // The message about a name that does not exist, with the one that may be meant.
-std::string unknownName(const host::Instance& instance, const nc::NcModel& nc, std::string_view name);
+std::string unknownName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name);
 
 // Of all statements that read or write a value, but for quantities of the NC; the program has been started.
-std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance, const nc::NcModel& nc);
+std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance, const sim::SimulatedNc& nc);
 
 // "30.000 ms, scan 3: VALVE = 1, a text": a print statement.
-Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const nc::NcModel& nc,
+Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const sim::SimulatedNc& nc,
                                 uint64_t scans);
 
 } // namespace rung::scenario

@@ -116,11 +116,11 @@ private:
   }
 
   bool powerOn() {
-    const std::vector<nc::NcProblem> problems = session_.start();
+    const std::vector<sim::NcProblem> problems = session_.start();
     std::vector<const Statement*> connects;
     for (const Statement& s : scenario_.statements)
       if (s.kind == Kind::Connect) connects.push_back(&s);
-    for (const nc::NcProblem& problem : problems)
+    for (const sim::NcProblem& problem : problems)
       fail(problem.connection < connects.size() ? *connects[problem.connection] : scenario_.statements[0],
            problem.text);
     return problems.empty();

@@ -47,7 +47,7 @@ std::string Session::connect(std::string_view source, std::string_view destinati
   return {};
 }
 
-std::vector<nc::NcProblem> Session::start(nc::PowerOn kind) {
+std::vector<sim::NcProblem> Session::start(nc::PowerOn kind) {
   for (const std::unique_ptr<Lane>& lane : lanes_) {
     lane->powerOn(kind);
     // The ends of connections are known when the program has started.
@@ -117,7 +117,7 @@ std::string Session::runFor(int64_t us) {
   const int64_t end = nowUs() + us;
   while (nowUs() < end) {
     const int64_t before = nowUs();
-    if (std::string problem = advanceOnce(&nc::NcModel::scan); !problem.empty()) return problem;
+    if (std::string problem = advanceOnce(&sim::SimulatedNc::scan); !problem.empty()) return problem;
     if (interrupted()) return {};
     // A stopped or faulted program may leave the clock alone; its time goes on all the same.
     if (nowUs() != before) continue;
@@ -185,12 +185,12 @@ std::string Session::run(const Statement& s) {
   case Kind::ExpectWarning:
   case Kind::AllowErrors: return "the program has started; this statement belongs to the start of a scenario";
   case Kind::Set: return forLanes([&](Lane& lane) { return setValue(lane, s); });
-  case Kind::Scan: return advance(s.count, &nc::NcModel::scan);
-  case Kind::Fast: return advance(s.count, &nc::NcModel::fast);
+  case Kind::Scan: return advance(s.count, &sim::SimulatedNc::scan);
+  case Kind::Fast: return advance(s.count, &sim::SimulatedNc::fast);
   case Kind::Slot:
     if (std::string_view(instance().program().dialect) != "gsk")
       return "only the second level of a GSK program is run in slots (8 ms)";
-    return advance(s.count, &nc::NcModel::slot);
+    return advance(s.count, &sim::SimulatedNc::slot);
   case Kind::Run: return runFor(s.microseconds);
   case Kind::Expect:
   case Kind::ExpectRange: return forLanes([&](Lane& lane) { return expectValue(lane, s); });

@@ -53,7 +53,7 @@ public:
   std::string connect(std::string_view source, std::string_view destination);
   // Switches the program on. What is wrong: connections whose ends do not exist, engines that disagree; then the
   // session has not started.
-  std::vector<nc::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
+  std::vector<sim::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
 
   // Executes one statement in all lanes. What is wrong is what the statement expected or could not do, with the scan
   // and the time; statements that belong to the start are refused.
@@ -69,8 +69,8 @@ public:
   // Of the first engine.
   host::Instance& instance() { return lanes_[0]->instance(); }
   const host::Instance& instance() const { return lanes_[0]->instance(); }
-  nc::NcModel& nc() { return lanes_[0]->nc(); }
-  const nc::NcModel& nc() const { return lanes_[0]->nc(); }
+  sim::SimulatedNc& nc() { return lanes_[0]->nc(); }
+  const sim::SimulatedNc& nc() const { return lanes_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }
   uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
   // The one that is being executed, for observers; else null.

@@ -64,7 +64,7 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
 }
 
 std::string Trace::nameProblem(const std::vector<std::string>& names, const host::Instance& instance,
-                               const nc::NcModel& nc) {
+                               const sim::SimulatedNc& nc) {
   for (const std::string& name : names) {
     if (isQuantity(name)) continue; // some exist only once they have been set
     const Result<Reading> reading = readName(instance, nc, name, false);
@@ -74,7 +74,7 @@ std::string Trace::nameProblem(const std::vector<std::string>& names, const host
 }
 
 Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::vector<std::string>& names,
-                                           const host::Instance& instance, const nc::NcModel& nc) {
+                                           const host::Instance& instance, const sim::SimulatedNc& nc) {
   const rung_program& program = instance.program();
   std::vector<NamedValue> sources;
   std::vector<TracedName> traced;
@@ -95,7 +95,7 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
   return trace;
 }
 
-void Trace::sample(const host::Instance& instance, const nc::NcModel& nc, uint64_t scan) {
+void Trace::sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   values_.clear();
   for (const NamedValue& source : sources_) values_.push_back(source.read(instance, nc));
   writer_->sample(instance.nowUs(), scan, values_);

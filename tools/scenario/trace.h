@@ -29,13 +29,13 @@ class Trace final : public Observer {
 public:
   // "" when all names are variables of the program or cells of the NC. Quantities of the NC are 0 until they exist.
   static std::string nameProblem(const std::vector<std::string>& names, const host::Instance& instance,
-                                 const nc::NcModel& nc);
+                                 const sim::SimulatedNc& nc);
   // Begins the file with the values of now. The names have no problem.
   static Result<std::unique_ptr<Trace>> open(const std::string& path, const std::vector<std::string>& names,
-                                             const host::Instance& instance, const nc::NcModel& nc);
+                                             const host::Instance& instance, const sim::SimulatedNc& nc);
 
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
-  void sample(const host::Instance& instance, const nc::NcModel& nc, uint64_t scan);
+  void sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.
   std::string finish();
 

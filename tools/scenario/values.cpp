@@ -62,7 +62,7 @@ Reading realReading(double value) {
   return reading;
 }
 
-Reading cellReading(const nc::NcCell& cell) {
+Reading cellReading(const sim::NcCell& cell) {
   if (cell.isReal) return realReading(std::bit_cast<double>(cell.bits));
   Reading reading;
   reading.integer = cell.bits;
@@ -71,7 +71,7 @@ Reading cellReading(const nc::NcCell& cell) {
   return reading;
 }
 
-nc::NcCell cellOf(const Value& number) {
+sim::NcCell cellOf(const Value& number) {
   if (number.kind == ValueKind::Real) return {.isReal = true, .bits = std::bit_cast<uint64_t>(number.real)};
   return {.bits = static_cast<uint64_t>(number.integer)};
 }
@@ -186,8 +186,8 @@ std::string messageDifference(const nc::ShownMessage& message, const std::vector
   return {};
 }
 
-std::vector<nc::NcArgument> arguments(const std::vector<KeyValue>& keys) {
-  std::vector<nc::NcArgument> out;
+std::vector<sim::NcArgument> arguments(const std::vector<KeyValue>& keys) {
+  std::vector<sim::NcArgument> out;
   for (const KeyValue& key : keys)
     out.push_back({key.key, key.value.kind == ValueKind::Text, key.value.kind == ValueKind::Real, key.value.integer,
                    key.value.real, key.value.text});

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
-#include "tools/sim/nc_model.h"
 #include "tools/scenario/scenario.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung::scenario {
 
@@ -26,8 +26,8 @@ std::string show(const Reading& reading);
 // Without the hexadecimal form: "65535 (-1)".
 std::string showShort(const Reading& reading);
 Reading realReading(double value);
-Reading cellReading(const nc::NcCell& cell);
-nc::NcCell cellOf(const Value& number);
+Reading cellReading(const sim::NcCell& cell);
+sim::NcCell cellOf(const Value& number);
 int64_t signedOf(const Reading& integer);
 
 // Each gives "" or what is wrong.
@@ -36,6 +36,6 @@ std::string checkValue(const Reading& reading, const Statement& expect);
 std::string checkRange(const Reading& reading, const Statement& expect);
 std::string messageDifference(const nc::ShownMessage& message, const std::vector<KeyValue>& keys);
 
-std::vector<nc::NcArgument> arguments(const std::vector<KeyValue>& keys);
+std::vector<sim::NcArgument> arguments(const std::vector<KeyValue>& keys);
 
 } // namespace rung::scenario

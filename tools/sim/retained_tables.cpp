@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace rung::nc {
+namespace rung::sim {
 namespace {
 
 // Changes with the order or the meaning of what a model keeps; its size tells the rest.
@@ -11,7 +11,7 @@ constexpr uint64_t kFormat = 0x52554E474E430001;
 
 } // namespace
 
-RetainedTables::RetainedTables(NcModel& model, const std::string& file, std::chrono::milliseconds period)
+RetainedTables::RetainedTables(SimulatedNc& model, const std::string& file, std::chrono::milliseconds period)
     : model_(&model), size_(model.keptSize()), store_(file + ".nc", kFormat, size_), period_(period) {}
 
 bool RetainedTables::load(std::string& report, std::string& error) {
@@ -37,4 +37,4 @@ std::string RetainedTables::finish() {
   return saver_->failed() == 0 ? std::string() : saver_->lastError();
 }
 
-} // namespace rung::nc
+} // namespace rung::sim

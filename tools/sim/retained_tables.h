@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "rtlib/host/retain.h"
-#include "tools/sim/nc_model.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc {
+namespace rung::sim {
 
 class RetainedTables {
 public:
   // The model is configured, and outlives this.
-  RetainedTables(NcModel& model, const std::string& file,
+  RetainedTables(SimulatedNc& model, const std::string& file,
                  std::chrono::milliseconds period = std::chrono::milliseconds(200));
 
   // Before the power-on; false: the NC starts as delivered. As RetainedMemory::load.
@@ -22,11 +22,11 @@ public:
   std::string finish();
 
 private:
-  NcModel* model_;
+  SimulatedNc* model_;
   uint32_t size_;
   host::RetainStore store_; // until load has handed it to the saver
   std::chrono::milliseconds period_;
   std::unique_ptr<host::RetainSaver> saver_; // null: nothing is kept
 };
 
-} // namespace rung::nc
+} // namespace rung::sim

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "ir/support/diag_render.h"
-#include "tools/sim/nc_model.h"
 #include "tools/driver/engines.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung::nct::test {
 namespace {
@@ -74,7 +74,7 @@ public:
     EXPECT_TRUE(compiled.has_value()) << renderText(diagnostics, sources);
     compiled_ = std::move(*compiled);
     engine_ = std::move(driver::makeEngine(driver::EngineKind::Interp, compiled_, {}).value());
-    nc_ = nc::makeNcModel("nct");
+    nc_ = sim::makeSimulatedNc("nct");
     instance_ = driver::makeInstance(*engine_, nc_.get());
     nc_->powerOn(*instance_, nc::PowerOn::Cold);
   }
@@ -97,7 +97,7 @@ public:
 private:
   driver::Compiled compiled_;
   std::unique_ptr<host::Engine> engine_;
-  std::unique_ptr<nc::NcModel> nc_;
+  std::unique_ptr<sim::SimulatedNc> nc_;
   std::unique_ptr<host::Instance> instance_;
 };
 

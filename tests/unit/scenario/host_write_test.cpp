@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/diag_render.h"
-#include "tools/sim/nc_model.h"
 #include "tools/driver/engines.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung {
 namespace {

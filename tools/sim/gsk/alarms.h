@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 inline constexpr uint32_t kAlarmPlcAxis = 311;       // l.7817
 inline constexpr uint32_t kAlarmNoFeed = 901;        // a cutting block without F
@@ -24,4 +24,4 @@ private:
   std::vector<uint32_t> active_;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

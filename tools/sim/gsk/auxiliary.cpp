@@ -1,7 +1,7 @@
 // Handshake of the auxiliary functions (see auxiliary.h).
 #include "tools/sim/gsk/auxiliary.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 struct Bit {
@@ -43,7 +43,7 @@ void AuxiliaryCodes::lock() {
   b.reset();
 }
 
-void Auxiliary::start(const AuxiliaryCodes& codes, const SignalsIo& io, const Tables& tables) {
+void Auxiliary::start(const AuxiliaryCodes& codes, const nc::gsk::SignalsIo& io, const Tables& tables) {
   fast_ = tables.parameterBit(kParamGuard, 7) && !codes.external;
   used_ = {};
   const auto put = [&](uint32_t channel, uint32_t code) {
@@ -64,7 +64,7 @@ void Auxiliary::start(const AuxiliaryCodes& codes, const SignalsIo& io, const Ta
     if (used) phase_ = Phase::Codes;
 }
 
-void Auxiliary::step(const SignalsIo& io) {
+void Auxiliary::step(const nc::gsk::SignalsIo& io) {
   switch (phase_) {
   case Phase::Idle: return;
   case Phase::Codes:
@@ -94,7 +94,7 @@ void Auxiliary::step(const SignalsIo& io) {
   }
 }
 
-bool Auxiliary::fastDone(const SignalsIo& io) const {
+bool Auxiliary::fastDone(const nc::gsk::SignalsIo& io) const {
   for (uint32_t i = 0; i < kChannels; ++i) {
     const Channel& c = kTable[i];
     if (used_[i] && io.g(c.done.byte, c.done.bit) != io.f(c.strobe.byte, c.strobe.bit)) return false;
@@ -103,15 +103,15 @@ bool Auxiliary::fastDone(const SignalsIo& io) const {
 }
 
 // S, T and B codes stay (l.5762).
-void Auxiliary::dropCodes(const SignalsIo& io) const {
+void Auxiliary::dropCodes(const nc::gsk::SignalsIo& io) const {
   for (uint32_t i = 0; i < kManyM; ++i) io.setFDword(kTable[i].code, 0);
   for (const Decoded& d : kDecoded) io.setF(9, d.bit, false);
 }
 
-void Auxiliary::reset(const SignalsIo& io) {
+void Auxiliary::reset(const nc::gsk::SignalsIo& io) {
   for (const Channel& c : kTable) io.setF(c.strobe.byte, c.strobe.bit, false);
   dropCodes(io);
   phase_ = Phase::Idle;
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -9,7 +9,7 @@
 #include "rtlib/nc/control/gsk/signals_io.h"
 #include "tools/sim/gsk/tables.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 // What a block asks of the PLC.
 struct AuxiliaryCodes {
@@ -24,10 +24,10 @@ struct AuxiliaryCodes {
 class Auxiliary {
 public:
   // The codes are in F from now on.
-  void start(const AuxiliaryCodes& codes, const SignalsIo& io, const Tables& tables);
-  void step(const SignalsIo& io);
+  void start(const AuxiliaryCodes& codes, const nc::gsk::SignalsIo& io, const Tables& tables);
+  void step(const nc::gsk::SignalsIo& io);
   // Strobes fall at once, codes of M go away (l.5257).
-  void reset(const SignalsIo& io);
+  void reset(const nc::gsk::SignalsIo& io);
   bool busy() const { return phase_ != Phase::Idle; }
 
 private:
@@ -35,12 +35,12 @@ private:
   // M, second and third M, S, T, B, external operation.
   static constexpr uint32_t kChannels = 7;
 
-  void dropCodes(const SignalsIo& io) const;
-  bool fastDone(const SignalsIo& io) const;
+  void dropCodes(const nc::gsk::SignalsIo& io) const;
+  bool fastDone(const nc::gsk::SignalsIo& io) const;
 
   Phase phase_ = Phase::Idle;
   bool fast_ = false;
   std::array<bool, kChannels> used_ = {};
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

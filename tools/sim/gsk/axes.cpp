@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
-void Axes::beginSlot(const SignalsIo& io, Alarms& alarms) {
+void Axes::beginSlot(const nc::gsk::SignalsIo& io, Alarms& alarms) {
   locked_ = io.g(44, 1);       // MLK l.5309
   interlocked_ = !io.g(8, 0);  // *IT l.3650
   noPositive_ = io.gByte(132); // +MIT l.3667
@@ -81,7 +81,7 @@ void Axes::arriveAtReference(uint32_t axis, uint32_t point) {
   if (point == 1) a.referenced = true;
 }
 
-void Axes::writeSignals(const SignalsIo& io, const Tables& tables, bool rapid) const {
+void Axes::writeSignals(const nc::gsk::SignalsIo& io, const Tables& tables, bool rapid) const {
   io.setF(2, 1, rapid); // RPDO l.5595
   for (uint32_t i = 0; i < kAxes; ++i) {
     const Axis& a = axes_[i];
@@ -104,4 +104,4 @@ void Axes::writeSignals(const SignalsIo& io, const Tables& tables, bool rapid) c
   }
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -9,7 +9,7 @@
 #include "tools/sim/gsk/alarms.h"
 #include "tools/sim/gsk/tables.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 inline constexpr uint32_t kAxes = 8;
 inline constexpr uint32_t kSlotMs = 8;
@@ -42,8 +42,8 @@ public:
   Axis& operator[](uint32_t axis) { return axes_[axis]; }
   const Axis& operator[](uint32_t axis) const { return axes_[axis]; }
 
-  void beginSlot(const SignalsIo& io, Alarms& alarms);
-  void writeSignals(const SignalsIo& io, const Tables& tables, bool rapid) const;
+  void beginSlot(const nc::gsk::SignalsIo& io, Alarms& alarms);
+  void writeSignals(const nc::gsk::SignalsIo& io, const Tables& tables, bool rapid) const;
 
   // Moves by `delta`; the machine does not move under machine lock.
   void move(uint32_t axis, int64_t delta);
@@ -66,4 +66,4 @@ private:
   uint8_t noNegative_ = 0;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -3,7 +3,7 @@
 
 #include "tools/sim/gsk/operation_run.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
@@ -207,4 +207,4 @@ void Operation::advance(Run& run) {
   if (arrived) ++move_;
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

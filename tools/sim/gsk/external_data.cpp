@@ -1,10 +1,10 @@
 // External data input (see external_data.h).
 #include "tools/sim/gsk/external_data.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 // ESTC, then EREND when the data have been read, ESEND when the function is carried out; both fall with ESTC.
-void ExternalData::step(const SignalsIo& io, Machine& machine, Operation& operation, bool resetting) {
+void ExternalData::step(const nc::gsk::SignalsIo& io, Machine& machine, Operation& operation, bool resetting) {
   const bool start = io.g(13, 7);
   if (!start) phase_ = Phase::Idle;
   bool cancelled = io.f(60, 2) && start;
@@ -26,7 +26,7 @@ void ExternalData::step(const SignalsIo& io, Machine& machine, Operation& operat
 }
 
 // False: the function waits for its condition.
-bool ExternalData::carryOut(const SignalsIo& io, Machine& machine, Operation& operation) {
+bool ExternalData::carryOut(const nc::gsk::SignalsIo& io, Machine& machine, Operation& operation) {
   const uint32_t kind = address_ >> 4;
   const uint32_t low = address_ & 0xF;
   const int64_t value = static_cast<int32_t>(data_);
@@ -47,4 +47,4 @@ bool ExternalData::carryOut(const SignalsIo& io, Machine& machine, Operation& op
   }
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -4,17 +4,17 @@
 #include "tools/sim/gsk/machine.h"
 #include "tools/sim/gsk/operation.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 class ExternalData {
 public:
-  void step(const SignalsIo& io, Machine& machine, Operation& operation, bool resetting);
+  void step(const nc::gsk::SignalsIo& io, Machine& machine, Operation& operation, bool resetting);
   uint32_t parts() const { return parts_; }
   uint32_t partsPreset() const { return preset_; }
 
 private:
   enum class Phase : uint8_t { Idle, Read, Waiting, Done };
-  bool carryOut(const SignalsIo& io, Machine& machine, Operation& operation);
+  bool carryOut(const nc::gsk::SignalsIo& io, Machine& machine, Operation& operation);
 
   Phase phase_ = Phase::Idle;
   uint8_t address_ = 0; // EA0-EA6
@@ -23,4 +23,4 @@ private:
   uint32_t preset_ = 0;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

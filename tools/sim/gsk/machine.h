@@ -7,7 +7,7 @@
 #include "tools/sim/gsk/spindle.h"
 #include "tools/sim/gsk/tables.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 struct Machine {
   Tables tables;
@@ -18,18 +18,19 @@ struct Machine {
   bool rapid = false;  // the last motion that began was rapid (l.5607)
 
   bool isPlcAxis(uint32_t axis) const { return ((plcAxes >> axis) & 1) != 0; }
-  int64_t macro(uint32_t number, const SignalsIo& io) const;
-  void setMacro(uint32_t number, int64_t value, const SignalsIo& io);
+  int64_t macro(uint32_t number, const nc::gsk::SignalsIo& io) const;
+  void setMacro(uint32_t number, int64_t value, const nc::gsk::SignalsIo& io);
 };
 
 // G12: 0-254 %, 255 counts as 0 (l.5693-5701).
-inline double feedOverride(const SignalsIo& io) {
+inline double feedOverride(const nc::gsk::SignalsIo& io) {
   const uint8_t percent = io.gByte(12);
   return percent == 255 ? 0 : percent / 100.0;
 }
 
 // Rapid speed of an axis in mm/min with its override (l.5626-5676) and the safe speed of FVL (l.5725).
-inline double rapidSpeed(const SignalsIo& io, const Tables& tables, uint32_t axis, uint32_t parameter = kParamRapid) {
+inline double rapidSpeed(const nc::gsk::SignalsIo& io, const Tables& tables, uint32_t axis,
+                         uint32_t parameter = kParamRapid) {
   const double full = tables.parameterReal(parameter, axis);
   double speed = full;
   if (io.g(96, 7)) {
@@ -45,4 +46,4 @@ inline double rapidSpeed(const SignalsIo& io, const Tables& tables, uint32_t axi
   return io.g(19, 6) ? std::min(speed, tables.parameterReal(kParamSafeFeed, axis)) : speed;
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -2,7 +2,7 @@
 // are cells of the table. Values in 0.0001.
 #include "tools/sim/gsk/machine.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 // #1000 or #1100 and what follows: 32 bits, then four fields of 32 bits.
@@ -14,7 +14,7 @@ bool isInterface(uint32_t number, uint32_t first) { return number >= first && nu
 
 } // namespace
 
-int64_t Machine::macro(uint32_t number, const SignalsIo& io) const {
+int64_t Machine::macro(uint32_t number, const nc::gsk::SignalsIo& io) const {
   const bool input = isInterface(number, kInputs);
   if (!input && !isInterface(number, kOutputs)) return tables.get(Table::Macro, number);
   const uint32_t index = number - (input ? kInputs : kOutputs);
@@ -23,7 +23,7 @@ int64_t Machine::macro(uint32_t number, const SignalsIo& io) const {
   return kTableScale * (index < 32 ? (field >> index) & 1 : static_cast<int64_t>(static_cast<int32_t>(field)));
 }
 
-void Machine::setMacro(uint32_t number, int64_t value, const SignalsIo& io) {
+void Machine::setMacro(uint32_t number, int64_t value, const nc::gsk::SignalsIo& io) {
   if (isInterface(number, kInputs)) return; // the PLC's
   if (!isInterface(number, kOutputs)) {
     tables.set(Table::Macro, number, 0, value);
@@ -36,4 +36,4 @@ void Machine::setMacro(uint32_t number, int64_t value, const SignalsIo& io) {
     io.setFDword(kFields[index - 32], static_cast<uint32_t>(value / kTableScale));
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 constexpr int64_t kIncrement = 10; // 0.001 mm, in units
 
 // x1 x10 x100 x1000 by MP2 MP1, a tenth with MPSELT (l.4609-4613); the second wheel has bits of its own (l.4632).
-int64_t increment(const SignalsIo& io, uint32_t wheel) {
+int64_t increment(const nc::gsk::SignalsIo& io, uint32_t wheel) {
   constexpr int64_t kPowers[] = {1, 10, 100, 1000};
   const uint8_t bits = wheel == 2 ? io.gByte(87) : io.gByte(19);
   const int64_t units = kIncrement * kPowers[(bits >> 4) & 3];
@@ -17,14 +17,14 @@ int64_t increment(const SignalsIo& io, uint32_t wheel) {
 }
 
 // G10-G11 in 0.01 % where it is not 0, else G12, which the text gives to manual feed as well (l.5691).
-double jogOverride(const SignalsIo& io) {
+double jogOverride(const nc::gsk::SignalsIo& io) {
   const uint16_t jv = io.gWord(10);
   return jv == 0 ? feedOverride(io) : jv == 0xFFFF ? 0 : jv / 10000.0;
 }
 
 } // namespace
 
-void Manual::step(const SignalsIo& io, Machine& machine, Mode mode) {
+void Manual::step(const nc::gsk::SignalsIo& io, Machine& machine, Mode mode) {
   if (mode != mode_) {
     stop(machine);
     mode_ = mode;
@@ -60,7 +60,7 @@ void Manual::step(const SignalsIo& io, Machine& machine, Mode mode) {
   negativeWas_ = negative;
 }
 
-void Manual::jog(const SignalsIo& io, Machine& machine, uint32_t axis, bool negative) {
+void Manual::jog(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis, bool negative) {
   const bool rapid = io.g(19, 7); // RT l.4527
   const double speed = rapid ? rapidSpeed(io, machine.tables, axis) : jogSpeed * jogOverride(io);
   if ((driven_ >> axis & 1) == 0) machine.rapid = rapid;
@@ -70,7 +70,7 @@ void Manual::jog(const SignalsIo& io, Machine& machine, uint32_t axis, bool nega
 }
 
 // Without blocks (l.5087): straight to the origin while the key is held, whichever direction it names.
-void Manual::returnToReference(const SignalsIo& io, Machine& machine, uint32_t axis) {
+void Manual::returnToReference(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis) {
   Axis& a = machine.axes[axis];
   if (a.atReference[0]) return;
   if ((driven_ >> axis & 1) == 0) machine.rapid = true;
@@ -81,7 +81,7 @@ void Manual::returnToReference(const SignalsIo& io, Machine& machine, uint32_t a
   if (a.machine == target) machine.axes.arriveAtReference(axis, 1);
 }
 
-void Manual::wheel(const SignalsIo& io, Machine& machine, uint32_t number) {
+void Manual::wheel(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t number) {
   const uint8_t selected = number == 1 ? io.gByte(18) & 0xF : io.gByte(18) >> 4; // l.4545-4583
   const int64_t pulses = pulses_[number - 1];
   if (pulses == 0 || selected == 0 || selected > machine.axes.count() || machine.isPlcAxis(selected - 1u)) return;
@@ -102,4 +102,4 @@ void Manual::stop(Machine& machine) {
   driven_ = 0;
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -6,7 +6,7 @@
 #include "tools/sim/gsk/machine.h"
 #include "tools/sim/gsk/operation.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 class Manual {
 public:
@@ -14,13 +14,13 @@ public:
 
   // Pulses of hand wheel 1 or 2, signed; they move the axis in hand-wheel mode and are lost elsewhere.
   void turnWheel(uint32_t wheel, int64_t pulses) { pulses_[wheel - 1] += pulses; }
-  void step(const SignalsIo& io, Machine& machine, Mode mode);
+  void step(const nc::gsk::SignalsIo& io, Machine& machine, Mode mode);
   void stop(Machine& machine);
 
 private:
-  void jog(const SignalsIo& io, Machine& machine, uint32_t axis, bool negative);
-  void wheel(const SignalsIo& io, Machine& machine, uint32_t number);
-  void returnToReference(const SignalsIo& io, Machine& machine, uint32_t axis);
+  void jog(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis, bool negative);
+  void wheel(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t number);
+  void returnToReference(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis);
 
   std::array<int64_t, 2> pulses_ = {};
   std::array<int64_t, kAxes> target_ = {}; // of steps and wheels, where `pending_`
@@ -31,4 +31,4 @@ private:
   Mode mode_ = Mode::None;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -5,9 +5,9 @@
 
 #include "tools/sim/gsk/operation_run.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
-Mode modeOf(const SignalsIo& io) {
+Mode modeOf(const nc::gsk::SignalsIo& io) {
   switch (io.gByte(43) & 0x17) { // INC, MD3, MD2, MD1
   case 0x00: return Mode::Mdi;
   case 0x01: return Mode::Auto;
@@ -40,7 +40,7 @@ bool Operation::select(uint32_t number, bool mdi) {
   return true;
 }
 
-void Operation::step(const SignalsIo& io, Machine& machine) {
+void Operation::step(const nc::gsk::SignalsIo& io, Machine& machine) {
   Run run{io, machine};
   speed_ = 0;
   followMode(run);
@@ -50,7 +50,7 @@ void Operation::step(const SignalsIo& io, Machine& machine) {
   writeSignals(io);
 }
 
-void Operation::idle(const SignalsIo& io) {
+void Operation::idle(const nc::gsk::SignalsIo& io) {
   mode_ = modeOf(io);
   startWasOn_ = io.g(7, 2);
   speed_ = 0;
@@ -169,7 +169,7 @@ void Operation::end() {
   next_ = 0;
 }
 
-void Operation::reset(const SignalsIo& io, Machine& machine) {
+void Operation::reset(const nc::gsk::SignalsIo& io, Machine& machine) {
   auxiliary_.reset(io);
   if (state_ != RunState::Reset || inBlock_)
     for (uint32_t i = 0; i < kAxes; ++i)
@@ -184,7 +184,7 @@ void Operation::reset(const SignalsIo& io, Machine& machine) {
   next_ = 0;
 }
 
-void Operation::writeSignals(const SignalsIo& io) const {
+void Operation::writeSignals(const nc::gsk::SignalsIo& io) const {
   io.setF(0, 7, state_ != RunState::Reset); // Table 5-1
   io.setF(0, 5, state_ == RunState::Start);
   io.setF(0, 4, state_ == RunState::Hold);
@@ -203,4 +203,4 @@ void Operation::writeSignals(const SignalsIo& io) const {
   io.setFByte(3, echo);
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

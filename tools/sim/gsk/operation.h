@@ -9,12 +9,12 @@
 #include "tools/sim/gsk/machine.h"
 #include "tools/sim/gsk/part_program.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 enum class Mode : uint8_t { None, Mdi, Auto, Edit, Handle, Jog, Zero, Dnc, Step };
 
 // G43 (l.3755-3765).
-Mode modeOf(const SignalsIo& io);
+Mode modeOf(const nc::gsk::SignalsIo& io);
 inline bool runsPrograms(Mode mode) { return mode == Mode::Mdi || mode == Mode::Auto || mode == Mode::Dnc; }
 
 enum class RunState : uint8_t { Reset, Start, Hold, Suspended };
@@ -47,9 +47,9 @@ public:
   void load(PartProgram program);
   void loadMdi(PartProgram program);
   bool select(uint32_t number, bool mdi); // a program loaded before
-  void step(const SignalsIo& io, Machine& machine);
-  void idle(const SignalsIo& io); // a slot of reset: modes and confirmations only
-  void reset(const SignalsIo& io, Machine& machine);
+  void step(const nc::gsk::SignalsIo& io, Machine& machine);
+  void idle(const nc::gsk::SignalsIo& io); // a slot of reset: modes and confirmations only
+  void reset(const nc::gsk::SignalsIo& io, Machine& machine);
   void powerOff(); // programs stay, nothing runs
 
   Mode mode() const { return mode_; }
@@ -74,7 +74,7 @@ private:
   void end();
   double pathStep(Run& run, const PathMove& move);
   int64_t shift(const Machine& machine, uint32_t axis) const;
-  void writeSignals(const SignalsIo& io) const;
+  void writeSignals(const nc::gsk::SignalsIo& io) const;
 
   PartProgram program_;
   PartProgram mdi_;
@@ -101,4 +101,4 @@ private:
   double speed_ = 0;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -2,11 +2,11 @@
 #pragma once
 #include "tools/sim/gsk/operation.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 struct Operation::Run {
-  const SignalsIo& io;
+  const nc::gsk::SignalsIo& io;
   Machine& machine;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

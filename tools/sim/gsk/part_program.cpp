@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 // Tenths, since G54.1 is one.
@@ -136,4 +136,4 @@ std::string readPartProgram(std::string_view text, std::string_view axes, bool m
   return Reader(text, axes, manyM).read(program);
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 struct Value {
   double number = 0;
@@ -36,4 +36,4 @@ struct PartProgram {
 // "" and the program, or what is wrong with the text. `axes`: the letters of the axes.
 std::string readPartProgram(std::string_view text, std::string_view axes, bool manyM, PartProgram& program);
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

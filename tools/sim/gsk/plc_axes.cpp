@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 enum Code : uint8_t {
@@ -27,15 +27,17 @@ enum Code : uint8_t {
 bool isReference(uint8_t code) { return code >= kReference1 && code <= kReference4; }
 bool isAuxiliary(uint8_t code) { return code == kAux1 || code == kAux2 || code == kAux3; }
 bool isContinuous(uint8_t code) { return code == kContinuous || code == kSpeed; }
-uint8_t strobeOf(uint8_t code) { return code == kAux1 ? kEmfBit : code == kAux2 ? kEmf2Bit : kEmf3Bit; }
+uint8_t strobeOf(uint8_t code) {
+  return code == kAux1 ? nc::gsk::kEmfBit : code == kAux2 ? nc::gsk::kEmf2Bit : nc::gsk::kEmf3Bit;
+}
 
 } // namespace
 
 struct PlcAxes::Step {
-  const SignalsIo& io;
+  const nc::gsk::SignalsIo& io;
   Machine& machine;
   Group& group;
-  const AxisGroup& place;
+  const nc::gsk::AxisGroup& place;
   bool control(uint8_t bit) const { return io.g(place.control, bit); }
   template <class Act>
   void forAxes(Act act) const {
@@ -44,13 +46,13 @@ struct PlcAxes::Step {
   }
 };
 
-void PlcAxes::step(const SignalsIo& io, Machine& machine, bool emergencyStop) {
+void PlcAxes::step(const nc::gsk::SignalsIo& io, Machine& machine, bool emergencyStop) {
   assign(io, machine);
-  for (uint32_t g = 0; g < kAxisGroups; ++g) {
-    Step step{io, machine, groups_[g], axisGroups()[g]};
-    if (step.control(kEclrBit) || emergencyStop) {
+  for (uint32_t g = 0; g < nc::gsk::kAxisGroups; ++g) {
+    Step step{io, machine, groups_[g], nc::gsk::axisGroups()[g]};
+    if (step.control(nc::gsk::kEclrBit) || emergencyStop) {
       clear(step.group, step.place, io, machine);
-      step.group.ebsy = step.control(kEbufBit); // what comes now is lost (l.7891)
+      step.group.ebsy = step.control(nc::gsk::kEbufBit); // what comes now is lost (l.7891)
     } else {
       take(step);
       execute(step);
@@ -61,11 +63,11 @@ void PlcAxes::step(const SignalsIo& io, Machine& machine, bool emergencyStop) {
 }
 
 // EAX may change only while *EAXSL is 0, and not under the CNC's own motion (l.7817).
-void PlcAxes::assign(const SignalsIo& io, Machine& machine) {
+void PlcAxes::assign(const nc::gsk::SignalsIo& io, Machine& machine) {
   const uint8_t wanted = io.gByte(136);
   for (uint32_t i = 0; i < machine.axes.count(); ++i) {
     const int64_t number = machine.tables.parameter(kParamPlcGroup, i);
-    if (number < 1 || number > kAxisGroups) continue;
+    if (number < 1 || number > nc::gsk::kAxisGroups) continue;
     Group& group = groups_[static_cast<size_t>(number - 1)];
     const int bit = 1 << i;
     const bool give = (wanted & bit) != 0;
@@ -74,22 +76,23 @@ void PlcAxes::assign(const SignalsIo& io, Machine& machine) {
       machine.alarms.raise(kAlarmPlcAxis);
       group.alarm = true;
     }
-    if (!give) clear(group, axisGroups()[static_cast<size_t>(number - 1)], io, machine); // l.7703
+    if (!give) clear(group, nc::gsk::axisGroups()[static_cast<size_t>(number - 1)], io, machine); // l.7703
     machine.plcAxes = static_cast<uint8_t>(give ? machine.plcAxes | bit : machine.plcAxes & ~bit);
     group.axes = static_cast<uint8_t>(give ? group.axes | bit : group.axes & ~bit);
   }
 }
 
 // Stops, empties the buffers, takes strobe, code and alarm away (l.7883-7897, 8058).
-void PlcAxes::clear(Group& group, const AxisGroup& place, const SignalsIo& io, Machine& machine) {
-  const bool alarm = group.alarm && !io.g(place.control, kEclrBit);
+void PlcAxes::clear(Group& group, const nc::gsk::AxisGroup& place, const nc::gsk::SignalsIo& io, Machine& machine) {
+  const bool alarm = group.alarm && !io.g(place.control, nc::gsk::kEclrBit);
   const uint8_t axes = group.axes;
   const bool ebsy = group.ebsy;
   for (uint32_t i = 0; i < kAxes; ++i)
     if (((axes >> i) & 1) != 0) {
       machine.axes[i].moving = false;
       machine.axes[i].rest = 0;
-      if (io.g(place.control, kEclrBit)) machine.axes[i].blockedPositive = machine.axes[i].blockedNegative = false;
+      if (io.g(place.control, nc::gsk::kEclrBit))
+        machine.axes[i].blockedPositive = machine.axes[i].blockedNegative = false;
     }
   group = {};
   group.axes = axes;
@@ -101,22 +104,22 @@ void PlcAxes::clear(Group& group, const AxisGroup& place, const SignalsIo& io, M
 // A block is there while EBUF and EBSY differ (l.7695-7699).
 void PlcAxes::take(Step& step) {
   Group& group = step.group;
-  if (step.control(kEbufBit) == group.ebsy || group.axes == 0) return;
+  if (step.control(nc::gsk::kEbufBit) == group.ebsy || group.axes == 0) return;
   const uint8_t first = step.io.gByte(step.place.command);
-  const Command command{.code = static_cast<uint8_t>(first & kAxisCommandBits),
-                        .noStop = (first & ~kAxisCommandBits) != 0,
+  const Command command{.code = static_cast<uint8_t>(first & nc::gsk::kAxisCommandBits),
+                        .noStop = (first & ~nc::gsk::kAxisCommandBits) != 0,
                         .data1 = step.io.gWord(step.place.data1()),
                         .data2 = static_cast<int32_t>(step.io.gDword(step.place.data2()))};
-  const AxisCommand* known = findAxisCommand(command.code);
+  const nc::gsk::AxisCommand* known = nc::gsk::findAxisCommand(command.code);
   if (known == nullptr) {
     group.alarm = true;
     group.ebsy = !group.ebsy;
     return;
   }
   const bool same = group.executing && group.executing->code == command.code;
-  if (known->buffering == AxisBuffering::Immediate && same) {
+  if (known->buffering == nc::gsk::AxisBuffering::Immediate && same) {
     group.executing = command; // only the speed changes (l.7771, 7803)
-  } else if (known->buffering != AxisBuffering::Buffered || step.control(kEmcufBit)) {
+  } else if (known->buffering != nc::gsk::AxisBuffering::Buffered || step.control(nc::gsk::kEmcufBit)) {
     if (group.busy()) return; // l.7992
     group.executing = command;
   } else if (!group.executing) {
@@ -133,7 +136,7 @@ void PlcAxes::take(Step& step) {
 
 void PlcAxes::shift(Step& step) {
   Group& group = step.group;
-  group.blockStop = step.control(kEsbkBit) && !group.executing->noStop; // l.7915-7919
+  group.blockStop = step.control(nc::gsk::kEsbkBit) && !group.executing->noStop; // l.7915-7919
   group.executing = group.waiting;
   group.waiting = group.input;
   group.input.reset();
@@ -142,8 +145,8 @@ void PlcAxes::shift(Step& step) {
 
 void PlcAxes::execute(Step& step) {
   Group& group = step.group;
-  if (!step.control(kEsbkBit)) group.blockStop = false;
-  group.pausing = step.control(kEstpBit) || step.control(kEsofBit);
+  if (!step.control(nc::gsk::kEsbkBit)) group.blockStop = false;
+  group.pausing = step.control(nc::gsk::kEstpBit) || step.control(nc::gsk::kEsofBit);
   if (!group.executing || group.blockStop || group.alarm) return;
   const uint8_t code = group.executing->code;
   if (isAuxiliary(code)) {
@@ -267,12 +270,12 @@ bool PlcAxes::runAuxiliary(Step& step) {
     group.aux = AuxPhase::Strobe;
     return false;
   case AuxPhase::Strobe:
-    if (!step.control(kEfinBit)) return false;
+    if (!step.control(nc::gsk::kEfinBit)) return false;
     step.io.setF(step.place.strobes, strobe, false);
     group.aux = AuxPhase::EfinFalls;
     return false;
   case AuxPhase::EfinFalls:
-    if (step.control(kEfinBit)) return false;
+    if (step.control(nc::gsk::kEfinBit)) return false;
     step.io.setFByte(step.place.code, 0);
     group.aux = AuxPhase::None;
     return true;
@@ -290,27 +293,29 @@ void PlcAxes::writeGroup(Step& step) {
     negative = negative || axis.blockedNegative;
   });
   const uint32_t status = step.place.status;
-  step.io.setF(status, kEbsyBit, group.ebsy);
-  step.io.setF(status, kEotnBit, negative);
-  step.io.setF(status, kEotpBit, positive);
-  step.io.setF(status, kEgenBit, moving);
-  step.io.setF(status, kEdenBit, group.aux != AuxPhase::None);
-  step.io.setF(status, kEialBit, group.alarm || positive || negative); // l.8122
-  step.io.setF(status, kEckzBit, group.axes != 0 && !moving);
-  step.io.setF(status, kEinpBit, group.axes != 0 && !moving);
-  step.io.setF(step.place.strobes, kEabufBit, group.input.has_value());
+  step.io.setF(status, nc::gsk::kEbsyBit, group.ebsy);
+  step.io.setF(status, nc::gsk::kEotnBit, negative);
+  step.io.setF(status, nc::gsk::kEotpBit, positive);
+  step.io.setF(status, nc::gsk::kEgenBit, moving);
+  step.io.setF(status, nc::gsk::kEdenBit, group.aux != AuxPhase::None);
+  step.io.setF(status, nc::gsk::kEialBit, group.alarm || positive || negative); // l.8122
+  step.io.setF(status, nc::gsk::kEckzBit, group.axes != 0 && !moving);
+  step.io.setF(status, nc::gsk::kEinpBit, group.axes != 0 && !moving);
+  step.io.setF(step.place.strobes, nc::gsk::kEabufBit, group.input.has_value());
   if (group.aux == AuxPhase::Strobe) return;
-  for (uint8_t bit : {kEmfBit, kEmf2Bit, kEmf3Bit}) step.io.setF(step.place.strobes, bit, false);
+  for (uint8_t bit : {nc::gsk::kEmfBit, nc::gsk::kEmf2Bit, nc::gsk::kEmf3Bit})
+    step.io.setF(step.place.strobes, bit, false);
 }
 
-void PlcAxes::writeCommon(const SignalsIo& io, const Machine& machine) {
+void PlcAxes::writeCommon(const nc::gsk::SignalsIo& io, const Machine& machine) {
   selected_ = false;
   uint8_t controlled = 0, distributed = 0;
   bool anyAxis = false;
-  for (uint32_t g = 0; g < kAxisGroups; ++g) {
+  for (uint32_t g = 0; g < nc::gsk::kAxisGroups; ++g) {
     const Group& group = groups_[g];
     anyAxis = anyAxis || group.axes != 0;
-    const bool active = group.axes != 0 && (group.busy() || io.g(axisGroups()[g].control, kEsofBit)); // l.8024-8030
+    const bool active =
+        group.axes != 0 && (group.busy() || io.g(nc::gsk::axisGroups()[g].control, nc::gsk::kEsofBit)); // l.8024-8030
     selected_ = selected_ || active;
     if (active) controlled = static_cast<uint8_t>(controlled | group.axes); // l.8222
     const bool paused = group.pausing && group.executing && !isAuxiliary(group.executing->code);
@@ -325,4 +330,4 @@ void PlcAxes::writeCommon(const SignalsIo& io, const Machine& machine) {
   io.setFByte(182, controlled);
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -7,11 +7,11 @@
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "tools/sim/gsk/machine.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 class PlcAxes {
 public:
-  void step(const SignalsIo& io, Machine& machine, bool emergencyStop);
+  void step(const nc::gsk::SignalsIo& io, Machine& machine, bool emergencyStop);
 
 private:
   struct Command {
@@ -37,8 +37,8 @@ private:
   };
   struct Step; // a group's part of a slot
 
-  void assign(const SignalsIo& io, Machine& machine);
-  void clear(Group& group, const AxisGroup& place, const SignalsIo& io, Machine& machine);
+  void assign(const nc::gsk::SignalsIo& io, Machine& machine);
+  void clear(Group& group, const nc::gsk::AxisGroup& place, const nc::gsk::SignalsIo& io, Machine& machine);
   void take(Step& step);
   void shift(Step& step);
   void execute(Step& step);
@@ -49,10 +49,10 @@ private:
   double speed(const Step& step, uint32_t axis) const;
   double cuttingOverride(const Step& step) const;
   void writeGroup(Step& step);
-  void writeCommon(const SignalsIo& io, const Machine& machine);
+  void writeCommon(const nc::gsk::SignalsIo& io, const Machine& machine);
 
-  std::array<Group, kAxisGroups> groups_;
+  std::array<Group, nc::gsk::kAxisGroups> groups_;
   bool selected_ = false; // *EAXSL of the last slot
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -4,7 +4,7 @@
 
 #include "tools/sim/gsk/simulator.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 // "OFFSET.H.3" is {"OFFSET.H", 3, 0}; "PARAM.1225.2" is {"PARAM", 1225, 2}.
@@ -113,4 +113,4 @@ std::string Simulator::setQuantity(std::string_view text, double value) {
                         : "the simulated NC has no quantity 'NC." + std::string(text) + "'";
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 void Simulator::powerOn(bool warm) {
   Machine fresh;
@@ -32,7 +32,7 @@ void Simulator::powerOn(bool warm) {
   resetSlots_ = 0;
 }
 
-void Simulator::step(const SignalsIo& io) {
+void Simulator::step(const nc::gsk::SignalsIo& io) {
   machine_.axes.beginSlot(io, machine_.alarms);
   followReset(io);
   if (resetSlots_ == 0) {
@@ -53,7 +53,7 @@ void Simulator::step(const SignalsIo& io) {
 }
 
 // *ESP, ERS and the RESET key (l.5245-5255).
-void Simulator::followReset(const SignalsIo& io) {
+void Simulator::followReset(const nc::gsk::SignalsIo& io) {
   if (!io.g(8, 4) || io.g(8, 7) || resetKey_) {
     machine_.alarms.clear();
     machine_.axes.clearOverTravel();
@@ -80,7 +80,7 @@ std::string Simulator::loadProgram(std::string_view text, bool mdi) {
   return {};
 }
 
-WindowAnswer Simulator::answer(const WindowRequest& request, const SignalsIo& io) {
+WindowAnswer Simulator::answer(const WindowRequest& request, const nc::gsk::SignalsIo& io) {
   return answerWindow(request, machine_, io, operation_.sequence(), locked_);
 }
 
@@ -98,4 +98,4 @@ void Simulator::setParameter(uint32_t number, uint32_t axis, double value) {
   parameters_.push_back({number, axis, value});
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -14,7 +14,7 @@
 #include "tools/sim/gsk/spindle_positioning.h"
 #include "tools/sim/gsk/window.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 inline constexpr uint32_t kResetSlots = 25;   // RST stays 200 ms after its cause (l.5253: set by a parameter)
 inline constexpr uint32_t kLowSpeedSlots = 3; // a low-speed window request is answered so many slots later
@@ -23,7 +23,7 @@ class Simulator {
 public:
   // Cold: as delivered. Warm: positions, programs and tables stay, but for what is volatile.
   void powerOn(bool warm);
-  void step(const SignalsIo& io);
+  void step(const nc::gsk::SignalsIo& io);
 
   // "" or what is wrong.
   std::string loadProgram(std::string_view text, bool mdi);
@@ -31,7 +31,7 @@ public:
   void raiseAlarm(uint32_t number) { machine_.alarms.raise(number); }
   void turnWheel(uint32_t wheel, int64_t pulses) { manual_.turnWheel(wheel, pulses); }
 
-  WindowAnswer answer(const WindowRequest& request, const SignalsIo& io);
+  WindowAnswer answer(const WindowRequest& request, const nc::gsk::SignalsIo& io);
 
   // "MPOS.1" and so on (docs/simulated-nc-gsk.md).
   std::optional<double> quantity(std::string_view name) const;
@@ -50,7 +50,7 @@ private:
     uint32_t number, axis;
     double value;
   };
-  void followReset(const SignalsIo& io);
+  void followReset(const nc::gsk::SignalsIo& io);
 
   Machine machine_;
   Operation operation_;
@@ -65,4 +65,4 @@ private:
   uint32_t resetSlots_ = 0;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 constexpr double kRampPerSlot = 60;      // r/min
 constexpr uint32_t kOrientingSlots = 12; // about 100 ms
 constexpr double kPlcSpeedRange = 4096;  // l.7393
 
-double plcSpeed(const SignalsIo& io, const Tables& tables, uint32_t word) {
+double plcSpeed(const nc::gsk::SignalsIo& io, const Tables& tables, uint32_t word) {
   return tables.parameterReal(kParamMaxSpindle) * (io.gWord(word) & 0xFFF) / kPlcSpeedRange;
 }
 
@@ -29,7 +29,7 @@ void Spindle::Motor::orient(bool ordered) {
 bool Spindle::Motor::oriented() const { return orienting == kOrientingSlots; }
 
 // Unsigned speed in order of precedence: gear shift, PLC, S code with override; limited by the gear in use.
-double Spindle::firstTarget(const SignalsIo& io, const Tables& tables) const {
+double Spindle::firstTarget(const nc::gsk::SignalsIo& io, const Tables& tables) const {
   if (io.g(29, 5)) return tables.parameterReal(kParamGearSpeed); // SOR l.6406
   if (io.g(33, 7)) return plcSpeed(io, tables, 32);              // SSND l.7369
   double speed = commanded_ * (io.gByte(30) / 100.0);            // SOV l.6290
@@ -43,7 +43,7 @@ double Spindle::firstTarget(const SignalsIo& io, const Tables& tables) const {
 }
 
 // GR1O-GR4O by the switching speeds (l.6377-6388); without them there are no gears.
-void Spindle::writeGear(const SignalsIo& io, const Tables& tables) const {
+void Spindle::writeGear(const nc::gsk::SignalsIo& io, const Tables& tables) const {
   uint32_t gear = 0;
   bool shifts = false;
   for (uint32_t i = 0; i < 3; ++i) {
@@ -55,7 +55,7 @@ void Spindle::writeGear(const SignalsIo& io, const Tables& tables) const {
     io.setF(34, i, shifts && !tables.parameterBit(kParamGearKind, 6) && i == gear && commanded_ != 0);
 }
 
-void Spindle::step(const SignalsIo& io, const Tables& tables, bool positioning) {
+void Spindle::step(const nc::gsk::SignalsIo& io, const Tables& tables, bool positioning) {
   const bool orient = io.g(70, 6);                             // ORCM l.6451
   const bool enabled = io.g(29, 6) && !orient && !positioning; // *SSTP l.6272
   const double speed = enabled ? firstTarget(io, tables) : 0;
@@ -79,4 +79,4 @@ void Spindle::step(const SignalsIo& io, const Tables& tables, bool positioning) 
   io.setFByte(68, io.g(16, 0) ? static_cast<uint8_t>(one_.actual == 0 ? 0 : 20) : 0); // l.7423: no load is modelled
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

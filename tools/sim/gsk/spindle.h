@@ -6,13 +6,13 @@
 #include "rtlib/nc/control/gsk/signals_io.h"
 #include "tools/sim/gsk/tables.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 class Spindle {
 public:
   void command(uint32_t speed) { commanded_ = speed; }
   // `positioning`: the speed command is cut off.
-  void step(const SignalsIo& io, const Tables& tables, bool positioning);
+  void step(const nc::gsk::SignalsIo& io, const Tables& tables, bool positioning);
   void reset() { commanded_ = 0; }
   uint32_t commanded() const { return commanded_; }
   double actual() const { return one_.actual; } // signed, r/min
@@ -26,12 +26,12 @@ private:
     void orient(bool ordered);
     bool oriented() const;
   };
-  double firstTarget(const SignalsIo& io, const Tables& tables) const;
-  void writeGear(const SignalsIo& io, const Tables& tables) const;
+  double firstTarget(const nc::gsk::SignalsIo& io, const Tables& tables) const;
+  void writeGear(const nc::gsk::SignalsIo& io, const Tables& tables) const;
 
   uint32_t commanded_ = 0; // by S
   Motor one_;
   Motor two_;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -1,17 +1,17 @@
 // Spindle positioning (see spindle_positioning.h).
 #include "tools/sim/gsk/spindle_positioning.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 constexpr uint32_t kEnter = 18, kLeave = 23;
 constexpr uint32_t kOrientingSlots = 12;
 
-bool commanded(const SignalsIo& io, uint32_t code) { return io.f(7, 0) && io.fDword(10) == code; }
+bool commanded(const nc::gsk::SignalsIo& io, uint32_t code) { return io.f(7, 0) && io.fDword(10) == code; }
 
 } // namespace
 
-void SpindlePositioning::step(const SignalsIo& io) {
+void SpindlePositioning::step(const nc::gsk::SignalsIo& io) {
   advance(io);
   positioning_ = phase_ != Phase::Rotating && phase_ != Phase::LeaveReleased;
   io.setF(39, 0, positioning_);                                              // MSPOS
@@ -19,7 +19,7 @@ void SpindlePositioning::step(const SignalsIo& io) {
   io.setF(38, 0, phase_ == Phase::Clamp);                                    // SCLP
 }
 
-void SpindlePositioning::advance(const SignalsIo& io) {
+void SpindlePositioning::advance(const nc::gsk::SignalsIo& io) {
   const bool stopped = io.g(28, 6);   // SPSTP
   const bool released = !io.g(28, 4); // *SUCPF
   const bool clamped = !io.g(28, 5);  // *SCPF
@@ -58,4 +58,4 @@ void SpindlePositioning::advance(const SignalsIo& io) {
   }
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

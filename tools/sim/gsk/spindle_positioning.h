@@ -5,11 +5,11 @@
 
 #include "rtlib/nc/control/gsk/signals_io.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 class SpindlePositioning {
 public:
-  void step(const SignalsIo& io);
+  void step(const nc::gsk::SignalsIo& io);
   void reset() { phase_ = Phase::Rotating; }
   // The speed command is cut off.
   bool active() const { return positioning_; }
@@ -27,11 +27,11 @@ private:
     LeaveRelease,
     LeaveReleased,
   };
-  void advance(const SignalsIo& io);
+  void advance(const nc::gsk::SignalsIo& io);
 
   Phase phase_ = Phase::Rotating;
   bool positioning_ = false;
   uint32_t orienting_ = 0;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

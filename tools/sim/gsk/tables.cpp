@@ -1,7 +1,7 @@
 // Tables of the simulated CNC (see tables.h).
 #include "tools/sim/gsk/tables.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 // Of a machine nobody has set up. An axis parameter that has no value of its own takes that of the first axis.
@@ -44,4 +44,4 @@ void Tables::clearVolatile() {
   cells_.erase(cells_.lower_bound({Table::Macro, 100, 0}), cells_.lower_bound({Table::Macro, 200, 0}));
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

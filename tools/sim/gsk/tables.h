@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <map>
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 enum class Table : uint8_t { ToolOffset, WorkOffset, Parameter, Macro, Pitch, Tool };
 
@@ -58,4 +58,4 @@ private:
   std::map<Key, int64_t> cells_;
 };
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -1,7 +1,7 @@
 // Window requests (see window.h).
 #include "tools/sim/gsk/window.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 namespace {
 
 constexpr uint32_t kLastWorkOffset = 54; // 0 EXT, 1-6 G54-G59, 7-54 G54.1 P1-P48 (l.8727)
@@ -47,20 +47,20 @@ bool attributeExists(const WindowRequest& r, uint32_t axes) {
   }
 }
 
-WindowAnswer read(const WindowRequest& r, Machine& m, const SignalsIo& io, uint32_t sequence) {
+WindowAnswer read(const WindowRequest& r, Machine& m, const nc::gsk::SignalsIo& io, uint32_t sequence) {
   switch (r.function) {
-  case 1: return {kWindowDone, m.tables.get(Table::ToolOffset, r.number, r.attribute)};
-  case 3: return {kWindowDone, m.tables.get(Table::WorkOffset, r.number, r.attribute)};
-  case 5: return {kWindowDone, m.tables.get(Table::Parameter, r.number, r.attribute)};
-  case 9: return {kWindowDone, m.macro(r.number, io)};
-  case 11: return {kWindowDone, m.tables.get(Table::Pitch, r.number, r.attribute)};
-  case 14: return {kWindowDone, int64_t{sequence} * kTableScale};
-  case 17: return {kWindowDone, m.axes[r.attribute - 1].machine / 10}; // 0.001 mm (l.8889)
-  default: return {kWindowNotProvided, 0};
+  case 1: return {nc::gsk::kWindowDone, m.tables.get(Table::ToolOffset, r.number, r.attribute)};
+  case 3: return {nc::gsk::kWindowDone, m.tables.get(Table::WorkOffset, r.number, r.attribute)};
+  case 5: return {nc::gsk::kWindowDone, m.tables.get(Table::Parameter, r.number, r.attribute)};
+  case 9: return {nc::gsk::kWindowDone, m.macro(r.number, io)};
+  case 11: return {nc::gsk::kWindowDone, m.tables.get(Table::Pitch, r.number, r.attribute)};
+  case 14: return {nc::gsk::kWindowDone, int64_t{sequence} * kTableScale};
+  case 17: return {nc::gsk::kWindowDone, m.axes[r.attribute - 1].machine / 10}; // 0.001 mm (l.8889)
+  default: return {nc::gsk::kWindowNotProvided, 0};
   }
 }
 
-WindowAnswer write(const WindowRequest& r, Machine& m, const SignalsIo& io) {
+WindowAnswer write(const WindowRequest& r, Machine& m, const nc::gsk::SignalsIo& io) {
   switch (r.function) {
   case 2: m.tables.set(Table::ToolOffset, r.number, r.attribute, r.data); return {};
   case 4: m.tables.set(Table::WorkOffset, r.number, r.attribute, r.data); return {};
@@ -68,30 +68,33 @@ WindowAnswer write(const WindowRequest& r, Machine& m, const SignalsIo& io) {
   case 10: m.setMacro(r.number, r.data, io); return {};
   case 12: m.tables.set(Table::Pitch, r.number, r.attribute, r.data); return {};
   case 31: m.tables.set(Table::Tool, r.number, 0, r.data); return {};
-  default: return {kWindowNotProvided, 0};
+  default: return {nc::gsk::kWindowNotProvided, 0};
   }
 }
 
 } // namespace
 
 // Errors in the order of the end codes' numbers; 6 and 7 where the codes before them do not apply.
-WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const SignalsIo& io, uint32_t sequence,
-                          bool locked) {
-  const WindowFunction* function = findWindowFunction(request.function);
-  if (function == nullptr || (function->access == WindowAccess::Write) != request.write) return {kWindowBadFunction, 0};
-  if (!isWindowLength(request.length)) return {kWindowBadLength, 0};
-  if (function->status != WindowStatus::Open) return {kWindowNotProvided, 0};
-  if (!numberExists(request)) return {kWindowBadCount, 0};
-  if (!attributeExists(request, machine.axes.count())) return {kWindowBadAttribute, 0};
+WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const nc::gsk::SignalsIo& io,
+                          uint32_t sequence, bool locked) {
+  const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(request.function);
+  if (function == nullptr || (function->access == nc::gsk::WindowAccess::Write) != request.write)
+    return {nc::gsk::kWindowBadFunction, 0};
+  if (!nc::gsk::isWindowLength(request.length)) return {nc::gsk::kWindowBadLength, 0};
+  if (function->status != nc::gsk::WindowStatus::Open) return {nc::gsk::kWindowNotProvided, 0};
+  if (!numberExists(request)) return {nc::gsk::kWindowBadCount, 0};
+  if (!attributeExists(request, machine.axes.count())) return {nc::gsk::kWindowBadAttribute, 0};
   if (!request.write) {
     const WindowAnswer answer = read(request, machine, io, sequence);
-    return answer.end == kWindowDone && !fits(answer.data, request.length) ? WindowAnswer{kWindowBadLength, 0} : answer;
+    return answer.end == nc::gsk::kWindowDone && !fits(answer.data, request.length)
+               ? WindowAnswer{nc::gsk::kWindowBadLength, 0}
+               : answer;
   }
-  if (!fits(request.data, request.length)) return {kWindowBadData, 0};
-  if (function->wholeOnly && request.data % function->scale != 0) return {kWindowBadData, 0}; // l.8832, 8945
-  if (function->code == 31 && request.data < 0) return {kWindowBadData, 0};
-  if (locked) return {kWindowProtected, 0};
+  if (!fits(request.data, request.length)) return {nc::gsk::kWindowBadData, 0};
+  if (function->wholeOnly && request.data % function->scale != 0) return {nc::gsk::kWindowBadData, 0}; // l.8832, 8945
+  if (function->code == 31 && request.data < 0) return {nc::gsk::kWindowBadData, 0};
+  if (locked) return {nc::gsk::kWindowProtected, 0};
   return write(request, machine, io);
 }
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

@@ -3,7 +3,7 @@
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tools/sim/gsk/machine.h"
 
-namespace rung::nc::gsk {
+namespace rung::sim::gsk {
 
 struct WindowRequest {
   bool write = false;
@@ -15,7 +15,7 @@ struct WindowRequest {
 };
 
 struct WindowAnswer {
-  WindowEnd end = kWindowDone;
+  nc::gsk::WindowEnd end = nc::gsk::kWindowDone;
   int64_t data = 0;
 };
 
@@ -25,7 +25,7 @@ inline constexpr uint32_t kMaxParameter = 9999;
 inline constexpr uint32_t kMaxPitch = 1023;
 
 // `locked`: tables are protected, every write ends with code 7.
-WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const SignalsIo& io, uint32_t sequence,
-                          bool locked);
+WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const nc::gsk::SignalsIo& io,
+                          uint32_t sequence, bool locked);
 
-} // namespace rung::nc::gsk
+} // namespace rung::sim::gsk

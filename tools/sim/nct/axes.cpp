@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
-Axes::Axes(Control& control) : Topic(control) {
+Axes::Axes(Links& links) : Topic(links) {
   name("XYZABCUV"); // Parameters stands before it in the Simulator
   for (uint32_t i = 0; i < 32; ++i) {
     switchAxis_.emplace_back(1101 + i);
@@ -14,15 +14,15 @@ Axes::Axes(Control& control) : Topic(control) {
   }
 }
 
-bool Axes::exists(uint32_t axis) const { return axis < kAxes && assigned(axis) && !axes_[axis].detached; }
+bool Axes::exists(uint32_t axis) const { return axis < nc::nct::kAxes && assigned(axis) && !axes_[axis].detached; }
 
 bool Axes::plcOwns(uint32_t axis) const {
-  return axis < kAxes && get(signals_.plcRequest, axis) && get(signals_.plcOwns, axis);
+  return axis < nc::nct::kAxes && get(signals_.plcRequest, axis) && get(signals_.plcOwns, axis);
 }
 
 uint32_t Axes::channelOf(uint32_t axis) const {
   const int32_t number = parameter(parameters_.assign, axis);
-  return number >= 1 && number <= static_cast<int32_t>(kChannels) ? static_cast<uint32_t>(number) - 1 : 0;
+  return number >= 1 && number <= static_cast<int32_t>(nc::nct::kChannels) ? static_cast<uint32_t>(number) - 1 : 0;
 }
 
 // The manual's tables halve nothing but the unit of rotary axes: A, B, C by their names (N0100).
@@ -34,28 +34,29 @@ bool Axes::rotary(uint32_t axis) const {
 // ---- commands ----------------------------------------------------------------------------------------------------
 
 Axes::Load Axes::load(int64_t axis, int64_t code, double speed, double distance) {
-  if (axis < 0 || axis >= kAxes || code < 0 || code >= static_cast<int64_t>(axisCodes().size())) return Load::Refused;
-  const AxisCode& row = axisCodes()[static_cast<size_t>(code)];
+  if (axis < 0 || axis >= nc::nct::kAxes || code < 0 || code >= static_cast<int64_t>(nc::nct::axisCodes().size()))
+    return Load::Refused;
+  const nc::nct::AxisCode& row = nc::nct::axisCodes()[static_cast<size_t>(code)];
   const auto index = static_cast<uint32_t>(axis);
   if (!plcOwns(index) || (row.needsSpeed() && speed == 0)) return Load::Refused;
-  const bool usesDistance = row.distance != AxisDistance::Unused;
-  if ((usesDistance && !std::isfinite(distance)) || (row.speed != AxisSpeed::Unused && !std::isfinite(speed)))
+  const bool usesDistance = row.distance != nc::nct::AxisDistance::Unused;
+  if ((usesDistance && !std::isfinite(distance)) || (row.speed != nc::nct::AxisSpeed::Unused && !std::isfinite(speed)))
     return Load::Refused;
   Axis& state = axes_[index];
   if (state.buffer.kind != AxisCommand::Kind::None) return Load::Full;
   AxisCommand command;
-  command.rapid = row.speed == AxisSpeed::Unused;
-  command.perRevolution = row.speed == AxisSpeed::PerRevolution;
-  command.machine = row.distance == AxisDistance::Machine;
+  command.rapid = row.speed == nc::nct::AxisSpeed::Unused;
+  command.perRevolution = row.speed == nc::nct::AxisSpeed::PerRevolution;
+  command.machine = row.distance == nc::nct::AxisDistance::Machine;
   command.speed = std::abs(speed);
   command.distance = distance;
   switch (row.distance) {
-  case AxisDistance::Absolute:
-  case AxisDistance::Machine: command.kind = AxisCommand::Kind::Move; break;
-  case AxisDistance::Incremental: command.kind = AxisCommand::Kind::Incremental; break;
-  case AxisDistance::Seconds: command.kind = AxisCommand::Kind::Dwell; break;
-  case AxisDistance::Revolutions: command.kind = AxisCommand::Kind::DwellTurns; break;
-  case AxisDistance::Unused:
+  case nc::nct::AxisDistance::Absolute:
+  case nc::nct::AxisDistance::Machine: command.kind = AxisCommand::Kind::Move; break;
+  case nc::nct::AxisDistance::Incremental: command.kind = AxisCommand::Kind::Incremental; break;
+  case nc::nct::AxisDistance::Seconds: command.kind = AxisCommand::Kind::Dwell; break;
+  case nc::nct::AxisDistance::Revolutions: command.kind = AxisCommand::Kind::DwellTurns; break;
+  case nc::nct::AxisDistance::Unused:
     if (code == 13) command.kind = AxisCommand::Kind::Jog;
     if (code == 14) command.kind = AxisCommand::Kind::Handwheel;
     if (code >= 7 && code <= 10) { // G28, G30 P2 to P4
@@ -90,7 +91,7 @@ bool Axes::serves(bool write, uint32_t function) const { return write && functio
 std::optional<int32_t> Axes::service(uint32_t, Block& block) {
   if (block.amount() != 3) return 2;
   const int32_t index = block.word(2);
-  if (index < 0 || index >= static_cast<int32_t>(kAxes)) return 30;
+  if (index < 0 || index >= static_cast<int32_t>(nc::nct::kAxes)) return 30;
   const auto axis = static_cast<uint32_t>(index);
   const bool disabled = get(signals_.encoderDisabled, axis) || option(parameters_.servoControl, 4, axis);
   if (!exists(axis) || !get(signals_.open, axis) || !disabled) return 91;
@@ -102,10 +103,10 @@ std::optional<int32_t> Axes::service(uint32_t, Block& block) {
 
 // ---- power-on and time -------------------------------------------------------------------------------------------
 
-void Axes::powerOn(PowerOn kind) {
+void Axes::powerOn(nc::PowerOn kind) {
   for (Axis& state : axes_) {
     Axis fresh;
-    if (kind == PowerOn::Warm) {
+    if (kind == nc::PowerOn::Warm) {
       fresh.position = state.position;
       fresh.zeroPoint = state.zeroPoint;
     }
@@ -115,7 +116,7 @@ void Axes::powerOn(PowerOn kind) {
   programHold_ = {};
   pulses_ = {};
   turned_ = {};
-  for (uint32_t i = 0; i < kAxes; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     axes_[i].referenced = absolute_ && assigned(i);
     writePositionSignals(i);
   }
@@ -123,7 +124,7 @@ void Axes::powerOn(PowerOn kind) {
 }
 
 void Axes::cycle() {
-  for (uint32_t i = 0; i < kAxes; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     if (!assigned(i)) continue;
     acknowledge(i);
     writePositionSignals(i);
@@ -135,12 +136,12 @@ void Axes::timeSlice() {
   turned_ = pulses_;
   pulses_ = {};
   for (int32_t wheel = 0; wheel < kHandwheels; ++wheel)
-    control().signals.set(signals_.handwheelMove, static_cast<uint32_t>(wheel), turned_[static_cast<size_t>(wheel)]);
+    links().signals.set(signals_.handwheelMove, static_cast<uint32_t>(wheel), turned_[static_cast<size_t>(wheel)]);
   for (Axis& state : axes_) {
     state.velocity = 0;
     state.wantsPositive = state.wantsNegative = state.wantsRapid = false;
   }
-  for (uint32_t i = 0; i < kAxes; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     if (!exists(i)) continue;
     const bool lock = get(signals_.lock, i);
     if (lock && !axes_[i].locked) axes_[i].lockedAt = axes_[i].position;
@@ -167,12 +168,12 @@ void Axes::keep(Kept& kept) {
 
 // N0002 Axis Assign, N0100 Axis Name1, and drives of the axes' numbers (N0501, N0503).
 void Axes::name(std::string_view names) {
-  for (uint32_t i = 0; i < kAxes; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     const bool there = i < names.size();
-    control().parameters->setInitial(2, i, there ? 1 : 0);
-    control().parameters->setInitial(100, i, there ? names[i] : 0);
-    control().parameters->setInitial(501, i, there ? i + 1 : 0);
-    control().parameters->setInitial(503, i, there ? i + 1 : 0);
+    links().parameters->setInitial(2, i, there ? 1 : 0);
+    links().parameters->setInitial(100, i, there ? names[i] : 0);
+    links().parameters->setInitial(501, i, there ? i + 1 : 0);
+    links().parameters->setInitial(503, i, there ? i + 1 : 0);
   }
 }
 
@@ -180,7 +181,7 @@ Handled Axes::config(std::string_view key, std::string_view value) {
   const std::string expected = std::string(key) + ": expected ";
   const std::string found = ", found '" + std::string(value) + "'";
   if (key == "axes") {
-    if (value.empty() || value.size() > kAxes) return expected + "1 to 32 letters" + found;
+    if (value.empty() || value.size() > nc::nct::kAxes) return expected + "1 to 32 letters" + found;
     for (const char letter : value)
       if (letter < 'A' || letter > 'Z') return expected + "letters A to Z" + found;
     name(value);
@@ -210,7 +211,7 @@ Handled Axes::event(std::string_view name, const std::vector<NcArgument>& keys) 
   if (name != "axis_alarm") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"axis", "on"}); !wrong.empty()) return wrong;
   const int64_t axis = integerKey(keys, "axis", 0);
-  if (axis < 1 || axis > kAxes) return "event axis_alarm takes axis=1 to 32 and on=0 or on=1";
+  if (axis < 1 || axis > nc::nct::kAxes) return "event axis_alarm takes axis=1 to 32 and on=0 or on=1";
   axes_[static_cast<size_t>(axis) - 1].alarm = integerKey(keys, "on", 1) != 0;
   return "";
 }
@@ -218,7 +219,7 @@ Handled Axes::event(std::string_view name, const std::vector<NcArgument>& keys) 
 std::optional<double> Axes::quantity(std::string_view name) const {
   const auto axisOf = [&](std::string_view prefix) -> std::optional<uint32_t> {
     const auto key = numbersBehind(name, prefix);
-    if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > kAxes) return std::nullopt;
+    if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kAxes) return std::nullopt;
     return (*key)[0] - 1;
   };
   if (const auto axis = axisOf("MPOS.")) return axes_[*axis].position;
@@ -232,10 +233,10 @@ Handled Axes::setQuantity(std::string_view name, double value) {
   const bool position = name.starts_with("MPOS.");
   if (!position && !name.starts_with("ZERO.")) return std::nullopt;
   const auto key = numbersBehind(name, position ? "MPOS." : "ZERO.");
-  if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > kAxes) return "there are axes 1 to 32";
+  if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kAxes) return "there are axes 1 to 32";
   Axis& state = axes_[(*key)[0] - 1];
   (position ? state.position : state.zeroPoint) = value;
   return "";
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

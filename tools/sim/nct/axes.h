@@ -7,11 +7,11 @@
 #pragma once
 #include <array>
 
+#include "rtlib/nc/nct/axis_codes.h"
 #include "tools/sim/nct/axis_signals.h"
 #include "tools/sim/nct/topic.h"
-#include "rtlib/nc/nct/axis_codes.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr double kLag = 0.02;           // s: by which the measured position lags the command
 inline constexpr double kPulsesPerUnit = 1000; // of an axis' encoder
@@ -30,7 +30,7 @@ struct AxisCommand {
 
 class Axes final : public Topic {
 public:
-  explicit Axes(Control& control);
+  explicit Axes(Links& links);
 
   // Axes count from 0. An axis exists if N0002 Axis Assign > 0 and AN_DETCHA=0 (l.8467).
   bool exists(uint32_t axis) const;
@@ -61,7 +61,7 @@ public:
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void timeSlice() override;
   void keep(Kept& kept) override;
@@ -91,14 +91,12 @@ private:
   };
   enum class Pace : uint8_t { Feed, Rapid };
 
-  bool get(const BitSignal& signal, uint32_t axis) const { return control().signals.get(signal, axis); }
-  void set(const BitSignal& signal, uint32_t axis, bool value) const { control().signals.set(signal, axis, value); }
-  int32_t parameter(const ParameterPlace& place, uint32_t axis) const {
-    return control().parameters->dword(place, axis);
-  }
-  double real(const ParameterPlace& place, uint32_t axis) const { return control().parameters->real(place, axis); }
+  bool get(const BitSignal& signal, uint32_t axis) const { return links().signals.get(signal, axis); }
+  void set(const BitSignal& signal, uint32_t axis, bool value) const { links().signals.set(signal, axis, value); }
+  int32_t parameter(const ParameterPlace& place, uint32_t axis) const { return links().parameters->dword(place, axis); }
+  double real(const ParameterPlace& place, uint32_t axis) const { return links().parameters->real(place, axis); }
   bool option(const ParameterPlace& place, uint32_t bit, uint32_t axis) const {
-    return control().parameters->bit(place, bit, axis);
+    return links().parameters->bit(place, bit, axis);
   }
 
   // axes.cpp
@@ -134,7 +132,7 @@ private:
   double spindleSpeed(uint32_t axis) const;
   int32_t jogDirection(uint32_t axis) const;
   int32_t pulsesFor(uint32_t axis) const;
-  double increment(uint32_t axis) const { return control().signals.get(signals_.increment, channelOf(axis)); }
+  double increment(uint32_t axis) const { return links().signals.get(signals_.increment, channelOf(axis)); }
   bool moveTowards(uint32_t axis, double target, double perMinute, Pace pace);
   bool mayMove(uint32_t axis, bool positive, Pace pace) const;
   double strokeLimit(uint32_t axis, bool positive) const;
@@ -142,8 +140,8 @@ private:
   void follow(uint32_t master, double way);
   void writeMotionSignals(uint32_t axis);
 
-  std::array<Axis, kAxes> axes_{};
-  std::array<bool, kChannels> programHold_{};
+  std::array<Axis, nc::nct::kAxes> axes_{};
+  std::array<bool, nc::nct::kChannels> programHold_{};
   std::array<int32_t, kHandwheels> pulses_{}; // turned since the last time slice
   std::array<int32_t, kHandwheels> turned_{}; // HWMOVE of this one
   double rapid_ = 10000;                      // units/min
@@ -154,4 +152,4 @@ private:
   std::vector<ParameterPlace> switchAxis_, switchLow_, switchHigh_; // N1101…, N1133…, N1165…
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

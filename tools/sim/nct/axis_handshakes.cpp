@@ -3,7 +3,7 @@
 
 #include "tools/sim/nct/axes.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // Acknowledgements come only when nothing of the axis is under way: the block buffer is empty.
 bool Axes::free(uint32_t axis) const {
@@ -38,11 +38,11 @@ void Axes::acknowledge(uint32_t axis) {
 // The slave asks; the parameter names the number of its master, 0: it is no slave (l.8625-8627).
 void Axes::acknowledge(uint32_t axis, const Coupling& coupling) {
   const int32_t number = parameter(coupling.masterNumber, axis);
-  const bool on = get(coupling.request, axis) && number >= 1 && number <= static_cast<int32_t>(kAxes) &&
+  const bool on = get(coupling.request, axis) && number >= 1 && number <= static_cast<int32_t>(nc::nct::kAxes) &&
                   static_cast<uint32_t>(number) != axis + 1 && exists(static_cast<uint32_t>(number) - 1);
   if (on == get(coupling.slave, axis)) return;
   set(coupling.slave, axis, on);
-  if (number < 1 || number > static_cast<int32_t>(kAxes)) return;
+  if (number < 1 || number > static_cast<int32_t>(nc::nct::kAxes)) return;
   set(coupling.master, static_cast<uint32_t>(number) - 1, on);
 }
 
@@ -76,11 +76,11 @@ bool Axes::atStrokeLimit(uint32_t axis, bool positive) const {
 
 // Before every PLC cycle (l.7713); a switch exists if its axis does.
 void Axes::writeSwitches() {
-  const Parameters& parameters = *control().parameters;
+  const Parameters& parameters = *links().parameters;
   for (uint32_t i = 0; i < switchAxis_.size(); ++i) {
     const int32_t number = parameters.dword(switchAxis_[i]);
     const bool there =
-        number >= 1 && number <= static_cast<int32_t>(kAxes) && exists(static_cast<uint32_t>(number) - 1);
+        number >= 1 && number <= static_cast<int32_t>(nc::nct::kAxes) && exists(static_cast<uint32_t>(number) - 1);
     const double position = there ? measuredPosition(static_cast<uint32_t>(number) - 1) : 0;
     const double low = parameters.real(switchLow_[i]);
     const double high = parameters.real(switchHigh_[i]);
@@ -90,4 +90,4 @@ void Axes::writeSwitches() {
   }
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 #include "tools/sim/nct/axes.h"
 #include "tools/sim/nct/spindles.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr double kEnd = 1e12;  // a target that is never reached
@@ -92,7 +92,7 @@ bool Axes::execute(uint32_t axis, const AxisCommand& command) {
 }
 
 bool Axes::dwell(uint32_t axis, double perSecond) {
-  axes_[axis].rest -= perSecond * static_cast<double>(control().sliceUs) * 1e-6;
+  axes_[axis].rest -= perSecond * static_cast<double>(links().sliceUs) * 1e-6;
   return axes_[axis].rest <= kNear;
 }
 
@@ -103,15 +103,15 @@ void Axes::stepProgram(uint32_t axis) {
   const uint32_t channel = channelOf(axis);
   if (programHold_[channel]) return;
   const AxisCommand& command = state.program;
-  const double speed = command.rapid ? rapid_ * control().signals.get(signals_.rapidOverride, channel)
-                                     : command.speed * control().signals.get(signals_.feedOverride, channel);
+  const double speed = command.rapid ? rapid_ * links().signals.get(signals_.rapidOverride, channel)
+                                     : command.speed * links().signals.get(signals_.feedOverride, channel);
   if (moveTowards(axis, command.distance, speed, command.rapid ? Pace::Rapid : Pace::Feed)) state.program = {};
 }
 
 void Axes::stepManual(uint32_t axis) {
   Axis& state = axes_[axis];
   const uint32_t channel = channelOf(axis);
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   if (!signals.get(signals_.referenceMode, channel)) state.referenceEnd = false;
   if (signals.get(signals_.jogMode, channel)) {
     const int32_t direction = jogDirection(axis);
@@ -136,7 +136,7 @@ void Axes::stepIncrement(uint32_t axis, uint32_t channel) {
   const int32_t direction = jogDirection(axis);
   if (direction == 0) state.steps = 0;
   if (direction != 0 && direction != state.jogBefore)
-    state.steps = direction * control().signals.get(signals_.increment, channel);
+    state.steps = direction * links().signals.get(signals_.increment, channel);
   moveSteps(axis, manualSpeed(axis));
 }
 
@@ -160,19 +160,19 @@ void Axes::moveSteps(uint32_t axis, double perMinute) {
 double Axes::jogSpeed(uint32_t axis) const {
   const uint32_t channel = channelOf(axis);
   if (parameter(parameters_.jogControl, channel) != 1)
-    return jog_ * control().signals.get(signals_.feedOverride, channel);
-  return jogFeed(control().signals.get(signals_.jogFeed, channel)) / (rotary(axis) ? 5 : 1);
+    return jog_ * links().signals.get(signals_.feedOverride, channel);
+  return jogFeed(links().signals.get(signals_.jogFeed, channel)) / (rotary(axis) ? 5 : 1);
 }
 
 double Axes::manualSpeed(uint32_t axis) const {
   const uint32_t channel = channelOf(axis);
-  if (!control().signals.get(signals_.jogRapid, channel)) return jogSpeed(axis);
-  return rapid_ * control().signals.get(signals_.rapidOverride, channel);
+  if (!links().signals.get(signals_.jogRapid, channel)) return jogSpeed(axis);
+  return rapid_ * links().signals.get(signals_.rapidOverride, channel);
 }
 
 double Axes::spindleSpeed(uint32_t axis) const {
-  const int32_t number = control().signals.get(signals_.machiningSpindle, channelOf(axis));
-  return control().spindles->speed(number >= 1 ? static_cast<uint32_t>(number) - 1 : 0);
+  const int32_t number = links().signals.get(signals_.machiningSpindle, channelOf(axis));
+  return links().spindles->speed(number >= 1 ? static_cast<uint32_t>(number) - 1 : 0);
 }
 
 int32_t Axes::jogDirection(uint32_t axis) const {
@@ -183,7 +183,7 @@ int32_t Axes::jogDirection(uint32_t axis) const {
 int32_t Axes::pulsesFor(uint32_t axis) const {
   int32_t sum = 0;
   for (size_t wheel = 0; wheel < turned_.size(); ++wheel)
-    if (control().signals.get(signals_.handwheelAxis[wheel]) == static_cast<int32_t>(axis) + 1) sum += turned_[wheel];
+    if (links().signals.get(signals_.handwheelAxis[wheel]) == static_cast<int32_t>(axis) + 1) sum += turned_[wheel];
   return sum;
 }
 
@@ -193,7 +193,7 @@ int32_t Axes::pulsesFor(uint32_t axis) const {
 bool Axes::mayMove(uint32_t axis, bool positive, Pace pace) const {
   const bool disabled = get(positive ? signals_.noPositive : signals_.noNegative, axis) ||
                         get(pace == Pace::Rapid ? signals_.noRapid : signals_.noFeed, axis);
-  const bool held = control().signals.get(signals_.holdAll) || control().signals.get(signals_.hold, channelOf(axis));
+  const bool held = links().signals.get(signals_.holdAll) || links().signals.get(signals_.hold, channelOf(axis));
   const bool onSwitch = get(positive ? signals_.switchPositive : signals_.switchNegative, axis);
   return !disabled && !held && !onSwitch && !get(signals_.open, axis) && !get(signals_.parked, axis) &&
          !get(signals_.syncSlave, axis);
@@ -203,7 +203,7 @@ bool Axes::mayMove(uint32_t axis, bool positive, Pace pace) const {
 double Axes::strokeLimit(uint32_t axis, bool positive) const {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const bool enabled = option(parameters_.rangeEnable, 0, axis) &&
-                       !control().signals.get(signals_.noRange1, channelOf(axis)) && axes_[axis].referenced;
+                       !links().signals.get(signals_.noRange1, channelOf(axis)) && axes_[axis].referenced;
   if (!enabled) return positive ? kNone : -kNone;
   if (positive)
     return real(get(signals_.range1BPositive, axis) ? parameters_.range1BPositive : parameters_.range1APositive, axis);
@@ -220,7 +220,7 @@ bool Axes::moveTowards(uint32_t axis, double target, double perMinute, Pace pace
   const bool positive = way > 0;
   (positive ? state.wantsPositive : state.wantsNegative) = true;
   state.wantsRapid = pace == Pace::Rapid;
-  const double seconds = static_cast<double>(control().sliceUs) * 1e-6;
+  const double seconds = static_cast<double>(links().sliceUs) * 1e-6;
   if (!mayMove(axis, positive, pace) || !(perMinute > 0) || seconds <= 0) return false;
   const double step = perMinute / 60 * seconds;
   double to = std::abs(way) <= step ? target : state.position + (positive ? step : -step);
@@ -243,8 +243,8 @@ void Axes::shift(uint32_t axis, double way) {
 // Synchronous slaves make the way of their master, superimposed ones add it to their own (l.8617-8670).
 void Axes::follow(uint32_t master, double way) {
   if (!get(signals_.syncMaster, master) && !get(signals_.superMaster, master)) return;
-  const double seconds = static_cast<double>(control().sliceUs) * 1e-6;
-  for (uint32_t i = 0; i < kAxes; ++i) {
+  const double seconds = static_cast<double>(links().sliceUs) * 1e-6;
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     if (i == master || !exists(i) || get(signals_.parked, i)) continue;
     const auto number = static_cast<int32_t>(master) + 1;
     const bool slave = get(signals_.syncSlave, i) && parameter(parameters_.syncMaster, i) == number;
@@ -266,4 +266,4 @@ void Axes::writeMotionSignals(uint32_t axis) {
   set(signals_.wantsRapid, axis, state.wantsRapid);
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

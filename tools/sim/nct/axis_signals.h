@@ -3,7 +3,7 @@
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "tools/sim/nct/parameters.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 struct AxisSignals {
   BitSignal detachRequest{"AP_DETCHR"}, detached{"AN_DETCHA"};
@@ -50,4 +50,4 @@ struct AxisParameters {
   ParameterPlace syncMaster{2101}, syncConfig{2102}, exchangeMaster{2104}, superMaster{2107}, superConfig{2108};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

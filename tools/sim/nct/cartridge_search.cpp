@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 // The cell next to the pot's centre on a side has distance 0. A quarter of an ellipse round the centre of the pot
@@ -76,4 +76,4 @@ std::optional<PotFound> PotFinder::find(const ToolTables& tables, const PotSearc
   return PotFound{shape->firstPot + found->first, found->second};
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -9,7 +9,7 @@
 #include "tools/sim/nct/ring_search.h"
 #include "tools/sim/nct/tool_tables.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 struct PotSearch {
   uint32_t cartridge = 0;
@@ -37,4 +37,4 @@ private:
   std::vector<uint8_t> taken_; // cells
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

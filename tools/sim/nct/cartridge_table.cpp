@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 void CartridgeTable::build(std::span<const CartridgeShape> shapes, uint32_t dataNumbers) {
   cartridges_.clear();
@@ -86,4 +86,4 @@ void CartridgeTable::take(uint32_t dataNumber) {
   serial_[dataNumber] = 0;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

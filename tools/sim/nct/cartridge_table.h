@@ -10,7 +10,7 @@
 
 #include "tools/sim/nct/kept.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr uint32_t kMagazines = 4;
 
@@ -67,4 +67,4 @@ private:
   std::vector<uint32_t> serial_; // by data number: row of its pot, from 1; 0: in none
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

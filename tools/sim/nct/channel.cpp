@@ -7,12 +7,12 @@
 #include "tools/sim/nct/spindles.h"
 #include "tools/sim/nct/tool_management.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
-Channel::Channel(Control& control, uint32_t number, const ChannelSignals& signals, const ChannelParameters& parameters)
-    : control_(control), channel_(number), signals_(signals), parameters_(parameters), handover_(control, number),
-      automaticRun_(ChannelMotion(control, number, signals, parameters)),
-      otherRun_(ChannelMotion(control, number, signals, parameters)) {}
+Channel::Channel(Links& links, uint32_t number, const ChannelSignals& signals, const ChannelParameters& parameters)
+    : links_(links), channel_(number), signals_(signals), parameters_(parameters), handover_(links, number),
+      automaticRun_(ChannelMotion(links, number, signals, parameters)),
+      otherRun_(ChannelMotion(links, number, signals, parameters)) {}
 
 void Channel::powerOn() {
   clear(automaticRun_);
@@ -80,7 +80,7 @@ std::string Channel::enter(std::string_view blocks) {
   if (std::string wrong = readChannelProgram(blocks, program); !wrong.empty()) return wrong;
   if (manual() && program.blocks.size() != 1) return "the manual modes execute a single block";
   if (std::string wrong = check(program); !wrong.empty()) return wrong;
-  if (mode_ == Mode::Mdi && control_.signals.get(signals_.mdiForbidden)) return {}; // l.8137
+  if (mode_ == Mode::Mdi && links_.signals.get(signals_.mdiForbidden)) return {}; // l.8137
   entered_ = std::move(program);
   hasEntered_ = true;
   return {};
@@ -92,7 +92,7 @@ std::string Channel::check(const ChannelProgram& program) const {
     for (const ProgramWord& word : block.words) {
       const bool known = std::string_view("GMSTFPR").find(word.letter) != std::string_view::npos;
       const bool auxiliary = std::ranges::any_of(parameters_.auxiliary, [&](const ParameterPlace& place) {
-        return control_.parameters->dword(place, channel_) == word.letter;
+        return links_.parameters->dword(place, channel_) == word.letter;
       });
       if (!known && !auxiliary && run().motion.axisOf(word.letter) < 0)
         return std::string("the channel has no address ") + word.letter;
@@ -104,7 +104,7 @@ std::string Channel::check(const ChannelProgram& program) const {
 
 // The machine is switched off: emergency stop (l.9551).
 void Channel::followMachine() {
-  const bool on = control_.signals.get(signals_.machineOn);
+  const bool on = links_.signals.get(signals_.machineOn);
   if (machineOn_ && !on && running()) leave();
   machineOn_ = on;
 }
@@ -148,7 +148,7 @@ void Channel::followConditions() {
   set(signals_.wheelOffset, get(signals_.wheelOffsetRequest) && (automatic() || mode_ == Mode::Mdi));
   set(signals_.misaligned, get(signals_.misalignedRequest) && manual());
   // N3200: 1 head-head, 2 head-table, 3 table-table; others are not five-axis machines.
-  const int32_t mechanics = control_.parameters->dword(parameters_.mechanics, channel_);
+  const int32_t mechanics = links_.parameters->dword(parameters_.mechanics, channel_);
   const bool head = mechanics == 1 || mechanics == 2, table = mechanics == 2 || mechanics == 3;
   const bool able[] = {head, head, head || table, table};
   for (uint32_t i = 0; i < 4; ++i) set(signals_.toolMode[i], get(signals_.toolRequest[i]) && manual() && able[i]);
@@ -214,8 +214,8 @@ void Channel::cycle(const ChannelProgram* selected, int64_t us) {
 // Started, with a feed, with an override above 0 and a turning spindle (l.4432-4434).
 void Channel::countTime(int64_t us) const {
   const ChannelMotion& motion = run().motion;
-  if (start_ && motion.machining() && control_.spindles->speed(motion.spindle()) != 0)
-    control_.tools->countTime(motion.spindle(), us);
+  if (start_ && motion.machining() && links_.spindles->speed(motion.spindle()) != 0)
+    links_.tools->countTime(motion.spindle(), us);
 }
 
 void Channel::showState() {
@@ -228,9 +228,9 @@ void Channel::showState() {
   set(signals_.returning, return_);
   set(signals_.buffered, mode_ == Mode::Mdi || program() != nullptr); // l.9543-9547
   set(signals_.waiting, run().waiting >= 0);
-  const bool moves = control_.signals.get(signals_.feedOverride, channel_) != 0;
+  const bool moves = links_.signals.get(signals_.feedOverride, channel_) != 0;
   set(signals_.stopped, !start_ || !moves);
   set(signals_.empty, !running() || !run().motion.moving());
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

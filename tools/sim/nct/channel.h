@@ -7,14 +7,14 @@
 #include "tools/sim/nct/channel_functions.h"
 #include "tools/sim/nct/channel_motion.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Channel {
 public:
   // In the order of ChannelSignals::mode.
   enum class Mode : uint8_t { Jog, Incremental, Handwheel, Reference, Edit, Automatic, Mdi };
 
-  Channel(Control& control, uint32_t number, const ChannelSignals& signals, const ChannelParameters& parameters);
+  Channel(Links& links, uint32_t number, const ChannelSignals& signals, const ChannelParameters& parameters);
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
@@ -60,8 +60,8 @@ private:
   bool manual() const { return mode_ <= Mode::Handwheel; }
   Run& run() { return automatic() ? automaticRun_ : otherRun_; }
   const Run& run() const { return automatic() ? automaticRun_ : otherRun_; }
-  bool get(const BitSignal& signal) const { return control_.signals.get(signal, channel_); }
-  void set(const BitSignal& signal, bool value) const { control_.signals.set(signal, channel_, value); }
+  bool get(const BitSignal& signal) const { return links_.signals.get(signal, channel_); }
+  void set(const BitSignal& signal, bool value) const { links_.signals.set(signal, channel_, value); }
   bool on(uint32_t toggle) const { return toggles_[toggle]; }
   bool locked() const { return on(0) || on(1); } // test, machine lock
   bool functionsLocked() const { return locked() || on(3); }
@@ -93,7 +93,7 @@ private:
   void showState();
   void countTime(int64_t us) const;
 
-  Control& control_;
+  Links& links_;
   uint32_t channel_;
   const ChannelSignals& signals_;
   const ChannelParameters& parameters_;
@@ -118,4 +118,4 @@ private:
   uint32_t sequence_ = 0;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

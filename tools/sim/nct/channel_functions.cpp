@@ -5,7 +5,7 @@
 
 #include "tools/sim/nct/tool_management.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 namespace {
 constexpr uint32_t kFunctions = 13;
@@ -30,7 +30,7 @@ uint32_t ChannelFunctions::mask(const BlockFunctions& functions) {
 }
 
 void ChannelFunctions::issue(const BlockFunctions& functions, uint32_t mask, bool turning) {
-  const SignalMemory& signals = control_.signals;
+  const SignalMemory& signals = links_.signals;
   for (uint32_t i = 0; i < kCodesOfABlock; ++i)
     if ((mask >> i & 1) != 0) signals.set(code_[i], channel_, functions.codes[i]);
   for (uint32_t i = 0; i < 3; ++i)
@@ -44,22 +44,22 @@ void ChannelFunctions::issue(const BlockFunctions& functions, uint32_t mask, boo
 
 void ChannelFunctions::dropStrobes() {
   for (uint32_t i = 0; i < kFunctions; ++i)
-    if ((strobes_ >> i & 1) != 0) control_.signals.set(strobe_[i], channel_, false);
+    if ((strobes_ >> i & 1) != 0) links_.signals.set(strobe_[i], channel_, false);
   strobes_ = 0;
 }
 
 uint32_t ChannelFunctions::unacknowledged(uint32_t mask) const {
   uint32_t open = 0;
   for (uint32_t i = 0; i < kFunctions; ++i)
-    if ((mask >> i & 1) != 0 && !control_.signals.get(acknowledge_[i], channel_)) open |= uint32_t{1} << i;
+    if ((mask >> i & 1) != 0 && !links_.signals.get(acknowledge_[i], channel_)) open |= uint32_t{1} << i;
   return open;
 }
 
 // The first range that reaches the speed (l.10664-10668), the last one when none does.
 void ChannelFunctions::giveSpeed(const BlockFunctions& functions) {
-  const SignalMemory& signals = control_.signals;
+  const SignalMemory& signals = links_.signals;
   int32_t range = 0;
-  while (range < 7 && functions.speed > control_.parameters->real(parameters_.rangeEnd[range], functions.spindle - 1))
+  while (range < 7 && functions.speed > links_.parameters->real(parameters_.rangeEnd[range], functions.spindle - 1))
     ++range;
   signals.set(speed_, channel_, functions.speed);
   signals.set(spindle_, channel_, static_cast<int32_t>(functions.spindle));
@@ -68,14 +68,14 @@ void ChannelFunctions::giveSpeed(const BlockFunctions& functions) {
 
 // Where the tool stands, if tool management works (l.9515-9522, 10732-10772).
 void ChannelFunctions::giveTool(int32_t code, bool turning) {
-  const SignalMemory& signals = control_.signals;
+  const SignalMemory& signals = links_.signals;
   const int32_t type = turning ? code / kOffsetDigits : code;
   signals.set(tool_, channel_, type);
-  const bool managed = control_.tools->managed();
-  const ToolPick pick = managed ? control_.tools->pick(type) : ToolPick{};
+  const bool managed = links_.tools->managed();
+  const ToolPick pick = managed ? links_.tools->pick(type) : ToolPick{};
   signals.set(magazine_, channel_, static_cast<int32_t>(pick.place.cartridge));
   signals.set(pot_, channel_, static_cast<int32_t>(pick.place.pot));
   signals.set(toolExpired_, channel_, pick.expired);
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

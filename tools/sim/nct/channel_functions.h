@@ -8,7 +8,7 @@
 #include "tools/sim/nct/channel_signals.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // What one block hands over; a function that is not in the block is negative.
 struct BlockFunctions {
@@ -28,7 +28,7 @@ struct BlockFunctions {
 
 class ChannelFunctions {
 public:
-  ChannelFunctions(Control& control, uint32_t channel) : control_(control), channel_(channel) {}
+  ChannelFunctions(Links& links, uint32_t channel) : links_(links), channel_(channel) {}
 
   // One bit a function: M 0-7, S 8, T 9, auxiliary 10-12.
   static constexpr uint32_t kSpeed = 1 << 8;
@@ -46,7 +46,7 @@ private:
   void giveSpeed(const BlockFunctions& functions);
   void giveTool(int32_t code, bool turning);
 
-  Control& control_;
+  Links& links_;
   uint32_t channel_;
   uint32_t strobes_ = 0;
 
@@ -69,4 +69,4 @@ private:
   ChannelParameters parameters_;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

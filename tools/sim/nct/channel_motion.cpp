@@ -9,7 +9,7 @@
 #include "tools/sim/nct/macros.h"
 #include "tools/sim/nct/spindles.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr double kInch = 25.4;
@@ -21,7 +21,7 @@ bool isDrilling(int motion) { return motion == 740 || motion == 840 || motion ==
 
 template <class Visit>
 void forAxes(uint32_t axes, Visit visit) {
-  for (uint32_t axis = 0; axis < kAxes; ++axis)
+  for (uint32_t axis = 0; axis < nc::nct::kAxes; ++axis)
     if ((axes >> axis & 1) != 0) visit(axis);
 }
 
@@ -36,7 +36,7 @@ void ChannelMotion::reset(bool powerOn) {
 }
 
 void ChannelMotion::begin() {
-  for (uint32_t axis = 0; axis < kAxes; ++axis) commanded_[axis] = control_.axes->machinePosition(axis);
+  for (uint32_t axis = 0; axis < nc::nct::kAxes; ++axis) commanded_[axis] = links_.axes->machinePosition(axis);
   cancel();
 }
 
@@ -49,22 +49,22 @@ void ChannelMotion::cancel() {
 
 double ChannelMotion::value(const ProgramValue& value) const {
   if (value.variable == 0) return value.number;
-  return control_.macros->programRead(value.variable, channel_).value_or(0);
+  return links_.macros->programRead(value.variable, channel_).value_or(0);
 }
 
 uint32_t ChannelMotion::spindle() const {
-  const int32_t machining = control_.signals.get(signals_.machiningSpindle, channel_);
-  const int32_t number = machining != 0 ? machining : control_.parameters->dword(parameters_.defaultSpindle, channel_);
-  return number >= 1 && number <= static_cast<int32_t>(kSpindles) ? static_cast<uint32_t>(number) - 1 : 0;
+  const int32_t machining = links_.signals.get(signals_.machiningSpindle, channel_);
+  const int32_t number = machining != 0 ? machining : links_.parameters->dword(parameters_.defaultSpindle, channel_);
+  return number >= 1 && number <= static_cast<int32_t>(nc::nct::kSpindles) ? static_cast<uint32_t>(number) - 1 : 0;
 }
 
 // The address of an auxiliary function is no axis'.
 int32_t ChannelMotion::axisOf(char letter) const {
   for (const ParameterPlace& place : parameters_.auxiliary)
-    if (control_.parameters->dword(place, channel_) == letter) return -1;
-  for (uint32_t axis = 0; axis < kAxes; ++axis)
-    if (control_.parameters->dword(parameters_.axisName, axis) == letter && control_.axes->exists(axis) &&
-        control_.axes->channelOf(axis) == channel_)
+    if (links_.parameters->dword(place, channel_) == letter) return -1;
+  for (uint32_t axis = 0; axis < nc::nct::kAxes; ++axis)
+    if (links_.parameters->dword(parameters_.axisName, axis) == letter && links_.axes->exists(axis) &&
+        links_.axes->channelOf(axis) == channel_)
       return static_cast<int32_t>(axis);
   return -1;
 }
@@ -130,7 +130,7 @@ void ChannelMotion::takeAxis(char letter, double value, Words& words) {
   if (words.machine)
     words.target[axis] = length;
   else
-    words.target[axis] = absolute_ ? length + control_.axes->zeroPoint(axis) : commanded_[axis] + length;
+    words.target[axis] = absolute_ ? length + links_.axes->zeroPoint(axis) : commanded_[axis] + length;
 }
 
 ChannelMotion::Words ChannelMotion::read(const ProgramBlock& block) {
@@ -180,11 +180,11 @@ void ChannelMotion::prepare(const ProgramBlock& block, bool locked) {
 
 void ChannelMotion::plan(const Words& words) {
   const bool check = words.exact || exactStop_;
-  const bool positioningCheck = check || control_.parameters->bit(parameters_.execution, 0, channel_);
+  const bool positioningCheck = check || links_.parameters->bit(parameters_.execution, 0, channel_);
   if (words.reference) { // over the point of the block to the first reference position
     add(words.axes, words.target, kReference);
     Position home = words.target;
-    forAxes(words.axes, [&](uint32_t axis) { home[axis] = control_.parameters->real(parameters_.reference1, axis); });
+    forAxes(words.axes, [&](uint32_t axis) { home[axis] = links_.parameters->real(parameters_.reference1, axis); });
     return add(words.axes, home, kReference);
   }
   if (words.skip) return add(words.axes, words.target, kFeed | kSkip | (check ? kExact : 0));
@@ -209,7 +209,7 @@ void ChannelMotion::planDrilling(const Words& words) {
   above[z] = commanded_[z];
   add(words.axes & ~depth, above, 0);
   if ((words.axes & depth) == 0) return;
-  above[z] = absolute_ ? words.height + control_.axes->zeroPoint(z) : commanded_[z] + words.height;
+  above[z] = absolute_ ? words.height + links_.axes->zeroPoint(z) : commanded_[z] + words.height;
   Position bottom = above;
   bottom[z] = words.target[z];
   const uint32_t tap = kFeed | kTap | (motion_ == 842 || motion_ == 843 ? kRigid : 0);
@@ -223,7 +223,7 @@ void ChannelMotion::planDrilling(const Words& words) {
 double ChannelMotion::way(const Waypoint& waypoint) const {
   double sum = 0;
   forAxes(waypoint.axes, [&](uint32_t axis) {
-    const double part = waypoint.target[axis] - (locked_ ? blockStart_[axis] : control_.axes->machinePosition(axis));
+    const double part = waypoint.target[axis] - (locked_ ? blockStart_[axis] : links_.axes->machinePosition(axis));
     sum += part * part;
   });
   return std::sqrt(sum);
@@ -231,10 +231,10 @@ double ChannelMotion::way(const Waypoint& waypoint) const {
 
 // Per minute, before the override that the axes take.
 double ChannelMotion::feed() const {
-  const SignalMemory& signals = control_.signals;
-  double feed = perTurn_ ? feed_ * std::abs(control_.spindles->speed(spindle())) : feed_;
-  if (signals.get(signals_.toggle[2], channel_)) feed = control_.parameters->real(parameters_.maxFeed, 0); // dry run
-  if (signals.get(signals_.rapidKey, channel_)) feed *= control_.parameters->real(parameters_.feedFactor, channel_);
+  const SignalMemory& signals = links_.signals;
+  double feed = perTurn_ ? feed_ * std::abs(links_.spindles->speed(spindle())) : feed_;
+  if (signals.get(signals_.toggle[2], channel_)) feed = links_.parameters->real(parameters_.maxFeed, 0); // dry run
+  if (signals.get(signals_.rapidKey, channel_)) feed *= links_.parameters->real(parameters_.feedFactor, channel_);
   const double override = signals.get(signals_.feedOverride, channel_);
   if (overrideDisabled() && override > 0) feed /= override;
   return feed;
@@ -243,11 +243,11 @@ double ChannelMotion::feed() const {
 void ChannelMotion::command(const Waypoint& waypoint) const {
   const double length = way(waypoint);
   forAxes(waypoint.axes, [&](uint32_t axis) {
-    const double part = std::abs(waypoint.target[axis] - control_.axes->machinePosition(axis));
+    const double part = std::abs(waypoint.target[axis] - links_.axes->machinePosition(axis));
     if (part < kNear) return;
     const double speed =
         (waypoint.flags & kFeed) != 0 ? std::max(feed() * part / std::max(length, kNear), kLeastFeed) : 0;
-    control_.axes->moveTo(axis, waypoint.target[axis], speed);
+    links_.axes->moveTo(axis, waypoint.target[axis], speed);
   });
 }
 
@@ -256,8 +256,8 @@ void ChannelMotion::start() {
   started_ = true;
   if (locked_) {
     // Test goes through all of it, and positioning, with the highest feed.
-    const bool fast = (waypoint.flags & kFeed) == 0 || control_.signals.get(signals_.toggle[0], channel_);
-    const double perMinute = fast ? control_.parameters->real(parameters_.maxFeed, 0) : feed();
+    const bool fast = (waypoint.flags & kFeed) == 0 || links_.signals.get(signals_.toggle[0], channel_);
+    const double perMinute = fast ? links_.parameters->real(parameters_.maxFeed, 0) : feed();
     restUs_ = way(waypoint) / std::max(perMinute, kLeastFeed) * kMinuteUs;
     return;
   }
@@ -267,20 +267,20 @@ void ChannelMotion::start() {
 bool ChannelMotion::arrived(const Waypoint& waypoint) const {
   if (locked_) return restUs_ <= 0;
   bool there = true;
-  forAxes(waypoint.axes, [&](uint32_t axis) { there = there && !control_.axes->moving(axis); });
+  forAxes(waypoint.axes, [&](uint32_t axis) { there = there && !links_.axes->moving(axis); });
   return there;
 }
 
 bool ChannelMotion::machining() const {
   if ((under() & kFeed) == 0) return false;
-  const SignalMemory& signals = control_.signals;
+  const SignalMemory& signals = links_.signals;
   return signals.get(signals_.feedEnabled, channel_) && !signals.get(signals_.hold, channel_) &&
          !signals.get(signals_.holdAll) && signals.get(signals_.feedOverride, channel_) > 0;
 }
 
 void ChannelMotion::timeSlice(bool running) const {
-  const bool waits = (under() & kFeed) != 0 && !control_.signals.get(signals_.feedEnabled, channel_); // l.9659
-  control_.axes->setProgramHold(channel_, !running || waits);
+  const bool waits = (under() & kFeed) != 0 && !links_.signals.get(signals_.feedEnabled, channel_); // l.9659
+  links_.axes->setProgramHold(channel_, !running || waits);
 }
 
 void ChannelMotion::cycle(bool running, int64_t us) {
@@ -292,7 +292,7 @@ void ChannelMotion::cycle(bool running, int64_t us) {
       start();
     } else if (locked_) {
       if (!feeds || machining())
-        restUs_ -= static_cast<double>(us) * (feeds ? control_.signals.get(signals_.feedOverride, channel_) : 1);
+        restUs_ -= static_cast<double>(us) * (feeds ? links_.signals.get(signals_.feedOverride, channel_) : 1);
     } else if (feeds && !arrived(way_[next_])) {
       command(way_[next_]); // spindle speed, override and rapid key have their say
     }
@@ -306,9 +306,9 @@ void ChannelMotion::cycle(bool running, int64_t us) {
 }
 
 void ChannelMotion::interrupt() {
-  for (uint32_t axis = 0; axis < kAxes; ++axis) {
-    interruption_[axis] = control_.axes->machinePosition(axis);
-    if (control_.axes->channelOf(axis) == channel_) control_.axes->cancel(axis);
+  for (uint32_t axis = 0; axis < nc::nct::kAxes; ++axis) {
+    interruption_[axis] = links_.axes->machinePosition(axis);
+    if (links_.axes->channelOf(axis) == channel_) links_.axes->cancel(axis);
   }
   started_ = false;
 }
@@ -327,7 +327,7 @@ void ChannelMotion::resume(bool toStart, bool toInterruption) {
 // ---- signals -----------------------------------------------------------------------------------------------------
 
 void ChannelMotion::showSignals() const {
-  const SignalMemory& signals = control_.signals;
+  const SignalMemory& signals = links_.signals;
   const uint32_t flags = under();
   const auto show = [&](const BitSignal& signal, bool value) { signals.set(signal, channel_, value); };
   show(signals_.feedRequest, (flags & kFeed) != 0);
@@ -353,13 +353,13 @@ void ChannelMotion::showSignals() const {
 void ChannelMotion::showSurfaceSpeed() const {
   const int32_t x = axisOf('X');
   const double diameter = x < 0 ? 0
-                                : std::abs(control_.axes->machinePosition(static_cast<uint32_t>(x)) -
-                                           control_.axes->zeroPoint(static_cast<uint32_t>(x)));
+                                : std::abs(links_.axes->machinePosition(static_cast<uint32_t>(x)) -
+                                           links_.axes->zeroPoint(static_cast<uint32_t>(x)));
   const double most = speedLimit_ > 0 ? speedLimit_ : 99'999'999;
   const double speed = diameter < kNear ? most : surfaceSpeed_ * 1000 / (std::numbers::pi * diameter);
-  control_.signals.set(signals_.surfaceSpindle, channel_,
-                       static_cast<int32_t>(std::lround(std::min(speed, 99'999'999.0))));
-  control_.signals.set(signals_.speedLimit, channel_, static_cast<int32_t>(std::lround(speedLimit_)));
+  links_.signals.set(signals_.surfaceSpindle, channel_,
+                     static_cast<int32_t>(std::lround(std::min(speed, 99'999'999.0))));
+  links_.signals.set(signals_.speedLimit, channel_, static_cast<int32_t>(std::lround(speedLimit_)));
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -7,12 +7,12 @@
 #include "tools/sim/nct/channel_signals.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class ChannelMotion {
 public:
-  ChannelMotion(Control& control, uint32_t channel, const ChannelSignals& signals, const ChannelParameters& parameters)
-      : control_(control), channel_(channel), signals_(signals), parameters_(parameters) {}
+  ChannelMotion(Links& links, uint32_t channel, const ChannelSignals& signals, const ChannelParameters& parameters)
+      : links_(links), channel_(channel), signals_(signals), parameters_(parameters) {}
 
   // Modal codes as after power-on: G0, G90, G94, G97; G20 and G21 stay (`powerOn`: G21).
   void reset(bool powerOn);
@@ -51,7 +51,7 @@ private:
   static constexpr uint32_t kSkip = 1 << 6;
   static constexpr uint32_t kExact = 1 << 7; // G9, G61, or positioning with N1337 #0 PCH
 
-  using Position = std::array<double, kAxes>;
+  using Position = std::array<double, nc::nct::kAxes>;
   struct Waypoint {
     Position target{};
     uint32_t axes = 0; // mask
@@ -80,7 +80,7 @@ private:
   void showSignals() const;
   void showSurfaceSpeed() const;
 
-  Control& control_;
+  Links& links_;
   uint32_t channel_;
   const ChannelSignals& signals_;
   const ChannelParameters& parameters_;
@@ -104,4 +104,4 @@ private:
   int64_t dwellUs_ = 0;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

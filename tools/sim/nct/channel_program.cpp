@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 // Tenths, since G5.1 is one. What the channel does with them: channel_motion.cpp; the others do nothing here.
@@ -174,4 +174,4 @@ std::string readChannelProgram(std::string_view text, ChannelProgram& program) {
   return Reader(text).read(program);
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr uint32_t kCodesOfABlock = 8; // M codes, l.9470
 
@@ -56,4 +56,4 @@ struct ChannelProgram {
 // "" and the program, or what is wrong with the text.
 std::string readChannelProgram(std::string_view text, ChannelProgram& program);
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 #include "tools/sim/nct/macros.h"
 #include "tools/sim/nct/tool_management.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kBlocksOfACycle = 50; // that take no time; a jump may go back for ever
@@ -62,7 +62,7 @@ bool Channel::beginBlock(const ChannelProgram& program) {
   const ProgramBlock& block = program.blocks[current.next++];
   if (skipped(block)) return true;
   for (const ProgramAssignment& assignment : block.assignments)
-    control_.macros->programWrite(assignment.variable, channel_, current.motion.value(assignment.value));
+    links_.macros->programWrite(assignment.variable, channel_, current.motion.value(assignment.value));
   if (jumps(block, program)) return true;
   if (block.sequence != 0) sequence_ = block.sequence;
   current.active = true;
@@ -80,10 +80,10 @@ bool Channel::beginBlock(const ChannelProgram& program) {
 
 // The M code of the block in the range of N2201 to N2202; negative: none.
 int32_t Channel::waitingCode(const ProgramBlock& block) const {
-  const int32_t first = control_.parameters->dword(parameters_.waitingFirst);
+  const int32_t first = links_.parameters->dword(parameters_.waitingFirst);
   for (const ProgramWord& word : block.words) {
     const double code = run().motion.value(word.value);
-    if (word.letter == 'M' && first > 0 && code >= first && code <= control_.parameters->dword(parameters_.waitingLast))
+    if (word.letter == 'M' && first > 0 && code >= first && code <= links_.parameters->dword(parameters_.waitingLast))
       return static_cast<int32_t>(code);
   }
   return -1;
@@ -91,10 +91,10 @@ int32_t Channel::waitingCode(const ProgramBlock& block) const {
 
 uint32_t Channel::spindleOf(const ProgramBlock& block, const ProgramWord& word) const {
   if (word.spindle != 0) return word.spindle;
-  double number = control_.parameters->dword(parameters_.defaultSpindle, channel_);
+  double number = links_.parameters->dword(parameters_.defaultSpindle, channel_);
   for (const ProgramWord& other : block.words)
     if (other.letter == 'P') number = run().motion.value(other.value);
-  return number >= 1 && number <= kSpindles ? static_cast<uint32_t>(number) : 1;
+  return number >= 1 && number <= nc::nct::kSpindles ? static_cast<uint32_t>(number) : 1;
 }
 
 // Codes of synchronisation stay in the NC (l.9570); S is no function with G92 and in G96.
@@ -106,8 +106,8 @@ BlockFunctions Channel::collect(const ProgramBlock& block) const {
     const auto value =
         static_cast<int32_t>(std::lround(std::clamp(motion.value(word.value), -2147483648.0, 2147483647.0)));
     if (word.letter == 'M') {
-      const int32_t first = control_.parameters->dword(parameters_.waitingFirst);
-      if (first > 0 && value >= first && value <= control_.parameters->dword(parameters_.waitingLast)) continue;
+      const int32_t first = links_.parameters->dword(parameters_.waitingFirst);
+      if (first > 0 && value >= first && value <= links_.parameters->dword(parameters_.waitingLast)) continue;
       functions.codes[codes++] = value;
     } else if (word.letter == 'S' && !motion.takesSpeed(block)) {
       functions.speed = value;
@@ -116,8 +116,7 @@ BlockFunctions Channel::collect(const ProgramBlock& block) const {
       functions.tool = value;
     } else {
       for (uint32_t i = 0; i < 3; ++i)
-        if (control_.parameters->dword(parameters_.auxiliary[i], channel_) == word.letter)
-          functions.auxiliary[i] = value;
+        if (links_.parameters->dword(parameters_.auxiliary[i], channel_) == word.letter) functions.auxiliary[i] = value;
     }
   }
   return functions;
@@ -130,10 +129,10 @@ bool Channel::blockDone() const {
 void Channel::endBlock(const ChannelProgram& program) {
   Run& current = run();
   current.active = false;
-  const bool changed = control_.tools->countsT() ? (current.issued & ChannelFunctions::kTool) != 0
-                                                 : current.issued != 0 && current.functions.has(kToolChange);
-  if (changed) control_.tools->countUse(current.motion.spindle());
-  const int32_t partCode = control_.parameters->dword(parameters_.partCode, channel_);
+  const bool changed = links_.tools->countsT() ? (current.issued & ChannelFunctions::kTool) != 0
+                                               : current.issued != 0 && current.functions.has(kToolChange);
+  if (changed) links_.tools->countUse(current.motion.spindle());
+  const int32_t partCode = links_.parameters->dword(parameters_.partCode, channel_);
   if (partCode > 0 && current.functions.has(partCode) && !locked()) {
     ++parts;
     if (parts == partsWanted) set(signals_.partsDone, true);
@@ -150,4 +149,4 @@ void Channel::finish() {
   if (manual()) hasEntered_ = false;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -3,7 +3,7 @@
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "tools/sim/nct/parameters.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // In the order of Mode.
 inline constexpr uint32_t kModes = 7;
@@ -56,4 +56,4 @@ struct ChannelParameters {
   ParameterPlace axisName{100}, reference1{200};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

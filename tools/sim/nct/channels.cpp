@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kGroups = 16; // of M codes that exclude each other
@@ -14,14 +14,15 @@ constexpr uint32_t kFirstGroupEnd = 1357;
 // The channel of an event, from 0; none: `otherwise`.
 std::optional<uint32_t> channelKey(const std::vector<NcArgument>& keys, int64_t otherwise) {
   const int64_t number = integerKey(keys, "channel", otherwise);
-  if (number < 1 || number > static_cast<int64_t>(kChannels)) return std::nullopt;
+  if (number < 1 || number > static_cast<int64_t>(nc::nct::kChannels)) return std::nullopt;
   return static_cast<uint32_t>(number - 1);
 }
 
 } // namespace
 
-Channels::Channels(Control& control) : Topic(control) {
-  for (uint32_t i = 0; i < kChannels; ++i) channels_[i] = std::make_unique<Channel>(control, i, signals_, parameters_);
+Channels::Channels(Links& links) : Topic(links) {
+  for (uint32_t i = 0; i < nc::nct::kChannels; ++i)
+    channels_[i] = std::make_unique<Channel>(links, i, signals_, parameters_);
   for (uint32_t i = 0; i < kGroups; ++i) {
     groupFirst_.emplace_back(kFirstGroupStart + i);
     groupLast_.emplace_back(kFirstGroupEnd + i);
@@ -34,7 +35,7 @@ const ChannelProgram* Channels::find(int32_t number) const {
 }
 
 void Channels::select(uint32_t channel, int32_t number) {
-  if (channel >= kChannels) return;
+  if (channel >= nc::nct::kChannels) return;
   selected_[channel] = number;
   channels_[channel]->forgetInterruption();
 }
@@ -42,7 +43,7 @@ void Channels::select(uint32_t channel, int32_t number) {
 Handled Channels::config(std::string_view key, std::string_view value) {
   const auto channel = numbersBehind(key, "turning.");
   if (!channel || channel->size() != 1) return std::nullopt;
-  if (channel->front() < 1 || channel->front() > kChannels) return "channels are 1 to 8";
+  if (channel->front() < 1 || channel->front() > nc::nct::kChannels) return "channels are 1 to 8";
   channels_[channel->front() - 1]->setTurning(value == "on");
   return std::string();
 }
@@ -63,7 +64,7 @@ Handled Channels::event(std::string_view name, const std::vector<NcArgument>& ke
     const bool one = findKey(keys, "channel") != nullptr;
     const std::optional<uint32_t> channel = channelKey(keys, 1);
     if (!channel) return "channels are 1 to 8";
-    for (uint32_t i = 0; i < kChannels; ++i)
+    for (uint32_t i = 0; i < nc::nct::kChannels; ++i)
       if (!one || i == *channel) channels_[i]->reset();
     resetPressed_ = true;
     return std::string();
@@ -84,14 +85,14 @@ std::string Channels::load(const std::vector<NcArgument>& keys) {
     if (std::string wrong = channels_[*channel]->check(program); !wrong.empty()) return wrong;
     if (std::string wrong = checkGroups(program, *channel); !wrong.empty()) return wrong;
     program.number = static_cast<int32_t>(number);
-    for (uint32_t i = 0; i < kChannels; ++i)
+    for (uint32_t i = 0; i < nc::nct::kChannels; ++i)
       if (selected_[i] == number && channels_[i]->busy()) return "the program is being executed";
     programs_.remove_if([&](const ChannelProgram& known) { return known.number == program.number; });
     programs_.push_back(std::move(program));
   } else if (!hasProgram(static_cast<int32_t>(number))) {
     return "there is no program of that number; blocks=\"…\" makes one";
   }
-  if (findKey(keys, "channel") == nullptr || control().signals.get(signals_.automaticForbidden)) return {};
+  if (findKey(keys, "channel") == nullptr || links().signals.get(signals_.automaticForbidden)) return {};
   if (channels_[*channel]->running()) return "the channel is executing";
   select(*channel, static_cast<int32_t>(number));
   return {};
@@ -101,8 +102,8 @@ std::string Channels::load(const std::vector<NcArgument>& keys) {
 std::string Channels::checkGroups(const ChannelProgram& program, uint32_t channel) const {
   for (const ProgramBlock& block : program.blocks)
     for (uint32_t group = 0; group < kGroups; ++group) {
-      const int32_t first = control().parameters->dword(groupFirst_[group], channel);
-      const int32_t last = control().parameters->dword(groupLast_[group], channel);
+      const int32_t first = links().parameters->dword(groupFirst_[group], channel);
+      const int32_t last = links().parameters->dword(groupLast_[group], channel);
       const auto in = [&](const ProgramWord& word) {
         return word.letter == 'M' && word.value.variable == 0 && first > 0 && word.value.number >= first &&
                word.value.number <= last;
@@ -117,7 +118,8 @@ std::string Channels::checkGroups(const ChannelProgram& program, uint32_t channe
 std::optional<double> Channels::quantity(std::string_view name) const {
   const auto channelBehind = [&](std::string_view prefix) -> std::optional<uint32_t> {
     const auto channel = numbersBehind(name, prefix);
-    if (!channel || channel->size() != 1 || channel->front() < 1 || channel->front() > kChannels) return std::nullopt;
+    if (!channel || channel->size() != 1 || channel->front() < 1 || channel->front() > nc::nct::kChannels)
+      return std::nullopt;
     return channel->front() - 1;
   };
   if (const auto channel = channelBehind("PROGRAM.")) return selected_[*channel];
@@ -131,7 +133,8 @@ Handled Channels::setQuantity(std::string_view name, double value) {
   for (const bool wanted : {false, true}) {
     const auto channel = numbersBehind(name, wanted ? "PARTSWANTED." : "PARTS.");
     if (!channel) continue;
-    if (channel->size() != 1 || channel->front() < 1 || channel->front() > kChannels) return "channels are 1 to 8";
+    if (channel->size() != 1 || channel->front() < 1 || channel->front() > nc::nct::kChannels)
+      return "channels are 1 to 8";
     if (value < 0 || value > INT32_MAX || value != std::floor(value)) return "parts are counted in whole numbers";
     Channel& it = *channels_[channel->front() - 1];
     (wanted ? it.partsWanted : it.parts) = static_cast<int32_t>(value);
@@ -142,14 +145,14 @@ Handled Channels::setQuantity(std::string_view name, double value) {
 
 // ---- time --------------------------------------------------------------------------------------------------------
 
-void Channels::powerOn(PowerOn kind) {
-  cycleUs_ = control().nowUs;
+void Channels::powerOn(nc::PowerOn kind) {
+  cycleUs_ = links().nowUs;
   resetPressed_ = pulsing_ = resetBefore_ = false;
   for (const auto& channel : channels_) {
     channel->powerOn();
-    if (kind == PowerOn::Cold) channel->parts = channel->partsWanted = 0;
+    if (kind == nc::PowerOn::Cold) channel->parts = channel->partsWanted = 0;
   }
-  if (kind == PowerOn::Warm) return;
+  if (kind == nc::PowerOn::Warm) return;
   selected_ = {};
   programs_.clear();
 }
@@ -164,7 +167,7 @@ void Channels::keep(Kept& kept) {
 
 // All channels that execute and take part wait at the same code: they go on together.
 void Channels::releaseWaiting() {
-  for (uint32_t i = 0; i < kChannels; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kChannels; ++i) {
     const int32_t code = channels_[i]->waiting();
     const auto there = [&](const auto& other) { return !other->waitsForOthers() || other->waiting() == code; };
     if (code < 0 || !std::ranges::all_of(channels_, there)) continue;
@@ -175,7 +178,7 @@ void Channels::releaseWaiting() {
 
 // The RESET key (l.6558), pressed by an event or by whoever writes the signal: then for all channels.
 void Channels::followResetKey() {
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   const bool down = signals.get(resetKey_);
   if (down && !resetBefore_)
     for (const auto& channel : channels_) channel->reset();
@@ -189,14 +192,14 @@ void Channels::followResetKey() {
 
 void Channels::cycle() {
   followResetKey();
-  const int64_t us = control().nowUs - cycleUs_;
-  cycleUs_ = control().nowUs;
+  const int64_t us = links().nowUs - cycleUs_;
+  cycleUs_ = links().nowUs;
   releaseWaiting();
-  for (uint32_t i = 0; i < kChannels; ++i) channels_[i]->cycle(find(selected_[i]), us);
+  for (uint32_t i = 0; i < nc::nct::kChannels; ++i) channels_[i]->cycle(find(selected_[i]), us);
 }
 
 void Channels::timeSlice() {
   for (const auto& channel : channels_) channel->timeSlice();
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

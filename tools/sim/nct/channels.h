@@ -7,11 +7,11 @@
 
 #include "tools/sim/nct/channel.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Channels final : public Topic {
 public:
-  explicit Channels(Control& control);
+  explicit Channels(Links& links);
 
   // Channels count from 0. A program runs or is interrupted: CN_START, CN_STOP or CN_INTD.
   bool busy(uint32_t channel) const { return channels_[channel]->busy(); }
@@ -23,7 +23,7 @@ public:
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void timeSlice() override;
   void keep(Kept& kept) override;
@@ -39,8 +39,8 @@ private:
   ChannelParameters parameters_;
   std::vector<ParameterPlace> groupFirst_, groupLast_; // N1341…, N1357…
   std::list<ChannelProgram> programs_;                 // in memory; a channel may be executing one
-  std::array<int32_t, kChannels> selected_{};
-  std::array<std::unique_ptr<Channel>, kChannels> channels_;
+  std::array<int32_t, nc::nct::kChannels> selected_{};
+  std::array<std::unique_ptr<Channel>, nc::nct::kChannels> channels_;
   int64_t cycleUs_ = 0; // time of the last cycle
   BitSignal resetKey_{"NB_RESET"};
   bool resetPressed_ = false; // by an event: the key shows for one cycle
@@ -48,4 +48,4 @@ private:
   bool resetBefore_ = false;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

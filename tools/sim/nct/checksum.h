@@ -5,7 +5,7 @@
 #include <cstring>
 #include <span>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 template <class T>
 uint32_t checksum(std::span<const T> values) {
@@ -20,4 +20,4 @@ uint32_t checksum(std::span<const T> values) {
   return static_cast<uint32_t>(sum ^ (sum >> 32));
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 #include "tools/sim/nct/axes.h"
 #include "tools/sim/nct/spindles.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr int32_t kCurrent = 1;          // transmitted in units of 10 mA (l.4230)
@@ -28,21 +28,21 @@ constexpr Limits kLimits[kDriveData] = {{-100'000, 100'000}, {-100'000, 100'000}
 
 // An axis or a spindle has the drive of this address (N0501, N0601).
 bool Drives::addressed(uint32_t drive) const {
-  const Parameters& parameters = *control().parameters;
-  for (uint32_t i = 0; i < kAxes; ++i)
+  const Parameters& parameters = *links().parameters;
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i)
     if (static_cast<uint32_t>(parameters.dword(axisAddress_, i)) == drive) return true;
-  for (uint32_t i = 0; i < kSpindles; ++i)
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i)
     if (static_cast<uint32_t>(parameters.dword(spindleAddress_, i)) == drive) return true;
   return false;
 }
 
 double Drives::speed(uint32_t drive) const {
-  const Parameters& parameters = *control().parameters;
-  for (uint32_t i = 0; i < kAxes; ++i)
+  const Parameters& parameters = *links().parameters;
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i)
     if (static_cast<uint32_t>(parameters.dword(axisAddress_, i)) == drive)
-      return control().axes->velocity(i) * 60 / kPitch;
-  for (uint32_t i = 0; i < kSpindles; ++i)
-    if (static_cast<uint32_t>(parameters.dword(spindleAddress_, i)) == drive) return control().spindles->speed(i);
+      return links().axes->velocity(i) * 60 / kPitch;
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i)
+    if (static_cast<uint32_t>(parameters.dword(spindleAddress_, i)) == drive) return links().spindles->speed(i);
   return 0;
 }
 
@@ -85,7 +85,7 @@ std::optional<int32_t> Drives::service(uint32_t, Block& block) {
 
 // The drive is enabled while DP_ENA1=0 and DP_ENA2=1 (l.7240-7250); an error takes DN_RDY away until DP_ERRCLR.
 void Drives::timeSlice() {
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   for (uint32_t i = 0; i < kDrives; ++i) {
     Drive& drive = drives_[i];
     if (drive.errors != 0 && signals.get(clearError_, i)) drive.errors = 0;
@@ -115,6 +115,6 @@ std::optional<double> Drives::quantity(std::string_view name) const {
   return datum((*key)[0], (*key)[1]);
 }
 
-void Drives::powerOn(PowerOn) { drives_ = {}; }
+void Drives::powerOn(nc::PowerOn) { drives_ = {}; }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 #include "tools/sim/nct/parameters.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr uint32_t kDrives = 48;
 // 0 speed [1/min], 1 current [A], 2 load [%], 3 bus voltage [V], 4 temperature [°C], 5 power [kW] (l.3383, l.4230).
@@ -23,7 +23,7 @@ public:
   std::optional<int32_t> service(uint32_t function, Block& block) override;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void timeSlice() override;
 
 private:
@@ -50,4 +50,4 @@ private:
   WordSignal errors_{"DN_ERR"};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

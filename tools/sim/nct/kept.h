@@ -6,7 +6,7 @@
 #include <span>
 #include <type_traits>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Kept {
 public:
@@ -52,4 +52,4 @@ private:
   uint32_t at_ = 0;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

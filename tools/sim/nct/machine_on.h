@@ -3,13 +3,13 @@
 #pragma once
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class MachineOn final : public Topic {
 public:
   using Topic::Topic;
   void cycle() override {
-    const SignalMemory& signals = control().signals;
+    const SignalMemory& signals = links().signals;
     signals.set(on_, signals.get(request_) && !signals.get(disabled_));
   }
 
@@ -19,4 +19,4 @@ private:
   BitSignal on_{"N_MONST"};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

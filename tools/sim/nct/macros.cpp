@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kFromPlc = 1000;
@@ -25,7 +25,7 @@ double groupRead(const SignalMemory& signals, const WordSignal& bits, const Real
 } // namespace
 
 std::optional<double> Macros::read(int64_t variable, int64_t channel) const {
-  if (variable < kFirst || variable > kLast || channel < 0 || channel >= kChannels) return std::nullopt;
+  if (variable < kFirst || variable > kLast || channel < 0 || channel >= nc::nct::kChannels) return std::nullopt;
   return const_cast<Macros*>(this)->place(static_cast<uint32_t>(variable), static_cast<uint32_t>(channel));
 }
 
@@ -36,22 +36,22 @@ bool Macros::write(int64_t variable, int64_t channel, double value) {
 }
 
 std::optional<double> Macros::programRead(uint32_t variable, uint32_t channel) const {
-  if (channel >= kChannels) return std::nullopt;
+  if (channel >= nc::nct::kChannels) return std::nullopt;
   if (variable >= kFromPlc && variable <= kFromPlc + kBits + 3)
-    return groupRead(control().signals, bitsToProgram_, toProgram_, variable - kFromPlc, channel);
+    return groupRead(links().signals, bitsToProgram_, toProgram_, variable - kFromPlc, channel);
   if (variable >= kToPlc && variable <= kToPlc + kBits + 3)
-    return groupRead(control().signals, bitsToPlc_, toPlc_, variable - kToPlc, channel);
+    return groupRead(links().signals, bitsToPlc_, toPlc_, variable - kToPlc, channel);
   return read(variable, channel);
 }
 
 bool Macros::programWrite(uint32_t variable, uint32_t channel, double value) {
-  if (channel >= kChannels) return false;
+  if (channel >= nc::nct::kChannels) return false;
   if (variable >= kFirst && variable <= kLast) {
     place(variable, channel) = value;
     return true;
   }
   if (variable < kToPlc || variable > kToPlc + kBits + 3) return false;
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   const uint32_t n = variable - kToPlc;
   const auto word = static_cast<uint32_t>(signals.get(bitsToPlc_, channel));
   const uint32_t mask = n < kBits ? uint32_t{1} << n : 0;
@@ -78,11 +78,11 @@ Handled Macros::setQuantity(std::string_view name, double value) {
   return "";
 }
 
-void Macros::powerOn(PowerOn kind) {
+void Macros::powerOn(nc::PowerOn kind) {
   volatile_ = {};
-  if (kind == PowerOn::Cold) kept_ = {};
+  if (kind == nc::PowerOn::Cold) kept_ = {};
 }
 
 void Macros::keep(Kept& kept) { kept.value(kept_); }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

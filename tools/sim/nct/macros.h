@@ -3,10 +3,10 @@
 #pragma once
 #include <array>
 
-#include "tools/sim/nct/topic.h"
 #include "rtlib/nc/nct/parameters.h"
+#include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Macros final : public Topic {
 public:
@@ -23,7 +23,7 @@ public:
 
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void keep(Kept& kept) override;
 
 private:
@@ -37,12 +37,12 @@ private:
     return variable < kFirstKept ? volatile_[channel][variable - kFirst] : kept_[channel][variable - kFirstKept];
   }
 
-  std::array<std::array<double, kVolatile>, kChannels> volatile_{};
-  std::array<std::array<double, kKeptVariables>, kChannels> kept_{};
+  std::array<std::array<double, kVolatile>, nc::nct::kChannels> volatile_{};
+  std::array<std::array<double, kKeptVariables>, nc::nct::kChannels> kept_{};
   WordSignal bitsToProgram_{"CP_1032"};
   RealSignal toProgram_[3] = {RealSignal("CP_1033"), RealSignal("CP_1034"), RealSignal("CP_1035")};
   WordSignal bitsToPlc_{"CN_1132"};
   RealSignal toPlc_[3] = {RealSignal("CN_1133"), RealSignal("CN_1134"), RealSignal("CN_1135")};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstring>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kRead = 201;
@@ -80,18 +80,17 @@ std::optional<int32_t> Mailbox::service(uint32_t function, Block& block) {
   if (block.word(2) < 0 || block.word(2) > 15 || !speaks(*device, protocol)) return 201;
   const int32_t bytes = block.word(4);
   const int32_t address = block.word(5);
-  if (bytes < 1 || bytes > kMostBytes || address < 1 || !control().memory.contains(address, (bytes + 3) / 4))
-    return 202;
+  if (bytes < 1 || bytes > kMostBytes || address < 1 || !links().memory.contains(address, (bytes + 3) / 4)) return 202;
   if (device->silent) {
-    if (control().requestAgeUs < kTimeoutUs) return std::nullopt;
+    if (links().requestAgeUs < kTimeoutUs) return std::nullopt;
     return write ? 204 : 203;
   }
-  if (control().requestAgeUs == 0) return std::nullopt;
+  if (links().requestAgeUs == 0) return std::nullopt;
   size_ = 0;
   if (write) {
     size_ = static_cast<size_t>(bytes);
     for (uint32_t i = 0; i < size_; ++i) {
-      const auto word = static_cast<uint32_t>(control().memory.word(static_cast<uint32_t>(address) + i / 4));
+      const auto word = static_cast<uint32_t>(links().memory.word(static_cast<uint32_t>(address) + i / 4));
       buffer_[i] = static_cast<uint8_t>(word >> 8 * (i % 4));
     }
   }
@@ -107,8 +106,8 @@ int32_t Mailbox::finish(bool write, Block& block, uint32_t error) {
   for (size_t at = 0; at < size_; at += 4) {
     uint32_t word = 0;
     std::memcpy(&word, buffer_.data() + at, std::min<size_t>(4, size_ - at));
-    control().memory.setWord(static_cast<uint32_t>(block.word(5)) + static_cast<uint32_t>(at / 4),
-                             static_cast<int32_t>(word));
+    links().memory.setWord(static_cast<uint32_t>(block.word(5)) + static_cast<uint32_t>(at / 4),
+                           static_cast<int32_t>(word));
   }
   return 0;
 }
@@ -295,14 +294,14 @@ std::optional<double> Mailbox::quantity(std::string_view name) const {
   return std::nullopt;
 }
 
-void Mailbox::powerOn(PowerOn kind) {
+void Mailbox::powerOn(nc::PowerOn kind) {
   for (Device& device : devices_) {
     device.silent = false;
     device.error = 0;
     device.vendor.clear();
   }
-  if (kind == PowerOn::Warm) return;
+  if (kind == nc::PowerOn::Warm) return;
   for (Object& object : objects_) object.value = object.initial;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -7,7 +7,7 @@
 
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Mailbox final : public Topic {
 public:
@@ -18,7 +18,7 @@ public:
   Handled config(std::string_view key, std::string_view value) override;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
 
 private:
   enum class Protocol : uint8_t { Coe = 3, Soe = 5, Voe = 15 }; // word 2
@@ -63,4 +63,4 @@ private:
   size_t size_ = 0;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

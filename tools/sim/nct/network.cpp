@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr int64_t kConnectUs = 5'000'000; // until a connection that nobody answers has failed
@@ -80,16 +80,16 @@ std::optional<int32_t> Network::open(Block& block) {
   }
   protocol_ = static_cast<Protocol>(protocol);
   connecting_ = protocol_ == Protocol::Client;
-  connectingSince_ = control().nowUs;
+  connectingSince_ = links().nowUs;
   block.setWord(3, 0);
   if (!connecting_) return 0;
-  if (!control().realTime) socket_.writable(kSettleMs);
+  if (!links().realTime) socket_.writable(kSettleMs);
   return connecting(block);
 }
 
 std::optional<int32_t> Network::connecting(Block& block) {
   std::optional<int32_t> error = socket_.connected();
-  if (!error && control().nowUs - connectingSince_ < kConnectUs) return std::nullopt;
+  if (!error && links().nowUs - connectingSince_ < kConnectUs) return std::nullopt;
   connecting_ = false;
   block.setWord(3, error.value_or(kWindowsTimeout));
   if (error && *error == 0) return 0;
@@ -120,8 +120,7 @@ int32_t Network::failed(Block& block, int32_t error) {
 
 int32_t Network::receive(Block& block) {
   // Word 0000 is the program's flags.
-  if (block.word(3) < 1 || !control().memory.contains(block.word(3), block.word(4)))
-    return failed(block, kWindowsFault);
+  if (block.word(3) < 1 || !links().memory.contains(block.word(3), block.word(4))) return failed(block, kWindowsFault);
   return socket_.isOpen() ? receiveFrom(block, socket_) : 65;
 }
 
@@ -145,8 +144,8 @@ int32_t Network::receiveFrom(Block& block, Socket& socket) {
   for (size_t at = 0; at < received.bytes; at += 4) {
     uint32_t word = 0;
     std::memcpy(&word, bytes.data() + at, std::min<size_t>(4, received.bytes - at));
-    control().memory.setWord(static_cast<uint32_t>(block.word(3)) + static_cast<uint32_t>(at / 4),
-                             static_cast<int32_t>(word));
+    links().memory.setWord(static_cast<uint32_t>(block.word(3)) + static_cast<uint32_t>(at / 4),
+                           static_cast<int32_t>(word));
   }
   if (block.amount() >= 4) block.setWord(5, 0);
   if (block.amount() >= 5)
@@ -156,7 +155,7 @@ int32_t Network::receiveFrom(Block& block, Socket& socket) {
 }
 
 std::optional<int32_t> Network::send(Block& block) {
-  const PlcMemory& memory = control().memory;
+  const PlcMemory& memory = links().memory;
   if (!memory.contains(block.word(3), block.word(4))) return failed(block, kWindowsFault);
   if (!socket_.isOpen()) return 63; // a server without a client
   if (!flush()) return std::nullopt;
@@ -232,9 +231,9 @@ std::optional<double> Network::quantity(std::string_view name) const {
   return device_.receivedWord((*word)[0]);
 }
 
-void Network::powerOn(PowerOn) {
+void Network::powerOn(nc::PowerOn) {
   close();
   device_.close();
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

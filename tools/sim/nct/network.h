@@ -9,7 +9,7 @@
 
 #include "tools/sim/nct/network_device.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Network final : public Topic {
 public:
@@ -20,7 +20,7 @@ public:
   Handled config(std::string_view key, std::string_view value) override;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void dropRequests() override { close(); }
 
@@ -60,4 +60,4 @@ private:
   mutable NetworkDevice device_;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

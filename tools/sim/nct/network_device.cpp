@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr int kPatienceMs = 200; // for the other side; the loopback answers at once
@@ -20,7 +20,7 @@ void NetworkDevice::close() {
   socket_.close();
 }
 
-std::string NetworkDevice::open(std::string_view role, Endpoint own, Endpoint control) {
+std::string NetworkDevice::open(std::string_view role, Endpoint own, Endpoint links) {
   close();
   messageBytes_ = 0;
   if (role == "udp") {
@@ -34,14 +34,14 @@ std::string NetworkDevice::open(std::string_view role, Endpoint own, Endpoint co
   if (role != "client") return "event device: open=\"udp\", \"server\" or \"client\"";
   role_ = Role::Client;
   own.port = 0;
-  if (const int32_t error = socket_.connect(own, control)) return opened(error);
+  if (const int32_t error = socket_.connect(own, links)) return opened(error);
   socket_.writable(kPatienceMs);
   const std::optional<int32_t> done = socket_.connected();
-  return done && *done == 0 ? std::string() : "nobody listens on port " + std::to_string(control.port);
+  return done && *done == 0 ? std::string() : "nobody listens on port " + std::to_string(links.port);
 }
 
 // WORDS words; those that the event does not name are 0.
-std::string NetworkDevice::send(const std::vector<NcArgument>& keys, Endpoint control) {
+std::string NetworkDevice::send(const std::vector<NcArgument>& keys, Endpoint links) {
   const int64_t words = integerKey(keys, "send", 0);
   if (words < 1 || words > kMostNetworkWords) return "event device: send=1 to 350 words";
   std::array<uint8_t, kMostNetworkWords * 4> bytes{};
@@ -55,18 +55,18 @@ std::string NetworkDevice::send(const std::vector<NcArgument>& keys, Endpoint co
   poll();
   if (!socket_.isOpen()) return "the device has no connection";
   const std::span<const uint8_t> message(bytes.data(), static_cast<size_t>(words) * 4);
-  const Socket::Sent sent = role_ == Role::Udp ? socket_.sendTo(message, control) : socket_.send(message);
+  const Socket::Sent sent = role_ == Role::Udp ? socket_.sendTo(message, links) : socket_.send(message);
   return sent.bytes == message.size() ? std::string() : "the device cannot send: error " + std::to_string(sent.error);
 }
 
-std::string NetworkDevice::event(const std::vector<NcArgument>& keys, Endpoint own, Endpoint control) {
+std::string NetworkDevice::event(const std::vector<NcArgument>& keys, Endpoint own, Endpoint links) {
   const int64_t port = integerKey(keys, "port", 0);
   if (port < 0 || port > 65535) return "event device: port=1 to 65535";
   if (port != 0) own.port = static_cast<uint16_t>(port);
   const NcArgument* role = findKey(keys, "open");
-  if (role != nullptr && port != 0) control.port = static_cast<uint16_t>(port);
-  if (role != nullptr) return own.port == 0 ? "event device: open needs port=N" : open(role->text, own, control);
-  if (findKey(keys, "send") != nullptr) return send(keys, control);
+  if (role != nullptr && port != 0) links.port = static_cast<uint16_t>(port);
+  if (role != nullptr) return own.port == 0 ? "event device: open needs port=N" : open(role->text, own, links);
+  if (findKey(keys, "send") != nullptr) return send(keys, links);
   if (findKey(keys, "close") == nullptr) return "event device takes open, send or close";
   close();
   return {};
@@ -102,4 +102,4 @@ bool NetworkDevice::connected() {
   return socket_.isOpen();
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

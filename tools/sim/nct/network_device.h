@@ -8,7 +8,7 @@
 #include "tools/sim/nct/socket.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr uint32_t kMostNetworkWords = 350; // of a message (l.4029)
 
@@ -16,7 +16,7 @@ class NetworkDevice {
 public:
   // Keys of the event: open=udp|server|client with port=N; send=WORDS with w0=V …; close=1. `control` is where the
   // control's own side listens.
-  std::string event(const std::vector<NcArgument>& keys, Endpoint own, Endpoint control);
+  std::string event(const std::vector<NcArgument>& keys, Endpoint own, Endpoint links);
   void close();
 
   // The last message that came: its length, its words.
@@ -26,8 +26,8 @@ public:
 
 private:
   enum class Role : uint8_t { None, Udp, Server, Client };
-  std::string open(std::string_view role, Endpoint own, Endpoint control);
-  std::string send(const std::vector<NcArgument>& keys, Endpoint control);
+  std::string open(std::string_view role, Endpoint own, Endpoint links);
+  std::string send(const std::vector<NcArgument>& keys, Endpoint links);
   void poll();
 
   Role role_ = Role::None;
@@ -37,4 +37,4 @@ private:
   size_t messageBytes_ = 0;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -3,7 +3,7 @@
 
 #include "tools/sim/nct/checksum.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kRead = 10;
@@ -13,7 +13,7 @@ uint32_t sumOf(const std::array<int32_t, kNvramWords>& words) { return checksum(
 
 } // namespace
 
-Nvram::Nvram(Control& control) : Topic(control), checksum_(sumOf(words_)) {}
+Nvram::Nvram(Links& links) : Topic(links), checksum_(sumOf(words_)) {}
 
 bool Nvram::serves(bool write, uint32_t function) const { return function == (write ? kWrite : kRead); }
 
@@ -25,7 +25,7 @@ std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
   const int32_t address = block.word(3);
   const int32_t count = block.word(4);
   if (first < 0 || first >= kNvramWords) return 10;
-  const PlcMemory& memory = control().memory;
+  const PlcMemory& memory = links().memory;
   if (address < 0 || static_cast<uint32_t>(address) < memory.plcNvram()) return 11;
   if (count < 1 || count > kNvramWords - first) return 12;
   if (!memory.contains(address, count)) return 11;
@@ -64,8 +64,8 @@ Handled Nvram::setQuantity(std::string_view name, double value) {
   return "";
 }
 
-void Nvram::powerOn(PowerOn kind) {
-  if (kind == PowerOn::Warm) return;
+void Nvram::powerOn(nc::PowerOn kind) {
+  if (kind == nc::PowerOn::Warm) return;
   words_ = {};
   checksum_ = sumOf(words_);
 }
@@ -75,4 +75,4 @@ void Nvram::keep(Kept& kept) {
   kept.value(checksum_);
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

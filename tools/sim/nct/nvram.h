@@ -4,20 +4,20 @@
 
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr int32_t kNvramWords = 1024;
 
 class Nvram final : public Topic {
 public:
-  explicit Nvram(Control& control);
+  explicit Nvram(Links& links);
 
   bool serves(bool write, uint32_t function) const override;
   std::optional<int32_t> service(uint32_t function, Block& block) override;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void keep(Kept& kept) override;
 
 private:
@@ -25,4 +25,4 @@ private:
   uint32_t checksum_ = 0;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

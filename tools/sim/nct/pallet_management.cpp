@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 struct PalletName {
@@ -46,29 +46,29 @@ uint32_t programIndex(std::string_view name) {
 } // namespace
 
 PalletPlan PalletManagement::plan() const {
-  const Parameters& parameters = *control().parameters;
+  const Parameters& parameters = *links().parameters;
   return {.enabled = parameters.bit(control3300_, 0),
           .loadingPoint = parameters.bit(control3300_, 1) || parameters.bit(control3300_, 2),
           .pool = static_cast<uint32_t>(std::max(parameters.dword(poolLength_), 0))};
 }
 
-bool PalletManagement::locked() const { return control().signals.get(lockedSignal_); }
+bool PalletManagement::locked() const { return links().signals.get(lockedSignal_); }
 
-bool PalletManagement::programsByNumber() const { return !control().parameters->bit(control3300_, 3); }
+bool PalletManagement::programsByNumber() const { return !links().parameters->bit(control3300_, 3); }
 
 bool PalletManagement::hasColumn(int32_t number) const {
-  const int32_t customs = std::clamp(control().parameters->dword(customColumns_), 0, 4);
+  const int32_t customs = std::clamp(links().parameters->dword(customColumns_), 0, 4);
   return number >= 1 && number <= static_cast<int32_t>(kPalletPrograms) + customs;
 }
 
-void PalletManagement::powerOn(PowerOn kind) {
+void PalletManagement::powerOn(nc::PowerOn kind) {
   editing_ = false;
-  if (kind == PowerOn::Warm) return;
+  if (kind == nc::PowerOn::Warm) return;
   table_.clear();
   for (const Setting& setting : settings_) setQuantity(setting.name, setting.value);
 }
 
-void PalletManagement::cycle() { control().signals.set(editingSignal_, editing_); }
+void PalletManagement::cycle() { links().signals.set(editingSignal_, editing_); }
 
 std::string PalletManagement::setColumn(PalletPlace place, std::string_view name, double value) {
   PalletRow& row = table_.row(place);
@@ -142,8 +142,8 @@ Handled PalletManagement::event(std::string_view name, const std::vector<NcArgum
       return "event pallet does not know '" + key.key + "'";
   if (!plan().has(place)) return "there is no such pallet place";
   bool automatic = false;
-  for (uint32_t channel = 0; channel < kChannels; ++channel)
-    automatic = automatic || control().signals.get(automatic_, channel);
+  for (uint32_t channel = 0; channel < nc::nct::kChannels; ++channel)
+    automatic = automatic || links().signals.get(automatic_, channel);
   if (locked() || (automatic && place.magazine == kWorkingSpace)) return std::string();
   return editPlace(place, keys);
 }
@@ -165,4 +165,4 @@ std::string PalletManagement::editPlace(PalletPlace place, const std::vector<NcA
   return {};
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -9,7 +9,7 @@
 #include "tools/sim/nct/parameters.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class PalletManagement final : public Topic {
 public:
@@ -21,7 +21,7 @@ public:
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void keep(Kept& kept) override { table_.keep(kept); }
 
@@ -70,4 +70,4 @@ private:
   BitSignal automatic_{"CN_AUTO"};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -3,12 +3,12 @@
 #include <array>
 #include <utility>
 
+#include "rtlib/nc/nct/service_functions.h"
 #include "tools/sim/nct/channels.h"
 #include "tools/sim/nct/pallet_management.h"
 #include "tools/sim/nct/ring_search.h"
-#include "rtlib/nc/nct/service_functions.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr int32_t kWrongNumber = 12;
@@ -83,34 +83,34 @@ std::optional<int32_t> PalletManagement::service(uint32_t function, Block& block
   case 307: return readDatum(block);
   case 308: return search(block);
   case 309: return readColumn(block);
-  default: return kBadFunction;
+  default: return nc::nct::kBadFunction;
   }
 }
 
 int32_t PalletManagement::checkPlace(PalletPlace place) const {
   const PalletPlan machine = plan();
   if (!machine.hasMagazine(place.magazine)) return kNoMagazine;
-  return machine.has(place) ? static_cast<int32_t>(kExecuted) : kNoPlace;
+  return machine.has(place) ? static_cast<int32_t>(nc::nct::kExecuted) : kNoPlace;
 }
 
 // Magazine 1: 1, 10 or 11; magazine 2: 0, 10 or 11 (l.5445-5447).
 int32_t PalletManagement::interchange(Block& block) {
-  if (block.amount() != 3) return kBadAmount;
-  if (locked()) return kWriteProtected;
+  if (block.amount() != 3) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   const PalletPlace first = placeAt(block, 2);
   const auto second = static_cast<uint32_t>(block.word(4));
   if (first.magazine == kVirtualMagazine) return kNoMagazine;
-  if (const int32_t code = checkPlace(first); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(first); code != nc::nct::kExecuted) return code;
   if (second == kPoolMagazine || second == first.magazine || !plan().hasMagazine(second)) return kNoSecondMagazine;
   PalletPlace other{second, 1};
   if (second == kVirtualMagazine) {
-    if (!table_.row(first).hasPallet()) return kExecuted;
+    if (!table_.row(first).hasPallet()) return nc::nct::kExecuted;
     const std::optional<PalletPlace> free = table_.freeVirtual(plan());
-    if (!free) return kWriteProtected; // no row left: the manual has no code for it
+    if (!free) return nc::nct::kWriteProtected; // no row left: the manual has no code for it
     other = *free;
   }
   std::swap(table_.row(first), table_.row(other));
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 uint32_t PalletManagement::columnsOfRecord(int64_t words) const {
@@ -129,12 +129,14 @@ int32_t PalletManagement::checkWord(PalletColumn column, int32_t value, PalletPl
     if (value < 1 || value > kMaxPalletId) return kWrongId;
     const std::optional<PalletPlace> other = table_.find(plan(), value);
     const bool taken = other && *other != place && other->magazine != kVirtualMagazine;
-    return taken ? kWrongId : static_cast<int32_t>(kExecuted); // a pallet is in one place
+    return taken ? kWrongId : static_cast<int32_t>(nc::nct::kExecuted); // a pallet is in one place
   }
-  case kPalletPriority: return value < 0 || value > kMaxPriority ? kWrongPriority : static_cast<int32_t>(kExecuted);
+  case kPalletPriority:
+    return value < 0 || value > kMaxPriority ? kWrongPriority : static_cast<int32_t>(nc::nct::kExecuted);
   case kPalletAssigned:
-    return value < 0 || value > static_cast<int32_t>(kMaxPrograms) ? kWrongAssigned : static_cast<int32_t>(kExecuted);
-  default: return kExecuted;
+    return value < 0 || value > static_cast<int32_t>(kMaxPrograms) ? kWrongAssigned
+                                                                   : static_cast<int32_t>(nc::nct::kExecuted);
+  default: return nc::nct::kExecuted;
   }
 }
 
@@ -146,68 +148,70 @@ void PalletManagement::identify(PalletPlace place, int32_t identifier) {
 
 int32_t PalletManagement::writePallet(Block& block) {
   const uint32_t columns = columnsOfRecord(int64_t{block.amount()} - 2);
-  if (columns == 0) return kBadAmount;
-  if (locked()) return kWriteProtected;
+  if (columns == 0) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   const PalletPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place); code != nc::nct::kExecuted) return code;
   if (!table_.row(place).hasPallet()) return kNoPallet;
   const int32_t identifier = block.word(kFirstColumnWord);
-  if (const int32_t code = checkWord(kPalletId, identifier, place); code != kExecuted) return code;
+  if (const int32_t code = checkWord(kPalletId, identifier, place); code != nc::nct::kExecuted) return code;
   // What the place will hold: the data that the virtual magazine has of the pallet, then those of the block.
   const std::optional<PalletPlace> known = table_.find(plan(), identifier);
   PalletRow row = table_.row(known ? *known : place);
   uint32_t word = kFirstColumnWord;
   for (uint32_t i = 0; i < columns; word += palletColumnWords(kRecord[i]), ++i) readInto(block, word, kRecord[i], row);
   if (columns >= 2 && static_cast<uint32_t>(row.word(kPalletStatus)) > 9) return kWrongStatus;
-  if (const int32_t code = checkWord(kPalletPriority, row.word(kPalletPriority), place); code != kExecuted) return code;
+  if (const int32_t code = checkWord(kPalletPriority, row.word(kPalletPriority), place); code != nc::nct::kExecuted)
+    return code;
   if (static_cast<uint32_t>(row.word(kPalletExecuted)) > static_cast<uint32_t>(row.word(kPalletAssigned)))
     return kWrongExecuted;
-  if (const int32_t code = checkWord(kPalletAssigned, row.word(kPalletAssigned), place); code != kExecuted) return code;
+  if (const int32_t code = checkWord(kPalletAssigned, row.word(kPalletAssigned), place); code != nc::nct::kExecuted)
+    return code;
   identify(place, identifier);
   table_.row(place) = row;
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t PalletManagement::readPallet(Block& block) {
   const uint32_t columns = columnsOfRecord(int64_t{block.amount()} - 2);
-  if (columns == 0) return kBadAmount;
+  if (columns == 0) return nc::nct::kBadAmount;
   const PalletPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place); code != nc::nct::kExecuted) return code;
   if (!table_.row(place).hasPallet()) return kNoPallet;
   uint32_t word = kFirstColumnWord;
   for (uint32_t i = 0; i < columns; word += palletColumnWords(kRecord[i]), ++i)
     answer(block, word, kRecord[i], table_.row(place));
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 // One program needs no number of programs, several do (l.5661): the amount is 3 and that number.
 int32_t PalletManagement::writePrograms(Block& block, PalletRow& row) {
   const int32_t programs = std::max(row.word(kPalletAssigned), 1);
-  if (block.amount() != 3 + programs) return kBadAmount;
+  if (block.amount() != 3 + programs) return nc::nct::kBadAmount;
   row.programs.fill(0); // the previous ones are overwritten (l.5659)
   row.words[kPalletAssigned] = programs;
   for (int32_t i = 0; i < programs; ++i)
     row.programs[static_cast<uint32_t>(i)] = block.word(5 + static_cast<uint32_t>(i));
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t PalletManagement::writeDatum(Block& block) {
   const int32_t number = block.word(4);
   const auto column = static_cast<PalletColumn>(number);
-  if (block.amount() < 4 || !hasColumn(number)) return kBadAmount; // no code is printed for a wrong number
+  if (block.amount() < 4 || !hasColumn(number)) return nc::nct::kBadAmount; // no code is printed for a wrong number
   if (column != kPalletPrograms && block.amount() != static_cast<int32_t>(3 + palletColumnWords(column)))
-    return kBadAmount;
-  if (locked()) return kWriteProtected;
+    return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   const PalletPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place); code != nc::nct::kExecuted) return code;
   PalletRow& row = table_.row(place);
   if (needsPallet(number) && !row.hasPallet()) return kNoPallet;
   if (column == kPalletPrograms) {
-    if (!programsByNumber()) return kWriteProtected; // l.5414-5416
+    if (!programsByNumber()) return nc::nct::kWriteProtected; // l.5414-5416
     return writePrograms(block, row);
   }
   const int32_t value = block.word(5);
-  if (const int32_t code = checkWord(column, value, place); code != kExecuted) return code;
+  if (const int32_t code = checkWord(column, value, place); code != nc::nct::kExecuted) return code;
   if (column == kPalletStatus && static_cast<uint32_t>(value) > 10) return kWrongStatus;
   if (column == kPalletExecuted && static_cast<uint32_t>(value) > static_cast<uint32_t>(row.word(kPalletAssigned)))
     return kWrongExecuted;
@@ -216,29 +220,29 @@ int32_t PalletManagement::writeDatum(Block& block) {
     identify(place, value);
   else
     readInto(block, 5, column, row);
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t PalletManagement::readDatum(Block& block) {
   const int32_t number = block.word(4);
   const auto column = static_cast<PalletColumn>(number);
-  if (block.amount() < 4 || !hasColumn(number)) return kBadAmount;
+  if (block.amount() < 4 || !hasColumn(number)) return nc::nct::kBadAmount;
   if (column != kPalletPrograms && block.amount() != static_cast<int32_t>(3 + palletColumnWords(column)))
-    return kBadAmount;
+    return nc::nct::kBadAmount;
   const PalletPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place); code != nc::nct::kExecuted) return code;
   const PalletRow& row = table_.row(place);
   if (number != static_cast<int32_t>(kPalletStatus) && !row.hasPallet()) return kNoPallet;
   if (column != kPalletPrograms) {
     answer(block, 5, column, row);
-    return kExecuted;
+    return nc::nct::kExecuted;
   }
-  if (!programsByNumber()) return kWriteProtected;
+  if (!programsByNumber()) return nc::nct::kWriteProtected;
   const int32_t programs = std::max(row.word(kPalletAssigned), 1);
-  if (block.amount() != 3 + programs) return kBadAmount;
+  if (block.amount() != 3 + programs) return nc::nct::kBadAmount;
   for (int32_t i = 0; i < programs; ++i)
     block.setWord(5 + static_cast<uint32_t>(i), row.programs[static_cast<uint32_t>(i)]);
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 bool PalletManagement::matches(PalletColumn column, int32_t value, const PalletRow& row) const {
@@ -250,7 +254,7 @@ bool PalletManagement::matches(PalletColumn column, int32_t value, const PalletR
 // Statuses are searched in all places of the pool, other data in those with a pallet. Of several pallets that are ready
 // for exchange the one with the lowest priority number is taken, else the nearest (l.5775-5781).
 int32_t PalletManagement::search(Block& block) {
-  if (block.amount() != 6) return kBadAmount;
+  if (block.amount() != 6) return nc::nct::kBadAmount;
   const int32_t number = block.word(2);
   const auto column = static_cast<PalletColumn>(number);
   if (!hasColumn(number) || isRealPalletColumn(column) || (column == kPalletPrograms && !programsByNumber()))
@@ -279,33 +283,33 @@ int32_t PalletManagement::search(Block& block) {
   if (!found) return kNotFound;
   block.setWord(6, static_cast<int32_t>(found->first + 1));
   block.setWord(7, rotationWord(found->second));
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 // The amount counts the data number, magazine and place too: the example with 10 has seven values (l.5852-5866).
 int32_t PalletManagement::readColumn(Block& block) {
   const int32_t number = block.word(2);
   const auto column = static_cast<PalletColumn>(number);
-  if (block.amount() < 4) return kBadAmount;
+  if (block.amount() < 4) return nc::nct::kBadAmount;
   if (!hasColumn(number) || (column == kPalletPrograms && !programsByNumber())) return kWrongNumber;
   const uint32_t width = palletColumnWords(column);
   const auto words = static_cast<uint32_t>(block.amount() - 3);
-  if (words % width != 0 || words > kBlockWords - 5) return kBadAmount;
+  if (words % width != 0 || words > nc::nct::kBlockWords - 5) return nc::nct::kBadAmount;
   PalletPlace place = placeAt(block, 3);
-  if (const int32_t code = checkPlace(place); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place); code != nc::nct::kExecuted) return code;
   const uint32_t places = plan().places(place.magazine);
   for (uint32_t word = 5; word < 5 + words; word += width) {
     answer(block, word, column, table_.row(place));
     place.place = place.place % places + 1;
   }
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t PalletManagement::selectProgram(Block& block) {
-  if (block.amount() != 2) return kBadAmount;
+  if (block.amount() != 2) return nc::nct::kBadAmount;
   const int32_t channel = block.word(3);
-  if (channel < 1 || channel > static_cast<int32_t>(kChannels)) return kNoChannel;
-  Channels& channels = *control().channels;
+  if (channel < 1 || channel > static_cast<int32_t>(nc::nct::kChannels)) return kNoChannel;
+  Channels& channels = *links().channels;
   const auto index = static_cast<uint32_t>(channel - 1);
   if (channels.busy(index)) return kProgramRuns; // l.5892
   if (!plan().enabled) return kWorkingSpaceEmpty;
@@ -316,7 +320,7 @@ int32_t PalletManagement::selectProgram(Block& block) {
   if (next >= static_cast<uint32_t>(row.word(kPalletAssigned))) return kNoProgram;
   if (!channels.hasProgram(row.programs[next])) return kNoFile;
   channels.select(index, row.programs[next]);
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

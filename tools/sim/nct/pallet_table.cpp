@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 PalletColumn palletColumn(std::string_view name) {
   constexpr std::pair<std::string_view, PalletColumn> kNames[] = {{"ID", kPalletId},
@@ -67,4 +67,4 @@ void PalletTable::clear() { rows_.fill(PalletRow()); }
 
 void PalletTable::keep(Kept& kept) { kept.values(std::span<PalletRow>(rows_)); }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -11,7 +11,7 @@
 
 #include "tools/sim/nct/kept.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // Columns are the data numbers of MW 306 and MR 307 (l.5669-5682).
 using PalletColumn = uint32_t;
@@ -93,4 +93,4 @@ private:
   std::array<PalletRow, kFirstVirtual + kPalletRows> rows_;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 
 #include "tools/sim/nct/checksum.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kReadDword = 31;
@@ -18,9 +18,9 @@ constexpr uint32_t kFirstDword = 1209;
 constexpr uint32_t kFirstDouble = 1241;
 
 // Where the values of a parameter begin, in the order of the rows.
-uint32_t firstOf(const ParameterRow& wanted, uint32_t number) {
+uint32_t firstOf(const nc::nct::ParameterRow& wanted, uint32_t number) {
   uint32_t first = 0;
-  for (const ParameterRow& row : parameterRows()) {
+  for (const nc::nct::ParameterRow& row : nc::nct::parameterRows()) {
     if (row.number == wanted.number) return first + (number - row.number) * valuesOf(row.index);
     first += row.numbers * valuesOf(row.index);
   }
@@ -32,14 +32,14 @@ uint32_t bitOf(double value, uint32_t bit) { return (static_cast<uint32_t>(value
 } // namespace
 
 ParameterPlace::ParameterPlace(uint32_t number) {
-  const ParameterRow* row = findParameter(number);
+  const nc::nct::ParameterRow* row = nc::nct::findParameter(number);
   if (row == nullptr) std::abort(); // the numbers stand in this code alone
   first_ = firstOf(*row, number);
   count_ = valuesOf(row->index);
 }
 
-Parameters::Parameters(Control& control) : Topic(control) {
-  for (const ParameterRow& row : parameterRows())
+Parameters::Parameters(Links& links) : Topic(links) {
+  for (const nc::nct::ParameterRow& row : nc::nct::parameterRows())
     initial_.insert(initial_.end(), row.numbers * valuesOf(row.index), row.initial);
   for (char i = '0'; i < '8'; ++i)
     for (char j = '0'; j < '8'; ++j) constantBits_.emplace_back(std::string("N_P") + i + j);
@@ -48,7 +48,7 @@ Parameters::Parameters(Control& control) : Topic(control) {
 }
 
 void Parameters::setInitial(uint32_t number, uint32_t index, double value) {
-  const ParameterRow* row = findParameter(number);
+  const nc::nct::ParameterRow* row = nc::nct::findParameter(number);
   if (row != nullptr && index < valuesOf(row->index)) initial_[firstOf(*row, number) + index] = value;
 }
 
@@ -56,8 +56,8 @@ uint32_t Parameters::checksum() const { return nct::checksum(std::span<const dou
 
 void Parameters::changed() { checksum_ = checksum(); }
 
-void Parameters::powerOn(PowerOn kind) {
-  if (kind == PowerOn::Cold) {
+void Parameters::powerOn(nc::PowerOn kind) {
+  if (kind == nc::PowerOn::Cold) {
     values_ = initial_;
     changed();
   }
@@ -71,12 +71,12 @@ void Parameters::keep(Kept& kept) {
 
 // N1201… as N_Pij, N_PDW1 and N_PDB1 (man. 7.11).
 void Parameters::writeConstants() const {
-  const SignalMemory& signals = control().signals;
-  const uint32_t bits = firstOf(*findParameter(kFirstBits), kFirstBits);
+  const SignalMemory& signals = links().signals;
+  const uint32_t bits = firstOf(*nc::nct::findParameter(kFirstBits), kFirstBits);
   for (uint32_t i = 0; i < constantBits_.size(); ++i)
     signals.set(constantBits_[i], bitOf(values_[bits + i / 8], i % 8) != 0);
-  const uint32_t dwords = firstOf(*findParameter(kFirstDword), kFirstDword);
-  const uint32_t reals = firstOf(*findParameter(kFirstDouble), kFirstDouble);
+  const uint32_t dwords = firstOf(*nc::nct::findParameter(kFirstDword), kFirstDword);
+  const uint32_t reals = firstOf(*nc::nct::findParameter(kFirstDouble), kFirstDouble);
   for (uint32_t i = 0; i < constantWords_.count(); ++i)
     signals.set(constantWords_, i, static_cast<int32_t>(values_[dwords + i]));
   for (uint32_t i = 0; i < constantReals_.count(); ++i) signals.set(constantReals_, i, values_[reals + i]);
@@ -91,12 +91,12 @@ bool Parameters::serves(bool write, uint32_t function) const {
 
 Parameters::Found Parameters::find(int32_t number, int32_t index) const {
   Found found;
-  found.row = findParameter(number);
+  found.row = nc::nct::findParameter(number);
   if (found.row == nullptr) {
     found.code = 30;
     return found;
   }
-  const bool global = found.row->index == ParameterIndex::Global;
+  const bool global = found.row->index == nc::nct::ParameterIndex::Global;
   if (global != (index == 0)) found.code = global ? 32 : 31;
   if (!global && index < 0) found.code = 31;
   if (found.code != 0) return found;
@@ -118,14 +118,15 @@ std::optional<int32_t> Parameters::service(uint32_t function, Block& block) {
   if (function != kWriteDword && checksum() != checksum_) return 4; // MW 34 has no such code (l.3821-3829)
   const Found found = find(block.word(2), block.word(3));
   if (found.code != 0) return found.code;
-  if (doubles != (found.row->format == ParameterFormat::Double)) return 33;
+  if (doubles != (found.row->format == nc::nct::ParameterFormat::Double)) return 33;
   const auto count = static_cast<uint32_t>((amount - 2) / words);
   if (count > found.count) return 2;
   for (uint32_t i = 0; i < count; ++i) {
     double& value = values_[found.first + i];
     const uint32_t at = 4 + i * static_cast<uint32_t>(words);
     if (write && doubles) value = block.real(at);
-    if (write && !doubles) value = found.row->format == ParameterFormat::Bits ? block.word(at) & 0xFF : block.word(at);
+    if (write && !doubles)
+      value = found.row->format == nc::nct::ParameterFormat::Bits ? block.word(at) & 0xFF : block.word(at);
     if (!write && doubles) block.setReal(at, value);
     if (!write && !doubles) block.setWord(at, static_cast<int32_t>(value));
   }
@@ -139,17 +140,19 @@ std::optional<int32_t> Parameters::service(uint32_t function, Block& block) {
 
 // "N0516.2" is parameter 516 of axis 2; without an index the value holds for all of them.
 std::string Parameters::setConfigured(const std::vector<uint32_t>& key, double value, std::vector<double>& values) {
-  const ParameterRow* row = key.size() <= 2 ? findParameter(key[0]) : nullptr;
+  const nc::nct::ParameterRow* row = key.size() <= 2 ? nc::nct::findParameter(key[0]) : nullptr;
   if (row == nullptr) return "there is no such parameter (rungc doc nct lists them)";
   const uint32_t count = valuesOf(row->index);
   const uint32_t first = firstOf(*row, key[0]);
-  if (key.size() == 2 && (row->index == ParameterIndex::Global || key[1] < 1 || key[1] > count))
-    return row->index == ParameterIndex::Global ? "the parameter is global"
-                                                : "the parameter has the indices 1 to " + std::to_string(count);
-  if (row->format != ParameterFormat::Double && (value != std::floor(value) || std::abs(value) > 0xFFFFFFFFu))
+  if (key.size() == 2 && (row->index == nc::nct::ParameterIndex::Global || key[1] < 1 || key[1] > count))
+    return row->index == nc::nct::ParameterIndex::Global
+               ? "the parameter is global"
+               : "the parameter has the indices 1 to " + std::to_string(count);
+  if (row->format != nc::nct::ParameterFormat::Double && (value != std::floor(value) || std::abs(value) > 0xFFFFFFFFu))
     return "the parameter takes whole numbers";
-  if (row->format == ParameterFormat::Bits && (value < 0 || value > 255)) return "the parameter has the bits 0 to 7";
-  if (row->format == ParameterFormat::Dword && value > INT32_MAX) value -= 4294967296.0; // as 32 bits
+  if (row->format == nc::nct::ParameterFormat::Bits && (value < 0 || value > 255))
+    return "the parameter has the bits 0 to 7";
+  if (row->format == nc::nct::ParameterFormat::Dword && value > INT32_MAX) value -= 4294967296.0; // as 32 bits
   if (key.size() == 2)
     values[first + key[1] - 1] = value;
   else
@@ -176,7 +179,7 @@ Handled Parameters::event(std::string_view name, const std::vector<NcArgument>& 
 std::optional<double> Parameters::quantity(std::string_view name) const {
   const auto key = numbersBehind(name, name.starts_with("PARAM.N") ? "PARAM.N" : "PARAM.");
   if (!key || key->size() > 2) return std::nullopt;
-  const ParameterRow* row = findParameter((*key)[0]);
+  const nc::nct::ParameterRow* row = nc::nct::findParameter((*key)[0]);
   const uint32_t index = key->size() == 2 ? (*key)[1] : 1;
   if (row == nullptr || index < 1 || index > valuesOf(row->index)) return std::nullopt;
   return values_[firstOf(*row, (*key)[0]) + index - 1];
@@ -191,4 +194,4 @@ Handled Parameters::setQuantity(std::string_view name, double value) {
   return wrong;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -3,10 +3,10 @@
 #pragma once
 #include <vector>
 
-#include "tools/sim/nct/topic.h"
 #include "rtlib/nc/nct/parameters.h"
+#include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // A parameter that a topic reads in the scan, found once.
 class ParameterPlace {
@@ -21,7 +21,7 @@ private:
 
 class Parameters final : public Topic {
 public:
-  explicit Parameters(Control& control);
+  explicit Parameters(Links& links);
 
   // `index` counts axes, spindles, channels … from 0; global parameters have index 0 alone. Outside the table: 0.
   int32_t dword(const ParameterPlace& place, uint32_t index = 0) const {
@@ -42,12 +42,12 @@ public:
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void keep(Kept& kept) override;
 
 private:
   struct Found {
-    const ParameterRow* row = nullptr;
+    const nc::nct::ParameterRow* row = nullptr;
     uint32_t first = 0; // in values_
     uint32_t count = 0; // from the index on
     int32_t code = 0;   // execution code; 0: found
@@ -67,4 +67,4 @@ private:
   RealSignal constantReals_{"N_PDB1"};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

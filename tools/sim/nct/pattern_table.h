@@ -6,7 +6,7 @@
 
 #include "tools/sim/nct/kept.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 struct ToolPattern {
   uint32_t left = 0; // towards lower pot numbers
@@ -32,4 +32,4 @@ private:
   std::array<ToolPattern, kRows + 1> rows_{};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -3,7 +3,7 @@
 
 #include "tools/sim/nct/channels.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 bool ProgramSelection::serves(bool write, uint32_t function) const { return write && function == 40; }
 
@@ -14,13 +14,13 @@ std::optional<int32_t> ProgramSelection::service(uint32_t, Block& block) {
   if (block.amount() != 2) return 2;
   const int32_t number = block.word(2);
   const int32_t channel = block.word(3);
-  if (channel < 1 || channel > static_cast<int32_t>(kChannels)) return 41;
+  if (channel < 1 || channel > static_cast<int32_t>(nc::nct::kChannels)) return 41;
   const auto index = static_cast<uint32_t>(channel) - 1;
-  if (control().signals.get(start_, index) || control().signals.get(stop_, index)) return std::nullopt;
-  if (!control().channels->hasProgram(number)) return 40;
-  control().channels->select(index, number);
+  if (links().signals.get(start_, index) || links().signals.get(stop_, index)) return std::nullopt;
+  if (!links().channels->hasProgram(number)) return 40;
+  links().channels->select(index, number);
   block.setWord(3, 0);
   return 0;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

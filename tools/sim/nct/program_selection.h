@@ -2,7 +2,7 @@
 #pragma once
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class ProgramSelection final : public Topic {
 public:
@@ -15,4 +15,4 @@ private:
   BitSignal stop_{"CN_STOP"};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 enum class SearchDirection : uint8_t { Both, Positive, Negative };
 
@@ -29,4 +29,4 @@ std::optional<std::pair<uint32_t, SearchDirection>> nearestPlace(uint32_t start,
   return std::nullopt;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

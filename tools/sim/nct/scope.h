@@ -5,20 +5,20 @@
 
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Scope {
 public:
-  explicit Scope(const Control& control);
+  explicit Scope(const Links& links);
 
   // `symbol` is an index in scopeSymbols(). Nothing: there is no such symbol, or its parameters are outside its limits.
   std::optional<double> read(int64_t symbol, int64_t parameter1, int64_t parameter2) const;
 
-  using Read = double (*)(const Control& control, uint32_t parameter1, uint32_t parameter2);
+  using Read = double (*)(const Links& links, uint32_t parameter1, uint32_t parameter2);
 
 private:
-  const Control& control_;
+  const Links& links_;
   std::vector<Read> reads_; // by symbol
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

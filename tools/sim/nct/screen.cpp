@@ -4,7 +4,7 @@
 #include "rtlib/nc/nct/parameters.h"
 #include "rtlib/nc/nct/windows.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 bool Screen::serves(bool write, uint32_t function) const { return write && function == 70; }
 
@@ -12,8 +12,8 @@ bool Screen::serves(bool write, uint32_t function) const { return write && funct
 std::optional<int32_t> Screen::service(uint32_t, Block& block) {
   const int32_t amount = block.amount();
   if (amount < 2 || amount > 4) return 2;
-  if (block.word(3) < 0 || block.word(3) > static_cast<int32_t>(kChannels)) return 6;
-  if (findScreenWindow(block.word(2)) == nullptr) return 70;
+  if (block.word(3) < 0 || block.word(3) > static_cast<int32_t>(nc::nct::kChannels)) return 6;
+  if (nc::nct::findScreenWindow(block.word(2)) == nullptr) return 70;
   if (!connected_) return 71;
   window_ = {block.word(2), block.word(3), amount >= 3 ? block.word(4) : 0, amount >= 4 ? block.word(5) : 0};
   return 0;
@@ -41,9 +41,9 @@ std::optional<double> Screen::quantity(std::string_view name) const {
   return std::nullopt;
 }
 
-void Screen::powerOn(PowerOn) {
+void Screen::powerOn(nc::PowerOn) {
   connected_ = configured_;
   window_ = {};
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -4,7 +4,7 @@
 
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Screen final : public Topic {
 public:
@@ -14,7 +14,7 @@ public:
   Handled config(std::string_view key, std::string_view value) override;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
 
 private:
   bool configured_ = true; // whether the display is connected at power-on
@@ -22,4 +22,4 @@ private:
   std::array<int32_t, 4> window_{}; // identifier, channel, parameters; 0: none was opened
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

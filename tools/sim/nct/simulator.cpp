@@ -6,24 +6,24 @@
 
 #include "rtlib/host/program_info.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 Simulator::Simulator()
     : topics_{&parameters_, &nvram_,   &machineOn_, &wiring_,   &spindles_,         &axes_,  &macros_, &screen_,
               &network_,    &mailbox_, &drives_,    &channels_, &programSelection_, &tools_, &pallets_},
       waiting_(rt::ServiceQueue::kMaxPending) {}
 
-Control Simulator::links() {
-  Control control;
-  control.parameters = &parameters_;
-  control.channels = &channels_;
-  control.axes = &axes_;
-  control.spindles = &spindles_;
-  control.macros = &macros_;
-  control.drives = &drives_;
-  control.tools = &tools_;
-  control.pallets = &pallets_;
-  return control;
+Links Simulator::makeLinks() {
+  Links links;
+  links.parameters = &parameters_;
+  links.channels = &channels_;
+  links.axes = &axes_;
+  links.spindles = &spindles_;
+  links.macros = &macros_;
+  links.drives = &drives_;
+  links.tools = &tools_;
+  links.pallets = &pallets_;
+  return links;
 }
 
 Handled Simulator::config(std::string_view key, std::string_view value) {
@@ -55,28 +55,28 @@ void Simulator::keep(Kept& kept) {
 }
 
 void Simulator::deliver() {
-  for (Topic* topic : topics_) topic->powerOn(PowerOn::Cold);
+  for (Topic* topic : topics_) topic->powerOn(nc::PowerOn::Cold);
 }
 
 // ---- time --------------------------------------------------------------------------------------------------------
 
 void Simulator::attach(host::Instance& instance) {
-  control_.signals = SignalMemory(instance);
-  control_.memory = PlcMemory(instance);
+  links_.signals = SignalMemory(instance);
+  links_.memory = PlcMemory(instance);
   blocks_ = {};
-  const uint32_t space = host::findSpace(instance.program(), kBlockSpace);
+  const uint32_t space = host::findSpace(instance.program(), nc::nct::kBlockSpace);
   if (space == RUNG_NONE) return;
   const rung_space& blocks = instance.program().spaces[space];
   if (blocks.range_count == 1 && blocks.ranges[0].repr == RUNG_REPR_PACKED)
     blocks_ = instance.block().subspan(blocks.ranges[0].offset, blocks.byte_count);
 }
 
-void Simulator::powerOn(host::Instance& instance, PowerOn kind) {
+void Simulator::powerOn(host::Instance& instance, nc::PowerOn kind) {
   attach(instance);
   findServices(instance.program());
   waitingCount_ = 0;
-  control_.nowUs = sliceUs_ = instance.nowUs();
-  control_.sliceUs = 0;
+  links_.nowUs = sliceUs_ = instance.nowUs();
+  links_.sliceUs = 0;
   for (Topic* topic : topics_) {
     topic->dropRequests();
     topic->powerOn(kind);
@@ -84,8 +84,8 @@ void Simulator::powerOn(host::Instance& instance, PowerOn kind) {
 }
 
 void Simulator::timeSlice(host::Instance& instance, bool cycle) {
-  control_.sliceUs = instance.nowUs() - sliceUs_;
-  control_.nowUs = sliceUs_ = instance.nowUs();
+  links_.sliceUs = instance.nowUs() - sliceUs_;
+  links_.nowUs = sliceUs_ = instance.nowUs();
   if (cycle)
     for (Topic* topic : topics_) topic->cycle();
   for (Topic* topic : topics_) topic->timeSlice();
@@ -164,13 +164,13 @@ std::optional<int32_t> Simulator::execute(const rt::ServiceRequest& request) {
 }
 
 void Simulator::betweenScans(host::Instance& instance) {
-  control_.nowUs = instance.nowUs();
+  links_.nowUs = instance.nowUs();
   while (waitingCount_ < waiting_.size() && instance.services().take(waiting_[waitingCount_].request))
-    waiting_[waitingCount_++].sinceUs = control_.nowUs;
+    waiting_[waitingCount_++].sinceUs = links_.nowUs;
   uint32_t left = 0;
   for (uint32_t i = 0; i < waitingCount_; ++i) {
     const rt::ServiceRequest& request = waiting_[i].request;
-    control_.requestAgeUs = control_.nowUs - waiting_[i].sinceUs;
+    links_.requestAgeUs = links_.nowUs - waiting_[i].sinceUs;
     rt::ServiceReply reply{.ticket = request.ticket};
     Outcome outcome = Outcome::Done;
     const Service service = serviceOf(request);
@@ -191,4 +191,4 @@ void Simulator::betweenScans(host::Instance& instance) {
   waitingCount_ = left;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

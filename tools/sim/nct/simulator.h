@@ -22,7 +22,7 @@
 #include "tools/sim/nct/tool_management.h"
 #include "tools/sim/nct/wiring.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Simulator {
 public:
@@ -35,7 +35,7 @@ public:
   Handled setQuantity(std::string_view name, double value);
 
   // The program's memory has been started.
-  void powerOn(host::Instance& instance, PowerOn kind);
+  void powerOn(host::Instance& instance, nc::PowerOn kind);
   // Before every time slice; `cycle`: it is the first one of a PLC cycle.
   void timeSlice(host::Instance& instance, bool cycle);
   // MACR, MACW, SCP, MOVCMND; false: another service.
@@ -43,7 +43,7 @@ public:
   // Takes the requests of MR and MW and answers what can be answered, oldest first; one that is still at work does not
   // hold up the others.
   void betweenScans(host::Instance& instance);
-  void setRealTime() { control_.realTime = true; }
+  void setRealTime() { links_.realTime = true; }
 
   void keep(Kept& kept);
   // The tables of a control as it is delivered, with the configuration.
@@ -60,25 +60,25 @@ private:
   enum class Outcome : uint8_t { Done, Refused, Later };
   Outcome answer(Service service, const int64_t* args, rt::ServiceReply& reply);
 
-  Control links();
+  Links makeLinks();
 
-  Control control_ = links(); // before all topics: they use it when they are made
-  Parameters parameters_{control_};
-  Nvram nvram_{control_};
-  MachineOn machineOn_{control_};
-  Wiring wiring_{control_};
-  Spindles spindles_{control_};
-  Axes axes_{control_};
-  Macros macros_{control_};
-  Screen screen_{control_};
-  Drives drives_{control_};
-  Scope scope_{control_};
-  Network network_{control_};
-  Mailbox mailbox_{control_};
-  Channels channels_{control_};
-  ProgramSelection programSelection_{control_};
-  ToolManagement tools_{control_};
-  PalletManagement pallets_{control_};
+  Links links_ = makeLinks(); // before all topics: they use it when they are made
+  Parameters parameters_{links_};
+  Nvram nvram_{links_};
+  MachineOn machineOn_{links_};
+  Wiring wiring_{links_};
+  Spindles spindles_{links_};
+  Axes axes_{links_};
+  Macros macros_{links_};
+  Screen screen_{links_};
+  Drives drives_{links_};
+  Scope scope_{links_};
+  Network network_{links_};
+  Mailbox mailbox_{links_};
+  Channels channels_{links_};
+  ProgramSelection programSelection_{links_};
+  ToolManagement tools_{links_};
+  PalletManagement pallets_{links_};
   std::vector<Topic*> topics_; // in the order in which they work
 
   std::vector<Service> services_; // by rung_program::services
@@ -89,8 +89,8 @@ private:
   };
   std::vector<Waiting> waiting_; // oldest first; room for all that can be pending
   uint32_t waitingCount_ = 0;
-  int64_t sliceUs_ = 0;                        // the clock at the last time slice
-  std::array<uint32_t, kBlockStride> words_{}; // the block that is being worked on
+  int64_t sliceUs_ = 0;                                 // the clock at the last time slice
+  std::array<uint32_t, nc::nct::kBlockStride> words_{}; // the block that is being worked on
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

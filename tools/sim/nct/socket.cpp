@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <utility>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kLoopback = 0x7F000000; // 127.0.0.0/8
@@ -164,4 +164,4 @@ uint16_t Socket::port() const {
   return ntohs(own.sin_port);
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

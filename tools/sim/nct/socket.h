@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // An IPv4 address, the first byte the highest, as a program writes it: 192.168.1.12 is 0xC0A8010C.
 struct Endpoint {
@@ -66,4 +66,4 @@ private:
   int fd_ = -1;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr double kNear = 1e-9;
@@ -12,24 +12,24 @@ constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of t
 
 } // namespace
 
-Spindles::Spindles(Control& control) : Topic(control) { number(4); }
+Spindles::Spindles(Links& links) : Topic(links) { number(4); }
 
 void Spindles::number(uint32_t count) {
-  for (uint32_t i = 0; i < kSpindles; ++i) {
-    control().parameters->setInitial(601, i, i < count ? kFirstDrive + i : 0);
-    control().parameters->setInitial(603, i, i < count ? kFirstDrive + i : 0);
-    control().parameters->setInitial(607, i, i < count ? 1 : 0);
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) {
+    links().parameters->setInitial(601, i, i < count ? kFirstDrive + i : 0);
+    links().parameters->setInitial(603, i, i < count ? kFirstDrive + i : 0);
+    links().parameters->setInitial(607, i, i < count ? 1 : 0);
   }
 }
 
 bool Spindles::exists(uint32_t spindle) const {
-  return spindle < kSpindles && control().parameters->bit(parameters_.config, 0, spindle) &&
+  return spindle < nc::nct::kSpindles && links().parameters->bit(parameters_.config, 0, spindle) &&
          !spindles_[spindle].detached;
 }
 
 uint32_t Spindles::master(uint32_t spindle) const {
-  const int32_t index = control().signals.get(signals_.master, spindle);
-  return index >= 0 && index < static_cast<int32_t>(kSpindles) ? static_cast<uint32_t>(index) : spindle;
+  const int32_t index = links().signals.get(signals_.master, spindle);
+  return index >= 0 && index < static_cast<int32_t>(nc::nct::kSpindles) ? static_cast<uint32_t>(index) : spindle;
 }
 
 double Spindles::fraction(uint32_t spindle) const {
@@ -46,7 +46,7 @@ double Spindles::synchronousError(uint32_t spindle) const {
 
 // SP_RNG 11 to 18 selects the parameters (l.9249-9255); another code is range 1.
 uint32_t Spindles::gear(uint32_t spindle) const {
-  const int32_t range = control().signals.get(signals_.range, spindle);
+  const int32_t range = links().signals.get(signals_.range, spindle);
   return range >= 11 && range <= 18 ? static_cast<uint32_t>(range) - 11 : 0;
 }
 
@@ -62,7 +62,7 @@ double Spindles::rotationSpeed(uint32_t spindle) const {
   const uint32_t range = gear(spindle);
   const double direction = get(signals_.negative, spindle) ? -1 : 1;
   if (get(signals_.jog, spindle)) return direction * real(parameters_.jogSpeed[range], spindle);
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   const double programmed = std::abs(static_cast<double>(signals.get(signals_.programmed, spindle)));
   const double speed = programmed * signals.get(signals_.speedOverride, spindle);
   const double least = real(parameters_.minimum[range], spindle);
@@ -112,7 +112,7 @@ double Spindles::orientationWay(uint32_t spindle) const {
   const bool turning = std::abs(state.command) > kNear;
   const bool negative = turning ? state.command < 0 : get(signals_.negative, spindle);
   const bool shorter = !turning && get(signals_.shortest, spindle) && state.referenced &&
-                       control().parameters->bit(parameters_.config, 4, spindle);
+                       links().parameters->bit(parameters_.config, 4, spindle);
   if (ahead < kNear || ahead > 1 - kNear) return 0;
   if (shorter) return ahead <= 0.5 ? ahead : ahead - 1;
   return negative ? ahead - 1 : ahead;
@@ -189,17 +189,17 @@ void Spindles::turn(uint32_t spindle) {
 void Spindles::timeSlice() {
   for (Spindle& state : spindles_) state.masterOf = false;
   for (const bool slaves : {false, true})
-    for (uint32_t i = 0; i < kSpindles; ++i) {
+    for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) {
       const bool slave = get(signals_.enable, i) && orderOf(i) == Order::Synchronise;
       if (slave == slaves && exists(i)) step(i);
     }
-  for (uint32_t i = 0; i < kSpindles; ++i) writeSignals(i);
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) writeSignals(i);
 }
 
 void Spindles::cycle() {
-  for (uint32_t i = 0; i < kSpindles; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) {
     Spindle& state = spindles_[i];
-    const bool detach = get(signals_.detachRequest, i) && control().parameters->bit(parameters_.config, 0, i);
+    const bool detach = get(signals_.detachRequest, i) && links().parameters->bit(parameters_.config, 0, i);
     if (detach == state.detached || state.speed != 0) continue;
     const double position = state.position;
     state = {};
@@ -239,18 +239,18 @@ void Spindles::writeSignals(uint32_t i) {
   put(signals_.referenced, i, there && state.referenced);
   put(signals_.atIndex, i, there && angle > 0 && std::abs(std::remainder(state.position, angle)) < window);
   const bool rotating = get(signals_.start, i);
-  control().signals.set(signals_.command, i, there && rotating ? static_cast<int32_t>(std::lround(state.command)) : 0);
-  control().signals.set(signals_.actual, i, there ? static_cast<int32_t>(std::lround(state.speed)) : 0);
+  links().signals.set(signals_.command, i, there && rotating ? static_cast<int32_t>(std::lround(state.command)) : 0);
+  links().signals.set(signals_.actual, i, there ? static_cast<int32_t>(std::lround(state.speed)) : 0);
 }
 
-void Spindles::powerOn(PowerOn kind) {
+void Spindles::powerOn(nc::PowerOn kind) {
   for (Spindle& state : spindles_) {
     const double position = state.position;
     state = {};
-    if (kind == PowerOn::Warm) state.position = position;
+    if (kind == nc::PowerOn::Warm) state.position = position;
     state.referenced = absolute_;
   }
-  for (uint32_t i = 0; i < kSpindles; ++i) writeSignals(i);
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) writeSignals(i);
 }
 
 void Spindles::keep(Kept& kept) {
@@ -273,7 +273,7 @@ Handled Spindles::event(std::string_view name, const std::vector<NcArgument>& ke
   if (name != "spindle") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"number", "alarm", "disturbance"}); !wrong.empty()) return wrong;
   const int64_t number = integerKey(keys, "number", 1);
-  if (number < 1 || number > kSpindles) return "event spindle takes number=1 to 16";
+  if (number < 1 || number > nc::nct::kSpindles) return "event spindle takes number=1 to 16";
   Spindle& state = spindles_[static_cast<size_t>(number) - 1];
   if (findKey(keys, "alarm") != nullptr) state.alarm = integerKey(keys, "alarm", 0) != 0;
   if (findKey(keys, "disturbance") != nullptr)
@@ -284,16 +284,16 @@ Handled Spindles::event(std::string_view name, const std::vector<NcArgument>& ke
 std::optional<double> Spindles::quantity(std::string_view name) const {
   const bool speed = name.starts_with("SPINDLE.");
   const auto key = numbersBehind(name, speed ? "SPINDLE." : "SPOS.");
-  if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > kSpindles) return std::nullopt;
+  if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kSpindles) return std::nullopt;
   return speed ? spindles_[(*key)[0] - 1].speed : spindles_[(*key)[0] - 1].position;
 }
 
 Handled Spindles::setQuantity(std::string_view name, double value) {
   const auto key = numbersBehind(name, "SPOS.");
   if (!key) return std::nullopt;
-  if (key->size() != 1 || (*key)[0] < 1 || (*key)[0] > kSpindles) return "there are spindles 1 to 16";
+  if (key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kSpindles) return "there are spindles 1 to 16";
   spindles_[(*key)[0] - 1].position = value;
   return "";
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

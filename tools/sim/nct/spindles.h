@@ -7,7 +7,7 @@
 #include "tools/sim/nct/parameters.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 inline constexpr double kPulsesPerTurn = 4096; // of a spindle's encoder
 
@@ -49,11 +49,13 @@ struct SpindleParameters {
 
 class Spindles final : public Topic {
 public:
-  explicit Spindles(Control& control);
+  explicit Spindles(Links& links);
 
   // Spindles count from 0. A spindle exists if N0607 #0 SEX=1 and SN_SDETCHA=0 (l.9098).
   bool exists(uint32_t spindle) const;
-  double speed(uint32_t spindle) const { return spindle < kSpindles ? spindles_[spindle].speed : 0; } // measured
+  double speed(uint32_t spindle) const {
+    return spindle < nc::nct::kSpindles ? spindles_[spindle].speed : 0;
+  } // measured
   double position(uint32_t spindle) const { return spindles_[spindle].position; }
   double set(uint32_t spindle) const { return spindles_[spindle].set; }         // after override
   double command(uint32_t spindle) const { return spindles_[spindle].command; } // to the drive
@@ -67,7 +69,7 @@ public:
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void timeSlice() override;
   void keep(Kept& kept) override;
@@ -107,19 +109,15 @@ private:
   void turn(uint32_t spindle);
   void writeSignals(uint32_t spindle);
   double fraction(uint32_t spindle) const;
-  double seconds() const { return static_cast<double>(control().sliceUs) * 1e-6; }
-  bool get(const BitSignal& signal, uint32_t spindle) const { return control().signals.get(signal, spindle); }
-  void put(const BitSignal& signal, uint32_t spindle, bool value) const {
-    control().signals.set(signal, spindle, value);
-  }
-  double real(const ParameterPlace& place, uint32_t spindle) const {
-    return control().parameters->real(place, spindle);
-  }
+  double seconds() const { return static_cast<double>(links().sliceUs) * 1e-6; }
+  bool get(const BitSignal& signal, uint32_t spindle) const { return links().signals.get(signal, spindle); }
+  void put(const BitSignal& signal, uint32_t spindle, bool value) const { links().signals.set(signal, spindle, value); }
+  double real(const ParameterPlace& place, uint32_t spindle) const { return links().parameters->real(place, spindle); }
 
-  std::array<Spindle, kSpindles> spindles_{};
+  std::array<Spindle, nc::nct::kSpindles> spindles_{};
   bool absolute_ = true;
   SpindleSignals signals_;
   SpindleParameters parameters_;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

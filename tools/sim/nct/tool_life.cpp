@@ -1,7 +1,7 @@
 // Life management of the tools (see tool_life.h).
 #include "tools/sim/nct/tool_life.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr int64_t kSecondUs = 1'000'000;
@@ -61,11 +61,11 @@ void ToolLife::add(uint32_t spindle, bool time) {
 }
 
 void ToolLife::countUse(uint32_t spindle) {
-  if (spindle < kSpindles) add(spindle, false);
+  if (spindle < nc::nct::kSpindles) add(spindle, false);
 }
 
 void ToolLife::countTime(uint32_t spindle, int64_t us) {
-  if (spindle >= kSpindles) return;
+  if (spindle >= nc::nct::kSpindles) return;
   Spindle& s = spindles_[spindle];
   const uint32_t tool = toolIn(spindle);
   if (tool != s.timedTool) s.us = 0;
@@ -80,9 +80,9 @@ void ToolLife::written(uint32_t dataNumber, int32_t statusBefore) {
   const std::optional<PotPlace> place = tables_.cartridges.placeOf(dataNumber);
   if (!place || place->cartridge % 10 != 0) return;
   const uint32_t spindle = place->cartridge / 10 - 1;
-  if (spindle >= kSpindles || !spindles_[spindle].managed) return;
+  if (spindle >= nc::nct::kSpindles || !spindles_[spindle].managed) return;
   if (status == kLifeExpired) spindles_[spindle].requests.individual = true;
   tellGroup(spindles_[spindle], row.word(kToolType));
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -5,10 +5,10 @@
 #pragma once
 #include <array>
 
-#include "tools/sim/nct/tool_tables.h"
 #include "rtlib/nc/nct/parameters.h"
+#include "tools/sim/nct/tool_tables.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // Outputs of the program and inputs to it, of one spindle.
 struct ToolAnswers {
@@ -55,7 +55,7 @@ private:
   void tellGroup(Spindle& spindle, int32_t type);
 
   ToolTables& tables_;
-  std::array<Spindle, kSpindles> spindles_{};
+  std::array<Spindle, nc::nct::kSpindles> spindles_{};
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

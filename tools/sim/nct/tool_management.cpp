@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 // Delivered as in the example of the manual (l.4449-4467): two chains.
@@ -32,7 +32,7 @@ double valueOf(const NcArgument& key) { return key.isReal ? key.real : static_ca
 
 } // namespace
 
-ToolManagement::ToolManagement(Control& control) : Topic(control) {
+ToolManagement::ToolManagement(Links& links) : Topic(links) {
   magazines_[0] = {.number = 1, .columns = kFirstMagazinePots};
   magazines_[1] = {.number = 2, .columns = kSecondMagazinePots};
   build();
@@ -42,7 +42,7 @@ void ToolManagement::build() {
   std::vector<CartridgeShape> shapes;
   for (const CartridgeShape& magazine : magazines_)
     if (magazine.number != 0) shapes.push_back(magazine);
-  for (uint32_t spindle = 1; spindle <= kSpindles; ++spindle) {
+  for (uint32_t spindle = 1; spindle <= nc::nct::kSpindles; ++spindle) {
     shapes.push_back({.number = spindle * 10});
     shapes.push_back({.number = spindle * 10 + 1});
   }
@@ -51,10 +51,10 @@ void ToolManagement::build() {
   finder_.reserve(tables_.cartridges);
 }
 
-void ToolManagement::powerOn(PowerOn kind) {
+void ToolManagement::powerOn(nc::PowerOn kind) {
   life_.clear();
   editing_ = searching_ = modified_ = saving_ = false;
-  if (kind == PowerOn::Warm) return;
+  if (kind == nc::PowerOn::Warm) return;
   tables_.tools.build(rows_);
   tables_.cartridges.clear();
   tables_.patterns.clear();
@@ -67,17 +67,17 @@ void ToolManagement::keep(Kept& kept) {
   tables_.patterns.keep(kept);
 }
 
-bool ToolManagement::managed() const { return control().parameters->bit(toolConfig_, 0); }
+bool ToolManagement::managed() const { return links().parameters->bit(toolConfig_, 0); }
 
-bool ToolManagement::locked() const { return control().signals.get(signals_.locked); }
+bool ToolManagement::locked() const { return links().signals.get(signals_.locked); }
 
 // Cartridges of spindles exist as N2922 says: bit 0 that of the spindle, bit 1 the standby cartridge (l.10744).
 bool ToolManagement::exists(uint32_t cartridge) const {
   if (tables_.cartridges.find(cartridge) == nullptr) return false;
   if (cartridge <= kMagazines) return true;
   const uint32_t spindle = spindleOf(cartridge);
-  return control().parameters->bit(spindleMagazines_, 0, spindle) &&
-         (cartridge % 10 == 0 || control().parameters->bit(spindleMagazines_, 1, spindle));
+  return links().parameters->bit(spindleMagazines_, 0, spindle) &&
+         (cartridge % 10 == 0 || links().parameters->bit(spindleMagazines_, 1, spindle));
 }
 
 ToolPick ToolManagement::pick(int32_t type) {
@@ -88,9 +88,9 @@ ToolPick ToolManagement::pick(int32_t type) {
 // ---- signals -----------------------------------------------------------------------------------------------------
 
 void ToolManagement::cycle() {
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   const bool operates = managed();
-  for (uint32_t i = 0; i < kSpindles; ++i) {
+  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) {
     const ToolRequests& requests = life_.cycle(i,
                                                {.individualDone = signals.get(signals_.individualDone, i),
                                                 .groupDone = signals.get(signals_.groupDone, i),
@@ -107,7 +107,7 @@ void ToolManagement::cycle() {
 
 // Why the tables are occupied (l.8041-8049): a search and a modification show for one PLC cycle, then the saving.
 void ToolManagement::showBusy() {
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   signals.set(signals_.searching, searching_);
   signals.set(signals_.modified, modified_);
   signals.set(signals_.saving, saving_);
@@ -343,4 +343,4 @@ std::string ToolManagement::placeTool(uint32_t dataNumber, const std::vector<NcA
   return {};
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

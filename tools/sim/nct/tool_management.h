@@ -11,7 +11,7 @@
 #include "tools/sim/nct/tool_life.h"
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 struct ToolSignals {
   BitSignal searching{"N_TLSRCH"};
@@ -31,7 +31,7 @@ struct ToolSignals {
 
 class ToolManagement final : public Topic {
 public:
-  explicit ToolManagement(Control& control);
+  explicit ToolManagement(Links& links);
 
   bool serves(bool write, uint32_t function) const override;
   std::optional<int32_t> service(uint32_t function, Block& block) override;
@@ -39,7 +39,7 @@ public:
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void keep(Kept& kept) override;
 
@@ -110,4 +110,4 @@ private:
   bool saving_ = false;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -1,11 +1,11 @@
 // The services of the tool management: MW 100 to MR 108 (man. 6.26.4-6.26.12, l.4613-5283).
 #include <cmath>
 
+#include "rtlib/nc/nct/service_functions.h"
 #include "tools/sim/nct/parameters.h"
 #include "tools/sim/nct/tool_management.h"
-#include "rtlib/nc/nct/service_functions.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr int32_t kNoCartridge = 100; // then the pot; 102, 103 of the second place
@@ -59,7 +59,7 @@ bool ToolManagement::serves(bool write, uint32_t function) const {
 std::optional<int32_t> ToolManagement::service(uint32_t function, Block& block) {
   // The tables are occupied (l.8043-8049). N1274 #0 MRW lets MR 101, 104 and 107 read all the same (l.4674).
   const bool searchesByPot = function == 101 || function == 104 || function == 107;
-  if (editing_ && !(searchesByPot && control().parameters->bit(programConfig_, 0))) return std::nullopt;
+  if (editing_ && !(searchesByPot && links().parameters->bit(programConfig_, 0))) return std::nullopt;
   switch (function) {
   case 100: return exchange(block);
   case 101: return searchPot(block);
@@ -70,40 +70,40 @@ std::optional<int32_t> ToolManagement::service(uint32_t function, Block& block) 
   case 106: return writeDatum(block);
   case 107: return readDatum(block);
   case 108: return searchUser(block);
-  default: return kBadFunction;
+  default: return nc::nct::kBadFunction;
   }
 }
 
 int32_t ToolManagement::checkPlace(PotPlace place, int32_t firstCode) const {
   if (!exists(place.cartridge)) return firstCode;
-  return tables_.cartridges.hasPot(place) ? kExecuted : firstCode + 1;
+  return tables_.cartridges.hasPot(place) ? nc::nct::kExecuted : firstCode + 1;
 }
 
 int32_t ToolManagement::findTool(const Block& block, uint32_t& tool) const {
   const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place, kNoCartridge); code != nc::nct::kExecuted) return code;
   tool = tables_.cartridges.dataNumber(place);
-  return tool == 0 ? kNoTool : kExecuted;
+  return tool == 0 ? kNoTool : nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::exchange(Block& block) {
-  if (block.amount() != 4) return kBadAmount;
-  if (locked()) return kWriteProtected;
-  if (const int32_t code = checkPlace(placeAt(block, 2), kNoCartridge); code != kExecuted) return code;
-  if (const int32_t code = checkPlace(placeAt(block, 4), kNoSecondCartridge); code != kExecuted) return code;
+  if (block.amount() != 4) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
+  if (const int32_t code = checkPlace(placeAt(block, 2), kNoCartridge); code != nc::nct::kExecuted) return code;
+  if (const int32_t code = checkPlace(placeAt(block, 4), kNoSecondCartridge); code != nc::nct::kExecuted) return code;
   tables_.cartridges.exchange(placeAt(block, 2), placeAt(block, 4));
   modified_ = true;
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::searchPot(Block& block) {
   // The amount need not be set (l.4680), the answer says 7 (l.4700), another one is an error (l.4711).
-  if (block.amount() != 7 && block.amount() != 0) return kBadAmount;
-  block.setWord(kAmountWord, 7);
+  if (block.amount() != 7 && block.amount() != 0) return nc::nct::kBadAmount;
+  block.setWord(nc::nct::kAmountWord, 7);
   const PotPlace target = placeAt(block, 2);
   const PotPlace source = placeAt(block, 5);
-  if (const int32_t code = checkPlace(target, kNoCartridge); code != kExecuted) return code;
-  if (const int32_t code = checkPlace(source, kNoSecondCartridge); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(target, kNoCartridge); code != nc::nct::kExecuted) return code;
+  if (const int32_t code = checkPlace(source, kNoSecondCartridge); code != nc::nct::kExecuted) return code;
   searching_ = true;
   const auto found = finder_.find(tables_, {.cartridge = target.cartridge,
                                             .start = target.pot,
@@ -111,14 +111,14 @@ int32_t ToolManagement::searchPot(Block& block) {
                                             .tool = tables_.cartridges.dataNumber(source)});
   block.setWord(7, found ? static_cast<int32_t>(found->pot) : 0);
   block.setWord(8, found ? rotationWord(found->rotation) : 0);
-  return found ? kExecuted : kNoEmptyPot;
+  return found ? nc::nct::kExecuted : kNoEmptyPot;
 }
 
 int32_t ToolManagement::checkRecord(const Block& block, ToolColumn columns) const {
   uint32_t word = kFirstColumnWord;
   for (ToolColumn column = kToolType; column <= columns; word += columnWords(column), ++column)
     if (!acceptable(column, datumAt(block, word, column), limits_)) return kWrongColumn + static_cast<int32_t>(column);
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 void ToolManagement::writeRecord(const Block& block, ToolColumn columns, uint32_t dataNumber) {
@@ -133,11 +133,11 @@ void ToolManagement::writeRecord(const Block& block, ToolColumn columns, uint32_
 
 int32_t ToolManagement::registerTool(Block& block) {
   const auto columns = columnsOfRecord(int64_t{block.amount()} - 2, limits_.userColumns);
-  if (!columns) return kBadAmount;
-  if (locked()) return kWriteProtected;
+  if (!columns) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   const PotPlace place = placeAt(block, 2);
-  if (const int32_t code = checkPlace(place, kNoCartridge); code != kExecuted) return code;
-  if (const int32_t code = checkRecord(block, *columns); code != kExecuted) return code;
+  if (const int32_t code = checkPlace(place, kNoCartridge); code != nc::nct::kExecuted) return code;
+  if (const int32_t code = checkRecord(block, *columns); code != nc::nct::kExecuted) return code;
   // A row that is registered as invalid would not be a tool.
   if (*columns >= kToolInfo && (static_cast<uint32_t>(block.word(5)) & kInfoValid) == 0)
     return kWrongColumn + static_cast<int32_t>(kToolInfo);
@@ -147,55 +147,56 @@ int32_t ToolManagement::registerTool(Block& block) {
   tables_.tools.row(row).setWord(kToolInfo, kInfoValid | kInfoSearchable);
   tables_.cartridges.put(place, row);
   writeRecord(block, *columns, row);
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::writeTool(Block& block) {
   const auto columns = columnsOfRecord(int64_t{block.amount()} - 2, limits_.userColumns);
-  if (!columns) return kBadAmount;
-  if (locked()) return kWriteProtected;
+  if (!columns) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   uint32_t tool = 0;
-  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
-  if (tables_.tools.row(tool).info(kInfoDisabled)) return kWriteProtected;
-  if (const int32_t code = checkRecord(block, *columns); code != kExecuted) return code;
+  if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
+  if (tables_.tools.row(tool).info(kInfoDisabled)) return nc::nct::kWriteProtected;
+  if (const int32_t code = checkRecord(block, *columns); code != nc::nct::kExecuted) return code;
   writeRecord(block, *columns, tool);
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::readTool(Block& block) {
   const auto columns = columnsOfRecord(int64_t{block.amount()} - 2, limits_.userColumns);
-  if (!columns) return kBadAmount;
+  if (!columns) return nc::nct::kBadAmount;
   uint32_t tool = 0;
-  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
+  if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
   uint32_t word = kFirstColumnWord;
   for (ToolColumn column = kToolType; column <= *columns; word += columnWords(column), ++column)
     putDatum(block, word, column, tables_.tools.row(tool).datum(column));
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::deleteTool(Block& block) {
-  if (block.amount() != 2) return kBadAmount;
-  if (locked()) return kWriteProtected;
+  if (block.amount() != 2) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   uint32_t tool = 0;
-  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
-  if (tables_.tools.row(tool).info(kInfoDisabled)) return kWriteProtected;
+  if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
+  if (tables_.tools.row(tool).info(kInfoDisabled)) return nc::nct::kWriteProtected;
   tables_.remove(tool);
   modified_ = true;
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::writeDatum(Block& block) {
-  if (block.amount() != 4 && block.amount() != 5) return kBadAmount;
+  if (block.amount() != 4 && block.amount() != 5) return nc::nct::kBadAmount;
   const int32_t number = block.word(4);
   const auto column = static_cast<ToolColumn>(number);
   const bool known = isColumn(number, limits_.userColumns);
-  if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return kBadAmount;
-  if (locked()) return kWriteProtected;
+  if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return nc::nct::kBadAmount;
+  if (locked()) return nc::nct::kWriteProtected;
   uint32_t tool = 0;
-  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
+  if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
   if (!known) return kWrongNumber;
   ToolRow& row = tables_.tools.row(tool);
-  if (row.info(kInfoDisabled) && column != kToolInfo) return kWriteProtected; // the info takes the lock away again
+  if (row.info(kInfoDisabled) && column != kToolInfo)
+    return nc::nct::kWriteProtected; // the info takes the lock away again
   const ToolDatum datum = datumAt(block, 5, column);
   if (!acceptable(column, datum, limits_)) return kWrongColumn + number;
   const int32_t before = row.status();
@@ -203,20 +204,20 @@ int32_t ToolManagement::writeDatum(Block& block) {
   if (column == kToolCounter || column == kToolLife) row.renewStatus();
   life_.written(tool, before);
   modified_ = true;
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 int32_t ToolManagement::readDatum(Block& block) {
-  if (block.amount() != 4 && block.amount() != 5) return kBadAmount;
+  if (block.amount() != 4 && block.amount() != 5) return nc::nct::kBadAmount;
   const int32_t number = block.word(4);
   const auto column = static_cast<ToolColumn>(number);
   const bool known = isColumn(number, limits_.userColumns);
-  if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return kBadAmount; // l.5217
+  if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return nc::nct::kBadAmount; // l.5217
   uint32_t tool = 0;
-  if (const int32_t code = findTool(block, tool); code != kExecuted) return code;
+  if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
   if (!known) return kWrongNumber;
   putDatum(block, 5, column, tables_.tools.row(tool).datum(column));
-  return kExecuted;
+  return nc::nct::kExecuted;
 }
 
 bool ToolManagement::sameDatum(ToolColumn column, const ToolRow& row, const Block& block) const {
@@ -225,11 +226,11 @@ bool ToolManagement::sameDatum(ToolColumn column, const ToolRow& row, const Bloc
 }
 
 int32_t ToolManagement::searchUser(Block& block) {
-  if (block.amount() != 4 && block.amount() != 5) return kBadAmount;
+  if (block.amount() != 4 && block.amount() != 5) return nc::nct::kBadAmount;
   const int32_t number = block.word(4);
   const auto column = static_cast<ToolColumn>(number);
   if (!isColumn(number, limits_.userColumns) || column < kToolUser1) return kWrongNumber;
-  if (block.amount() != static_cast<int32_t>(3 + columnWords(column))) return kBadAmount;
+  if (block.amount() != static_cast<int32_t>(3 + columnWords(column))) return nc::nct::kBadAmount;
   searching_ = true;
   for (uint32_t tool = 1; tool <= tables_.tools.size(); ++tool) {
     const ToolRow& row = tables_.tools.row(tool);
@@ -238,9 +239,9 @@ int32_t ToolManagement::searchUser(Block& block) {
     if (!place) continue; // not in the machine: there is no pot to answer with
     block.setWord(2, static_cast<int32_t>(place->cartridge));
     block.setWord(3, static_cast<int32_t>(place->pot));
-    return kExecuted;
+    return nc::nct::kExecuted;
   }
   return kNoMatch;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 constexpr std::string_view kNames[] = {"TYPE", "INFO", "FIGURE", "STATUS", "COUNTER", "LIFE", "NOTICE",
@@ -88,4 +88,4 @@ uint32_t ToolTable::firstFree() const {
   return 0;
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

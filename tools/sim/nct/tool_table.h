@@ -10,7 +10,7 @@
 
 #include "tools/sim/nct/kept.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // Columns are data numbers of MW 106 and MR 107; the execution code for a wrong value is 104 + column.
 using ToolColumn = uint32_t;
@@ -112,4 +112,4 @@ private:
   std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is nobody's
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -1,7 +1,7 @@
 // The tables of the tool management (see tool_tables.h).
 #include "tools/sim/nct/tool_tables.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 const ToolPattern& ToolTables::patternOf(uint32_t dataNumber) const {
   const bool large = tools.has(dataNumber) && tools.row(dataNumber).info(kInfoLarge);
@@ -39,4 +39,4 @@ void ToolTables::remove(uint32_t dataNumber) {
   cartridges.take(dataNumber);
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -8,7 +8,7 @@
 #include "tools/sim/nct/pattern_table.h"
 #include "tools/sim/nct/tool_table.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 // What the NC finds for a T code (l.4362-4372, 10742-10772).
 struct ToolPick {
@@ -35,4 +35,4 @@ struct ToolTables {
   void remove(uint32_t dataNumber);
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 const NcArgument* findKey(const std::vector<NcArgument>& keys, std::string_view key) {
   const auto found = std::ranges::find(keys, key, &NcArgument::key);
@@ -47,4 +47,4 @@ std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::s
   }
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

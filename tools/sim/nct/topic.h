@@ -1,5 +1,5 @@
 // One topic of the simulated NCT control: a table, a device, the axes … Each is a class of its own that the Simulator
-// (simulator.h) holds; a topic reaches the signals, the PLC memory and the other topics through Control.
+// (simulator.h) holds; a topic reaches the signals, the PLC memory and the other topics through Links.
 //
 // Order of things: config before the first power-on; powerOn; then `timeSlice` before every time slice of the PLC,
 // `cycle` before the first one of a PLC cycle. Between two scans the requests of MR and MW are answered by
@@ -12,10 +12,18 @@
 
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "rtlib/nc/nct/operand_block.h"
-#include "tools/sim/nc_model.h"
 #include "tools/sim/nct/kept.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
+
+// The runtime's view of a program's memory, which every topic speaks of.
+using nc::nct::BitSignal;
+using nc::nct::Block;
+using nc::nct::PlcMemory;
+using nc::nct::RealSignal;
+using nc::nct::SignalMemory;
+using nc::nct::WordSignal;
 
 class Axes;
 class Channels;
@@ -27,7 +35,7 @@ class Spindles;
 class ToolManagement;
 
 // What topics share. The pointers hold from the making of the Simulator on.
-struct Control {
+struct Links {
   SignalMemory signals;
   PlcMemory memory;
   int64_t nowUs = 0;
@@ -49,7 +57,7 @@ using Handled = std::optional<std::string>;
 
 class Topic {
 public:
-  explicit Topic(Control& control) : control_(control) {}
+  explicit Topic(Links& links) : links_(links) {}
   virtual ~Topic() = default;
   Topic(const Topic&) = delete;
   Topic& operator=(const Topic&) = delete;
@@ -70,19 +78,19 @@ public:
   virtual std::optional<double> quantity(std::string_view name) const { return (void)name, std::nullopt; }
   virtual Handled setQuantity(std::string_view name, double value) { return (void)name, (void)value, std::nullopt; }
 
-  // Cold: as delivered, with the configuration. Warm: power off and on; what `keep` names stays. Control::signals and
-  // Control::memory are ready; outputs of the program are 0.
-  virtual void powerOn(PowerOn kind) { (void)kind; }
+  // Cold: as delivered, with the configuration. Warm: power off and on; what `keep` names stays. Links::signals and
+  // Links::memory are ready; outputs of the program are 0.
+  virtual void powerOn(nc::PowerOn kind) { (void)kind; }
   virtual void cycle() {}
   virtual void timeSlice() {}
   // The non-volatile fields, always the same and in the same order once the configuration is done.
   virtual void keep(Kept& kept) { (void)kept; }
 
 protected:
-  Control& control() const { return control_; }
+  Links& links() const { return links_; }
 
 private:
-  Control& control_;
+  Links& links_;
 };
 
 // ---- helpers for keys --------------------------------------------------------------------------------------------
@@ -97,4 +105,4 @@ std::optional<double> numberOf(std::string_view text);
 // prefix or the form is another.
 std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::string_view prefix);
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -5,7 +5,7 @@
 
 #include "rtlib/nc/nct/signals.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 std::optional<uint32_t> number(std::string_view digits) {
@@ -32,12 +32,12 @@ std::optional<Wiring::Place> Wiring::place(std::string_view name) {
   const auto index = comma == name.size() ? std::optional<uint32_t>(0) : number(name.substr(comma + 2));
   name = name.substr(0, comma);
   const size_t dot = std::min(name.find('.'), name.size());
-  const Signal* signal = findSignal(nctSignals(), name.substr(0, dot));
-  const bool isBit = signal != nullptr && signal->type == SignalType::Bit;
+  const nc::Signal* signal = findSignal(nc::nctSignals(), name.substr(0, dot));
+  const bool isBit = signal != nullptr && signal->type == nc::SignalType::Bit;
   const auto bit =
       dot == name.size() ? std::optional<uint32_t>(isBit ? signal->bit : 32) : number(name.substr(dot + 1));
   if (signal == nullptr || !index || *index >= signal->count || !bit || *bit > 31) return std::nullopt;
-  if (isBit != (dot == name.size()) || signal->type == SignalType::Real) return std::nullopt;
+  if (isBit != (dot == name.size()) || signal->type == nc::SignalType::Real) return std::nullopt;
   return Place{(signal->byteOffset + *index * signal->strideBytes) / 4, *bit};
 }
 
@@ -62,25 +62,25 @@ Handled Wiring::config(std::string_view key, std::string_view value) {
 }
 
 // Everything has been as it is for long.
-void Wiring::powerOn(PowerOn) {
+void Wiring::powerOn(nc::PowerOn) {
   for (Wire& wire : wires_) {
-    wire.level = control().signals.bit(wire.source.word, wire.source.bit);
-    wire.sinceUs = control().nowUs - wire.delayUs;
-    control().signals.setBit(wire.input.word, wire.input.bit, wire.level != wire.inverted);
+    wire.level = links().signals.bit(wire.source.word, wire.source.bit);
+    wire.sinceUs = links().nowUs - wire.delayUs;
+    links().signals.setBit(wire.input.word, wire.input.bit, wire.level != wire.inverted);
   }
 }
 
 void Wiring::timeSlice() {
-  const SignalMemory& signals = control().signals;
+  const SignalMemory& signals = links().signals;
   for (Wire& wire : wires_) {
     const bool level = signals.bit(wire.source.word, wire.source.bit);
     if (level != wire.level) {
       wire.level = level;
-      wire.sinceUs = control().nowUs;
+      wire.sinceUs = links().nowUs;
     }
-    if (control().nowUs - wire.sinceUs >= wire.delayUs)
+    if (links().nowUs - wire.sinceUs >= wire.delayUs)
       signals.setBit(wire.input.word, wire.input.bit, level != wire.inverted);
   }
 }
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

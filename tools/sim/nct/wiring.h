@@ -1,4 +1,4 @@
-// The machine around the control, as far as its inputs only repeat outputs (or other inputs): a valve whose switch
+// The machine around the links, as far as its inputs only repeat outputs (or other inputs): a valve whose switch
 // answers after its time.
 //   config follow.INP001.03 OUT010.00          the input is the output
 //   config follow.INP001.04 /OUT010.00@100ms   its opposite, 100 ms later; shorter changes do not come through
@@ -7,13 +7,13 @@
 
 #include "tools/sim/nct/topic.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 
 class Wiring final : public Topic {
 public:
   using Topic::Topic;
   Handled config(std::string_view key, std::string_view value) override;
-  void powerOn(PowerOn kind) override;
+  void powerOn(nc::PowerOn kind) override;
   void timeSlice() override;
 
 private:
@@ -33,4 +33,4 @@ private:
   std::vector<Wire> wires_;
 };
 
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -11,7 +11,7 @@
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 int digitOf(char c) {
@@ -25,8 +25,8 @@ int digitOf(char c) {
 // blanks between them.
 class Bytes {
 public:
-  Bytes(std::string_view text, bool binary) : text_(text), hex_(binary && isHex(trimmed(text))) {
-    if (hex_) text_ = trimmed(text);
+  Bytes(std::string_view text, bool binary) : text_(text), hex_(binary && isHex(nc::technol::trimmed(text))) {
+    if (hex_) text_ = nc::technol::trimmed(text);
   }
   bool next(uint8_t& byte) {
     while (hex_ && at_ < text_.size() && text_[at_] == ' ') ++at_;
@@ -60,11 +60,11 @@ private:
 
 // The length of the whole and the bytes of one part.
 void putText(Bytes bytes, uint64_t part, rt::ServiceReply& reply) {
-  const uint64_t from = part * kConfigurationBytes;
+  const uint64_t from = part * nc::kConfigurationBytes;
   uint64_t count = 0;
   for (uint8_t byte = 0; bytes.next(byte); ++count) {
-    if (count < from || count - from >= kConfigurationBytes) continue;
-    int64_t& word = reply.results[kConfigurationHead + (count - from) / 8];
+    if (count < from || count - from >= nc::kConfigurationBytes) continue;
+    int64_t& word = reply.results[nc::kConfigurationHead + (count - from) / 8];
     word = static_cast<int64_t>(static_cast<uint64_t>(word) | uint64_t{byte} << (count - from) % 8 * 8);
   }
   reply.results[1] = static_cast<int64_t>(count);
@@ -76,18 +76,18 @@ std::string Configuration::set(std::string_view key, std::string_view value) {
   constexpr std::string_view kConstant = "const.", kLicence = "licence.";
   if (key.starts_with(kConstant)) return setConstant(key.substr(kConstant.size()), value);
   if (key.starts_with(kLicence)) return setLicence(key.substr(kLicence.size()), value);
-  parameters_.insert_or_assign(memoryText(key), memoryText(value));
+  parameters_.insert_or_assign(nc::memoryText(key), nc::memoryText(value));
   return {};
 }
 
 // Numbers that a file gives itself are not given to others of its constants.
-std::string Configuration::define(std::span<const ParameterDefinition> parameters,
-                                  std::span<const ConstantDefinition> constants) {
-  for (const ParameterDefinition& parameter : parameters)
-    parameters_.insert_or_assign(memoryText(parameter.id), memoryText(parameter.value));
-  for (const ConstantDefinition& constant : constants)
-    if (const auto number = integerOf(constant.value)) commands_.insert(*number);
-  for (const ConstantDefinition& constant : constants)
+std::string Configuration::define(std::span<const control_files::ParameterDefinition> parameters,
+                                  std::span<const control_files::ConstantDefinition> constants) {
+  for (const control_files::ParameterDefinition& parameter : parameters)
+    parameters_.insert_or_assign(nc::memoryText(parameter.id), nc::memoryText(parameter.value));
+  for (const control_files::ConstantDefinition& constant : constants)
+    if (const auto number = nc::technol::integerOf(constant.value)) commands_.insert(*number);
+  for (const control_files::ConstantDefinition& constant : constants)
     if (const std::string wrong = setConstant(constant.id, constant.value); !wrong.empty())
       return constant.place + ": " + wrong;
   return {};
@@ -104,13 +104,13 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
     nextOffset_ += 8;
   } else if (value == "PLCCOMMAND") {
     number = nextCommand();
-  } else if (const auto given = integerOf(value)) {
+  } else if (const auto given = nc::technol::integerOf(value)) {
     number = *given;
   } else {
     return "the constant '" + std::string(id) + "' is not a number, SA0INT, SA0REAL or PLCCOMMAND: '" +
            std::string(value) + "'";
   }
-  constants_.insert_or_assign(memoryText(id), number);
+  constants_.insert_or_assign(nc::memoryText(id), number);
   commands_.insert(number);
   return {};
 }
@@ -118,16 +118,16 @@ std::string Configuration::setConstant(std::string_view id, std::string_view val
 std::string Configuration::setLicence(std::string_view name, std::string_view value) {
   if (value != "0" && value != "1")
     return "licence '" + std::string(name) + "' is 0 or 1, not '" + std::string(value) + "'";
-  std::string_view rest = kLicences;
+  std::string_view rest = nc::kLicences;
   for (uint32_t bit = 1; !rest.empty(); bit <<= 1) {
     const size_t end = std::min(rest.find(' '), rest.size());
-    if (equalIgnoringCase(name, rest.substr(0, end))) {
+    if (nc::technol::equalIgnoringCase(name, rest.substr(0, end))) {
       licences_ = value == "1" ? licences_ | bit : licences_ & ~bit;
       return {};
     }
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  return "there is no licence '" + std::string(name) + "'; known are " + std::string(kLicences);
+  return "there is no licence '" + std::string(name) + "'; known are " + std::string(nc::kLicences);
 }
 
 int64_t Configuration::nextCommand() {
@@ -135,7 +135,9 @@ int64_t Configuration::nextCommand() {
   return nextCommand_;
 }
 
-std::optional<int64_t> Configuration::constant(std::string_view id) const { return constantInMemory(memoryText(id)); }
+std::optional<int64_t> Configuration::constant(std::string_view id) const {
+  return constantInMemory(nc::memoryText(id));
+}
 
 std::optional<int64_t> Configuration::constantInMemory(std::string_view id) const {
   const auto found = constants_.find(id);
@@ -144,15 +146,15 @@ std::optional<int64_t> Configuration::constantInMemory(std::string_view id) cons
 
 // What is not a value of the wanted kind counts as not found.
 void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const {
-  char room[kConfigurationBytes];
-  const std::string_view id = charactersOf(std::span(request.args).subspan(kConfigurationHead), room);
+  char room[nc::kConfigurationBytes];
+  const std::string_view id = nc::technol::charactersOf(std::span(request.args).subspan(nc::kConfigurationHead), room);
   reply.ticket = request.ticket;
   reply.state = RUNG_SERVICE_DONE;
   reply.resultCount = RUNG_MAX_SERVICE_ARGS;
-  int64_t& value = reply.results[kConfigurationHead];
+  int64_t& value = reply.results[nc::kConfigurationHead];
   const auto answer = [&](bool found) { reply.results[0] = found ? 1 : 0; };
-  const auto kind = static_cast<ConfigurationKind>(request.args[0]);
-  if (kind == ConfigurationKind::Constant) {
+  const auto kind = static_cast<nc::ConfigurationKind>(request.args[0]);
+  if (kind == nc::ConfigurationKind::Constant) {
     const auto number = constantInMemory(id);
     value = number.value_or(0);
     return answer(number.has_value());
@@ -161,24 +163,24 @@ void Configuration::respond(const rt::ServiceRequest& request, rt::ServiceReply&
   if (parameter == parameters_.end()) return answer(false);
   const std::string& text = parameter->second;
   switch (kind) {
-  case ConfigurationKind::Integer:
-  case ConfigurationKind::Bit: {
-    const auto number = integerOf(text);
+  case nc::ConfigurationKind::Integer:
+  case nc::ConfigurationKind::Bit: {
+    const auto number = nc::technol::integerOf(text);
     value = number.value_or(0);
-    if (kind == ConfigurationKind::Bit) value = value != 0 ? 1 : 0;
+    if (kind == nc::ConfigurationKind::Bit) value = value != 0 ? 1 : 0;
     return answer(number.has_value());
   }
-  case ConfigurationKind::Real: {
-    const auto number = realOf(text);
+  case nc::ConfigurationKind::Real: {
+    const auto number = nc::technol::realOf(text);
     value = std::bit_cast<int64_t>(number.value_or(0));
     return answer(number.has_value());
   }
-  case ConfigurationKind::Text:
-  case ConfigurationKind::Binary:
-    putText(Bytes(text, kind == ConfigurationKind::Binary), static_cast<uint64_t>(request.args[1]), reply);
+  case nc::ConfigurationKind::Text:
+  case nc::ConfigurationKind::Binary:
+    putText(Bytes(text, kind == nc::ConfigurationKind::Binary), static_cast<uint64_t>(request.args[1]), reply);
     return answer(true);
-  case ConfigurationKind::Constant: return;
+  case nc::ConfigurationKind::Constant: return;
   }
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "rtlib/core/queues.h"
-#include "tools/sim/technol/control_files.h"
+#include "tools/control-files/control_files.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 class Configuration {
 public:
@@ -19,7 +19,8 @@ public:
   // its name a licence. "" or what is wrong.
   std::string set(std::string_view key, std::string_view value);
   // What the control's files say. "" or what is wrong, with its place.
-  std::string define(std::span<const ParameterDefinition> parameters, std::span<const ConstantDefinition> constants);
+  std::string define(std::span<const control_files::ParameterDefinition> parameters,
+                     std::span<const control_files::ConstantDefinition> constants);
   // Answers kConfigurationService. Allocates nothing.
   void respond(const rt::ServiceRequest& request, rt::ServiceReply& reply) const;
   // The identifier in UTF-8.
@@ -42,4 +43,4 @@ private:
   int64_t nextCommand_ = 1;
 };
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -12,12 +12,12 @@
 #include "rtlib/nc/technol/signals.h"
 #include "tools/sim/technol/ports.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 constexpr std::string_view kAnalogueIn = "ANALOG_INPUT_PHYSICAL", kAnalogueOut = "ANALOG_OUTPUT_PHYSICAL";
 
-std::string canonicalOf(std::string_view written) { return canonical(memoryText(written)); }
+std::string canonicalOf(std::string_view written) { return nc::technol::canonical(nc::memoryText(written)); }
 
 std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
@@ -44,14 +44,14 @@ void Connections::configure(std::string_view key, std::string_view value) {
   for (const auto& [attribute, member] : kNames) {
     if (std::string_view(name).substr(point + 1) != attribute) continue;
     Attributes& attributes = attributes_[name.substr(0, point)];
-    attributes.*member = realOf(value);
+    attributes.*member = nc::technol::realOf(value);
     if (!(attributes.*member)) attributes.wrong = std::string(key) + " is not a number: " + inQuotes(value);
   }
 }
 
-void Connections::take(std::span<const ConnectionDefinition> connections,
-                       std::span<const TerminalDefinition> terminals) {
-  for (const ConnectionDefinition& given : connections)
+void Connections::take(std::span<const control_files::ConnectionDefinition> connections,
+                       std::span<const control_files::TerminalDefinition> terminals) {
+  for (const control_files::ConnectionDefinition& given : connections)
     if (given.connected)
       connections_.push_back({.source = given.source,
                               .destination = given.destination,
@@ -60,7 +60,7 @@ void Connections::take(std::span<const ConnectionDefinition> connections,
                               .offset = given.offset,
                               .number = RUNG_NONE,
                               .place = given.place});
-  for (const TerminalDefinition& given : terminals) {
+  for (const control_files::TerminalDefinition& given : terminals) {
     Attributes& attributes = attributes_[canonicalOf(given.id)];
     attributes = {.invert = given.invert,
                   .scale = given.scale,
@@ -74,7 +74,8 @@ void Connections::take(std::span<const ConnectionDefinition> connections,
                   .physical = given.physical,
                   .wrong = {},
                   .place = given.place};
-    const bool analogue = given.kind == TerminalKind::AnalogInput || given.kind == TerminalKind::AnalogOutput;
+    const bool analogue = given.kind == control_files::TerminalKind::AnalogInput ||
+                          given.kind == control_files::TerminalKind::AnalogOutput;
     if (analogue && given.connected) channels_.emplace_back(given.kind, given.physical);
   }
 }
@@ -86,9 +87,9 @@ const Connections::Attributes* Connections::attributesOf(std::string_view canoni
 
 // `PLC.Input.ID.Scale` is that input's alone, `ID.Scale` holds for all of this identifier.
 const Connections::Attributes* Connections::attributesOf(const SharedVariable& variable) const {
-  const std::string name = canonical(variable.name);
+  const std::string name = nc::technol::canonical(variable.name);
   if (variable.isLogical()) {
-    const char* module = variable.kind == ExchangeKind::DefIn ? "PLC.INPUT." : "PLC.OUTPUT.";
+    const char* module = variable.kind == nc::ExchangeKind::DefIn ? "PLC.INPUT." : "PLC.OUTPUT.";
     if (const Attributes* own = attributesOf(module + name)) return own;
   }
   return attributesOf(name);
@@ -98,7 +99,7 @@ std::optional<uint64_t> Connections::defaultOf(const SharedVariable& variable) c
   const Attributes* attributes = attributesOf(variable);
   if (attributes == nullptr || !attributes->otherwise) return std::nullopt;
   const double value = *attributes->otherwise;
-  if (variable.type == ExchangeType::Real) return std::bit_cast<uint64_t>(value);
+  if (variable.type == nc::ExchangeType::Real) return std::bit_cast<uint64_t>(value);
   return static_cast<uint64_t>(static_cast<int64_t>(value));
 }
 
@@ -115,11 +116,11 @@ public:
     problem = inQuotes(written) + " is not an end of a connection";
     std::string_view rest = name;
     std::optional<End> made;
-    if (takePrefix(rest, "PLC.INPUT."))
-      made = logical(ExchangeKind::DefIn, rest, problem);
-    else if (takePrefix(rest, "PLC.OUTPUT."))
-      made = logical(ExchangeKind::DefOut, rest, problem);
-    else if (takePrefix(rest, "CAN"))
+    if (nc::technol::takePrefix(rest, "PLC.INPUT."))
+      made = logical(nc::ExchangeKind::DefIn, rest, problem);
+    else if (nc::technol::takePrefix(rest, "PLC.OUTPUT."))
+      made = logical(nc::ExchangeKind::DefOut, rest, problem);
+    else if (nc::technol::takePrefix(rest, "CAN"))
       made = unit(rest, problem);
     else if (name.starts_with("RTM.") || name.starts_with("ECAT.") || name.starts_with("VKEYBOARD."))
       made = module(name, problem);
@@ -138,7 +139,7 @@ public:
     made->variable = &found;
     made->isDestination = found.isInput();
     made->isSource = !made->isDestination;
-    if (found.kind == ExchangeKind::DefIn) made->target = Wire::targetOf(found.space, placeOf(found, element).byte);
+    if (found.kind == nc::ExchangeKind::DefIn) made->target = Wire::targetOf(found.space, placeOf(found, element).byte);
     made->whole = !bit;
     return made;
   }
@@ -149,30 +150,31 @@ private:
     return std::nullopt;
   }
 
-  std::optional<End> ofBit(const host::Ref& place, std::optional<uint32_t> bit, ExchangeType type,
+  std::optional<End> ofBit(const host::Ref& place, std::optional<uint32_t> bit, nc::ExchangeType type,
                            std::string& problem) {
     if (!bit) return End{.pin = pinAt(instance_.program(), place, type)};
     const auto at = host::bitOf(place, *bit);
     if (!at) return no(problem, "it has no bit " + std::to_string(*bit));
-    return End{.pin = pinAt(instance_.program(), *at, ExchangeType::Bit)};
+    return End{.pin = pinAt(instance_.program(), *at, nc::ExchangeType::Bit)};
   }
 
-  std::optional<End> logical(ExchangeKind kind, const std::string_view identifier, std::string& problem) {
-    const Reference whole{.base = identifier, .element = 0, .bit = {}}, bit = withoutBit(identifier);
-    for (const Reference& tried : {whole, withoutIndex(whole), bit, withoutIndex(bit)})
+  std::optional<End> logical(nc::ExchangeKind kind, const std::string_view identifier, std::string& problem) {
+    const nc::technol::Reference whole{.base = identifier, .element = 0, .bit = {}},
+        bit = nc::technol::withoutBit(identifier);
+    for (const nc::technol::Reference& tried : {whole, withoutIndex(whole), bit, withoutIndex(bit)})
       if (const SharedVariable* found = variables_.logical(kind, tried.base))
         return variable(*found, tried.element, tried.bit, problem);
-    return no(problem, kind == ExchangeKind::DefIn ? "the program defines no input of this identifier (DEF_IN)"
-                                                   : "the program defines no output of this identifier (DEF_OUT)");
+    return no(problem, kind == nc::ExchangeKind::DefIn ? "the program defines no input of this identifier (DEF_IN)"
+                                                       : "the program defines no output of this identifier (DEF_OUT)");
   }
 
   std::optional<End> port(bool input, uint32_t number, std::optional<uint32_t> bit, std::string& problem) {
-    const auto place =
-        signalPlace(instance_, input ? "P" + std::to_string(number) + "IN" : "P" + std::to_string(number) + "OUT");
+    const auto place = nc::technol::signalPlace(instance_, input ? "P" + std::to_string(number) + "IN"
+                                                                 : "P" + std::to_string(number) + "OUT");
     const bool there = input ? number >= 1 && number <= Ports::kInputs : number < Ports::kOutputs;
     if (!place || !there)
       return no(problem, input ? "input ports are P1IN to P128IN" : "output ports are P0OUT to P95OUT");
-    auto made = ofBit(*place, bit, ExchangeType::Uns8, problem);
+    auto made = ofBit(*place, bit, nc::ExchangeType::Uns8, problem);
     if (!made) return made;
     made->isSource = input;
     made->isDestination = !input;
@@ -182,18 +184,18 @@ private:
   // CAN[1].INOUT08[i].IPk or .OPk; units count from 0 (man. l.12485, l.13286).
   std::optional<End> unit(std::string_view rest, std::string& problem) {
     constexpr std::string_view kForms = "there are CAN[1].INOUT08[0] to [31] with IP0 to IP3 and OP0 to OP2";
-    if (!takePrefix(rest, "[1].INOUT08")) return no(problem, kForms);
-    const uint32_t number = takeIndex(rest).value_or(0);
+    if (!nc::technol::takePrefix(rest, "[1].INOUT08")) return no(problem, kForms);
+    const uint32_t number = nc::technol::takeIndex(rest).value_or(0);
     const bool input = rest.starts_with(".IP");
-    const Reference reference = withoutBit(rest);
-    const auto member = decimal(reference.base.substr(std::min<size_t>(3, reference.base.size())));
+    const nc::technol::Reference reference = nc::technol::withoutBit(rest);
+    const auto member = nc::technol::decimal(reference.base.substr(std::min<size_t>(3, reference.base.size())));
     const bool named = (input || rest.starts_with(".OP")) && member && *member < (input ? 4u : 3u);
     if (!named || number >= Ports::kUnits) return no(problem, kForms);
     return port(input, input ? 4 * number + 1 + *member : 3 * number + *member, reference.bit, problem);
   }
 
   std::optional<End> module(const std::string& name, std::string& problem) {
-    const Reference reference = withoutBit(name);
+    const nc::technol::Reference reference = nc::technol::withoutBit(name);
     std::string reason;
     const auto element = moduleElement(reference.base, reason);
     if (!element) return no(problem, reason.empty() ? "this module has no such element" : reason);
@@ -207,34 +209,34 @@ private:
     made.isOpen = element->typeIsOpen && !reference.bit;
     if (!reference.bit) return made;
     const uint32_t width = element->typeIsOpen ? 64 : widthOf(made.pin.type);
-    if (made.pin.type == ExchangeType::Real || *reference.bit >= width)
+    if (made.pin.type == nc::ExchangeType::Real || *reference.bit >= width)
       return no(problem, "it has no bit " + std::to_string(*reference.bit));
-    made.pin.type = ExchangeType::Bit;
+    made.pin.type = nc::ExchangeType::Bit;
     made.pin.mask = static_cast<uint8_t>(*reference.bit);
     return made;
   }
 
   // P2IN.2, P1OUT, ANALOG_INPUT_PHYSICAL[n], a variable of MAP_* or DEF_*.
   std::optional<End> cell(std::string_view name, std::string& problem) {
-    Reference reference = withoutBit(name);
+    nc::technol::Reference reference = nc::technol::withoutBit(name);
     const size_t point = reference.base.rfind('.');
     if (!reference.bit && point != std::string_view::npos) {
-      reference.bit = decimal(reference.base.substr(point + 1));
+      reference.bit = nc::technol::decimal(reference.base.substr(point + 1));
       if (reference.bit) reference.base = reference.base.substr(0, point);
     }
     std::string_view digits = reference.base;
-    if (takePrefix(digits, "P") && (digits.ends_with("IN") || digits.ends_with("OUT"))) {
+    if (nc::technol::takePrefix(digits, "P") && (digits.ends_with("IN") || digits.ends_with("OUT"))) {
       const bool input = digits.ends_with("IN");
       digits.remove_suffix(input ? 2 : 3);
-      if (const auto number = decimal(digits)) return port(input, *number, reference.bit, problem);
+      if (const auto number = nc::technol::decimal(digits)) return port(input, *number, reference.bit, problem);
     }
     for (const std::string_view array : {kAnalogueIn, kAnalogueOut}) {
-      const Reference element = withoutIndex(reference);
+      const nc::technol::Reference element = withoutIndex(reference);
       if (element.base != array || reference.bit) continue;
-      const auto place = signalPlace(instance_, array);
+      const auto place = nc::technol::signalPlace(instance_, array);
       const auto at = place ? host::element(*place, element.element) : std::nullopt;
       if (!at) return no(problem, "channels are 0 to 99");
-      End made{.pin = pinAt(instance_.program(), *at, ExchangeType::Real)};
+      End made{.pin = pinAt(instance_.program(), *at, nc::ExchangeType::Real)};
       made.isSource = array == kAnalogueIn;
       made.isDestination = !made.isSource;
       return made;
@@ -273,19 +275,19 @@ void Connections::shape(Wire& wire, const Connection& connection, const End& fro
   if (output == input) input = nullptr; // of one identifier: once
   for (const Attributes* attributes : {output, input})
     if (attributes && isFlag(attributes->invert)) wire.invert = !wire.invert;
-  const bool bits = wire.from.type == ExchangeType::Bit && wire.to.type == ExchangeType::Bit;
+  const bool bits = wire.from.type == nc::ExchangeType::Bit && wire.to.type == nc::ExchangeType::Bit;
   if (bits) return;
   const auto scaled = [](double scale, double offset) { return Stage{.scale = scale, .after = offset}; };
   if (output) {
     Stage stage = scaled(output->scale.value_or(1), output->offset.value_or(0));
-    const bool mapped = from.variable->kind == ExchangeKind::MapAout; // l.5735-5748
+    const bool mapped = from.variable->kind == nc::ExchangeKind::MapAout; // l.5735-5748
     (mapped ? stage.least : stage.low) = output->least.value_or(-Stage::kInfinity);
     (mapped ? stage.most : stage.high) = output->most.value_or(Stage::kInfinity);
     addStage(wire, stage);
   }
   addStage(wire, scaled(connection.scale, connection.offset));
   if (input) {
-    const bool mapped = to.variable->kind == ExchangeKind::MapAin; // l.5683-5686
+    const bool mapped = to.variable->kind == nc::ExchangeKind::MapAin; // l.5683-5686
     Stage stage = scaled(input->scale.value_or(1), mapped ? 0 : input->offset.value_or(0));
     if (mapped) stage.before = input->offset.value_or(0);
     stage.low = input->least.value_or(-Stage::kInfinity);
@@ -353,14 +355,14 @@ void Connections::addTerminals(Resolver& resolver, const SharedVariables& variab
     const std::string bit = "." + whole(given->bit), channel = "[" + whole(given->physical) + "]";
     std::string terminal, problem;
     switch (variable.kind) {
-    case ExchangeKind::MapIn: terminal = "P" + whole(given->port.value_or(0) + 1) + "IN" + bit; break;
-    case ExchangeKind::MapOut: terminal = "P" + whole(given->port) + "OUT" + bit; break;
-    case ExchangeKind::MapAin: terminal = std::string(kAnalogueIn) + channel; break;
-    case ExchangeKind::MapAout: terminal = std::string(kAnalogueOut) + channel; break;
-    case ExchangeKind::DefIn:
-    case ExchangeKind::DefOut:
-    case ExchangeKind::Variable:
-    case ExchangeKind::Bit: continue;
+    case nc::ExchangeKind::MapIn: terminal = "P" + whole(given->port.value_or(0) + 1) + "IN" + bit; break;
+    case nc::ExchangeKind::MapOut: terminal = "P" + whole(given->port) + "OUT" + bit; break;
+    case nc::ExchangeKind::MapAin: terminal = std::string(kAnalogueIn) + channel; break;
+    case nc::ExchangeKind::MapAout: terminal = std::string(kAnalogueOut) + channel; break;
+    case nc::ExchangeKind::DefIn:
+    case nc::ExchangeKind::DefOut:
+    case nc::ExchangeKind::Variable:
+    case nc::ExchangeKind::Bit: continue;
     }
     Connection connection{.source = terminal, .destination = variable.name, .place = given->place};
     if (!variable.isInput()) std::swap(connection.source, connection.destination);
@@ -380,9 +382,9 @@ void Connections::order() {
     return uint64_t{inCell} << 63 | uint64_t{wire.to.offset} << 8 | wire.to.mask;
   };
   const auto isJoined = [](const Wire& wire) {
-    return wire.to.type == ExchangeType::Bit && wire.period != ExchangePeriod::OnDemand;
+    return wire.to.type == nc::ExchangeType::Bit && wire.period != nc::ExchangePeriod::OnDemand;
   };
-  std::unordered_map<uint64_t, std::pair<uint32_t, ExchangePeriod>> setters; // first wire, and the fastest period
+  std::unordered_map<uint64_t, std::pair<uint32_t, nc::ExchangePeriod>> setters; // first wire, and the fastest period
   for (uint32_t i = 0; i < wires_.size(); ++i) {
     Wire& wire = wires_[i];
     if (!isJoined(wire)) continue;
@@ -423,16 +425,16 @@ namespace {
 
 // The weight bits of ANALOG_CONNECTED (man. l.5898).
 void mark(host::Instance& instance, uint32_t channel, bool input) {
-  const auto array = signalPlace(instance, "ANALOG_CONNECTED");
+  const auto array = nc::technol::signalPlace(instance, "ANALOG_CONNECTED");
   const auto cell = array ? host::element(*array, channel) : std::nullopt;
-  const Signal* weight = findSignal(technolSignals(), input ? "AIN_CONNECTED" : "AOUT_CONNECTED", "W");
+  const nc::Signal* weight = findSignal(nc::technolSignals(), input ? "AIN_CONNECTED" : "AOUT_CONNECTED", "W");
   if (cell && weight) host::writeRaw(instance.memory(), host::bitRef(cell->space, cell->byte, weight->bit), 1);
 }
 
 void markByName(host::Instance& instance, std::string_view written) {
   const std::string name = canonicalOf(written);
   for (const std::string_view array : {kAnalogueIn, kAnalogueOut}) {
-    const Reference element = withoutIndex({.base = name, .element = 0, .bit = {}});
+    const nc::technol::Reference element = nc::technol::withoutIndex({.base = name, .element = 0, .bit = {}});
     if (element.base == array) mark(instance, element.element, array == kAnalogueIn);
   }
 }
@@ -444,12 +446,13 @@ void Connections::preset(host::Instance& instance) const {
     markByName(instance, connection.source);
     markByName(instance, connection.destination);
   }
-  for (const auto& [kind, channel] : channels_) mark(instance, channel, kind == TerminalKind::AnalogInput);
+  for (const auto& [kind, channel] : channels_)
+    mark(instance, channel, kind == control_files::TerminalKind::AnalogInput);
 }
 
 void Connections::markAnalogue(host::Instance& instance, const Wire& wire) {
   const auto channelOf = [&](const Pin& pin, std::string_view name) -> std::optional<uint32_t> {
-    const auto array = signalPlace(instance, name);
+    const auto array = nc::technol::signalPlace(instance, name);
     if (!array || pin.place.space != array->space || pin.place.byte < array->byte) return std::nullopt;
     const uint32_t channel = (pin.place.byte - array->byte) / 8;
     return channel < array->count ? std::optional(channel) : std::nullopt;
@@ -460,7 +463,7 @@ void Connections::markAnalogue(host::Instance& instance, const Wire& wire) {
 
 // ---- while the program runs -----------------------------------------------------------------------------------------
 
-void Connections::copy(host::Instance& instance, ModuleCells& cells, ExchangePeriod slowest) const {
+void Connections::copy(host::Instance& instance, ModuleCells& cells, nc::ExchangePeriod slowest) const {
   const WireMemory memory(instance, cells);
   const size_t end = ends_[static_cast<size_t>(slowest)];
   for (size_t i = 0; i < end; ++i) memory.copy(wires_[i]);
@@ -468,7 +471,7 @@ void Connections::copy(host::Instance& instance, ModuleCells& cells, ExchangePer
 
 void Connections::update(host::Instance& instance, ModuleCells& cells, const rt::ServiceRequest& request,
                          rt::ServiceReply& reply) const {
-  const ExchangePlace at = placeOfArgument(request.args[0]);
+  const nc::ExchangePlace at = nc::placeOfArgument(request.args[0]);
   const WireMemory memory(instance, cells);
   const uint64_t wanted = Wire::targetOf(at.space, at.byte);
   auto target = std::lower_bound(targets_.begin(), targets_.end(), Target{wanted, 0});
@@ -478,7 +481,7 @@ void Connections::update(host::Instance& instance, ModuleCells& cells, const rt:
   for (; target != targets_.end() && target->place == wanted; ++target) {
     const Wire& wire = wires_[target->wire];
     const uint64_t value = memory.valueOf(wire);
-    if (wire.whole && wire.to.type == ExchangeType::Bit) {
+    if (wire.whole && wire.to.type == nc::ExchangeType::Bit) {
       bits = joined ? bits | value : value;
       joined = true;
     } else if (wire.whole) {
@@ -492,4 +495,4 @@ void Connections::update(host::Instance& instance, ModuleCells& cells, const rt:
   reply.results[1] = static_cast<int64_t>(bits);
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

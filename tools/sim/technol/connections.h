@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/sim/technol/control_files.h"
+#include "tools/control-files/control_files.h"
 #include "tools/sim/technol/module_cells.h"
 #include "tools/sim/technol/shared_variables.h"
 #include "tools/sim/technol/wire.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 class Connections {
 public:
@@ -23,7 +23,8 @@ public:
   void connect(std::string_view source, std::string_view destination);
   // `config ID.Invert 1` and its like; other keys are left alone.
   void configure(std::string_view key, std::string_view value);
-  void take(std::span<const ConnectionDefinition> connections, std::span<const TerminalDefinition> terminals);
+  void take(std::span<const control_files::ConnectionDefinition> connections,
+            std::span<const control_files::TerminalDefinition> terminals);
 
   // ---- at a start
   // What the program may see while it starts: ANALOG_CONNECTED.
@@ -36,7 +37,7 @@ public:
 
   // ---- while it runs; nothing allocates
   // All that are not slower than `slowest`.
-  void copy(host::Instance& instance, ModuleCells& cells, ExchangePeriod slowest) const;
+  void copy(host::Instance& instance, ModuleCells& cells, nc::ExchangePeriod slowest) const;
   // What kUpdateService answers.
   void update(host::Instance& instance, ModuleCells& cells, const rt::ServiceRequest& request,
               rt::ServiceReply& reply) const;
@@ -44,19 +45,19 @@ public:
 private:
   struct Attributes {
     std::optional<double> invert, scale, offset, least, most, otherwise, connected, port, bit, physical;
-    std::string wrong; // an attribute that is not a number
-    FilePlace place;   // where it was read, "" without a file
+    std::string wrong;              // an attribute that is not a number
+    control_files::FilePlace place; // where it was read, "" without a file
   };
   struct Connection {
     std::string source, destination; // as written
     bool invert = false;
     double scale = 1, offset = 0;
     uint32_t number = RUNG_NONE; // of the calls of connect
-    FilePlace place;
+    control_files::FilePlace place;
   };
   struct End {
     Pin pin;
-    ExchangePeriod period = ExchangePeriod::Fast;
+    nc::ExchangePeriod period = nc::ExchangePeriod::Fast;
     bool isSource = false, isDestination = false;
     const SharedVariable* variable = nullptr;
     bool isOpen = false; // a module's cell whose type the other end gives
@@ -79,7 +80,7 @@ private:
   std::map<std::string, Attributes, std::less<>> attributes_; // by canonical identifier
   std::vector<Connection> connections_;
   uint32_t connects_ = 0;
-  std::vector<std::pair<TerminalKind, uint32_t>> channels_; // analogue ones that a file connects
+  std::vector<std::pair<control_files::TerminalKind, uint32_t>> channels_; // analogue ones that a file connects
 
   std::vector<Wire> wires_; // by period, the fastest first; those on demand last
   size_t ends_[4] = {};     // of each period
@@ -92,4 +93,4 @@ private:
   std::vector<NcProblem> problems_;
 };
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -3,7 +3,7 @@
 
 #include "rtlib/nc/control/technol/cells.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 struct PlcEvent {
@@ -21,15 +21,15 @@ constexpr PlcEvent kEvents[] = {
 
 // A program that stands takes no part.
 void call(host::Instance& instance, std::string_view procedure, uint64_t dr, bool rlo) {
-  if (!instance.stopped()) runWith(instance, procedure, dr, rlo);
+  if (!instance.stopped()) nc::technol::runWith(instance, procedure, dr, rlo);
 }
 
 // CODE=n or the name of a constant, STATE=1 pressed, 0 released.
 std::string command(host::Instance& instance, std::span<const NcArgument> keys, const ConstantOf& constantOf) {
   std::optional<int64_t> code, state;
   for (const NcArgument& key : keys) {
-    const bool isCode = equalIgnoringCase(key.key, "CODE");
-    if (!isCode && !equalIgnoringCase(key.key, "STATE")) return "PLCCOMMAND has no '" + key.key + "'";
+    const bool isCode = nc::technol::equalIgnoringCase(key.key, "CODE");
+    if (!isCode && !nc::technol::equalIgnoringCase(key.key, "STATE")) return "PLCCOMMAND has no '" + key.key + "'";
     std::optional<int64_t>& value = isCode ? code : state;
     value = key.isText && isCode ? constantOf(key.text) : key.integer;
     if (!value) return "unknown constant '" + key.text + "'";
@@ -45,16 +45,17 @@ std::string command(host::Instance& instance, std::span<const NcArgument> keys, 
 
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf) {
-  if (equalIgnoringCase(name, "PLCCOMMAND")) return command(instance, keys, constantOf);
+  if (nc::technol::equalIgnoringCase(name, "PLCCOMMAND")) return command(instance, keys, constantOf);
   for (const PlcEvent& event : kEvents) {
-    if (!equalIgnoringCase(name, event.name)) continue;
+    if (!nc::technol::equalIgnoringCase(name, event.name)) continue;
     // The procedure may set it again, and the start waits (man. l.6463-6467).
     if (event.code == kStartRequest.code)
-      if (const auto suspend = signalPlace(instance, "START_SUSPEND")) host::writeRaw(instance.memory(), *suspend, 0);
+      if (const auto suspend = nc::technol::signalPlace(instance, "START_SUSPEND"))
+        host::writeRaw(instance.memory(), *suspend, 0);
     call(instance, "_ON_EVENT", event.code, false);
     return std::string();
   }
   return std::nullopt;
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

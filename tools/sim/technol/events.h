@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "tools/sim/nc_model.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 // The number of a PLC constant by its identifier.
 using ConstantOf = std::function<std::optional<int64_t>(std::string_view)>;
@@ -17,4 +17,4 @@ using ConstantOf = std::function<std::optional<int64_t>(std::string_view)>;
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf);
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -3,7 +3,7 @@
 
 #include "rtlib/host/program_info.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 std::string Exchange::configure(std::string_view key, std::string_view value) {
   std::string problem;
@@ -29,16 +29,16 @@ void Exchange::afterInit(host::Instance& instance) {
 void Exchange::onHook(host::Instance& instance, uint32_t hook) {
   if (defined_) afterInit(instance); // by a procedure that runs outside MODULE_INIT
   switch (hook) {
-  case kHookBeforeInput:
+  case nc::kHookBeforeInput:
     ports_.beforeProgram(instance);
-    connections_.copy(instance, cells_, ExchangePeriod::Slow);
+    connections_.copy(instance, cells_, nc::ExchangePeriod::Slow);
     return;
-  case kHookAfterMain:
-    connections_.copy(instance, cells_, ExchangePeriod::Slow);
+  case nc::kHookAfterMain:
+    connections_.copy(instance, cells_, nc::ExchangePeriod::Slow);
     ports_.afterProgram(instance);
     return;
-  case kHookFast: connections_.copy(instance, cells_, ExchangePeriod::Fast); return;
-  case kHookFastest: connections_.copy(instance, cells_, ExchangePeriod::Fastest); return;
+  case nc::kHookFast: connections_.copy(instance, cells_, nc::ExchangePeriod::Fast); return;
+  case nc::kHookFastest: connections_.copy(instance, cells_, nc::ExchangePeriod::Fastest); return;
   default: return;
   }
 }
@@ -57,15 +57,15 @@ void Exchange::define(host::Instance& instance, const rt::ServiceRequest& reques
 
 bool Exchange::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   const std::string_view service = host::serviceName(instance.program(), request.service);
-  if (service != kDefineService && service != kUpdateService) return false;
+  if (service != nc::kDefineService && service != nc::kUpdateService) return false;
   reply.ticket = request.ticket;
   reply.state = RUNG_SERVICE_DONE;
   reply.resultCount = 3;
-  if (service == kDefineService)
+  if (service == nc::kDefineService)
     define(instance, request, reply);
   else
     connections_.update(instance, cells_, request, reply);
   return true;
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -10,7 +10,7 @@
 #include "tools/sim/technol/connections.h"
 #include "tools/sim/technol/ports.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 class Exchange {
 public:
@@ -18,7 +18,8 @@ public:
   std::string configure(std::string_view key, std::string_view value);
   void connect(std::string_view source, std::string_view destination) { connections_.connect(source, destination); }
   // Of the control's files.
-  void take(std::span<const ConnectionDefinition> connections, std::span<const TerminalDefinition> terminals) {
+  void take(std::span<const control_files::ConnectionDefinition> connections,
+            std::span<const control_files::TerminalDefinition> terminals) {
     connections_.take(connections, terminals);
   }
 
@@ -46,4 +47,4 @@ private:
   bool defined_ = false; // something that the table of connections does not know
 };
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

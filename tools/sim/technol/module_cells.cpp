@@ -8,28 +8,28 @@
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/signals.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 constexpr uint32_t kKeys = 256; // of the virtual keyboard (man. l.12492)
 
 // The manual's INT32 are all of the servo loops, and the two angles (man. l.12871-12925, l.13214-13218).
-bool isSigned(const Signal& signal) {
+bool isSigned(const nc::Signal& signal) {
   return std::string_view(signal.area).starts_with("RTM.Servo") || std::string_view(signal.symbol).ends_with("_ANGLE");
 }
 
-ExchangeType typeOf(const Signal& signal) {
+nc::ExchangeType typeOf(const nc::Signal& signal) {
   switch (signal.type) {
-  case SignalType::Byte: return ExchangeType::Uns8;
-  case SignalType::Word: return ExchangeType::Uns16;
-  case SignalType::Dword: return isSigned(signal) ? ExchangeType::Int32 : ExchangeType::Uns32;
-  case SignalType::Qword: return ExchangeType::Int64;
-  case SignalType::Real: return ExchangeType::Real;
-  case SignalType::Bit:
-  case SignalType::Struct:
-  case SignalType::String: return ExchangeType::Bit;
+  case nc::SignalType::Byte: return nc::ExchangeType::Uns8;
+  case nc::SignalType::Word: return nc::ExchangeType::Uns16;
+  case nc::SignalType::Dword: return isSigned(signal) ? nc::ExchangeType::Int32 : nc::ExchangeType::Uns32;
+  case nc::SignalType::Qword: return nc::ExchangeType::Int64;
+  case nc::SignalType::Real: return nc::ExchangeType::Real;
+  case nc::SignalType::Bit:
+  case nc::SignalType::Struct:
+  case nc::SignalType::String: return nc::ExchangeType::Bit;
   }
-  return ExchangeType::Bit;
+  return nc::ExchangeType::Bit;
 }
 
 struct RtmModule {
@@ -47,15 +47,16 @@ constexpr RtmModule kModules[] = {{"AXIS", "RTM.Axis", 16},
 std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& problem) {
   for (const RtmModule& module : kModules) {
     std::string_view name = rest;
-    if (!takePrefix(name, module.name)) continue;
-    const uint32_t member = takeIndex(name).value_or(0);
-    if (!takePrefix(name, ".") || member >= module.members) break;
+    if (!nc::technol::takePrefix(name, module.name)) continue;
+    const uint32_t member = nc::technol::takeIndex(name).value_or(0);
+    if (!nc::technol::takePrefix(name, ".") || member >= module.members) break;
     std::string area = module.area;
     for (const char* part : {"Edrv", "Enc"})
-      if (std::string_view("RTM.Servo") == module.area && takePrefix(name, canonical(part) + "."))
+      if (std::string_view("RTM.Servo") == module.area &&
+          nc::technol::takePrefix(name, nc::technol::canonical(part) + "."))
         area += std::string(".") + part;
-    const Reference last = withoutIndex({.base = name, .element = 0, .bit = {}});
-    const Signal* signal = findSignal(technolSignals(), last.base, area);
+    const nc::technol::Reference last = nc::technol::withoutIndex({.base = name, .element = 0, .bit = {}});
+    const nc::Signal* signal = findSignal(nc::technolSignals(), last.base, area);
     if (signal == nullptr) break;
     const uint32_t element = last.element != 0 ? last.element : signal->count > 1 ? member : 0;
     if (element >= signal->count || (last.element != 0 && member != 0 && last.element != member)) {
@@ -65,8 +66,8 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
     const bool ofMember = signal->count == 1 && module.members > 1;
     ModuleElement made{.key = area + "." + signal->symbol + "/" + std::to_string(ofMember ? member : element),
                        .type = typeOf(*signal)};
-    made.isSource = signal->direction != Direction::Out;
-    made.isDestination = signal->direction != Direction::In;
+    made.isSource = signal->direction != nc::Direction::Out;
+    made.isDestination = signal->direction != nc::Direction::In;
     return made;
   }
   problem = "the real-time manager has no such element";
@@ -77,16 +78,17 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
 
 std::optional<ModuleElement> moduleElement(std::string_view identifier, std::string& problem) {
   std::string_view rest = identifier;
-  if (takePrefix(rest, "RTM.")) return rtmElement(rest, problem);
-  if (takePrefix(rest, "ECAT."))
-    return ModuleElement{.key = std::string(identifier), .typeIsOpen = true, .period = ExchangePeriod::Fastest};
-  if (!takePrefix(rest, "VKEYBOARD.VKEY")) return std::nullopt;
-  const uint32_t key = rest.empty() ? 0 : takeIndex(rest).value_or(kKeys);
+  if (nc::technol::takePrefix(rest, "RTM.")) return rtmElement(rest, problem);
+  if (nc::technol::takePrefix(rest, "ECAT."))
+    return ModuleElement{.key = std::string(identifier), .typeIsOpen = true, .period = nc::ExchangePeriod::Fastest};
+  if (!nc::technol::takePrefix(rest, "VKEYBOARD.VKEY")) return std::nullopt;
+  const uint32_t key = rest.empty() ? 0 : nc::technol::takeIndex(rest).value_or(kKeys);
   if (!rest.empty() || key >= kKeys) {
     problem = "the virtual keyboard has the keys VKey[0] to VKey[255]";
     return std::nullopt;
   }
-  return ModuleElement{.key = "VKEYBOARD." + std::to_string(key), .period = ExchangePeriod::Slow, .isSource = false};
+  return ModuleElement{
+      .key = "VKEYBOARD." + std::to_string(key), .period = nc::ExchangePeriod::Slow, .isSource = false};
 }
 
 void ModuleCells::reset() {
@@ -97,7 +99,7 @@ uint32_t ModuleCells::cellOf(const ModuleElement& element) {
   const auto [entry, isNew] = byKey_.emplace(element.key, static_cast<uint32_t>(cells_.size()));
   if (isNew)
     cells_.push_back(
-        {.type = element.typeIsOpen ? ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
+        {.type = element.typeIsOpen ? nc::ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
   return entry->second;
 }
 
@@ -105,8 +107,8 @@ namespace {
 
 uint64_t cut(uint64_t bits, uint32_t width) { return width >= 64 ? bits : bits & ((uint64_t{1} << width) - 1); }
 
-uint64_t bitsOf(ExchangeType type, const NcCell& value) {
-  if (type == ExchangeType::Real) {
+uint64_t bitsOf(nc::ExchangeType type, const NcCell& value) {
+  if (type == nc::ExchangeType::Real) {
     const double real =
         value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
     return std::bit_cast<uint64_t>(real);
@@ -119,8 +121,8 @@ uint64_t bitsOf(ExchangeType type, const NcCell& value) {
 } // namespace
 
 std::optional<NcCell> ModuleCells::read(std::string_view name) const {
-  const std::string inMemory = canonical(memoryText(name));
-  const Reference reference = withoutBit(inMemory);
+  const std::string inMemory = nc::technol::canonical(nc::memoryText(name));
+  const nc::technol::Reference reference = nc::technol::withoutBit(inMemory);
   std::string problem;
   const auto element = moduleElement(reference.base, problem);
   if (!element) return std::nullopt;
@@ -128,15 +130,15 @@ std::optional<NcCell> ModuleCells::read(std::string_view name) const {
   // What an EtherCAT element is, its connection tells.
   if (found == byKey_.end() && element->typeIsOpen) return std::nullopt;
   const ModuleCell cell = found == byKey_.end() ? ModuleCell{.type = element->type} : cells_[found->second];
-  NcCell value{.isReal = cell.type == ExchangeType::Real, .width = widthOf(cell.type), .bits = cell.bits};
+  NcCell value{.isReal = cell.type == nc::ExchangeType::Real, .width = widthOf(cell.type), .bits = cell.bits};
   if (!reference.bit) return value;
   if (value.isReal || *reference.bit >= value.width) return std::nullopt;
   return NcCell{.isReal = false, .width = 1, .bits = value.bits >> *reference.bit & 1};
 }
 
 bool ModuleCells::write(std::string_view name, const NcCell& value) {
-  const std::string inMemory = canonical(memoryText(name));
-  const Reference reference = withoutBit(inMemory);
+  const std::string inMemory = nc::technol::canonical(nc::memoryText(name));
+  const nc::technol::Reference reference = nc::technol::withoutBit(inMemory);
   std::string problem;
   const auto element = moduleElement(reference.base, problem);
   if (!element || (element->typeIsOpen && !byKey_.contains(element->key))) return false;
@@ -145,10 +147,10 @@ bool ModuleCells::write(std::string_view name, const NcCell& value) {
     cell.bits = bitsOf(cell.type, value);
     return true;
   }
-  if (cell.type == ExchangeType::Real || *reference.bit >= widthOf(cell.type)) return false;
+  if (cell.type == nc::ExchangeType::Real || *reference.bit >= widthOf(cell.type)) return false;
   const uint64_t mask = uint64_t{1} << *reference.bit;
-  cell.bits = bitsOf(ExchangeType::Bit, value) != 0 ? cell.bits | mask : cell.bits & ~mask;
+  cell.bits = bitsOf(nc::ExchangeType::Bit, value) != 0 ? cell.bits | mask : cell.bits & ~mask;
   return true;
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

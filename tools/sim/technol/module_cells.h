@@ -8,16 +8,16 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tools/sim/nc_model.h"
 #include "rtlib/nc/technol/exchange.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 struct ModuleElement {
   std::string key; // one an element, whichever way it is written
-  ExchangeType type = ExchangeType::Bit;
+  nc::ExchangeType type = nc::ExchangeType::Bit;
   bool typeIsOpen = false; // EtherCAT: the type is that of the other end
-  ExchangePeriod period = ExchangePeriod::Fast;
+  nc::ExchangePeriod period = nc::ExchangePeriod::Fast;
   bool isSource = true, isDestination = true;
 };
 
@@ -26,7 +26,7 @@ struct ModuleElement {
 std::optional<ModuleElement> moduleElement(std::string_view identifier, std::string& problem);
 
 struct ModuleCell {
-  ExchangeType type = ExchangeType::Bit;
+  nc::ExchangeType type = nc::ExchangeType::Bit;
   bool typeIsOpen = false;
   uint64_t bits = 0; // of the type; a bit is 0 or 1
 };
@@ -48,4 +48,4 @@ private:
   std::unordered_map<std::string, uint32_t> byKey_;
 };
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -8,7 +8,7 @@
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/identifier.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 constexpr uint8_t kNoShortReports = 2;  // IO_DIS_ERPIS (man. l.3526)
@@ -17,11 +17,11 @@ constexpr uint32_t kOutputsOfAUnit = 3; // OP0 to OP2
 } // namespace
 
 bool Ports::configure(std::string_view key, std::string_view value, std::string& problem) {
-  const std::string name = canonical(key);
+  const std::string name = nc::technol::canonical(key);
   std::string_view rest = name;
-  if (!takePrefix(rest, "CAN[1].INOUT08")) return false;
-  const uint32_t unit = takeIndex(rest).value_or(0);
-  const auto control = decimal(value);
+  if (!nc::technol::takePrefix(rest, "CAN[1].INOUT08")) return false;
+  const uint32_t unit = nc::technol::takeIndex(rest).value_or(0);
+  const auto control = nc::technol::decimal(value);
   if (rest != ".CONTROL" || unit >= kUnits)
     problem = "'" + std::string(key) + "' is not a unit's control byte: CAN[1].INOUT08[0].CONTROL to [31]";
   else if (!control || *control > 255)
@@ -32,7 +32,7 @@ bool Ports::configure(std::string_view key, std::string_view value, std::string&
 }
 
 Ports::Family Ports::familyOf(const host::Instance& instance, const char* first, const char* second) {
-  const auto a = signalPlace(instance, first), b = signalPlace(instance, second);
+  const auto a = nc::technol::signalPlace(instance, first), b = nc::technol::signalPlace(instance, second);
   return a && b ? Family{a->space, a->byte, b->byte - a->byte} : Family{};
 }
 
@@ -166,4 +166,4 @@ void Ports::beforeWrite(host::Instance& instance, const host::Ref& place) {
   }
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -11,7 +11,7 @@
 
 #include "rtlib/host/instance.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 class Ports {
 public:
@@ -60,4 +60,4 @@ private:
   bool active_ = false;
 };
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -4,17 +4,17 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 // One name space each for logical inputs, logical outputs, and all others.
-char spaceOf(ExchangeKind kind) {
-  if (kind == ExchangeKind::DefIn) return 'I';
-  return kind == ExchangeKind::DefOut ? 'O' : 'S';
+char spaceOf(nc::ExchangeKind kind) {
+  if (kind == nc::ExchangeKind::DefIn) return 'I';
+  return kind == nc::ExchangeKind::DefOut ? 'O' : 'S';
 }
 
-std::string keyOf(ExchangeKind kind, std::string_view identifier) {
-  return std::string(1, spaceOf(kind)).append(canonical(identifier));
+std::string keyOf(nc::ExchangeKind kind, std::string_view identifier) {
+  return std::string(1, spaceOf(kind)).append(nc::technol::canonical(identifier));
 }
 
 uint32_t bytesOf(const SharedVariable& variable) { return nc::bytesOf(variable.type) * variable.count; }
@@ -25,8 +25,8 @@ bool sameMeaning(const SharedVariable& a, const SharedVariable& b) {
 }
 
 std::optional<host::Ref> limitOf(int64_t argument) {
-  if (argument == kNoPlace) return std::nullopt;
-  const ExchangePlace place = placeOfArgument(argument);
+  if (argument == nc::kNoPlace) return std::nullopt;
+  const nc::ExchangePlace place = nc::placeOfArgument(argument);
   return host::realRef(place.space, place.byte);
 }
 
@@ -35,19 +35,20 @@ std::optional<host::Ref> limitOf(int64_t argument) {
 std::optional<SharedVariable> variableOf(const rt::ServiceRequest& request) {
   SharedVariable made;
   const auto what = static_cast<uint64_t>(request.args[0]);
-  made.kind = static_cast<ExchangeKind>(what & 0xFF);
-  made.type = static_cast<ExchangeType>(what >> 8 & 0xFF);
-  made.period = static_cast<ExchangePeriod>(what >> 16 & 0xFF);
+  made.kind = static_cast<nc::ExchangeKind>(what & 0xFF);
+  made.type = static_cast<nc::ExchangeType>(what >> 8 & 0xFF);
+  made.period = static_cast<nc::ExchangePeriod>(what >> 16 & 0xFF);
   made.count = static_cast<uint32_t>(what >> 24);
-  const ExchangePlace place = placeOfArgument(request.args[1]);
+  const nc::ExchangePlace place = nc::placeOfArgument(request.args[1]);
   made.space = place.space;
   made.byte = place.byte;
   made.bit = place.bit;
   made.least = limitOf(request.args[2]);
   made.most = limitOf(request.args[3]);
-  char name[kDefineBytes];
-  made.name = charactersOf(std::span(request.args).subspan(kDefineHead), name);
-  if (made.name.empty() || made.kind > ExchangeKind::Bit || made.type > ExchangeType::Binary) return std::nullopt;
+  char name[nc::kDefineBytes];
+  made.name = nc::technol::charactersOf(std::span(request.args).subspan(nc::kDefineHead), name);
+  if (made.name.empty() || made.kind > nc::ExchangeKind::Bit || made.type > nc::ExchangeType::Binary)
+    return std::nullopt;
   return made;
 }
 
@@ -55,23 +56,23 @@ host::Ref placeOf(const SharedVariable& variable, uint32_t element) {
   const uint32_t bytes = nc::bytesOf(variable.type);
   const uint32_t byte = variable.byte + element * bytes;
   switch (variable.type) {
-  case ExchangeType::Bit: return host::bitRef(variable.space, byte, variable.bit);
-  case ExchangeType::Real: return host::realRef(variable.space, byte);
-  case ExchangeType::Text:
-  case ExchangeType::Binary: {
+  case nc::ExchangeType::Bit: return host::bitRef(variable.space, byte, variable.bit);
+  case nc::ExchangeType::Real: return host::realRef(variable.space, byte);
+  case nc::ExchangeType::Text:
+  case nc::ExchangeType::Binary: {
     host::Ref text = host::intRef(variable.space, variable.byte, 8);
     text.kind = host::RefKind::Text;
     text.count = variable.count;
     return text;
   }
-  case ExchangeType::Int8:
-  case ExchangeType::Uns8:
-  case ExchangeType::Int16:
-  case ExchangeType::Uns16:
-  case ExchangeType::Int32:
-  case ExchangeType::Uns32:
-  case ExchangeType::Int64:
-  case ExchangeType::Uns64: return host::intRef(variable.space, byte, bytes * 8);
+  case nc::ExchangeType::Int8:
+  case nc::ExchangeType::Uns8:
+  case nc::ExchangeType::Int16:
+  case nc::ExchangeType::Uns16:
+  case nc::ExchangeType::Int32:
+  case nc::ExchangeType::Uns32:
+  case nc::ExchangeType::Int64:
+  case nc::ExchangeType::Uns64: return host::intRef(variable.space, byte, bytes * 8);
   }
   return {};
 }
@@ -94,27 +95,28 @@ bool SharedVariables::define(const rung_program& program, SharedVariable variabl
   return true;
 }
 
-const SharedVariable* SharedVariables::logical(ExchangeKind kind, std::string_view identifier) const {
+const SharedVariable* SharedVariables::logical(nc::ExchangeKind kind, std::string_view identifier) const {
   const auto found = byKey_.find(std::string(1, spaceOf(kind)).append(identifier));
   return found == byKey_.end() ? nullptr : &all_[found->second];
 }
 
 const SharedVariable* SharedVariables::byName(std::string_view name, bool toWrite) const {
-  const bool in = takePrefix(name, "PLC.INPUT.");
-  const bool out = !in && takePrefix(name, "PLC.OUTPUT.");
+  const bool in = nc::technol::takePrefix(name, "PLC.INPUT.");
+  const bool out = !in && nc::technol::takePrefix(name, "PLC.OUTPUT.");
   const auto fits = [&](const SharedVariable* v) { return v != nullptr && (!toWrite || v->isInput()); };
-  const SharedVariable* input = out ? nullptr : logical(ExchangeKind::DefIn, name);
+  const SharedVariable* input = out ? nullptr : logical(nc::ExchangeKind::DefIn, name);
   if (fits(input)) return input;
-  const SharedVariable* output = in ? nullptr : logical(ExchangeKind::DefOut, name);
+  const SharedVariable* output = in ? nullptr : logical(nc::ExchangeKind::DefOut, name);
   if (fits(output)) return output;
-  const SharedVariable* other = in || out ? nullptr : logical(ExchangeKind::Variable, name);
+  const SharedVariable* other = in || out ? nullptr : logical(nc::ExchangeKind::Variable, name);
   return fits(other) ? other : nullptr;
 }
 
 std::optional<host::Ref> SharedVariables::find(std::string_view name, bool toWrite) const {
-  const std::string inMemory = canonical(memoryText(name));
-  const Reference whole{.base = inMemory, .element = 0, .bit = {}}, bit = withoutBit(inMemory);
-  for (const Reference& tried : {whole, withoutIndex(whole), bit, withoutIndex(bit)}) {
+  const std::string inMemory = nc::technol::canonical(nc::memoryText(name));
+  const nc::technol::Reference whole{.base = inMemory, .element = 0, .bit = {}},
+      bit = nc::technol::withoutBit(inMemory);
+  for (const nc::technol::Reference& tried : {whole, withoutIndex(whole), bit, withoutIndex(bit)}) {
     const SharedVariable* found = byName(tried.base, toWrite);
     if (found == nullptr) continue;
     if (tried.element >= (found->isText() ? 1 : found->count)) return std::nullopt;
@@ -134,4 +136,4 @@ const SharedVariable* SharedVariables::at(const host::Ref& place, uint32_t& elem
   return nullptr;
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -10,23 +10,23 @@
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/technol/exchange.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 struct SharedVariable {
   std::string name; // as the program writes it
-  ExchangeKind kind = ExchangeKind::Variable;
-  ExchangeType type = ExchangeType::Uns8;
-  ExchangePeriod period = ExchangePeriod::Slow;
+  nc::ExchangeKind kind = nc::ExchangeKind::Variable;
+  nc::ExchangeType type = nc::ExchangeType::Uns8;
+  nc::ExchangePeriod period = nc::ExchangePeriod::Slow;
   uint32_t count = 1; // elements, or bytes of a text
   uint32_t space = 0, byte = 0, bit = 0;
   std::optional<host::Ref> least, most; // of SHARE_VAR: reals
 
   // What the program takes from the control; a screen may write it.
   bool isInput() const {
-    return kind == ExchangeKind::MapIn || kind == ExchangeKind::MapAin || kind == ExchangeKind::DefIn;
+    return kind == nc::ExchangeKind::MapIn || kind == nc::ExchangeKind::MapAin || kind == nc::ExchangeKind::DefIn;
   }
   bool isMapped() const { return nc::isMapped(kind); }
-  bool isLogical() const { return kind == ExchangeKind::DefIn || kind == ExchangeKind::DefOut; }
+  bool isLogical() const { return kind == nc::ExchangeKind::DefIn || kind == nc::ExchangeKind::DefOut; }
   bool isText() const { return nc::isText(type); }
 };
 
@@ -43,7 +43,7 @@ public:
 
   const std::vector<SharedVariable>& all() const { return all_; }
   // By a canonical identifier of a DEF_IN or DEF_OUT.
-  const SharedVariable* logical(ExchangeKind kind, std::string_view identifier) const;
+  const SharedVariable* logical(nc::ExchangeKind kind, std::string_view identifier) const;
   // By the name that a screen uses: of any kind, with the index of an element and `.Bit[k]` after it, as `PLC.Input.`
   // or `PLC.Output.` identifier or the identifier alone.
   std::optional<host::Ref> find(std::string_view name, bool toWrite) const;
@@ -62,4 +62,4 @@ private:
 // What kDefineService declares.
 std::optional<SharedVariable> variableOf(const rt::ServiceRequest& request);
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 // Whether the bytes lie one after the other in the block, unexpanded.
@@ -20,12 +20,12 @@ bool isPlain(const rt::Memory& memory, const host::Ref& place, uint32_t bytes, u
   return true;
 }
 
-bool isSigned(ExchangeType type) {
-  return type == ExchangeType::Int8 || type == ExchangeType::Int16 || type == ExchangeType::Int32 ||
-         type == ExchangeType::Int64;
+bool isSigned(nc::ExchangeType type) {
+  return type == nc::ExchangeType::Int8 || type == nc::ExchangeType::Int16 || type == nc::ExchangeType::Int32 ||
+         type == nc::ExchangeType::Int64;
 }
 
-uint64_t extended(uint64_t bits, ExchangeType type) {
+uint64_t extended(uint64_t bits, nc::ExchangeType type) {
   const uint32_t width = widthOf(type);
   if (width == 64) return bits;
   const uint64_t value = bits & ((uint64_t{1} << width) - 1);
@@ -33,14 +33,15 @@ uint64_t extended(uint64_t bits, ExchangeType type) {
   return isSigned(type) ? (value ^ sign) - sign : value;
 }
 
-double realOf(uint64_t bits, ExchangeType type) {
-  if (type == ExchangeType::Real) return std::bit_cast<double>(bits);
+double realOf(uint64_t bits, nc::ExchangeType type) {
+  if (type == nc::ExchangeType::Real) return std::bit_cast<double>(bits);
   const uint64_t value = extended(bits, type);
-  return type == ExchangeType::Uns64 ? static_cast<double>(value) : static_cast<double>(static_cast<int64_t>(value));
+  return type == nc::ExchangeType::Uns64 ? static_cast<double>(value)
+                                         : static_cast<double>(static_cast<int64_t>(value));
 }
 
 // To the nearest integer, to the even one of two; held in the type's range. No number is 0.
-uint64_t integerOf(double value, ExchangeType type) {
+uint64_t integerOf(double value, nc::ExchangeType type) {
   const int bits = static_cast<int>(widthOf(type)) - (isSigned(type) ? 1 : 0);
   const double end = std::ldexp(1.0, bits), rounded = std::nearbyint(value);
   if (std::isnan(value)) return 0;
@@ -55,22 +56,22 @@ double through(const Stage& stage, double x) {
 }
 
 uint64_t converted(const Wire& wire, uint64_t bits) {
-  const ExchangeType from = wire.from.type, to = wire.to.type;
-  if (from == ExchangeType::Bit && wire.invert) bits ^= 1;
-  const bool numeric = wire.stageCount > 0 || from == ExchangeType::Real || to == ExchangeType::Real;
+  const nc::ExchangeType from = wire.from.type, to = wire.to.type;
+  if (from == nc::ExchangeType::Bit && wire.invert) bits ^= 1;
+  const bool numeric = wire.stageCount > 0 || from == nc::ExchangeType::Real || to == nc::ExchangeType::Real;
   if (!numeric) {
-    if (to != ExchangeType::Bit) return extended(bits, from);
-    return (extended(bits, from) != 0) != (wire.invert && from != ExchangeType::Bit) ? 1 : 0;
+    if (to != nc::ExchangeType::Bit) return extended(bits, from);
+    return (extended(bits, from) != 0) != (wire.invert && from != nc::ExchangeType::Bit) ? 1 : 0;
   }
   double value = realOf(bits, from);
   for (uint8_t i = 0; i < wire.stageCount; ++i) value = through(wire.stages[i], value);
-  if (to == ExchangeType::Bit) return (value != 0) != (wire.invert && from != ExchangeType::Bit) ? 1 : 0;
-  return to == ExchangeType::Real ? std::bit_cast<uint64_t>(value) : integerOf(value, to);
+  if (to == nc::ExchangeType::Bit) return (value != 0) != (wire.invert && from != nc::ExchangeType::Bit) ? 1 : 0;
+  return to == nc::ExchangeType::Real ? std::bit_cast<uint64_t>(value) : integerOf(value, to);
 }
 
 } // namespace
 
-Pin pinAt(const rung_program& program, const host::Ref& place, ExchangeType type) {
+Pin pinAt(const rung_program& program, const host::Ref& place, nc::ExchangeType type) {
   const rt::Memory memory(program, nullptr);
   Pin pin{.type = type, .place = place};
   if (place.kind == host::RefKind::Text) {
@@ -124,7 +125,7 @@ void WireMemory::write(const Pin& pin, uint64_t bits) const {
 // As far as the target holds it; the last byte of a text is its terminator.
 void WireMemory::copyText(const Wire& wire) const {
   const host::Ref &from = wire.from.place, &to = wire.to.place;
-  const bool terminated = wire.to.type == ExchangeType::Text;
+  const bool terminated = wire.to.type == nc::ExchangeType::Text;
   const uint32_t room = terminated ? to.count - 1 : to.count;
   for (uint32_t i = 0; i < to.count; ++i) {
     const uint8_t byte = i < room && i < from.count ? memory_.readByte(from.space, from.byte + i) : 0;
@@ -141,4 +142,4 @@ void WireMemory::copy(const Wire& wire) const {
   write(wire.to, value);
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

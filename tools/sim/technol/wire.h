@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "rtlib/host/instance.h"
-#include "tools/sim/technol/module_cells.h"
 #include "rtlib/nc/technol/exchange.h"
+#include "tools/sim/technol/module_cells.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 
 // A place that a connection begins or ends at: a bit, a number or a text.
 struct Pin {
@@ -20,12 +20,12 @@ struct Pin {
     CellBit,   // bit `mask` of a module's cell
   };
   Kind kind = Kind::Bit;
-  ExchangeType type = ExchangeType::Bit;
+  nc::ExchangeType type = nc::ExchangeType::Bit;
   uint8_t mask = 0;
   uint32_t offset = 0; // in the block; or the number of a cell
   host::Ref place;
 };
-Pin pinAt(const rung_program& program, const host::Ref& place, ExchangeType type);
+Pin pinAt(const rung_program& program, const host::Ref& place, nc::ExchangeType type);
 
 // (min(max(x, least), most) + before) * scale + after, then held between low and high.
 struct Stage {
@@ -43,7 +43,7 @@ struct Wire {
   bool joins = false; // ORed to what another wire has put there
   uint8_t stageCount = 0;
   Stage stages[kStages];
-  ExchangePeriod period = ExchangePeriod::Slow;
+  nc::ExchangePeriod period = nc::ExchangePeriod::Slow;
   uint64_t target = kNoTarget; // the element of a DEF_IN that it ends in
   bool whole = true;           // and not in a bit of it
 
@@ -67,4 +67,4 @@ private:
   ModuleCells* cells_;
 };
 
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -14,13 +14,13 @@
 
 #include "rtlib/nc/control/technol/messages.h"
 
-namespace rung::nc::technol {
+namespace rung::control_files {
 
 // Where something is written, for messages about it: "FILE:LINE:COLUMN".
 using FilePlace = std::string;
 
 // <PlcError No="4" Type="Err" Validity="Transient"><Text>... %d</Text></PlcError>
-struct PlacedMessage : MessageDefinition {
+struct PlacedMessage : nc::technol::MessageDefinition {
   FilePlace place;
 };
 
@@ -84,4 +84,4 @@ std::string readControlFile(ControlFileKind kind, const std::string& path, Contr
 // The same of a text; `name` is the file's in messages.
 std::string parseControlFile(ControlFileKind kind, std::string_view name, std::string_view text, ControlFiles& files);
 
-} // namespace rung::nc::technol
+} // namespace rung::control_files

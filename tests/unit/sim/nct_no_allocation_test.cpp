@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/count_allocations.h"
-#include "tests/unit/nc/nct_machine.h"
+#include "tests/unit/sim/nct_machine.h"
 
 namespace {
 
-using namespace rung::nc;
+using namespace rung::sim;
 using test::NctMachine;
 
 TEST(NctNoAllocation, CounterCounts) {

@@ -2,12 +2,12 @@
 // time, partners outside of the model.
 #include <gtest/gtest.h>
 
+#include "tests/unit/sim/nct_machine.h"
 #include "tools/sim/nct/socket.h"
-#include "tests/unit/nc/nct_machine.h"
 
 namespace {
 
-using namespace rung::nc;
+using namespace rung::sim;
 using nct::Socket;
 using test::NctMachine;
 
@@ -183,7 +183,7 @@ TEST(NctNetwork, ClosedByARestart) {
   NctMachine machine;
   ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 1, kOutside, 49202}), 0);
   ASSERT_EQ(machine.ask(false, 62, {3, 1, 6000, 1}), 65);
-  machine.nc().powerOn(machine.instance(), PowerOn::Warm);
+  machine.nc().powerOn(machine.instance(), rung::nc::PowerOn::Warm);
   EXPECT_EQ(machine.ask(false, 62, {3, 1, 6000, 1}), 63);
 }
 

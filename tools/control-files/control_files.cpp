@@ -1,5 +1,5 @@
 // The control's XML files (see control_files.h).
-#include "tools/sim/technol/control_files.h"
+#include "tools/control-files/control_files.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -18,7 +18,7 @@
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 
-namespace rung::nc::technol {
+namespace rung::control_files {
 namespace {
 
 constexpr size_t kMostBytes = size_t{1} << 28;
@@ -58,7 +58,7 @@ std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "
 
 // Line breaks with the blanks around them become one blank.
 std::string inOneLine(std::string_view text) {
-  text = trimmed(text);
+  text = nc::technol::trimmed(text);
   std::string line;
   for (size_t i = 0; i < text.size();) {
     const size_t end = std::min(text.find_first_not_of(" \t\r\n", i), text.size());
@@ -140,11 +140,11 @@ public:
 
   std::string required(std::string_view name) {
     const auto value = find(name);
-    if (!value || trimmed(*value).empty()) {
+    if (!value || nc::technol::trimmed(*value).empty()) {
       reader_.complain("<" + reader_.open_.back().name + "> lacks the attribute " + std::string(name));
       return {};
     }
-    return std::string(trimmed(*value));
+    return std::string(nc::technol::trimmed(*value));
   }
   void flag(std::string_view name, bool& value) {
     uint32_t number = value ? 1 : 0;
@@ -154,7 +154,7 @@ public:
   void number(std::string_view name, uint32_t most, uint32_t& value) {
     const auto text = find(name);
     if (!text) return;
-    const auto number = integerOf(*text);
+    const auto number = nc::technol::integerOf(*text);
     if (!number || *number < 0 || *number > most) return wrong(name, *text, "0 to " + std::to_string(most));
     value = static_cast<uint32_t>(*number);
   }
@@ -166,7 +166,7 @@ public:
   void real(std::string_view name, std::optional<double>& value) {
     const auto text = find(name);
     if (!text) return;
-    value = realOf(*text);
+    value = nc::technol::realOf(*text);
     if (!value) wrong(name, *text, "a number");
   }
   // One of the names, which number the values of E.
@@ -197,7 +197,7 @@ private:
   std::optional<std::string_view> find(std::string_view name) {
     asked_.push_back(name);
     for (Given& given : given_) {
-      if (given.taken || !equalIgnoringCase(given.name, name)) continue;
+      if (given.taken || !nc::technol::equalIgnoringCase(given.name, name)) continue;
       given.taken = true;
       return given.value;
     }
@@ -215,14 +215,14 @@ private:
 int knowEncoding(void*, const XML_Char* name, XML_Encoding* encoding) {
   struct Named {
     std::string_view name;
-    CodePage page;
+    nc::CodePage page;
   };
-  constexpr Named kNames[] = {{"windows-1250", CodePage::Windows1250},
-                              {"cp1250", CodePage::Windows1250},
-                              {"cp852", CodePage::Cp852},
-                              {"ibm852", CodePage::Cp852}};
+  constexpr Named kNames[] = {{"windows-1250", nc::CodePage::Windows1250},
+                              {"cp1250", nc::CodePage::Windows1250},
+                              {"cp852", nc::CodePage::Cp852},
+                              {"ibm852", nc::CodePage::Cp852}};
   for (const Named& known : kNames) {
-    if (!equalIgnoringCase(known.name, name)) continue;
+    if (!nc::technol::equalIgnoringCase(known.name, name)) continue;
     for (int byte = 0; byte < 256; ++byte)
       encoding->map[byte] = static_cast<int>(unicodeOf(known.page, static_cast<uint8_t>(byte)));
     encoding->data = nullptr;
@@ -350,7 +350,7 @@ Element Reader::elementOf(std::string_view name) {
 void Reader::checkText() {
   const bool foreign =
       open_.empty() || open_.back().element == Element::Foreign || open_.back().element == Element::Plc;
-  const std::string_view text = trimmed(text_);
+  const std::string_view text = nc::technol::trimmed(text_);
   if (!foreign && !text.empty())
     complain("<" + open_.back().name + "> holds the text " + inQuotes(inOneLine(text.substr(0, 40))) +
              ", expected elements or nothing");
@@ -403,7 +403,7 @@ void Reader::beginMessage(const char** list) {
   message.place = place();
   hasText_ = false;
   const std::string number = attributes.required("No");
-  const auto value = integerOf(number);
+  const auto value = nc::technol::integerOf(number);
   if (!number.empty() && (!value || *value < 0 || *value > kMostNumber))
     attributes.wrong("No", number, "0 to " + std::to_string(kMostNumber));
   else if (value && isNew("message", std::to_string(*value), message.place))
@@ -441,13 +441,13 @@ void Reader::beginParameter(const char** list) {
 
 void Reader::endParameter() {
   ParameterDefinition& parameter = found_.parameters.back();
-  parameter.value = trimmed(text_);
+  parameter.value = nc::technol::trimmed(text_);
   const auto wrong = [&](std::string_view expected) {
     complainAt(parameter.place, "parameter " + parameter.id + " is " + inQuotes(parameter.value) + ", expected " +
                                     std::string(expected));
   };
-  if (parameter.type == ParameterType::Int && !integerOf(parameter.value)) wrong("an integer");
-  if (parameter.type == ParameterType::Real && !realOf(parameter.value)) wrong("a number");
+  if (parameter.type == ParameterType::Int && !nc::technol::integerOf(parameter.value)) wrong("an integer");
+  if (parameter.type == ParameterType::Real && !nc::technol::realOf(parameter.value)) wrong("a number");
 }
 
 void Reader::beginTerminal(std::string_view name, const char** list) {
@@ -509,4 +509,4 @@ std::string readControlFile(ControlFileKind kind, const std::string& path, Contr
   return parseControlFile(kind, path, text.view(), files);
 }
 
-} // namespace rung::nc::technol
+} // namespace rung::control_files

@@ -2,14 +2,14 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "tools/sim/nc_model.h"
 #include "tests/unit/rtlib/test_program.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc::test {
+namespace rung::sim::test {
 
 class GskMachine {
 public:
-  explicit GskMachine(std::vector<std::pair<std::string, std::string>> config) : model_(makeGskModel()) {
+  explicit GskMachine(std::vector<std::pair<std::string, std::string>> config) : model_(makeSimulatedGsk()) {
     program_.dialect = "gsk";
     program_.memorySize = 1024;
     program_.services = {"windr function length number attribute -> end data",
@@ -23,7 +23,7 @@ public:
     program_.fast = program_.scan;
     for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "");
     instance_ = std::make_unique<host::Instance>(program_.link(), model_.get());
-    model_->powerOn(*instance_, PowerOn::Cold);
+    model_->powerOn(*instance_, nc::PowerOn::Cold);
   }
 
   void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), ""); }
@@ -31,7 +31,7 @@ public:
   void slot(int count = 1) {
     for (int i = 0; i < count; ++i) model_->slot(*instance_);
   }
-  NcModel& nc() { return *model_; }
+  SimulatedNc& nc() { return *model_; }
   host::Instance& instance() { return *instance_; }
 
 private:
@@ -42,8 +42,8 @@ private:
   }
 
   rung::test::TestProgram program_;
-  std::unique_ptr<NcModel> model_;
+  std::unique_ptr<SimulatedNc> model_;
   std::unique_ptr<host::Instance> instance_;
 };
 
-} // namespace rung::nc::test
+} // namespace rung::sim::test

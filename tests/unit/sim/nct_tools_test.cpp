@@ -6,11 +6,11 @@
 #include <random>
 #include <set>
 
-#include "tools/sim/nct/tool_management.h"
 #include "rtlib/nc/nct/service_functions.h"
-#include "tests/unit/nc/nct_block.h"
+#include "tests/unit/sim/nct_block.h"
+#include "tools/sim/nct/tool_management.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 using test::TestBlock;
@@ -20,16 +20,16 @@ constexpr int32_t kPlain = 0x11; // V C N E S
 class Tools : public testing::Test {
 protected:
   Tools() {
-    control_.parameters = &parameters_;
-    parameters_.powerOn(PowerOn::Cold);
-    tools_.powerOn(PowerOn::Cold);
+    links_.parameters = &parameters_;
+    parameters_.powerOn(nc::PowerOn::Cold);
+    tools_.powerOn(nc::PowerOn::Cold);
   }
 
   int32_t ask(uint32_t function, TestBlock& request) {
     Block block = request.block();
     const std::optional<int32_t> code = tools_.service(function, block);
     EXPECT_TRUE(code.has_value());
-    EXPECT_TRUE(code && findServiceFunction(function)->hasCode(static_cast<uint32_t>(*code)))
+    EXPECT_TRUE(code && nc::nct::findServiceFunction(function)->hasCode(static_cast<uint32_t>(*code)))
         << "function " << function << " has no code " << *code;
     return code.value_or(-1);
   }
@@ -50,9 +50,9 @@ protected:
   }
   double value(std::string_view name) { return tools_.quantity(name).value_or(-1); }
 
-  Control control_;
-  Parameters parameters_{control_};
-  ToolManagement tools_{control_};
+  Links links_;
+  Parameters parameters_{links_};
+  ToolManagement tools_{links_};
 };
 
 TEST_F(Tools, ExchangeMovesDataNumbers) {
@@ -131,7 +131,7 @@ TEST_F(Tools, EmptyPotRefuses) {
   EXPECT_EQ(ask(101, spindle), 104);
   EXPECT_EQ(spindle[7], 0);
   config("cartridge.1", "2");
-  tools_.powerOn(PowerOn::Cold);
+  tools_.powerOn(nc::PowerOn::Cold);
   tool(1, 1);
   tool(2, 1);
   put(1, 1, 1);
@@ -142,7 +142,7 @@ TEST_F(Tools, EmptyPotRefuses) {
 // l.4556-4578: figure 5 takes 4 half pots to the left and 1 to the right.
 TEST_F(Tools, LargeToolsInAChain) {
   config("cartridge.1", "12@5"); // pots 5 to 16
-  tools_.powerOn(PowerOn::Cold);
+  tools_.powerOn(nc::PowerOn::Cold);
   set("PATTERN.5.LEFT", 4);
   set("PATTERN.5.RIGHT", 1);
   tool(1, 10, 0, 0, 0, kPlain | kInfoLarge);
@@ -198,7 +198,7 @@ TEST_F(Tools, ALargeToolMovesWithinItsCartridge) {
 // l.4600-4611: figure 1 is a rectangle, figure 2 a circle whose corners stay empty.
 TEST_F(Tools, LargeToolsInAMatrix) {
   config("cartridge.3", "5x6");
-  tools_.powerOn(PowerOn::Cold);
+  tools_.powerOn(nc::PowerOn::Cold);
   for (const char* side : {"LEFT", "RIGHT", "UP", "DOWN"}) set(std::string("PATTERN.2.") + side, 3);
   tool(1, 10, 0, 0, 0, kPlain | kInfoLarge);
   set("TOOL.1.FIGURE", 2);
@@ -259,7 +259,7 @@ TEST_F(Tools, AnInvalidRowIsFreeEvenInAPot) {
 
 TEST_F(Tools, TheTableFillsUp) {
   config("tool.rows", "2");
-  tools_.powerOn(PowerOn::Cold);
+  tools_.powerOn(nc::PowerOn::Cold);
   EXPECT_EQ(ask(102, {3, 1, 1, 1}), 0);
   EXPECT_EQ(ask(102, {3, 1, 2, 1}), 0);
   EXPECT_EQ(ask(102, {3, 1, 3, 1}), 138);
@@ -273,7 +273,7 @@ TEST_F(Tools, AmountsAreWholeColumns) {
   for (uint32_t function : {102u, 103u, 104u})
     for (int32_t amount = -1; amount <= 60; ++amount) {
       TestBlock request{amount, 1, 1, 5, kPlain};
-      const bool allowed = findServiceFunction(function)->allowsAmount(amount);
+      const bool allowed = nc::nct::findServiceFunction(function)->allowsAmount(amount);
       EXPECT_EQ(ask(function, request), allowed ? 0 : 2) << function << " " << amount;
     }
   config("tool.userdata", "2");
@@ -606,7 +606,7 @@ protected:
     config("tool.rows", "12");
     config("cartridge.1", "7@3");
     config("cartridge.2", "3x4");
-    tools_.powerOn(PowerOn::Cold);
+    tools_.powerOn(nc::PowerOn::Cold);
     for (uint32_t figure = 1; figure <= 20; ++figure)
       for (const char* side : {"LEFT", "RIGHT", "UP", "DOWN"})
         set("PATTERN." + std::to_string(figure) + "." + side, number(0, 3));
@@ -685,7 +685,7 @@ TEST_P(RandomTools, TablesStayConsistent) {
     const size_t validBefore = valid();
     const int32_t code = ask(function, block);
     checkTables();
-    if (code != 0 || findServiceFunction(function)->access == FunctionAccess::Read) {
+    if (code != 0 || nc::nct::findServiceFunction(function)->access == nc::nct::FunctionAccess::Read) {
       EXPECT_EQ(pots(), potsBefore) << function;
       EXPECT_EQ(rows(), rowsBefore) << function;
     }
@@ -712,4 +712,4 @@ TEST_P(RandomTools, TablesStayConsistent) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomTools, testing::Range(1U, 9U));
 
 } // namespace
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -9,7 +9,7 @@
 #include "tools/sim/nct/spindles.h"
 #include "tools/sim/nct/tool_management.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 ChannelProgram read(std::string_view text) {
@@ -95,8 +95,8 @@ TEST(ChannelProgram, AnyText) {
 class ChannelsTest : public testing::Test {
 protected:
   ChannelsTest() {
-    parameters_.powerOn(PowerOn::Cold);
-    channels_.powerOn(PowerOn::Cold);
+    parameters_.powerOn(nc::PowerOn::Cold);
+    channels_.powerOn(nc::PowerOn::Cold);
   }
   static NcArgument number(std::string key, int64_t value) { return {.key = std::move(key), .integer = value}; }
   static NcArgument text(std::string key, std::string value) {
@@ -106,8 +106,8 @@ protected:
     return channels_.event("program", keys).value_or("not an event");
   }
 
-  Control links() {
-    Control control;
+  Links links() {
+    Links control;
     control.parameters = &parameters_;
     control.spindles = &spindles_;
     control.axes = &axes_;
@@ -116,13 +116,13 @@ protected:
     return control;
   }
 
-  Control control_ = links(); // topics look at each other when they are made
-  Parameters parameters_{control_};
-  Spindles spindles_{control_};
-  Axes axes_{control_};
-  Macros macros_{control_};
-  ToolManagement tools_{control_};
-  Channels channels_{control_};
+  Links links_ = links(); // topics look at each other when they are made
+  Parameters parameters_{links_};
+  Spindles spindles_{links_};
+  Axes axes_{links_};
+  Macros macros_{links_};
+  ToolManagement tools_{links_};
+  Channels channels_{links_};
 };
 
 TEST_F(ChannelsTest, LoadsAndSelects) {
@@ -138,9 +138,9 @@ TEST_F(ChannelsTest, LoadsAndSelects) {
   EXPECT_EQ(load({number("number", 1), number("channel", 9), text("blocks", "M3")}), "channels are 1 to 8");
   EXPECT_EQ(load({number("number", 1), text("block", "M3")}), "event program does not know 'block'");
   EXPECT_EQ(load({number("number", 1), text("blocks", "M")}), "block 1: a number is missing after M");
-  channels_.powerOn(PowerOn::Warm);
+  channels_.powerOn(nc::PowerOn::Warm);
   EXPECT_TRUE(channels_.hasProgram(100));
-  channels_.powerOn(PowerOn::Cold);
+  channels_.powerOn(nc::PowerOn::Cold);
   EXPECT_FALSE(channels_.hasProgram(100));
 }
 
@@ -176,4 +176,4 @@ TEST_F(ChannelsTest, CountsParts) {
 }
 
 } // namespace
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,33 +6,30 @@
 #include "rtlib/nc/config_key.h"
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/nct/signals.h"
-#include "tools/sim/nc_model.h"
 #include "tools/sim/nct/simulator.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc {
+namespace rung::sim {
 namespace {
 
-using nct::BitSignal;
-using nct::SignalMemory;
-
-class NctModel final : public NcModel {
+class SimulatedNct final : public SimulatedNc {
 public:
   std::string config(std::string_view key, std::string_view value) override;
 
-  Control& control() override { return control_; }
+  nc::Control& control() override { return control_; }
 
-  void powerOn(host::Instance& instance, PowerOn kind) override {
+  void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     log_.clear();
     if (nvramLost_) control_.reportRetainedLost();
     control_.prepare(instance, kind);
-    if (kind == PowerOn::Warm && byEthercat_) loseRetained(instance);
-    ts_ = SignalMemory(instance);
+    if (kind == nc::PowerOn::Warm && byEthercat_) loseRetained(instance);
+    ts_ = nc::nct::SignalMemory(instance);
     ts_.set(onSimulator_, true);
     ts_.set(nvramByEthercat_, byEthercat_);
     if (ran_) ownAcknowledge_ = 0; // written before the first power-on, it holds
     ran_ = false;
     requested_ = 0;
-    if (simulated_) simulator_.powerOn(instance, std::exchange(keptRestored_, false) ? PowerOn::Warm : kind);
+    if (simulated_) simulator_.powerOn(instance, std::exchange(keptRestored_, false) ? nc::PowerOn::Warm : kind);
     control_.start(instance);
   }
 
@@ -56,7 +53,7 @@ public:
   void onHook(host::Instance& instance, uint32_t work) override {
     takeMessages(instance);
     control_.onHook(instance, work);
-    const bool first = control_.slice() == nct::Messages::Slice::First;
+    const bool first = control_.slice() == nc::nct::Messages::Slice::First;
     ran_ = ran_ || first;
     if (simulated_)
       simulator_.timeSlice(instance, first);
@@ -65,19 +62,19 @@ public:
   }
 
   void scan(host::Instance& instance) override {
-    NcModel::scan(instance);
+    SimulatedNc::scan(instance);
     answer(instance);
   }
   void slot(host::Instance& instance) override {
-    NcModel::slot(instance);
+    SimulatedNc::slot(instance);
     answer(instance);
   }
   void fast(host::Instance& instance) override {
-    NcModel::fast(instance);
+    SimulatedNc::fast(instance);
     answer(instance);
   }
   void betweenSlices(host::Instance& instance) override {
-    NcModel::betweenSlices(instance);
+    SimulatedNc::betweenSlices(instance);
     simulator_.setRealTime();
     answer(instance);
   }
@@ -88,18 +85,18 @@ public:
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
     if (name == "cancel") return cancel(keys);
-    if (!simulated_) return NcModel::event(instance, name, keys) + "; most events need 'config nc simulated'";
+    if (!simulated_) return SimulatedNc::event(instance, name, keys) + "; most events need 'config nc simulated'";
     if (nct::Handled handled = simulator_.event(name, keys)) return *handled;
-    return NcModel::event(instance, name, keys);
+    return SimulatedNc::event(instance, name, keys);
   }
 
   std::string setQuantity(std::string_view name, double value) override {
-    if (!simulated_) return NcModel::setQuantity(name, value);
+    if (!simulated_) return SimulatedNc::setQuantity(name, value);
     if (nct::Handled handled = simulator_.setQuantity(name, value)) return *handled;
     return "the simulated NC has no quantity 'NC." + std::string(name) + "' to be set";
   }
   std::optional<double> quantity(std::string_view name) const override {
-    return simulated_ ? simulator_.quantity(name) : NcModel::quantity(name);
+    return simulated_ ? simulator_.quantity(name) : SimulatedNc::quantity(name);
   }
 
   std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override {
@@ -129,10 +126,10 @@ private:
   std::string cancel(const std::vector<NcArgument>& keys) {
     if (std::string wrong = nct::unknownKey("cancel", keys, {"number", "channel", "index", "all"}); !wrong.empty())
       return wrong;
-    nct::Messages& list = control_.list();
+    nc::nct::Messages& list = control_.list();
     const auto key = [&](std::string_view name) { return static_cast<uint32_t>(nct::integerKey(keys, name, 0)); };
     if (nct::findKey(keys, "number") != nullptr)
-      return list.cancel(nct::messageCode(key("number"), key("channel"), key("index")))
+      return list.cancel(nc::nct::messageCode(key("number"), key("channel"), key("index")))
                  ? ""
                  : "event cancel: this message is not displayed";
     if (key("all") != 0)
@@ -144,7 +141,7 @@ private:
 
   // Whoever writes AN_PLCA of an axis acknowledges it from then on.
   void noteWritten(const host::Ref& place) const {
-    const Signal& acknowledge = *findSignal(nctSignals(), "AN_PLCA");
+    const nc::Signal& acknowledge = *findSignal(nc::nctSignals(), "AN_PLCA");
     const uint32_t first = acknowledge.byteOffset + acknowledge.bit / 8;
     if (place.kind != host::RefKind::Bit || place.bit != acknowledge.bit % 8 || place.byte < first) return;
     const uint32_t axis = (place.byte - first) / acknowledge.strideBytes;
@@ -160,21 +157,21 @@ private:
   bool byEthercat_ = false;
   bool nvramLost_ = false;
   bool keptRestored_ = false;
-  BitSignal onSimulator_{"N_SIMU"};
-  BitSignal nvramByEthercat_{"N_NVECAT"};
-  BitSignal plcAxisRequest_{"AP_PLCR"};
-  BitSignal plcAxis_{"AN_PLCA"};
-  SignalMemory ts_;
-  NctControl control_;
+  nc::nct::BitSignal onSimulator_{"N_SIMU"};
+  nc::nct::BitSignal nvramByEthercat_{"N_NVECAT"};
+  nc::nct::BitSignal plcAxisRequest_{"AP_PLCR"};
+  nc::nct::BitSignal plcAxis_{"AN_PLCA"};
+  nc::nct::SignalMemory ts_;
+  nc::NctControl control_;
   nct::Simulator simulator_;
   bool ran_ = false;                    // a cycle, since the power-on
   mutable uint32_t ownAcknowledge_ = 0; // axes whose AN_PLCA the scenario writes
   uint32_t requested_ = 0;              // AP_PLCR of the cycle before, a bit an axis
 };
 
-std::string NctModel::config(std::string_view key, std::string_view value) {
-  const ConfigKey* row = findConfigKey(nctConfigKeys(), key);
-  if (row == nullptr || row->reader != ConfigReader::Control) return NcModel::config(key, value);
+std::string SimulatedNct::config(std::string_view key, std::string_view value) {
+  const nc::ConfigKey* row = findConfigKey(nc::nctConfigKeys(), key);
+  if (row == nullptr || row->reader != nc::ConfigReader::Control) return SimulatedNc::config(key, value);
   if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
   if (key == "nc") simulated_ = value == "simulated";
   if (key == "nvecat") byEthercat_ = value == "on";
@@ -185,6 +182,6 @@ std::string NctModel::config(std::string_view key, std::string_view value) {
 
 } // namespace
 
-std::unique_ptr<NcModel> makeNctModel() { return std::make_unique<NctModel>(); }
+std::unique_ptr<SimulatedNc> makeSimulatedNct() { return std::make_unique<SimulatedNct>(); }
 
-} // namespace rung::nc
+} // namespace rung::sim

@@ -13,9 +13,9 @@
 #include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tools/sim/gsk/simulator.h"
-#include "tools/sim/nc_model.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc {
+namespace rung::sim {
 namespace {
 
 std::optional<double> number(std::string_view text) {
@@ -52,16 +52,16 @@ const NcArgument* find(const std::vector<NcArgument>& keys, std::string_view key
   return nullptr;
 }
 
-class GskModel final : public NcModel {
+class SimulatedGsk final : public SimulatedNc {
 public:
   std::string config(std::string_view key, std::string_view value) override;
 
-  Control& control() override { return control_; }
+  nc::Control& control() override { return control_; }
 
-  void powerOn(host::Instance& instance, PowerOn kind) override {
-    NcModel::powerOn(instance, kind);
+  void powerOn(host::Instance& instance, nc::PowerOn kind) override {
+    SimulatedNc::powerOn(instance, kind);
     if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
-    simulator_.powerOn(kind == PowerOn::Warm);
+    simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
   }
 
@@ -72,18 +72,18 @@ public:
   }
   void slot(host::Instance& instance) override {
     beforeSlot(instance);
-    NcModel::slot(instance);
+    SimulatedNc::slot(instance);
     takeRequests(instance);
   }
   void fast(host::Instance& instance) override {
     beforeSlot(instance);
-    NcModel::fast(instance);
+    SimulatedNc::fast(instance);
     takeRequests(instance);
   }
 
   // A slice is a slot.
   void betweenSlices(host::Instance& instance) override {
-    NcModel::betweenSlices(instance);
+    SimulatedNc::betweenSlices(instance);
     takeRequests(instance);
     beforeSlot(instance);
   }
@@ -93,11 +93,11 @@ public:
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     const auto window = windowRequest(instance, request);
     if (!window) return false;
-    const gsk::WindowFunction* function = gsk::findWindowFunction(window->function);
-    if (function == nullptr || function->speed != gsk::WindowSpeed::High) return false;
+    const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
+    if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
     reply = replyOf(request, window->write,
-                    simulated_ ? simulator_.answer(*window, gsk::SignalsIo(instance))
-                               : gsk::WindowAnswer{gsk::kWindowNotProvided, 0});
+                    simulated_ ? simulator_.answer(*window, nc::gsk::SignalsIo(instance))
+                               : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
     return true;
   }
 
@@ -108,10 +108,10 @@ public:
     const auto axis = numberBehind(name, "MPOS.");
     if (!axis || *axis < 1 || *axis > gsk::kAxes)
       return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
-    return NcModel::setQuantity(name, value);
+    return SimulatedNc::setQuantity(name, value);
   }
   std::optional<double> quantity(std::string_view name) const override {
-    return simulated_ ? simulator_.quantity(name) : NcModel::quantity(name);
+    return simulated_ ? simulator_.quantity(name) : SimulatedNc::quantity(name);
   }
 
 private:
@@ -122,7 +122,7 @@ private:
 
   void beforeSlot(host::Instance& instance) {
     if (simulated_ && !instance.faulted()) {
-      simulator_.step(gsk::SignalsIo(instance));
+      simulator_.step(nc::gsk::SignalsIo(instance));
       answerLowSpeed(instance);
     }
     writePositions(instance);
@@ -149,8 +149,8 @@ private:
       const rt::ServiceRequest& next = waiting_.front().request;
       const auto window = windowRequest(instance, next);
       instance.services().complete(
-          window ? replyOf(next, window->write, simulator_.answer(*window, gsk::SignalsIo(instance)))
-                 : refuse(instance.program(), next));
+          window ? replyOf(next, window->write, simulator_.answer(*window, nc::gsk::SignalsIo(instance)))
+                 : nc::refuse(instance.program(), next));
       waiting_.pop_front();
     }
   }
@@ -184,14 +184,14 @@ private:
   }
 
   bool simulated_ = false;
-  GskControl control_;
+  nc::GskControl control_;
   gsk::Simulator simulator_;
   std::deque<Waiting> waiting_; // low-speed window requests
 };
 
-std::string GskModel::config(std::string_view key, std::string_view value) {
-  const ConfigKey* row = findConfigKey(gskConfigKeys(), key);
-  if (row == nullptr || row->reader != ConfigReader::Control) return NcModel::config(key, value);
+std::string SimulatedGsk::config(std::string_view key, std::string_view value) {
+  const nc::ConfigKey* row = findConfigKey(nc::gskConfigKeys(), key);
+  if (row == nullptr || row->reader != nc::ConfigReader::Control) return SimulatedNc::config(key, value);
   if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
   if (key == "axes") return simulator_.setAxes(value);
   if (key == "nc") simulated_ = value == "simulated";
@@ -210,9 +210,9 @@ std::string GskModel::config(std::string_view key, std::string_view value) {
   return {};
 }
 
-std::string GskModel::event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) {
+std::string SimulatedGsk::event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) {
   const auto known = std::ranges::find(kEvents, name, &EventKeys::event);
-  if (known == std::end(kEvents)) return NcModel::event(instance, name, keys);
+  if (known == std::end(kEvents)) return SimulatedNc::event(instance, name, keys);
   if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
   for (const NcArgument& key : keys)
     if (std::ranges::find(known->keys, key.key) == known->keys.end())
@@ -242,6 +242,6 @@ std::string GskModel::event(host::Instance& instance, std::string_view name, con
 
 } // namespace
 
-std::unique_ptr<NcModel> makeGskModel() { return std::make_unique<GskModel>(); }
+std::unique_ptr<SimulatedNc> makeSimulatedGsk() { return std::make_unique<SimulatedGsk>(); }
 
-} // namespace rung::nc
+} // namespace rung::sim

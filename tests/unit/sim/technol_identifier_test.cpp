@@ -4,35 +4,35 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "tools/sim/technol/module_cells.h"
 
-namespace rung::nc::technol {
+namespace rung::sim::technol {
 namespace {
 
 TEST(TechnolIdentifier, ZeroIndicesAndCaseDoNotCount) {
-  EXPECT_EQ(canonical("BunIn1[02].Prvek"), "BUNIN1[2].PRVEK");
-  EXPECT_EQ(canonical("PrecitecEG8030[0].BodyTouch"), "PRECITECEG8030.BODYTOUCH");
-  EXPECT_EQ(canonical(" RTM.Axis[2].Pos0_AX"), "RTM.AXIS[2].POS0_AX");
-  EXPECT_EQ(canonical("CNC.PLC.Output.A[000]"), "PLC.OUTPUT.A");
-  EXPECT_EQ(canonical("ECAT.Inputs.Status word"), "ECAT.INPUTS.STATUS WORD");
-  EXPECT_EQ(canonical("a[x].b[]"), "A[X].B[]"); // no indices
-  EXPECT_EQ(canonical(""), "");
+  EXPECT_EQ(nc::technol::canonical("BunIn1[02].Prvek"), "BUNIN1[2].PRVEK");
+  EXPECT_EQ(nc::technol::canonical("PrecitecEG8030[0].BodyTouch"), "PRECITECEG8030.BODYTOUCH");
+  EXPECT_EQ(nc::technol::canonical(" RTM.Axis[2].Pos0_AX"), "RTM.AXIS[2].POS0_AX");
+  EXPECT_EQ(nc::technol::canonical("CNC.PLC.Output.A[000]"), "PLC.OUTPUT.A");
+  EXPECT_EQ(nc::technol::canonical("ECAT.Inputs.Status word"), "ECAT.INPUTS.STATUS WORD");
+  EXPECT_EQ(nc::technol::canonical("a[x].b[]"), "A[X].B[]"); // no indices
+  EXPECT_EQ(nc::technol::canonical(""), "");
 }
 
 TEST(TechnolIdentifier, AConnectionAddsElementAndBit) {
-  const Reference bit = withoutBit("A.B[3].BIT[7]");
+  const nc::technol::Reference bit = nc::technol::withoutBit("A.B[3].BIT[7]");
   EXPECT_EQ(bit.base, "A.B[3]");
   EXPECT_EQ(bit.bit, 7u);
-  const Reference both = withoutIndex(bit);
+  const nc::technol::Reference both = withoutIndex(bit);
   EXPECT_EQ(both.base, "A.B");
   EXPECT_EQ(both.element, 3u);
-  EXPECT_EQ(withoutBit("A.BIT").bit, 0u); // .Bit[0]
-  EXPECT_FALSE(withoutBit("A.BITS[1]").bit);
-  EXPECT_EQ(withoutIndex(withoutBit("A[2].B")).base, "A[2].B");
+  EXPECT_EQ(nc::technol::withoutBit("A.BIT").bit, 0u); // .Bit[0]
+  EXPECT_FALSE(nc::technol::withoutBit("A.BITS[1]").bit);
+  EXPECT_EQ(withoutIndex(nc::technol::withoutBit("A[2].B")).base, "A[2].B");
 }
 
 TEST(TechnolIdentifier, ElementsOfModules) {
   std::string problem;
   const auto key = [&](std::string_view name) {
-    const auto element = moduleElement(canonical(name), problem);
+    const auto element = moduleElement(nc::technol::canonical(name), problem);
     return element ? element->key : std::string();
   };
   EXPECT_EQ(key("RTM.Axis[2].Pos0_AX"), key("RTM.Axis.Pos0_Ax[2]")); // man. l.12753
@@ -64,4 +64,4 @@ TEST(TechnolIdentifier, CellsKeepTheirType) {
 }
 
 } // namespace
-} // namespace rung::nc::technol
+} // namespace rung::sim::technol

@@ -16,7 +16,7 @@
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/control/control.h"
 
-namespace rung::nc {
+namespace rung::sim {
 
 // The value of a cell that lies in the NC itself and not in the program's memory.
 struct NcCell {
@@ -41,7 +41,7 @@ struct NcArgument {
   std::string text;
 };
 
-class NcModel : public host::ScheduleHooks {
+class SimulatedNc : public host::ScheduleHooks {
 public:
   // Files named by `config` without a full path are in this folder; without one, in the working folder.
   void setFolder(std::string folder) { folder_ = std::move(folder); }
@@ -51,11 +51,11 @@ public:
   // After a power-on: the connections whose ends do not exist or do not fit. They are not served.
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
-  virtual Control& control() = 0;
-  const Control& control() const { return const_cast<NcModel*>(this)->control(); }
+  virtual nc::Control& control() = 0;
+  const nc::Control& control() const { return const_cast<SimulatedNc*>(this)->control(); }
 
   // Switches the control and the machine on.
-  virtual void powerOn(host::Instance& instance, PowerOn kind);
+  virtual void powerOn(host::Instance& instance, nc::PowerOn kind);
   // A regular power-off, with the scans that the program still needs.
   void powerOff(host::Instance& instance);
 
@@ -116,11 +116,11 @@ protected:
 };
 
 // By rung_program::dialect; a plain model for a dialect that has none of its own.
-std::unique_ptr<NcModel> makeNcModel(std::string_view dialect);
+std::unique_ptr<SimulatedNc> makeSimulatedNc(std::string_view dialect);
 
-std::unique_ptr<NcModel> makePlainModel(); // of a dialect without a control of its own
-std::unique_ptr<NcModel> makeGskModel();
-std::unique_ptr<NcModel> makeNctModel();
-std::unique_ptr<NcModel> makeTechnolModel();
+std::unique_ptr<SimulatedNc> makeSimulatedPlain(); // of a dialect without a control of its own
+std::unique_ptr<SimulatedNc> makeSimulatedGsk();
+std::unique_ptr<SimulatedNc> makeSimulatedNct();
+std::unique_ptr<SimulatedNc> makeSimulatedTechnol();
 
-} // namespace rung::nc
+} // namespace rung::sim

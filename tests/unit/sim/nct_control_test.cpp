@@ -9,14 +9,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tools/sim/retained_tables.h"
 #include "rtlib/nc/nct/parameters.h"
 #include "rtlib/nc/nct/scope_symbols.h"
-#include "tests/unit/nc/nct_machine.h"
+#include "tests/unit/sim/nct_machine.h"
+#include "tools/sim/retained_tables.h"
 
 namespace {
 
-using namespace rung::nc;
+using namespace rung::sim;
 using test::NctMachine;
 namespace fs = std::filesystem;
 
@@ -85,8 +85,8 @@ TEST(NctControl, UnknownFunctionsAndBlocksOutsideTheirSpace) {
 
 TEST(NctControl, EveryScopeSymbolHasAValue) {
   NctMachine machine;
-  for (int64_t i = 0; i < static_cast<int64_t>(nct::scopeSymbols().size()); ++i) {
-    const nct::ScopeSymbol& symbol = nct::scopeSymbols()[static_cast<size_t>(i)];
+  for (int64_t i = 0; i < static_cast<int64_t>(rung::nc::nct::scopeSymbols().size()); ++i) {
+    const rung::nc::nct::ScopeSymbol& symbol = rung::nc::nct::scopeSymbols()[static_cast<size_t>(i)];
     const int64_t least[] = {i, symbol.param1.min, symbol.param2.min};
     const uint32_t ticket = machine.instance().services().request(5, least, 3);
     EXPECT_EQ(machine.instance().services().poll(ticket), uint32_t{RUNG_SERVICE_DONE}) << symbol.name;
@@ -99,10 +99,11 @@ TEST(NctControl, EveryScopeSymbolHasAValue) {
 
 TEST(NctControl, EveryParameterIsReadAndWritten) {
   NctMachine machine;
-  for (const nct::ParameterRow& row : nct::parameterRows())
+  for (const rung::nc::nct::ParameterRow& row : rung::nc::nct::parameterRows())
     for (int32_t number = row.number; number < row.number + row.numbers; ++number) {
-      const bool real = row.format == nct::ParameterFormat::Double;
-      const int32_t index = row.index == nct::ParameterIndex::Global ? 0 : static_cast<int32_t>(valuesOf(row.index));
+      const bool real = row.format == rung::nc::nct::ParameterFormat::Double;
+      const int32_t index =
+          row.index == rung::nc::nct::ParameterIndex::Global ? 0 : static_cast<int32_t>(valuesOf(row.index));
       EXPECT_EQ(machine.ask(true, real ? 35 : 34, {real ? 4 : 3, number, index, 0x40, 0x40}), 0) << number;
       EXPECT_EQ(machine.ask(false, real ? 32 : 31, {real ? 4 : 3, number, index}), 0) << number;
       EXPECT_EQ(machine.blockWord(4), 0x40) << number;
@@ -113,7 +114,7 @@ TEST(NctControl, EveryParameterIsReadAndWritten) {
 // ---- configuration -----------------------------------------------------------------------------------------------
 
 TEST(NctControl, WrongConfigurationIsToldAsSuch) {
-  const std::unique_ptr<NcModel> model = makeNctModel();
+  const std::unique_ptr<SimulatedNc> model = makeSimulatedNct();
   for (const auto& [key, value] : std::vector<std::pair<const char*, const char*>>{{"nc", "real"},
                                                                                    {"nvecat", "yes"},
                                                                                    {"nvram", "bad"},
@@ -196,7 +197,7 @@ protected:
     report_.clear();
     EXPECT_EQ(tables.load(report_, error), found) << report_;
     EXPECT_EQ(error, "");
-    machine.nc().powerOn(machine.instance(), PowerOn::Cold); // of the program: its own memory was not kept
+    machine.nc().powerOn(machine.instance(), rung::nc::PowerOn::Cold); // of the program: its own memory was not kept
     work(machine);
     EXPECT_EQ(tables.finish(), "");
   }
@@ -272,7 +273,7 @@ TEST_F(NctKept, KilledWhileWriting) {
       std::string report;
       std::string error;
       tables.load(report, error);
-      machine.nc().powerOn(machine.instance(), PowerOn::Cold);
+      machine.nc().powerOn(machine.instance(), rung::nc::PowerOn::Cold);
       static_cast<void>(write(ready[1], "r", 1) == 1);
       for (int i = static_cast<int>(machine.nc().quantity("NVRAM.0").value_or(0)) + 1;; ++i) {
         mark(machine, i);
@@ -299,7 +300,7 @@ TEST_F(NctKept, KilledWhileWriting) {
 }
 
 TEST(NctControlScripted, KeepsNoTables) {
-  const std::unique_ptr<NcModel> model = makeNctModel();
+  const std::unique_ptr<SimulatedNc> model = makeSimulatedNct();
   EXPECT_EQ(model->keptSize(), 0u);
 }
 

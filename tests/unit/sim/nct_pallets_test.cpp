@@ -4,12 +4,12 @@
 #include <map>
 #include <random>
 
+#include "rtlib/nc/nct/service_functions.h"
+#include "tests/unit/sim/nct_block.h"
 #include "tools/sim/nct/channels.h"
 #include "tools/sim/nct/pallet_management.h"
-#include "rtlib/nc/nct/service_functions.h"
-#include "tests/unit/nc/nct_block.h"
 
-namespace rung::nc::nct {
+namespace rung::sim::nct {
 namespace {
 
 using test::TestBlock;
@@ -17,12 +17,12 @@ using test::TestBlock;
 class Pallets : public testing::Test {
 protected:
   Pallets() {
-    control_.parameters = &parameters_;
-    control_.channels = &channels_;
+    links_.parameters = &parameters_;
+    links_.channels = &channels_;
     parameter(3300, 3);
     parameter(3301, 5);
     parameter(3302, 4);
-    pallets_.powerOn(PowerOn::Cold);
+    pallets_.powerOn(nc::PowerOn::Cold);
   }
   void parameter(uint32_t number, double value) {
     EXPECT_EQ(parameters_.setQuantity("PARAM." + std::to_string(number), value), "");
@@ -30,7 +30,7 @@ protected:
   int32_t ask(uint32_t function, TestBlock& request) {
     Block block = request.block();
     const std::optional<int32_t> code = pallets_.service(function, block);
-    EXPECT_TRUE(code && findServiceFunction(function)->hasCode(static_cast<uint32_t>(*code)))
+    EXPECT_TRUE(code && nc::nct::findServiceFunction(function)->hasCode(static_cast<uint32_t>(*code)))
         << "function " << function << " has no code " << code.value_or(-1);
     return code.value_or(-1);
   }
@@ -55,10 +55,10 @@ protected:
               "");
   }
 
-  Control control_;
-  Parameters parameters_{control_};
-  Channels channels_{control_};
-  PalletManagement pallets_{control_};
+  Links links_;
+  Parameters parameters_{links_};
+  Channels channels_{links_};
+  PalletManagement pallets_{links_};
 };
 
 TEST_F(Pallets, MagazinesAndPlaces) {
@@ -132,7 +132,7 @@ TEST_F(Pallets, RecordOfAPallet) {
   for (uint32_t function : {303u, 304u}) {
     for (int32_t amount = -1; amount <= 16; ++amount) {
       TestBlock request{amount, 1, 2, 78, 3, 1, 2, 3};
-      EXPECT_EQ(ask(function, request), findServiceFunction(function)->allowsAmount(amount) ? 0 : 2) << amount;
+      EXPECT_EQ(ask(function, request), nc::nct::findServiceFunction(function)->allowsAmount(amount) ? 0 : 2) << amount;
     }
     EXPECT_EQ(ask(function, {3, 3, 1, 1}), 300);
     EXPECT_EQ(ask(function, {3, 1, 6, 1}), 301);
@@ -450,7 +450,8 @@ TEST_P(RandomPallets, TablesStayConsistent) {
     const int32_t code = ask(function, block);
     const Ids now = ids();
     for (const auto& [id, count] : now) EXPECT_EQ(count, 1) << "pallet " << id << " after " << function;
-    if (code != 0 || findServiceFunction(function)->access == FunctionAccess::Read) EXPECT_EQ(contents(), before);
+    if (code != 0 || nc::nct::findServiceFunction(function)->access == nc::nct::FunctionAccess::Read)
+      EXPECT_EQ(contents(), before);
     if (function == 300) EXPECT_EQ(now, idsBefore);
     const bool named = function == 303 || (function == 306 && block[4] == 1);
     if (!named) EXPECT_EQ(now, idsBefore) << function;
@@ -473,4 +474,4 @@ TEST_P(RandomPallets, TablesStayConsistent) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPallets, testing::Range(1U, 7U));
 
 } // namespace
-} // namespace rung::nc::nct
+} // namespace rung::sim::nct

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <memory>
 
-#include "tools/sim/nc_model.h"
-#include "tools/sim/technol/control_files.h"
+#include "tools/control-files/control_files.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc::technol {
+namespace rung::control_files {
 namespace {
 
 using testing::HasSubstr;
@@ -50,12 +50,12 @@ Text pro PLC hlášení číslo 3.
             "");
   ASSERT_EQ(files.messages.size(), 2u);
   EXPECT_EQ(files.messages[0].number, 3u);
-  EXPECT_EQ(files.messages[0].kind, MessageKind::Info);
-  EXPECT_EQ(files.messages[0].validity, Validity::Persistent);
+  EXPECT_EQ(files.messages[0].kind, nc::technol::MessageKind::Info);
+  EXPECT_EQ(files.messages[0].validity, nc::technol::Validity::Persistent);
   EXPECT_EQ(files.messages[0].text, "Text pro PLC hlášení číslo 3.");
   EXPECT_EQ(files.messages[0].place, "Plc0.PlcErrors:3:1");
-  EXPECT_EQ(files.messages[1].kind, MessageKind::ErrCritical);
-  EXPECT_EQ(files.messages[1].validity, Validity::Transient);
+  EXPECT_EQ(files.messages[1].kind, nc::technol::MessageKind::ErrCritical);
+  EXPECT_EQ(files.messages[1].validity, nc::technol::Validity::Transient);
   EXPECT_EQ(files.messages[1].text, "Text pro chybu číslo 4. (1.hodnota: %d, 2.hodnota %X) 100 % <");
 }
 
@@ -302,7 +302,7 @@ TEST(ControlFiles, TheModelReadsThemBesideTheScenario) {
   const std::filesystem::path folder = testing::TempDir();
   const std::string name = "technol_control_files_test.PlcConstants";
   std::ofstream(folder / name) << "<PlcConstants>\n<Constant ID='A' Value='x'/></PlcConstants>";
-  const std::unique_ptr<NcModel> model = makeTechnolModel();
+  const std::unique_ptr<sim::SimulatedNc> model = sim::makeSimulatedTechnol();
   model->setFolder(folder.string());
   EXPECT_EQ(model->config("PlcConstants", name),
             (folder / name).string() + ":2:1: the constant 'A' is not a number, SA0INT, SA0REAL or PLCCOMMAND: 'x'");
@@ -313,4 +313,4 @@ TEST(ControlFiles, TheModelReadsThemBesideTheScenario) {
 }
 
 } // namespace
-} // namespace rung::nc::technol
+} // namespace rung::control_files

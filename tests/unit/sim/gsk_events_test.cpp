@@ -1,7 +1,7 @@
 // What the simulated CNC refuses: configuration, events, quantities and part programs that it does not know.
-#include "tests/unit/nc/gsk_machine.h"
+#include "tests/unit/sim/gsk_machine.h"
 
-namespace rung::nc::test {
+namespace rung::sim::test {
 namespace {
 
 using Config = std::vector<std::pair<std::string, std::string>>;
@@ -15,7 +15,7 @@ NcArgument text(const char* key, const char* value) {
 }
 
 TEST(GskConfig, WrongValues) {
-  const auto nc = makeGskModel();
+  const auto nc = makeSimulatedGsk();
   EXPECT_EQ(nc->config("nc", "real"), "nc: expected scripted or simulated, found 'real'");
   EXPECT_EQ(nc->config("axes", "XX"), "axes: letters of XYZABCUVW, each once");
   EXPECT_EQ(nc->config("axes", "XYZABCUVW"), "axes: 1 to 8 letters");
@@ -47,7 +47,7 @@ protected:
 };
 
 TEST_F(GskSimulated, EventsWithoutTheirKeys) {
-  NcModel& nc = machine_.nc();
+  SimulatedNc& nc = machine_.nc();
   EXPECT_EQ(nc.event(machine_.instance(), "program", {}), "event program takes blocks=\"...\"");
   EXPECT_EQ(nc.event(machine_.instance(), "alarm", {}), "event alarm takes number=N");
   EXPECT_EQ(nc.event(machine_.instance(), "handwheel", {}), "event handwheel takes pulses=N and wheel=1 or wheel=2");
@@ -56,7 +56,7 @@ TEST_F(GskSimulated, EventsWithoutTheirKeys) {
 }
 
 TEST_F(GskSimulated, Quantities) {
-  NcModel& nc = machine_.nc();
+  SimulatedNc& nc = machine_.nc();
   EXPECT_FALSE(nc.quantity("MPOS.4")); // three axes
   EXPECT_FALSE(nc.quantity("OFFSET.H.0"));
   EXPECT_FALSE(nc.quantity("OFFSET.H.401"));
@@ -122,4 +122,4 @@ TEST_F(GskSimulated, Alarms) {
 }
 
 } // namespace
-} // namespace rung::nc::test
+} // namespace rung::sim::test

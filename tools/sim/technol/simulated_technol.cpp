@@ -10,23 +10,23 @@
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
-#include "tools/sim/nc_model.h"
+#include "tools/control-files/control_files.h"
+#include "tools/sim/simulated_nc.h"
 #include "tools/sim/technol/configuration.h"
-#include "tools/sim/technol/control_files.h"
 #include "tools/sim/technol/events.h"
 #include "tools/sim/technol/exchange.h"
 
-namespace rung::nc {
+namespace rung::sim {
 namespace {
 
-class TechnolModel final : public NcModel {
+class SimulatedTechnol final : public SimulatedNc {
 public:
-  Control& control() override { return control_; }
+  nc::Control& control() override { return control_; }
 
-  void powerOn(host::Instance& instance, PowerOn kind) override {
+  void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     log_.clear();
     control_.prepare(instance, kind);
-    technol::writeCell(instance, kLicenceCell, configuration_.licences());
+    nc::technol::writeCell(instance, nc::kLicenceCell, configuration_.licences());
     exchange_.beforeInit(instance, true);
     control_.start(instance);
     exchange_.afterInit(instance);
@@ -34,16 +34,16 @@ public:
   }
 
   void onHook(host::Instance& instance, uint32_t work) override {
-    if (work != kHookAfterInput) exchange_.onHook(instance, work);
+    if (work != nc::kHookAfterInput) exchange_.onHook(instance, work);
     control_.onHook(instance, work);
   }
 
   std::string config(std::string_view key, std::string_view value) override {
-    if (const ConfigKey* row = findConfigKey(technolConfigKeys(), key))
+    if (const nc::ConfigKey* row = findConfigKey(nc::technolConfigKeys(), key))
       if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
     constexpr std::string_view kKeys[] = {"PlcErrors", "PlcConstants", "PlcConfig"}; // of files, by ControlFileKind
     for (size_t i = 0; i < std::size(kKeys); ++i)
-      if (key == kKeys[i]) return readFile(static_cast<technol::ControlFileKind>(i), value);
+      if (key == kKeys[i]) return readFile(static_cast<control_files::ControlFileKind>(i), value);
     std::string problem = exchange_.configure(key, value);
     return problem.empty() ? configuration_.set(key, value) : problem;
   }
@@ -70,7 +70,7 @@ public:
 
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     if (exchange_.respond(instance, request, reply)) return true;
-    if (host::serviceName(instance.program(), request.service) != kConfigurationService) return false;
+    if (host::serviceName(instance.program(), request.service) != nc::kConfigurationService) return false;
     configuration_.respond(request, reply);
     return true;
   }
@@ -81,18 +81,18 @@ public:
   }
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
-    if (technol::equalIgnoringCase(name, "CONFIRM")) {
+    if (nc::technol::equalIgnoringCase(name, "CONFIRM")) {
       control_.list().confirm();
       return {};
     }
-    if (technol::equalIgnoringCase(name, "HALT")) {
-      instance.halt(kTechnolRequested);
+    if (nc::technol::equalIgnoringCase(name, "HALT")) {
+      instance.halt(nc::kTechnolRequested);
       takeMessages(instance);
       return {};
     }
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
-    if (!answer) return NcModel::event(instance, name, keys);
+    if (!answer) return SimulatedNc::event(instance, name, keys);
     takeMessages(instance);
     return *answer;
   }
@@ -114,9 +114,9 @@ protected:
   bool isLogged(const rung_message& message) const override { return control_.list().begins(message); }
 
 private:
-  std::string readFile(technol::ControlFileKind kind, std::string_view file) {
-    technol::ControlFiles files = files_;
-    std::string wrong = technol::readControlFile(kind, inFolder(file), files);
+  std::string readFile(control_files::ControlFileKind kind, std::string_view file) {
+    control_files::ControlFiles files = files_;
+    std::string wrong = control_files::readControlFile(kind, inFolder(file), files);
     const auto added = [](const auto& all, const auto& earlier) { return std::span(all).subspan(earlier.size()); };
     if (wrong.empty())
       wrong =
@@ -124,7 +124,7 @@ private:
     if (!wrong.empty()) return wrong;
     exchange_.take(added(files.connections, files_.connections), added(files.terminals, files_.terminals));
     files_ = std::move(files);
-    for (const technol::PlacedMessage& message : files_.messages) control_.list().define(message);
+    for (const control_files::PlacedMessage& message : files_.messages) control_.list().define(message);
     return {};
   }
 
@@ -135,19 +135,19 @@ private:
     exchange_.afterInit(instance);
   }
 
-  TechnolControl control_;
-  technol::ControlFiles files_;
+  nc::TechnolControl control_;
+  control_files::ControlFiles files_;
   technol::Configuration configuration_;
   technol::Exchange exchange_;
 };
 
 // The keys are names of cells of the command block.
-std::string TechnolModel::blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) {
+std::string SimulatedTechnol::blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) {
   if (control_.blocks().busy()) return "a block is already under way";
-  std::vector<technol::CommandValue> values;
+  std::vector<nc::technol::CommandValue> values;
   for (const NcArgument& cell : keys) {
     if (cell.isText) return "'" + cell.key + "' is a number, not a text";
-    const auto place = technol::commandCell(instance, cell.key);
+    const auto place = nc::technol::commandCell(instance, cell.key);
     if (!place) return "unknown signal '" + cell.key + "'";
     if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
       return "'" + cell.key + "' is a bit";
@@ -159,6 +159,6 @@ std::string TechnolModel::blockStart(host::Instance& instance, const std::vector
 
 } // namespace
 
-std::unique_ptr<NcModel> makeTechnolModel() { return std::make_unique<TechnolModel>(); }
+std::unique_ptr<SimulatedNc> makeSimulatedTechnol() { return std::make_unique<SimulatedTechnol>(); }
 
-} // namespace rung::nc
+} // namespace rung::sim

@@ -3,26 +3,27 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "tools/sim/nc_model.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "tests/unit/rtlib/test_program.h"
+#include "tools/sim/simulated_nc.h"
 
-namespace rung::nc::test {
+namespace rung::sim::test {
 
 class NctMachine {
 public:
-  explicit NctMachine(const std::vector<std::pair<std::string, std::string>>& config = {}) : model_(makeNctModel()) {
+  explicit NctMachine(const std::vector<std::pair<std::string, std::string>>& config = {})
+      : model_(makeSimulatedNct()) {
     program_.dialect = "nct";
     program_.services = {"MR function address block -> code",    "MW function address block -> code",
                          "MACR variable channel -> value:f",     "MACW variable channel value:f ->",
                          "MOVCMND axis code speed:f distance:f", "SCP symbol p1 p2 -> value:f"};
     constexpr uint32_t kMemory = 40000;
     constexpr uint32_t kSlice = 16000;
-    constexpr uint32_t kBlocks = 4 * nct::kBlockStride;
+    constexpr uint32_t kBlocks = 4 * nc::nct::kBlockStride;
     program_.memorySize = kMemory + kSlice + kBlocks;
     program_.addPacked("M", 4, kMemory, 0);
     program_.addPacked("TS", 4, kSlice, kMemory);
-    blocks_ = program_.addPacked(nct::kBlockSpace, 4, kBlocks, kMemory + kSlice);
+    blocks_ = program_.addPacked(nc::nct::kBlockSpace, 4, kBlocks, kMemory + kSlice);
     program_.retains = {{16000, 4096}};
     program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
     program_.addBeginCopy(0, {RUNG_COPY_ALL, kMemory + 4, 4, 0, kSlice - 4});
@@ -37,7 +38,7 @@ public:
     EXPECT_EQ(model_->config("nc", "simulated"), "");
     for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "") << key;
     instance_ = std::make_unique<host::Instance>(program_.link(), model_.get());
-    model_->powerOn(*instance_, PowerOn::Cold);
+    model_->powerOn(*instance_, nc::PowerOn::Cold);
   }
 
   void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name, true), value), ""); }
@@ -48,7 +49,7 @@ public:
 
   // A request of MR or MW with words 1, 2…; its answer, -1 while it is pending.
   uint32_t request(bool write, int64_t function, const std::vector<int32_t>& words) {
-    for (uint32_t i = 0; i < nct::kBlockStride; ++i) instance_->memory().write(blocks_, 4 * i, 4, 0);
+    for (uint32_t i = 0; i < nc::nct::kBlockStride; ++i) instance_->memory().write(blocks_, 4 * i, 4, 0);
     for (uint32_t i = 0; i < words.size(); ++i)
       instance_->memory().write(blocks_, 4 * (i + 1), 4, static_cast<uint32_t>(words[i]));
     const int64_t args[] = {function, 7000, 0};
@@ -70,7 +71,7 @@ public:
     instance_->memory().write(0, 4 * address, 4, static_cast<uint32_t>(value));
   }
 
-  NcModel& nc() { return *model_; }
+  SimulatedNc& nc() { return *model_; }
   host::Instance& instance() { return *instance_; }
 
 private:
@@ -82,8 +83,8 @@ private:
 
   rung::test::TestProgram program_;
   uint32_t blocks_ = 0;
-  std::unique_ptr<NcModel> model_;
+  std::unique_ptr<SimulatedNc> model_;
   std::unique_ptr<host::Instance> instance_;
 };
 
-} // namespace rung::nc::test
+} // namespace rung::sim::test

@@ -1,7 +1,7 @@
 // Window requests against the simulated CNC: end codes, scales, when the answer comes (man. l.8482-8945).
-#include "tests/unit/nc/gsk_machine.h"
+#include "tests/unit/sim/gsk_machine.h"
 
-namespace rung::nc::test {
+namespace rung::sim::test {
 namespace {
 
 using Config = std::vector<std::pair<std::string, std::string>>;
@@ -156,4 +156,4 @@ TEST(ScriptedWindow, HighSpeedIsNotProvidedLowSpeedWaits) {
 }
 
 } // namespace
-} // namespace rung::nc::test
+} // namespace rung::sim::test

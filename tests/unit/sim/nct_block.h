@@ -6,7 +6,7 @@
 
 #include "rtlib/nc/nct/operand_block.h"
 
-namespace rung::nc::test {
+namespace rung::sim::test {
 
 class TestBlock {
 public:
@@ -26,12 +26,12 @@ public:
     return *this;
   }
 
-  nct::Block block() { return nct::Block(std::span(words_)); }
+  nc::nct::Block block() { return nc::nct::Block(std::span(words_)); }
   int32_t operator[](uint32_t n) { return block().word(n); }
   bool answered(uint32_t n) { return block().isAnswered(n); }
 
 private:
-  std::array<uint32_t, nct::kBlockStride> words_{};
+  std::array<uint32_t, nc::nct::kBlockStride> words_{};
 };
 
-} // namespace rung::nc::test
+} // namespace rung::sim::test

@@ -143,9 +143,8 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
 
 RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize, uint32_t imageSize, Pack pack,
                          std::chrono::milliseconds period)
-    : target_(std::move(target)), pack_(std::move(pack)), image_(imageSize), period_(period) {
+    : target_(std::move(target)), pack_(std::move(pack)), image_(imageSize), onDisk_(imageSize), period_(period) {
   for (Offer& offer : offers_) offer.raw.resize(rawSize);
-  onDisk_.reserve(imageSize);
   thread_ = std::thread([this] { work(); });
 }
 
@@ -178,10 +177,11 @@ bool RetainSaver::flush() {
 
 // A failed save may have replaced the file all the same: what is on disk is not known then.
 bool RetainSaver::save(std::string& error) try {
-  if (image_ == onDisk_) return true;
-  onDisk_.clear();
+  if (onDiskKnown_ && image_ == onDisk_) return true;
+  onDiskKnown_ = false;
   if (!target_->save(image_, error)) return false;
   onDisk_ = image_;
+  onDiskKnown_ = true;
   saved_.fetch_add(1, std::memory_order_relaxed);
   return true;
 } catch (const std::exception& thrown) { // there is no memory left

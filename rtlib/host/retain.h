@@ -125,7 +125,8 @@ private:
   std::atomic<uint32_t> shared_{2};
   uint64_t lastTicket_ = 0;
   std::vector<uint8_t> image_;  // of the saver's
-  std::vector<uint8_t> onDisk_; // empty: not known
+  std::vector<uint8_t> onDisk_; // where it is known
+  bool onDiskKnown_ = false;
   std::atomic<uint64_t> stored_{0};
   std::atomic<uint64_t> saved_{0};
   std::atomic<uint64_t> failed_{0};

@@ -198,7 +198,7 @@ TEST_F(RetainTest, ErrorsAreReported) {
 
 // ---- places that do not work ---------------------------------------------------------------------------------------
 
-// What is behind a link is neither read nor written.
+// What a link leads to is neither read nor written.
 TEST_F(RetainTest, LinksAreNotFollowed) {
   saveThree();
   fs::rename(base + ".a", folder / "elsewhere");

@@ -3,15 +3,11 @@
 //   contents
 #include "rtlib/host/retain.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <zlib.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -22,21 +18,8 @@ namespace {
 constexpr char kMagic[] = "RUNGRET1";
 constexpr size_t kHeaderSize = 32;
 constexpr size_t kCrcAt = 28;
-
-constexpr std::array<uint32_t, 256> kCrcTable = [] {
-  std::array<uint32_t, 256> table{};
-  for (uint32_t i = 0; i < 256; ++i) {
-    uint32_t c = i;
-    for (int k = 0; k < 8; ++k) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
-    table[i] = c;
-  }
-  return table;
-}();
-
-uint32_t crc(std::span<const uint8_t> bytes, uint32_t state) {
-  for (const uint8_t b : bytes) state = kCrcTable[(state ^ b) & 0xFF] ^ (state >> 8);
-  return state;
-}
+constexpr size_t kMostBytes = 64 << 20; // longer than any image
+constexpr int kRetryPeriods = 10;       // between tries on a disk that fails
 
 void put(std::vector<uint8_t>& to, size_t at, uint64_t value, size_t size) {
   for (size_t i = 0; i < size; ++i) to[at + i] = static_cast<uint8_t>(value >> (8 * i));
@@ -49,72 +32,8 @@ uint64_t get(std::span<const uint8_t> from, size_t at, size_t size) {
 }
 
 uint32_t checksum(std::span<const uint8_t> file) {
-  return ~crc(file.subspan(kHeaderSize), crc(file.first(kCrcAt), 0xFFFFFFFFu));
-}
-
-// An open file that closes itself.
-class File {
-public:
-  File(const std::string& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-  ~File() { close(); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  int fd() const { return fd_; }
-  bool close() {
-    const int fd = std::exchange(fd_, -1);
-    return fd < 0 || ::close(fd) == 0;
-  }
-
-private:
-  int fd_;
-};
-
-bool writeAll(int fd, std::span<const uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes = bytes.subspan(static_cast<size_t>(n));
-  }
-  return true;
-}
-
-// Nothing, with errno, when the file cannot be read; cut when it is longer than any image.
-std::optional<std::vector<uint8_t>> readFile(const std::string& path) {
-  constexpr off_t kMostBytes = 64 << 20;
-  const File file(path, O_RDONLY);
-  struct stat status{};
-  if (file.fd() < 0 || ::fstat(file.fd(), &status) != 0) return std::nullopt;
-  std::vector<uint8_t> bytes(static_cast<size_t>(std::min(status.st_size, kMostBytes)));
-  size_t have = 0;
-  while (have < bytes.size()) {
-    const ssize_t n = ::read(file.fd(), bytes.data() + have, bytes.size() - have);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    have += static_cast<size_t>(n);
-  }
-  bytes.resize(have);
-  return bytes;
-}
-
-std::string folderOf(const std::string& path) {
-  const size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
-bool replaceFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error) {
-  const std::string temporary = path + ".tmp";
-  File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  const bool written = file.fd() >= 0 && writeAll(file.fd(), bytes) && ::fsync(file.fd()) == 0 && file.close();
-  if (!written || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    error = "cannot write " + path + ": " + std::strerror(errno);
-    return false;
-  }
-  const File folder(folderOf(path), O_RDONLY | O_DIRECTORY);
-  if (folder.fd() >= 0)
-    ::fsync(folder.fd()); // makes the rename last; some file systems refuse, the file is whole anyway
-  return true;
+  const std::span<const uint8_t> contents = file.subspan(kHeaderSize);
+  return static_cast<uint32_t>(crc32_z(crc32_z(0, file.data(), kCrcAt), contents.data(), contents.size()));
 }
 
 // One of the two files, as found.
@@ -129,9 +48,9 @@ struct Found {
 
 Found look(const std::string& path) {
   Found found;
-  const std::optional<std::vector<uint8_t>> bytes = readFile(path);
+  const std::optional<std::vector<uint8_t>> bytes = readDiskFile(path, kMostBytes);
   if (!bytes) {
-    if (errno != ENOENT) found.wrong = path + ": " + std::strerror(errno);
+    if (errno != ENOENT) found.wrong = path + ": " + fileProblem(errno);
     return found;
   }
   found.there = true;
@@ -139,7 +58,7 @@ Found look(const std::string& path) {
   if (file.size() < kHeaderSize) {
     found.wrong = path + ": too short";
   } else if (std::memcmp(file.data(), kMagic, 8) != 0) {
-    found.wrong = path + ": no retained image";
+    found.wrong = path + ": not a retained image";
   } else if (get(file, 24, 4) != file.size() - kHeaderSize) {
     found.wrong = path + ": wrong length";
   } else if (get(file, kCrcAt, 4) != checksum(file)) {
@@ -158,6 +77,21 @@ Found look(const std::string& path) {
 RetainStore::RetainStore(std::string base, uint64_t layoutHash, uint32_t size)
     : base_(std::move(base)), layoutHash_(layoutHash), size_(size) {}
 
+bool RetainStore::lock(std::string& error) {
+  if (lock_.isOpen()) return true;
+  DiskLock lock = lockDiskFile(base_ + ".lock");
+  if (!lock.file.isOpen()) {
+    error = !lock.error.empty() ? lock.error
+                                : base_ + " is in use by another process, which holds " + base_ +
+                                      ".lock: stop that one, or give each program a file of its own";
+    return false;
+  }
+  lock_ = std::move(lock.file);
+  usedBefore_ = !lock.made;
+  looked_ = false; // another process may have saved until now
+  return true;
+}
+
 RetainImage RetainStore::load() {
   Found a = look(base_ + ".a");
   Found b = look(base_ + ".b");
@@ -167,6 +101,7 @@ RetainImage RetainStore::load() {
   newestIsB_ = !a.good || (b.good && b.generation > a.generation);
   Found& newest = newestIsB_ ? b : a;
   if (!newest.good) {
+    if (image.report.empty() && usedBefore_) image.report = base_ + ".a and .b are gone";
     if (!image.report.empty()) image.report += "; starting cold";
     return image;
   }
@@ -189,6 +124,7 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
     error = "the retained image has the wrong size";
     return false;
   }
+  if (!lock(error)) return false;
   if (!looked_) load(); // the generation must be above those on disk
   std::vector<uint8_t> file(kHeaderSize + bytes.size());
   std::memcpy(file.data(), kMagic, 8);
@@ -197,21 +133,25 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
   put(file, 24, bytes.size(), 4);
   if (!bytes.empty()) std::memcpy(file.data() + kHeaderSize, bytes.data(), bytes.size());
   put(file, kCrcAt, checksum(file), 4);
-  if (!replaceFile(base_ + (newestIsB_ ? ".a" : ".b"), file, error)) return false;
+  if (!replaceDiskFile(base_ + (newestIsB_ ? ".a" : ".b"), file, error)) return false;
   ++generation_;
   newestIsB_ = !newestIsB_;
   return true;
 }
 
-RetainSaver::RetainSaver(RetainStore store, uint32_t rawSize, uint32_t imageSize, Pack pack,
-                         std::chrono::milliseconds poll)
-    : store_(std::move(store)), pack_(std::move(pack)), buffer_(rawSize), image_(imageSize), poll_(poll),
-      thread_([this] { work(); }) {}
+// ---- saver -------------------------------------------------------------------------------------------------------
 
-RetainSaver::RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll)
+RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize, uint32_t imageSize, Pack pack,
+                         std::chrono::milliseconds period)
+    : target_(std::move(target)), pack_(std::move(pack)), image_(imageSize), onDisk_(imageSize), period_(period) {
+  for (Offer& offer : offers_) offer.raw.resize(rawSize);
+  thread_ = std::thread([this] { work(); });
+}
+
+RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, RetainMap map, std::chrono::milliseconds period)
     : RetainSaver(
-          std::move(store), map.rawSize(), map.size(),
-          [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, poll) {}
+          std::move(target), map.rawSize(), map.size(),
+          [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, period) {}
 
 RetainSaver::~RetainSaver() {
   {
@@ -222,45 +162,65 @@ RetainSaver::~RetainSaver() {
   thread_.join();
 }
 
-void RetainSaver::hurry() {
-  {
-    const std::lock_guard lock(mutex_);
-    hurry_ = true;
-  }
+std::string RetainSaver::problem() const {
+  std::array<char, PublishedText::kMost> text;
+  return {text.data(), problem(text)};
+}
+
+bool RetainSaver::flush() {
+  std::unique_lock lock(mutex_);
+  const uint64_t asked = ++flushAsked_;
   wake_.notify_one();
-  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  flushed_.wait(lock, [&] { return flushDone_ >= asked; });
+  return !failing();
 }
 
-std::string RetainSaver::lastError() const {
-  const std::lock_guard lock(mutex_);
-  return lastError_;
+// A failed save may have replaced the file all the same: what is on disk is not known then.
+bool RetainSaver::save(std::string& error) try {
+  if (onDiskKnown_ && image_ == onDisk_) return true;
+  onDiskKnown_ = false;
+  if (!target_->save(image_, error)) return false;
+  onDisk_ = image_;
+  onDiskKnown_ = true;
+  saved_.fetch_add(1, std::memory_order_relaxed);
+  return true;
+} catch (const std::exception& thrown) { // there is no memory left
+  error = thrown.what();
+  return false;
 }
 
-void RetainSaver::saveOffered() {
-  if (!full_.load(std::memory_order_acquire)) return;
-  pack_(buffer_, image_);
+void RetainSaver::saveOffered() noexcept {
+  if (!taken()) front_ = shared_.exchange(front_, std::memory_order_acq_rel) & ~kFresh;
+  const Offer& offer = offers_[front_];
+  if (offer.ticket == stored()) return;
+  pack_(offer.raw, image_);
   std::string error;
-  const bool good = image_ == onDisk_ || store_.save(image_, error);
-  if (good && image_ != onDisk_) saved_.fetch_add(1);
-  if (good) onDisk_ = image_;
-  full_.store(false, std::memory_order_release);
-  if (good) return;
-  failed_.fetch_add(1);
-  const std::lock_guard lock(mutex_);
-  lastError_ = error;
+  const bool good = save(error);
+  if (good) {
+    stored_.store(offer.ticket, std::memory_order_release);
+  } else {
+    problem_.set(error);
+    failed_.fetch_add(1, std::memory_order_relaxed);
+  }
+  failing_.store(!good, std::memory_order_release);
 }
 
-// Looks again and again, because waking it would cost the scan thread a system call.
 void RetainSaver::work() {
-  bool stop = false;
-  while (!stop) {
+  for (bool stop = false; !stop;) {
+    uint64_t asked = 0;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, poll_, [this] { return stop_ || hurry_; });
-      hurry_ = false;
+      wake_.wait_for(lock, failing() ? period_ * kRetryPeriods : period_,
+                     [this] { return stop_ || flushAsked_ > flushDone_; });
+      asked = flushAsked_;
       stop = stop_;
     }
     saveOffered();
+    {
+      const std::lock_guard lock(mutex_);
+      flushDone_ = asked;
+    }
+    flushed_.notify_all();
   }
 }
 

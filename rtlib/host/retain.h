@@ -1,19 +1,23 @@
 // The retained memory on disk. Two files, BASE.a and BASE.b, are written in turn; each has a generation number, the
 // layout hash and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
-// one.
+// one. BASE.lock keeps a second process out.
 #pragma once
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "rtlib/host/disk_file.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/host/published_text.h"
 #include "rtlib/host/retain_map.h"
 
 namespace rung::host {
@@ -22,90 +26,119 @@ struct RetainImage {
   bool found = false; // false: start cold
   std::vector<uint8_t> bytes;
   uint64_t generation = 0;
-  std::string report; // what was wrong with the files, "" when nothing was; missing files are not wrong
+  std::string report; // what was wrong with the files, "" when nothing was; nor is a first start
 };
 
-// Blocks on the disk: not for the scan thread.
-class RetainStore {
+// Where images are kept. Blocks: not for the scan thread.
+class RetainTarget {
+public:
+  virtual ~RetainTarget() = default;
+  // True: the image is kept, whatever happens now. False: `error` says what was not written and why.
+  virtual bool save(std::span<const uint8_t> bytes, std::string& error) = 0;
+};
+
+class RetainStore final : public RetainTarget {
 public:
   // `base` is a path without ending; bytes saved under another layout hash or size are not taken.
   RetainStore(std::string base, uint64_t layoutHash, uint32_t size);
 
+  // From now until this store ends no other one saves here, in no process. Whoever loads in order to save later locks
+  // first; `save` does it too. False: `error` says why.
+  bool lock(std::string& error);
   RetainImage load();
-  bool save(std::span<const uint8_t> bytes, std::string& error);
+  bool save(std::span<const uint8_t> bytes, std::string& error) override;
 
 private:
   std::string base_;
   uint64_t layoutHash_;
   uint32_t size_;
+  DiskFile lock_;
+  bool usedBefore_ = false; // the lock was there: so were images
   uint64_t generation_ = 0; // of the newest good file
   bool newestIsB_ = true;
   bool looked_ = false; // generation_ and newestIsB_ are known
 };
 
-// Takes images from the scan thread and saves them on its own. `offer` copies and returns at once; it takes nothing
-// while the last image is still being written. An image like the last one is not written again.
+// Takes images from the scan thread and saves them on its own. `offer` copies and returns at once, whatever the saver
+// is doing; of several images the newest is saved. An image like the last one is not written again. One that could not
+// be saved is tried again until it is, or a newer one comes.
 class RetainSaver {
 public:
   // How the bytes that were copied in the scan become the image; runs on the saver's thread.
   using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
 
-  RetainSaver(RetainStore store, uint32_t rawSize, uint32_t imageSize, Pack pack,
-              std::chrono::milliseconds poll = std::chrono::milliseconds(20));
+  // Looks for images once a `period`, because waking it would cost the scan thread a system call.
+  RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize, uint32_t imageSize, Pack pack,
+              std::chrono::milliseconds period);
   // For the retained memory of an instance.
-  RetainSaver(RetainStore store, RetainMap map, std::chrono::milliseconds poll = std::chrono::milliseconds(20));
-  ~RetainSaver(); // writes what was offered last
+  RetainSaver(std::unique_ptr<RetainTarget> target, RetainMap map, std::chrono::milliseconds period);
+  ~RetainSaver(); // tries to save what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
 
-  // Scan thread. `copy` fills a span of rawSize bytes; it allocates nothing and does not throw.
+  // Scan thread. `copy` fills a span of rawSize bytes; it allocates nothing and does not throw. The image's ticket:
+  // they grow from 1.
   template <class Copy>
-  bool offerFrom(Copy copy) noexcept {
-    if (full_.load(std::memory_order_acquire)) return false;
-    copy(std::span<uint8_t>(buffer_));
-    full_.store(true, std::memory_order_release);
-    return true;
+  uint64_t offerFrom(Copy copy) noexcept {
+    Offer& offer = offers_[back_];
+    copy(std::span<uint8_t>(offer.raw));
+    offer.ticket = ++lastTicket_;
+    back_ = shared_.exchange(back_ | kFresh, std::memory_order_acq_rel) & ~kFresh;
+    return lastTicket_;
   }
-  // Instead of the last `offerFrom`; waits until it is written.
-  template <class Copy>
-  void finishFrom(Copy copy) {
-    bool offered = offerFrom(copy);
-    while (!offered || full_.load(std::memory_order_acquire)) {
-      hurry();
-      offered = offered || offerFrom(copy);
-    }
-  }
-  bool offer(const Instance& instance) noexcept {
+  uint64_t offer(const Instance& instance) noexcept {
     return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
-  void finish(const Instance& instance) {
-    finishFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
-  }
-  // Scan thread: what was offered last is written, or could not be (see failed).
-  bool idle() const noexcept { return !full_.load(std::memory_order_acquire); }
-  uint64_t saved() const { return saved_.load(); }
-  uint64_t failed() const { return failed_.load(); }
-  std::string lastError() const;
+  // The saver has seen what was offered last: a copy is worth its time again.
+  bool taken() const noexcept { return (shared_.load(std::memory_order_acquire) & kFresh) == 0; }
+
+  // Any thread, without a lock.
+  uint64_t stored() const noexcept { return stored_.load(std::memory_order_acquire); } // ticket of the newest on disk
+  bool failing() const noexcept { return failing_.load(std::memory_order_acquire); }   // the last try went wrong
+  uint64_t saved() const noexcept { return saved_.load(std::memory_order_relaxed); }   // images written
+  uint64_t failed() const noexcept { return failed_.load(std::memory_order_relaxed); } // tries that went wrong
+  // Why the last failed try failed; the number of characters, 0 while it changes.
+  size_t problem(std::span<char> to) const noexcept { return problem_.read(to); }
+
+  // Not in a scan: waits until what was offered last is on disk, or was tried once more and could not be saved; then
+  // false.
+  bool flush();
+  std::string problem() const;
 
 private:
-  void work();
-  void saveOffered();
-  void hurry(); // a moment's wait while the saver works
+  static constexpr uint32_t kFresh = 4; // of shared_: the saver has not seen this one
+  struct Offer {
+    std::vector<uint8_t> raw;
+    uint64_t ticket = 0;
+  };
 
-  RetainStore store_;
+  void work();
+  void saveOffered() noexcept;
+  bool save(std::string& error);
+
+  std::unique_ptr<RetainTarget> target_;
   Pack pack_;
-  std::vector<uint8_t> buffer_; // as it was copied in the scan
-  std::vector<uint8_t> image_;  // of buffer_
-  std::vector<uint8_t> onDisk_;
-  std::atomic<bool> full_{false}; // true: buffer_ belongs to the saver, else to the scan thread
+  // One belongs to the scan thread, one to the saver, and the third is what they exchange.
+  std::array<Offer, 3> offers_;
+  uint32_t back_ = 0;  // the scan thread's
+  uint32_t front_ = 1; // the saver's
+  std::atomic<uint32_t> shared_{2};
+  uint64_t lastTicket_ = 0;
+  std::vector<uint8_t> image_;  // of the saver's
+  std::vector<uint8_t> onDisk_; // where it is known
+  bool onDiskKnown_ = false;
+  std::atomic<uint64_t> stored_{0};
   std::atomic<uint64_t> saved_{0};
   std::atomic<uint64_t> failed_{0};
-  std::chrono::milliseconds poll_;
-  mutable std::mutex mutex_;
+  std::atomic<bool> failing_{false};
+  PublishedText problem_;
+  std::chrono::milliseconds period_;
+  std::mutex mutex_;
   std::condition_variable wake_;
-  bool stop_ = false;     // under mutex_
-  bool hurry_ = false;    // under mutex_
-  std::string lastError_; // under mutex_
+  std::condition_variable flushed_;
+  bool stop_ = false;       // under mutex_
+  uint64_t flushAsked_ = 0; // under mutex_
+  uint64_t flushDone_ = 0;  // under mutex_
   std::thread thread_;
 };
 

@@ -3,29 +3,57 @@
 
 namespace rung::host {
 
-RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, std::chrono::milliseconds period)
-    : map_(program), store_(file, map_.hash(), map_.size()), file_(file), period_(period) {}
+namespace {
+
+// A program that asks waits for the answer.
+std::chrono::milliseconds periodOf(RetainWhen when) {
+  return std::chrono::milliseconds(when == RetainWhen::OnRequest ? 5 : 200);
+}
+
+} // namespace
+
+RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when)
+    : RetainedMemory(program, file, when, periodOf(when)) {}
+
+RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when,
+                               std::chrono::milliseconds period)
+    : map_(program), when_(when), store_(std::make_unique<RetainStore>(file, map_.hash(), map_.size())),
+      period_(period) {}
 
 bool RetainedMemory::load(Instance& instance, std::string& report, std::string& error) {
-  const RetainImage image = store_.load();
+  if (!store_->lock(error)) return false;
+  const RetainImage image = store_->load();
   report = image.report;
+  lost_ = !image.found && !report.empty();
+  std::vector<uint8_t> raw(map_.rawSize());
   if (image.found) {
-    std::vector<uint8_t> raw(map_.rawSize());
     map_.unpack(image.bytes, raw);
     instance.restoreRetained(raw);
   }
-  std::vector<uint8_t> raw(map_.rawSize());
   std::vector<uint8_t> now(map_.size());
   instance.copyRetained(raw);
   map_.pack(raw, now);
-  store_.save(now, error);
+  if (!store_->save(now, error)) return false;
   saver_ = std::make_unique<RetainSaver>(std::move(store_), map_, period_);
   return image.found;
 }
 
+bool RetainedMemory::offer(const Instance& instance, bool asked) noexcept {
+  if (instance.faulted()) return false;
+  if (!asked) request_ = 0;
+  const bool begins = asked && request_ == 0;
+  if (instance.atListStart() && (begins || when_ == RetainWhen::Always)) {
+    const uint64_t ticket = saver_->offer(instance);
+    if (begins) request_ = ticket;
+  }
+  if (request_ == 0 || saver_->stored() < request_) return false;
+  request_ = 0;
+  return true;
+}
+
 std::string RetainedMemory::finish(const Instance& instance) {
-  saver_->finish(instance);
-  return saver_->failed() == 0 ? std::string() : saver_->lastError();
+  if (!instance.faulted()) saver_->offer(instance);
+  return saver_->flush() ? std::string() : saver_->problem();
 }
 
 } // namespace rung::host

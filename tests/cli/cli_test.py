@@ -110,6 +110,23 @@ class Retained(Cli):
         # A negative number stands in brackets behind its form without a sign.
         return [int({key.strip(): value for key, value in found.items()}[name].split("(")[-1].rstrip(")")) for name in names]
 
+    def running(self, program):
+        """A process that runs it on the machine's clock until it is stopped."""
+        command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
+                   "--realtime", "--for", "3600s"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        self.started()
+        return process
+
+    def obstruct(self):
+        for path in self.images():
+            Path(f"{path}.tmp").mkdir()
+
+    def clear(self):
+        for path in self.images():
+            Path(f"{path}.tmp").rmdir()
+
     def started(self):
         """Waits for the image that a program writes when it starts."""
         for _ in range(600):
@@ -164,6 +181,52 @@ class Retained(Cli):
         done = rungc("run", self.counter(), "--retain", "/nowhere/image")
         self.assertEqual(done.returncode, ENVIRONMENT)
         self.assertIn(b"cannot write /nowhere/image", done.stderr)
+
+    def test_one_process_at_a_time(self):
+        program = self.counter()
+        with self.running(program) as process:
+            done = self.run_it(program)
+            self.assertEqual(done.returncode, ENVIRONMENT)
+            self.assertIn(b"image is in use by another process, which holds ", done.stderr)
+            process.terminate()
+            self.assertEqual(process.wait(), OK)
+        self.assertEqual(self.run_it(program).returncode, OK)
+
+    def test_a_disk_that_fails_for_a_while(self):
+        """A folder in the way of the temporary file stands for it."""
+        program = self.counter()
+        with self.running(program) as process:
+            self.obstruct()
+            self.assertRegex(process.stderr.readline(), rb"rungc: warning: cannot write .*/image\..\.tmp: .*; the program continues")
+            time.sleep(0.5)
+            self.clear()
+            self.assertRegex(process.stderr.readline(), rb"rungc: .*/image is saved again")
+            process.terminate()
+            output, errors = process.communicate()
+        self.assertEqual((process.returncode, errors), (OK, b""))  # each once
+        scans = int(output.decode().split(" scans")[0].splitlines()[-1])
+        self.assertEqual(self.read(program, "D0:4"), [scans + 1])
+
+    def test_a_disk_that_fails_to_the_end(self):
+        program = self.counter()
+        with self.running(program) as process:
+            self.obstruct()
+            self.assertIn(b"the program continues", process.stderr.readline())
+            process.terminate()
+            errors = process.communicate()[1]
+        self.assertEqual(process.returncode, ENVIRONMENT)
+        self.assertRegex(errors, rb"\Arungc: cannot write .*/image\..\.tmp: .*\n\Z")
+
+    def test_a_fault_leaves_the_last_whole_scan(self):
+        """The program counts to 50 and does not come to the end of that scan."""
+        loop = "FUNC LBL\nPRM  L1\nLD   D0.1\nAND  D0.4\nAND  D0.5\nFUNC JMPB\nPRM  L1\n"
+        for clock in ([], ["--realtime"]):
+            for path in self.images():
+                path.unlink(missing_ok=True)
+            done = self.run_it(self.counter("stops.pmc", loop), "--scans", "100", *clock)
+            self.assertEqual(done.returncode, WRONG, done.stderr)
+            self.assertIn(b"dead-loop", done.stderr)
+            self.assertEqual(self.read(self.counter(), "D0:4"), [50])
 
     def test_killed_at_any_moment(self):
         program = self.counter()
@@ -248,6 +311,16 @@ class TechnolBackup(Cli):
         changes = [line.split(" = ")[1] for line in done.stdout.decode().splitlines() if "REQ_BACKUP_MEM" in line]
         self.assertEqual(changes, ["0"])  # saved before anybody looks
 
+    def test_the_request_waits_for_the_disk(self):
+        """The first image is written at the start; the folder is in the way of the second."""
+        (Path(self.folder.name) / "image.b.tmp").mkdir()
+        done = rungc(*self.command("--scans", "30", "--watch", "REQ_BACKUP_MEM"))
+        self.assertEqual(done.returncode, ENVIRONMENT)
+        changes = [line.split(" = ")[1] for line in done.stdout.decode().splitlines() if "REQ_BACKUP_MEM" in line]
+        self.assertEqual(changes, ["0", "1"])
+        self.assertEqual(done.stderr.count(b"the program continues"), 1)
+        self.assertEqual(done.stderr.count(b"cannot write"), 2)  # and at the end
+
     def test_killed_behind_the_request(self):
         command = [RUNGC, *self.command("--realtime", "--for", "3600s", "--watch", "REQ_BACKUP_MEM")]
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -306,6 +379,38 @@ class TechnolConnections(Cli):
         scenario = self.file("wrong.scn", "program program.plc\nconfig Limit.Invert yes\nconnect P1IN.0 LIMIT\nscan\n")
         done = rungc("test", scenario, "--engine", "interp")
         self.assertIn("Limit.Invert is not a number: 'yes'", (done.stdout + done.stderr).decode())
+
+
+class NctRetained(Cli):
+    """rungc run --retain with an NCT program: N_NVRAMOK is what the files were like."""
+
+    def start(self, *args, program=LAMP):
+        done = rungc("run", self.file("lamp.lad", program), "--retain", str(Path(self.folder.name) / "image"), "--engine",
+                     "interp", "--watch", "N_NVRAMOK", *args)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        return int(done.stdout.decode().split("N_NVRAMOK = ")[1].split()[0])
+
+    def images(self):
+        return sorted(Path(self.folder.name).glob("image.[ab]"))
+
+    def test_what_is_lost(self):
+        self.assertEqual(self.start(), 1)  # a first start
+        self.assertEqual(self.start(), 1)
+        newest = max(self.images(), key=lambda path: path.read_bytes()[16:24][::-1])
+        newest.write_bytes(b"junk")
+        self.assertEqual(self.start(), 1)  # the one before is whole
+        for path in self.images():
+            path.write_bytes(b"junk")
+        self.assertEqual(self.start(), 0)
+        self.assertEqual(self.start(), 1)
+        for path in self.images():
+            path.unlink()
+        self.assertEqual(self.start(), 0)
+
+    def test_the_image_of_another_program(self):
+        rungc("run", self.file("counter.pmc", COUNTER.format(tail="")), "--retain", str(Path(self.folder.name) / "image"),
+              "--engine", "interp")
+        self.assertEqual(self.start(), 0)
 
 
 class RetainedTables(Cli):

@@ -53,6 +53,7 @@ FOREIGN = {
     "nlohmann/": ("ir/support", "codegen"),
     "CLI/": (),
     "expat.h": (),
+    "zlib.h": ("rtlib/host",),
     "gtest/": (),
     "gmock/": (),
     "benchmark/": (),

@@ -2,6 +2,7 @@
 #include "tools/rung-hal/box.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -77,27 +78,28 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
 }
 
 bool Box::start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings) {
-  bool found = false;
+  std::optional<nc::PowerOn> kind = nc::PowerOn::Cold;
   if (!retain.empty()) {
-    retained_ = std::make_unique<host::RetainedMemory>(program(), retain);
+    retained_ = std::make_unique<nc::Retention>(*control_, instance_, retain);
     std::string report;
     std::string error;
-    found = retained_->load(instance_, report, error);
-    if (!error.empty()) errors.push_back(error);
+    kind = retained_->load(report, error);
+    if (!kind) errors.push_back(error);
     if (!report.empty()) warnings.push_back(report);
   }
-  if (!errors.empty()) return false;
-  control_->powerOn(instance_, found ? nc::PowerOn::Warm : nc::PowerOn::Cold);
+  if (!kind) return false;
+  control_->powerOn(instance_, *kind);
   return true;
 }
 
 std::string Box::close() {
   if (!retained_) return {};
+  retained_->finish(); // for the case that the program faults in its last scans
   if (!failed_ && control_->powerOff(instance_)) {
     for (uint32_t i = 0; i < nc::Control::kMostLastScans && !instance_.faulted() && control_->endsLater(instance_); ++i)
       instance_.scan();
   }
-  return retained_->finish(instance_);
+  return retained_->finish();
 }
 
 StepResult Box::step(int64_t ns) noexcept {
@@ -123,7 +125,7 @@ void Box::slice() noexcept {
   readPins();
   instance_.slice();
   control_->afterSlice(instance_);
-  if (retained_) retained_->offer(instance_);
+  if (retained_) retained_->afterSlice();
   passMessages();
   if (instance_.faulted()) return;
   if (instance_.atListStart()) ++scans_;

@@ -1,69 +1,62 @@
 // Retained memory of a run (see retained_files.h).
 #include "tools/rungc/retained_files.h"
 
-#include <chrono>
 #include <fmt/format.h>
+#include <utility>
 
 namespace rung::rungc {
 namespace {
 
-constexpr std::chrono::milliseconds kAtRequest(5); // the program waits for it
-constexpr std::chrono::milliseconds kAlways(200);
-
-void report(const std::string& text) {
-  if (!text.empty()) fmt::print(stderr, "rungc: {}\n", text);
+// Once when saving begins to fail, and once when it works again; `fails` is what was reported last.
+template <class Kept>
+void reportChange(const Kept& kept, const std::string& name, bool& fails, const RetainedFiles::Report& report) {
+  if (kept.failing() == fails) return;
+  fails = !fails;
+  report(fails ? fmt::format("warning: {}; the program continues, and saving is tried again", kept.problem())
+               : fmt::format("{} is saved again", name));
 }
 
 } // namespace
 
-RetainedFiles::RetainedFiles(scenario::Session& session, const std::string& file, bool realTime)
-    : session_(session),
-      memory_(session.instance().program(), file, session.nc().control().savesOnRequest() ? kAtRequest : kAlways),
-      tables_(session.nc(), file), realTime_(realTime) {
-  session.nc().control().setStored(true);
-}
+RetainedFiles::RetainedFiles(scenario::Session& session, const std::string& file, bool realTime, Report report)
+    : session_(session), file_(file), memory_(session.nc().control(), session.instance(), file),
+      tables_(session.nc(), file), realTime_(realTime), report_(std::move(report)) {}
 
 std::optional<nc::PowerOn> RetainedFiles::load(std::string& error) {
   std::string text;
-  const bool found = memory_.load(session_.instance(), text, error);
-  if (!error.empty()) return std::nullopt;
-  report(text);
-  if (!found && !text.empty()) session_.nc().control().reportRetainedLost();
+  const std::optional<nc::PowerOn> kind = memory_.load(text, error);
+  if (!text.empty()) report_(text);
+  if (!kind) return std::nullopt;
   text.clear();
   tables_.load(text, error);
-  if (!error.empty()) return std::nullopt;
-  report(text);
-  return found ? nc::PowerOn::Warm : nc::PowerOn::Cold;
+  if (!text.empty()) report_(text);
+  return error.empty() ? kind : std::nullopt;
 }
 
-void RetainedFiles::scanned(const scenario::Session& session) {
-  if (session.nc().control().savesOnRequest())
-    saveOnRequest();
-  else
-    memory_.offer(session.instance());
+// On the real clock the scans continue while an image that the program asks for is written; on the virtual clock the
+// scan ends when it is on disk, or was tried.
+void RetainedFiles::scanned(const scenario::Session&) {
+  if (!memory_.afterSlice() && !realTime_) {
+    memory_.flush();
+    memory_.afterSlice();
+  }
   tables_.offer();
+  reportFailures();
 }
 
-// On the real clock the scans continue while the image is written; a failure is tried again. On the virtual clock the
-// scan ends when the image is on disk.
-void RetainedFiles::saveOnRequest() {
-  nc::Control& nc = session_.nc().control();
-  host::Instance& instance = session_.instance();
-  if (saving_ && !memory_.written()) return;
-  if (saving_ && memory_.failed() == failures_) nc.saved(instance);
-  saving_ = false;
-  if (!nc.asksToSave(instance)) return;
-  failures_ = memory_.failed();
-  saving_ = memory_.offer(instance);
-  if (realTime_) return;
-  if (memory_.finish(instance).empty()) nc.saved(instance);
-  saving_ = false;
+void RetainedFiles::reportFailures() {
+  reportChange(memory_.memory(), file_, memoryFails_, report_);
+  reportChange(tables_, file_ + ".nc", tablesFail_, report_);
 }
 
 std::string RetainedFiles::finish() {
-  if (!session_.instance().faulted()) session_.nc().powerOff(session_.instance());
-  if (std::string error = memory_.finish(session_.instance()); !error.empty()) return error;
-  return tables_.finish();
+  host::Instance& instance = session_.instance();
+  memory_.finish();
+  if (!instance.faulted()) session_.nc().powerOff(instance);
+  std::string error = memory_.finish();
+  if (std::string tables = tables_.finish(); error.empty()) error = std::move(tables);
+  if (error.empty()) reportFailures();
+  return error;
 }
 
 } // namespace rung::rungc

@@ -1,10 +1,10 @@
 // `rungc run --retain FILE`: what a program and its control keep through power-off, on disk.
 #pragma once
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 
-#include "rtlib/host/retained_memory.h"
+#include "rtlib/nc/control/retention.h"
 #include "tools/scenario/session.h"
 #include "tools/sim/retained_tables.h"
 
@@ -14,25 +14,29 @@ namespace rung::rungc {
 // its end.
 class RetainedFiles final : public scenario::Observer {
 public:
-  // The session is configured and has not started; it outlives this.
-  RetainedFiles(scenario::Session& session, const std::string& file, bool realTime);
+  using Report = std::function<void(const std::string& line)>; // for the user
 
-  // Takes what the files hold and says on standard error what is wrong with them. How the program starts then; nothing,
-  // and `error` says why, when they cannot be used.
+  // The session is configured and has not started; it outlives this.
+  RetainedFiles(scenario::Session& session, const std::string& file, bool realTime, Report report);
+
+  // Takes what the files hold and reports what is wrong with them. How the program starts then; nothing, and `error`
+  // says why, when they cannot be used.
   std::optional<nc::PowerOn> load(std::string& error);
   void scanned(const scenario::Session& session) override;
   // After the last scan; "" or what could not be written.
   std::string finish();
 
 private:
-  void saveOnRequest();
+  void reportFailures();
 
   scenario::Session& session_;
-  host::RetainedMemory memory_;
+  std::string file_;
+  nc::Retention memory_;
   sim::RetainedTables tables_;
   bool realTime_;
-  bool saving_ = false;   // an image that the program asked for is being written
-  uint64_t failures_ = 0; // before it
+  Report report_;
+  bool memoryFails_ = false; // and that has been reported
+  bool tablesFail_ = false;
 };
 
 } // namespace rung::rungc

@@ -110,14 +110,14 @@ private:
     if (const std::string wrong = configure(); !wrong.empty()) return usageError(wrong);
     nc::PowerOn kind = nc::PowerOn::Cold;
     if (!options_.retain.empty()) {
-      retained_ = std::make_unique<RetainedFiles>(session_, options_.retain, options_.realtime);
+      retained_ = std::make_unique<RetainedFiles>(session_, options_.retain, options_.realtime, warn_);
       std::string error;
       const auto loaded = retained_->load(error);
       if (!loaded) return environmentError(error);
       kind = *loaded;
     }
     const std::vector<sim::NcProblem> problems = session_.start(kind);
-    for (const sim::NcProblem& problem : problems) fmt::print(stderr, "rungc: {}\n", problem.text);
+    for (const sim::NcProblem& problem : problems) warn_(problem.text);
     return problems.empty() ? observe() : int{kUsage};
   }
 
@@ -243,13 +243,16 @@ private:
     if (!options_.source.quiet)
       fmt::print(out_, "{} scan{}, {:.3f} ms of the program's time, engine {}\n", session_.scans(),
                  session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0, engine_.name());
+    if (!session_.unexpectedFault().empty()) {
+      warn_(console::faultLine(session_.instance()));
+      status = kWrong;
+    }
+    // What cannot be written is worse: the run may have been right.
     if (retained_)
-      if (const std::string error = retained_->finish(); !error.empty()) return environmentError(error);
+      if (const std::string error = retained_->finish(); !error.empty()) status = environmentError(error);
     if (trace_)
-      if (const std::string error = trace_->finish(); !error.empty()) return environmentError(error);
-    if (session_.unexpectedFault().empty()) return status;
-    fmt::print(stderr, "rungc: {}\n", console::faultLine(session_.instance()));
-    return kWrong;
+      if (const std::string error = trace_->finish(); !error.empty()) status = environmentError(error);
+    return status;
   }
 
   const RunOptions& options_;
@@ -263,6 +266,10 @@ private:
     progress_.clear();
     fmt::print(out_, "{}\n", line);
     std::fflush(out_);
+  };
+  RetainedFiles::Report warn_ = [this](const std::string& line) {
+    progress_.clear();
+    fmt::print(stderr, "rungc: {}\n", line);
   };
   console::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;

@@ -12,29 +12,30 @@ constexpr uint64_t kFormat = 0x52554E474E430001;
 } // namespace
 
 RetainedTables::RetainedTables(SimulatedNc& model, const std::string& file, std::chrono::milliseconds period)
-    : model_(&model), size_(model.keptSize()), store_(file + ".nc", kFormat, size_), period_(period) {}
+    : model_(&model), size_(model.keptSize()),
+      store_(std::make_unique<host::RetainStore>(file + ".nc", kFormat, size_)), period_(period) {}
 
 bool RetainedTables::load(std::string& report, std::string& error) {
-  if (size_ == 0) return false;
-  const host::RetainImage image = store_.load();
+  if (size_ == 0 || !store_->lock(error)) return false;
+  const host::RetainImage image = store_->load();
   report = image.report;
   model_->restoreKept(image.found ? std::span<const uint8_t>(image.bytes) : std::span<const uint8_t>());
   std::vector<uint8_t> now(size_);
   model_->copyKept(now);
-  store_.save(now, error);
+  if (!store_->save(now, error)) return false;
   const auto pack = [](std::span<const uint8_t> raw, std::span<uint8_t> to) { std::ranges::copy(raw, to.begin()); };
   saver_ = std::make_unique<host::RetainSaver>(std::move(store_), size_, size_, pack, period_);
   return image.found;
 }
 
 void RetainedTables::offer() noexcept {
-  if (saver_) saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyKept(to); });
+  if (saver_ && saver_->taken()) saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyKept(to); });
 }
 
 std::string RetainedTables::finish() {
   if (!saver_) return {};
-  saver_->finishFrom([this](std::span<uint8_t> to) { model_->copyKept(to); });
-  return saver_->failed() == 0 ? std::string() : saver_->lastError();
+  saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyKept(to); });
+  return saver_->flush() ? std::string() : saver_->problem();
 }
 
 } // namespace rung::sim

@@ -16,15 +16,19 @@ public:
 
   // Before the power-on; false: the NC starts as delivered. As RetainedMemory::load.
   bool load(std::string& report, std::string& error);
-  // Scan thread, after every scan: copies at most once a period, never waits and allocates nothing.
+  // Scan thread, after every scan: copies at most once a period, never waits and allocates nothing. The tables are the
+  // NC's, which continues when the program stops: after a fault too.
   void offer() noexcept;
-  // After the last scan: what is kept is on disk; "" or what has gone wrong since the start.
+  // Any thread, without a lock: the last try to save them went wrong.
+  bool failing() const noexcept { return saver_ && saver_->failing(); }
+  std::string problem() const { return saver_ ? saver_->problem() : std::string(); }
+  // After the last scan: what is kept is on disk; "" or why it is not.
   std::string finish();
 
 private:
   SimulatedNc* model_;
   uint32_t size_;
-  host::RetainStore store_; // until load has handed it to the saver
+  std::unique_ptr<host::RetainStore> store_; // until load has handed it to the saver
   std::chrono::milliseconds period_;
   std::unique_ptr<host::RetainSaver> saver_; // null: nothing is kept
 };

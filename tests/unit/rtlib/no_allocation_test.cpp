@@ -1,13 +1,19 @@
 // Starting, scanning and running tasks allocate nothing.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <condition_variable>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <mutex>
 
 #include "rtlib/host/instance.h"
 #include "rtlib/host/retained_memory.h"
 #include "rtlib/profile/collector.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/count_system_calls.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
@@ -101,37 +107,128 @@ TEST(NoAllocation, NorReadingCounters) {
   EXPECT_EQ(count, 0);
 }
 
-// Offering the retained memory copies or does nothing: while the saver's thread is busy or asleep too.
+// A place in the saver's work where it stops until it is let go.
+class Gate {
+public:
+  void pass() {
+    std::unique_lock lock(mutex_);
+    reached_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return open_; });
+  }
+  void waitUntilReached() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return reached_; });
+  }
+  void open() {
+    const std::lock_guard lock(mutex_);
+    open_ = true;
+    changed_.notify_all();
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool reached_ = false;
+  bool open_ = false;
+};
+
+struct Disk {
+  Gate* gate = nullptr;
+  std::vector<uint8_t> last;
+};
+
+class SlowTarget final : public RetainTarget {
+public:
+  explicit SlowTarget(Disk& disk) : disk_(&disk) {}
+  bool save(std::span<const uint8_t> bytes, std::string&) override {
+    if (disk_->gate != nullptr) disk_->gate->pass();
+    disk_->last.assign(bytes.begin(), bytes.end());
+    return true;
+  }
+
+private:
+  Disk* disk_;
+};
+
+TEST(NoAllocation, SystemCallsAreCounted) {
+  const std::optional<int> calls = systemCallsOf([] { static_cast<void>(getppid()); });
+  if (!calls) GTEST_SKIP() << "this kernel does not dispatch system calls to the process";
+  EXPECT_EQ(*calls, 1);
+  EXPECT_EQ(systemCallsOf([] {}), 0);
+}
+
+// Wherever the saver stops, in the middle of packing or of writing: offering copies, and neither allocates nor enters
+// the kernel, which it would have to where it waited.
 TEST(NoAllocation, NorOfferingRetainedMemory) {
+  constexpr uint64_t kOffers = 20'000;
+  for (const bool whileWriting : {false, true}) {
+    SCOPED_TRACE(whileWriting);
+    Gate gate;
+    Disk disk{whileWriting ? &gate : nullptr, {}};
+    const auto pack = [&](std::span<const uint8_t> raw, std::span<uint8_t> image) {
+      if (!whileWriting) gate.pass();
+      std::copy(raw.begin(), raw.end(), image.begin());
+    };
+    RetainSaver saver(std::make_unique<SlowTarget>(disk), 8, 8, pack, std::chrono::milliseconds(1));
+    uint64_t taken = 0;
+    const auto offer = [&](uint64_t value) {
+      taken = saver.offerFrom([&](std::span<uint8_t> to) { std::memcpy(to.data(), &value, sizeof value); });
+    };
+    offer(0);
+    gate.waitUntilReached();
+    std::optional<int> calls;
+    const int count = allocationsOf([&] {
+      calls = systemCallsOf([&] {
+        for (uint64_t i = 1; i <= kOffers; ++i) offer(i);
+      });
+    });
+    EXPECT_EQ(count, 0);
+    EXPECT_EQ(calls.value_or(0), 0);
+    EXPECT_EQ(taken, kOffers + 1); // all of them
+    EXPECT_EQ(saver.stored(), 0u); // and the saver still stops
+    gate.open();
+    EXPECT_TRUE(saver.flush());
+    EXPECT_EQ(saver.stored(), kOffers + 1);
+    EXPECT_EQ(saver.saved(), 2u); // the first and the newest
+    uint64_t last = 0;
+    ASSERT_EQ(disk.last.size(), sizeof last);
+    std::memcpy(&last, disk.last.data(), sizeof last);
+    EXPECT_EQ(last, kOffers);
+  }
+}
+
+// The same of all that a host calls after a scan.
+TEST(NoAllocation, NorTheEndOfAScan) {
   namespace fs = std::filesystem;
   TestProgram test;
   build(test);
   std::string pattern = (fs::temp_directory_path() / "rung_offer_XXXXXX").string();
   ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-  Instance instance(test.program);
-  for (const int periodMs : {1, 3600'000}) {
-    RetainedMemory retained(test.program, pattern + "/plc", std::chrono::milliseconds(periodMs));
+  for (const RetainWhen when : {RetainWhen::Always, RetainWhen::OnRequest}) {
+    Instance instance(test.program);
+    RetainedMemory retained(test.program, pattern + "/plc", when, std::chrono::milliseconds(1));
     std::string report;
     std::string error;
     retained.load(instance, report, error);
     ASSERT_EQ(error, "");
-    std::chrono::steady_clock::duration longest{};
+    std::optional<int> calls;
     const int count = allocationsOf([&] {
-      for (int i = 0; i < 20'000; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        instance.memory().writeByte(0, 4, static_cast<uint8_t>(i));
-        retained.offer(instance);
-        longest = std::max(longest, std::chrono::steady_clock::now() - start);
-      }
+      calls = systemCallsOf([&] {
+        for (int i = 0; i < 20'000; ++i) {
+          instance.memory().writeByte(0, 4, static_cast<uint8_t>(i));
+          retained.offer(instance, i % 3 != 0);
+          char problem[100];
+          retained.problem(problem);
+        }
+      });
     });
     EXPECT_EQ(count, 0);
-    // Far below what waiting for the saver's thread would take in the second round.
-    EXPECT_LT(longest, std::chrono::seconds(10));
+    EXPECT_EQ(calls.value_or(0), 0);
+    EXPECT_FALSE(retained.failing());
     instance.memory().writeByte(0, 4, 123);
     EXPECT_EQ(retained.finish(instance), "");
-    Instance next(test.program);
-    EXPECT_TRUE(RetainedMemory(test.program, pattern + "/plc").load(next, report, error));
-    EXPECT_EQ(next.memory().readByte(0, 4), 123);
+    EXPECT_EQ(RetainStore(pattern + "/plc", RetainMap(test.program).hash(), 4).load().bytes[0], 123);
   }
   fs::remove_all(pattern);
 }

@@ -4,6 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -48,6 +56,17 @@ protected:
     ASSERT_TRUE(file.good());
   }
   RetainImage load() { return store().load(); }
+  std::string saveError(RetainStore& to, const Bytes& bytes = {7, 7, 7}) {
+    std::string error;
+    EXPECT_FALSE(to.save(bytes, error));
+    EXPECT_NE(error, "");
+    return error;
+  }
+  // Neither half a file nor one that should be gone.
+  void expectNothingLeft() {
+    for (const auto& entry : fs::directory_iterator(folder))
+      EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+  }
 
   fs::path folder;
   std::string base;
@@ -138,6 +157,20 @@ TEST_F(RetainTest, LeftoverOfACrashIsIgnored) {
   std::ofstream(base + ".b.tmp") << "half a fi";
   EXPECT_EQ(load().bytes, (Bytes{3, 3, 3}));
   EXPECT_EQ(load().report, "");
+  RetainStore s = store();
+  save(s, {4, 4, 4});
+  EXPECT_EQ(load().bytes, (Bytes{4, 4, 4}));
+  expectNothingLeft();
+}
+
+// Machines have such files.
+TEST_F(RetainTest, TheFormatStaysTheSame) {
+  RetainStore s = store();
+  save(s, {1, 2, 3});
+  std::ifstream in(base + ".a", std::ios::binary);
+  const Bytes file(std::istreambuf_iterator<char>(in), {});
+  EXPECT_EQ(file, (Bytes{'R', 'U', 'N', 'G', 'R', 'E', 'T', '1', 0x88, 0x77, 0x66, 0x55, 0x44, 0x33, 0x22, 0x11, 1, 0,
+                         0,   0,   0,   0,   0,   0,   3,   0,   0,    0,    0xB0, 0xCE, 0xD8, 0x63, 1,    2,    3}));
 }
 
 TEST_F(RetainTest, AnotherLayoutOrSizeIsNotTaken) {
@@ -163,36 +196,353 @@ TEST_F(RetainTest, ErrorsAreReported) {
   EXPECT_THAT(error, HasSubstr("No such file"));
 }
 
-TEST_F(RetainTest, SaverWritesWhatWasOffered) {
-  TestProgram test;
-  test.addPacked("R", 1, 8, 0);
-  test.retains = {{1, 3}};
-  test.link();
-  Instance instance(test.program);
-  {
-    RetainSaver saver(store(), RetainMap(test.program), std::chrono::milliseconds(1));
-    for (uint32_t i = 1; i <= 5; ++i) {
-      EXPECT_EQ(instance.write(intRef(0, 1, 8), i), "");
-      while (!saver.offer(instance)) std::this_thread::yield();
+// ---- places that do not work ---------------------------------------------------------------------------------------
+
+// What a link leads to is neither read nor written.
+TEST_F(RetainTest, LinksAreNotFollowed) {
+  saveThree();
+  fs::rename(base + ".a", folder / "elsewhere");
+  fs::create_symlink(folder / "elsewhere", base + ".a");
+  EXPECT_EQ(load().bytes, (Bytes{2, 2, 2}));
+  EXPECT_THAT(load().report, HasSubstr("plc.a: it is a symbolic link; using the other image"));
+  std::ofstream(folder / "victim") << "untouched";
+  fs::create_symlink(folder / "victim", base + ".a.tmp");
+  RetainStore s = store();
+  save(s, {4, 4, 4});
+  save(s, {5, 5, 5});
+  EXPECT_EQ(load().bytes, (Bytes{5, 5, 5}));
+  EXPECT_EQ(load().report, "");
+  EXPECT_EQ(fs::file_size(folder / "victim"), 9u);
+  fs::remove(base + ".lock");
+  fs::create_symlink(folder / "victim", base + ".lock");
+  RetainStore another = store();
+  EXPECT_THAT(saveError(another), HasSubstr("plc.lock: it is a symbolic link"));
+}
+
+TEST_F(RetainTest, APipeBlocksNothing) {
+  saveThree();
+  fs::remove(base + ".a");
+  ASSERT_EQ(mkfifo((base + ".a").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((base + ".a.tmp").c_str(), 0600), 0);
+  EXPECT_THAT(load().report, HasSubstr("plc.a: it is not a regular file; using the other image"));
+  RetainStore s = store();
+  save(s, {4, 4, 4});
+  EXPECT_EQ(load().bytes, (Bytes{4, 4, 4}));
+  fs::remove(base + ".lock");
+  ASSERT_EQ(mkfifo((base + ".lock").c_str(), 0600), 0);
+  RetainStore another = store();
+  EXPECT_THAT(saveError(another), HasSubstr("plc.lock: it is not a regular file"));
+}
+
+TEST_F(RetainTest, AFolderInTheWay) {
+  saveThree();
+  RetainStore s = store();
+  fs::create_directory(base + ".b.tmp");
+  EXPECT_THAT(saveError(s), HasSubstr("cannot write " + base + ".b.tmp: "));
+  fs::remove(base + ".b.tmp");
+  fs::remove(base + ".b");
+  fs::create_directories(base + ".b/full");
+  EXPECT_THAT(saveError(s), HasSubstr("cannot write " + base + ".b: ")); // renaming fails
+  expectNothingLeft();
+  EXPECT_EQ(load().bytes, (Bytes{3, 3, 3}));
+  fs::remove_all(base + ".b");
+  save(s, {4, 4, 4});
+  EXPECT_EQ(load().bytes, (Bytes{4, 4, 4}));
+  EXPECT_EQ(load().generation, 4u);
+}
+
+// A write that ends in the middle, as on a full disk: the limit stands for it, because it needs no rights.
+TEST_F(RetainTest, AWriteThatEndsInTheMiddle) {
+  saveThree();
+  RetainStore s = store();
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small = {20, old.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string error = saveError(s);
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THAT(error, HasSubstr("cannot write " + base + ".b: File too large"));
+  expectNothingLeft();
+  EXPECT_EQ(load().bytes, (Bytes{3, 3, 3}));
+  EXPECT_EQ(load().report, "");
+  save(s, {4, 4, 4});
+  EXPECT_EQ(load().generation, 4u);
+}
+
+// Runs `work` in a process of its own; what it returns is the exit status.
+template <class Work>
+int inChild(Work work) {
+  const pid_t child = fork();
+  if (child == 0) _exit(work());
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+constexpr int kCannot = 77;
+
+TEST_F(RetainTest, AFullDisk) {
+  const int status = inChild([&] {
+    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("full", folder.c_str(), "tmpfs", 0, "size=64k") != 0)
+      return kCannot;
+    saveThree();
+    RetainStore s = store();
+    {
+      std::ofstream fill(folder / "fill", std::ios::binary);
+      while (fill.put('x').flush()) {
+      }
     }
-    EXPECT_EQ(saver.failed(), 0u);
-  } // writes the last one
+    EXPECT_THAT(saveError(s), HasSubstr("No space left on device"));
+    expectNothingLeft();
+    EXPECT_EQ(load().bytes, (Bytes{3, 3, 3}));
+    fs::remove(folder / "fill");
+    save(s, {4, 4, 4});
+    EXPECT_EQ(load().bytes, (Bytes{4, 4, 4}));
+    return HasFailure() ? 1 : 0;
+  });
+  if (status == kCannot) GTEST_SKIP() << "only root can make a small disk";
+  EXPECT_EQ(status, 0);
+}
+
+// In a folder such as /tmp, where everybody may write and nobody may remove what is another's.
+TEST_F(RetainTest, ATemporaryFileOfSomebodyElse) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can make files of another user";
+  fs::permissions(folder, fs::perms::all | fs::perms::sticky_bit);
+  std::ofstream(base + ".a.tmp") << "not yours";
+  const int status = inChild([&] {
+    if (setgid(65534) != 0 || setuid(65534) != 0) return kCannot;
+    RetainStore s = store();
+    EXPECT_THAT(saveError(s), HasSubstr("cannot write " + base + ".a.tmp: Operation not permitted"));
+    return HasFailure() ? 1 : 0;
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(fs::file_size(base + ".a.tmp"), 9u);
+}
+
+// ---- one process at a time -----------------------------------------------------------------------------------------
+
+TEST_F(RetainTest, TheSecondStoreIsRefused) {
+  std::string error;
+  {
+    RetainStore first = store();
+    ASSERT_TRUE(first.lock(error)) << error;
+    for (uint8_t i = 1; i <= 5; ++i) save(first, {i, i, i}); // the files are replaced, the lock is not
+    RetainStore second = store();
+    EXPECT_THAT(saveError(second, {9, 9, 9}),
+                testing::StartsWith(base + " is in use by another process, which holds " + base + ".lock"));
+    EXPECT_EQ(load().bytes, (Bytes{5, 5, 5}));
+    RetainStore third = std::move(first); // moving does not free it
+    EXPECT_FALSE(second.lock(error));
+    EXPECT_TRUE(third.lock(error));
+  }
+  RetainStore next = store();
+  EXPECT_TRUE(next.lock(error)) << error;
+}
+
+TEST_F(RetainTest, ACrashFreesTheLock) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    RetainStore s = store();
+    std::string error;
+    if (s.save(Bytes{1, 1, 1}, error) && write(ready[1], "r", 1) == 1) pause();
+    _exit(1);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  RetainStore s = store();
+  EXPECT_THAT(saveError(s), HasSubstr("in use by another process"));
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  save(s, {2, 2, 2});
+  EXPECT_EQ(load().generation, 2u);
+  close(ready[0]);
+  close(ready[1]);
+}
+
+// What another process has saved since we looked counts.
+TEST_F(RetainTest, LockingLooksAgain) {
+  RetainStore late = store();
+  EXPECT_FALSE(late.load().found);
+  saveThree();
+  save(late, {4, 4, 4});
+  EXPECT_EQ(load().generation, 4u);
+  EXPECT_EQ(load().bytes, (Bytes{4, 4, 4}));
+}
+
+TEST_F(RetainTest, ImagesThatAreGoneAreReported) {
+  std::string error;
+  {
+    RetainStore first = store();
+    ASSERT_TRUE(first.lock(error));
+    EXPECT_EQ(first.load().report, ""); // a first start
+  }
+  saveThree();
+  fs::remove(base + ".a");
+  fs::remove(base + ".b");
+  RetainStore next = store();
+  ASSERT_TRUE(next.lock(error));
+  const RetainImage image = next.load();
+  EXPECT_FALSE(image.found);
+  EXPECT_THAT(image.report, HasSubstr("plc.a and .b are gone; starting cold"));
+}
+
+// ---- saver ---------------------------------------------------------------------------------------------------------
+
+class SaverTest : public RetainTest {
+protected:
+  void SetUp() override {
+    RetainTest::SetUp();
+    test.addPacked("R", 1, 8, 0);
+    test.retains = {{1, 3}};
+    test.link();
+    instance = std::make_unique<Instance>(test.program);
+  }
+  std::unique_ptr<RetainSaver> saver(int periodMs) {
+    return std::make_unique<RetainSaver>(std::make_unique<RetainStore>(store()), RetainMap(test.program),
+                                         std::chrono::milliseconds(periodMs));
+  }
+  uint64_t offer(RetainSaver& to, uint32_t value) {
+    EXPECT_EQ(instance->write(intRef(0, 1, 8), value), "");
+    return to.offer(*instance);
+  }
+  // Waits for what the saver does by itself.
+  template <class Condition>
+  static bool becomes(Condition condition) {
+    for (int i = 0; i < 20'000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return condition();
+  }
+
+  TestProgram test;
+  std::unique_ptr<Instance> instance;
+};
+
+TEST_F(SaverTest, SavesWhatWasOffered) {
+  {
+    const auto s = saver(1);
+    for (uint32_t i = 1; i <= 5; ++i) {
+      const uint64_t ticket = offer(*s, i);
+      EXPECT_EQ(ticket, i);
+      ASSERT_TRUE(becomes([&] { return s->stored() == ticket; }));
+    }
+    EXPECT_EQ(s->saved(), 5u);
+    EXPECT_EQ(s->failed(), 0u);
+    EXPECT_FALSE(s->failing());
+  }
   EXPECT_EQ(load().bytes, (Bytes{5, 0, 0}));
   EXPECT_EQ(load().generation, 5u);
 }
 
-TEST_F(RetainTest, SaverCountsFailures) {
-  TestProgram test;
-  test.addPacked("R", 1, 8, 0);
-  test.retains = {{1, 3}};
-  test.link();
-  Instance instance(test.program);
-  RetainSaver saver(RetainStore((folder / "none" / "plc").string(), kLayout, 3), RetainMap(test.program),
-                    std::chrono::milliseconds(1));
-  EXPECT_TRUE(saver.offer(instance));
-  for (int i = 0; i < 5000 && saver.failed() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_EQ(saver.failed(), 1u);
-  EXPECT_THAT(saver.lastError(), HasSubstr("No such file"));
+// While the saver does not look, the newest image takes the place of those before.
+TEST_F(SaverTest, TheNewestIsSaved) {
+  {
+    const auto s = saver(3600'000);
+    EXPECT_TRUE(s->flush()); // nothing was offered
+    for (uint32_t i = 1; i <= 100; ++i) EXPECT_EQ(offer(*s, i), i);
+    EXPECT_FALSE(s->taken());
+    EXPECT_EQ(s->stored(), 0u);
+    EXPECT_TRUE(s->flush());
+    EXPECT_TRUE(s->taken());
+    EXPECT_EQ(s->stored(), 100u);
+    EXPECT_EQ(s->saved(), 1u);
+    EXPECT_EQ(offer(*s, 100), 101u);
+    EXPECT_TRUE(s->flush());
+    EXPECT_EQ(s->stored(), 101u); // it is on disk
+    EXPECT_EQ(s->saved(), 1u);    // already
+    offer(*s, 102);
+  } // the end saves too
+  EXPECT_EQ(load().bytes, (Bytes{102, 0, 0}));
+  EXPECT_EQ(load().generation, 2u);
+}
+
+TEST_F(SaverTest, AFailureIsPublishedAndTriedAgain) {
+  const auto s = saver(1);
+  ASSERT_TRUE(becomes([&] { return offer(*s, 1), s->stored() > 0; }));
+  for (const char* ending : {".a.tmp", ".b.tmp"}) fs::create_directory(base + ending);
+  const uint64_t ticket = offer(*s, 2);
+  ASSERT_TRUE(becomes([&] { return s->failed() >= 3; })); // by itself
+  EXPECT_TRUE(s->failing());
+  EXPECT_LT(s->stored(), ticket);
+  EXPECT_THAT(s->problem(), HasSubstr("cannot write " + base));
+  char shortText[6];
+  ASSERT_EQ(s->problem(shortText), 6u);
+  EXPECT_EQ(std::string_view(shortText, 6), "cannot");
+  EXPECT_FALSE(s->flush());
+  EXPECT_EQ(load().bytes, (Bytes{1, 0, 0}));
+  for (const char* ending : {".a.tmp", ".b.tmp"}) fs::remove(base + ending);
+  ASSERT_TRUE(becomes([&] { return !s->failing(); })); // nothing is offered any more
+  EXPECT_EQ(s->stored(), ticket);
+  EXPECT_EQ(load().bytes, (Bytes{2, 0, 0}));
+}
+
+// Fails, although what it was given is on disk then.
+class FailsAfterWriting final : public RetainTarget {
+public:
+  FailsAfterWriting(std::vector<Bytes>& written, bool& fails) : written_(&written), fails_(&fails) {}
+  bool save(std::span<const uint8_t> bytes, std::string& error) override {
+    written_->emplace_back(bytes.begin(), bytes.end());
+    error = "fsync";
+    return !*fails_;
+  }
+
+private:
+  std::vector<Bytes>* written_;
+  bool* fails_;
+};
+
+TEST_F(SaverTest, AfterAFailureTheOldImageIsWrittenAgain) {
+  std::vector<Bytes> written;
+  bool fails = false;
+  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), RetainMap(test.program), std::chrono::hours(1));
+  offer(s, 1);
+  EXPECT_TRUE(s.flush());
+  fails = true;
+  offer(s, 2);
+  EXPECT_FALSE(s.flush());
+  fails = false;
+  const uint64_t ticket = offer(s, 1);
+  EXPECT_TRUE(s.flush());
+  EXPECT_EQ(s.stored(), ticket);
+  EXPECT_EQ(written, (std::vector<Bytes>{{1, 0, 0}, {2, 0, 0}, {1, 0, 0}}));
+}
+
+class Throws final : public RetainTarget {
+public:
+  bool save(std::span<const uint8_t>, std::string&) override { throw std::bad_alloc(); }
+};
+
+TEST_F(SaverTest, NothingThrownLeavesTheThread) {
+  RetainSaver s(std::make_unique<Throws>(), RetainMap(test.program), std::chrono::milliseconds(1));
+  offer(s, 1);
+  EXPECT_FALSE(s.flush());
+  EXPECT_EQ(s.problem(), std::bad_alloc().what());
+}
+
+TEST(PublishedText, IsReadWholeOrNotAtAll) {
+  PublishedText text;
+  char buffer[PublishedText::kMost];
+  EXPECT_EQ(text.read(buffer), 0u);
+  std::atomic<bool> stop{false};
+  std::thread setter([&] {
+    for (unsigned i = 0; !stop.load(); ++i) {
+      text.set(std::string(10 + i % 400, static_cast<char>('a' + i % 26)));
+      std::this_thread::yield();
+    }
+  });
+  for (int found = 0; found < 500;) {
+    const size_t size = text.read(buffer);
+    if (size == 0) continue;
+    ++found;
+    EXPECT_EQ(std::string_view(buffer, size).find_first_not_of(buffer[0]), std::string_view::npos);
+  }
+  stop.store(true);
+  setter.join();
+  text.set(std::string(1000, 'x'));
+  EXPECT_EQ(text.read(buffer), PublishedText::kMost);
 }
 
 } // namespace

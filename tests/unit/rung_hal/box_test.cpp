@@ -4,10 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <new>
+#include <thread>
 
+#include "rtlib/nc/technol/signals.h"
+#include "tests/unit/rtlib/test_program.h"
 #include "tests/unit/rung_hal/test_program.h"
 
 namespace {
@@ -181,11 +186,23 @@ TEST(Box, MachinePositionsComeFromHal) {
   EXPECT_EQ(b["gotx"].s32, INT32_MAX);
 }
 
-TEST(Box, RetainedMemoryGoesOn) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "rung_box_XXXXXX").string();
-  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+class BoxRetained : public ::testing::Test {
+protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "rung_box_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder = pattern;
+    file = pattern + "/plc";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::filesystem::path folder;
+  std::string file;
+};
+
+TEST_F(BoxRetained, GoesOn) {
   for (uint32_t round = 1; round <= 3; ++round) {
-    Bench b(testing::gskProgram(), "out u32 count D0:2\nin s32 value F10:4\n", pattern + "/plc");
+    Bench b(testing::gskProgram(), "out u32 count D0:2\nin s32 value F10:4\n", file);
     ASSERT_THAT(b.errors, IsEmpty());
     counting = true;
     allocations = 0;
@@ -195,17 +212,157 @@ TEST(Box, RetainedMemoryGoesOn) {
     EXPECT_EQ(b["count"].u32, 5 * round);
     EXPECT_EQ(b.box->close(), "");
   }
-  Bench nowhere(testing::gskProgram(), "", pattern + "/none/plc");
+  Bench nowhere(testing::gskProgram(), "", (folder / "none" / "plc").string());
   EXPECT_THAT(nowhere.errors, ElementsAre(::testing::HasSubstr("cannot write")));
   EXPECT_EQ(nowhere.box, nullptr);
-  std::filesystem::remove_all(pattern);
+  Bench first(testing::gskProgram(), "", file);
+  Bench second(testing::gskProgram(), "", file);
+  EXPECT_THAT(second.errors, ElementsAre(::testing::HasSubstr("is in use by another process")));
+  EXPECT_EQ(second.box, nullptr);
+}
+
+// Counts in D0, which a fault makes safe; with X0.0 the program stops when it has counted.
+TEST_F(BoxRetained, AFaultLeavesTheLastScan) {
+  test::TestProgram program;
+  program.dialect = "gsk";
+  program.addSpace("X", 1, {{0, 16, 0, RUNG_REPR_PACKED}}, RUNG_SPACE_INPUT);
+  program.addPacked("D", 1, 16, 16);
+  program.addChunk([](uint8_t* mem, rung_ctx*) {
+    mem[17] = ++mem[16];
+    return (mem[0] & 1) != 0 ? RUNG_PC_FAULT : RUNG_PC_DONE;
+  });
+  program.addTask("MAIN", 0);
+  program.retains = {{16, 16}};
+  program.safeSpans = {{16, 1}};
+  program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
+  program.link();
+  {
+    Bench b(program.program, "in bit stop X0.0\nout u32 count D0\n", file);
+    ASSERT_THAT(b.errors, IsEmpty());
+    b.scans(5);
+    b["stop"].bit = true;
+    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Waiting);
+    EXPECT_EQ(b.box->close(), "");
+  }
+  Bench b(program.program, "out u32 count D0\nout u32 second D1\n", file);
+  ASSERT_THAT(b.errors, IsEmpty());
+  b.scans(1);
+  EXPECT_EQ(b["count"].u32, 6u);
+  EXPECT_EQ(b["second"].u32, 6u);
+}
+
+TEST_F(BoxRetained, NctLearnsThatItsMemoryIsLost) {
+  const auto start = [&] {
+    Bench b(testing::nctProgram(), "out bit ok N_NVRAMOK\n", file);
+    EXPECT_THAT(b.errors, IsEmpty());
+    b.box->step(10 * kMs);
+    EXPECT_EQ(b["ok"].bit, b.warnings.empty());
+    EXPECT_EQ(b.box->close(), "");
+    return b["ok"].bit;
+  };
+  EXPECT_TRUE(start());
+  EXPECT_TRUE(start());
+  for (const char* ending : {".a", ".b"}) std::ofstream(file + ending) << "junk";
+  EXPECT_FALSE(start());
+  EXPECT_TRUE(start());
+  for (const char* ending : {".a", ".b"}) std::filesystem::remove(file + ending);
+  EXPECT_FALSE(start());
+  {
+    EXPECT_EQ(Bench(testing::gskProgram(), "", file).box->close(), "");
+  }
+  EXPECT_FALSE(start()); // it is another program's
+}
+
+// A TECHNOL program that counts in PLC_MEM_BACKUP and asks for saving when ASK comes. Its code finds the cells here.
+struct BackupPlaces {
+  uint32_t count;
+  uint32_t request;
+  uint8_t mask;
+  uint32_t ask;
+} places;
+
+void buildBackup(test::TestProgram& program) {
+  const uint32_t cells = nc::areaBytes(nc::technolSignals(), "I");
+  const nc::Signal& backup = *nc::findSignal(nc::technolSignals(), "PLC_MEM_BACKUP", "I");
+  const nc::Signal& request = *nc::findSignal(nc::technolSignals(), "REQ_BACKUP_MEM", "I");
+  places = {backup.byteOffset, request.byteOffset, static_cast<uint8_t>(1u << request.bit), cells};
+  program.dialect = "technol";
+  program.memorySize = cells + 8;
+  program.addSpace("NCI", 1, {{0, cells, 0, RUNG_REPR_PACKED}}, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT);
+  program.addPacked("DATA", 1, 8, cells);
+  program.addSymbol("ASK", 1, 0, RUNG_TYPE_BIT);
+  program.addChunk([](uint8_t* mem, rung_ctx*) {
+    ++mem[places.count];
+    uint8_t* ask = mem + places.ask;
+    if ((ask[0] & 1) != 0 && ask[1] == 0) mem[places.request] |= places.mask;
+    ask[1] = ask[0] & 1;
+    return RUNG_PC_DONE;
+  });
+  program.addTask("MAIN", 0);
+  program.retains = {{backup.byteOffset, backup.count}};
+  program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 20000}, {RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_HOOK, RUNG_NONE, 2}};
+  program.link();
+}
+
+TEST_F(BoxRetained, ATechnolRequestIsAnsweredWhenItIsOnDisk) {
+  test::TestProgram program;
+  buildBackup(program);
+  Bench b(program.program, "in bit ask ASK\nout bit asked REQ_BACKUP_MEM\n", file);
+  ASSERT_THAT(b.errors, IsEmpty());
+  const host::RetainMap map(program.program);
+  const auto onDisk = [&] { return host::RetainStore(file, map.hash(), map.size()).load().bytes.at(0); };
+  const auto step = [&] { ASSERT_EQ(b.box->step(20 * kMs), StepResult::Ran); };
+  const auto ask = [&] {
+    b["ask"].bit = false;
+    step();
+    b["ask"].bit = true;
+    step();
+    EXPECT_TRUE(b["asked"].bit); // nothing can be on disk in the same scan
+  };
+  const auto wait = [&](auto condition) {
+    for (int i = 0; i < 100 && !condition(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      step();
+    }
+    return condition();
+  };
+  for (int i = 0; i < 3; ++i) step();
+  EXPECT_EQ(onDisk(), 0); // nothing is saved without a request
+  ask();
+  ASSERT_TRUE(wait([&] { return !b["asked"].bit; }));
+  EXPECT_EQ(onDisk(), 5); // of the fifth scan, where it was asked for
+  EXPECT_EQ(b.box->retained()->saved(), 1u);
+  for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::create_directory(file + ending);
+  ask();
+  ASSERT_TRUE(wait([&] { return b.box->retained()->failing(); }));
+  for (int i = 0; i < 20; ++i) step();
+  EXPECT_TRUE(b["asked"].bit); // the program waits
+  EXPECT_EQ(onDisk(), 5);
+  for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::remove(file + ending);
+  ASSERT_TRUE(wait([&] { return !b["asked"].bit; }));
+  EXPECT_FALSE(b.box->retained()->failing());
+  EXPECT_GT(onDisk(), 5);
+  EXPECT_EQ(b.box->close(), "");
+}
+
+// Without a file there is nothing to wait for.
+TEST_F(BoxRetained, ATechnolRequestWithoutAFile) {
+  test::TestProgram program;
+  buildBackup(program);
+  Bench b(program.program, "in bit ask ASK\nout bit asked REQ_BACKUP_MEM\n");
+  b["ask"].bit = true;
+  b.box->step(20 * kMs);
+  EXPECT_FALSE(b["asked"].bit);
+  EXPECT_EQ(b.box->retained(), nullptr);
 }
 
 std::vector<uint32_t> shown;
 
 TEST(Box, MessagesReachTheSink) {
   Bench b(testing::gskProgram(), "in bit show X1.2\n");
-  b.box->setMessageSink([](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.number); });
+  b.box->setMessageSink(
+      [](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.number); });
   b["show"].bit = true;
   b.scans(2);
   EXPECT_THAT(shown, ElementsAre(7u, 7u));
@@ -225,7 +382,8 @@ TEST(Box, NctMessages) {
                                  "out u32 code N_ACTMSG\n");
   ASSERT_THAT(b.errors, IsEmpty());
   shown.clear();
-  b.box->setMessageSink([](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.op); });
+  b.box->setMessageSink(
+      [](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.op); });
   const auto cycle = [&] { b.box->step(10 * kMs); };
   b["show"].bit = true;
   cycle();

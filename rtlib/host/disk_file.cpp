@@ -1,0 +1,132 @@
+// Opening, reading, replacing and locking (see disk_file.h).
+#include "rtlib/host/disk_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+namespace rung::host {
+
+namespace {
+
+constexpr int kNotRegular = EBADFD; // no call here gives it
+
+std::string cannotWrite(const std::string& path, int code) { return "cannot write " + path + ": " + fileProblem(code); }
+
+bool writeAll(int fd, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes = bytes.subspan(static_cast<size_t>(n));
+  }
+  return true;
+}
+
+std::string folderOf(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// Makes a rename last. Some file systems have nothing to write for a folder and say so: EINVAL.
+bool syncFolder(const std::string& folder, std::string& error) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int code = fd >= 0 && ::fsync(fd) == 0 ? 0 : errno;
+  if (fd >= 0) ::close(fd);
+  if (code == 0 || code == EINVAL) return true;
+  error = cannotWrite(folder, code);
+  return false;
+}
+
+} // namespace
+
+DiskFile::DiskFile(const std::string& path, int flags)
+    : fd_(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644)) {
+  struct stat status{};
+  if (fd_ < 0 || (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode))) return;
+  close();
+  errno = kNotRegular;
+}
+
+DiskFile& DiskFile::operator=(DiskFile&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  return *this;
+}
+
+bool DiskFile::close() {
+  const int fd = std::exchange(fd_, -1);
+  return fd < 0 || ::close(fd) == 0;
+}
+
+std::string fileProblem(int code) {
+  if (code == ELOOP) return "it is a symbolic link";
+  if (code == kNotRegular) return "it is not a regular file";
+  return std::generic_category().message(code);
+}
+
+std::optional<std::vector<uint8_t>> readDiskFile(const std::string& path, size_t most) {
+  const DiskFile file(path, O_RDONLY);
+  struct stat status{};
+  if (!file.isOpen() || ::fstat(file.fd(), &status) != 0) return std::nullopt;
+  std::vector<uint8_t> bytes(std::min(static_cast<size_t>(status.st_size), most));
+  size_t have = 0;
+  while (have < bytes.size()) {
+    const ssize_t n = ::read(file.fd(), bytes.data() + have, bytes.size() - have);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return std::nullopt;
+    if (n == 0) break;
+    have += static_cast<size_t>(n);
+  }
+  bytes.resize(have);
+  return bytes;
+}
+
+bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error) {
+  const std::string temporary = path + ".tmp";
+  // A crash may have left it; whatever is there is not written through.
+  if (::unlink(temporary.c_str()) != 0 && errno != ENOENT) {
+    error = cannotWrite(temporary, errno);
+    return false;
+  }
+  DiskFile file(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.isOpen()) {
+    error = cannotWrite(temporary, errno);
+    return false;
+  }
+  const bool written = writeAll(file.fd(), bytes) && ::fsync(file.fd()) == 0 && file.close();
+  if (!written || std::rename(temporary.c_str(), path.c_str()) != 0) {
+    error = cannotWrite(path, errno);
+    ::unlink(temporary.c_str());
+    return false;
+  }
+  return syncFolder(folderOf(path), error);
+}
+
+// A file of its own, because a lock belongs to the file and not to its name: one on a file that is replaced would be
+// gone with the first replacement. It is never removed, so all lock the same one.
+DiskLock lockDiskFile(const std::string& path) {
+  DiskLock lock;
+  lock.file = DiskFile(path, O_RDWR); // NFS locks only what may be written
+  lock.made = !lock.file.isOpen() && errno == ENOENT;
+  if (lock.made) lock.file = DiskFile(path, O_RDWR | O_CREAT);
+  if (!lock.file.isOpen()) {
+    lock.error = cannotWrite(path, errno);
+    return lock;
+  }
+  while (::flock(lock.file.fd(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno != EWOULDBLOCK) lock.error = "cannot lock " + path + ": " + fileProblem(errno);
+    lock.file.close();
+    break;
+  }
+  return lock;
+}
+
+} // namespace rung::host

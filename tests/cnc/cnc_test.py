@@ -171,9 +171,9 @@ def mistakes(bench, _options):
         expect(done.returncode != 0, "loaded in spite of the mistake")
         return done.stdout
 
-    output = load("in bit a X0.0\nin bit b Y0.0\nsend a rise M 3\nout bit c NOWHERE\n")
+    output = load("in bit a X0.0\nin bit b Y0.0\nsend a up M 3\nout bit c NOWHERE\n")
     expect("program.map:2: Y0.0 is an output of the program; it cannot be written" in output, "line 2")
-    expect("program.map:3: there is no channel 'M' above this line" in output, "line 3")
+    expect("program.map:3: 'up': rise or fall is expected" in output, "line 3")
     expect("program.map:4: NOWHERE: the program has no such name or address" in output, "line 4")
     expect("cannot make pin rung.fault" in load("out bit fault Y0.0\n"), "a reserved name")
     expect("rung_hal: cannot load /nowhere.so: " in load("", "so=/nowhere.so"), "a missing program")

@@ -15,8 +15,7 @@ enum class Access : uint8_t { Read, Write }; // by HAL
 
 class Binder {
 public:
-  Binder(const MapFile& map, const host::Instance& instance, const nc::Control& control,
-         std::vector<std::string>& errors)
+  Binder(const MapFile& map, const host::Instance& instance, nc::Control& control, std::vector<std::string>& errors)
       : map_(map), instance_(instance), control_(control), errors_(errors) {}
 
   Binding run() {
@@ -26,23 +25,22 @@ public:
     for (const MapConst& constant : map_.constants)
       if (auto place = find(constant.name, constant.type, Access::Write, constant.line))
         binding.constants.push_back({constant.type, *place, constant.value});
-    for (const MapChannel& channel : map_.channels) {
-      if (std::string_view(instance_.program().dialect) == "nct") {
-        // Its strobes are pulses of one cycle, and an answer counts after the pulse: this handshake would wait for
-        // ever.
-        fail(channel.line, "channel: the handshake of an NCT program is not supported yet; remove the line, and its "
-                           "send lines, and connect the signals by in and out lines");
-        continue;
-      }
-      const auto strobe = find(channel.strobe, PinType::Bit, Access::Write, channel.line);
-      const auto code = find(channel.code, PinType::S32, Access::Write, channel.line);
-      const auto done = find(channel.done, PinType::Bit, Access::Read, channel.line);
-      if (strobe && code && done) binding.channels.push_back({*strobe, *code, *done, channel.keepCode});
-    }
+    checkFunctions();
     return binding;
   }
 
 private:
+  void checkFunctions() {
+    nc::Functions* functions = control_.functions();
+    for (const MapSend& send : map_.sends)
+      if (functions == nullptr)
+        fail(send.line, "send: the handshake of M, S and T functions is not supported yet for this dialect (" +
+                            std::string(instance_.program().dialect) +
+                            "); remove the line, and connect the signals by in and out lines");
+    if (map_.highSpeedLine != 0 && (functions == nullptr || !functions->useHighSpeed()))
+      fail(map_.highSpeedLine, "high-speed: this dialect has no such handshake; remove the line");
+  }
+
   void addLink(std::vector<PinLink>& links, const MapLink& link, Access access) {
     const PinType type = map_.pins[link.pin].type;
     if (auto place = find(link.name, type, access, link.line)) links.push_back({link.pin, type, *place, link.scale});
@@ -102,13 +100,13 @@ private:
 
   const MapFile& map_;
   const host::Instance& instance_;
-  const nc::Control& control_;
+  nc::Control& control_;
   std::vector<std::string>& errors_;
 };
 
 } // namespace
 
-Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::Control& control,
+Binding bindMap(const MapFile& map, const host::Instance& instance, nc::Control& control,
                 std::vector<std::string>& errors) {
   return Binder(map, instance, control, errors).run();
 }

@@ -23,22 +23,15 @@ struct ConstLink {
   double value = 0;
 };
 
-struct Channel {
-  host::Ref strobe;
-  host::Ref code;
-  host::Ref done;
-  bool keepCode = false;
-};
-
 struct Binding {
   std::vector<PinLink> inputs;
   std::vector<PinLink> outputs;
   std::vector<ConstLink> constants;
-  std::vector<Channel> channels; // as MapFile::channels
 };
 
-// Every name that does not exist or does not suit its line is one entry of `errors`, "PATH:LINE: what is wrong".
-Binding bindMap(const MapFile& map, const host::Instance& instance, const nc::Control& control,
+// Every name that does not exist or does not suit its line is one entry of `errors`, "PATH:LINE: what is wrong"; so are
+// functions that the control does not hand over.
+Binding bindMap(const MapFile& map, const host::Instance& instance, nc::Control& control,
                 std::vector<std::string>& errors);
 
 } // namespace rung::hal

@@ -71,7 +71,7 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
   std::unique_ptr<Box> box(new Box(program, std::move(map)));
   box->binding_ = bindMap(box->map_, box->instance_, *box->control_, errors);
   if (!errors.empty()) return nullptr;
-  box->functions_ = std::make_unique<AuxFunctions>(box->map_.sends, box->binding_.channels);
+  box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->control_->functions());
   if (!box->start(retain, errors, warnings)) return nullptr;
   warnOfBlocks(program, warnings);
   return box;
@@ -104,7 +104,7 @@ std::string Box::close() {
 
 StepResult Box::step(int64_t ns) noexcept {
   if (failed_) return StepResult::Waiting;
-  functions_->sample(cells_);
+  functions_->sample(instance_, cells_, ns);
   owedNs_ += ns;
   StepResult result = StepResult::Waiting;
   for (uint32_t i = 0; i < kMaxSlices && !instance_.faulted(); ++i) {
@@ -121,7 +121,7 @@ StepResult Box::step(int64_t ns) noexcept {
 }
 
 void Box::slice() noexcept {
-  functions_->advance(instance_.memory(), cells_);
+  functions_->advance(instance_, cells_);
   readPins();
   instance_.slice();
   control_->afterSlice(instance_);

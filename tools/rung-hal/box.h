@@ -9,8 +9,8 @@
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/retention.h"
-#include "tools/rung-hal/aux_functions.h"
 #include "tools/rung-hal/binding.h"
+#include "tools/rung-hal/function_queue.h"
 #include "tools/rung-hal/map_file.h"
 #include "tools/rung-hal/pin_cell.h"
 
@@ -47,7 +47,7 @@ public:
   const rung_program& program() const { return instance_.program(); }
   const rung_fault& fault() const { return instance_.fault(); }
   uint32_t scans() const { return scans_; } // passes of the schedule
-  uint32_t lostFunctions() const { return functions_ ? functions_->lost() : 0; }
+  const FunctionQueue& functions() const { return *functions_; }
   // Of the retained memory; null: nothing is kept.
   const host::RetainedMemory* retained() const { return retained_ ? &retained_->memory() : nullptr; }
 
@@ -65,8 +65,8 @@ private:
   std::unique_ptr<nc::Control> control_;
   host::Instance instance_;
   Binding binding_;
-  std::unique_ptr<AuxFunctions> functions_; // once the map is bound
-  std::unique_ptr<nc::Retention> retained_; // null: nothing is kept
+  std::unique_ptr<FunctionQueue> functions_; // once the map is bound
+  std::unique_ptr<nc::Retention> retained_;  // null: nothing is kept
   const PinCell* cells_ = nullptr;
   MessageSink sink_ = nullptr;
   int64_t owedNs_ = 0; // time that the program's clock lags

@@ -1,6 +1,7 @@
 // Parser of the mapping file: a line is a keyword and blank-separated words.
 #include "tools/rung-hal/map_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -87,12 +88,17 @@ public:
       link(words);
     else if (keyword == "const")
       constant(words);
-    else if (keyword == "channel")
-      channel(words);
     else if (keyword == "send")
       send(words);
+    else if (keyword == "abort")
+      abort(words);
+    else if (keyword == "timeout")
+      timeout(words);
+    else if (keyword == "high-speed")
+      highSpeed(words);
     else
-      error("unknown keyword '" + std::string(keyword) + "': in, out, const, channel or send is expected");
+      error("unknown keyword '" + std::string(keyword) +
+            "': in, out, const, send, abort, timeout or high-speed is expected");
   }
 
 private:
@@ -164,39 +170,52 @@ private:
     map_.constants.push_back({*constType, std::string(words[2]), *value, line_});
   }
 
-  void channel(const Words& words) {
-    if (!hasForm(words, 5, 6, "channel CHANNEL STROBE CODE DONE [keep]")) return;
-    if (words.size() == 6 && words[5] != "keep")
-      return error("'" + std::string(words[5]) + "' where only 'keep' is allowed");
-    if (findChannel(words[1])) return error("channel '" + std::string(words[1]) + "' is already defined");
-    map_.channels.push_back({std::string(words[1]), std::string(words[2]), std::string(words[3]), std::string(words[4]),
-                             words.size() == 6, line_});
-  }
-
-  std::optional<uint32_t> findChannel(std::string_view name) const {
-    for (uint32_t i = 0; i < map_.channels.size(); ++i)
-      if (map_.channels[i].channel == name) return i;
-    return std::nullopt;
+  std::optional<MapEdge> edge(std::string_view name, std::string_view direction) {
+    if (direction != "rise" && direction != "fall") {
+      error("'" + std::string(direction) + "': rise or fall is expected");
+      return std::nullopt;
+    }
+    const std::optional<uint32_t> index = pin(name, PinType::Bit, false);
+    if (!index) return std::nullopt;
+    return MapEdge{*index, direction == "rise"};
   }
 
   void send(const Words& words) {
-    if (!hasForm(words, 5, 6, "send PIN rise|fall CHANNEL CODE|CODEPIN [DONEPIN]")) return;
-    if (words[2] != "rise" && words[2] != "fall")
-      return error("'" + std::string(words[2]) + "': rise or fall is expected");
-    const std::optional<uint32_t> to = findChannel(words[3]);
-    if (!to) return error("there is no channel '" + std::string(words[3]) + "' above this line");
+    if (!hasForm(words, 5, 6, "send PIN rise|fall M|S|T|B CODE|CODEPIN [DONEPIN]")) return;
+    const auto kind = std::ranges::find(nc::kFunctionKinds, words[3]);
+    if (kind == std::end(nc::kFunctionKinds))
+      return error("'" + std::string(words[3]) + "' is not a kind of function: M, S, T or B is expected");
     MapSend sent;
-    sent.rising = words[2] == "rise";
-    sent.channel = *to;
+    sent.kind = static_cast<nc::FunctionKind>(kind - std::begin(nc::kFunctionKinds));
     sent.line = line_;
-    const std::optional<uint32_t> trigger = pin(words[1], PinType::Bit, false);
+    const std::optional<MapEdge> trigger = edge(words[1], words[2]);
     if (!trigger || !sendCode(words[4], sent)) return;
-    sent.pin = *trigger;
+    sent.edge = *trigger;
     if (words.size() == 6) {
       sent.donePin = pin(words[5], PinType::Bit, true);
       if (!sent.donePin) return;
     }
     map_.sends.push_back(sent);
+  }
+
+  void abort(const Words& words) {
+    if (!hasForm(words, 3, 3, "abort PIN rise|fall")) return;
+    if (const std::optional<MapEdge> cause = edge(words[1], words[2])) map_.aborts.push_back(*cause);
+  }
+
+  void timeout(const Words& words) {
+    constexpr double kLongest = 1e6;
+    if (!hasForm(words, 2, 2, "timeout SECONDS")) return;
+    const std::optional<double> seconds = realOf(words[1]);
+    if (!seconds || !(*seconds > 0 && *seconds <= kLongest))
+      return error("'" + std::string(words[1]) +
+                   "' is not a time in seconds: a number above 0, up to 1000000, is expected");
+    if (map_.timeoutNs != 0) return error("the time is already set");
+    map_.timeoutNs = static_cast<int64_t>(*seconds * 1e9);
+  }
+
+  void highSpeed(const Words& words) {
+    if (hasForm(words, 1, 1, "high-speed")) map_.highSpeedLine = line_;
   }
 
   bool sendCode(std::string_view word, MapSend& sent) {

@@ -1,11 +1,13 @@
 // The mapping file: which HAL pins there are, and which names of the PLC program they refer to. docs/linuxcnc.md
-// describes the lines. This is the text alone; bind.h looks the names up in a program.
+// describes the lines. This is the text alone; binding.h looks the names up in a program.
 #pragma once
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "rtlib/nc/control/functions.h"
 
 namespace rung::hal {
 
@@ -33,21 +35,16 @@ struct MapConst {
   uint32_t line = 0;
 };
 
-// channel: how the CNC hands an auxiliary function to the program: a code, its strobe, and the program's "finished".
-struct MapChannel {
-  std::string channel;
-  std::string strobe;
-  std::string code;
-  std::string done;
-  bool keepCode = false; // the code stays until the next one
-  uint32_t line = 0;
+// A pin at a level that it has not had before.
+struct MapEdge {
+  uint32_t pin = 0; // in MapFile::pins
+  bool rising = true;
 };
 
-// send: an edge of a pin makes an auxiliary function.
+// send: an edge of a pin hands a function to the program.
 struct MapSend {
-  uint32_t pin = 0;
-  bool rising = true;
-  uint32_t channel = 0; // in MapFile::channels
+  MapEdge edge;
+  nc::FunctionKind kind = nc::FunctionKind::M;
   int32_t code = 0;
   std::optional<uint32_t> codePin; // instead of `code`
   std::optional<uint32_t> donePin;
@@ -60,8 +57,10 @@ struct MapFile {
   std::vector<MapLink> inputs;
   std::vector<MapLink> outputs;
   std::vector<MapConst> constants;
-  std::vector<MapChannel> channels;
   std::vector<MapSend> sends;
+  std::vector<MapEdge> aborts; // reset, emergency stop: every function ends
+  int64_t timeoutNs = 0;       // of a function; 0: none
+  uint32_t highSpeedLine = 0;  // where the high-speed handshake is asked for; 0: nowhere
 };
 
 // Every mistake is one entry of `errors`, "PATH:LINE: what is wrong"; the lines without mistakes are in the result.

@@ -42,6 +42,8 @@ struct StatusPins {
   hal::PinCell scans;
   hal::PinCell scanTime; // ns
   hal::PinCell scanTimeMax;
+  hal::PinCell functionsBusy;
+  hal::PinCell functionsTimeout;
   hal::PinCell functionsLost;
 };
 
@@ -125,7 +127,9 @@ bool makePins(Component& c) {
   StatusPins& s = *c.status;
   bool ok = status("fault", HAL_BIT, s.fault) && status("fault-line", HAL_U32, s.faultLine) &&
             status("scans", HAL_U32, s.scans) && status("scan-time", HAL_U32, s.scanTime) &&
-            status("scan-time-max", HAL_U32, s.scanTimeMax) && status("functions-lost", HAL_U32, s.functionsLost);
+            status("scan-time-max", HAL_U32, s.scanTimeMax) && status("functions-busy", HAL_BIT, s.functionsBusy) &&
+            status("functions-timeout", HAL_BIT, s.functionsTimeout) &&
+            status("functions-lost", HAL_U32, s.functionsLost);
   for (size_t i = 0; i < pins.size() && ok; ++i)
     ok = makePin(c, pins[i].name.c_str(), halType(pins[i].type), pins[i].output ? HAL_OUT : HAL_IN, &c.cells[i].any);
   c.box->connect(c.cells);
@@ -159,6 +163,9 @@ void scan(void* argument, long periodNs) {
   const Component& c = *static_cast<const Component*>(argument);
   const long long begin = rtapi_get_time();
   const hal::StepResult result = c.box->step(periodNs);
+  *c.status->functionsBusy.bit = c.box->functions().busy();
+  *c.status->functionsTimeout.bit = c.box->functions().late();
+  *c.status->functionsLost.u32 = c.box->functions().lost();
   switch (result) {
   case hal::StepResult::Waiting: return;
   case hal::StepResult::Ran: break;
@@ -168,7 +175,6 @@ void scan(void* argument, long periodNs) {
   *c.status->scanTime.u32 = time;
   if (time > *c.status->scanTimeMax.u32) *c.status->scanTimeMax.u32 = time;
   *c.status->scans.u32 = c.box->scans();
-  *c.status->functionsLost.u32 = c.box->lostFunctions();
 }
 
 int start() {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/nc/control/functions.h"
 #include "rtlib/nc/control/shown_message.h"
 
 namespace rung::nc {
@@ -58,6 +59,9 @@ public:
   // The line of a log: the message's number as the dialect writes it, and its text. Gives the characters written; what
   // does not fit is cut off.
   virtual size_t describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept;
+
+  // The handshake of M, S and T functions; null: this dialect's is not supported yet.
+  virtual Functions* functions() { return nullptr; }
 
   // The program's retained memory was there but could not be restored: called before the power-on.
   virtual void reportRetainedLost() {}

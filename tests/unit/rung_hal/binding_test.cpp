@@ -103,16 +103,18 @@ TEST(Binding, NamesThatDoNotFit) {
   EXPECT_THAT(gskErrors("out s32 a LIMIT"), ElementsAre("m.map:1: LIMIT is a constant of the program"));
   EXPECT_THAT(boundTo(testing::technolProgram(), "out s32 a NAME").errors,
               ElementsAre("m.map:1: NAME is a text; HAL has no pins for texts"));
-  EXPECT_THAT(gskErrors("channel M Q0.0 F10 SYM\nchannel N F7.0 F10:4 D0\n"),
-              ElementsAre("m.map:1: Q0.0: the program has no such name or address",
-                          "m.map:2: D0 is not a bit; s32, u32, float or a bit of it is possible"));
 }
 
-TEST(Binding, ChannelsOfNctAreRefused) {
+TEST(Binding, FunctionsOfOtherDialectsAreRefused) {
+  const auto refusal = [](const std::string& line, const std::string& dialect) {
+    return "m.map:" + line + ": send: the handshake of M, S and T functions is not supported yet for this dialect (" +
+           dialect + "); remove the line, and connect the signals by in and out lines";
+  };
+  EXPECT_THAT(boundTo(testing::nctProgram(), "send a rise M 3\nsend a fall M 5\n").errors,
+              ElementsAre(refusal("1", "nct"), refusal("2", "nct")));
   EXPECT_THAT(
-      boundTo(testing::nctProgram(), "channel M 0056.17 0057 0400.00\n").errors,
-      ElementsAre("m.map:1: channel: the handshake of an NCT program is not supported yet; remove the line, and "
-                  "its send lines, and connect the signals by in and out lines"));
+      boundTo(testing::technolProgram(), "send a rise T 1\nhigh-speed").errors,
+      ElementsAre(refusal("1", "technol"), "m.map:2: high-speed: this dialect has no such handshake; remove the line"));
 }
 
 } // namespace

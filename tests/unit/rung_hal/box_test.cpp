@@ -415,56 +415,62 @@ TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
   EXPECT_EQ(timeless.box, nullptr);
 }
 
-// ---- auxiliary functions -------------------------------------------------------------------------------------------
+// ---- M, S and T functions
+// --------------------------------------------------------------------------------------------
 
-constexpr std::string_view kFunctions = "channel M F7.0 F10:4 G4.3\nchannel T F7.0 F14:4 G4.3 keep\n"
-                                        "send cw rise M 3\nsend cw fall M 5\nsend change rise M 6 changed\n"
-                                        "send prepare rise T number prepared\n"
-                                        "out bit strobe F7.0\nout bit done G4.3\nout s32 m F10:4\nout s32 t F14:4\n";
+constexpr std::string_view kFunctions = "send cw rise M 3\nsend cw fall M 5\nsend change rise M 6 changed\n"
+                                        "send prepare rise T number prepared\nin bit held X1.3\nin bit fin X2.0\n"
+                                        "out bit mf F7.0\nout bit tf F7.3\nout bit done G4.3\nout s32 m F10:4\n"
+                                        "out s32 t F26:4\nabort estop rise\ntimeout 1.5\n";
 
-TEST(AuxFunctions, OneHandshake) {
+TEST(Functions, OneHandshake) {
   Bench b(testing::gskProgram(), kFunctions);
   ASSERT_THAT(b.errors, IsEmpty());
   b.scans(1);
-  EXPECT_FALSE(b["strobe"].bit); // a pin that is 0 from the beginning has not fallen
+  EXPECT_EQ(b["m"].s32, 0); // a pin that is 0 from the beginning has not fallen
+  EXPECT_FALSE(b.box->functions().busy());
   b["change"].bit = true;
-  b.scans(1); // code and strobe; the program answers in the same scan
+  b.scans(1); // the code
   EXPECT_EQ(b["m"].s32, 6);
-  EXPECT_TRUE(b["strobe"].bit);
+  EXPECT_FALSE(b["mf"].bit);
+  EXPECT_TRUE(b.box->functions().busy());
+  b.scans(1); // the strobe; the program answers in the same scan
+  EXPECT_TRUE(b["mf"].bit);
   EXPECT_TRUE(b["done"].bit);
   EXPECT_FALSE(b["changed"].bit);
   b.scans(1);
-  EXPECT_FALSE(b["strobe"].bit);
+  EXPECT_FALSE(b["mf"].bit);
   EXPECT_FALSE(b["done"].bit);
   EXPECT_EQ(b["m"].s32, 6);
   EXPECT_FALSE(b["changed"].bit);
   b.scans(1);
   EXPECT_EQ(b["m"].s32, 0);
   EXPECT_TRUE(b["changed"].bit);
+  EXPECT_FALSE(b.box->functions().busy());
   b.scans(5); // it is done once
-  EXPECT_FALSE(b["strobe"].bit);
+  EXPECT_FALSE(b["mf"].bit);
   EXPECT_TRUE(b["changed"].bit);
   b["change"].bit = false;
   EXPECT_EQ(b.box->step(kMs), StepResult::Waiting); // the acknowledge does not wait for a slice
   EXPECT_FALSE(b["changed"].bit);
 }
 
-TEST(AuxFunctions, CodesFromPinsAndCodesThatStay) {
+TEST(Functions, CodesFromPinsAndCodesThatStay) {
   Bench b(testing::gskProgram(), kFunctions);
   b["number"].s32 = 12;
   b["prepare"].bit = true;
-  b.scans(3);
+  b.scans(4);
   EXPECT_TRUE(b["prepared"].bit);
   EXPECT_EQ(b["t"].s32, 12);
   EXPECT_EQ(b["m"].s32, 0);
 }
 
-TEST(AuxFunctions, WaitInTheirOrder) {
+TEST(Functions, OfOneKindWaitInTheirOrder) {
   Bench b(testing::gskProgram(), kFunctions);
   std::vector<int32_t> codes;
   const auto oneMs = [&] {
     b.box->step(kMs);
-    if (b["strobe"].bit && (codes.empty() || codes.back() != b["m"].s32)) codes.push_back(b["m"].s32);
+    if (b["mf"].bit && (codes.empty() || codes.back() != b["m"].s32)) codes.push_back(b["m"].s32);
   };
   b["cw"].bit = true; // all of this between two slices
   oneMs();
@@ -477,24 +483,117 @@ TEST(AuxFunctions, WaitInTheirOrder) {
   EXPECT_TRUE(b["changed"].bit);
 }
 
-TEST(AuxFunctions, NoAcknowledgeWhenTheCauseHasGone) {
+// FIN is common: functions of one slot run side by side, a later one waits for it.
+TEST(Functions, OfOneSlotRunSideBySide) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["held"].bit = true;
+  b["cw"].bit = b["prepare"].bit = true;
+  b.scans(2);
+  EXPECT_TRUE(b["mf"].bit);
+  EXPECT_TRUE(b["tf"].bit);
+  b["cw"].bit = false;
+  b.scans(3);
+  EXPECT_EQ(b["m"].s32, 3);
+  b["fin"].bit = true;
+  b.scans(2);
+  EXPECT_FALSE(b["mf"].bit);
+  EXPECT_FALSE(b["tf"].bit);
+  b["fin"].bit = false;
+  b.scans(2);
+  EXPECT_TRUE(b["prepared"].bit);
+  EXPECT_EQ(b["m"].s32, 5);
+}
+
+// A tool that takes its time to come does not hold up the spindle's stop.
+TEST(Functions, OfTheHighSpeedModeDoNotWaitForOtherKinds) {
+  Bench b(testing::gskProgram(), std::string(kFunctions) + "high-speed\nin bit tool-there X2.1\n");
+  ASSERT_THAT(b.errors, IsEmpty());
+  b["prepare"].bit = true;
+  b.scans(3);
+  EXPECT_TRUE(b["tf"].bit);
+  b["change"].bit = true;
+  b.scans(3);
+  EXPECT_TRUE(b["changed"].bit);
+  EXPECT_FALSE(b["prepared"].bit);
+  b["tool-there"].bit = true;
+  b.scans(2);
+  EXPECT_TRUE(b["prepared"].bit);
+}
+
+TEST(Functions, AnAnswerCountsOnceItWasAbsent) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["held"].bit = b["fin"].bit = true; // finished before anything was asked
+  b["change"].bit = true;
+  b.scans(20);
+  EXPECT_TRUE(b["mf"].bit);
+  EXPECT_FALSE(b["changed"].bit);
+  b["fin"].bit = false;
+  b.scans(2);
+  EXPECT_TRUE(b["mf"].bit);
+  b["fin"].bit = true;
+  b.scans(2);
+  EXPECT_FALSE(b["mf"].bit);
+  EXPECT_FALSE(b["changed"].bit);
+  b["fin"].bit = false;
+  b.scans(2);
+  EXPECT_TRUE(b["changed"].bit);
+}
+
+TEST(Functions, AnAbortEndsThemAndWhatItSendsGoesAtOnce) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["cw"].bit = true;
+  b.scans(5);
+  b["held"].bit = true;
+  b["prepare"].bit = b["change"].bit = true;
+  b.scans(3);
+  EXPECT_TRUE(b["mf"].bit);
+  EXPECT_TRUE(b["tf"].bit);
+  b["estop"].bit = true;
+  b["cw"].bit = false; // with the same event
+  b.scans(1);
+  EXPECT_FALSE(b["mf"].bit);
+  EXPECT_FALSE(b["tf"].bit);
+  EXPECT_EQ(b["m"].s32, 5);
+  b["held"].bit = false;
+  b.scans(5);
+  EXPECT_FALSE(b["changed"].bit);
+  EXPECT_FALSE(b["prepared"].bit);
+  EXPECT_FALSE(b.box->functions().busy());
+}
+
+TEST(Functions, OneThatTakesTooLongShows) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["held"].bit = true;
+  b["change"].bit = true;
+  for (int i = 0; i < 1500; ++i) b.box->step(kMs);
+  EXPECT_FALSE(b.box->functions().late());
+  b.box->step(2 * kMs);
+  EXPECT_TRUE(b.box->functions().late());
+  b["held"].bit = false; // it still ends
+  b.scans(4);
+  EXPECT_TRUE(b["changed"].bit);
+  b.box->step(kMs);
+  EXPECT_FALSE(b.box->functions().late());
+}
+
+TEST(Functions, NoAcknowledgeWhenTheCauseHasGone) {
   Bench b(testing::gskProgram(), kFunctions);
   b["change"].bit = true;
   b.scans(1);
   b["change"].bit = false;
-  b.scans(5);
+  b.scans(6);
   EXPECT_FALSE(b["changed"].bit);
 }
 
-TEST(AuxFunctions, WhatFindsTheQueueFullIsCounted) {
-  Bench b(testing::gskProgram(), "channel M F7.0 F10:4 Y5.5\nsend a rise M 3\n"); // the program never finishes it
-  for (uint32_t i = 0; i < AuxFunctions::kQueue + 3; ++i) {
+TEST(Functions, WhatFindsTheQueueFullIsCounted) {
+  Bench b(testing::gskProgram(), "send a rise M 3\n"); // no slice runs, so nothing is finished
+  for (uint32_t i = 0; i < FunctionQueue::kRoom + 3; ++i) {
     b["a"].bit = true;
     b.box->step(kMs / 1000);
     b["a"].bit = false;
     b.box->step(kMs / 1000);
   }
-  EXPECT_EQ(b.box->lostFunctions(), 3u);
+  EXPECT_EQ(b.box->functions().lost(), 3u);
 }
 
 // ---- real time -----------------------------------------------------------------------------------------------------

@@ -17,13 +17,14 @@ TEST(MapFile, ReadsEveryKindOfLine) {
                                "\tout\tfloat  feed.1 AN_FEED,#1\r\n"
                                "\n"
                                "const s32 D4:4 -12\n"
-                               "channel M F7.0 F10:4 G4.3\n"
-                               "channel T F7.3 F26:4 G4.3 keep\n"
                                "send spindle-on fall M 5\n"
+                               "abort estop rise\n"
+                               "timeout 2.5\n"
+                               "high-speed\n"
                                "send prepare rise T number prepared", // the last line needs no end
                                "m.map", errors);
   EXPECT_THAT(errors, IsEmpty());
-  ASSERT_EQ(map.pins.size(), 6u);
+  ASSERT_EQ(map.pins.size(), 7u);
   EXPECT_EQ(map.pins[0].name, "start");
   EXPECT_EQ(map.pins[0].type, PinType::Bit);
   EXPECT_FALSE(map.pins[0].output);
@@ -38,26 +39,27 @@ TEST(MapFile, ReadsEveryKindOfLine) {
   EXPECT_EQ(map.outputs[0].name, "AN_FEED,#1"); // '#' within a word is part of the name
   ASSERT_EQ(map.constants.size(), 1u);
   EXPECT_EQ(map.constants[0].value, -12);
-  ASSERT_EQ(map.channels.size(), 2u);
-  EXPECT_FALSE(map.channels[0].keepCode);
-  EXPECT_TRUE(map.channels[1].keepCode);
   ASSERT_EQ(map.sends.size(), 2u);
-  EXPECT_FALSE(map.sends[0].rising);
+  EXPECT_FALSE(map.sends[0].edge.rising);
+  EXPECT_EQ(map.sends[0].kind, nc::FunctionKind::M);
   EXPECT_EQ(map.sends[0].code, 5);
   EXPECT_FALSE(map.sends[0].codePin.has_value());
   EXPECT_FALSE(map.sends[0].donePin.has_value());
-  EXPECT_EQ(map.sends[1].channel, 1u);
+  EXPECT_EQ(map.sends[1].kind, nc::FunctionKind::T);
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].name, "number");
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].type, PinType::S32);
   EXPECT_EQ(map.pins[map.sends[1].donePin.value()].name, "prepared");
   EXPECT_TRUE(map.pins[map.sends[1].donePin.value()].output);
+  ASSERT_EQ(map.aborts.size(), 1u);
+  EXPECT_EQ(map.pins[map.aborts[0].pin].name, "estop");
+  EXPECT_TRUE(map.aborts[0].rising);
+  EXPECT_EQ(map.timeoutNs, 2'500'000'000);
+  EXPECT_EQ(map.highSpeedLine, 9u);
 }
 
 TEST(MapFile, APinOfSeveralLinesIsOnePin) {
   std::vector<std::string> errors;
-  const MapFile map = parseMap("channel M F7.0 F10 G4.3\n"
-                               "in bit cw X0.0\nin bit cw X0.1\nsend cw rise M 3\nsend cw fall M 5\n",
-                               "m.map", errors);
+  const MapFile map = parseMap("in bit cw X0.0\nin bit cw X0.1\nsend cw rise M 3\nsend cw fall M 5\n", "m.map", errors);
   EXPECT_THAT(errors, IsEmpty());
   EXPECT_EQ(map.pins.size(), 1u);
   EXPECT_EQ(map.inputs.size(), 2u);
@@ -84,9 +86,10 @@ std::vector<std::string> errorsOf(std::string_view text) {
 }
 
 TEST(MapFile, EveryMistakeIsReportedWithItsLine) {
-  EXPECT_THAT(errorsOf("# fine\ninput bit a X0.0\nin bit a\n"),
-              ElementsAre("m.map:2: unknown keyword 'input': in, out, const, channel or send is expected",
-                          "m.map:3: the form is: in TYPE PIN NAME [SCALE]"));
+  EXPECT_THAT(
+      errorsOf("# fine\ninput bit a X0.0\nin bit a\n"),
+      ElementsAre("m.map:2: unknown keyword 'input': in, out, const, send, abort, timeout or high-speed is expected",
+                  "m.map:3: the form is: in TYPE PIN NAME [SCALE]"));
   EXPECT_THAT(errorsOf("in word a X0"),
               ElementsAre("m.map:1: unknown type 'word': bit, s32, u32 or float is expected"));
   EXPECT_THAT(errorsOf("in bit a/b X0.0"),
@@ -124,21 +127,26 @@ TEST(MapFile, BadValues) {
 }
 
 TEST(MapFile, BadFunctions) {
-  EXPECT_THAT(errorsOf("send a rise M 3"), ElementsAre("m.map:1: there is no channel 'M' above this line"));
-  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nsend a up M 3"),
-              ElementsAre("m.map:2: 'up': rise or fall is expected"));
-  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nchannel M F7.0 F10 G4.3"),
-              ElementsAre("m.map:2: channel 'M' is already defined"));
-  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3 hold"), ElementsAre("m.map:1: 'hold' where only 'keep' is allowed"));
-  EXPECT_THAT(errorsOf("channel M F7.0 F10\n"),
-              ElementsAre("m.map:1: the form is: channel CHANNEL STROBE CODE DONE [keep]"));
-  EXPECT_THAT(errorsOf("out bit a Y0.0\nchannel M F7.0 F10 G4.3\nsend a rise M 3"),
-              ElementsAre("m.map:3: pin 'a' is already defined as out bit"));
+  EXPECT_THAT(errorsOf("send a rise Q 3"),
+              ElementsAre("m.map:1: 'Q' is not a kind of function: M, S, T or B is expected"));
+  EXPECT_THAT(errorsOf("send a up M 3"), ElementsAre("m.map:1: 'up': rise or fall is expected"));
+  EXPECT_THAT(errorsOf("send a rise M"),
+              ElementsAre("m.map:1: the form is: send PIN rise|fall M|S|T|B CODE|CODEPIN [DONEPIN]"));
+  EXPECT_THAT(errorsOf("out bit a Y0.0\nsend a rise M 3"),
+              ElementsAre("m.map:2: pin 'a' is already defined as out bit"));
   // Two acknowledges on one pin, or one that a name feeds too, would fight.
-  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nout bit d Y0.0\nsend a rise M 3 d"),
-              ElementsAre("m.map:3: output pin 'd' is already mapped"));
-  EXPECT_THAT(errorsOf("channel M F7.0 F10 G4.3\nsend a rise M 3 d\nsend b rise M 4 d"),
-              ElementsAre("m.map:3: output pin 'd' is already mapped"));
+  EXPECT_THAT(errorsOf("out bit d Y0.0\nsend a rise M 3 d"), ElementsAre("m.map:2: output pin 'd' is already mapped"));
+  EXPECT_THAT(errorsOf("send a rise M 3 d\nsend b rise M 4 d"),
+              ElementsAre("m.map:2: output pin 'd' is already mapped"));
+  EXPECT_THAT(errorsOf("abort a"), ElementsAre("m.map:1: the form is: abort PIN rise|fall"));
+  EXPECT_THAT(errorsOf("abort a high"), ElementsAre("m.map:1: 'high': rise or fall is expected"));
+  EXPECT_THAT(errorsOf("timeout 0\ntimeout nan\ntimeout 1e9\ntimeout 5 s"),
+              ElementsAre("m.map:1: '0' is not a time in seconds: a number above 0, up to 1000000, is expected",
+                          "m.map:2: 'nan' is not a time in seconds: a number above 0, up to 1000000, is expected",
+                          "m.map:3: '1e9' is not a time in seconds: a number above 0, up to 1000000, is expected",
+                          "m.map:4: the form is: timeout SECONDS"));
+  EXPECT_THAT(errorsOf("timeout 5\ntimeout 6"), ElementsAre("m.map:2: the time is already set"));
+  EXPECT_THAT(errorsOf("high-speed on"), ElementsAre("m.map:1: the form is: high-speed"));
 }
 
 } // namespace

@@ -15,6 +15,15 @@ void setBit(uint8_t* mem, uint32_t byte, uint32_t number, bool value) {
   mem[byte] = static_cast<uint8_t>((mem[byte] & ~(1u << number)) | (static_cast<unsigned>(value) << number));
 }
 
+// FIN is the strobe of any function, or what X2.0 says while X1.3 is on. High-speed: M is finished at once, T when X2.1
+// is on.
+void answerFunctions(uint8_t* mem) {
+  const bool strobe = bit(mem, kF + 7, 0) || bit(mem, kF + 7, 2) || bit(mem, kF + 7, 3);
+  setBit(mem, kG + 4, 3, bit(mem, kX + 1, 3) ? bit(mem, kX + 2, 0) : strobe);
+  setBit(mem, kG + 5, 0, bit(mem, kF + 7, 0));
+  if (bit(mem, kX + 2, 1)) setBit(mem, kG + 5, 3, bit(mem, kF + 7, 3));
+}
+
 uint32_t gskScan(uint8_t* mem, rung_ctx* ctx) {
   if (bit(mem, kX + 1, 0)) {
     ctx->fault.code = 0;
@@ -23,7 +32,7 @@ uint32_t gskScan(uint8_t* mem, rung_ctx* ctx) {
     return RUNG_PC_FAULT;
   }
   setBit(mem, kY, 0, bit(mem, kX, 0));
-  setBit(mem, kG + 4, 3, bit(mem, kF + 7, 0));
+  answerFunctions(mem);
   uint16_t count;
   std::memcpy(&count, mem + kD, 2);
   ++count;

@@ -45,7 +45,7 @@ void Operation::step(const nc::gsk::SignalsIo& io, Machine& machine) {
   speed_ = 0;
   followMode(run);
   followButtons(run);
-  auxiliary_.step(io);
+  functions_.step(io);
   progress(run);
   writeSignals(io);
 }
@@ -133,19 +133,19 @@ bool Operation::beginBlock(Run& run) {
   inBlock_ = true;
   move_ = 0;
   if (run.io.g(5, 6)) codes_.lock(); // AFL
-  if (codes_.any()) auxiliary_.start(codes_, run.io, run.machine.tables);
+  if (codes_.any()) codes_.start(functions_, run.io, run.machine.tables.parameterBit(kParamGuard, 7));
   if (codes_.s) run.machine.spindle.command(*codes_.s);
   return true;
 }
 
 bool Operation::blockDone(Run& run) {
-  if (move_ < moves_.size() || dwellMs_ > 0 || auxiliary_.busy()) return false;
+  if (move_ < moves_.size() || dwellMs_ > 0 || functions_.busy()) return false;
   if (!externalOwed_) return true;
   externalOwed_ = false;
   AuxiliaryCodes external;
   external.external = true;
-  auxiliary_.start(external, run.io, run.machine.tables);
-  auxiliary_.step(run.io); // EF follows the positioning at once
+  external.start(functions_, run.io, false);
+  functions_.step(run.io); // EF follows the positioning at once
   return false;
 }
 
@@ -170,7 +170,7 @@ void Operation::end() {
 }
 
 void Operation::reset(const nc::gsk::SignalsIo& io, Machine& machine) {
-  auxiliary_.reset(io);
+  functions_.abort(io);
   if (state_ != RunState::Reset || inBlock_)
     for (uint32_t i = 0; i < kAxes; ++i)
       if (!machine.isPlcAxis(i)) machine.axes[i].moving = false;
@@ -188,7 +188,7 @@ void Operation::writeSignals(const nc::gsk::SignalsIo& io) const {
   io.setF(0, 7, state_ != RunState::Reset); // Table 5-1
   io.setF(0, 5, state_ == RunState::Start);
   io.setF(0, 4, state_ == RunState::Hold);
-  io.setF(1, 3, inBlock_ && move_ >= moves_.size() && dwellMs_ <= 0 && auxiliary_.busy()); // DEN l.5875
+  io.setF(1, 3, inBlock_ && move_ >= moves_.size() && dwellMs_ <= 0 && functions_.busy()); // DEN l.5875
   io.setF(2, 7, io.g(46, 7));                                                              // MDRN l.5367
   io.setF(2, 6, inBlock_ && state_ == RunState::Start && move_ < moves_.size() && !moves_[move_].rapid);
   io.setF(2, 0, modal_.inch); // l.4106

@@ -2,6 +2,7 @@
 // area.
 #pragma once
 #include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/gsk/gsk_functions.h"
 
 namespace rung::nc {
 
@@ -11,9 +12,13 @@ public:
   void prepare(host::Instance& instance, PowerOn kind) override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
+  GskFunctions* functions() override { return &functions_; }
 
 protected:
   std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+
+private:
+  GskFunctions functions_;
 };
 
 } // namespace rung::nc

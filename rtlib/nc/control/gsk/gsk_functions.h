@@ -1,0 +1,55 @@
+// The handshake of GSK's auxiliary functions M, S, T, B (man. §7, l.5732-6131): codes in one slot, strobes in the next,
+// then the answer of the PLC. That is FIN for all of them, which rises and falls; so functions that begin in one slot
+// end together, and others wait. In the high-speed mode every function has a completion signal that takes the level of
+// its strobe, and functions do not wait for others.
+//
+// An answer counts once it has been seen absent after the strobe.
+#pragma once
+#include <array>
+
+#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/gsk/signals_io.h"
+
+namespace rung::nc {
+
+class GskFunctions final : public Functions {
+public:
+  // M, second and third M of a block, S, T, B, external operation (EF of G81, l.9450).
+  enum class Line : uint8_t { M, M2, M3, S, T, B, External };
+  static constexpr uint32_t kLines = 7;
+
+  // Takes effect with functions handed over from now on.
+  void setHighSpeed(bool on) { highSpeed_ = on; }
+  // The code is in F from now on. False: it has to wait.
+  bool start(const gsk::SignalsIo& io, Line line, uint32_t code);
+  void step(const gsk::SignalsIo& io);
+  // Strobes fall at once, codes of M go away (l.5257).
+  void abort(const gsk::SignalsIo& io);
+  bool busy() const;
+
+  bool useHighSpeed() override {
+    setHighSpeed(true);
+    return true;
+  }
+  bool start(host::Instance& instance, FunctionKind kind, uint32_t code) override;
+  void step(host::Instance& instance) override { step(gsk::SignalsIo(instance)); }
+  bool busy(FunctionKind kind) const override;
+  void abort(host::Instance& instance) override { abort(gsk::SignalsIo(instance)); }
+
+private:
+  enum class Phase : uint8_t { Idle, Code, Strobe, Release };
+  struct Running {
+    Phase phase = Phase::Idle;
+    bool fast = false;   // by the high-speed mode
+    bool absent = false; // the answer, since the strobe
+  };
+
+  void giveStrobe(const gsk::SignalsIo& io, uint32_t line);
+  bool answered(const gsk::SignalsIo& io, uint32_t line) const;
+  void end(const gsk::SignalsIo& io, uint32_t line);
+
+  std::array<Running, kLines> running_ = {}; // by Line
+  bool highSpeed_ = false;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,62 @@
+// M, S and T functions for programs that expect the handshake of their NC, while HAL has levels: an edge of a pin
+// queues a function, the dialect's handshake (rtlib/nc/control/functions.h) hands it to the program, and the
+// acknowledge pin comes on when the program has finished it; it falls with the pin that caused the function.
+//
+// Functions of one kind keep their order. One of another kind does not wait for them, unless the dialect's signals
+// allow one at a time only.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "rtlib/nc/control/functions.h"
+#include "tools/rung-hal/map_file.h"
+#include "tools/rung-hal/pin_cell.h"
+
+namespace rung::hal {
+
+class FunctionQueue {
+public:
+  static constexpr uint32_t kRoom = 64;
+
+  // `functions` may be null where there are no sends.
+  FunctionQueue(const MapFile& map, nc::Functions* functions);
+
+  // In every call of the scan function: notices edges, and an abort, which empties the queue and ends what the program
+  // was doing. `ns`: time since the last call.
+  void sample(host::Instance& instance, const PinCell* pins, int64_t ns) noexcept;
+  // Before every slice of the program.
+  void advance(host::Instance& instance, const PinCell* pins) noexcept;
+
+  // A function was handed over, or waits.
+  bool busy() const noexcept { return count_ != 0; }
+  // One has not been finished within the map's time since it was queued.
+  bool late() const noexcept { return late_; }
+  // Functions that found the queue full.
+  uint32_t lost() const noexcept { return lost_; }
+
+private:
+  struct Call {
+    uint32_t send = 0;
+    uint32_t code = 0;
+    int64_t ageNs = 0;
+    bool started = false;
+  };
+
+  bool triggered(const MapEdge& edge, const PinCell* pins) const noexcept { return *pins[edge.pin].bit == edge.rising; }
+  void queue(Call call) noexcept;
+  void abort(host::Instance& instance) noexcept;
+  bool finish(const Call& call, const PinCell* pins) const noexcept;
+
+  std::vector<MapSend> sends_;
+  std::vector<bool> wasTriggered_; // by sends_
+  std::vector<MapEdge> aborts_;
+  std::vector<bool> wasAborted_; // by aborts_
+  nc::Functions* functions_;
+  int64_t timeoutNs_;       // 0: none
+  std::vector<Call> calls_; // the oldest first; room for kRoom
+  uint32_t count_ = 0;
+  uint32_t lost_ = 0;
+  bool late_ = false;
+};
+
+} // namespace rung::hal

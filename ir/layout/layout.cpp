@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 #include "ir/layout/representation.h"
 #include "ir/support/check.h"
@@ -266,6 +267,13 @@ std::vector<Exit> exitsOf(const Layout& layout, const Chunk& chunk) {
   std::vector<Exit> exits;
   for (uint32_t i = 0; i < chunk.rungCount; ++i) exits.push_back(exitOf(layout, chunk.routine, chunk.firstRung + i));
   return exits;
+}
+
+bool hostReadsMemory(const Layout& layout, const Chunk& chunk) {
+  const std::span rungs(layout.module().at(chunk.routine).rungs);
+  return std::ranges::any_of(rungs.subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
+    return std::ranges::any_of(rung.ops, [](const Op& op) { return hostReads(opInfo(op.code)); });
+  });
 }
 
 bool hasExtraWeight(const std::vector<Exit>& exits) {

@@ -31,7 +31,8 @@ struct ServiceReply {
 
 // Asked before a request is queued; true: the reply is filled in and the request does not enter the queue. With the
 // state Pending in the reply the responder has kept the request and completes it later. It runs inside the task, so it
-// must be bounded and must not run tasks itself.
+// must be bounded and must not run tasks itself. It may read the program's spaces, as the program has left them, and
+// writes to none (see rung_host_api).
 struct ServiceResponder {
   bool (*respond)(void* data, const ServiceRequest& request, ServiceReply& reply) = nullptr;
   void* data = nullptr;

@@ -208,7 +208,9 @@ enum rung_service_state {
   RUNG_SERVICE_ERROR = 3,
 };
 
-/* Bounded functions that generated code may call. None allocates, locks or blocks. `size` as in rung_program. */
+/* Bounded functions that generated code may call. None allocates, locks or blocks. `size` as in rung_program.
+ * Each runs while a chunk does. Only service_request may read the memory block: it finds all spaces as the program has
+ * left them. None of them may write to the block, and what else they read there may be old. */
 typedef struct rung_host_api {
   uint32_t size;
   uint32_t reserved;

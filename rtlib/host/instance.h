@@ -57,6 +57,7 @@ public:
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
 
   // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
+  // The host's side of the queues may be active meanwhile.
   void coldStart();
   // The same, but the retained spans keep their contents.
   void warmStart();

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "rtlib/core/float_environment.h"
+
 namespace rung::rt {
 
 Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept
@@ -92,6 +94,7 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
 
 void Runner::begin(uint32_t task) noexcept {
   inTask_ = true;
+  floatControl_ = enterFloatEnvironment();
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
 }
 
@@ -100,6 +103,7 @@ bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
   const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
   if (!fault) copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
+  leaveFloatEnvironment(floatControl_);
   inTask_ = false;
   if (fault) stopOnFault(task);
   return !fault;

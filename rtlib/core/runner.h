@@ -1,6 +1,8 @@
 // Runs a program's tasks and walks its schedule on the scan thread. Every loop is bounded: a task by its budget, a scan
 // by its list of steps. Memory, context and part states are the caller's; the runner allocates nothing.
 //
+// Every run has the floating-point settings that programs are compiled for, whatever the thread has.
+//
 // Parts. A run of a task that is cut into n parts takes exactly n RUNG_STEP_PART steps: part k stops at the first chunk
 // border at or after the end of part k outside every subroutine, a jump over that border suspends at its target, and a
 // run that ended early idles until its n steps are over, so that the schedule and the parts stay in phase.
@@ -91,6 +93,7 @@ private:
   RunnerHooks hooks_;
   uint32_t position_ = 0;        // in rung_program::scan
   uint32_t untimedPeriodUs_ = 0; // what a pass of a list without ADVANCE takes
+  uint32_t floatControl_ = 0;    // the thread's own settings, while a task runs
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;

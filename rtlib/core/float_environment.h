@@ -41,17 +41,32 @@ inline void setFloatControl(uint32_t control) noexcept { asm volatile("fsrm %0" 
 #error "how are the floating-point settings of this processor read?"
 #endif
 
-// Puts the default settings in force; gives what it found.
-inline uint32_t enterFloatEnvironment() noexcept {
-  const uint32_t found = floatControl();
-  if ((found & ~kFloatStatus) != kDefaultFloatControl) [[unlikely]]
-    setFloatControl(kDefaultFloatControl);
-  return found;
-}
-// Puts back what enterFloatEnvironment has found.
-inline void leaveFloatEnvironment(uint32_t found) noexcept {
-  if ((found & ~kFloatStatus) != kDefaultFloatControl) [[unlikely]]
-    setFloatControl(found);
-}
+// The default settings are in force while it exists, and the thread's own again afterwards. One inside of another does
+// nothing: `inForce` says so, and begins as false.
+class FloatEnvironment {
+public:
+  explicit FloatEnvironment(bool& inForce) noexcept : inForce_(inForce), outermost_(!inForce) {
+    if (!outermost_) return;
+    inForce_ = true;
+    found_ = floatControl();
+    if (isOther()) [[unlikely]]
+      setFloatControl(kDefaultFloatControl);
+  }
+  ~FloatEnvironment() {
+    if (!outermost_) return;
+    inForce_ = false;
+    if (isOther()) [[unlikely]]
+      setFloatControl(found_);
+  }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+private:
+  bool isOther() const noexcept { return (found_ & ~kFloatStatus) != kDefaultFloatControl; }
+
+  bool& inForce_;
+  bool outermost_;
+  uint32_t found_ = 0;
+};
 
 } // namespace rung::rt

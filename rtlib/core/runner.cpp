@@ -94,7 +94,6 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
 
 void Runner::begin(uint32_t task) noexcept {
   inTask_ = true;
-  floatControl_ = enterFloatEnvironment();
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
 }
 
@@ -103,13 +102,22 @@ bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
   const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
   if (!fault) copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
-  leaveFloatEnvironment(floatControl_);
   inTask_ = false;
   if (fault) stopOnFault(task);
   return !fault;
 }
 
 bool Runner::runTask(uint32_t task) noexcept {
+  const FloatEnvironment environment(defaultFloats_);
+  return runWhole(task);
+}
+
+bool Runner::runPart(uint32_t task) noexcept {
+  const FloatEnvironment environment(defaultFloats_);
+  return runNextPart(task);
+}
+
+bool Runner::runWhole(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
   begin(task);
@@ -119,7 +127,7 @@ bool Runner::runTask(uint32_t task) noexcept {
   return finish(task, runChunks(t.entry, RUNG_PC_DONE, t, budget));
 }
 
-bool Runner::runPart(uint32_t task) noexcept {
+bool Runner::runNextPart(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
   PartState& state = parts_[task];
@@ -177,10 +185,10 @@ void Runner::doStep(const rung_step& step) noexcept {
   switch (static_cast<rung_step_op>(step.op)) {
   case RUNG_STEP_ADVANCE: advance(step.arg); return;
   case RUNG_STEP_RUN:
-    for (uint32_t i = 0; i < step.arg && !stopped_ && !faulted_; ++i) runTask(step.task);
+    for (uint32_t i = 0; i < step.arg && !stopped_ && !faulted_; ++i) runWhole(step.task);
     return;
   case RUNG_STEP_PART:
-    if (!stopped_) runPart(step.task);
+    if (!stopped_) runNextPart(step.task);
     return;
   case RUNG_STEP_HOOK:
     if (!stopped_ && hooks_.step != nullptr) hooks_.step(hooks_.data, step.arg);
@@ -202,11 +210,13 @@ bool Runner::stepOnce() noexcept {
 }
 
 void Runner::scan() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   bool more = true;
   while (more && !faulted_) more = stepOnce();
 }
 
 void Runner::slot() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   bool more = true;
   while (more && !faulted_) {
     const bool slotEnds = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_SLOT;
@@ -215,6 +225,7 @@ void Runner::slot() noexcept {
 }
 
 void Runner::fast() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   for (uint32_t i = 0; i < program_->fast_count && !faulted_; ++i) doStep(program_->fast[i]);
 }
 
@@ -225,6 +236,7 @@ uint32_t Runner::sliceDelayUs() const noexcept {
 }
 
 void Runner::slice() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   bool more = true;
   while (more && !faulted_) more = stepOnce() && program_->scan[position_].op != RUNG_STEP_ADVANCE;
 }

@@ -80,6 +80,8 @@ private:
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;
   void copy(uint32_t first, uint32_t count) noexcept;
+  bool runWhole(uint32_t task) noexcept;
+  bool runNextPart(uint32_t task) noexcept;
   void doStep(const rung_step& step) noexcept;
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
@@ -93,11 +95,11 @@ private:
   RunnerHooks hooks_;
   uint32_t position_ = 0;        // in rung_program::scan
   uint32_t untimedPeriodUs_ = 0; // what a pass of a list without ADVANCE takes
-  uint32_t floatControl_ = 0;    // the thread's own settings, while a task runs
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;
   bool inFaultHook_ = false;
+  bool defaultFloats_ = false; // in a scan or run: its floating-point settings are in force
 };
 
 } // namespace rung::rt

@@ -21,7 +21,7 @@ public:
     std::string text = "{";
     for (const FieldInfo& field : info.fields) {
       if (text.size() > 1) text += ", ";
-      text += fieldText(field, base);
+      text += fieldText(info, field, base);
     }
     return text + "}";
   }
@@ -34,11 +34,12 @@ private:
     return value;
   }
 
-  std::string fieldText(const FieldInfo& field, const std::byte* base) {
+  std::string fieldText(const StructInfo& info, const FieldInfo& field, const std::byte* base) {
     const std::byte* at = base + field.offset;
     const auto count = [&] { return read<uint32_t>(base + field.countOffset); };
     switch (field.kind) {
     case FieldKind::U32: return fmt::format("{}u", read<uint32_t>(at));
+    case FieldKind::OwnSize: return fmt::format("sizeof({})", info.name);
     case FieldKind::U64: return fmt::format("0x{:016x}ull", read<uint64_t>(at));
     case FieldKind::I64: return fmt::format("static_cast<int64_t>({}ull)", static_cast<uint64_t>(read<int64_t>(at)));
     case FieldKind::Text: return cppString(read<const char*>(at));

@@ -42,7 +42,7 @@ std::vector<ModulePart> cutPieces(const Layout& layout) {
   uint32_t rungs = kRungsPerPiece;
   for (uint32_t i = 0; i < layout.chunks().size(); ++i) {
     if (rungs >= kRungsPerPiece) {
-      pieces.push_back({.firstChunk = i, .tableName = fmt::format("rung_chunks_{}", pieces.size())});
+      pieces.push_back({.firstChunk = i, .tableName = fmt::format("rung_chunks_{}", i)});
       rungs = 0;
     }
     ++pieces.back().chunkCount;
@@ -70,9 +70,11 @@ public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
            JitReport& report)
       : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout)), objects_(pieces_.size()),
-        cache_(options.cacheFolder,
-               options.cacheFolder.empty() ? 0 : cacheKey(layout, codeHash, options.code, machine)),
-        report_(report) {}
+        cache_(options.cacheFolder), report_(report) {
+    if (options.cacheFolder.empty()) return;
+    const CacheKeys keys(layout, codeHash, options.code, machine);
+    for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
+  }
 
   Result<void> run() {
     report_.modules = static_cast<uint32_t>(pieces_.size());
@@ -91,14 +93,14 @@ public:
 private:
   void work() {
     for (uint32_t i = next_++; i < pieces_.size(); i = next_++) {
-      if (std::optional<std::string> found = cache_.find(i)) {
+      if (std::optional<std::string> found = cache_.find(pieces_[i])) {
         objects_[i] = std::move(*found);
         const std::lock_guard lock(mutex_);
         ++report_.fromCache;
         continue;
       }
       Result<std::string> made = compilePiece(layout_, codeHash_, options_.code, pieces_[i]);
-      Result<void> kept = made.ok() ? cache_.keep(i, made.value()) : Result<void>();
+      Result<void> kept = made.ok() ? cache_.keep(pieces_[i], made.value()) : Result<void>();
       const std::lock_guard lock(mutex_);
       if (!made.ok())
         trouble_ = made.error();

@@ -39,8 +39,7 @@ private:
   std::unique_ptr<State> state_;
 };
 
-// `codeHash` is the hash of the module's whole text, with its lines: the cache takes equal hashes for equal programs.
-// The layout need not outlive the engine.
+// `codeHash` goes into the program's tables. The layout need not outlive the engine.
 Result<std::unique_ptr<JitEngine>> compileJit(const ir::Layout& layout, uint64_t codeHash, const JitOptions& options);
 
 } // namespace rung::codegen

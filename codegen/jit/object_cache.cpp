@@ -8,54 +8,114 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <llvm/ADT/StringExtras.h>
+#include <llvm/Object/ObjectFile.h>
+#include <llvm/Support/SHA256.h>
 
-#include "codegen/llvm/embedded.h"
-#include "ir/support/hash.h"
+#include "ir/text/text.h"
 
 namespace rung::codegen {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Behind the object's bytes; a file that does not end in it was cut or changed.
-std::string seal(std::string_view object) { return fmt::format("rung-object {:016x}\n", hashBytes(object)); }
+CacheKey sha256(std::string_view bytes) {
+  return llvm::SHA256::hash({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+}
+
+void putDestination(const ir::Destination& to, std::string& text) {
+  fmt::format_to(std::back_inserter(text), " {}:{}+{}", to.chunk, to.rung, to.extra);
+}
+
+// The cut of a chunk, and where its rungs go with which extra weight.
+void putChunk(const ir::Layout& layout, const ir::Chunk& chunk, std::string& text) {
+  fmt::format_to(std::back_inserter(text), "chunk {} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
+  for (const ir::Exit& exit : ir::exitsOf(layout, chunk)) {
+    fmt::format_to(std::back_inserter(text), "{}", static_cast<int>(exit.kind));
+    putDestination(exit.taken, text);
+    putDestination(exit.otherwise, text);
+    for (const ir::Destination& to : exit.targets) putDestination(to, text);
+    text += '\n';
+  }
+}
+
+// What the object exports under that name; nothing when it is not an object or has none.
+std::optional<PieceIdentity> identityIn(std::string_view object, const std::string& name) {
+  const llvm::MemoryBufferRef bytes({object.data(), object.size()}, "");
+  llvm::Expected<std::unique_ptr<llvm::object::ObjectFile>> file = llvm::object::ObjectFile::createObjectFile(bytes);
+  if (!file) {
+    llvm::consumeError(file.takeError());
+    return std::nullopt;
+  }
+  const auto valueOf = [](auto expected) {
+    using Value = std::remove_cvref_t<decltype(*expected)>;
+    if (expected) return std::optional<Value>(*expected);
+    llvm::consumeError(expected.takeError());
+    return std::optional<Value>();
+  };
+  for (const llvm::object::SymbolRef& symbol : (*file)->symbols()) {
+    if (valueOf(symbol.getName()) != llvm::StringRef(name)) continue;
+    const auto section = valueOf(symbol.getSection());
+    const auto offset = valueOf(symbol.getValue());
+    if (!section || *section == (*file)->section_end() || !offset) return std::nullopt;
+    const auto contents = valueOf((*section)->getContents());
+    PieceIdentity identity;
+    if (!contents || *offset > contents->size() || contents->size() - *offset < sizeof identity) return std::nullopt;
+    std::memcpy(&identity, contents->data() + *offset, sizeof identity);
+    return identity;
+  }
+  return std::nullopt;
+}
 
 } // namespace
 
-uint64_t cacheKey(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine) {
-  std::string text = fmt::format("{} {} {} {:x} {:x} {} {} {}\n", llvmBackEndVersion(), machine, RUNG_ABI_VERSION,
-                                 codeHash, layout.hash(), static_cast<int>(options.level), options.debugInfo,
+std::string cacheSeal(std::string_view object) {
+  return fmt::format("rung-object {}\n", llvm::toHex(sha256(object), true));
+}
+
+CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
+                     std::string_view version)
+    : layout_(layout) {
+  std::string text = fmt::format("{} {} {} {:x} {} {} {}\n", version, machine, RUNG_ABI_VERSION, codeHash,
+                                 static_cast<int>(options.level), options.debugInfo,
                                  options.sabotage ? static_cast<int>(*options.sabotage) : -1);
-  for (const std::string& file : layout.module().files) text += file + "\n";
-  for (const ir::Chunk& chunk : layout.chunks())
-    fmt::format_to(std::back_inserter(text), "{} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
-  return hashBytes(text);
+  text += layout.text();
+  text += ir::print(layout.module());
+  whole_ = sha256(text);
 }
 
-std::string ObjectCache::path(uint32_t piece) const {
-  return (fs::path(folder_) / fmt::format("{:016x}-{}.o", key_, piece)).string();
+CacheKey CacheKeys::of(const ModulePart& piece) const {
+  std::string text = fmt::format("{} {} {}\n", llvm::toHex(whole_, true), piece.firstChunk, piece.chunkCount);
+  for (uint32_t i = 0; i < piece.chunkCount; ++i) putChunk(layout_, layout_.chunks()[piece.firstChunk + i], text);
+  return sha256(text);
 }
 
-std::optional<std::string> ObjectCache::find(uint32_t piece) const {
+std::string ObjectCache::path(const ModulePart& piece) const {
+  return (fs::path(folder_) / (llvm::toHex(piece.key, true) + ".o")).string();
+}
+
+std::optional<std::string> ObjectCache::find(const ModulePart& piece) const {
   if (folder_.empty()) return std::nullopt;
   std::ifstream in(path(piece), std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const size_t sealSize = seal({}).size();
+  const size_t sealSize = cacheSeal({}).size();
   if (!in || bytes.size() < sealSize) return std::nullopt;
   const std::string_view object(bytes.data(), bytes.size() - sealSize);
-  if (seal(object) != std::string_view(bytes).substr(object.size())) return std::nullopt;
+  if (cacheSeal(object) != std::string_view(bytes).substr(object.size())) return std::nullopt;
+  if (identityIn(object, piece.identityName()) != PieceIdentity{piece.key, piece.firstChunk, piece.chunkCount})
+    return std::nullopt;
   bytes.resize(object.size());
   return bytes;
 }
 
-Result<void> ObjectCache::keep(uint32_t piece, std::string_view object) const {
+Result<void> ObjectCache::keep(const ModulePart& piece, std::string_view object) const {
   if (folder_.empty()) return {};
   std::error_code error;
   fs::create_directories(folder_, error);
   // Renamed when complete: readers never see half a file.
   const std::string unfinished = fmt::format("{}.{}.tmp", path(piece), getpid());
   std::ofstream out(unfinished, std::ios::binary);
-  out << object << seal(object);
+  out << object << cacheSeal(object);
   out.close();
   if (!out) {
     fs::remove(unfinished, error);

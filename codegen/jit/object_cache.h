@@ -1,29 +1,43 @@
-// Object files kept in a folder, by key. A damaged file counts as absent. Several processes may use one folder.
+// Object files kept in a folder, one a piece, by the hash of all that makes the piece's code. The key is also in the
+// object (see PieceIdentity) and is compared there: a file under a right name with other contents counts as absent, as
+// a damaged one does. Several processes may use one folder.
 #pragma once
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "codegen/llvm/embedded.h"
 #include "codegen/llvm/llvm_emitter.h"
+#include "codegen/llvm/module_part.h"
 
 namespace rung::codegen {
 
-// All that decides what code a layout gives, on this machine and by this version of the back end.
-uint64_t cacheKey(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine);
+// Keys of the pieces of one program for one machine. `version` is that of the compiler, which tests exchange.
+class CacheKeys {
+public:
+  CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
+            std::string_view version = codeVersion());
+  CacheKey of(const ModulePart& piece) const;
+
+private:
+  const ir::Layout& layout_;
+  CacheKey whole_; // all that the pieces share
+};
+
+// What follows an object's bytes in its file; a file that does not end in it was cut or changed.
+std::string cacheSeal(std::string_view object);
 
 class ObjectCache {
 public:
   // An empty folder: nothing is kept or found.
-  ObjectCache(std::string folder, uint64_t key) : folder_(std::move(folder)), key_(key) {}
+  explicit ObjectCache(std::string folder) : folder_(std::move(folder)) {}
 
-  std::optional<std::string> find(uint32_t piece) const;
-  Result<void> keep(uint32_t piece, std::string_view object) const;
+  std::optional<std::string> find(const ModulePart& piece) const;
+  Result<void> keep(const ModulePart& piece, std::string_view object) const;
 
 private:
-  std::string path(uint32_t piece) const;
+  std::string path(const ModulePart& piece) const;
   std::string folder_;
-  uint64_t key_;
 };
 
 } // namespace rung::codegen

@@ -23,21 +23,46 @@ AbiTypes::AbiTypes(llvm::LLVMContext& context) {
       {i64, ptr, ptr, ptr, ptr, fault, i32, i32, llvm::ArrayType::get(i32, RUNG_STACK_DEPTH)}, "rung_ctx");
 }
 
+namespace {
+
+// Where the fields that code touches lie in C, for pointers of so many bytes. The asserts below hold this compiler's
+// structs to the same formulas.
+struct Offsets {
+  uint64_t pointer;
+  constexpr uint64_t ctxHost() const { return 8; }
+  constexpr uint64_t ctxProf() const { return 8 + 2 * pointer; }
+  constexpr uint64_t ctxFault() const { return 8 + 4 * pointer; }
+  constexpr uint64_t ctxSp() const { return ctxFault() + 16; }
+  constexpr uint64_t ctxExtraWeight() const { return ctxSp() + 4; }
+  constexpr uint64_t ctxStack() const { return ctxSp() + 8; }
+  constexpr uint64_t ctxSize() const { return ctxStack() + 4 * uint64_t{RUNG_STACK_DEPTH}; }
+  constexpr uint64_t hostMessage() const { return 8; }
+  constexpr uint64_t hostServiceResult() const { return 8 + 3 * pointer; }
+};
+constexpr Offsets kHere{sizeof(void*)};
+static_assert(kHere.ctxHost() == offsetof(rung_ctx, host) && kHere.ctxProf() == offsetof(rung_ctx, prof) &&
+              kHere.ctxFault() == offsetof(rung_ctx, fault) && kHere.ctxSp() == offsetof(rung_ctx, sp) &&
+              kHere.ctxExtraWeight() == offsetof(rung_ctx, extra_weight) &&
+              kHere.ctxStack() == offsetof(rung_ctx, stack) && kHere.ctxSize() == sizeof(rung_ctx));
+static_assert(kHere.hostMessage() == offsetof(rung_host_api, message) &&
+              kHere.hostServiceResult() == offsetof(rung_host_api, service_result));
+
+} // namespace
+
 void AbiTypes::check(const llvm::DataLayout& data) const {
   RUNG_CHECK(data.isLittleEndian(), "only little-endian targets");
-  if (data.getPointerSize() != sizeof(void*)) return;
+  const Offsets inC{data.getPointerSize()};
   const auto at = [&](llvm::StructType* type, unsigned field) -> uint64_t {
     return data.getStructLayout(type)->getElementOffset(field);
   };
-  RUNG_CHECK(at(ctx, kHost) == offsetof(rung_ctx, host) && at(ctx, kProf) == offsetof(rung_ctx, prof) &&
-                 at(ctx, kFault) == offsetof(rung_ctx, fault) && at(ctx, kSp) == offsetof(rung_ctx, sp) &&
-                 at(ctx, kExtraWeight) == offsetof(rung_ctx, extra_weight) &&
-                 at(ctx, kStack) == offsetof(rung_ctx, stack) && data.getTypeAllocSize(ctx) == sizeof(rung_ctx),
+  RUNG_CHECK(at(ctx, kHost) == inC.ctxHost() && at(ctx, kProf) == inC.ctxProf() && at(ctx, kFault) == inC.ctxFault() &&
+                 at(ctx, kSp) == inC.ctxSp() && at(ctx, kExtraWeight) == inC.ctxExtraWeight() &&
+                 at(ctx, kStack) == inC.ctxStack() && data.getTypeAllocSize(ctx) == inC.ctxSize(),
              "rung_ctx lies as in C");
-  RUNG_CHECK(at(fault, kFaultTask) == offsetof(rung_fault, task), "rung_fault lies as in C");
-  RUNG_CHECK(at(hostApi, kMessage) == offsetof(rung_host_api, message) &&
-                 at(hostApi, kServiceResult) == offsetof(rung_host_api, service_result),
+  RUNG_CHECK(at(hostApi, kMessage) == inC.hostMessage() && at(hostApi, kServiceResult) == inC.hostServiceResult(),
              "rung_host_api lies as in C");
+  // Without pointers: the same everywhere.
+  RUNG_CHECK(at(fault, kFaultTask) == offsetof(rung_fault, task), "rung_fault lies as in C");
   RUNG_CHECK(at(message, kValue) == offsetof(rung_message, value) &&
                  data.getTypeAllocSize(message) == sizeof(rung_message),
              "rung_message lies as in C");

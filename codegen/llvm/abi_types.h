@@ -1,5 +1,5 @@
 // The structs of rung/program.h that code touches, as LLVM types for a target. Field numbers are those of the C
-// structs; on 64-bit targets their offsets are checked against this compiler's.
+// structs, and their offsets are checked against where C puts them on the target.
 #pragma once
 
 namespace llvm {

@@ -30,7 +30,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "all");
-  function_->addParamAttr(0, llvm::Attribute::NoAlias);
+  if (!hostReadsMemory(layout_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
   mem_->setName("mem");

@@ -1,4 +1,4 @@
-# cmake -DOUT=file -DFILES=file,... -P embed_version.cmake: a hash of the back end's own sources, for cached code.
+# cmake -DOUT=file -DFILES=file,... -P embed_version.cmake: a hash of the sources that make code, for cached code.
 string(REPLACE "," ";" files "${FILES}")
 set(all "")
 foreach(file IN LISTS files)
@@ -6,4 +6,4 @@ foreach(file IN LISTS files)
   string(APPEND all "${one}")
 endforeach()
 string(SHA256 hash "${all}")
-file(WRITE "${OUT}" "// Made from the sources of codegen/llvm.\n#include \"codegen/llvm/embedded.h\"\n\nnamespace rung::codegen {\n\nstd::string_view llvmBackEndVersion() { return \"${hash}\"; }\n\n} // namespace rung::codegen\n")
+file(WRITE "${OUT}" "// Made from the sources that make code.\n#include \"codegen/llvm/embedded.h\"\n\nnamespace rung::codegen {\n\nstd::string_view codeVersion() { return \"${hash}\"; }\n\n} // namespace rung::codegen\n")

@@ -85,6 +85,16 @@ llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm
                                   exported.empty() ? "chunks" : exported);
 }
 
+void addIdentity(llvm::Module& module, const ModulePart& part) {
+  llvm::LLVMContext& context = module.getContext();
+  llvm::Constant* value =
+      llvm::ConstantStruct::getAnon({llvm::ConstantDataArray::get(context, part.key),
+                                     llvm::ConstantInt::get(llvm::Type::getInt32Ty(context), part.firstChunk),
+                                     llvm::ConstantInt::get(llvm::Type::getInt32Ty(context), part.chunkCount)});
+  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value,
+                           part.identityName());
+}
+
 } // namespace
 
 Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
@@ -102,6 +112,8 @@ Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, co
   if (part.tableName.empty()) {
     const ir::ProgramImage image(layout, codeHash);
     addProgramTables(*module, image.program(), table);
+  } else {
+    addIdentity(*module, part);
   }
   if (Result<void> linked = linkSem(*module); !linked.ok()) return linked.failure();
   std::string text;

@@ -10,6 +10,7 @@
 #include <llvm/Target/TargetMachine.h>
 
 #include "codegen/llvm/llvm_emitter.h"
+#include "codegen/llvm/module_part.h"
 
 namespace rung::codegen {
 
@@ -20,15 +21,6 @@ enum class MachineUse : uint8_t {
 
 // Optimisation of the code generator follows the level.
 Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions& options, MachineUse use);
-
-// What goes into one module.
-struct ModulePart {
-  uint32_t firstChunk = 0;
-  uint32_t chunkCount = 0;
-  // Not empty: the module exports a table of its chunks' functions under this name. Empty: it is the whole program and
-  // exports rung_program_v1.
-  std::string tableName{};
-};
 
 // Verified; functions of sem.hpp are linked in. Fails only where LLVM refuses what we made.
 Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,

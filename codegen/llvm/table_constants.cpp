@@ -37,7 +37,7 @@ public:
   llvm::Constant* structConstant(const StructInfo& info, const std::byte* base) {
     std::vector<llvm::Constant*> fields;
     fields.reserve(info.fields.size());
-    for (const FieldInfo& field : info.fields) fields.push_back(fieldConstant(field, base));
+    for (const FieldInfo& field : info.fields) fields.push_back(fieldConstant(info, field, base));
     return llvm::ConstantStruct::get(structType(info), fields);
   }
 
@@ -51,7 +51,8 @@ private:
 
   llvm::Type* fieldType(FieldKind kind) const {
     switch (kind) {
-    case FieldKind::U32: return llvm::Type::getInt32Ty(context_);
+    case FieldKind::U32:
+    case FieldKind::OwnSize: return llvm::Type::getInt32Ty(context_);
     case FieldKind::U64:
     case FieldKind::I64: return llvm::Type::getInt64Ty(context_);
     case FieldKind::Text:
@@ -67,11 +68,10 @@ private:
 
   void checkOffsets(const StructInfo& info, llvm::StructType* type) const {
     const llvm::DataLayout& data = module_.getDataLayout();
-    if (data.getPointerSize() != sizeof(void*)) return;
+    const TargetStruct inC = targetStruct(info, data.getPointerSize());
     for (unsigned i = 0; i < info.fields.size(); ++i)
-      RUNG_CHECK(data.getStructLayout(type)->getElementOffset(i) == info.fields[i].offset,
-                 "a struct of the ABI lies as in C");
-    RUNG_CHECK(data.getTypeAllocSize(type) == info.size, "a struct of the ABI is as long as in C");
+      RUNG_CHECK(data.getStructLayout(type)->getElementOffset(i) == inC.offsets[i], "a struct of the ABI lies as in C");
+    RUNG_CHECK(data.getTypeAllocSize(type) == inC.size, "a struct of the ABI is as long as in C");
   }
 
   llvm::GlobalVariable* global(llvm::Constant* value, std::string_view name) {
@@ -102,11 +102,13 @@ private:
     return global(llvm::ConstantArray::get(llvm::ArrayType::get(type, count), elements), name);
   }
 
-  llvm::Constant* fieldConstant(const FieldInfo& field, const std::byte* base) {
+  llvm::Constant* fieldConstant(const StructInfo& info, const FieldInfo& field, const std::byte* base) {
     const std::byte* at = base + field.offset;
     const auto count = [&] { return read<uint32_t>(base + field.countOffset); };
     switch (field.kind) {
     case FieldKind::U32: return llvm::ConstantInt::get(fieldType(field.kind), read<uint32_t>(at));
+    case FieldKind::OwnSize:
+      return llvm::ConstantInt::get(fieldType(field.kind), module_.getDataLayout().getTypeAllocSize(structType(info)));
     case FieldKind::U64:
     case FieldKind::I64: return llvm::ConstantInt::get(fieldType(field.kind), read<uint64_t>(at));
     case FieldKind::Text: return textConstant(read<const char*>(at));

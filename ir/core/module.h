@@ -89,7 +89,6 @@ struct Space {
 struct Slot {
   Type type = Type::Bit;
   int64_t init = 0;
-  bool retain = false;
   bool transient = false; // a register between rungs: meaningless before the first store of a run
   std::string key;
 };

@@ -557,15 +557,19 @@ constexpr OpInfo kOps[] = {
      .result = C::None,
      .attr = Attr::MessageOp,
      .effects = kHost,
-     .doc = "Shows, logs or clears message `number` with channel, index and a value (i64 or f64)."},
+     .doc =
+         "Shows, logs or clears message `number` with channel, index and a value (i64 or f64). The host reads nothing "
+         "but these."},
     {.code = OpCode::ServiceRequest,
      .name = "service_request",
      .types = kNoTypes,
      .operands = {C::Variadic},
      .result = C::I32,
      .attr = Attr::Service,
-     .effects = kHost,
-     .doc = "Asks the host for a service with i64 arguments (at most 16); gives the ticket, 0 when the queue is full."},
+     .effects = kReads | kHost,
+     .doc =
+         "Asks the host for a service with i64 arguments (at most 16); gives the ticket, 0 when the queue is full. The "
+         "host may read all spaces of the program, with every store above done, and writes to none."},
     {.code = OpCode::ServicePoll,
      .name = "service_poll",
      .types = kNoTypes,

@@ -54,7 +54,7 @@ enum class Attr : uint8_t {
 
 enum Effect : uint8_t {
   kPure = 0,
-  kReads = 1,      // memory or slots
+  kReads = 1,      // memory or slots; with kHost: the host may read any space, and no slot
   kWrites = 2,     // memory or slots
   kTraps = 4,      // may leave the rung
   kHost = 8,       // calls the host; order matters
@@ -93,6 +93,8 @@ constexpr bool isVariadic(const OpInfo& info) {
 bool satisfies(Constraint constraint, Type own, Type actual);
 // The type of a result; None where there is none or the row does not fix it.
 Type resultType(Constraint constraint, Type own);
+// Whether the host may look at memory meanwhile: every store above must have been done, and none below.
+constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
 
 } // namespace rung::ir

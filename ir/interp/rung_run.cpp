@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ir/core/eval.h"
+#include "ir/support/check.h"
 #include "rtlib/core/ticks.h"
 
 namespace rung::ir {
@@ -42,7 +43,9 @@ void RungRun::writeBytes(uint32_t offset, Type type, uint64_t value) {
 }
 
 uint64_t RungRun::readBit(BitLocation at) const {
-  return at.wholeByte ? (mem_[at.offset] != 0 ? 1 : 0) : (mem_[at.offset] >> at.bit) & 1;
+  if (!at.wholeByte) return (mem_[at.offset] >> at.bit) & 1;
+  RUNG_CHECK(mem_[at.offset] <= 1, "the byte of a bit holds 0 or 1");
+  return mem_[at.offset];
 }
 
 void RungRun::writeBit(BitLocation at, bool value) {

@@ -1,6 +1,8 @@
 // The field lists (see abi_fields.h).
 #include "ir/layout/abi_fields.h"
 
+#include <algorithm>
+
 namespace rung::ir {
 namespace {
 
@@ -63,7 +65,7 @@ constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(
                                      RUNG_FIELD(rung_step, arg, U32)};
 constexpr StructInfo kStep{"rung_step", sizeof(rung_step), kStepFields};
 
-constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, U32),
+constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, abi_version, U32),
                                         RUNG_FIELD(rung_program, name, Text),
                                         RUNG_FIELD(rung_program, dialect, Text),
@@ -120,5 +122,23 @@ constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFiel
 } // namespace
 
 const StructInfo& programInfo() { return kProgram; }
+
+TargetStruct targetStruct(const StructInfo& info, size_t pointerBytes) {
+  const auto sizeOf = [&](FieldKind kind) -> size_t {
+    if (kind == FieldKind::U32 || kind == FieldKind::OwnSize) return 4;
+    return kind == FieldKind::U64 || kind == FieldKind::I64 ? 8 : pointerBytes;
+  };
+  const auto alignUp = [](size_t value, size_t align) { return (value + align - 1) / align * align; };
+  TargetStruct out{.offsets = {}, .size = 0};
+  size_t widest = 1;
+  for (const FieldInfo& field : info.fields) {
+    const size_t size = sizeOf(field.kind);
+    out.offsets.push_back(alignUp(out.size, size));
+    out.size = out.offsets.back() + size;
+    widest = std::max(widest, size);
+  }
+  out.size = alignUp(out.size, widest);
+  return out;
+}
 
 } // namespace rung::ir

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "rung/program.h"
 
@@ -12,6 +13,7 @@ namespace rung::ir {
 
 enum class FieldKind : uint8_t {
   U32,
+  OwnSize, // uint32_t: bytes of the struct that it is in, on the target
   U64,
   I64,
   Text,     // const char *
@@ -41,5 +43,13 @@ struct StructInfo {
 
 // rung_program; all other structs hang below it.
 const StructInfo& programInfo();
+
+// Where the C compiler of a target puts the fields: each at the next multiple of its own size. `size` and `offset`
+// above are the same for pointers of this machine.
+struct TargetStruct {
+  std::vector<size_t> offsets; // by field
+  size_t size;
+};
+TargetStruct targetStruct(const StructInfo& info, size_t pointerBytes);
 
 } // namespace rung::ir

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 #include "ir/layout/representation.h"
 #include "ir/support/check.h"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr uint32_t kBlockAlign = 64;
 
-uint32_t alignUp(uint32_t value, uint32_t align) { return (value + align - 1) / align * align; }
+uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / align * align; }
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
 bool leavesRoutine(TransferKind kind) {
   return kind == TransferKind::Call || kind == TransferKind::Ret || kind == TransferKind::End;
@@ -42,20 +43,25 @@ public:
   void run() {
     placeSlots();
     placeSpaces();
-    layout_.memorySize_ = alignUp(std::max(next_, 1u), kBlockAlign);
+    layout_.memorySize_ = used(alignUp(std::max<uint64_t>(next_, 1), kBlockAlign));
     numberRungs();
     for (uint32_t r = 0; r < module_.routines.size(); ++r) cutRoutine(r);
     findPartEnds();
   }
 
 private:
+  static uint32_t used(uint64_t offset) {
+    RUNG_CHECK(offset <= UINT32_MAX, "the memory block has less than 4 GB");
+    return static_cast<uint32_t>(offset);
+  }
+
   // Widest first, so that each is aligned without gaps.
   void placeSlots() {
     layout_.slotOffsets_.resize(module_.slots.size());
     for (uint32_t size : {8u, 4u, 2u, 1u})
       for (size_t i = 0; i < module_.slots.size(); ++i)
         if (slotBytes(module_.slots[i]) == size) {
-          layout_.slotOffsets_[i] = next_;
+          layout_.slotOffsets_[i] = used(next_);
           next_ += size;
         }
   }
@@ -77,8 +83,8 @@ private:
   void placeRange(uint32_t first, uint32_t count, uint8_t repr) {
     // A packed range keeps the alignment that its bytes have in the space.
     if (repr == RUNG_REPR_PACKED) next_ = alignUp(next_, 8) + first % 8;
-    layout_.spaces_.back().ranges.push_back({first, count, next_, repr});
-    next_ += repr == RUNG_REPR_PACKED ? count : count * 8;
+    layout_.spaces_.back().ranges.push_back({first, count, used(next_), repr});
+    next_ += repr == RUNG_REPR_PACKED ? count : uint64_t{count} * 8;
   }
 
   void numberRungs() {
@@ -187,7 +193,7 @@ private:
   Layout& layout_;
   const Module& module_;
   const LayoutOptions& options_;
-  uint32_t next_ = 0;
+  uint64_t next_ = 0; // free place of the memory block
   // Of the routine in hand, by rung.
   std::vector<bool> heads_;
   std::vector<int32_t> crossing_;
@@ -266,6 +272,13 @@ std::vector<Exit> exitsOf(const Layout& layout, const Chunk& chunk) {
   std::vector<Exit> exits;
   for (uint32_t i = 0; i < chunk.rungCount; ++i) exits.push_back(exitOf(layout, chunk.routine, chunk.firstRung + i));
   return exits;
+}
+
+bool hostReadsMemory(const Layout& layout, const Chunk& chunk) {
+  const std::span rungs(layout.module().at(chunk.routine).rungs);
+  return std::ranges::any_of(rungs.subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
+    return std::ranges::any_of(rung.ops, [](const Op& op) { return hostReads(opInfo(op.code)); });
+  });
 }
 
 bool hasExtraWeight(const std::vector<Exit>& exits) {

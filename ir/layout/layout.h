@@ -114,6 +114,9 @@ struct Exit {
 Exit exitOf(const Layout& layout, RoutineId routine, uint32_t rung);
 // The exits of a chunk's rungs.
 std::vector<Exit> exitsOf(const Layout& layout, const Chunk& chunk);
+// Whether the host may read memory while the chunk runs. Elsewhere nobody but the chunk reaches the memory block, and
+// back ends say so to their compilers.
+bool hostReadsMemory(const Layout& layout, const Chunk& chunk);
 // Whether some way through the chunk costs extra weight.
 bool hasExtraWeight(const std::vector<Exit>& exits);
 

@@ -15,7 +15,7 @@ public:
 
   void run(uint64_t codeHash) {
     rung_program& p = image_.program_;
-    p.size = sizeof(rung_program);
+    p.size = sizeof(rung_program); // here; FieldKind::OwnSize
     p.abi_version = RUNG_ABI_VERSION;
     p.name = text(module_.name);
     p.dialect = text(module_.dialect);
@@ -31,7 +31,6 @@ public:
     addSymbols();
     addInits();
     addSpans(module_.retains, image_.retains_);
-    addRetainedSlots();
     addSpans(module_.safeSpans, image_.safeSpans_);
     addTasks();
     addChunks();
@@ -92,18 +91,13 @@ private:
   }
 
   void addInit(uint32_t offset, const std::vector<uint8_t>& bytes) {
+    if (bytes.empty()) return;
     const std::vector<uint8_t>& kept = image_.initData_.emplace_back(bytes);
     image_.inits_.push_back({offset, static_cast<uint32_t>(kept.size()), kept.data()});
   }
 
   void addSpans(const std::vector<SpaceSpan>& spans, std::vector<rung_span>& out) {
     for (const SpaceSpan& span : spans) forPieces(span, [&](rung_span piece) { out.push_back(piece); });
-  }
-
-  void addRetainedSlots() {
-    for (uint32_t i = 0; i < module_.slots.size(); ++i)
-      if (module_.slots[i].retain)
-        image_.retains_.push_back({layout_.slot(SlotId{i}), std::max(1u, byteWidth(module_.slots[i].type))});
   }
 
   // Connected bytes have one representation, but their ranges may be cut at different places.

@@ -1,6 +1,6 @@
 // Dead operations: a result that nothing uses is not computed; reading has no effect, so loads go too. An if or a loop
-// goes with all that is in it when it has neither an effect nor a result that is used; results of an if go one by one.
-// Notes stay.
+// goes with all that is in it, notes too, when it has neither an effect nor a result that is used; results of an if go
+// one by one. Other notes stay.
 #include <algorithm>
 
 #include "ir/passes/passes.h"
@@ -9,9 +9,7 @@
 namespace rung::ir {
 namespace {
 
-bool hasEffect(const Op& op) {
-  return op.code == OpCode::Note || (opInfo(op.code).effects & (kWrites | kTraps | kHost)) != 0;
-}
+bool hasEffect(const Op& op) { return (opInfo(op.code).effects & (kWrites | kTraps | kHost)) != 0; }
 
 class DeadOps {
 public:
@@ -73,7 +71,10 @@ private:
         keep_[i] = 1;
       } else {
         changes_ = true;
-        i = regions_[i].begin == i || op(i).code == OpCode::Else ? i : regions_[i].begin; // a dead region as a whole
+        if (op(i).code == OpCode::Else) // with its notes
+          std::fill(keep_.begin() + i, keep_.begin() + regions_[i].end, uint8_t{0});
+        else
+          i = regions_[i].begin; // a dead region as a whole; itself where it is none
       }
     }
   }
@@ -98,7 +99,7 @@ private:
     const Op& o = op(i);
     if (o.code == OpCode::If || o.code == OpCode::Loop) return true; // its end is
     if (o.code == OpCode::EndIf || o.code == OpCode::EndLoop) return effect_[regions_[i].begin] != 0 || anyUsed(o);
-    return hasEffect(o) || anyUsed(o);
+    return o.code == OpCode::Note || hasEffect(o) || anyUsed(o);
   }
 
   // The operands of an endif or else for which the endif's results are used.

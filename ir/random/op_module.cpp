@@ -304,7 +304,6 @@ private:
       const bool odd = module_.slots.size() % 2 != 0;
       module_.slots.push_back({.type = type,
                                .init = odd ? static_cast<int64_t>(value) : 0,
-                               .retain = odd,
                                .key = fmt::format("slot {}", module_.slots.size())});
     }
     inRung([&](RungBuilder& b) {

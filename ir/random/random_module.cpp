@@ -84,7 +84,6 @@ private:
       Slot slot;
       slot.type = randomType();
       slot.init = static_cast<int64_t>(random_.chance(50) ? random_.pick(boundaryValues(slot.type)) : 0);
-      slot.retain = random_.chance(20);
       slot.key = fmt::format("slot {}", i);
       module_.slots.push_back(std::move(slot));
     }

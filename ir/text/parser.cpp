@@ -114,7 +114,6 @@ private:
     slot.type = parseType(scanner_);
     scanner_.expectWord("init");
     slot.init = parseLiteral(scanner_, slot.type);
-    slot.retain = scanner_.acceptWord("retain");
     slot.transient = scanner_.acceptWord("transient");
     slot.key = scanner_.text();
     module_.slots.push_back(std::move(slot));

@@ -179,8 +179,8 @@ void Printer::printMemory() {
   }
   for (size_t i = 0; i < module_.slots.size(); ++i) {
     const Slot& slot = module_.slots[i];
-    put("slot ${} {} init {}{}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init),
-        slot.retain ? " retain" : "", slot.transient ? " transient" : "", inQuotes(slot.key));
+    put("slot ${} {} init {}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init),
+        slot.transient ? " transient" : "", inQuotes(slot.key));
   }
   for (const Symbol& s : module_.symbols) {
     const Keyword* type = findKeyword(kSymbolTypes, s.type);

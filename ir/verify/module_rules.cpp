@@ -18,7 +18,7 @@ bool ModuleCheck::inside(SpaceId space, uint64_t byte, uint64_t size) const {
 
 namespace {
 
-constexpr uint64_t kMaxSpaceBytes = 1ull << 30;
+constexpr uint64_t kMaxBytes = 1ull << 30;
 constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
 constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
@@ -54,15 +54,16 @@ void checkNames(ModuleCheck& check) {
 }
 
 void checkSpaces(ModuleCheck& check) {
+  uint64_t all = 0;
   for (const Space& space : check.module.spaces) {
     const uint32_t unit = space.unitBytes;
     if (unit != 1 && unit != 2 && unit != 4 && unit != 8)
       check.fail(Rule::Spaces, fmt::format("space {} has units of {} bytes", space.name, unit));
-    if (byteCount(space) > kMaxSpaceBytes)
-      check.fail(Rule::Spaces, fmt::format("space {} is larger than 1 GB", space.name));
+    all += byteCount(space);
     if ((space.flags & ~kSpaceFlagMask) != 0)
       check.fail(Rule::Spaces, fmt::format("space {} has unknown flags", space.name));
   }
+  if (all > kMaxBytes) check.fail(Rule::Spaces, "the spaces are larger than 1 GB together");
 }
 
 void checkSlots(ModuleCheck& check) {
@@ -162,8 +163,16 @@ void checkTasks(ModuleCheck& check) {
   }
 }
 
+// A real clock waits between two scans.
+bool takesTime(const Module& m) {
+  const auto advances = [](const Step& step) { return step.op == RUNG_STEP_ADVANCE && step.arg != 0; };
+  if (std::any_of(m.scan.begin(), m.scan.end(), advances)) return true;
+  return m.mainTask.index >= m.tasks.size() || m.tasks[m.mainTask.index].periodUs != 0;
+}
+
 void checkSchedule(ModuleCheck& check) {
   const Module& m = check.module;
+  const size_t errorsBefore = check.errorCount();
   const auto exists = [&](TaskId task) { return task.index < m.tasks.size(); };
   if (!exists(m.mainTask) && (check.mode == Mode::Final || m.mainTask.valid()))
     check.fail(Rule::Schedule, "there is no main task");
@@ -176,6 +185,8 @@ void checkSchedule(ModuleCheck& check) {
       else if (needsTask != exists(step.task) || needsTask != step.task.valid())
         check.fail(Rule::Schedule, needsTask ? "a step without its task" : "a step with a task that it does not use");
     }
+  if (check.mode == Mode::Final && check.errorCount() == errorsBefore && !takesTime(m))
+    check.fail(Rule::Schedule, "a scan takes no time");
 }
 
 void checkRoutines(ModuleCheck& check) {

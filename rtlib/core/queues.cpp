@@ -64,9 +64,13 @@ uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t c
     fill(record, reply);
     return request.ticket;
   }
+  if (!claimed && !requests_.push(request)) { // the host has not passed over those from before a restart
+    record = {};
+    refused_.store(refused() + 1, std::memory_order_relaxed);
+    return 0;
+  }
   record.state = RUNG_SERVICE_PENDING;
   ++pending_;
-  if (!claimed) requests_.push(request); // as many places as pending requests: it fits
   return request.ticket;
 }
 
@@ -94,13 +98,15 @@ void ServiceQueue::deliver() noexcept {
 }
 
 // Tickets go on: a reply that comes late, to a request from before, finds no record of its number.
-void ServiceQueue::clear() noexcept {
+void ServiceQueue::restart() noexcept {
   for (ServiceRecord& record : records_) record = {};
   pending_ = 0;
   refused_.store(0, std::memory_order_relaxed);
   stray_.store(0, std::memory_order_relaxed);
-  requests_.clear();
-  replies_.clear();
+  requests_.drop();
+  ServiceReply reply;
+  for (uint32_t i = 0; i < kMaxPending && replies_.pop(reply);) ++i;
+  lostBefore_.store(replies_.lost(), std::memory_order_relaxed);
 }
 
 } // namespace rung::rt

@@ -31,7 +31,8 @@ struct ServiceReply {
 
 // Asked before a request is queued; true: the reply is filled in and the request does not enter the queue. With the
 // state Pending in the reply the responder has kept the request and completes it later. It runs inside the task, so it
-// must be bounded and must not run tasks itself.
+// must be bounded and must not run tasks itself. It may read the program's spaces, as the program has left them, and
+// writes to none (see rung_host_api).
 struct ServiceResponder {
   bool (*respond)(void* data, const ServiceRequest& request, ServiceReply& reply) = nullptr;
   void* data = nullptr;
@@ -54,7 +55,8 @@ public:
 
   void setResponder(ServiceResponder responder) noexcept { responder_ = responder; }
 
-  // Program. `request` gives 0 when kMaxPending requests are unanswered; `poll` and `result` take constant time.
+  // Program. `request` gives 0 when kMaxPending requests are unanswered, or after a restart as long as requests from
+  // before it fill the queue; `poll` and `result` take constant time.
   uint32_t request(uint32_t service, const int64_t* args, uint32_t count) noexcept;
   uint32_t poll(uint32_t ticket) const noexcept; // enum rung_service_state
   int64_t result(uint32_t ticket, uint32_t index) const noexcept;
@@ -67,14 +69,17 @@ public:
   bool take(ServiceRequest& request) noexcept { return requests_.pop(request); }
   bool complete(const ServiceReply& reply) noexcept { return replies_.push(reply); }
 
-  // Counters, since the last clear. Refused: no room. Stray: replies to tickets that were not pending.
+  // Counters, since the last restart. Refused: no room. Stray: replies to tickets that were not pending.
   uint32_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
-  uint32_t stray() const noexcept { return stray_.load(std::memory_order_relaxed) + replies_.lost(); }
+  uint32_t stray() const noexcept {
+    return stray_.load(std::memory_order_relaxed) + replies_.lost() - lostBefore_.load(std::memory_order_relaxed);
+  }
   uint32_t pending() const noexcept { return pending_; }
 
   const ServiceRecord& record(uint32_t number) const noexcept { return records_[number]; } // number < kRecords
-  // Only while neither side is active.
-  void clear() noexcept;
+  // Scan thread, between scans; the host's side may be active. All tickets are forgotten: requests that wait are not
+  // seen any more, and replies to those that were taken count as stray.
+  void restart() noexcept;
 
 private:
   const ServiceRecord& recordOf(uint32_t ticket) const noexcept { return records_[ticket % kRecords]; }
@@ -85,6 +90,7 @@ private:
   uint32_t pending_ = 0;
   std::atomic<uint32_t> refused_{0};
   std::atomic<uint32_t> stray_{0};
+  std::atomic<uint32_t> lostBefore_{0}; // replies that were lost before the last restart
   ServiceResponder responder_;
   FixedRing<ServiceRequest, kMaxPending> requests_;
   FixedRing<ServiceReply, kMaxPending> replies_;

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "rtlib/core/float_environment.h"
+
 namespace rung::rt {
 
 Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept
@@ -106,6 +108,16 @@ bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
 }
 
 bool Runner::runTask(uint32_t task) noexcept {
+  const FloatEnvironment environment(defaultFloats_);
+  return runWhole(task);
+}
+
+bool Runner::runPart(uint32_t task) noexcept {
+  const FloatEnvironment environment(defaultFloats_);
+  return runNextPart(task);
+}
+
+bool Runner::runWhole(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
   begin(task);
@@ -115,7 +127,7 @@ bool Runner::runTask(uint32_t task) noexcept {
   return finish(task, runChunks(t.entry, RUNG_PC_DONE, t, budget));
 }
 
-bool Runner::runPart(uint32_t task) noexcept {
+bool Runner::runNextPart(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
   PartState& state = parts_[task];
@@ -173,10 +185,10 @@ void Runner::doStep(const rung_step& step) noexcept {
   switch (static_cast<rung_step_op>(step.op)) {
   case RUNG_STEP_ADVANCE: advance(step.arg); return;
   case RUNG_STEP_RUN:
-    for (uint32_t i = 0; i < step.arg && !stopped_ && !faulted_; ++i) runTask(step.task);
+    for (uint32_t i = 0; i < step.arg && !stopped_ && !faulted_; ++i) runWhole(step.task);
     return;
   case RUNG_STEP_PART:
-    if (!stopped_) runPart(step.task);
+    if (!stopped_) runNextPart(step.task);
     return;
   case RUNG_STEP_HOOK:
     if (!stopped_ && hooks_.step != nullptr) hooks_.step(hooks_.data, step.arg);
@@ -198,11 +210,13 @@ bool Runner::stepOnce() noexcept {
 }
 
 void Runner::scan() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   bool more = true;
   while (more && !faulted_) more = stepOnce();
 }
 
 void Runner::slot() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   bool more = true;
   while (more && !faulted_) {
     const bool slotEnds = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_SLOT;
@@ -211,6 +225,7 @@ void Runner::slot() noexcept {
 }
 
 void Runner::fast() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   for (uint32_t i = 0; i < program_->fast_count && !faulted_; ++i) doStep(program_->fast[i]);
 }
 
@@ -221,6 +236,7 @@ uint32_t Runner::sliceDelayUs() const noexcept {
 }
 
 void Runner::slice() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
   bool more = true;
   while (more && !faulted_) more = stepOnce() && program_->scan[position_].op != RUNG_STEP_ADVANCE;
 }

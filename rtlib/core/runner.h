@@ -1,6 +1,8 @@
 // Runs a program's tasks and walks its schedule on the scan thread. Every loop is bounded: a task by its budget, a scan
 // by its list of steps. Memory, context and part states are the caller's; the runner allocates nothing.
 //
+// Every run has the floating-point settings that programs are compiled for, whatever the thread has.
+//
 // Parts. A run of a task that is cut into n parts takes exactly n RUNG_STEP_PART steps: part k stops at the first chunk
 // border at or after the end of part k outside every subroutine, a jump over that border suspends at its target, and a
 // run that ended early idles until its n steps are over, so that the schedule and the parts stay in phase.
@@ -78,6 +80,8 @@ private:
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;
   void copy(uint32_t first, uint32_t count) noexcept;
+  bool runWhole(uint32_t task) noexcept;
+  bool runNextPart(uint32_t task) noexcept;
   void doStep(const rung_step& step) noexcept;
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
@@ -95,6 +99,7 @@ private:
   bool stopped_ = false;
   bool inTask_ = false;
   bool inFaultHook_ = false;
+  bool defaultFloats_ = false; // in a scan or run: its floating-point settings are in force
 };
 
 } // namespace rung::rt

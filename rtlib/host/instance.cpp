@@ -102,8 +102,8 @@ void Instance::resetMemory() {
 
 void Instance::resetRun() {
   runner_.reset();
-  port_->messages.clear();
-  port_->services.clear();
+  port_->messages.drop();
+  port_->services.restart();
 }
 
 void Instance::coldStart() {

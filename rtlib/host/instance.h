@@ -22,7 +22,8 @@ namespace rung::host {
 
 class Instance;
 
-// The NC model's place in the schedule. onHook and onFault may run tasks; respond runs inside one and may not.
+// The NC model's place in the schedule. onHook and onFault may run tasks; respond runs inside one: it may run none, and
+// it may read the program's memory but not write it.
 class ScheduleHooks {
 public:
   virtual ~ScheduleHooks() = default;
@@ -56,6 +57,7 @@ public:
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
 
   // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
+  // The host's side of the queues may be active meanwhile.
   void coldStart();
   // The same, but the retained spans keep their contents.
   void warmStart();

@@ -9,7 +9,8 @@
 
 namespace rung::host {
 
-// What is wrong with the tables (version, sizes, indices); "" when nothing is.
+// What is wrong with the tables, and in which entry; "" when nothing is. Takes time in proportion to the tables, and
+// allocates. What code does is not checked: a program can still write anywhere.
 std::string checkProgram(const rung_program& program);
 
 // Indices by name; RUNG_NONE when there is none.

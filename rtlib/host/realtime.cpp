@@ -21,7 +21,8 @@ void sleepUntil(int64_t ns) {
   }
 }
 
-// The thread's scheduling while the loop runs, put back afterwards.
+// The thread's scheduling while the loop runs, put back afterwards. Memory stays locked: a lock is the process's, and
+// whoever else relies on one cannot be known.
 class Scheduling {
 public:
   Scheduling(const RealTimeOptions& options, RealTimeStats& stats) {
@@ -30,13 +31,11 @@ public:
       param.sched_priority = options.priority;
       raised_ = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
     }
-    if (options.lockMemory) locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     stats.priorityGranted = raised_;
-    stats.memoryLocked = locked_;
+    if (options.lockMemory) stats.memoryLocked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   }
   ~Scheduling() {
     if (raised_) pthread_setschedparam(pthread_self(), oldPolicy_, &oldParam_);
-    if (locked_) munlockall();
   }
   Scheduling(const Scheduling&) = delete;
   Scheduling& operator=(const Scheduling&) = delete;
@@ -45,7 +44,6 @@ private:
   int oldPolicy_ = 0;
   sched_param oldParam_{};
   bool raised_ = false;
-  bool locked_ = false;
 };
 
 } // namespace

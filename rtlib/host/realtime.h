@@ -13,7 +13,7 @@ int64_t monotonicNs();
 
 struct RealTimeOptions {
   int priority = 0;        // above 0: SCHED_FIFO with this priority, when the system grants it
-  bool lockMemory = false; // mlockall, when the system grants it
+  bool lockMemory = false; // mlockall, when the system grants it; the process's memory stays locked afterwards
 };
 
 struct RealTimeStats {

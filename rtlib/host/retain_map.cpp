@@ -47,15 +47,8 @@ void RetainMap::addSpan(const rung_program& program, const rung_span& span) {
   for (uint32_t done = 0; done < span.size;) {
     const Found found = find(program, span.offset + done);
     const rung_range* range = found.range;
+    if (range == nullptr) return; // checkProgram and the compiler refuse it
     const uint32_t rest = span.size - done;
-    if (range == nullptr) { // a slot
-      endRun(program, run_);
-      hash_ = hashNumber(hash_, program.layout_hash);
-      pieces_.push_back({rest, false});
-      size_ += rest;
-      rawSize_ += rest;
-      return;
-    }
     const uint32_t scale = scaleOf(*range);
     const uint32_t into = span.offset + done - range->offset;
     const uint32_t raw = std::min(rest, range->byte_count * scale - into);

@@ -13,7 +13,7 @@ class RetainMap {
 public:
   explicit RetainMap(const rung_program& program);
 
-  // Equal hashes: images are interchangeable. A kept byte outside every space ties the image to this very layout.
+  // Equal hashes: images are interchangeable.
   uint64_t hash() const { return hash_; }
   uint32_t size() const { return size_; } // of an image
 

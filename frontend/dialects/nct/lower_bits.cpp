@@ -14,7 +14,6 @@ SlotId SlotMaker::make(std::string_view role, Type type, int64_t init, bool tran
   const SlotId id{static_cast<uint32_t>(module_.slots.size())};
   module_.slots.push_back({.type = type,
                            .init = init,
-                           .retain = false,
                            .transient = transient,
                            .key = fmt::format("{}/{:016x}/{}.{}", routine_, key_, element_, role)});
   return id;

@@ -125,8 +125,8 @@ void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
 
 namespace {
 
-// One element, which begins `offset` bytes behind the variable's place.
-ValueId takeElement(Lowering& l, const Operand& target, uint32_t offset) {
+// One element, which begins `offset` bytes after the variable's place.
+void takeElement(Lowering& l, const Operand& target, uint32_t offset) {
   ir::RungBuilder& b = l.b();
   ir::Place at = target.place;
   at.byte += offset;
@@ -135,13 +135,11 @@ ValueId takeElement(Lowering& l, const Operand& target, uint32_t offset) {
   b.if_(answersYes(b, ticket, 0));
   b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type));
   b.endIf();
-  return b.ne(b.serviceResult(ticket, 2), b.constant(Type::I64, 0));
 }
 
 } // namespace
 
-// UPDATE_IN input or input[i]. The control reads outputs of this program: everything in front is in memory then,
-// because the jump back, which is never taken, makes this the beginning of a chunk.
+// UPDATE_IN input or input[i]: also the outputs of this program that are connected to it, as they are now.
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
   if (nc::isText(variable.type)) {
@@ -151,11 +149,7 @@ void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const uint32_t bytes = nc::bytesOf(variable.type);
   const auto first = static_cast<uint32_t>(std::max<int64_t>(o[0].value, 0));
   const uint32_t end = o[0].value < 0 ? variable.count : first + 1;
-  for (uint32_t i = first; i < end; ++i) {
-    const uint32_t start = l.out().newLabel();
-    l.out().bind(start);
-    l.out().jump(start, takeElement(l, o[0], i * bytes));
-  }
+  for (uint32_t i = first; i < end; ++i) takeElement(l, o[0], i * bytes);
 }
 
 } // namespace rung::frontend::technol

@@ -36,7 +36,8 @@ enum rung_repr {
   RUNG_REPR_BYTE_PER_BIT = 1, /* logical bit b of byte i lies, as 0 or 1, in the byte at offset + 8 i + b */
 };
 
-/* A run of logical bytes of one space with one representation. The ranges of a space are sorted and cover it. */
+/* A run of logical bytes of one space with one representation. The ranges of a space are sorted and cover it; no two
+ * ranges, of whatever spaces, share a byte of the memory block. */
 typedef struct rung_range {
   uint32_t first_byte; /* logical, within the space */
   uint32_t byte_count;
@@ -89,13 +90,13 @@ typedef struct rung_symbol {
   int64_t value;  /* of a constant */
 } rung_symbol;
 
-/* Bytes of the memory block. */
+/* Bytes of the memory block. A retained span is made of whole logical bytes of spaces. */
 typedef struct rung_span {
   uint32_t offset;
   uint32_t size;
 } rung_span;
 
-/* Initial contents; all memory that no entry names starts as 0. */
+/* Initial contents, which leave expanded bits at 0 or 1; all memory that no entry names starts as 0. */
 typedef struct rung_init {
   uint32_t offset;
   uint32_t size;
@@ -107,7 +108,8 @@ enum rung_copy_kind {
   RUNG_COPY_MASKED = 1, /* to := (to and not mask) or (from and mask); mask := 0 */
 };
 
-/* A transfer that the host does at the border of a task's run: input latches, images, register sets. */
+/* A transfer that the host does at the border of a task's run: input latches, images, register sets. Its pieces do not
+ * overlap; each lies within one range, and these ranges have one representation. */
 typedef struct rung_copy {
   uint32_t kind; /* enum rung_copy_kind */
   uint32_t from; /* offsets in the memory block */
@@ -120,8 +122,8 @@ typedef struct rung_copy {
 
 typedef struct rung_chunk {
   uint32_t first_rung; /* in `rungs` */
-  uint32_t rung_count;
-  uint32_t weight; /* steps of its lightest way, for budgets; at least 1 */
+  uint32_t rung_count; /* at least 1 */
+  uint32_t weight;     /* steps of its lightest way, for budgets; at least 1 */
 } rung_chunk;
 
 typedef struct rung_rung_info {
@@ -208,7 +210,9 @@ enum rung_service_state {
   RUNG_SERVICE_ERROR = 3,
 };
 
-/* Bounded functions that generated code may call. None allocates, locks or blocks. `size` as in rung_program. */
+/* Bounded functions that generated code may call. None allocates, locks or blocks. `size` as in rung_program.
+ * Each runs while a chunk does. Only service_request may read the memory block: it finds all spaces as the program has
+ * left them. None of them may write to the block, and what else they read there may be old. */
 typedef struct rung_host_api {
   uint32_t size;
   uint32_t reserved;
@@ -242,7 +246,7 @@ typedef struct rung_program {
   uint64_t layout_hash; /* equal hashes: memory images are interchangeable */
   uint64_t code_hash;
   uint32_t memory_size;
-  uint32_t memory_align;
+  uint32_t memory_align; /* a power of two, at most 4096 */
   uint32_t instrumented; /* 1: counts and times rungs */
   uint32_t main_task;    /* the task that "a scan" means */
   uint32_t fast_task;    /* RUNG_NONE: there is none */
@@ -276,14 +280,14 @@ typedef struct rung_program {
   const char* const* routines;
   const char* const* files;
   const rung_task* tasks;
-  const uint32_t* part_ends; /* chunk before which a part ends; RUNG_PC_DONE for the last part of a task */
-  const rung_step* scan;     /* one scan of the main task; repeated */
+  const uint32_t* part_ends; /* chunk before which a part ends, ascending; RUNG_PC_DONE for the last part of a task */
+  const rung_step* scan;     /* one scan of the main task; repeated. It takes time: its own, or the task's period */
   const rung_step* fast;     /* one run of the fast task alone */
   const char* const* faults;
   const char* const* services;
   const char* const* texts; /* message texts: pairs of number (decimal) and text */
 
-  const rung_chunk_fn* chunk_fns; /* by chunk; null when `run_chunk` is there */
+  const rung_chunk_fn* chunk_fns; /* by chunk; null when, and only when, `run_chunk` is there */
   /* How an interpreter runs a chunk; null in compiled programs. */
   uint32_t (*run_chunk)(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 } rung_program;

@@ -79,8 +79,8 @@ inline constexpr uint32_t kDefineWords = RUNG_MAX_SERVICE_ARGS - kDefineHead;
 inline constexpr uint32_t kDefineBytes = kDefineWords * 8; // longest identifier
 
 // The connected value of one element of an input, converted to its type. Results: 1 where there is a connection; the
-// bits of the value; always 0: asking again is not needed.
-inline constexpr std::string_view kUpdateService = "@UPDATE_IN place -> found value again";
+// bits of the value.
+inline constexpr std::string_view kUpdateService = "@UPDATE_IN place -> found value";
 
 // Hooks of the schedule: what the control does between the modules.
 inline constexpr uint32_t kHookAfterInput = 1; // the block modules run there (inventory 12.2)

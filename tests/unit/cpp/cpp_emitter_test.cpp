@@ -123,6 +123,8 @@ RUNG_LINE(
             std::string::npos)
       << text;
   EXPECT_NE(text.find("// LAMP Y[0.0]"), std::string::npos);
+  EXPECT_NE(text.find("const rung_program rung_program_v1 = {sizeof(rung_program), 2u, "), std::string::npos)
+      << "the size on the machine that it is compiled for";
 }
 
 // Names that overlap, that are no names of C++, that are mapped to one, and an address without a name.

@@ -522,5 +522,20 @@ TEST(InterpModules, EveryOperationRunsAndLeavesATrace) {
   }
 }
 
+// Every other engine takes such a byte for 0 or 1 as well: one that holds more has been written wrongly.
+TEST(InterpModules, TheByteOfABitHoldsZeroOrOne) {
+  Machine m = machineOf("%0:bit = load B[0.3]\nstore.bit B[0.4], %0");
+  const BitLocation bit = m.layout().bit(findSpace(m.module(), "B"), 3);
+  ASSERT_TRUE(bit.wholeByte);
+  m->block()[bit.offset] = 1;
+  m->scan();
+  EXPECT_TRUE(m.bit("B", 0, 4));
+  const auto spoilt = [&] {
+    m->block()[bit.offset] = 2;
+    m->scan();
+  };
+  EXPECT_DEATH(spoilt(), "0 or 1");
+}
+
 } // namespace
 } // namespace rung::ir

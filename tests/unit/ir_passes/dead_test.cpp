@@ -95,8 +95,32 @@ TEST(Dead, AnElseWithEffectAlone) {
   expectUnchanged(R"(%0:bit = load B[0.0]
 if %0
 else
-  note "only here"
+store.bit B[0.1], %0
 endif)");
+}
+
+// A remark keeps nothing alive; it goes with its region.
+TEST(Dead, NotesOfDeadRegions) {
+  EXPECT_EQ(alive(R"(note "first"
+%0:bit = load B[0.0]
+if %0
+  note "dead"
+else
+  note "dead too"
+endif
+%1:i32 = loop 3
+  note "in a loop"
+endloop)"),
+            "note \"first\"\n");
+  EXPECT_EQ(alive(R"(%0:bit = load B[0.0]
+if %0
+  note "alive"
+  store.bit B[0.1], %0
+else
+  note "dead"
+endif
+note "after")"),
+            "%0:bit = load B[0.0]\nif %0\nnote \"alive\"\nstore.bit B[0.1], %0\nendif\nnote \"after\"\n");
 }
 
 TEST(Dead, EffectsDeepInside) {

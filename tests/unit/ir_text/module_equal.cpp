@@ -51,8 +51,8 @@ bool equal(const Space& a, const Space& b) {
 }
 
 bool equal(const Slot& a, const Slot& b) {
-  const auto& [type, init, retain, transient, key] = a;
-  return type == b.type && init == b.init && retain == b.retain && transient == b.transient && key == b.key;
+  const auto& [type, init, transient, key] = a;
+  return type == b.type && init == b.init && transient == b.transient && key == b.key;
 }
 
 bool equal(const Symbol& a, const Symbol& b) {

@@ -97,7 +97,7 @@ TEST(TextRoundTrip, EqualNames) {
 TEST(TextRoundTrip, FieldsAtTheirLimits) {
   Module module;
   module.spaces = {{.name = "D", .unitBytes = 8, .units = UINT32_MAX, .flags = 0xFF, .packedOnly = true}};
-  module.slots = {{.type = Type::I64, .init = INT64_MIN, .retain = true, .transient = true, .key = "a"},
+  module.slots = {{.type = Type::I64, .init = INT64_MIN, .transient = true, .key = "a"},
                   {.type = Type::F64, .init = static_cast<int64_t>(0xFFF0000000000000), .key = "b"},
                   {.type = Type::I8, .init = 0x80, .key = "c"}};
   module.symbols = {{.name = "S",

@@ -121,6 +121,12 @@ TEST(VerifyModule, Spaces) {
   expectBroken([](Module& m) { m.spaces[1].unitBytes = 3, m.spaces[1].units = 32; }, Rule::Spaces, "units of 3 bytes");
   expectBroken([](Module& m) { m.spaces[1].units = (1u << 30) + 1; }, Rule::Spaces, "larger");
   expectBroken([](Module& m) { m.spaces[1].flags = 8; }, Rule::Spaces, "unknown flags");
+  expectBroken(
+      [](Module& m) {
+        for (const char* name : {"BIG", "BIGGER"})
+          m.spaces.push_back({.name = name, .unitBytes = 1, .units = 1u << 29});
+      },
+      Rule::Spaces, "together");
 }
 
 TEST(VerifyModule, Slots) {
@@ -189,6 +195,12 @@ TEST(VerifyModule, Schedule) {
   expectBroken([](Module& m) { m.mainTask = TaskId{1}; }, Rule::Schedule, "no main task", Mode::Built);
   expectBroken([](Module& m) { m.fastTask = TaskId{1}; }, Rule::Schedule, "fast task");
   expectBroken([](Module& m) { m.scan[0].op = 5; }, Rule::Schedule, "no step 5");
+  expectBroken(
+      [](Module& m) {
+        m.scan.clear();
+        m.tasks[0].periodUs = 0;
+      },
+      Rule::Schedule, "takes no time");
   expectBroken([](Module& m) { m.scan[0].task = TaskId{0}; }, Rule::Schedule, "does not use");
   expectBroken([](Module& m) { m.scan[1].task = {}; }, Rule::Schedule, "without its task");
   expectBroken([](Module& m) { m.fast.push_back({RUNG_STEP_PART, TaskId{7}, 1}); }, Rule::Schedule, "without its task");

@@ -1,6 +1,7 @@
 // The JIT as an engine, its pieces and threads, and its cache of object files. That it computes what the interpreter
 // computes is the differential tests' matter.
 #include "codegen/jit/jit_engine.h"
+#include "codegen/jit/object_cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <unistd.h>
 
@@ -168,6 +170,108 @@ TEST_F(JitCache, LeavesWhatIsDamaged) {
   EXPECT_EQ(taken({}), 0u) << "changed";
   EXPECT_EQ(taken({}), 1u) << "written anew";
 }
+
+// What the file of one key holds goes under the name of another.
+class JitCacheOfOthers : public JitCache {
+protected:
+  // Compiles with `other` and then with `own`; gives the two files.
+  std::pair<fs::path, fs::path> filesOf(const std::function<void()>& other, const std::function<void()>& own) {
+    other();
+    const fs::path first = files().at(0);
+    own();
+    for (const fs::path& file : files())
+      if (file != first) return {first, file};
+    ADD_FAILURE() << "both have one key";
+    return {first, first};
+  }
+  static void overwrite(const fs::path& file, const fs::path& by) {
+    fs::copy_file(by, file, fs::copy_options::overwrite_existing);
+  }
+  static std::string bytesOf(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static std::string keyOf(const fs::path& file) {
+    std::string key;
+    for (const std::string name = file.stem().string(); key.size() < name.size() / 2;)
+      key += static_cast<char>(std::stoi(name.substr(2 * key.size(), 2), nullptr, 16));
+    return key;
+  }
+};
+
+TEST_F(JitCacheOfOthers, AnotherProgram) {
+  const auto [other, own] = filesOf([&] { taken({}, 2); }, [&] { taken({}); });
+  overwrite(own, other);
+  EXPECT_EQ(taken({}), 0u) << "compiled again";
+  EXPECT_EQ(taken({}), 1u) << "and kept";
+}
+
+TEST_F(JitCacheOfOthers, AnotherCut) {
+  const auto [other, own] = filesOf(
+      [&] {
+        layout_ = Layout(module_, {.maxChunkRungs = 1});
+        taken({});
+      },
+      [&] {
+        layout_ = Layout(module_, {});
+        taken({});
+      });
+  overwrite(own, other);
+  EXPECT_EQ(taken({}), 0u);
+}
+
+// The key is in the object too; with it changed, as another version of the compiler would have written it, or with
+// another first chunk or number of chunks, and a right checksum, the object is not taken.
+TEST_F(JitCacheOfOthers, AnotherIdentity) {
+  EXPECT_EQ(taken({}), 0u);
+  const fs::path file = files().at(0);
+  const std::string sound = bytesOf(file);
+  const std::string key = keyOf(file);
+  const size_t at = sound.find(key);
+  ASSERT_NE(at, std::string::npos) << "the object holds its key";
+  for (const size_t place : {size_t{0}, size_t{31}, key.size(), key.size() + 4}) {
+    std::string object = sound.substr(0, sound.rfind("rung-object "));
+    object[at + place] ^= 1;
+    std::ofstream(file, std::ios::binary) << object << cacheSeal(object);
+    EXPECT_EQ(taken({}), 0u) << place;
+  }
+  std::ofstream(file, std::ios::binary) << cacheSeal("");
+  EXPECT_EQ(taken({}), 0u) << "not an object";
+  EXPECT_EQ(taken({}), 1u);
+}
+
+// What makes code is in the key, each by itself.
+TEST(CacheKeys, CoverWhatMakesCode) {
+  Module module = copyModule(64);
+  const Layout layout(module, {.maxChunkRungs = 16});
+  const ModulePart whole{.chunkCount = 4};
+  const auto keyOf = [&](const Layout& own, const ModulePart& piece, std::string_view version = "1",
+                         std::string_view machine = "m") { return CacheKeys(own, 1, {}, machine, version).of(piece); };
+  const CacheKey key = keyOf(layout, whole);
+  EXPECT_EQ(keyOf(layout, whole), key);
+  EXPECT_NE(keyOf(layout, whole, "2"), key) << "version of the compiler";
+  EXPECT_NE(keyOf(layout, whole, "1", "n"), key) << "machine";
+  EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 1, .chunkCount = 2}));
+  EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 2, .chunkCount = 1}));
+  EXPECT_NE(keyOf(Layout(module, {.maxChunkRungs = 8}), whole), key) << "other chunks";
+  EXPECT_NE(keyOf(Layout(module, {.maxChunkRungs = 16, .expandBits = false}), whole), key) << "other memory";
+  module.routines[0].rungs[0].begin.line = 99;
+  EXPECT_NE(keyOf(layout, whole), key) << "another text: debug information";
+}
+
+// Weights that another version of the layout calculates from the same program.
+TEST(CacheKeys, CoverTheWeightsOfWays) {
+  Module module = copyModule(3);
+  module.routines[0].rungs[0].transfer = {.kind = TransferKind::Goto, .cond = ValueId{0}, .target = 2};
+  const Layout before(module, {});
+  module.routines[0].rungs[2].weight = 7;
+  const Layout after(module, {}); // both belong to this module: they differ in what they have calculated
+  const ModulePart whole{.chunkCount = 1};
+  EXPECT_EQ(before.text(), after.text());
+  EXPECT_NE(CacheKeys(before, 1, {}, "m", "1").of(whole), CacheKeys(after, 1, {}, "m", "1").of(whole));
+}
+
+TEST(CacheKeys, TheVersionIsOfTheSources) { EXPECT_EQ(codeVersion().size(), 64u); }
 
 TEST_F(JitCache, RunsWithoutIt) {
   std::ofstream(folder_) << "a file where the folder should be";

@@ -19,18 +19,23 @@ struct Case {
   const char* message;
 };
 
+// Space X: 4 packed bytes at 0, 4 expanded ones at 64; space Y: 8 packed bytes at 128. MAIN: two parts.
 TestProgram soundProgram() {
   TestProgram test;
   test.addSpace("X", 1, {{0, 4, 0, RUNG_REPR_PACKED}, {4, 4, 64, RUNG_REPR_BYTE_PER_BIT}});
+  test.addPacked("Y", 2, 8, 128);
   test.addSymbol("A", 0, 1, RUNG_TYPE_I8);
   test.addSymbol("B", 0, 2, RUNG_TYPE_BIT, 3);
-  static const uint8_t kOne = 1;
-  test.inits = {{0, 1, &kOne}};
-  test.retains = {{0, 4}};
+  test.addConstant("C", 5);
+  static const uint8_t kData[] = {1, 0, 1, 1, 0, 1, 1, 1, 2};
+  test.inits = {{0, 1, kData}, {64, 8, kData}};
+  test.retains = {{0, 4}, {72, 16}};
   test.safeSpans = {{0, 4}};
   test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
-  const uint32_t task = test.addTask("MAIN", 0);
-  test.addBeginCopy(task, {RUNG_COPY_MASKED, 0, 4, 8, 2});
+  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  const uint32_t task = test.addTask("MAIN", 0, 1000, {1, RUNG_PC_DONE});
+  test.addBeginCopy(task, {RUNG_COPY_MASKED, 0, 128, 130, 2});
+  test.addBeginCopy(task, {RUNG_COPY_ALL, 64, 72, 0, 8});
   test.scan = {{RUNG_STEP_RUN, task, 1}};
   test.fast = {{RUNG_STEP_RUN, task, 1}};
   return test;
@@ -43,6 +48,40 @@ TEST(CheckProgram, SoundProgramPasses) {
 
 class CheckProgram : public testing::TestWithParam<Case> {};
 
+// Each alone lies in the block, and together they have more bytes than a size can say.
+TEST(CheckProgram, RetainedSpansTogether) {
+  TestProgram test;
+  test.memorySize = 0x80000000;
+  test.addPacked("K", 1, 0x80000000, 0);
+  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.addTask("MAIN", 0);
+  test.retains = {{0, 0x80000000}};
+  EXPECT_EQ(checkProgram(test.link()), "");
+  test.retains.push_back({0, 0x80000000});
+  EXPECT_THAT(checkProgram(test.link()), HasSubstr("more than 4 GB together"));
+}
+
+// In a moment: the gate's time grows with the tables and not with their square, which would be minutes.
+TEST(CheckProgram, FiftyThousandRungs) {
+  constexpr uint32_t kCount = 50'000;
+  TestProgram test;
+  test.memorySize = 64 * kCount;
+  std::vector<rung_range> ranges;
+  for (uint32_t i = 0; i < kCount; ++i)
+    ranges.push_back({i, 1, 16 * i, i % 2 == 0 ? RUNG_REPR_PACKED : RUNG_REPR_BYTE_PER_BIT});
+  test.addSpace("X", 1, ranges);
+  test.addPacked("Y", 1, kCount, 32 * kCount);
+  static const uint8_t kByte = 1;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+    test.retains.push_back({16 * i, i % 2 == 0 ? 1u : 8u});
+    test.inits.push_back({16 * i, 1, &kByte});
+  }
+  const uint32_t task = test.addTask("MAIN", 0);
+  for (uint32_t i = 0; i < kCount; i += 2) test.addBeginCopy(task, {RUNG_COPY_ALL, 32 * kCount + i, 16 * i, 0, 1});
+  EXPECT_EQ(checkProgram(test.link()), "");
+}
+
 TEST_P(CheckProgram, FindsIt) {
   TestProgram test = soundProgram();
   test.link();
@@ -50,36 +89,121 @@ TEST_P(CheckProgram, FindsIt) {
   EXPECT_THAT(checkProgram(test.program), HasSubstr(GetParam().message));
 }
 
+// In the order of rung/program.h.
 const Case kCases[] = {
     {"Version", [](TestProgram& t) { t.program.abi_version = 9; }, "ABI version 9"},
     {"Size", [](TestProgram& t) { t.program.size = 8; }, "has 8 bytes"},
-    {"Alignment", [](TestProgram& t) { t.program.memory_align = 24; }, "power of two"},
-    {"Name", [](TestProgram& t) { t.program.dialect = nullptr; }, "is missing"},
+    {"NoName", [](TestProgram& t) { t.program.name = nullptr; }, "name, dialect or compiler is missing"},
+    {"NoDialect", [](TestProgram& t) { t.program.dialect = nullptr; }, "name, dialect or compiler is missing"},
+    {"NoCompiler", [](TestProgram& t) { t.program.compiler = nullptr; }, "name, dialect or compiler is missing"},
+    {"Alignment", [](TestProgram& t) { t.program.memory_align = 24; }, "alignment 24, expected a power of two"},
+    {"NoAlignment", [](TestProgram& t) { t.program.memory_align = 0; }, "alignment 0, expected"},
+    {"LargeAlignment", [](TestProgram& t) { t.program.memory_align = 1u << 31; }, "up to 4096"},
+    {"Instrumented", [](TestProgram& t) { t.program.instrumented = 2; }, "`instrumented` is 2"},
+    {"MainTask", [](TestProgram& t) { t.program.main_task = 4; }, "the main task is 4, there are 1"},
+    {"FastTask", [](TestProgram& t) { t.program.fast_task = 1; }, "the fast task is 1, there are 1"},
     {"NoCode", [](TestProgram& t) { t.program.chunk_fns = nullptr; }, "no code"},
-    {"NullChunk", [](TestProgram& t) { t.functions[0] = nullptr; }, "chunk 0 has no code"},
-    {"NullTable", [](TestProgram& t) { t.program.rungs = nullptr; }, "table of rungs is missing"},
-    {"SpaceOutside", [](TestProgram& t) { t.ranges[0][1].offset = 250; }, "outside the memory block"},
-    {"SpaceGap", [](TestProgram& t) { t.ranges[0][1].first_byte = 5; }, "do not cover"},
-    {"SpaceShort", [](TestProgram& t) { t.spaces[0].byte_count = 9; }, "do not cover"},
-    {"SymbolSpace", [](TestProgram& t) { t.symbols[0].space = 3; }, "space of symbol"},
-    {"SymbolType", [](TestProgram& t) { t.symbols[0].type = 0; }, "bad type"},
-    {"SymbolOrder", [](TestProgram& t) { std::swap(t.symbols[0], t.symbols[1]); }, "not sorted"},
-    {"Init", [](TestProgram& t) { t.inits[0].size = 300; }, "initial contents 0"},
-    {"Retain", [](TestProgram& t) { t.retains[0].offset = 254; }, "retained span 0"},
-    {"Safe", [](TestProgram& t) { t.safeSpans[0].offset = 0xFFFFFFFF; }, "safe span 0"},
-    {"CopyTo", [](TestProgram& t) { t.copies[0].to = 255; }, "copy 0"},
-    {"CopyMask", [](TestProgram& t) { t.copies[0].mask = 255; }, "copy 0"},
-    {"ChunkRungs", [](TestProgram& t) { t.chunks[0].rung_count = 2; }, "rungs that do not exist"},
-    {"RungFile", [](TestProgram& t) { t.rungs[0].file = 1; }, "file of rung"},
-    {"RungRoutine", [](TestProgram& t) { t.rungs[0].routine = 1; }, "routine of rung"},
-    {"TaskEntry", [](TestProgram& t) { t.tasks[0].entry = 1; }, "entry of task"},
-    {"TaskFault", [](TestProgram& t) { t.tasks[0].budget_fault = RUNG_NONE; }, "budget fault"},
-    {"TaskCopies", [](TestProgram& t) { t.tasks[0].begin_count = 2; }, "begin copies"},
-    {"TaskParts", [](TestProgram& t) { t.tasks[0].part_first = 1; }, "parts of task"},
-    {"ScanTask", [](TestProgram& t) { t.scan[0].task = 1; }, "scan step"},
-    {"FastOp", [](TestProgram& t) { t.fast[0].op = 9; }, "fast step 0 is unknown"},
-    {"MainTask", [](TestProgram& t) { t.program.main_task = 4; }, "main task"},
-    {"Texts", [](TestProgram& t) { t.program.text_count = 3; }, "not pairs"},
+    {"BothCodes",
+     [](TestProgram& t) { t.program.run_chunk = [](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; }; },
+     "both chunk functions and run_chunk"},
+    {"ManyChunks", [](TestProgram& t) { t.program.chunk_count = 0xFFFFFFFF; }, "too many chunks"},
+
+    {"NoSpaces", [](TestProgram& t) { t.program.spaces = nullptr; }, "table of spaces is missing, it has 2"},
+    {"NoSymbols", [](TestProgram& t) { t.program.symbols = nullptr; }, "table of symbols is missing"},
+    {"NoInits", [](TestProgram& t) { t.program.inits = nullptr; }, "table of initial contents is missing"},
+    {"NoRetains", [](TestProgram& t) { t.program.retains = nullptr; }, "table of retained spans is missing"},
+    {"NoSafes", [](TestProgram& t) { t.program.safe_spans = nullptr; }, "table of safe spans is missing"},
+    {"NoCopies", [](TestProgram& t) { t.program.copies = nullptr; }, "table of copies is missing"},
+    {"NoChunks", [](TestProgram& t) { t.program.chunks = nullptr; }, "table of chunks is missing"},
+    {"NoRungs", [](TestProgram& t) { t.program.rungs = nullptr; }, "table of rungs is missing"},
+    {"NoRoutines", [](TestProgram& t) { t.program.routines = nullptr; }, "table of routines is missing"},
+    {"NoFiles", [](TestProgram& t) { t.program.files = nullptr; }, "table of files is missing"},
+    {"NoTasks", [](TestProgram& t) { t.program.tasks = nullptr; }, "table of tasks is missing"},
+    {"NoPartEnds", [](TestProgram& t) { t.program.part_ends = nullptr; }, "table of parts is missing"},
+    {"NoScan", [](TestProgram& t) { t.program.scan = nullptr; }, "table of scan steps is missing"},
+    {"NoFast", [](TestProgram& t) { t.program.fast = nullptr; }, "table of fast steps is missing"},
+    {"NoFaults", [](TestProgram& t) { t.program.faults = nullptr; }, "table of faults is missing"},
+    {"NoServices", [](TestProgram& t) { t.program.services = nullptr; }, "table of services is missing"},
+    {"NoTexts", [](TestProgram& t) { t.program.texts = nullptr; }, "table of texts is missing"},
+
+    {"SpaceName", [](TestProgram& t) { t.spaces[1].name = nullptr; }, "space 1 has no name"},
+    {"SpaceUnit", [](TestProgram& t) { t.spaces[0].unit_bytes = 3; }, "space 0 has units of 3 bytes"},
+    {"SpaceUnitZero", [](TestProgram& t) { t.spaces[0].unit_bytes = 0; }, "space 0 has units of 0 bytes"},
+    {"SpacePartOfUnit", [](TestProgram& t) { t.spaces[1].byte_count = 7; }, "space 1 has 7 bytes, part of a unit"},
+    {"SpaceFlags", [](TestProgram& t) { t.spaces[1].flags = 8; }, "space 1 has unknown flags 8"},
+    {"SpaceRanges", [](TestProgram& t) { t.spaces[1].ranges = nullptr; }, "space 1 has no table of ranges"},
+    {"RangeRepr", [](TestProgram& t) { t.ranges[0][1].repr = 2; }, "space 0 has a range of unknown representation 2"},
+    {"RangeOutside", [](TestProgram& t) { t.ranges[0][1].offset = 250; }, "space 0 lies outside the memory block"},
+    {"RangeFarOutside", [](TestProgram& t) { t.ranges[0][1].offset = 0xFFFFFFF0; }, "space 0 lies outside"},
+    {"RangeGap", [](TestProgram& t) { t.ranges[0][1].first_byte = 5; }, "space 0 has ranges that do not cover it"},
+    {"RangeEmpty", [](TestProgram& t) { t.ranges[0][0].byte_count = 0; }, "space 0 has ranges that do not cover it"},
+    {"SpaceShort", [](TestProgram& t) { t.spaces[0].byte_count = 9; }, "do not cover its 9 bytes"},
+    {"RangesTogether", [](TestProgram& t) { t.ranges[1][0].offset = 95; }, "two ranges of spaces lie at offset 95"},
+
+    {"SymbolName", [](TestProgram& t) { t.symbols[1].name = nullptr; }, "symbol 1 has no name"},
+    {"SymbolComment", [](TestProgram& t) { t.symbols[0].comment = nullptr; }, "symbol 0 has no comment"},
+    {"SymbolOrder", [](TestProgram& t) { std::swap(t.symbols[0], t.symbols[1]); }, "symbol 1 is not sorted"},
+    {"SymbolType", [](TestProgram& t) { t.symbols[0].type = 0; }, "symbol 0 has the unknown type 0"},
+    {"SymbolTypeAbove", [](TestProgram& t) { t.symbols[2].type = 8; }, "symbol 2 has the unknown type 8"},
+    {"SymbolFlags", [](TestProgram& t) { t.symbols[0].flags = 16; }, "symbol 0 has unknown flags 16"},
+    {"SymbolBit", [](TestProgram& t) { t.symbols[1].bit = 8; }, "symbol 1 begins at bit 8"},
+    {"SymbolBitOfByte", [](TestProgram& t) { t.symbols[0].bit = 1; }, "symbol 0 begins at bit 1"},
+    {"SymbolCount", [](TestProgram& t) { t.symbols[0].count = 0; }, "symbol 0 has no elements"},
+    {"SymbolSpace", [](TestProgram& t) { t.symbols[0].space = 3; }, "symbol 0 has space 3, there are 2"},
+    {"SymbolByte", [](TestProgram& t) { t.symbols[0].byte = 8; }, "symbol 0 lies outside space 0"},
+    {"SymbolLong", [](TestProgram& t) { t.symbols[0].count = 0xFFFFFFFF; }, "symbol 0 lies outside space 0"},
+    {"SymbolBits", [](TestProgram& t) { t.symbols[1].count = 46; }, "symbol 1 lies outside space 0"},
+
+    {"Init", [](TestProgram& t) { t.inits[0].size = 300; }, "initial contents 0 lies outside"},
+    {"InitData", [](TestProgram& t) { t.inits[0].data = nullptr; }, "initial contents 0 has no data"},
+    {"InitOfBits", [](TestProgram& t) { t.inits[1].size = 9; }, "initial contents 1 has 2 for a bit"},
+    {"Retain", [](TestProgram& t) { t.retains[0].offset = 254; }, "retained span 0 lies outside the memory block"},
+    {"RetainNoSpace", [](TestProgram& t) { t.retains[0].offset = 2; }, "retained span 0 lies outside the spaces"},
+    {"RetainBits", [](TestProgram& t) { t.retains[1].size = 15; }, "retained span 1 begins or ends within a byte"},
+    {"RetainMidst", [](TestProgram& t) { t.retains[1].offset = 76; }, "retained span 1 begins or ends within a byte"},
+    {"Safe", [](TestProgram& t) { t.safeSpans[0].offset = 0xFFFFFFFF; }, "safe span 0 lies outside"},
+
+    {"CopyKind", [](TestProgram& t) { t.copies[0].kind = 2; }, "copy 0 has the unknown kind 2"},
+    {"CopyFrom", [](TestProgram& t) { t.copies[0].from = 3; }, "copy 0 has a `from` that is not in one range"},
+    {"CopyTo", [](TestProgram& t) { t.copies[0].to = 255; }, "copy 0 has a `to` that is not in one range"},
+    {"CopyMask", [](TestProgram& t) { t.copies[0].mask = 0xFFFF0000; }, "copy 0 has a `mask` that is not in one range"},
+    {"CopySize", [](TestProgram& t) { t.copies[0].size = 0xFFFFFFFF; }, "copy 0 has a `from`"},
+    {"CopyRepr", [](TestProgram& t) { t.copies[1].from = 128; }, "copy 1 is between different representations"},
+    {"CopyMaskRepr", [](TestProgram& t) { t.copies[0].mask = 64; }, "copy 0 is between different representations"},
+    {"CopyOverlap", [](TestProgram& t) { t.copies[1].to = 71; }, "copy 1 overlaps itself"},
+    {"CopyMaskOverlap", [](TestProgram& t) { t.copies[0].mask = 129; }, "copy 0 overlaps itself"},
+    {"CopyMaskOfItself", [](TestProgram& t) { t.copies[0].mask = 1; }, "copy 0 overlaps itself"},
+
+    {"ChunkRungs", [](TestProgram& t) { t.chunks[0].rung_count = 3; }, "chunk 0 has rungs 0 + 3, there are 2"},
+    {"ChunkEmpty", [](TestProgram& t) { t.chunks[1].rung_count = 0; }, "chunk 1 has no rungs"},
+    {"ChunkWeight", [](TestProgram& t) { t.chunks[1].weight = 0; }, "chunk 1 has weight 0"},
+    {"ChunkCode", [](TestProgram& t) { t.functions[1] = nullptr; }, "chunk 1 has no code"},
+    {"RungTitle", [](TestProgram& t) { t.rungs[1].title = nullptr; }, "rung 1 has no title"},
+    {"RungFile", [](TestProgram& t) { t.rungs[0].file = 1; }, "rung 0 has file 1, there are 1"},
+    {"RungLines", [](TestProgram& t) { t.rungs[1].last_line = 19; }, "rung 1 ends before it begins, in line 19"},
+    {"RungRoutine", [](TestProgram& t) { t.rungs[0].routine = 1; }, "rung 0 has routine 1, there are 1"},
+
+    {"TaskName", [](TestProgram& t) { t.tasks[0].name = nullptr; }, "task 0 has no name"},
+    {"TaskEntry", [](TestProgram& t) { t.tasks[0].entry = 2; }, "task 0 has entry 2, there are 2"},
+    {"TaskFault", [](TestProgram& t) { t.tasks[0].budget_fault = RUNG_NONE; }, "task 0 has budget fault"},
+    {"TaskBegin", [](TestProgram& t) { t.tasks[0].begin_count = 3; }, "task 0 has begin copies 0 + 3, there are 2"},
+    {"TaskEnd", [](TestProgram& t) { t.tasks[0].end_first = 3; }, "task 0 has end copies 3 + 0, there are 2"},
+    {"TaskParts", [](TestProgram& t) { t.tasks[0].part_first = 1; }, "task 0 has parts 1 + 2, there are 2"},
+    {"TaskNoParts", [](TestProgram& t) { t.tasks[0].part_count = 0; }, "task 0 has no parts"},
+    {"PartChunk", [](TestProgram& t) { t.partEnds[0] = 2; }, "task 0 has a part that ends before chunk 2, there are 2"},
+    {"PartOrder", [](TestProgram& t) { std::swap(t.partEnds[0], t.partEnds[1]); }, "not in order: chunk 1"},
+    {"PartLast", [](TestProgram& t) { t.partEnds[1] = 1; }, "task 0 has a last part that does not end with the run"},
+    {"StepOp", [](TestProgram& t) { t.fast[0].op = 9; }, "fast step 0 has the unknown operation 9"},
+    {"StepTask", [](TestProgram& t) { t.scan[0].task = 1; }, "scan step 0 has task 1, there are 1"},
+    {"NoTime", [](TestProgram& t) { t.tasks[0].period_us = 0; }, "the scan list takes no time"},
+
+    {"NoRoutine", [](TestProgram& t) { t.routines[0] = nullptr; }, "routine 0 is missing"},
+    {"NoFile", [](TestProgram& t) { t.files[0] = nullptr; }, "file 0 is missing"},
+    {"NoFault", [](TestProgram& t) { t.faults[1] = nullptr; }, "fault 1 is missing"},
+    {"NoService", [](TestProgram& t) { t.services[1] = nullptr; }, "service 1 is missing"},
+    {"NoText", [](TestProgram& t) { t.texts[3] = nullptr; }, "text 3 is missing"},
+    {"Texts", [](TestProgram& t) { t.program.text_count = 3; }, "not pairs: there are 3"},
+    {"TextNumber", [](TestProgram& t) { t.texts[2] = "2x"; }, "text 2 is not the number of a message: 2x"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, CheckProgram, testing::ValuesIn(kCases),

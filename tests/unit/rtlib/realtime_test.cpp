@@ -1,9 +1,13 @@
 // The loop on the machine's clock. Bounds are loose: the machine may be busy.
 #include "rtlib/host/realtime.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <chrono>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "tests/unit/rtlib/test_program.h"
@@ -53,6 +57,25 @@ TEST_F(RealTimeTest, LatePeriodsAreCountedAndTheClockCatchesUp) {
   EXPECT_GE(stats.maxLateNs, 18'000'000);
   EXPECT_GE(instance.nowUs(), 8000 + 18000);
   EXPECT_LE(instance.nowUs() * 1000, monotonicNs() - start);
+}
+
+// Bytes of this process that are locked in memory.
+std::string lockedMemory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmLck:")) return line;
+  return {};
+}
+
+// A lock that the host has taken for itself is still there afterwards.
+TEST_F(RealTimeTest, MemoryStaysLocked) {
+  if (mlockall(MCL_CURRENT) != 0) GTEST_SKIP() << "this system grants no locked memory";
+  const std::string before = lockedMemory();
+  Instance instance(test.program);
+  const RealTimeStats stats = runRealTime(instance, {.lockMemory = true}, [] { return false; });
+  EXPECT_TRUE(stats.memoryLocked);
+  EXPECT_THAT(lockedMemory(), testing::Not(testing::HasSubstr(" 0 kB"))) << before;
+  munlockall();
 }
 
 TEST_F(RealTimeTest, FaultEndsTheLoop) {

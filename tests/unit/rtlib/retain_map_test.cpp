@@ -79,16 +79,14 @@ TEST(RetainMap, OtherAddressesDialectsAndNamesDiffer) {
   EXPECT_NE(other([](TestProgram& t) { t.spaces[0].name = "D"; }), hash);
 }
 
-// A kept slot has no address: only the very same layout may take it.
-TEST(RetainMap, BytesOutsideSpacesAreTiedToTheLayout) {
-  TestProgram test;
-  test.addPacked("K", 1, 4, 8);
-  test.retains = {{8, 4}, {100, 2}};
-  test.link();
-  const RetainMap map(test.program);
-  EXPECT_EQ(map.size(), 6u);
-  test.program.layout_hash += 1;
-  EXPECT_NE(RetainMap(test.program).hash(), map.hash());
+// Whatever an image holds, the byte of a bit becomes 0 or 1.
+TEST(RetainMap, ExpandedBitsAreZeroOrOne) {
+  TestProgram mixed;
+  threePieces(mixed);
+  const RetainMap map(mixed.program);
+  Bytes raw(map.rawSize(), 0xEE);
+  map.unpack(Bytes(map.size(), 0xFF), raw);
+  for (uint32_t i = 1; i < 9; ++i) EXPECT_EQ(raw[i], 1) << i;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 namespace {
@@ -34,9 +35,37 @@ TEST(Ring, RefusesAndCountsWhatDoesNotFit) {
   EXPECT_EQ(*ring.peek(), 0);
   EXPECT_EQ(*ring.peek(3), 3);
   EXPECT_EQ(ring.peek(4), nullptr);
-  ring.clear();
+  ring.drop();
   EXPECT_EQ(ring.size(), 0u);
   EXPECT_EQ(ring.lost(), 0u);
+}
+
+// The room of dropped elements is free once the consumer has looked.
+TEST(Ring, DroppedElementsAreNotSeen) {
+  FixedRing<int, 4> ring;
+  int value = -1;
+  for (int round = 0; round < 10; ++round) {
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(ring.push(i));
+    ASSERT_TRUE(ring.pop(value));
+    ring.drop();
+    EXPECT_EQ(ring.size(), 0u);
+    EXPECT_EQ(ring.peek(), nullptr);
+    EXPECT_TRUE(ring.push(10 + round));
+    EXPECT_TRUE(ring.push(20 + round));
+    EXPECT_FALSE(ring.push(30 + round));
+    EXPECT_EQ(ring.lost(), 1u);
+    EXPECT_EQ(ring.size(), 2u);
+    EXPECT_EQ(*ring.peek(1), 20 + round);
+    ASSERT_TRUE(ring.pop(value));
+    EXPECT_EQ(value, 10 + round);
+    ASSERT_TRUE(ring.pop(value));
+    EXPECT_EQ(value, 20 + round);
+    EXPECT_FALSE(ring.pop(value));
+  }
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i));
+  ring.drop();
+  EXPECT_FALSE(ring.pop(value));
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i)) << "all room is free";
 }
 
 TEST(Ring, UsesStorageOfTheCaller) {
@@ -70,6 +99,32 @@ TEST(Ring, TwoThreadsLoseNothingAndTearNothing) {
   producer.join();
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(ring.size(), 0u);
+}
+
+// A restart while the other thread reads: its view never holds more than the capacity, and goes on in order.
+TEST(Ring, DropsWhileTheConsumerReads) {
+  constexpr uint64_t kCount = 200'000;
+  FixedRing<Wide, 64> ring;
+  std::atomic<bool> done = false;
+  std::thread producer([&] {
+    for (uint64_t i = 1; i <= kCount; ++i) {
+      ring.push({i, ~i});
+      if (i % 50 == 0) ring.drop();
+      if (i % 1000 == 0) std::this_thread::yield();
+    }
+    done = true;
+  });
+  uint64_t wrong = 0;
+  uint64_t last = 0;
+  while (!done) {
+    Wide wide{};
+    if (ring.size() > 64) ++wrong;
+    if (!ring.pop(wide)) continue;
+    if (wide.number <= last || wide.inverse != ~wide.number) ++wrong;
+    last = wide.number;
+  }
+  producer.join();
+  EXPECT_EQ(wrong, 0u);
 }
 
 } // namespace

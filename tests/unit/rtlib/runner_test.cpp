@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <vector>
 
+#include "rtlib/core/float_environment.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
@@ -43,6 +45,36 @@ template <uint8_t N, uint32_t Next>
 uint32_t step(uint8_t* mem, rung_ctx*) {
   trace(mem, N);
   return Next;
+}
+
+// A host may calculate otherwise; programs do not, and the host has its settings back.
+TEST_F(RunnerTest, FloatingPointAsProgramsAreCompiledFor) {
+  test.addChunk([](uint8_t* mem, rung_ctx*) {
+    const volatile double one = 1;
+    const volatile double tiny = 1e-300;
+    mem[0] = one + tiny == 1 ? 1 : 2;         // rounded to nearest
+    mem[1] = tiny * 1e-15 != 0 ? 1 : 2;       // a subnormal number is not 0
+    mem[2] = one / (tiny - tiny) > 1 ? 1 : 2; // no trap
+    return mem[3] == 0 ? RUNG_PC_DONE : RUNG_PC_FAULT;
+  });
+  test.addTask("MAIN", 0);
+  Runner& r = start();
+  const uint32_t before = floatControl();
+  ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
+#if defined(__x86_64__)
+  setFloatControl((floatControl() | 0x8040) & ~0x200u); // subnormals are 0, a division by 0 traps
+#endif
+  const uint32_t own = floatControl() & ~kFloatStatus;
+  EXPECT_TRUE(r.runTask(0));
+  const uint32_t after = floatControl() & ~kFloatStatus;
+  const std::vector<uint8_t> seen(memory.begin(), memory.begin() + 3);
+  memory[3] = 1;
+  EXPECT_FALSE(r.runTask(0));
+  const uint32_t afterFault = floatControl() & ~kFloatStatus;
+  setFloatControl(before);
+  EXPECT_EQ(seen, (std::vector<uint8_t>{1, 1, 1}));
+  EXPECT_EQ(after, own);
+  EXPECT_EQ(afterFault, own);
 }
 
 TEST_F(RunnerTest, RunsCallsAndReturns) {

@@ -119,11 +119,11 @@ TEST_F(Services, RepliesToNothingAreCounted) {
   EXPECT_EQ(queue->pending(), 0u);
 }
 
-TEST_F(Services, LateReplyToARequestFromBeforeClearIsThrownAway) {
+TEST_F(Services, LateReplyToARequestFromBeforeARestartIsThrownAway) {
   const uint32_t before = queue->request(0, nullptr, 0);
   ServiceRequest request;
   ASSERT_TRUE(queue->take(request));
-  queue->clear();
+  queue->restart();
   const uint32_t after = queue->request(0, nullptr, 0);
   EXPECT_NE(after, before);
   queue->complete(reply(before, 5));
@@ -132,6 +132,36 @@ TEST_F(Services, LateReplyToARequestFromBeforeClearIsThrownAway) {
   EXPECT_EQ(queue->poll(before), RUNG_SERVICE_NONE);
   EXPECT_EQ(queue->stray(), 1u);
   EXPECT_EQ(queue->pending(), 1u);
+}
+
+// Requests that nobody has taken keep their room after a restart until the host looks.
+TEST_F(Services, ARestartWhileRequestsWait) {
+  for (uint32_t i = 0; i < ServiceQueue::kMaxPending; ++i) EXPECT_NE(queue->request(0, nullptr, 0), 0u);
+  queue->complete(reply(1, 1));
+  queue->complete(reply(1, 1));
+  queue->restart();
+  EXPECT_EQ(queue->waiting(), 0u);
+  EXPECT_EQ(queue->pending(), 0u);
+  EXPECT_EQ(queue->request(0, nullptr, 0), 0u);
+  EXPECT_EQ(queue->refused(), 1u);
+  EXPECT_EQ(queue->pending(), 0u);
+  ServiceRequest request;
+  EXPECT_FALSE(queue->take(request));
+  const uint32_t ticket = queue->request(0, nullptr, 0);
+  EXPECT_NE(ticket, 0u);
+  ASSERT_TRUE(queue->take(request));
+  EXPECT_EQ(request.ticket, ticket);
+  queue->deliver();
+  EXPECT_EQ(queue->stray(), 0u) << "replies from before are gone";
+  EXPECT_EQ(queue->poll(ticket), RUNG_SERVICE_PENDING);
+}
+
+TEST_F(Services, LostRepliesOfBeforeARestartDoNotCount) {
+  for (uint32_t i = 0; i < ServiceQueue::kMaxPending; ++i) EXPECT_TRUE(queue->complete(reply(1, 1)));
+  EXPECT_FALSE(queue->complete(reply(1, 1)));
+  EXPECT_EQ(queue->stray(), 1u);
+  queue->restart();
+  EXPECT_EQ(queue->stray(), 0u);
 }
 
 TEST_F(Services, ResponderAnswersInTheSameScan) {

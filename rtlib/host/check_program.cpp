@@ -1,0 +1,356 @@
+// The check of a program's tables at the gate (see program_info.h): everything in rung/program.h that the runtime
+// relies on, in the order of that file. Enums are closed sets: what a newer compiler may mean by another value is not
+// known here, so the program is refused. One walk over each table, and a search over the ranges where memory is named.
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <vector>
+
+#include "rtlib/host/program_info.h"
+
+namespace rung::host {
+
+namespace {
+
+constexpr uint32_t kMaxAlign = 4096;
+constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
+constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
+
+std::string text(std::string_view part) { return std::string(part); }
+std::string text(uint32_t number) { return std::to_string(number); }
+
+uint32_t scaleOf(uint32_t repr) { return repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1; }
+
+bool overlap(uint32_t a, uint32_t b, uint32_t size) { return a < uint64_t{b} + size && b < uint64_t{a} + size; }
+
+// Bits of one element; 0 for an unknown type.
+uint32_t elementBits(uint32_t type) {
+  switch (type) {
+  case RUNG_TYPE_BIT: return 1;
+  case RUNG_TYPE_I8:
+  case RUNG_TYPE_TEXT: return 8;
+  case RUNG_TYPE_I16: return 16;
+  case RUNG_TYPE_I32: return 32;
+  case RUNG_TYPE_I64:
+  case RUNG_TYPE_F64: return 64;
+  default: return 0;
+  }
+}
+
+bool isNumber(std::string_view digits) {
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return error == std::errc() && end == digits.data() + digits.size();
+}
+
+class Checker {
+public:
+  explicit Checker(const rung_program& program) : p_(program) {}
+
+  std::string run() {
+    for (void (Checker::*check)() :
+         {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
+          &Checker::checkMemory, &Checker::checkCopies, &Checker::checkCode, &Checker::checkTasks,
+          &Checker::checkSchedule, &Checker::checkTexts}) {
+      (this->*check)();
+      if (!error_.empty()) break; // what follows relies on it
+    }
+    return error_;
+  }
+
+private:
+  // The first error stays.
+  template <class... Parts>
+  void fail(const Parts&... parts) {
+    if (error_.empty()) error_ = (text(parts) + ...);
+  }
+  // An entry of a table, and what is wrong with it.
+  template <class... Parts>
+  void failAt(const char* table, uint32_t number, const Parts&... parts) {
+    fail(table, " ", number, " ", parts...);
+  }
+  void index(const char* table, uint32_t number, const char* field, uint32_t value, uint32_t count) {
+    if (value >= count) failAt(table, number, "has ", field, " ", value, ", there are ", count);
+  }
+  void piece(const char* table, uint32_t number, const char* field, uint32_t first, uint32_t count, uint32_t all) {
+    if (first > all || count > all - first)
+      failAt(table, number, "has ", field, " ", first, " + ", count, ", there are ", all);
+  }
+  void inBlock(const char* table, uint32_t number, uint32_t offset, uint64_t size) {
+    if (offset > p_.memory_size || size > p_.memory_size - offset)
+      failAt(table, number, "lies outside the memory block of ", p_.memory_size, " bytes");
+  }
+  void named(const char* table, uint32_t number, const char* name) {
+    if (name == nullptr) failAt(table, number, "has no name");
+  }
+
+  // ---- head --------------------------------------------------------------------------------------------------------
+
+  void checkHead() {
+    if (p_.abi_version != RUNG_ABI_VERSION)
+      return fail("the program has ABI version ", p_.abi_version, ", this runtime has ", RUNG_ABI_VERSION);
+    if (p_.size < sizeof(rung_program))
+      return fail("the program's description has ", p_.size, " bytes, this runtime needs ",
+                  static_cast<uint32_t>(sizeof(rung_program)));
+    if (p_.name == nullptr || p_.dialect == nullptr || p_.compiler == nullptr)
+      return fail("the program's name, dialect or compiler is missing");
+    if (p_.memory_align == 0 || (p_.memory_align & (p_.memory_align - 1)) != 0 || p_.memory_align > kMaxAlign)
+      fail("the memory block has alignment ", p_.memory_align, ", expected a power of two up to ", kMaxAlign);
+    if (p_.instrumented > 1) fail("`instrumented` is ", p_.instrumented, ", expected 0 or 1");
+    if (p_.chunk_count > RUNG_PC_FAULT) fail("there are too many chunks: ", p_.chunk_count);
+    if (p_.chunk_count != 0 && (p_.chunk_fns == nullptr) == (p_.run_chunk == nullptr))
+      fail(p_.chunk_fns == nullptr ? "the program has no code" : "the program has both chunk functions and run_chunk");
+  }
+
+  void present(const char* what, uint32_t count, const void* table) {
+    if (count != 0 && table == nullptr) fail("the table of ", what, " is missing, it has ", count, " entries");
+  }
+
+  void checkPresence() {
+    present("spaces", p_.space_count, p_.spaces);
+    present("symbols", p_.symbol_count, p_.symbols);
+    present("initial contents", p_.init_count, p_.inits);
+    present("retained spans", p_.retain_count, p_.retains);
+    present("safe spans", p_.safe_count, p_.safe_spans);
+    present("copies", p_.copy_count, p_.copies);
+    present("chunks", p_.chunk_count, p_.chunks);
+    present("rungs", p_.rung_count, p_.rungs);
+    present("routines", p_.routine_count, p_.routines);
+    present("files", p_.file_count, p_.files);
+    present("tasks", p_.task_count, p_.tasks);
+    present("parts", p_.part_end_count, p_.part_ends);
+    present("scan steps", p_.scan_count, p_.scan);
+    present("fast steps", p_.fast_count, p_.fast);
+    present("faults", p_.fault_count, p_.faults);
+    present("services", p_.service_count, p_.services);
+    present("texts", p_.text_count, p_.texts);
+  }
+
+  // ---- memory ------------------------------------------------------------------------------------------------------
+
+  // A range of some space where it lies in the memory block.
+  struct Stretch {
+    uint32_t offset;
+    uint32_t end;
+    uint32_t repr;
+  };
+
+  void checkSpaces() {
+    for (uint32_t i = 0; i < p_.space_count; ++i) checkSpace(i);
+    const auto byOffset = [](const Stretch& a, const Stretch& b) { return a.offset < b.offset; };
+    std::sort(stretches_.begin(), stretches_.end(), byOffset);
+    for (size_t i = 1; i < stretches_.size(); ++i)
+      if (stretches_[i].offset < stretches_[i - 1].end)
+        fail("two ranges of spaces lie at offset ", stretches_[i].offset, " of the memory block");
+  }
+
+  void checkSpace(uint32_t number) {
+    const rung_space& s = p_.spaces[number];
+    named("space", number, s.name);
+    if (s.unit_bytes != 1 && s.unit_bytes != 2 && s.unit_bytes != 4 && s.unit_bytes != 8)
+      return failAt("space", number, "has units of ", s.unit_bytes, " bytes, expected 1, 2, 4 or 8");
+    if (s.byte_count % s.unit_bytes != 0) failAt("space", number, "has ", s.byte_count, " bytes, part of a unit");
+    if ((s.flags & ~kSpaceFlags) != 0) failAt("space", number, "has unknown flags ", s.flags);
+    if (s.range_count != 0 && s.ranges == nullptr) return failAt("space", number, "has no table of ranges");
+    uint64_t next = 0;
+    for (uint32_t r = 0; r < s.range_count && error_.empty(); ++r) {
+      const rung_range& range = s.ranges[r];
+      if (range.repr > RUNG_REPR_BYTE_PER_BIT)
+        return failAt("space", number, "has a range of unknown representation ", range.repr);
+      if (range.first_byte != next || range.byte_count == 0)
+        return failAt("space", number, "has ranges that do not cover it: byte ", range.first_byte);
+      next += range.byte_count;
+      const uint64_t size = uint64_t{range.byte_count} * scaleOf(range.repr);
+      inBlock("space", number, range.offset, size);
+      stretches_.push_back({range.offset, static_cast<uint32_t>(range.offset + size), range.repr});
+    }
+    if (next != s.byte_count) failAt("space", number, "has ranges that do not cover its ", s.byte_count, " bytes");
+  }
+
+  // The stretch that holds all these bytes; null: they lie in none, or in several.
+  const Stretch* stretchOf(uint32_t offset, uint32_t size) const {
+    const auto after = firstAfter(offset);
+    if (after == stretches_.begin()) return nullptr;
+    const Stretch& found = *std::prev(after);
+    return offset < found.end && size <= found.end - offset ? &found : nullptr;
+  }
+  std::vector<Stretch>::const_iterator firstAfter(uint32_t offset) const {
+    return std::upper_bound(stretches_.begin(), stretches_.end(), offset,
+                            [](uint32_t at, const Stretch& stretch) { return at < stretch.offset; });
+  }
+
+  void checkSymbols() {
+    for (uint32_t i = 0; i < p_.symbol_count && error_.empty(); ++i) {
+      const rung_symbol& s = p_.symbols[i];
+      named("symbol", i, s.name);
+      if (s.comment == nullptr) failAt("symbol", i, "has no comment, not even \"\"");
+      if (!error_.empty()) return;
+      if (i > 0 && std::strcmp(p_.symbols[i - 1].name, s.name) > 0) failAt("symbol", i, "is not sorted by its name");
+      checkSymbol(i, s);
+    }
+  }
+
+  void checkSymbol(uint32_t number, const rung_symbol& s) {
+    const uint32_t bits = elementBits(s.type);
+    if (bits == 0) return failAt("symbol", number, "has the unknown type ", s.type);
+    if ((s.flags & ~kSymbolFlags) != 0) return failAt("symbol", number, "has unknown flags ", s.flags);
+    if ((s.flags & RUNG_SYMBOL_CONST) != 0) return;
+    if (s.bit > 7 || (s.bit != 0 && s.type != RUNG_TYPE_BIT)) failAt("symbol", number, "begins at bit ", s.bit);
+    if (s.count == 0) failAt("symbol", number, "has no elements");
+    index("symbol", number, "space", s.space, p_.space_count);
+    if (!error_.empty()) return;
+    const uint64_t bytes = (s.bit + uint64_t{bits} * s.count + 7) / 8;
+    if (s.byte + bytes > p_.spaces[s.space].byte_count) failAt("symbol", number, "lies outside space ", s.space);
+  }
+
+  void checkMemory() {
+    for (uint32_t i = 0; i < p_.init_count && error_.empty(); ++i) checkInit(i);
+    uint64_t kept = 0;
+    for (uint32_t i = 0; i < p_.retain_count; ++i) {
+      const rung_span& span = p_.retains[i];
+      inBlock("retained span", i, span.offset, span.size);
+      checkRetained(i, span);
+      kept += span.size;
+    }
+    if (kept > UINT32_MAX) fail("the retained spans have more than 4 GB together");
+    for (uint32_t i = 0; i < p_.safe_count; ++i)
+      inBlock("safe span", i, p_.safe_spans[i].offset, p_.safe_spans[i].size);
+  }
+
+  // Code takes the byte of an expanded bit for 0 or 1.
+  void checkInit(uint32_t number) {
+    const rung_init& init = p_.inits[number];
+    inBlock("initial contents", number, init.offset, init.size);
+    if (init.data == nullptr) failAt("initial contents", number, "has no data");
+    if (!error_.empty()) return;
+    const uint32_t end = init.offset + init.size;
+    auto stretch = firstAfter(init.offset);
+    if (stretch != stretches_.begin()) --stretch;
+    for (; stretch != stretches_.end() && stretch->offset < end; ++stretch) {
+      if (stretch->repr != RUNG_REPR_BYTE_PER_BIT) continue;
+      for (uint32_t at = std::max(init.offset, stretch->offset); at < std::min(end, stretch->end); ++at)
+        if (init.data[at - init.offset] > 1)
+          return failAt("initial contents", number, "has ", init.data[at - init.offset], " for a bit");
+    }
+  }
+
+  // Kept by the addresses of the dialect: whole logical bytes of spaces. It may go on from range to range.
+  void checkRetained(uint32_t number, const rung_span& span) {
+    for (uint32_t done = 0; done < span.size && error_.empty();) {
+      const Stretch* stretch = stretchOf(span.offset + done, 1);
+      if (stretch == nullptr) return failAt("retained span", number, "lies outside the spaces");
+      const uint32_t scale = scaleOf(stretch->repr);
+      const uint32_t size = std::min(span.size - done, stretch->end - (span.offset + done));
+      if ((span.offset + done - stretch->offset) % scale != 0 || size % scale != 0)
+        failAt("retained span", number, "begins or ends within a byte of its space");
+      done += size;
+    }
+  }
+
+  void checkCopies() {
+    for (uint32_t i = 0; i < p_.copy_count && error_.empty(); ++i) {
+      const rung_copy& c = p_.copies[i];
+      if (c.kind > RUNG_COPY_MASKED) return failAt("copy", i, "has the unknown kind ", c.kind);
+      const bool masked = c.kind == RUNG_COPY_MASKED;
+      const uint32_t repr = checkEnd(i, "from", c.from, c.size);
+      if (checkEnd(i, "to", c.to, c.size) != repr || (masked && checkEnd(i, "mask", c.mask, c.size) != repr))
+        failAt("copy", i, "is between different representations");
+      if (overlap(c.from, c.to, c.size) ||
+          (masked && (overlap(c.mask, c.to, c.size) || overlap(c.mask, c.from, c.size))))
+        failAt("copy", i, "overlaps itself");
+    }
+  }
+  // Its representation.
+  uint32_t checkEnd(uint32_t number, const char* end, uint32_t offset, uint32_t size) {
+    const Stretch* stretch = stretchOf(offset, size);
+    if (stretch != nullptr) return stretch->repr;
+    failAt("copy", number, "has a `", end, "` that is not in one range of a space: ", offset, " + ", size);
+    return 0;
+  }
+
+  // ---- code --------------------------------------------------------------------------------------------------------
+
+  void checkCode() {
+    for (uint32_t i = 0; i < p_.chunk_count; ++i) {
+      const rung_chunk& c = p_.chunks[i];
+      piece("chunk", i, "rungs", c.first_rung, c.rung_count, p_.rung_count);
+      if (c.rung_count == 0) failAt("chunk", i, "has no rungs");
+      if (c.weight == 0) failAt("chunk", i, "has weight 0, expected at least 1");
+      if (p_.chunk_fns != nullptr && p_.chunk_fns[i] == nullptr) failAt("chunk", i, "has no code");
+    }
+    for (uint32_t i = 0; i < p_.rung_count; ++i) {
+      const rung_rung_info& r = p_.rungs[i];
+      if (r.title == nullptr) failAt("rung", i, "has no title, not even \"\"");
+      if (r.file != RUNG_NONE) index("rung", i, "file", r.file, p_.file_count);
+      if (r.first_line > r.last_line) failAt("rung", i, "ends before it begins, in line ", r.last_line);
+      index("rung", i, "routine", r.routine, p_.routine_count);
+    }
+  }
+
+  void checkTasks() {
+    for (uint32_t i = 0; i < p_.task_count; ++i) {
+      const rung_task& t = p_.tasks[i];
+      named("task", i, t.name);
+      index("task", i, "entry", t.entry, p_.chunk_count);
+      index("task", i, "budget fault", t.budget_fault, p_.fault_count);
+      piece("task", i, "begin copies", t.begin_first, t.begin_count, p_.copy_count);
+      piece("task", i, "end copies", t.end_first, t.end_count, p_.copy_count);
+      piece("task", i, "parts", t.part_first, t.part_count, p_.part_end_count);
+      if (t.part_count == 0) failAt("task", i, "has no parts, expected at least 1");
+      if (error_.empty()) checkParts(i, t);
+    }
+    if (p_.main_task != RUNG_NONE && p_.main_task >= p_.task_count)
+      fail("the main task is ", p_.main_task, ", there are ", p_.task_count);
+    if (p_.fast_task != RUNG_NONE && p_.fast_task >= p_.task_count)
+      fail("the fast task is ", p_.fast_task, ", there are ", p_.task_count);
+  }
+
+  void checkParts(uint32_t number, const rung_task& task) {
+    uint32_t before = 0;
+    for (uint32_t k = 0; k < task.part_count; ++k) {
+      const uint32_t end = p_.part_ends[task.part_first + k];
+      if (end != RUNG_PC_DONE) index("task", number, "a part that ends before chunk", end, p_.chunk_count);
+      if (end < before) failAt("task", number, "has parts that are not in order: chunk ", end);
+      before = end;
+    }
+    if (before != RUNG_PC_DONE) failAt("task", number, "has a last part that does not end with the run");
+  }
+
+  void checkSchedule() {
+    for (uint32_t i = 0; i < p_.scan_count; ++i) checkStep("scan step", i, p_.scan[i]);
+    for (uint32_t i = 0; i < p_.fast_count; ++i) checkStep("fast step", i, p_.fast[i]);
+    if (scanPeriodUs(p_) == 0)
+      fail("the scan list takes no time: it has no step that advances the clock, and the main task has no period");
+  }
+  void checkStep(const char* table, uint32_t number, const rung_step& step) {
+    if (step.op > RUNG_STEP_SLOT) failAt(table, number, "has the unknown operation ", step.op);
+    if (step.op == RUNG_STEP_RUN || step.op == RUNG_STEP_PART) index(table, number, "task", step.task, p_.task_count);
+  }
+
+  // ---- texts -------------------------------------------------------------------------------------------------------
+
+  void checkTexts() {
+    checkList("routine", p_.routine_count, p_.routines);
+    checkList("file", p_.file_count, p_.files);
+    checkList("fault", p_.fault_count, p_.faults);
+    checkList("service", p_.service_count, p_.services);
+    checkList("text", p_.text_count, p_.texts);
+    if (p_.text_count % 2 != 0) fail("the texts of messages are not pairs: there are ", p_.text_count);
+    for (uint32_t i = 0; i < p_.text_count && error_.empty(); i += 2)
+      if (!isNumber(p_.texts[i])) failAt("text", i, "is not the number of a message: ", p_.texts[i]);
+  }
+  void checkList(const char* table, uint32_t count, const char* const* list) {
+    for (uint32_t i = 0; i < count; ++i)
+      if (list[i] == nullptr) failAt(table, i, "is missing");
+  }
+
+  const rung_program& p_;
+  std::vector<Stretch> stretches_; // by offset
+  std::string error_;
+};
+
+} // namespace
+
+std::string checkProgram(const rung_program& program) { return Checker(program).run(); }
+
+} // namespace rung::host

@@ -1,11 +1,7 @@
 // Object files on disk (see object_cache.h).
 #include "codegen/jit/object_cache.h"
 
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -14,8 +10,6 @@
 
 namespace rung::codegen {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Behind the object's bytes; a file that does not end in it was cut or changed.
 std::string seal(std::string_view object) { return fmt::format("rung-object {:016x}\n", hashBytes(object)); }
@@ -32,38 +26,27 @@ uint64_t cacheKey(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions
   return hashBytes(text);
 }
 
-std::string ObjectCache::path(uint32_t piece) const {
-  return (fs::path(folder_) / fmt::format("{:016x}-{}.o", key_, piece)).string();
+ObjectCache::ObjectCache(const std::string& folder, uint64_t key) : key_(key) {
+  if (!folder.empty()) folder_ = host::CodeFolder::open(folder, problem_);
 }
 
+std::string ObjectCache::name(uint32_t piece) const { return fmt::format("{:016x}-{}.o", key_, piece); }
+
 std::optional<std::string> ObjectCache::find(uint32_t piece) const {
-  if (folder_.empty()) return std::nullopt;
-  std::ifstream in(path(piece), std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::optional<std::string> bytes = folder_ ? folder_->read(name(piece)) : std::nullopt;
   const size_t sealSize = seal({}).size();
-  if (!in || bytes.size() < sealSize) return std::nullopt;
-  const std::string_view object(bytes.data(), bytes.size() - sealSize);
-  if (seal(object) != std::string_view(bytes).substr(object.size())) return std::nullopt;
-  bytes.resize(object.size());
+  if (!bytes || bytes->size() < sealSize) return std::nullopt;
+  const std::string_view object(bytes->data(), bytes->size() - sealSize);
+  if (seal(object) != std::string_view(*bytes).substr(object.size())) return std::nullopt;
+  bytes->resize(object.size());
   return bytes;
 }
 
 Result<void> ObjectCache::keep(uint32_t piece, std::string_view object) const {
-  if (folder_.empty()) return {};
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  // Renamed when complete: readers never see half a file.
-  const std::string unfinished = fmt::format("{}.{}.tmp", path(piece), getpid());
-  std::ofstream out(unfinished, std::ios::binary);
-  out << object << seal(object);
-  out.close();
-  if (!out) {
-    fs::remove(unfinished, error);
-    return failure(fmt::format("cannot write {}", unfinished));
-  }
-  fs::rename(unfinished, path(piece), error);
-  if (error) return failure(fmt::format("cannot write {}: {}", path(piece), error.message()));
-  return {};
+  if (!problem_.empty()) return failure(problem_);
+  if (!folder_) return {};
+  std::string wrong = folder_->write(name(piece), std::string(object) + seal(object));
+  return wrong.empty() ? Result<void>() : failure(std::move(wrong));
 }
 
 } // namespace rung::codegen

@@ -1,4 +1,5 @@
-// Object files kept in a folder, by key. A damaged file counts as absent. Several processes may use one folder.
+// Object files kept in a folder, by key. A damaged file counts as absent, and so does one that others could have
+// written (see host::CodeFolder). Several processes may use one folder.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -6,6 +7,7 @@
 #include <string_view>
 
 #include "codegen/llvm/llvm_emitter.h"
+#include "rtlib/host/code_folder.h"
 
 namespace rung::codegen {
 
@@ -15,14 +17,15 @@ uint64_t cacheKey(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions
 class ObjectCache {
 public:
   // An empty folder: nothing is kept or found.
-  ObjectCache(std::string folder, uint64_t key) : folder_(std::move(folder)), key_(key) {}
+  ObjectCache(const std::string& folder, uint64_t key);
 
   std::optional<std::string> find(uint32_t piece) const;
   Result<void> keep(uint32_t piece, std::string_view object) const;
 
 private:
-  std::string path(uint32_t piece) const;
-  std::string folder_;
+  std::string name(uint32_t piece) const;
+  std::optional<host::CodeFolder> folder_;
+  std::string problem_; // of a folder that cannot be used
   uint64_t key_;
 };
 

@@ -37,31 +37,17 @@ std::string unfinishedName(const std::string& path) {
 }
 
 // A file that nobody else has, nor has prepared a link for.
-File createUnfinished(const std::string& path, mode_t mode, std::string& name) {
+File createUnfinished(int folder, const std::string& path, mode_t mode, std::string& name) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     name = unfinishedName(path);
-    File file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
+    File file(::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
     if (file.ok() || errno != EEXIST) return file;
   }
   return File();
 }
 
-bool rename(const std::string& from, const std::string& to, bool mayReplace) {
-  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), mayReplace ? 0 : RENAME_NOREPLACE) == 0;
-}
-
-// False, with errno, and nothing is left.
-bool writeAndRename(const std::string& path, std::string_view bytes, const Writing& writing) {
-  std::string unfinished;
-  File file = createUnfinished(path, writing.mode, unfinished);
-  if (!file.ok()) return false;
-  if (writeAll(file.fd(), bytes) && (!writing.lasts || ::fsync(file.fd()) == 0) && file.close() &&
-      rename(unfinished, path, writing.mayReplace))
-    return true;
-  const int why = errno;
-  ::unlink(unfinished.c_str());
-  errno = why;
-  return false;
+bool rename(int folder, const std::string& from, const std::string& to, bool mayReplace) {
+  return ::renameat2(folder, from.c_str(), folder, to.c_str(), mayReplace ? 0 : RENAME_NOREPLACE) == 0;
 }
 
 bool writeInto(const std::string& path, std::string_view bytes) {
@@ -103,19 +89,36 @@ std::string readAll(int fd, size_t most, std::string& bytes) {
   }
 }
 
+std::string replaceFileIn(int folder, const std::string& name, std::string_view bytes, const Writing& writing) {
+  std::string unfinished;
+  File file = createUnfinished(folder, name, writing.mode, unfinished);
+  if (!file.ok()) return std::strerror(errno);
+  if (!writeAll(file.fd(), bytes) || (writing.lasts && ::fsync(file.fd()) != 0) || !file.close() ||
+      !rename(folder, unfinished, name, writing.mayReplace)) {
+    std::string why = std::strerror(errno);
+    ::unlinkat(folder, unfinished.c_str(), 0);
+    return why;
+  }
+  if (writing.lasts) {
+    // Makes the name last; some file systems refuse, the file is whole anyway.
+    const File place(::openat(folder, folderOf(name).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (place.ok()) ::fsync(place.fd());
+  }
+  return {};
+}
+
 std::string replaceFile(const std::string& path, std::string_view bytes, const Writing& writing) {
   struct stat there{};
   const bool exists = ::stat(path.c_str(), &there) == 0;
   const bool isStream = exists && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
-  const std::string target = writing.mayReplace ? targetOf(path) : path;
-  const bool written = isStream && writing.mayReplace ? writeInto(path, bytes) : writeAndRename(target, bytes, writing);
-  if (!written) return "cannot write '" + path + "': " + std::strerror(errno);
-  if (writing.lasts) {
-    // Makes the name last; some file systems refuse, the file is whole anyway.
-    const File folder(::open(folderOf(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (folder.ok()) ::fsync(folder.fd());
-  }
-  return {};
+  std::string why;
+  if (!writing.mayReplace || !exists)
+    why = replaceFileIn(AT_FDCWD, path, bytes, writing);
+  else if (isStream)
+    why = writeInto(path, bytes) ? "" : std::strerror(errno);
+  else
+    why = replaceFileIn(AT_FDCWD, targetOf(path), bytes, writing);
+  return why.empty() ? "" : "cannot write '" + path + "': " + why;
 }
 
 } // namespace rung::host

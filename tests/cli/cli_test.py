@@ -616,6 +616,19 @@ class Products(Cli):
         self.assertEqual(sorted(path.name for path in Path(self.folder.name).iterdir() if path.suffix != ".lad"), ["lamp.so"])
 
 
+    def test_a_cache_that_others_may_write(self):
+        source = self.file("lamp.lad", LAMP)
+        cache = Path(self.folder.name) / "cache"
+        done = rungc("run", source, "--cache", str(cache))
+        self.assertEqual((done.returncode, done.stderr), (OK, b""))
+        self.assertEqual(cache.stat().st_mode & 0o777, 0o700)
+        cache.chmod(0o777)
+        done = rungc("run", source, "--cache", str(cache))
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(b"nothing is taken from or kept in --cache: cannot use the folder", done.stderr)
+        self.assertIn(b"every user may write to it (mode 0777)", done.stderr)
+
+
 class Seals(Cli):
     def setUp(self):
         super().setUp()

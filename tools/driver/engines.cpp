@@ -137,6 +137,11 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
   return failure("unknown engine");
 }
 
+std::string cacheTrouble(const host::Engine& engine) {
+  const auto* jit = dynamic_cast<const codegen::JitEngine*>(&engine);
+  return jit != nullptr ? jit->report().cacheTrouble : "";
+}
+
 std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks) {
   auto instance = std::make_unique<host::Instance>(engine.program(), hooks);
   if (auto* interpreter = dynamic_cast<ir::InterpEngine*>(&engine)) instance->context().engine = interpreter->context();

@@ -303,7 +303,10 @@ int runSource(const RunOptions& options) {
     const console::Working working("making machine code");
     return driver::makeEngine(*kind, *compiled, engineOptions);
   }();
-  return engine.ok() ? Run(options, *engine.value(), &*compiled).run() : environmentError(engine.error());
+  if (!engine.ok()) return environmentError(engine.error());
+  if (const std::string trouble = driver::cacheTrouble(*engine.value()); !trouble.empty())
+    fmt::print(stderr, "rungc: nothing is taken from or kept in --cache: {}\n", trouble);
+  return Run(options, *engine.value(), &*compiled).run();
 }
 
 int runProgram(RunOptions& options) {

@@ -169,6 +169,19 @@ TEST_F(JitCache, LeavesWhatIsDamaged) {
   EXPECT_EQ(taken({}), 1u) << "written anew";
 }
 
+TEST_F(JitCache, LeavesWhatOthersCouldHaveWritten) {
+  EXPECT_EQ(taken({}), 0u);
+  EXPECT_EQ(fs::status(folder_).permissions(), fs::perms::owner_all);
+  fs::permissions(files().at(0), fs::perms::others_write, fs::perm_options::add);
+  EXPECT_EQ(taken({}), 0u);
+  EXPECT_EQ(taken({}), 1u) << "written anew";
+  fs::permissions(folder_, fs::perms::others_write, fs::perm_options::add);
+  const auto engine = compiled(layout_, {.code = {}, .cacheFolder = folder_.string()});
+  ASSERT_NE(engine, nullptr);
+  EXPECT_EQ(engine->report().fromCache, 0u);
+  EXPECT_THAT(engine->report().cacheTrouble, testing::HasSubstr("every user may write to it"));
+}
+
 TEST_F(JitCache, RunsWithoutIt) {
   std::ofstream(folder_) << "a file where the folder should be";
   const auto engine = compiled(layout_, {.code = {}, .cacheFolder = folder_.string()});

@@ -22,12 +22,6 @@ std::string targetOf(const std::string& path) {
   return ::realpath(path.c_str(), real.data()) != nullptr ? std::string(real.data()) : path;
 }
 
-std::string folderOf(const std::string& path) {
-  const size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
 std::string unfinishedName(const std::string& path) {
   uint64_t random = 0;
   if (::getrandom(&random, sizeof random, 0) != sizeof random) random = static_cast<uint64_t>(::getpid());
@@ -56,6 +50,12 @@ bool writeInto(const std::string& path, std::string_view bytes) {
 }
 
 } // namespace
+
+std::string folderOf(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
 
 File::~File() {
   if (fd_ >= 0) ::close(fd_);

@@ -38,6 +38,9 @@ bool writeAll(int fd, std::string_view bytes);
 // they are more than `most`.
 std::string readAll(int fd, size_t most, std::string& bytes);
 
+// The folder of a path, "." of a bare name.
+std::string folderOf(const std::string& path);
+
 struct Writing {
   mode_t mode = 0666;     // less the process's umask
   bool mayReplace = true; // false: a file of this name is an error

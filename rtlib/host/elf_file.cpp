@@ -26,6 +26,16 @@ struct Elf64 {
   using Symbol = Elf64_Sym;
 };
 
+std::string machineName(unsigned machine) {
+  switch (machine) {
+  case EM_X86_64: return "x86_64";
+  case EM_AARCH64: return "aarch64";
+  case EM_ARM: return "armv7";
+  case EM_RISCV: return "riscv64";
+  default: return "of ELF number " + std::to_string(machine);
+  }
+}
+
 template <class Elf>
 class Reader {
 public:
@@ -43,12 +53,13 @@ public:
     }
     if (!readDynamic()) return wrong("its dynamic section is damaged");
     readSymbols(*header);
+    found_.machine = machineName(header->e_machine);
     return std::move(found_);
   }
 
 private:
   static ElfObject wrong(std::string why) {
-    return {.problem = std::move(why), .needed = {}, .searched = {}, .exported = {}};
+    return {.problem = std::move(why), .machine = {}, .needed = {}, .searched = {}, .exported = {}};
   }
 
   template <class T>
@@ -146,13 +157,31 @@ private:
 
 } // namespace
 
+std::string_view machineHere() {
+#if defined(__x86_64__)
+  return "x86_64";
+#elif defined(__aarch64__)
+  return "aarch64";
+#elif defined(__arm__)
+  return "armv7";
+#elif defined(__riscv)
+  return "riscv64";
+#else
+#error "the name of this processor is missing"
+#endif
+}
+
 bool isElf(std::string_view file) { return file.size() >= EI_NIDENT && file.starts_with(ELFMAG); }
 
 ElfObject readElf(std::string_view file) {
   if (!isElf(file))
-    return {.problem = "it is not an ELF file", .needed = {}, .searched = {}, .exported = {}};
+    return {.problem = "it is not an ELF file", .machine = {}, .needed = {}, .searched = {}, .exported = {}};
   if (file[EI_DATA] != ELFDATA2LSB)
-    return {.problem = "it is for a processor with the high byte first", .needed = {}, .searched = {}, .exported = {}};
+    return {.problem = "it is for a processor with the high byte first",
+            .machine = {},
+            .needed = {},
+            .searched = {},
+            .exported = {}};
   return file[EI_CLASS] == ELFCLASS32 ? Reader<Elf32>(file).read() : Reader<Elf64>(file).read();
 }
 

@@ -15,7 +15,7 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMostBytes = size_t{1} << 30;
+constexpr size_t kMostBytes = size_t{256} << 20;
 
 std::string becauseOfErrno() { return std::strerror(errno); }
 
@@ -60,6 +60,9 @@ std::string contentProblem(std::string_view bytes, const FileFacts& facts, const
   const SealState state = stateOf(file.seal, ids, options, remark);
   const std::string wrong = loadProblem(facts, ids, state, options.mayLackSeal);
   if (!wrong.empty()) return remark.empty() ? wrong : wrong + "; " + remark;
+  if (object.problem.empty() && object.machine != machineHere())
+    return "it is for processor " + object.machine + ", and this one is " + std::string(machineHere()) +
+           "; build it for this one (rungc build --target)";
   return isPrivileged(ids) ? dependencyProblem(object) : object.problem;
 }
 

@@ -87,11 +87,10 @@ File openKeysFolder(const std::string& path, const ProcessIds& ids, std::string&
   if (isPrivileged(ids) || path == kKeysFolder) return openRootsFolder(kKeysFolder, problem);
   File folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const std::optional<FileFacts> facts = factsOf(folder.fd());
-  if (!facts)
-    problem = path + ": " + std::strerror(errno);
-  else
-    problem = ownerProblem(*facts, ids);
-  return problem.empty() ? std::move(folder) : File();
+  const std::string wrong = facts ? ownerProblem(*facts, ids) : std::strerror(errno);
+  if (wrong.empty()) return folder;
+  problem = path + ": " + wrong;
+  return File();
 }
 
 // Nothing where the file holds no key, or where somebody else could have put it there.
@@ -122,8 +121,7 @@ std::string ownerProblem(const FileFacts& file, const ProcessIds& ids) {
   }
   if (isPrivileged(ids))
     return "it belongs to " + userText(file.uid) +
-           ", and a process with root's rights that serves another user runs "
-           "only what belongs to root";
+           ", and a process with root's rights that serves another user runs only what belongs to root";
   return "it belongs to " + userText(file.uid) + ", not to root" +
          (ids.euid == 0 ? "" : " or to " + userText(ids.euid)) + ", who runs it";
 }

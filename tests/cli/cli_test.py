@@ -676,6 +676,13 @@ class Seals(Cli):
         Path(self.so).write_bytes(data[:5000])
         self.bad(ENVIRONMENT, "it has no seal", "run", self.so)
 
+    def test_a_program_for_another_processor(self):
+        target = "riscv64" if os.uname().machine != "riscv64" else "x86_64"
+        for other in (target, "armv7"):
+            abi = "gnueabihf" if other == "armv7" else "gnu"
+            self.good("build", "-q", self.file("lamp.lad", LAMP), "-o", self.so, "--target", f"{other}-linux-{abi}")
+            self.bad(ENVIRONMENT, f"it is for processor {other}, and this one is {os.uname().machine}", "run", self.so)
+
     def test_what_is_not_sealed(self):
         self.bad(WRONG, "it is not an ELF file; expected a shared object (.so)", "seal", self.file("text.so", "not an object"))
         self.bad(WRONG, "but not a shared object", "seal", self.object_of_another_kind())

@@ -222,6 +222,7 @@ TEST(LlvmSharedObject, ForEveryTarget) {
       EXPECT_EQ(kind, machine.elfMachine);
       const host::ElfObject object = host::readElf(bytes);
       EXPECT_EQ(object.problem, "");
+      EXPECT_THAT(machine.target, testing::StartsWith(object.machine));
       EXPECT_THAT(object.exported, testing::ElementsAre(RUNG_PROGRAM_SYMBOL));
       EXPECT_THAT(object.needed, testing::IsEmpty());
     }

@@ -27,6 +27,7 @@ TEST(ElfFile, SaysWhatASharedObjectExportsAndLoads) {
   EXPECT_EQ(good.problem, "");
   EXPECT_THAT(good.exported, Contains("rung_program_v1"));
   EXPECT_THAT(good.searched, IsEmpty());
+  EXPECT_EQ(good.machine, machineHere());
   EXPECT_THAT(readElf(contentsOf(RUNG_TEST_SO_EMPTY)).exported, Contains("rung_test_nothing"));
   EXPECT_THAT(readElf(contentsOf(RUNG_TEST_SO_SEARCHING)).searched, ElementsAre("/opt/libraries"));
   EXPECT_THAT(readElf(contentsOf(RUNG_TEST_SO_NEEDING)).needed, Contains(StartsWith("libsodium.so")));

@@ -95,17 +95,20 @@ TEST(Trust, OnlyRegularFilesAreLoaded) {
 }
 
 TEST(Trust, APrivilegedHostLoadsNoFurtherLibraries) {
-  EXPECT_EQ(
-      dependencyProblem(
-          {.problem = {}, .needed = {"libc.so.6", "libm.so.6", "libstdc++.so.6"}, .searched = {}, .exported = {}}),
-      "");
+  EXPECT_EQ(dependencyProblem({.problem = {},
+                               .machine = {},
+                               .needed = {"libc.so.6", "libm.so.6", "libstdc++.so.6"},
+                               .searched = {},
+                               .exported = {}}),
+            "");
   for (const char* library : {"libplc.so", "/lib/libc.so.6", "libc.so.6 ", "../libm.so.6", ""})
-    EXPECT_THAT(dependencyProblem({.problem = {}, .needed = {library}, .searched = {}, .exported = {}}),
+    EXPECT_THAT(dependencyProblem({.problem = {}, .machine = {}, .needed = {library}, .searched = {}, .exported = {}}),
                 HasSubstr("it needs the library"));
-  EXPECT_THAT(dependencyProblem({.problem = {}, .needed = {}, .searched = {"$ORIGIN"}, .exported = {}}),
+  EXPECT_THAT(dependencyProblem({.problem = {}, .machine = {}, .needed = {}, .searched = {"$ORIGIN"}, .exported = {}}),
               HasSubstr("'$ORIGIN' to load libraries from"));
-  EXPECT_EQ(dependencyProblem({.problem = "it is cut short", .needed = {}, .searched = {}, .exported = {}}),
-            "it is cut short");
+  EXPECT_EQ(
+      dependencyProblem({.problem = "it is cut short", .machine = {}, .needed = {}, .searched = {}, .exported = {}}),
+      "it is cut short");
 }
 
 TEST(Trust, KnowsItsProcess) {

@@ -12,6 +12,8 @@ find_package(ZLIB REQUIRED)
 find_package(tomlplusplus 3.3 REQUIRED CONFIG)
 find_path(RUNG_EDIT_INCLUDE histedit.h REQUIRED)
 find_library(RUNG_EDIT_LIBRARY edit REQUIRED)
+find_path(RUNG_SODIUM_INCLUDE sodium.h REQUIRED)
+find_library(RUNG_SODIUM_LIBRARY sodium REQUIRED)
 find_package(LLVM 19.1 REQUIRED CONFIG) # plain "19" is rejected by LLVM's version file
 find_package(LLD 19.1 REQUIRED CONFIG)
 
@@ -19,6 +21,11 @@ find_package(LLD 19.1 REQUIRED CONFIG)
 add_library(rung_edit INTERFACE)
 target_include_directories(rung_edit SYSTEM INTERFACE "${RUNG_EDIT_INCLUDE}")
 target_link_libraries(rung_edit INTERFACE "${RUNG_EDIT_LIBRARY}")
+
+# Digests and signatures; its package has no CMake config file.
+add_library(rung_sodium INTERFACE)
+target_include_directories(rung_sodium SYSTEM INTERFACE "${RUNG_SODIUM_INCLUDE}")
+target_link_libraries(rung_sodium INTERFACE "${RUNG_SODIUM_LIBRARY}")
 
 # The shared libLLVM; the only way our code links LLVM.
 add_library(rung_llvm INTERFACE)

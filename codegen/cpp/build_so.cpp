@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <optional>
 #include <spawn.h>
 #include <sstream>
 #include <sys/wait.h>
@@ -28,13 +29,6 @@ bool writeFile(const fs::path& path, std::string_view text) {
   std::ofstream out(path, std::ios::binary);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   return out.good();
-}
-
-std::string readFile(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 // Runs a program with its output in `log`. Gives its exit code, or a failure when it could not be started.
@@ -63,7 +57,7 @@ void appendWords(std::string_view text, std::vector<std::string>& words) {
 
 } // namespace
 
-Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& options, const std::string& outPath) {
+Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOptions& options) {
   TemporaryFolder folder;
   if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
   bool written = writeFile(folder / "program.cpp", text);
@@ -71,8 +65,6 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
     written = written && writeFile(folder / header.name, header.text);
   if (!written) return failure("cannot write the generated C++ to a temporary folder");
 
-  // Finished under another name and then renamed: a host that has the old object loaded keeps it intact.
-  const std::string unfinished = outPath + ".tmp";
   std::vector<std::string> words;
   appendWords(options.compiler, words);
   // Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
@@ -81,20 +73,16 @@ Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& 
               words);
   words.push_back(options.optimisation);
   if (options.debugInfo) words.push_back("-gdwarf-4");
-  for (std::string word :
-       {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(), std::string("-o"), unfinished})
+  for (std::string word : {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(),
+                           std::string("-o"), (folder / "program.so").string()})
     words.push_back(std::move(word));
   Result<int> code = run(words, folder / "log");
   if (!code.ok()) return code.failure();
-  if (code.value() != 0) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    return failure(fmt::format("the C++ compiler '{}' failed:\n{}", words[0], readFile(folder / "log")));
-  }
-  std::error_code error;
-  fs::rename(unfinished, outPath, error);
-  if (error) return failure(fmt::format("cannot write {}: {}", outPath, error.message()));
-  return {};
+  if (code.value() != 0)
+    return failure(fmt::format("the C++ compiler '{}' failed:\n{}", words[0], folder.contentsOf("log").value_or("")));
+  std::optional<std::string> image = folder.contentsOf("program.so");
+  if (!image) return failure(fmt::format("the C++ compiler '{}' made no shared object", words[0]));
+  return std::move(*image);
 }
 
 } // namespace rung::codegen

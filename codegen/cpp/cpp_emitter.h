@@ -29,8 +29,8 @@ struct CppBuildOptions {
   bool debugInfo = true;
 };
 
-// Compiles the text to a shared object at `outPath`. The headers that the text includes are built into this library.
+// Compiles the text to the bytes of a shared object. The headers that the text includes are built into this library.
 // Fails with what the compiler said.
-Result<void> buildCppSharedObject(std::string_view text, const CppBuildOptions& options, const std::string& outPath);
+Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOptions& options);
 
 } // namespace rung::codegen

@@ -2,10 +2,7 @@
 #include "codegen/jit/object_cache.h"
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <llvm/ADT/StringExtras.h>
@@ -16,8 +13,6 @@
 
 namespace rung::codegen {
 namespace {
-
-namespace fs = std::filesystem;
 
 CacheKey sha256(std::string_view bytes) {
   return llvm::SHA256::hash({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
@@ -90,40 +85,29 @@ CacheKey CacheKeys::of(const ModulePart& piece) const {
   return sha256(text);
 }
 
-std::string ObjectCache::path(const ModulePart& piece) const {
-  return (fs::path(folder_) / (llvm::toHex(piece.key, true) + ".o")).string();
+ObjectCache::ObjectCache(const std::string& folder) {
+  if (!folder.empty()) folder_ = host::CodeFolder::open(folder, problem_);
 }
 
+std::string ObjectCache::name(const ModulePart& piece) { return llvm::toHex(piece.key, true) + ".o"; }
+
 std::optional<std::string> ObjectCache::find(const ModulePart& piece) const {
-  if (folder_.empty()) return std::nullopt;
-  std::ifstream in(path(piece), std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::optional<std::string> bytes = folder_ ? folder_->read(name(piece)) : std::nullopt;
   const size_t sealSize = cacheSeal({}).size();
-  if (!in || bytes.size() < sealSize) return std::nullopt;
-  const std::string_view object(bytes.data(), bytes.size() - sealSize);
-  if (cacheSeal(object) != std::string_view(bytes).substr(object.size())) return std::nullopt;
+  if (!bytes || bytes->size() < sealSize) return std::nullopt;
+  const std::string_view object(bytes->data(), bytes->size() - sealSize);
+  if (cacheSeal(object) != std::string_view(*bytes).substr(object.size())) return std::nullopt;
   if (identityIn(object, piece.identityName()) != PieceIdentity{piece.key, piece.firstChunk, piece.chunkCount})
     return std::nullopt;
-  bytes.resize(object.size());
+  bytes->resize(object.size());
   return bytes;
 }
 
 Result<void> ObjectCache::keep(const ModulePart& piece, std::string_view object) const {
-  if (folder_.empty()) return {};
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  // Renamed when complete: readers never see half a file.
-  const std::string unfinished = fmt::format("{}.{}.tmp", path(piece), getpid());
-  std::ofstream out(unfinished, std::ios::binary);
-  out << object << cacheSeal(object);
-  out.close();
-  if (!out) {
-    fs::remove(unfinished, error);
-    return failure(fmt::format("cannot write {}", unfinished));
-  }
-  fs::rename(unfinished, path(piece), error);
-  if (error) return failure(fmt::format("cannot write {}: {}", path(piece), error.message()));
-  return {};
+  if (!problem_.empty()) return failure(problem_);
+  if (!folder_) return {};
+  std::string wrong = folder_->write(name(piece), std::string(object) + cacheSeal(object));
+  return wrong.empty() ? Result<void>() : failure(std::move(wrong));
 }
 
 } // namespace rung::codegen

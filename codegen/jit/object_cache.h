@@ -1,6 +1,7 @@
 // Object files kept in a folder, one a piece, by the hash of all that makes the piece's code. The key is also in the
 // object (see PieceIdentity) and is compared there: a file under a right name with other contents counts as absent, as
-// a damaged one does. Several processes may use one folder.
+// a damaged one does, and one that others could have written (see host::CodeFolder). Several processes may use one
+// folder.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "codegen/llvm/embedded.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/llvm/module_part.h"
+#include "rtlib/host/code_folder.h"
 
 namespace rung::codegen {
 
@@ -30,14 +32,15 @@ std::string cacheSeal(std::string_view object);
 class ObjectCache {
 public:
   // An empty folder: nothing is kept or found.
-  explicit ObjectCache(std::string folder) : folder_(std::move(folder)) {}
+  explicit ObjectCache(const std::string& folder);
 
   std::optional<std::string> find(const ModulePart& piece) const;
   Result<void> keep(const ModulePart& piece, std::string_view object) const;
 
 private:
-  std::string path(const ModulePart& piece) const;
-  std::string folder_;
+  static std::string name(const ModulePart& piece);
+  std::optional<host::CodeFolder> folder_;
+  std::string problem_; // of a folder that cannot be used
 };
 
 } // namespace rung::codegen

@@ -1,7 +1,6 @@
 // Links an object file to a shared object inside the process (see llvm_emitter.h).
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <mutex>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -11,6 +10,7 @@
 #include <llvm/Support/raw_ostream.h>
 
 #include "codegen/llvm/llvm_emitter.h"
+#include "ir/support/temporary_folder.h"
 
 LLD_HAS_DRIVER(elf)
 
@@ -63,21 +63,18 @@ Result<void> link(const std::string& object, const std::string& out, bool mayNee
 
 } // namespace
 
-Result<void> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options,
-                                   const std::string& outPath) {
+Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options) {
   Result<std::string> object = emitObject(layout, codeHash, options);
   if (!object.ok()) return object.failure();
   const MemoryFile file(object.value());
   if (!file.ok()) return failure(fmt::format("cannot hold the object file in memory: {}", std::strerror(errno)));
-  const std::string unfinished = fmt::format("{}.{}.tmp", outPath, getpid());
-  std::error_code error;
-  if (Result<void> linked = link(file.path(), unfinished, options.target.starts_with("arm")); !linked.ok()) {
-    std::filesystem::remove(unfinished, error);
-    return linked.failure();
-  }
-  std::filesystem::rename(unfinished, outPath, error);
-  if (error) return failure(fmt::format("cannot write {}: {}", outPath, error.message()));
-  return {};
+  const TemporaryFolder folder; // the linker writes to nothing but a file
+  if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
+  const Result<void> linked = link(file.path(), (folder / "program.so").string(), options.target.starts_with("arm"));
+  if (!linked.ok()) return linked.failure();
+  std::optional<std::string> image = folder.contentsOf("program.so");
+  if (!image) return failure("the linker made no shared object");
+  return std::move(*image);
 }
 
 } // namespace rung::codegen

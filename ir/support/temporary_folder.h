@@ -1,8 +1,12 @@
 // A folder for files of the moment: made with its owner, gone with it.
 #pragma once
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -11,8 +15,12 @@ namespace rung {
 class TemporaryFolder {
 public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "rung-XXXXXX").string();
-    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+    std::error_code error;
+    std::string pattern = (std::filesystem::temp_directory_path(error) / "rung-XXXXXX").string();
+    if (error)
+      errno = error.value();
+    else if (mkdtemp(pattern.data()) != nullptr)
+      path_ = pattern;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -24,6 +32,12 @@ public:
   /// False: it could not be made, errno says why.
   bool ok() const { return !path_.empty(); }
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+  /// Of a file in it; nothing when it cannot be read.
+  std::optional<std::string> contentsOf(std::string_view name) const {
+    std::ifstream in(path_ / name, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    return in ? std::optional(std::move(bytes)) : std::nullopt;
+  }
 
 private:
   std::filesystem::path path_;

@@ -83,6 +83,7 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     if (chunk.weight > budget) return overrun(task, chunk);
     budget -= chunk.weight;
     pc = functions != nullptr ? functions[pc](memory_, ctx_) : program_->run_chunk(memory_, ctx_, pc);
+    if (isLate()) return overrun(task, chunk);
     if (ctx_->extra_weight == 0) continue;
     const uint32_t extra = ctx_->extra_weight;
     ctx_->extra_weight = 0;
@@ -107,8 +108,10 @@ bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
   return !fault;
 }
 
+// A hook runs tasks within the time of its slice.
 bool Runner::runTask(uint32_t task) noexcept {
   const FloatEnvironment environment(defaultFloats_);
+  if (!inHook_) startTime();
   return runWhole(task);
 }
 
@@ -166,6 +169,7 @@ void Runner::stopOnFault(uint32_t task) noexcept {
   const rung_fault first = ctx_->fault;
   inFaultHook_ = true;
   faulted_ = false;
+  startTime(); // for what the hook runs
   hooks_.fault(hooks_.data);
   faulted_ = true;
   inFaultHook_ = false;
@@ -191,7 +195,10 @@ void Runner::doStep(const rung_step& step) noexcept {
     if (!stopped_) runNextPart(step.task);
     return;
   case RUNG_STEP_HOOK:
-    if (!stopped_ && hooks_.step != nullptr) hooks_.step(hooks_.data, step.arg);
+    if (stopped_ || hooks_.step == nullptr) return;
+    inHook_ = true;
+    hooks_.step(hooks_.data, step.arg);
+    inHook_ = false;
     return;
   case RUNG_STEP_SLOT: return;
   }
@@ -211,12 +218,14 @@ bool Runner::stepOnce() noexcept {
 
 void Runner::scan() noexcept {
   const FloatEnvironment environment(defaultFloats_);
+  startTime();
   bool more = true;
   while (more && !faulted_) more = stepOnce();
 }
 
 void Runner::slot() noexcept {
   const FloatEnvironment environment(defaultFloats_);
+  startTime();
   bool more = true;
   while (more && !faulted_) {
     const bool slotEnds = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_SLOT;
@@ -226,6 +235,7 @@ void Runner::slot() noexcept {
 
 void Runner::fast() noexcept {
   const FloatEnvironment environment(defaultFloats_);
+  startTime();
   for (uint32_t i = 0; i < program_->fast_count && !faulted_; ++i) doStep(program_->fast[i]);
 }
 
@@ -237,6 +247,7 @@ uint32_t Runner::sliceDelayUs() const noexcept {
 
 void Runner::slice() noexcept {
   const FloatEnvironment environment(defaultFloats_);
+  startTime();
   bool more = true;
   while (more && !faulted_) more = stepOnce() && program_->scan[position_].op != RUNG_STEP_ADVANCE;
 }

@@ -35,12 +35,21 @@ struct RunnerHooks {
   void (*task)(void* data, uint32_t task, bool begins) = nullptr;
 };
 
+// A limit in time beside the budget in steps: how long a scan, a slot, a slice, the fast list or a task by itself may
+// run. It is looked at after every chunk.
+struct TimeLimit {
+  int64_t ns = 0; // 0: none
+  int64_t (*nowNs)() = nullptr;
+};
+
 class Runner {
 public:
   // `parts` has an entry for each task. All outlive the runner.
   Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept;
 
   void setHooks(RunnerHooks hooks) noexcept { hooks_ = hooks; }
+  // What runs longer ends as if its budget were used up.
+  void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Forgets the fault, all runs under way and the place in the schedule; the clock continues.
   void reset() noexcept;
 
@@ -75,6 +84,10 @@ public:
 
 private:
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
+  void startTime() noexcept {
+    if (limit_.ns != 0) deadline_ = limit_.nowNs() + limit_.ns;
+  }
+  bool isLate() const noexcept { return limit_.ns != 0 && limit_.nowNs() > deadline_; }
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
   void begin(uint32_t task) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;
@@ -93,11 +106,14 @@ private:
   rung_ctx* ctx_;
   PartState* parts_;
   RunnerHooks hooks_;
+  TimeLimit limit_;
+  int64_t deadline_ = 0;
   uint32_t position_ = 0;        // in rung_program::scan
   uint32_t untimedPeriodUs_ = 0; // what a pass of a list without ADVANCE takes
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;
+  bool inHook_ = false; // of the schedule
   bool inFaultHook_ = false;
   bool defaultFloats_ = false; // in a scan or run: its floating-point settings are in force
 };

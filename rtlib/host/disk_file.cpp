@@ -19,27 +19,10 @@ constexpr int kNotRegular = EBADFD; // no call here gives it
 
 std::string cannotWrite(const std::string& path, int code) { return "cannot write " + path + ": " + fileProblem(code); }
 
-bool writeAll(int fd, std::span<const uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes = bytes.subspan(static_cast<size_t>(n));
-  }
-  return true;
-}
-
-std::string folderOf(const std::string& path) {
-  const size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
 // Makes a rename last. Some file systems have nothing to write for a folder and say so: EINVAL.
 bool syncFolder(const std::string& folder, std::string& error) {
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const int code = fd >= 0 && ::fsync(fd) == 0 ? 0 : errno;
-  if (fd >= 0) ::close(fd);
+  const File file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const int code = file.ok() && ::fsync(file.fd()) == 0 ? 0 : errno;
   if (code == 0 || code == EINVAL) return true;
   error = cannotWrite(folder, code);
   return false;
@@ -47,22 +30,13 @@ bool syncFolder(const std::string& folder, std::string& error) {
 
 } // namespace
 
-DiskFile::DiskFile(const std::string& path, int flags)
-    : fd_(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644)) {
+File openDiskFile(const std::string& path, int flags) {
+  File file(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644));
   struct stat status{};
-  if (fd_ < 0 || (::fstat(fd_, &status) == 0 && S_ISREG(status.st_mode))) return;
-  close();
+  if (!file.ok() || (::fstat(file.fd(), &status) == 0 && S_ISREG(status.st_mode))) return file;
+  file.close();
   errno = kNotRegular;
-}
-
-DiskFile& DiskFile::operator=(DiskFile&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  return *this;
-}
-
-bool DiskFile::close() {
-  const int fd = std::exchange(fd_, -1);
-  return fd < 0 || ::close(fd) == 0;
+  return file;
 }
 
 std::string fileProblem(int code) {
@@ -72,9 +46,9 @@ std::string fileProblem(int code) {
 }
 
 std::optional<std::vector<uint8_t>> readDiskFile(const std::string& path, size_t most) {
-  const DiskFile file(path, O_RDONLY);
+  const File file = openDiskFile(path, O_RDONLY);
   struct stat status{};
-  if (!file.isOpen() || ::fstat(file.fd(), &status) != 0) return std::nullopt;
+  if (!file.ok() || ::fstat(file.fd(), &status) != 0) return std::nullopt;
   std::vector<uint8_t> bytes(std::min(static_cast<size_t>(status.st_size), most));
   size_t have = 0;
   while (have < bytes.size()) {
@@ -95,12 +69,13 @@ bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, st
     error = cannotWrite(temporary, errno);
     return false;
   }
-  DiskFile file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-  if (!file.isOpen()) {
+  File file = openDiskFile(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.ok()) {
     error = cannotWrite(temporary, errno);
     return false;
   }
-  const bool written = writeAll(file.fd(), bytes) && ::fsync(file.fd()) == 0 && file.close();
+  const bool written = writeAll(file.fd(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}) &&
+                       ::fsync(file.fd()) == 0 && file.close();
   if (!written || std::rename(temporary.c_str(), path.c_str()) != 0) {
     error = cannotWrite(path, errno);
     ::unlink(temporary.c_str());
@@ -113,10 +88,10 @@ bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, st
 // gone with the first replacement. It is never removed, so all lock the same one.
 DiskLock lockDiskFile(const std::string& path) {
   DiskLock lock;
-  lock.file = DiskFile(path, O_RDWR); // NFS locks only what may be written
-  lock.made = !lock.file.isOpen() && errno == ENOENT;
-  if (lock.made) lock.file = DiskFile(path, O_RDWR | O_CREAT);
-  if (!lock.file.isOpen()) {
+  lock.file = openDiskFile(path, O_RDWR); // NFS locks only what may be written
+  lock.made = !lock.file.ok() && errno == ENOENT;
+  if (lock.made) lock.file = openDiskFile(path, O_RDWR | O_CREAT);
+  if (!lock.file.ok()) {
     lock.error = cannotWrite(path, errno);
     return lock;
   }

@@ -4,29 +4,15 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "rtlib/host/file.h"
 
 namespace rung::host {
 
-// The descriptor of a regular file; it closes itself.
-class DiskFile {
-public:
-  DiskFile() = default;
-  // Neither follows a symbolic link nor waits at a pipe. Not open, with errno, when it is not a regular file or cannot
-  // be opened.
-  DiskFile(const std::string& path, int flags);
-  ~DiskFile() { close(); }
-  DiskFile(DiskFile&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  DiskFile& operator=(DiskFile&& other) noexcept;
-
-  bool isOpen() const { return fd_ >= 0; }
-  int fd() const { return fd_; }
-  bool close();
-
-private:
-  int fd_ = -1;
-};
+// Neither follows a symbolic link nor waits at a pipe. Not open, with errno, when it is not a regular file or cannot be
+// opened.
+File openDiskFile(const std::string& path, int flags);
 
 // What `code` of errno means for a file: "No space left on device".
 std::string fileProblem(int code);
@@ -35,11 +21,12 @@ std::string fileProblem(int code);
 std::optional<std::vector<uint8_t>> readDiskFile(const std::string& path, size_t most);
 
 // The new contents are on disk when it returns true; else `error` says which file and why, and the file is the old or
-// the new one, whole. PATH.tmp is used up. For one process at a time.
+// the new one, whole. PATH.tmp is used up, so crashes leave one file at most:
+// for one process at a time; where there are several, see replaceFile.
 bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error);
 
 struct DiskLock {
-  DiskFile file;     // open: it is locked
+  File file;         // open: it is locked
   bool made = false; // there was none before
   std::string error; // "" when another process has the lock
 };

@@ -75,6 +75,7 @@ public:
   // Stops the program with one of its own faults. False: it has no such fault, or is stopped already.
   bool halt(std::string_view fault);
   // For a real clock; see rt::Runner.
+  void setTimeLimit(rt::TimeLimit limit) { runner_.setTimeLimit(limit); }
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
   void slice();
 

@@ -78,9 +78,9 @@ RetainStore::RetainStore(std::string base, uint64_t layoutHash, uint32_t size)
     : base_(std::move(base)), layoutHash_(layoutHash), size_(size) {}
 
 bool RetainStore::lock(std::string& error) {
-  if (lock_.isOpen()) return true;
+  if (lock_.ok()) return true;
   DiskLock lock = lockDiskFile(base_ + ".lock");
-  if (!lock.file.isOpen()) {
+  if (!lock.file.ok()) {
     error = !lock.error.empty() ? lock.error
                                 : base_ + " is in use by another process, which holds " + base_ +
                                       ".lock: stop that one, or give each program a file of its own";

@@ -52,7 +52,7 @@ private:
   std::string base_;
   uint64_t layoutHash_;
   uint32_t size_;
-  DiskFile lock_;
+  File lock_;
   bool usedBefore_ = false; // the lock was there: so were images
   uint64_t generation_ = 0; // of the newest good file
   bool newestIsB_ = true;

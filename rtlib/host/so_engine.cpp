@@ -1,27 +1,131 @@
-// dlopen with checks that say what to do.
+// Decides on the file, then dlopen (see so_engine.h).
 #include "rtlib/host/so_engine.h"
 
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <dlfcn.h>
-
-#include <utility>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "rtlib/host/program_info.h"
 
 namespace rung::host {
+namespace {
 
-SoEngine::SoEngine(void* library, const rung_program* program, std::string path)
-    : library_(library), program_(program), path_(std::move(path)) {}
+constexpr size_t kMostBytes = size_t{256} << 20;
+
+std::string becauseOfErrno() { return std::strerror(errno); }
+
+// ---- the file ----
+
+// A descriptor that nobody can write to any more, with the bytes of another.
+File sealedCopy(int from, std::string& problem) {
+  std::string bytes;
+  problem = readAll(from, kMostBytes, bytes);
+  if (!problem.empty()) return File();
+  File copy(::memfd_create("rung-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
+  if (!copy.ok() || !writeAll(copy.fd(), bytes) || ::fcntl(copy.fd(), F_ADD_SEALS, kSeals) != 0) {
+    problem = "it cannot be copied to memory: " + becauseOfErrno();
+    return File();
+  }
+  return copy;
+}
+
+// Says in `remark` why a key could not be looked up.
+SealState stateOf(const std::optional<Seal>& seal, const ProcessIds& ids, const SoOptions& options,
+                  std::string& remark) {
+  if (!seal) return SealState::Missing;
+  if (!seal->signature) return SealState::Unsigned;
+  const std::optional<PublicKey> key = findKey(seal->signature->key, options.keysFolder, ids, remark);
+  if (!key) {
+    remark = "its signature is by key " + textOf(seal->signature->key) + ", which is not among the known keys" +
+             (remark.empty() ? "" : " (" + remark + ")");
+    return SealState::UnknownKey;
+  }
+  return isSignedBy(*seal, *key) ? SealState::Signed : SealState::WrongSignature;
+}
+
+// Why these bytes of a file of such facts must not be loaded.
+std::string contentProblem(std::string_view bytes, const FileFacts& facts, const ProcessIds& ids,
+                           const SoOptions& options) {
+  const SealedFile file = readSealed(bytes);
+  if (!file.damage.empty()) return file.damage + "; build or copy it again";
+  const ElfObject object = readElf(file.image);
+  if (!object.problem.empty() && (file.seal || !isElf(file.image))) return object.problem;
+  std::string remark;
+  const SealState state = stateOf(file.seal, ids, options, remark);
+  const std::string wrong = loadProblem(facts, ids, state, options.mayLackSeal);
+  if (!wrong.empty()) return remark.empty() ? wrong : wrong + "; " + remark;
+  if (object.problem.empty() && object.machine != machineHere())
+    return "it is for processor " + object.machine + ", and this one is " + std::string(machineHere()) +
+           "; build it for this one (rungc build --target)";
+  return isPrivileged(ids) ? dependencyProblem(object) : object.problem;
+}
+
+// The descriptor to load from; none, and `problem` says why.
+File openTrusted(const std::string& path, const SoOptions& options, std::string& problem) {
+  // Opening a pipe would wait for its other end.
+  File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  const std::optional<FileFacts> facts = factsOf(file.fd());
+  if (!facts) {
+    problem = becauseOfErrno();
+    return File();
+  }
+  if (!facts->isRegular) {
+    problem = "it is not a regular file";
+    return File();
+  }
+  const ProcessIds ids = idsOfThisThread();
+  std::string bytes;
+  if (!ownerProblem(*facts, ids).empty()) file = sealedCopy(file.fd(), problem);
+  if (problem.empty()) problem = readAll(file.fd(), kMostBytes, bytes);
+  if (problem.empty()) problem = contentProblem(bytes, *facts, ids, options);
+  return problem.empty() ? std::move(file) : File();
+}
+
+// ---- the library ----
+
+// A path of the descriptor that this process has not used for another: the dynamic linker takes a library that it has
+// open under a name for the one that is meant, whatever the name leads to now.
+std::string freshNameOf(int fd) {
+  static std::atomic<uint64_t> loads = 0; // as the dynamic linker's names, of the whole process
+  const std::string self = std::to_string(::getpid());
+  // Where /proc shows the processes of another name space, the number would be somebody else's there.
+  std::array<char, 32> shown{};
+  const ssize_t length = ::readlink("/proc/self", shown.data(), shown.size());
+  const bool isSelf = length > 0 && self == std::string_view(shown.data(), static_cast<size_t>(length));
+  std::string name = isSelf ? "/proc/" + self + "/fd" : "/proc/self/fd";
+  for (uint64_t load = loads++; load != 0; load >>= 1) name += (load & 1) != 0 ? "/." : "/";
+  return name + "/" + std::to_string(fd);
+}
+
+std::string lastReason() {
+  const char* reason = dlerror();
+  return reason != nullptr ? reason : "unknown reason";
+}
+
+} // namespace
+
+SoEngine::SoEngine(void* library, const rung_program* program, std::string path, File file)
+    : library_(library), program_(program), path_(std::move(path)), file_(std::move(file)) {}
 
 SoEngine::~SoEngine() { dlclose(library_); }
 
-std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& error, Loaded loaded) {
-  // A name without a slash would be searched for in the system's folders.
-  const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
-  const int stays = loaded == Loaded::WithProcess ? RTLD_NODELETE : 0;
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | stays);
+std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& error, const SoOptions& options) {
+  std::string problem;
+  File file = openTrusted(path, options, problem);
+  if (!problem.empty()) {
+    error = "cannot load " + path + ": " + problem;
+    return nullptr;
+  }
+  const std::string name = freshNameOf(file.fd());
+  void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    const char* reason = dlerror();
-    error = "cannot load " + path + ": " + (reason != nullptr ? reason : "unknown reason");
+    error = "cannot load " + path + ": " + lastReason();
     return nullptr;
   }
   const auto* program = static_cast<const rung_program*>(dlsym(library, RUNG_PROGRAM_SYMBOL));
@@ -35,7 +139,11 @@ std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& e
     dlclose(library);
     return nullptr;
   }
-  return std::unique_ptr<SoEngine>(new SoEngine(library, program, path));
+  if (options.loaded == Loaded::WithProcess) {
+    dlopen(name.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+    file.release();
+  }
+  return std::unique_ptr<SoEngine>(new SoEngine(library, program, path, std::move(file)));
 }
 
 } // namespace rung::host

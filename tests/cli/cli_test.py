@@ -602,6 +602,135 @@ class Products(Cli):
     def test_a_file_that_is_no_program(self):
         done = rungc("run", self.file("text.so", "not an object"))
         self.assertEqual(done.returncode, ENVIRONMENT)
+        self.assertIn(b"it is not an ELF file", done.stderr)
+
+    def test_writers_of_one_file_do_not_mix(self):
+        out = Path(self.folder.name) / "lamp.so"
+        sources = [self.file(f"lamp{i}.lad", LAMP + f'rung "another"\n|--[5100.02]--(51{i:02}.05)\n') for i in range(2, 5)]
+        for via in ("llvm", "cpp"):
+            writers = [subprocess.Popen([RUNGC, "build", "-q", source, "-o", str(out), "--via", via], stderr=subprocess.PIPE) for source in sources * 2]
+            for writer in writers:
+                self.assertEqual(writer.communicate()[1], b"")
+                self.assertEqual(writer.returncode, OK)
+            self.assertEqual(rungc("run", str(out)).returncode, OK)
+        self.assertEqual(sorted(path.name for path in Path(self.folder.name).iterdir() if path.suffix != ".lad"), ["lamp.so"])
+
+
+    def test_a_cache_that_others_may_write(self):
+        source = self.file("lamp.lad", LAMP)
+        cache = Path(self.folder.name) / "cache"
+        done = rungc("run", source, "--cache", str(cache))
+        self.assertEqual((done.returncode, done.stderr), (OK, b""))
+        self.assertEqual(cache.stat().st_mode & 0o777, 0o700)
+        cache.chmod(0o777)
+        done = rungc("run", source, "--cache", str(cache))
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(b"nothing is taken from or kept in --cache: cannot use the folder", done.stderr)
+        self.assertIn(b"every user may write to it (mode 0777)", done.stderr)
+
+
+class Seals(Cli):
+    def setUp(self):
+        super().setUp()
+        self.so = str(Path(self.folder.name) / "lamp.so")
+        self.good("build", "-q", self.file("lamp.lad", LAMP), "-o", self.so)
+
+    def good(self, *words):
+        done = rungc(*words)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        return done.stdout.decode()
+
+    def bad(self, status, message, *words):
+        done = rungc(*words)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertIn(message, done.stderr.decode())
+
+    def unsealed(self):
+        path = Path(self.folder.name) / "unsealed.so"
+        path.write_bytes(Path(self.so).read_bytes()[:-136])
+        return str(path)
+
+    def test_build_seals_for_every_way_and_target(self):
+        for words in ((), ("--via", "cpp"), ("--target", "aarch64-linux-gnu"), ("--target", "armv7-linux-gnueabihf")):
+            self.good("build", "-q", self.file("lamp.lad", LAMP), "-o", self.so, *words)
+            self.assertTrue(Path(self.so).read_bytes().endswith(b"RungSeal"))
+            self.assertIn("sealed ", self.good("seal", self.so))
+
+    def test_a_file_without_seal(self):
+        path = self.unsealed()
+        self.bad(ENVIRONMENT, f"cannot load {path}: it has no seal at its end", "run", path)
+        self.assertEqual(self.good("run", path, "--unsealed"), self.good("run", self.so))
+        self.assertEqual(self.good("seal", path), f"sealed {path}\n")
+        self.assertEqual(Path(path).read_bytes(), Path(self.so).read_bytes())
+        self.good("run", path)
+        self.assertEqual(self.good("seal", "-q", path, self.so), "")
+        self.assertEqual(Path(path).read_bytes(), Path(self.so).read_bytes())
+
+    def test_a_damaged_file(self):
+        data = bytearray(Path(self.so).read_bytes())
+        data[1000] ^= 4
+        Path(self.so).write_bytes(data)
+        for words in ((), ("--unsealed",)):
+            self.bad(ENVIRONMENT, "its content is not what was sealed", "run", self.so, *words)
+        self.bad(WRONG, "its seal shows damage", "seal", self.so)
+        Path(self.so).write_bytes(data[:5000])
+        self.bad(ENVIRONMENT, "it has no seal", "run", self.so)
+
+    def test_a_program_for_another_processor(self):
+        target = "riscv64" if os.uname().machine != "riscv64" else "x86_64"
+        for other in (target, "armv7"):
+            abi = "gnueabihf" if other == "armv7" else "gnu"
+            self.good("build", "-q", self.file("lamp.lad", LAMP), "-o", self.so, "--target", f"{other}-linux-{abi}")
+            self.bad(ENVIRONMENT, f"it is for processor {other}, and this one is {os.uname().machine}", "run", self.so)
+
+    def test_what_is_not_sealed(self):
+        self.bad(WRONG, "it is not an ELF file; expected a shared object (.so)", "seal", self.file("text.so", "not an object"))
+        self.bad(WRONG, "but not a shared object", "seal", self.object_of_another_kind())
+        self.bad(WRONG, "it exports no symbol rung_program_v1", "seal", str(next(Path("/lib").glob("*-linux-gnu*/libm.so.6"))))
+        self.bad(ENVIRONMENT, "cannot read /nowhere.so: No such file", "seal", "/nowhere.so")
+        self.bad(USAGE, "FILE", "seal")
+        # The others are sealed all the same.
+        path = self.unsealed()
+        self.bad(ENVIRONMENT, "/nowhere.so", "seal", "/nowhere.so", path)
+        self.good("run", path)
+
+    def object_of_another_kind(self):
+        data = bytearray(Path(self.unsealed()).read_bytes())
+        data[16] = 1  # a relocatable object
+        path = Path(self.folder.name) / "object.so"
+        path.write_bytes(data)
+        return str(path)
+
+    def test_keys(self):
+        key = Path(self.folder.name) / "maker"
+        said = self.good("key", "new", str(key))
+        self.assertIn("/etc/rung/keys.d", said)
+        self.assertEqual(key.stat().st_mode & 0o777, 0o600)
+        self.assertRegex(key.read_text(), r"^rung-secret-key-1 [0-9a-f]{64}\n$")
+        self.assertRegex(Path(f"{key}.pub").read_text(), r"^rung-public-key-1 [0-9a-f]{64}\n$")
+        before = key.read_text()
+        self.bad(ENVIRONMENT, "File exists", "key", "new", str(key))
+        Path(f"{key}.pub").unlink()
+        self.bad(ENVIRONMENT, "File exists", "key", "new", str(key))
+        self.assertFalse(Path(f"{key}.pub").exists())
+        self.assertEqual(key.read_text(), before)
+        self.bad(USAGE, "new", "key", "old", str(key))
+        self.bad(ENVIRONMENT, "cannot write", "key", "new", "/nowhere/maker")
+
+    def test_signing(self):
+        key = str(Path(self.folder.name) / "maker")
+        name = re.match(r"key ([0-9a-f]{32}):", self.good("key", "new", key)).group(1)
+        self.assertEqual(self.good("seal", "--sign", key, self.so), f"sealed {self.so}, signed by key {name}\n")
+        self.good("run", self.so)
+        self.bad(ENVIRONMENT, "maker.pub is not a secret key", "seal", "--sign", self.private(f"{key}.pub"), self.so)
+        os.chmod(key, 0o644)
+        self.bad(ENVIRONMENT, f"others than its owner may use this secret key (mode 0644); chmod 600 {key}", "seal", "--sign", key, self.so)
+        os.chmod(self.so, 0o757)
+        self.bad(ENVIRONMENT, f"every user may write to it (mode 0757); after chmod go-w it may run, and so may one signed with a known key (rungc seal --sign); its signature is by key {name}, which is not among the known keys", "run", self.so)
+
+    def private(self, path):
+        os.chmod(path, 0o600)
+        return path
 
     def test_run_for_a_time(self):
         done = rungc("run", self.file("lamp.lad", LAMP), "--for", "100ms")

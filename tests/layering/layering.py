@@ -54,6 +54,7 @@ FOREIGN = {
     "CLI/": (),
     "expat.h": (),
     "zlib.h": ("rtlib/host",),
+    "sodium.h": ("rtlib/host",),
     "gtest/": (),
     "gmock/": (),
     "benchmark/": (),

@@ -35,6 +35,7 @@ BAD = {
     "LLVM in quotes": ("ir/core/x.cpp", '# include "llvm/IR/Module.h"'),
     "clang outside its wall": ("codegen/llvm/x.cpp", "#include <clang/AST/AST.h>"),
     "fmt in rtlib": ("rtlib/host/x.cpp", "#include <fmt/format.h>"),
+    "cryptography outside the host": ("codegen/cpp/x.cpp", "#include <sodium.h>"),
     "gtest in a library": ("ir/core/x.cpp", "#include <gtest/gtest.h>"),
     "a library includes a tool": ("codegen/cpp/x.cpp", '#include "tools/rungc/main.cpp"'),
     "an include without its folder": ("ir/core/x.cpp", '#include "module.h"'),

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sys/resource.h>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
+#include "rtlib/host/file.h"
 #include "tools/bench/gsk_workload.h"
 #include "tools/bench/technol_workload.h"
 #include "tools/driver/engines.h"
@@ -136,15 +138,20 @@ Result<double> codeKb(driver::EngineKind kind, const driver::Compiled& compiled,
     return static_cast<double>(bytes) / 1024.0;
   }
   // The file is gone when it is loaded; what is mapped of it is as large, rounded to pages.
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&program), &info) == 0) return failure("the program lies in no object");
+  std::map<std::string, uintmax_t> mapped; // by file
+  std::string file;
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
-    if (line.find(info.dli_fname) == std::string::npos) continue;
-    const size_t dash = line.find('-');
-    bytes += std::stoull(line.substr(dash + 1), nullptr, 16) - std::stoull(line, nullptr, 16);
+    const size_t path = line.find('/');
+    if (path == std::string::npos) continue;
+    const uintmax_t begin = std::stoull(line, nullptr, 16);
+    const uintmax_t end = std::stoull(line.substr(line.find('-') + 1), nullptr, 16);
+    const auto address = reinterpret_cast<uintptr_t>(&program);
+    if (begin <= address && address < end) file = line.substr(path);
+    mapped[line.substr(path)] += end - begin;
   }
-  return static_cast<double>(bytes) / 1024.0;
+  if (file.empty()) return failure("the program lies in no file");
+  return static_cast<double>(mapped[file]) / 1024.0;
 }
 
 } // namespace
@@ -154,7 +161,10 @@ Result<void> buildHandWritten(const Case& which, const std::string& compiler, co
   options.compiler = compiler;
   options.optimisation = "-O3";
   options.debugInfo = false;
-  return codegen::buildCppSharedObject(workloadOf(which).hand, options, path);
+  const Result<std::string> image = codegen::buildCppSharedObject(workloadOf(which).hand, options);
+  if (!image.ok()) return image.failure();
+  if (std::string wrong = host::replaceFile(path, image.value()); !wrong.empty()) return failure(std::move(wrong));
+  return {};
 }
 
 std::string sourceOf(const Case& which) { return workloadOf(which).text; }

@@ -11,6 +11,7 @@
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/interp/interp.h"
 #include "ir/support/temporary_folder.h"
+#include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
 
 namespace rung::driver {
@@ -42,10 +43,11 @@ template <class Build>
 Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build build) {
   const TemporaryFolder folder;
   if (!folder.ok()) return failure("cannot make a temporary folder");
+  const Result<std::string> image = build();
+  if (!image.ok()) return image.failure();
   const std::string path = (folder / "program.so").string();
-  const Result<void> built = build(path);
-  std::string error;
-  if (!built.ok()) return built.failure();
+  std::string error = host::replaceFile(path, host::sealed(image.value()), {.mode = host::kProgramMode});
+  if (!error.empty()) return failure(error);
   std::unique_ptr<host::SoEngine> loaded = host::SoEngine::open(path, error);
   if (loaded == nullptr) return failure(error);
   return std::unique_ptr<host::Engine>(new BuiltEngine(std::move(loaded), name));
@@ -108,7 +110,7 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     return std::unique_ptr<host::Engine>(std::move(engine));
   }
   case EngineKind::Cpp:
-    return buildAndLoad(engineName(kind), [&](const std::string& path) {
+    return buildAndLoad(engineName(kind), [&] {
       codegen::CppOptions emit;
       emit.debugInfo = options.debugger;
       emit.sabotage = options.sabotage;
@@ -116,11 +118,11 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
       build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
       build.optimisation = options.optimise ? "-O2" : "-O0";
       build.debugInfo = options.debugger;
-      return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build, path);
+      return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build);
     });
   case EngineKind::Llvm:
-    return buildAndLoad(engineName(kind), [&](const std::string& path) {
-      return codegen::buildLlvmSharedObject(layout, compiled.codeHash, llvmOptions(options), path);
+    return buildAndLoad(engineName(kind), [&] {
+      return codegen::buildLlvmSharedObject(layout, compiled.codeHash, llvmOptions(options));
     });
   case EngineKind::Jit: {
     codegen::JitOptions jit;
@@ -133,6 +135,11 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
   }
   }
   return failure("unknown engine");
+}
+
+std::string cacheTrouble(const host::Engine& engine) {
+  const auto* jit = dynamic_cast<const codegen::JitEngine*>(&engine);
+  return jit != nullptr ? jit->report().cacheTrouble : "";
 }
 
 std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks) {

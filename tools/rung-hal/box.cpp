@@ -59,8 +59,9 @@ void warnOfBlocks(const rung_program& program, std::vector<std::string>& warning
 
 } // namespace
 
-Box::Box(const rung_program& program, MapFile map)
-    : map_(std::move(map)), control_(nc::makeControl(program.dialect)), instance_(program, control_.get()) {}
+Box::Box(const rung_program& program, MapFile map, std::string retain)
+    : map_(std::move(map)), retain_(std::move(retain)), control_(nc::makeControl(program.dialect)),
+      instance_(program, control_.get()) {}
 
 std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
                                const std::string& retain, std::vector<std::string>& warnings) {
@@ -68,19 +69,19 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
     errors.push_back(std::string(program.name) + ": the program's schedule has no period");
     return nullptr;
   }
-  std::unique_ptr<Box> box(new Box(program, std::move(map)));
+  std::unique_ptr<Box> box(new Box(program, std::move(map), retain));
   box->binding_ = bindMap(box->map_, box->instance_, *box->control_, errors);
   if (!errors.empty()) return nullptr;
   box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->control_->functions());
-  if (!box->start(retain, errors, warnings)) return nullptr;
+  if (!box->start(errors, warnings)) return nullptr;
   warnOfBlocks(program, warnings);
   return box;
 }
 
-bool Box::start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings) {
+bool Box::start(std::vector<std::string>& errors, std::vector<std::string>& warnings) {
   std::optional<nc::PowerOn> kind = nc::PowerOn::Cold;
-  if (!retain.empty()) {
-    retained_ = std::make_unique<nc::Retention>(*control_, instance_, retain);
+  if (!retain_.empty()) {
+    retained_ = std::make_unique<nc::Retention>(*control_, instance_, retain_);
     std::string report;
     std::string error;
     kind = retained_->load(report, error);
@@ -92,18 +93,41 @@ bool Box::start(const std::string& retain, std::vector<std::string>& errors, std
   return true;
 }
 
-std::string Box::close() {
-  if (!retained_) return {};
-  retained_->finish(); // for the case that the program faults in its last scans
-  if (!failed_ && control_->powerOff(instance_)) {
-    for (uint32_t i = 0; i < nc::Control::kMostLastScans && !instance_.faulted() && control_->endsLater(instance_); ++i)
-      instance_.scan();
-  }
-  return retained_->finish();
+// The memory that the fault left is not what the program continues with: its retained part comes from the disk, where
+// the last whole scan is.
+bool Box::serve(std::vector<std::string>& reports) {
+  if (state_.load(std::memory_order_acquire) != State::Restarting) return false;
+  if (retained_)
+    if (std::string error = retained_->finish(); !error.empty()) reports.push_back(error);
+  retained_.reset();
+  functions_->restart();
+  owedNs_ = 0;
+  state_.store(start(reports, reports) ? State::Running : State::Stopped, std::memory_order_release);
+  return true;
 }
 
-StepResult Box::step(int64_t ns) noexcept {
-  if (failed_) return StepResult::Waiting;
+std::string Box::close() {
+  if (state_.load(std::memory_order_acquire) == State::Running) lastScans();
+  if (cells_ != nullptr) clearPins();
+  return retained_ ? retained_->finish() : std::string();
+}
+
+// What MODULE_DONE switches off goes to the pins.
+void Box::lastScans() noexcept {
+  if (retained_) retained_->finish(); // for the case that the program faults in its last scans
+  if (!control_->powerOff(instance_)) return;
+  for (uint32_t i = 0; i < nc::Control::kMostLastScans && !instance_.faulted() && control_->endsLater(instance_); ++i) {
+    do slice();
+    while (!instance_.atListStart() && !instance_.faulted());
+  }
+}
+
+StepResult Box::step(int64_t ns, bool reset) noexcept {
+  const bool asked = reset && !wasReset_;
+  wasReset_ = reset;
+  const State state = state_.load(std::memory_order_acquire);
+  if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
+  if (state != State::Running) return StepResult::Waiting;
   functions_->sample(instance_, cells_, ns);
   owedNs_ += ns;
   StepResult result = StepResult::Waiting;
@@ -115,19 +139,21 @@ StepResult Box::step(int64_t ns) noexcept {
     result = StepResult::Ran;
   }
   if (!instance_.faulted()) return result;
-  failed_ = true;
   clearPins();
+  state_.store(State::Stopped, std::memory_order_release);
   return StepResult::Failed;
 }
 
 void Box::slice() noexcept {
-  functions_->advance(instance_, cells_);
-  readPins();
+  if (cells_ != nullptr) {
+    functions_->advance(instance_, cells_);
+    readPins();
+  }
   instance_.slice();
   control_->afterSlice(instance_);
   if (retained_) retained_->afterSlice();
   passMessages();
-  if (instance_.faulted()) return;
+  if (instance_.faulted() || cells_ == nullptr) return;
   if (instance_.atListStart()) ++scans_;
   writePins();
 }

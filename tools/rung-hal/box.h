@@ -1,12 +1,14 @@
 // A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the box is
 // made; `step` allocates nothing, takes no lock and makes no system call.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/host/realtime.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/retention.h"
 #include "tools/rung-hal/binding.h"
@@ -32,7 +34,8 @@ public:
   // retained memory, and of parts of the program that never run here.
   static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
                                    const std::string& retain, std::vector<std::string>& warnings);
-  // After the last step: what is retained is on disk then; "" or why not.
+  // After the last step, or where none can come any more: the program's last scans run, output pins are 0 then, and
+  // what is retained is on disk; "" or why not.
   std::string close();
 
   const std::vector<MapPin>& pins() const { return map_.pins; }
@@ -41,8 +44,15 @@ public:
   void setMessageSink(MessageSink sink) { sink_ = sink; }
 
   // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
-  // runs nothing only watches for edges. After a fault all output pins are 0 for good.
-  StepResult step(int64_t ns) noexcept;
+  // runs nothing only watches for edges. After a fault all output pins are 0, until `reset` rises and `serve` has
+  // restarted the program.
+  StepResult step(int64_t ns, bool reset = false) noexcept;
+  // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
+  void setTimeLimit(int64_t ns) noexcept { instance_.setTimeLimit({.ns = ns, .nowNs = &host::monotonicNs}); }
+  // Not the scan thread, again and again: what a step must not do itself, the restart after a fault. True: it has been
+  // tried, and `reports` says what the operator should know of it.
+  bool serve(std::vector<std::string>& reports);
+  bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
 
   const rung_program& program() const { return instance_.program(); }
   const rung_fault& fault() const { return instance_.fault(); }
@@ -52,9 +62,13 @@ public:
   const host::RetainedMemory* retained() const { return retained_ ? &retained_->memory() : nullptr; }
 
 private:
-  Box(const rung_program& program, MapFile map);
+  Box(const rung_program& program, MapFile map, std::string retain);
 
-  bool start(const std::string& retain, std::vector<std::string>& errors, std::vector<std::string>& warnings);
+  // Stopped: by a fault. Restarting: the instance belongs to `serve`.
+  enum class State : uint8_t { Running, Stopped, Restarting };
+
+  bool start(std::vector<std::string>& errors, std::vector<std::string>& warnings);
+  void lastScans() noexcept;
   void slice() noexcept;
   void readPins() noexcept;
   void writePins() noexcept;
@@ -62,6 +76,7 @@ private:
   void passMessages() noexcept;
 
   MapFile map_;
+  std::string retain_; // the file, or ""
   std::unique_ptr<nc::Control> control_;
   host::Instance instance_;
   Binding binding_;
@@ -71,7 +86,8 @@ private:
   MessageSink sink_ = nullptr;
   int64_t owedNs_ = 0; // time that the program's clock lags
   uint32_t scans_ = 0;
-  bool failed_ = false;
+  bool wasReset_ = false;
+  std::atomic<State> state_{State::Running};
 };
 
 } // namespace rung::hal

@@ -27,6 +27,9 @@ public:
   // Before every slice of the program.
   void advance(host::Instance& instance, const PinCell* pins) noexcept;
 
+  // The program has been switched on anew.
+  void restart() noexcept { count_ = 0; }
+
   // A function was handed over, or waits.
   bool busy() const noexcept { return count_ != 0; }
   // One has not been finished within the map's time since it was queued.

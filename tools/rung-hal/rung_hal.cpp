@@ -4,10 +4,15 @@
 #include <rtapi.h>
 #include <rtapi_app.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <thread>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/host/so_engine.h"
@@ -45,6 +50,8 @@ struct StatusPins {
   hal::PinCell functionsBusy;
   hal::PinCell functionsTimeout;
   hal::PinCell functionsLost;
+  hal::PinCell reset; // of HAL: restarts the program after a fault
+  hal_u32_t maxTime;  // parameter: microseconds that the program may run in one call; 0: its budgets alone count
 };
 
 struct Component {
@@ -53,7 +60,13 @@ struct Component {
   std::unique_ptr<hal::Box> box;
   StatusPins* status = nullptr;  // in HAL's memory
   hal::PinCell* cells = nullptr; // in HAL's memory
+  std::thread service;           // restarts
+  std::atomic<bool> ending{false};
+  std::atomic<bool> inScan{false};
+  std::atomic<int64_t> periodNs{0};
 };
+
+constexpr std::chrono::milliseconds kServicePeriod(20);
 
 Component* component = nullptr; // RTAPI gives rtapi_app_exit no argument
 int componentId = -1;
@@ -113,6 +126,13 @@ bool makePin(const Component& c, const char* pin, hal_type_t type, hal_pin_dir_t
   return result == 0;
 }
 
+bool makeParameters(Component& c) {
+  const std::string full = c.prefix + ".max-time";
+  const int result = hal_param_u32_new(full.c_str(), HAL_RW, &c.status->maxTime, componentId);
+  if (result != 0) complain("%s: cannot make parameter %s (%d)\n", kModule, full.c_str(), result);
+  return result == 0;
+}
+
 bool makePins(Component& c) {
   const std::vector<hal::MapPin>& pins = c.box->pins();
   c.status = static_cast<StatusPins*>(hal_malloc(sizeof(StatusPins)));
@@ -129,11 +149,11 @@ bool makePins(Component& c) {
             status("scans", HAL_U32, s.scans) && status("scan-time", HAL_U32, s.scanTime) &&
             status("scan-time-max", HAL_U32, s.scanTimeMax) && status("functions-busy", HAL_BIT, s.functionsBusy) &&
             status("functions-timeout", HAL_BIT, s.functionsTimeout) &&
-            status("functions-lost", HAL_U32, s.functionsLost);
+            status("functions-lost", HAL_U32, s.functionsLost) && makePin(c, "reset", HAL_BIT, HAL_IN, &s.reset.any);
   for (size_t i = 0; i < pins.size() && ok; ++i)
     ok = makePin(c, pins[i].name.c_str(), halType(pins[i].type), pins[i].output ? HAL_OUT : HAL_IN, &c.cells[i].any);
   c.box->connect(c.cells);
-  return ok;
+  return ok && makeParameters(c);
 }
 
 void printMessage(const nc::Control& control, const rung_program& program, const rung_message& message) {
@@ -153,19 +173,20 @@ void reportFault(const Component& c) {
   const rung_rung_info& rung = known ? program.rungs[fault.rung] : none;
   const char* file = rung.file < program.file_count ? program.files[rung.file] : "?";
   const uint32_t line = fault.line != 0 ? fault.line : rung.first_line;
-  *c.status->fault.bit = true;
   *c.status->faultLine.u32 = line;
-  complain("%s: the program has stopped: %s at %s:%u (rung %u \"%s\"); all output pins are 0\n", c.prefix.c_str(),
-           reason, file, line, rung.number, rung.title);
+  complain("%s: the program has stopped: %s at %s:%u (rung %u \"%s\"); all output pins are 0 until pin reset rises\n",
+           c.prefix.c_str(), reason, file, line, rung.number, rung.title);
 }
 
-void scan(void* argument, long periodNs) {
-  const Component& c = *static_cast<const Component*>(argument);
+void runStep(Component& c, long periodNs) {
+  constexpr int64_t kNsInUs = 1000;
   const long long begin = rtapi_get_time();
-  const hal::StepResult result = c.box->step(periodNs);
+  c.box->setTimeLimit(int64_t{c.status->maxTime} * kNsInUs);
+  const hal::StepResult result = c.box->step(periodNs, *c.status->reset.bit);
   *c.status->functionsBusy.bit = c.box->functions().busy();
   *c.status->functionsTimeout.bit = c.box->functions().late();
   *c.status->functionsLost.u32 = c.box->functions().lost();
+  *c.status->fault.bit = !c.box->running();
   switch (result) {
   case hal::StepResult::Waiting: return;
   case hal::StepResult::Ran: break;
@@ -177,15 +198,83 @@ void scan(void* argument, long periodNs) {
   *c.status->scans.u32 = c.box->scans();
 }
 
+void scan(void* argument, long periodNs) {
+  Component& c = *static_cast<Component*>(argument);
+  c.periodNs.store(periodNs, std::memory_order_relaxed);
+  c.inScan.store(true);
+  if (!c.ending.load()) runStep(c, periodNs);
+  c.inScan.store(false);
+}
+
+void serve(Component& c) {
+  while (!c.ending.load()) {
+    std::vector<std::string> reports;
+    if (c.box->serve(reports)) {
+      complain("%s: %s\n", c.prefix.c_str(),
+               c.box->running() ? "the program has been restarted" : "the program cannot be restarted");
+      for (const std::string& report : reports) complain("%s: %s\n", c.prefix.c_str(), report.c_str());
+    }
+    std::this_thread::sleep_for(kServicePeriod);
+  }
+}
+
 int start() {
   component = new Component;
-  component->prefix = name != nullptr ? name : kDefaultPrefix;
-  if (!loadProgram(*component) || !makePins(*component)) return -EINVAL;
-  component->box->setMessageSink(printMessage);
-  const std::string function = component->prefix + ".scan";
+  Component& c = *component;
+  c.prefix = name != nullptr ? name : kDefaultPrefix;
+  if (!loadProgram(c) || !makePins(c)) return -EINVAL;
+  c.box->setMessageSink(printMessage);
+  c.service = std::thread([&c] { serve(c); });
+  const std::string function = c.prefix + ".scan";
   const int result = hal_export_funct(function.c_str(), scan, component, 1, 0, componentId);
   if (result != 0) complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
   return result;
+}
+
+// HAL takes a function out of its thread without waiting for it: from here on it does nothing, and two periods later no
+// thread is about to call it.
+void endScans(Component& c) {
+  constexpr std::chrono::microseconds kLook(100);
+  c.ending.store(true);
+  while (c.inScan.load()) std::this_thread::sleep_for(kLook);
+  if (c.service.joinable()) c.service.join();
+}
+
+void closeProgram(Component& c) {
+  if (!c.box) return;
+  const std::string error = c.box->close();
+  if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
+}
+
+void leaveHal(const Component& c) {
+  hal_exit(componentId);
+  std::this_thread::sleep_for(std::chrono::nanoseconds(2 * c.periodNs.load()));
+  while (c.inScan.load()) std::this_thread::yield();
+}
+
+// No exception may leave the module: it would end the whole CNC.
+template <class Action>
+int guarded(Action action) noexcept {
+  try {
+    return action();
+  } catch (const std::exception& problem) {
+    complain("%s: %s\n", kModule, problem.what());
+  } catch (...) {
+    complain("%s: unknown exception\n", kModule);
+  }
+  return -ENOMEM;
+}
+
+void end() {
+  if (component == nullptr) {
+    hal_exit(componentId);
+    return;
+  }
+  endScans(*component);
+  guarded([] { return closeProgram(*component), 0; });
+  leaveHal(*component);
+  delete component;
+  component = nullptr;
 }
 
 } // namespace
@@ -193,20 +282,12 @@ int start() {
 int rtapi_app_main() {
   componentId = hal_init(kModule);
   if (componentId < 0) return componentId;
-  const int result = start();
-  if (result != 0) {
-    rtapi_app_exit();
-    return result;
-  }
-  return hal_ready(componentId);
+  const int result = guarded(start);
+  if (result == 0) return hal_ready(componentId);
+  guarded([] { return end(), 0; });
+  return result;
 }
 
 void rtapi_app_exit() {
-  hal_exit(componentId); // takes the function out of its thread first
-  if (component != nullptr && component->box) {
-    const std::string error = component->box->close();
-    if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
-  }
-  delete component;
-  component = nullptr;
+  guarded([] { return end(), 0; });
 }

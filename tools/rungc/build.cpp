@@ -6,6 +6,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/text/text.h"
+#include "rtlib/host/sealing.h"
 #include "tools/console/working.h"
 #include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
@@ -50,13 +51,10 @@ codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
   return llvm;
 }
 
-int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
+Result<std::string> objectOf(const driver::Compiled& compiled, const BuildOptions& options) {
   const console::Working working("making machine code");
-  if (options.via == "llvm") {
-    const Result<void> built =
-        codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options), options.out);
-    return built.ok() ? kOk : environmentError(built.error());
-  }
+  if (options.via == "llvm")
+    return codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   codegen::CppBuildOptions cpp;
   cpp.compiler = !options.cxx.empty()     ? options.cxx
                  : options.target.empty() ? driver::defaultCppCompiler()
@@ -64,8 +62,12 @@ int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
   cpp.optimisation = options.level == "0" ? "-O0" : "-O2";
   cpp.debugInfo = options.debugInfo;
   const std::string text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {.debugInfo = options.debugInfo});
-  const Result<void> built = codegen::buildCppSharedObject(text, cpp, options.out);
-  return built.ok() ? kOk : environmentError(built.error());
+  return codegen::buildCppSharedObject(text, cpp);
+}
+
+int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
+  const Result<std::string> object = objectOf(compiled, options);
+  return object.ok() ? writeProgram(options.out, host::sealed(object.value())) : environmentError(object.error());
 }
 
 int writeListing(const SourceManager& sources, const driver::Compiled& compiled, const std::string& name) {

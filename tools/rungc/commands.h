@@ -61,8 +61,11 @@ int environmentError(const std::string& message);
 void printSummary(const driver::Compiled& compiled, const SourceOptions& options, const std::string& written);
 // "wrote mill.html" when the status is good; nothing with --quiet or --json. Gives the status.
 int sayWrote(int status, const std::string& out, const SourceOptions& options);
-// Gives the exit status.
+// The whole text or, as the exit status and a message say, nothing (see host::replaceFile).
 int writeFile(const std::string& text, const std::string& out);
+
+// A sealed program file: on the disk, and nobody but its owner may write to it. Gives the exit status.
+int writeProgram(const std::string& out, const std::string& file);
 
 void addCheck(CLI::App& app, int& status);
 void addBuild(CLI::App& app, int& status);
@@ -76,5 +79,7 @@ void addDoc(CLI::App& app, int& status);
 void addView(CLI::App& app, int& status);
 void addHelp(CLI::App& app, int& status);
 void addNew(CLI::App& app, int& status);
+void addSeal(CLI::App& app, int& status);
+void addKey(CLI::App& app, int& status);
 
 } // namespace rung::rungc

@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   addNew(app, status);
   addCheck(app, status);
   addBuild(app, status);
+  addSeal(app, status);
+  addKey(app, status);
   addEmit(app, status);
   addConvert(app, status);
   addView(app, status);

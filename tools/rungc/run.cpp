@@ -38,6 +38,7 @@ struct RunOptions {
   bool prompt = false;
   bool realtime = false;
   bool debugger = false;
+  bool unsealed = false;
   std::string level = "2";
   std::string retain;
   std::string cache;
@@ -280,8 +281,8 @@ private:
 
 int runSharedObject(const RunOptions& options) {
   std::string error;
-  const std::unique_ptr<host::SoEngine> engine =
-      host::SoEngine::open(options.source.files[0], error, host::Loaded::WithProcess);
+  const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(
+      options.source.files[0], error, {.loaded = host::Loaded::WithProcess, .mayLackSeal = options.unsealed});
   return engine == nullptr ? environmentError(error) : Run(options, *engine, nullptr).run();
 }
 
@@ -302,7 +303,10 @@ int runSource(const RunOptions& options) {
     const console::Working working("making machine code");
     return driver::makeEngine(*kind, *compiled, engineOptions);
   }();
-  return engine.ok() ? Run(options, *engine.value(), &*compiled).run() : environmentError(engine.error());
+  if (!engine.ok()) return environmentError(engine.error());
+  if (const std::string trouble = driver::cacheTrouble(*engine.value()); !trouble.empty())
+    fmt::print(stderr, "rungc: nothing is taken from or kept in --cache: {}\n", trouble);
+  return Run(options, *engine.value(), &*compiled).run();
 }
 
 int runProgram(RunOptions& options) {
@@ -353,6 +357,8 @@ void addRun(CLI::App& app, int& status) {
                       "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
   command->add_flag("--realtime", options->realtime, "On the machine's clock")->excludes(scenario)->excludes(prompt);
   command->add_flag("--debugger", options->debugger, "Let gdb see code compiled in the process");
+  command->add_flag("--unsealed", options->unsealed,
+                    "Load a shared object that has no seal; a damaged one may then crash");
   command->add_option(
       "--retain", options->retain,
       "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");

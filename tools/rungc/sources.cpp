@@ -1,13 +1,13 @@
 // Options and steps that all compiling commands share.
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <set>
 #include <unistd.h>
 
 #include "ir/support/diag_render.h"
+#include "rtlib/host/file.h"
 #include "tools/console/working.h"
 #include "tools/driver/configuration.h"
 #include "tools/rungc/commands.h"
@@ -65,9 +65,8 @@ int sayWrote(int status, const std::string& out, const SourceOptions& options) {
 }
 
 int writeFile(const std::string& text, const std::string& out) {
-  std::ofstream file(out, std::ios::binary);
-  file << text << std::flush;
-  return file ? kOk : environmentError(fmt::format("cannot write '{}'", out));
+  const std::string wrong = host::replaceFile(out, text);
+  return wrong.empty() ? kOk : environmentError(wrong);
 }
 
 namespace {

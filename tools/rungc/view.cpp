@@ -1,7 +1,6 @@
 // rungc view: draws a ladder program as a page or a picture.
 #include <cstdio>
 #include <fmt/format.h>
-#include <fstream>
 
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
@@ -32,17 +31,6 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
   return std::nullopt;
 }
 
-// The file is there when it is whole: what a failure leaves is removed.
-int write(const std::string& text, const std::string& out) {
-  const std::string part = out + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  if (file && std::rename(part.c_str(), out.c_str()) == 0) return kOk;
-  std::remove(part.c_str());
-  return environmentError(fmt::format("cannot write '{}'", out));
-}
-
 // Of a project, what the command line does not say.
 void fillIn(ViewOptions& options) {
   if (!options.source.project) return;
@@ -52,9 +40,9 @@ void fillIn(ViewOptions& options) {
 
 int draw(const view::Program& program, const ViewOptions& options) {
   const console::Working working("drawing");
-  if (!options.out.ends_with(".html")) return write(view::renderSvg(program), options.out);
+  if (!options.out.ends_with(".html")) return writeFile(view::renderSvg(program), options.out);
   const view::LinkTo links = options.link.empty() ? view::LinkTo() : view::sourceLinks(options.out, options.link);
-  return write(view::renderHtml(program, {options.date, options.revision, links}), options.out);
+  return writeFile(view::renderHtml(program, {options.date, options.revision, links}), options.out);
 }
 
 int run(ViewOptions options) {

@@ -9,6 +9,7 @@
 #include "codegen/cpp/table_writer.h"
 #include "ir/core/builder.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
 
 namespace rung::codegen {
@@ -79,9 +80,9 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   const std::string path = temporaryFile("rung_cpp_test.so");
   CppBuildOptions options;
   options.compiler = GetParam();
-  const Result<void> built = buildCppSharedObject(emitCpp(layout, 42, {}), options, path);
+  const Result<std::string> built = buildCppSharedObject(emitCpp(layout, 42, {}), options);
   ASSERT_TRUE(built.ok()) << built.error();
-  std::string error;
+  std::string error = host::replaceFile(path, host::sealed(built.value()));
   const auto engine = host::SoEngine::open(path, error);
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
@@ -178,10 +179,8 @@ double REAL;
   for (const char* compiler : {"g++", "clang++-19"}) {
     CppBuildOptions options;
     options.compiler = compiler;
-    const std::string path = temporaryFile("rung_cpp_debug.so");
-    const Result<void> built = buildCppSharedObject(text, options, path);
+    const Result<std::string> built = buildCppSharedObject(text, options);
     EXPECT_TRUE(built.ok()) << built.error();
-    std::filesystem::remove(path);
   }
   EXPECT_EQ(emitCpp(layout, 42, {}).find("rung_memory"), std::string::npos);
 }
@@ -191,7 +190,7 @@ TEST(CppEmitter, AMissingCompilerIsAnErrorOfTheEnvironment) {
   const Layout layout(module, {});
   CppBuildOptions options;
   options.compiler = "no-such-compiler";
-  const Result<void> built = buildCppSharedObject(emitCpp(layout, 0, {}), options, temporaryFile("none.so"));
+  const Result<std::string> built = buildCppSharedObject(emitCpp(layout, 0, {}), options);
   ASSERT_FALSE(built.ok());
   EXPECT_NE(built.error().find("no-such-compiler"), std::string::npos);
 }

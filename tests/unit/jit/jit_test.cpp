@@ -171,6 +171,20 @@ TEST_F(JitCache, LeavesWhatIsDamaged) {
   EXPECT_EQ(taken({}), 1u) << "written anew";
 }
 
+TEST_F(JitCache, LeavesWhatOthersCouldHaveWritten) {
+  EXPECT_EQ(taken({}), 0u);
+  EXPECT_EQ(fs::status(folder_).permissions(), fs::perms::owner_all);
+  fs::permissions(files().at(0), fs::perms::others_write, fs::perm_options::add);
+  EXPECT_EQ(taken({}), 0u);
+  EXPECT_EQ(taken({}), 1u) << "written anew";
+  fs::permissions(folder_, fs::perms::others_write, fs::perm_options::add);
+  const auto engine = compiled(layout_, {.code = {}, .cacheFolder = folder_.string()});
+  ASSERT_NE(engine, nullptr);
+  EXPECT_EQ(engine->report().fromCache, 0u);
+  EXPECT_THAT(engine->report().cacheTrouble, testing::HasSubstr("every user may write to it"));
+}
+
+
 // What the file of one key holds goes under the name of another.
 class JitCacheOfOthers : public JitCache {
 protected:

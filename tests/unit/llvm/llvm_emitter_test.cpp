@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <elf.h>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <unistd.h>
 
 #include "ir/random/random.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
 #include "tests/unit/llvm/sample_module.h"
 
@@ -35,11 +35,6 @@ struct TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::string path;
 };
-
-std::string fileText(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // The definition of a function, without notes on attributes and debug information.
 std::string functionText(const std::string& ir, const std::string& name) {
@@ -166,9 +161,9 @@ TEST(LlvmSharedObject, RunsCallsAndTraps) {
   const Module module = sampleModule();
   const Layout layout(module, {});
   const TemporaryFile file("rung_llvm_test.so");
-  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, file.path);
+  const Result<std::string> built = buildLlvmSharedObject(layout, 42, {});
   ASSERT_TRUE(built.ok()) << built.error();
-  std::string error;
+  std::string error = host::replaceFile(file.path, host::sealed(built.value()));
   const auto engine = host::SoEngine::open(file.path, error);
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
@@ -188,14 +183,17 @@ TEST(LlvmSharedObject, RunsCallsAndTraps) {
   EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 0u) << "outputs go to their safe state";
 }
 
-TEST(LlvmSharedObject, AFolderThatIsNotThereIsAnErrorOfTheEnvironment) {
+TEST(LlvmSharedObject, AMissingTemporaryFolderIsAnErrorOfTheEnvironment) {
   const Module module = sampleModule();
   const Layout layout(module, {});
-  const Result<void> built = buildLlvmSharedObject(layout, 42, {}, TemporaryFile("no-such-folder/x.so").path);
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before != nullptr ? before : "";
+  setenv("TMPDIR", "/no-such-folder", 1);
+  const Result<std::string> built = buildLlvmSharedObject(layout, 42, {});
+  before != nullptr ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
   ASSERT_FALSE(built.ok());
-  EXPECT_THAT(built.error(), HasSubstr("no-such-folder"));
-  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}, TemporaryFile("rung_llvm_after.so").path).ok())
-      << "the linker can run again";
+  EXPECT_THAT(built.error(), HasSubstr("temporary folder"));
+  EXPECT_TRUE(buildLlvmSharedObject(layout, 42, {}).ok());
 }
 
 struct Machine {
@@ -213,17 +211,20 @@ TEST(LlvmSharedObject, ForEveryTarget) {
   EXPECT_EQ(llvmTargets().size(), std::size(kMachines));
   for (const Machine& machine : kMachines)
     for (const LlvmLevel level : {LlvmLevel::Fast, LlvmLevel::Opt}) {
-      const TemporaryFile file(std::string(machine.target) + ".so");
-      const Result<void> built =
-          buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)}, file.path);
+      const Result<std::string> built =
+          buildLlvmSharedObject(layout, 42, {.level = level, .target = std::string(machine.target)});
       ASSERT_TRUE(built.ok()) << machine.target << ": " << built.error();
-      const std::string bytes = fileText(file.path);
+      const std::string& bytes = built.value();
       ASSERT_EQ(bytes.substr(0, SELFMAG), ELFMAG);
       uint16_t kind = 0;
       std::memcpy(&kind, bytes.data() + offsetof(Elf64_Ehdr, e_machine),
                   sizeof kind); // at the same place in 32-bit files
       EXPECT_EQ(kind, machine.elfMachine);
-      EXPECT_THAT(bytes, HasSubstr(RUNG_PROGRAM_SYMBOL));
+      const host::ElfObject object = host::readElf(bytes);
+      EXPECT_EQ(object.problem, "");
+      EXPECT_THAT(machine.target, testing::StartsWith(object.machine));
+      EXPECT_THAT(object.exported, testing::ElementsAre(RUNG_PROGRAM_SYMBOL));
+      EXPECT_THAT(object.needed, testing::IsEmpty());
     }
 }
 

@@ -47,6 +47,32 @@ uint32_t step(uint8_t* mem, rung_ctx*) {
   return Next;
 }
 
+// A clock that shows a microsecond more each time.
+int64_t tickingNs() {
+  static int64_t now = 0;
+  return now += 1000;
+}
+
+// A chunk that stays within its budget of steps can still take too long.
+TEST_F(RunnerTest, ATimeLimitStopsBetweenChunks) {
+  for (uint32_t i = 0; i < 20; ++i)
+    test.addChunk([](uint8_t* mem, rung_ctx*) { return ++mem[0] == 20 ? RUNG_PC_DONE : uint32_t{mem[0]}; });
+  test.addTask("MAIN", 0);
+  Runner& r = start();
+  EXPECT_TRUE(r.runTask(0)); // without a limit
+  memory[0] = 0;
+  r.setTimeLimit({.ns = 30'000, .nowNs = &tickingNs});
+  EXPECT_TRUE(r.runTask(0));
+  memory[0] = 0;
+  r.setTimeLimit({.ns = 10'000, .nowNs = &tickingNs});
+  EXPECT_FALSE(r.runTask(0));
+  EXPECT_TRUE(r.faulted());
+  EXPECT_LT(memory[0], 15);
+  r.reset();
+  memory[0] = 15; // each run has its own time
+  EXPECT_TRUE(r.runTask(0));
+}
+
 // A host may calculate otherwise; programs do not, and the host has its settings back.
 TEST_F(RunnerTest, FloatingPointAsProgramsAreCompiledFor) {
   test.addChunk([](uint8_t* mem, rung_ctx*) {

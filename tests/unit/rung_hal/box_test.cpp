@@ -257,9 +257,10 @@ TEST_F(BoxRetained, NctLearnsThatItsMemoryIsLost) {
     Bench b(testing::nctProgram(), "out bit ok N_NVRAMOK\n", file);
     EXPECT_THAT(b.errors, IsEmpty());
     b.box->step(10 * kMs);
-    EXPECT_EQ(b["ok"].bit, b.warnings.empty());
+    const bool ok = b["ok"].bit;
+    EXPECT_EQ(ok, b.warnings.empty());
     EXPECT_EQ(b.box->close(), "");
-    return b["ok"].bit;
+    return ok;
   };
   EXPECT_TRUE(start());
   EXPECT_TRUE(start());
@@ -413,6 +414,65 @@ TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
   Bench timeless(testing::timelessProgram(), "");
   EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));
   EXPECT_EQ(timeless.box, nullptr);
+}
+
+// ---- after a fault -----------------------------------------------------------------------------------------------
+
+TEST(Box, AResetRestartsTheProgram) {
+  Bench b(testing::gskProgram(), "in bit bad X1.0\nin bit i X0.0\nout bit o Y0.0\nout u32 count D0:2\n");
+  b["i"].bit = true;
+  b.scans(3);
+  b["bad"].bit = true;
+  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+  EXPECT_FALSE(b.box->running());
+  EXPECT_FALSE(b["o"].bit);
+  std::vector<std::string> reports;
+  EXPECT_FALSE(b.box->serve(reports)); // nobody has asked
+  b["bad"].bit = false;
+  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting);
+  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting); // until it is served
+  EXPECT_TRUE(b.box->serve(reports));
+  EXPECT_THAT(reports, IsEmpty());
+  EXPECT_TRUE(b.box->running());
+  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Ran);
+  EXPECT_TRUE(b["o"].bit);
+  EXPECT_EQ(b["count"].u32, 1u); // from the beginning
+  b["bad"].bit = true;           // the pin that is still on does not restart it again
+  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Failed);
+  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting);
+  EXPECT_FALSE(b.box->serve(reports));
+}
+
+TEST_F(BoxRetained, ARestartTakesTheLastWholeScan) {
+
+  Bench b(testing::gskProgram(), "in bit bad X1.0\nout u32 count D0:2\n", file);
+  b.scans(5);
+  b["bad"].bit = true;
+  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+  b["bad"].bit = false;
+  b.box->step(8 * kMs, true);
+  std::vector<std::string> reports;
+  EXPECT_TRUE(b.box->serve(reports));
+  EXPECT_THAT(reports, IsEmpty());
+  b.scans(1);
+  EXPECT_EQ(b["count"].u32, 6u);
+}
+
+TEST(Box, ItsEndSwitchesTheOutputsOff) {
+  Bench b(testing::gskProgram(), "in bit i X0.0\nout bit o Y0.0\n");
+  b["i"].bit = true;
+  b.scans(1);
+  EXPECT_TRUE(b["o"].bit);
+  EXPECT_EQ(b.box->close(), "");
+  EXPECT_FALSE(b["o"].bit);
+}
+
+// N_SIMU says that the NC runs on a simulator; a program passes its interlocks by then.
+TEST(Box, AMachineIsNoSimulator) {
+  Bench b(testing::nctProgram(), "out bit simulator N_SIMU\nout bit ready N_NCREADY\n");
+  b.box->step(10 * kMs);
+  EXPECT_FALSE(b["simulator"].bit);
+  EXPECT_TRUE(b["ready"].bit);
 }
 
 // ---- M, S and T functions

@@ -97,7 +97,7 @@ private:
   size_t move_ = 0;
   double dwellMs_ = 0;
   bool externalOwed_ = false;
-  nc::GskFunctions functions_;
+  nc::GskFunctions functions_{nc::GskFunctions::Answer::ByLevel};
   double speed_ = 0;
 };
 

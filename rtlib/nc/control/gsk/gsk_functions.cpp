@@ -103,7 +103,7 @@ void GskFunctions::giveStrobe(const gsk::SignalsIo& io, uint32_t line) {
   Running& one = running_[line];
   io.setF(strobe.byte, strobe.bit, !one.fast || !io.f(strobe.byte, strobe.bit));
   one.phase = Phase::Strobe;
-  one.absent = !answered(io, line);
+  one.absent = counts_ == Answer::ByLevel || !answered(io, line);
 }
 
 bool GskFunctions::answered(const gsk::SignalsIo& io, uint32_t line) const {

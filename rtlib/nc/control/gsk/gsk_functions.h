@@ -3,7 +3,8 @@
 // end together, and others wait. In the high-speed mode every function has a completion signal that takes the level of
 // its strobe, and functions do not wait for others.
 //
-// An answer counts once it has been seen absent after the strobe.
+// The control takes the level of FIN (l.5755-5756): one that is 1 from earlier ends a function that the program has not
+// seen. In a machine an answer counts once it has been seen absent after the strobe.
 #pragma once
 #include <array>
 
@@ -17,6 +18,9 @@ public:
   // M, second and third M of a block, S, T, B, external operation (EF of G81, l.9450).
   enum class Line : uint8_t { M, M2, M3, S, T, B, External };
   static constexpr uint32_t kLines = 7;
+
+  enum class Answer : uint8_t { ByLevel, AfterAbsence };
+  explicit GskFunctions(Answer counts = Answer::AfterAbsence) : counts_(counts) {}
 
   // Takes effect with functions handed over from now on.
   void setHighSpeed(bool on) { highSpeed_ = on; }
@@ -49,6 +53,7 @@ private:
   void end(const gsk::SignalsIo& io, uint32_t line);
 
   std::array<Running, kLines> running_ = {}; // by Line
+  Answer counts_;
   bool highSpeed_ = false;
 };
 

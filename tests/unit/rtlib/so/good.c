@@ -1,13 +1,18 @@
-/* A program written by hand: D0 counts scans. RUNG_TEST_VERSION makes it one of another ABI version. */
+/* A program written by hand: D0 counts scans. RUNG_TEST_VERSION makes it one of another ABI version,
+   RUNG_TEST_STEP another program. */
 #include "rung/program.h"
 
 #ifndef RUNG_TEST_VERSION
 #define RUNG_TEST_VERSION RUNG_ABI_VERSION
 #endif
 
+#ifndef RUNG_TEST_STEP
+#define RUNG_TEST_STEP 1
+#endif
+
 static uint32_t count(uint8_t* mem, rung_ctx* ctx) {
   (void)ctx;
-  ++mem[0];
+  mem[0] += RUNG_TEST_STEP;
   return RUNG_PC_DONE;
 }
 

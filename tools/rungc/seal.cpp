@@ -1,0 +1,104 @@
+// rungc seal: a seal for program files, and with a key a signature.
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <optional>
+
+#include "rtlib/host/elf_file.h"
+#include "rtlib/host/file.h"
+#include "rtlib/host/sealing.h"
+#include "rtlib/host/trust.h"
+#include "rung/program.h"
+#include "tools/rungc/commands.h"
+
+namespace rung::rungc {
+namespace {
+
+constexpr size_t kMostBytes = size_t{1} << 30;
+
+struct SealOptions {
+  std::vector<std::string> files;
+  std::string key;
+  bool quiet = false;
+};
+
+Result<std::string> contentsOf(const host::File& file, const std::string& path) {
+  std::string bytes;
+  const std::string wrong = file.ok() ? host::readAll(file.fd(), kMostBytes, bytes) : std::strerror(errno);
+  return wrong.empty() ? Result<std::string>(std::move(bytes))
+                       : failure(fmt::format("cannot read {}: {}", path, wrong));
+}
+
+host::File opened(const std::string& path) { return host::File(::open(path.c_str(), O_RDONLY | O_CLOEXEC)); }
+
+Result<host::SecretKey> readKey(const std::string& path) {
+  const host::File file = opened(path);
+  const Result<std::string> text = contentsOf(file, path);
+  if (!text.ok()) return text.failure();
+  const auto facts = host::factsOf(file.fd());
+  if (facts && (facts->mode & 077) != 0)
+    return failure(fmt::format("{}: others than its owner may use this secret key (mode {:04o}); chmod 600 {}", path,
+                               facts->mode, path));
+  std::optional<host::SecretKey> key = host::SecretKey::parse(text.value());
+  if (!key)
+    return failure(
+        fmt::format("{} is not a secret key; rungc key new makes one, and the file without .pub is it", path));
+  return std::move(*key);
+}
+
+// Why these bytes are not to be sealed.
+std::string wrongProgram(std::string_view bytes) {
+  const host::SealedFile file = host::readSealed(bytes);
+  if (!file.damage.empty()) return "its seal shows damage: " + file.damage + "; build it again";
+  const host::ElfObject object = host::readElf(file.image);
+  if (!object.problem.empty()) return object.problem + "; expected a shared object (.so)";
+  if (std::ranges::find(object.exported, RUNG_PROGRAM_SYMBOL) == object.exported.end())
+    return "it is not a compiled PLC program: it exports no symbol " RUNG_PROGRAM_SYMBOL;
+  return {};
+}
+
+int sealFile(const std::string& path, const host::SecretKey* key, bool quiet) {
+  const Result<std::string> bytes = contentsOf(opened(path), path);
+  if (!bytes.ok()) return environmentError(bytes.error());
+  if (const std::string wrong = wrongProgram(bytes.value()); !wrong.empty()) {
+    fmt::print(stderr, "rungc: {}: {}\n", path, wrong);
+    return kWrong;
+  }
+  const int status = writeProgram(path, host::sealed(bytes.value(), key));
+  if (status != kOk || quiet) return status;
+  fmt::print("sealed {}{}\n", path, key != nullptr ? ", signed by key " + host::textOf(key->publicKey().id()) : "");
+  return kOk;
+}
+
+int sealFiles(const SealOptions& options) {
+  std::optional<host::SecretKey> key;
+  if (!options.key.empty()) {
+    const Result<host::SecretKey> read = readKey(options.key);
+    if (!read.ok()) return environmentError(read.error());
+    key = read.value();
+  }
+  int status = kOk;
+  for (const std::string& file : options.files)
+    status = std::max(status, sealFile(file, key ? &*key : nullptr, options.quiet));
+  return status;
+}
+
+} // namespace
+
+int writeProgram(const std::string& out, const std::string& file) {
+  const std::string wrong = host::replaceFile(out, file, {.mode = host::kProgramMode, .lasts = true});
+  return wrong.empty() ? kOk : environmentError(wrong);
+}
+
+void addSeal(CLI::App& app, int& status) {
+  CLI::App* command = app.add_subcommand("seal", "Seal shared objects that another linker made, or sign programs");
+  auto options = std::make_shared<SealOptions>();
+  command->add_option("FILE", options->files, "Compiled programs (.so); a seal that one has is replaced")->required();
+  command->add_option("--sign", options->key, "Sign with this secret key (see rungc help key)");
+  command->add_flag("-q,--quiet", options->quiet, "Nothing but errors");
+  command->callback([options, &status] { status = sealFiles(*options); });
+}
+
+} // namespace rung::rungc

@@ -9,6 +9,8 @@ namespace rung::host {
 
 namespace {
 
+uint32_t blockBytes(const rung_program& program) { return std::max(program.memory_size, rt::Memory::kLeastBlock); }
+
 // At least a cache line.
 uint32_t alignOf(const rung_program& program) { return std::max(program.memory_align, 64u); }
 
@@ -24,7 +26,7 @@ void Instance::FreeBlock::operator()(uint8_t* block) const { ::operator delete(b
 
 Instance::Instance(const rung_program& program, ScheduleHooks* hooks)
     : program_(&program), hooks_(hooks),
-      block_(static_cast<uint8_t*>(::operator new(program.memory_size, std::align_val_t{alignOf(program)})),
+      block_(static_cast<uint8_t*>(::operator new(blockBytes(program), std::align_val_t{alignOf(program)})),
              FreeBlock{alignOf(program)}),
       ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<rt::HostPort>()),
       profile_(program.instrumented != 0 ? program.rung_count : 0), parts_(program.task_count),

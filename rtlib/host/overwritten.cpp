@@ -56,16 +56,17 @@ std::optional<Ref> Overwritten::source(const Ref& ref) const {
   if (copies_.empty()) return std::nullopt;
   const rt::Memory memory(*program_, nullptr); // for its places only
   for (uint32_t i = 0; i < byteCount(ref); ++i) {
-    const uint32_t offset = memory.bitPlace(ref.space, ref.byte + i, 0).offset;
-    if (offset == RUNG_NONE) continue;
+    const rt::Place place = memory.locateBit(ref.space, ref.byte + i, 0);
+    if (place.outside()) continue;
+    const uint32_t offset = place.offset();
     for (const rung_copy& copy : copies_) {
       if (offset < copy.to || offset - copy.to >= copy.size) continue;
       const auto from = byteAt(*program_, copy.from + (offset - copy.to));
       if (!from || from->byte < i) continue;
-      Ref place = ref;
-      place.space = from->space;
-      place.byte = from->byte - i;
-      return place;
+      Ref source = ref;
+      source.space = from->space;
+      source.byte = from->byte - i;
+      return source;
     }
   }
   return std::nullopt;

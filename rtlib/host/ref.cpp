@@ -1,10 +1,6 @@
 // Typed access on top of logical bytes.
 #include "rtlib/host/ref.h"
 
-#include <bit>
-#include <cmath>
-#include <limits>
-
 namespace rung::host {
 
 Ref bitRef(uint32_t space, uint32_t byte, uint32_t bit) {
@@ -59,32 +55,33 @@ std::optional<Ref> bitOf(const Ref& cell, uint32_t number) {
 std::optional<Ref> asReal(const rt::Memory& memory, const Ref& ref) {
   if (ref.kind != RefKind::Int && ref.kind != RefKind::Real) return std::nullopt;
   if (!memory.contains(ref.space, ref.byte, 8)) return std::nullopt;
+  const bool twoWords = ref.width == 32 && memory.program().spaces[ref.space].unit_bytes == 4;
+  if (ref.width != 64 && !twoWords) return std::nullopt;
   Ref real = realRef(ref.space, ref.byte);
   real.readonly = ref.readonly;
   return real;
 }
 
+rt::Place locate(const rt::Memory& memory, const Ref& ref) {
+  if (ref.kind == RefKind::Constant) return {};
+  if (ref.kind == RefKind::Bit) return memory.locateBit(ref.space, ref.byte, ref.bit);
+  rt::Place place = memory.locate(ref.space, ref.byte, ref.width / 8u);
+  place.real = ref.kind == RefKind::Real;
+  return place;
+}
+
 uint64_t readRaw(const rt::Memory& memory, const Ref& ref) {
-  switch (ref.kind) {
-  case RefKind::Bit: return memory.readBit(ref.space, ref.byte, ref.bit) ? 1 : 0;
-  case RefKind::Int:
-  case RefKind::Real:
-  case RefKind::Text: return memory.read(ref.space, ref.byte, ref.width / 8u);
-  case RefKind::Constant: return static_cast<uint64_t>(ref.constant);
-  }
-  return 0;
+  return ref.kind == RefKind::Constant ? static_cast<uint64_t>(ref.constant) : memory.read(locate(memory, ref));
 }
 
 int64_t readSigned(const rt::Memory& memory, const Ref& ref) {
-  const uint64_t raw = readRaw(memory, ref);
-  if (ref.kind != RefKind::Int) return static_cast<int64_t>(raw);
-  const uint32_t unused = 64u - ref.width;
-  return static_cast<int64_t>(raw << unused) >> unused;
+  if (ref.kind == RefKind::Int) return memory.readSigned(locate(memory, ref));
+  return static_cast<int64_t>(readRaw(memory, ref));
 }
 
 double readReal(const rt::Memory& memory, const Ref& ref) {
-  if (ref.kind == RefKind::Real) return std::bit_cast<double>(readRaw(memory, ref));
-  return static_cast<double>(readSigned(memory, ref));
+  if (ref.kind == RefKind::Constant) return static_cast<double>(ref.constant);
+  return memory.readReal(locate(memory, ref));
 }
 
 std::string readText(const rt::Memory& memory, const Ref& ref) {
@@ -97,38 +94,10 @@ std::string readText(const rt::Memory& memory, const Ref& ref) {
   return text;
 }
 
-void writeRaw(const rt::Memory& memory, const Ref& ref, uint64_t value) {
-  switch (ref.kind) {
-  case RefKind::Bit: memory.writeBit(ref.space, ref.byte, ref.bit, (value & 1) != 0); return;
-  case RefKind::Int:
-  case RefKind::Real:
-  case RefKind::Text: memory.write(ref.space, ref.byte, ref.width / 8u, value); return;
-  case RefKind::Constant: return;
-  }
-}
-
-namespace {
-
-// Rounded to nearest; NaN gives 0, what is too large the nearest end of the signed range.
-int64_t saturated(double value, uint32_t width) {
-  if (std::isnan(value)) return 0;
-  const int64_t highest = std::numeric_limits<int64_t>::max() >> (64 - width);
-  const double rounded = std::nearbyint(value);
-  if (rounded >= -static_cast<double>(-highest - 1)) return highest;
-  if (rounded < static_cast<double>(-highest - 1)) return -highest - 1;
-  return static_cast<int64_t>(rounded);
-}
-
-} // namespace
+void writeRaw(const rt::Memory& memory, const Ref& ref, uint64_t value) { memory.write(locate(memory, ref), value); }
 
 void writeReal(const rt::Memory& memory, const Ref& ref, double value) {
-  if (ref.kind == RefKind::Real) {
-    writeRaw(memory, ref, std::bit_cast<uint64_t>(value));
-  } else if (ref.kind == RefKind::Int) {
-    writeRaw(memory, ref, static_cast<uint64_t>(saturated(value, ref.width)));
-  } else if (ref.kind == RefKind::Bit) {
-    writeRaw(memory, ref, value != 0 ? 1 : 0);
-  }
+  if (ref.kind != RefKind::Text) memory.writeReal(locate(memory, ref), value);
 }
 
 void writeText(const rt::Memory& memory, const Ref& ref, std::string_view text) {

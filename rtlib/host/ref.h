@@ -32,8 +32,12 @@ Ref realRef(uint32_t space, uint32_t byte); // 64 bits
 std::optional<Ref> element(const Ref& array, uint32_t index);
 // Bit `number` of an integer; nothing when it is not that wide.
 std::optional<Ref> bitOf(const Ref& cell, uint32_t number);
-// The 64-bit real that begins where `ref` does (NCT: two words; TECHNOL: an 8-byte cell); nothing when it does not fit.
+// The 64-bit real that the cell holds: an integer of 64 bits, or two words of a space that is addressed in words of 32
+// bits (NCT). Nothing when the cell is narrower, or its second word lies outside.
 std::optional<Ref> asReal(const rt::Memory& memory, const Ref& ref);
+
+// The place for accesses in every scan; outside all spaces for a Constant, and a Text's first byte.
+rt::Place locate(const rt::Memory& memory, const Ref& ref);
 
 // The bits of a Bit, Int, Real or Constant, zero-extended; of an array its first element.
 uint64_t readRaw(const rt::Memory& memory, const Ref& ref);

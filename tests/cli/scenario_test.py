@@ -37,6 +37,20 @@ expect COUNT 1
 FAILS = PASSES.replace("expect LOCK 1", "expect LOCK 0")
 
 
+CELLS = """DATA
+LONG:   DS 4
+NEXT:   DS 4
+VALUE:  DS 8
+LAST:   DS 4
+DATA_END
+MODULE_MAIN
+        LOD  DWRD.NEXT
+        STO  DWRD.LAST
+MODULE_MAIN_END
+""" + "".join(f"MODULE_{name}\nMODULE_{name}_END\n" for name in
+              ("INPUT", "BLOCK_INIT", "BLOCK_DONE", "INIT", "CLEAR", "HALT")) + "STOP\n"
+
+
 def read_vcd(path):
     """Names with their type and width, and the values of each at its times: {name: [(us, value), ...]}."""
     scopes, variables, changes, now = [], {}, {}, None
@@ -110,6 +124,17 @@ class Failure(Folder):
                          r'^    written by rung \d+ "lock the door a second after it has closed", door\.lad:10$')
         self.assertEqual(lines[first + 3], "      CLOSED (5100.00) = 1, changed in scan 1, 0.010 s")
         self.assertRegex(lines[first + 4], r"^      T_LOCK \(5200\) = 0 .*, changed in scan 101, 1\.010 s$")
+
+    def test_a_real_needs_a_cell_of_its_width(self):
+        """It used to be written over the neighbours of a shorter one."""
+        self.file("cells.plc", CELLS)
+        self.file("cells.scn", "program cells.plc\nset NEXT 7\nset LONG 1.5\n")
+        done = self.run_tests("cells.scn")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("cells.scn:3: this name is an integer of 32 bits, so it cannot be 1.5: expected a whole "
+                      "number, or a name of 64 bits, which a real has", done.stdout)
+        self.file("cells.scn", "program cells.plc\nset NEXT 7\nset VALUE 1.5\nexpect VALUE 1.5\nexpect NEXT 7\n")
+        self.assertEqual(self.run_tests("cells.scn").returncode, OK)
 
     def test_all_engines_say_the_same(self):
         done = self.run_tests("fails.scn", engine="interp,jit")

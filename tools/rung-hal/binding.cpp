@@ -55,7 +55,7 @@ private:
     if (place->kind == host::RefKind::Text) return fail(line, name + " is a text; HAL has no pins for texts");
     if (access == Access::Write && isOutputOnly(*place))
       return fail(line, name + " is an output of the program; it cannot be written");
-    if (type == PinType::Float) place = floatPlace(*place);
+    if (type == PinType::Float) place = host::asReal(instance_.memory(), *place).value_or(*place);
     const bool isBit = place->kind == host::RefKind::Bit;
     if (type == PinType::Bit && !isBit)
       return fail(line, name + " is not a bit; s32, u32, float or a bit of it is possible");
@@ -79,13 +79,6 @@ private:
     if (access == Access::Read) return fail(line, name + " is written by HAL, not by the program");
     if (type == PinType::Bit) return fail(line, name + " is not a bit; s32, u32 or float is possible");
     return host::intRef(space, kPositionBytes * (axis - 1), 8 * kPositionBytes);
-  }
-
-  // NCT keeps a double in two words, TECHNOL in a cell of 8 bytes; every other integer is converted.
-  host::Ref floatPlace(const host::Ref& place) const {
-    const bool holdsReal = place.width == 64 || std::string_view(instance_.program().dialect) == "nct";
-    if (place.kind != host::RefKind::Int || !holdsReal) return place;
-    return host::asReal(instance_.memory(), place).value_or(place);
   }
 
   bool isOutputOnly(const host::Ref& place) const {

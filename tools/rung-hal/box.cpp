@@ -2,6 +2,7 @@
 #include "tools/rung-hal/box.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -13,32 +14,28 @@ namespace {
 
 constexpr uint32_t kMaxSlices = 64; // in one step; what is left is owed to the next
 
-void writePlace(const rt::Memory& memory, const PinLink& link, const PinCell& cell) noexcept {
-  const host::Ref& place = link.place;
-  switch (link.type) {
-  case PinType::Bit: host::writeRaw(memory, place, *cell.bit ? 1 : 0); return;
-  case PinType::S32: host::writeRaw(memory, place, static_cast<uint64_t>(int64_t{*cell.s32})); return;
-  case PinType::U32: host::writeRaw(memory, place, *cell.u32); return;
-  case PinType::Float: host::writeReal(memory, place, *cell.real * link.scale); return;
-  }
+rt::ListedPlace listed(const rt::Memory& memory, const host::Ref& place, PinType type, double scale) {
+  using enum rt::ValueForm;
+  constexpr rt::ValueForm kForms[] = {Raw, Signed, Raw, Real}; // of Bit, S32, U32, Float
+  return {host::locate(memory, place), kForms[static_cast<size_t>(type)], scale};
 }
 
-void readPlace(const rt::Memory& memory, const PinLink& link, const PinCell& cell) noexcept {
-  const host::Ref& place = link.place;
-  switch (link.type) {
-  case PinType::Bit: *cell.bit = host::readRaw(memory, place) != 0; return;
-  case PinType::S32: *cell.s32 = static_cast<int32_t>(host::readSigned(memory, place)); return;
-  case PinType::U32: *cell.u32 = static_cast<uint32_t>(host::readRaw(memory, place)); return;
-  case PinType::Float: *cell.real = host::readReal(memory, place) / link.scale; return;
-  }
-}
-
-void clearPin(PinType type, const PinCell& cell) noexcept {
+uint64_t valueOf(PinType type, const PinCell& cell) noexcept {
   switch (type) {
-  case PinType::Bit: *cell.bit = false; return;
-  case PinType::S32: *cell.s32 = 0; return;
-  case PinType::U32: *cell.u32 = 0; return;
-  case PinType::Float: *cell.real = 0; return;
+  case PinType::Bit: return *cell.bit ? 1 : 0;
+  case PinType::S32: return static_cast<uint64_t>(int64_t{*cell.s32});
+  case PinType::U32: return *cell.u32;
+  case PinType::Float: return std::bit_cast<uint64_t>(double{*cell.real});
+  }
+  return 0;
+}
+
+void setPin(PinType type, const PinCell& cell, uint64_t value) noexcept {
+  switch (type) {
+  case PinType::Bit: *cell.bit = value != 0; return;
+  case PinType::S32: *cell.s32 = static_cast<int32_t>(value); return;
+  case PinType::U32: *cell.u32 = static_cast<uint32_t>(value); return;
+  case PinType::Float: *cell.real = std::bit_cast<double>(value); return;
   }
 }
 
@@ -72,6 +69,7 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
   std::unique_ptr<Box> box(new Box(program, std::move(map), retain));
   box->binding_ = bindMap(box->map_, box->instance_, *box->control_, errors);
   if (!errors.empty()) return nullptr;
+  box->locatePlaces();
   box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->control_->functions());
   if (!box->start(errors, warnings)) return nullptr;
   warnOfBlocks(program, warnings);
@@ -158,26 +156,41 @@ void Box::slice() noexcept {
   writePins();
 }
 
-void Box::readPins() noexcept {
+// The values of constants follow those of the pins, and never change.
+void Box::locatePlaces() {
   const rt::Memory memory = instance_.memory();
-  for (const PinLink& link : binding_.inputs) writePlace(memory, link, cells_[link.pin]);
-  // Constants too in every slice: no restart and no model of the NC can undo them.
+  for (const PinLink& link : binding_.inputs) inputs_.push_back(listed(memory, link.place, link.type, link.scale));
+  inputValues_.resize(inputs_.size());
   for (const ConstLink& constant : binding_.constants) {
-    if (constant.type == PinType::Float)
-      host::writeReal(memory, constant.place, constant.value);
-    else
-      host::writeRaw(memory, constant.place, static_cast<uint64_t>(static_cast<int64_t>(constant.value)));
+    inputs_.push_back(listed(memory, constant.place, constant.type, 1));
+    inputValues_.push_back(constant.type == PinType::Float
+                               ? std::bit_cast<uint64_t>(constant.value)
+                               : static_cast<uint64_t>(static_cast<int64_t>(constant.value)));
   }
+  for (const PinLink& link : binding_.outputs) outputs_.push_back(listed(memory, link.place, link.type, link.scale));
+  outputValues_.resize(outputs_.size());
+}
+
+// Constants too in every slice: no restart and no model of the NC can undo them.
+void Box::readPins() noexcept {
+  for (size_t i = 0; i < binding_.inputs.size(); ++i) {
+    const PinLink& link = binding_.inputs[i];
+    inputValues_[i] = valueOf(link.type, cells_[link.pin]);
+  }
+  rt::writePlaces(instance_.memory(), inputs_, inputValues_);
 }
 
 void Box::writePins() noexcept {
-  const rt::Memory memory = instance_.memory();
-  for (const PinLink& link : binding_.outputs) readPlace(memory, link, cells_[link.pin]);
+  rt::readPlaces(instance_.memory(), outputs_, outputValues_);
+  for (size_t i = 0; i < binding_.outputs.size(); ++i) {
+    const PinLink& link = binding_.outputs[i];
+    setPin(link.type, cells_[link.pin], outputValues_[i]);
+  }
 }
 
 void Box::clearPins() noexcept {
   for (size_t i = 0; i < map_.pins.size(); ++i)
-    if (map_.pins[i].output) clearPin(map_.pins[i].type, cells_[i]);
+    if (map_.pins[i].output) setPin(map_.pins[i].type, cells_[i], 0);
 }
 
 void Box::passMessages() noexcept {

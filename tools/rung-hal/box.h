@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/core/place_list.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/realtime.h"
 #include "rtlib/nc/control/control.h"
@@ -70,6 +71,7 @@ private:
   bool start(std::vector<std::string>& errors, std::vector<std::string>& warnings);
   void lastScans() noexcept;
   void slice() noexcept;
+  void locatePlaces();
   void readPins() noexcept;
   void writePins() noexcept;
   void clearPins() noexcept;
@@ -80,6 +82,8 @@ private:
   std::unique_ptr<nc::Control> control_;
   host::Instance instance_;
   Binding binding_;
+  std::vector<rt::ListedPlace> inputs_, outputs_; // of binding_; its constants follow the inputs
+  std::vector<uint64_t> inputValues_, outputValues_;
   std::unique_ptr<FunctionQueue> functions_; // once the map is bound
   std::unique_ptr<nc::Retention> retained_;  // null: nothing is kept
   const PinCell* cells_ = nullptr;

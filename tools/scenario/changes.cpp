@@ -35,9 +35,9 @@ std::vector<ir::BitRange> placesOf(const ir::Uses& uses) {
   return merged(std::move(places));
 }
 
-rt::BitPlace bitPlace(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) {
+rt::Place bitAt(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) {
   const uint32_t at = place.first + bit;
-  return instance.memory().bitPlace(place.space.index, at / 8, at % 8);
+  return instance.memory().locateBit(place.space.index, at / 8, at % 8);
 }
 
 } // namespace
@@ -121,12 +121,13 @@ int64_t Changes::timeOf(uint64_t scan) const {
 }
 
 std::optional<size_t> Changes::indexOf(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) const {
-  const rt::BitPlace at = bitPlace(instance, place, bit);
-  const auto after = std::ranges::upper_bound(spans_, at.offset, {}, &Span::offset);
+  const rt::Place at = bitAt(instance, place, bit);
+  if (at.outside()) return std::nullopt;
+  const auto after = std::ranges::upper_bound(spans_, at.offset(), {}, &Span::offset);
   if (after == spans_.begin()) return std::nullopt;
   const Span& span = *std::prev(after);
-  if (at.offset - span.offset >= span.size) return std::nullopt;
-  return size_t{span.copy + at.offset - span.offset} * 8 + static_cast<uint32_t>(std::countr_zero(at.mask));
+  if (at.offset() - span.offset >= span.size) return std::nullopt;
+  return size_t{span.copy + at.offset() - span.offset} * 8 + at.bit();
 }
 
 std::optional<Changes::Scan> Changes::last(const host::Instance& instance, const ir::BitRange& place) const {
@@ -143,7 +144,7 @@ bool Changes::pending(const host::Instance& instance, const ir::BitRange& place)
   for (uint32_t bit = 0; bit < place.count; ++bit) {
     const std::optional<size_t> index = indexOf(instance, place, bit);
     const bool before = index && (copy_[*index / 8] >> (*index % 8) & 1) != 0;
-    if (index && before != instance.memory().readPlace(bitPlace(instance, place, bit))) return true;
+    if (index && before != (instance.memory().read(bitAt(instance, place, bit)) != 0)) return true;
   }
   return false;
 }

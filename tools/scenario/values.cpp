@@ -109,8 +109,10 @@ std::string writeValue(Instance& instance, const Ref& place, const Value& value)
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
   if (place.kind == RefKind::Real) return instance.writeReal(place, value.real);
   if (value.kind == ValueKind::Int) return instance.write(place, static_cast<uint64_t>(value.integer));
-  const auto real = host::asReal(instance.memory(), place);
-  return real ? instance.writeReal(*real, value.real) : fmt::format("a real does not fit here: {}", value.text);
+  if (const auto real = host::asReal(instance.memory(), place)) return instance.writeReal(*real, value.real);
+  return fmt::format("this name is an integer of {} bits, so it cannot be {}: expected a whole number, or a name of 64 "
+                     "bits, which a real has",
+                     place.width, value.text);
 }
 
 std::string checkValue(const Reading& reading, const Statement& expect) {

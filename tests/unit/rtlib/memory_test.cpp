@@ -3,17 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "rtlib/core/place_list.h"
 #include "rtlib/host/ref.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
 using namespace rung::host;
-using rung::rt::BitPlace;
-using rung::rt::Memory;
+using namespace rung::rt;
 using rung::test::TestProgram;
 
 // Space 0: bytes 0..3 packed at 0, 4..5 expanded at 64, 6..9 packed at 4. Space 1: 16 packed bytes at 128.
@@ -58,21 +60,94 @@ TEST_F(MemoryTest, BitsInBothRepresentations) {
   EXPECT_EQ(block[2], 0);
 }
 
-TEST_F(MemoryTest, PlacesServeBothRepresentations) {
-  const BitPlace packed = memory.bitPlace(0, 1, 6);
-  const BitPlace expanded = memory.bitPlace(0, 5, 6);
-  EXPECT_EQ(packed.offset, 1u);
-  EXPECT_EQ(packed.mask, 0x40);
-  EXPECT_EQ(expanded.offset, 78u);
-  EXPECT_EQ(expanded.mask, 1);
-  for (const BitPlace place : {packed, expanded}) {
-    memory.writePlace(place, true);
-    EXPECT_TRUE(memory.readPlace(place));
-    memory.writePlace(place, false);
-    EXPECT_FALSE(memory.readPlace(place));
+TEST_F(MemoryTest, PlacesOfBits) {
+  const Place packed = memory.locateBit(0, 1, 6);
+  const Place expanded = memory.locateBit(0, 5, 6);
+  EXPECT_EQ(packed.offset(), 1u);
+  EXPECT_EQ(packed.bit(), 6u);
+  EXPECT_EQ(expanded.offset(), 78u);
+  EXPECT_EQ(expanded.bit(), 0u);
+  for (const Place& place : {packed, expanded, memory.locateBit(1, 15, 7)}) {
+    EXPECT_EQ(place.width(), 1u);
+    memory.write(place, 1);
+    EXPECT_EQ(memory.read(place), 1u);
+    EXPECT_EQ(block[place.offset()], 1u << place.bit());
+    memory.write(place, 0xFE);
+    EXPECT_EQ(memory.read(place), 0u);
   }
-  EXPECT_EQ(memory.bitPlace(0, 10, 0).offset, RUNG_NONE);
-  EXPECT_EQ(memory.bitPlace(0, 0, 8).offset, RUNG_NONE);
+  EXPECT_EQ(block, std::vector<uint8_t>(256, 0));
+  EXPECT_TRUE(memory.locateBit(0, 10, 0).outside());
+  EXPECT_TRUE(memory.locateBit(0, 0, 8).outside());
+}
+
+// At every alignment, expanded, over borders of ranges and at the end of the block, of every size: the same bytes as by
+// single bytes, and no other is written.
+TEST_F(MemoryTest, PlacesOfIntegers) {
+  test.addSpace("END", 1, {{0, 3, 160, RUNG_REPR_BYTE_PER_BIT}, {3, 12, 244, RUNG_REPR_PACKED}});
+  test.link();
+  constexpr uint64_t kValue = 0xF1E2D3C4B5A69788;
+  for (const uint32_t space : {0u, 1u, 2u})
+    for (uint32_t byte = 0; byte < test.spaces[space].byte_count; ++byte)
+      for (const uint32_t size : {1u, 2u, 4u, 8u}) {
+        SCOPED_TRACE(std::to_string(space) + " " + std::to_string(byte) + " " + std::to_string(size));
+        const Place place = memory.locate(space, byte, size);
+        ASSERT_EQ(place.outside(), !memory.contains(space, byte, size));
+        memory.write(place, kValue);
+        for (uint32_t i = 0; i < test.spaces[space].byte_count; ++i)
+          ASSERT_EQ(memory.readByte(space, i), !place.outside() && i >= byte && i - byte < size
+                                                   ? static_cast<uint8_t>(kValue >> 8 * (i - byte))
+                                                   : 0);
+        if (place.outside()) continue;
+        ASSERT_EQ(place.width(), 8 * size);
+        ASSERT_EQ(memory.read(place), kValue & (~uint64_t{0} >> (64 - 8 * size)));
+        memory.write(place, static_cast<uint64_t>(-2));
+        ASSERT_EQ(memory.readSigned(place), -2);
+        memory.write(place, 0);
+        ASSERT_EQ(block, std::vector<uint8_t>(256, 0));
+      }
+  EXPECT_TRUE(memory.locate(1, 0, 0).outside());
+  EXPECT_TRUE(memory.locate(1, 0, 9).outside());
+}
+
+TEST_F(MemoryTest, APlaceOutsideReadsZeroAndTakesNothing) {
+  std::ranges::fill(block, 0xFF);
+  const Place outside;
+  memory.write(outside, 0x55);
+  memory.writeReal(outside, 1.5);
+  EXPECT_EQ(memory.read(outside), 0u);
+  EXPECT_EQ(memory.readSigned(outside), 0);
+  EXPECT_EQ(memory.readReal(outside), 0);
+  EXPECT_EQ(block, std::vector<uint8_t>(256, 0xFF));
+}
+
+// The block of a program that needs less has eight bytes.
+TEST(SmallMemory, HasPlacesToo) {
+  TestProgram test;
+  test.memorySize = 3;
+  test.addPacked("D", 1, 3, 0);
+  test.link();
+  std::vector<uint8_t> block(Memory::kLeastBlock, 0);
+  const Memory memory(test.program, block.data());
+  memory.write(memory.locate(0, 1, 2), 0xABCD);
+  EXPECT_EQ(memory.read(memory.locateBit(0, 2, 7)), 1u);
+  EXPECT_EQ(block, (std::vector<uint8_t>{0, 0xCD, 0xAB, 0, 0, 0, 0, 0}));
+}
+
+TEST_F(MemoryTest, OneCallForAListOfPlaces) {
+  const std::vector<ListedPlace> places = {{memory.locateBit(0, 5, 1), ValueForm::Raw},
+                                           {memory.locate(1, 1, 2), ValueForm::Signed},
+                                           {memory.locate(1, 3, 4), ValueForm::Raw},
+                                           {locate(memory, realRef(1, 8)), ValueForm::Real, 0.5},
+                                           {memory.locate(0, 3, 2), ValueForm::Real, 1000}};
+  const std::vector<uint64_t> values = {1, static_cast<uint64_t>(-3), 0xFFFFFFFE, std::bit_cast<uint64_t>(2.5),
+                                        std::bit_cast<uint64_t>(-0.25)};
+  writePlaces(memory, places, values);
+  EXPECT_EQ(readSigned(memory, intRef(1, 1, 16)), -3);
+  EXPECT_EQ(readReal(memory, realRef(1, 8)), 1.25);
+  EXPECT_EQ(readSigned(memory, intRef(0, 3, 16)), -250);
+  std::vector<uint64_t> read(values.size());
+  readPlaces(memory, places, read);
+  EXPECT_EQ(read, values);
 }
 
 TEST_F(MemoryTest, WordsOverARangeBorder) {
@@ -129,11 +204,19 @@ TEST_F(MemoryTest, RealsAndConversions) {
   EXPECT_EQ(readSigned(memory, wide), std::numeric_limits<int64_t>::min());
 }
 
-TEST_F(MemoryTest, AsRealTakesEightBytesFromThere) {
-  ASSERT_TRUE(asReal(memory, intRef(1, 8, 32)));
-  EXPECT_EQ(asReal(memory, intRef(1, 8, 32))->kind, RefKind::Real);
-  EXPECT_FALSE(asReal(memory, intRef(1, 9, 32)));
+TEST_F(MemoryTest, ARealHasTheWidthThatItsCellDeclares) {
+  EXPECT_EQ(asReal(memory, intRef(1, 8, 64)), realRef(1, 8));
+  EXPECT_FALSE(asReal(memory, intRef(1, 0, 32))) << "its neighbour is another cell";
+  EXPECT_FALSE(asReal(memory, intRef(1, 0, 8)));
   EXPECT_FALSE(asReal(memory, bitRef(1, 0, 0)));
+}
+
+TEST_F(MemoryTest, TwoWordsAreARealWhereAddressesCountWords) {
+  const uint32_t words = test.addPacked("M", 4, 16, 160);
+  test.link();
+  EXPECT_EQ(asReal(memory, intRef(words, 8, 32)), realRef(words, 8));
+  EXPECT_FALSE(asReal(memory, intRef(words, 12, 32))) << "there is no second word";
+  EXPECT_FALSE(asReal(memory, intRef(words, 8, 8)));
 }
 
 TEST_F(MemoryTest, TextsAreCutAndEnded) {

@@ -203,8 +203,8 @@ private:
     made.period = element->period;
     made.isSource = element->isSource;
     made.isDestination = element->isDestination;
-    made.pin.offset = cells_.cellOf(*element);
-    made.pin.type = cells_.at(made.pin.offset).type;
+    made.pin.cell = cells_.cellOf(*element);
+    made.pin.type = cells_.at(made.pin.cell).type;
     made.pin.kind = reference.bit ? Pin::Kind::CellBit : Pin::Kind::Cell;
     made.isOpen = element->typeIsOpen && !reference.bit;
     if (!reference.bit) return made;
@@ -212,7 +212,7 @@ private:
     if (made.pin.type == nc::ExchangeType::Real || *reference.bit >= width)
       return no(problem, "it has no bit " + std::to_string(*reference.bit));
     made.pin.type = nc::ExchangeType::Bit;
-    made.pin.mask = static_cast<uint8_t>(*reference.bit);
+    made.pin.bit = static_cast<uint8_t>(*reference.bit);
     return made;
   }
 
@@ -339,7 +339,7 @@ void Connections::openCells(Resolver& resolver, ModuleCells& cells) const {
     const auto from = resolver.end(connection.source, problem), to = resolver.end(connection.destination, problem);
     if (!from || !to || from->isOpen == to->isOpen) continue;
     const Pin &open = from->isOpen ? from->pin : to->pin, &other = from->isOpen ? to->pin : from->pin;
-    if (other.kind != Pin::Kind::Text) cells.at(open.offset).type = other.type;
+    if (other.kind != Pin::Kind::Text) cells.at(open.cell).type = other.type;
   }
 }
 
@@ -379,7 +379,8 @@ void Connections::addTerminals(Resolver& resolver, const SharedVariables& variab
 void Connections::order() {
   const auto key = [](const Wire& wire) {
     const bool inCell = wire.to.kind == Pin::Kind::CellBit || wire.to.kind == Pin::Kind::Cell;
-    return uint64_t{inCell} << 63 | uint64_t{wire.to.offset} << 8 | wire.to.mask;
+    if (inCell) return uint64_t{1} << 63 | uint64_t{wire.to.cell} << 8 | wire.to.bit;
+    return uint64_t{wire.to.located.offset()} << 8 | wire.to.located.bit();
   };
   const auto isJoined = [](const Wire& wire) {
     return wire.to.type == nc::ExchangeType::Bit && wire.period != nc::ExchangePeriod::OnDemand;

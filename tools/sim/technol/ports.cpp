@@ -69,9 +69,9 @@ void Ports::findSwitches(const host::Instance& instance) {
   switches_.clear();
   const auto add = [&](const Family& family, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
-      const rt::BitPlace at = instance.memory().bitPlace(family.space, family.first + i * family.stride, 0);
-      const rt::BitPlace last = instance.memory().bitPlace(family.space, family.first + i * family.stride, 7);
-      if (at.offset != RUNG_NONE) switches_.push_back({at.offset, last.offset - at.offset + 1});
+      const rt::Place at = instance.memory().locateBit(family.space, family.first + i * family.stride, 0);
+      const rt::Place last = instance.memory().locateBit(family.space, family.first + i * family.stride, 7);
+      if (!at.outside()) switches_.push_back({at.offset(), last.offset() - at.offset() + 1});
     }
   };
   add(shorts_, kOutputs);

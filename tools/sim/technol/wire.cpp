@@ -4,21 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace rung::sim::technol {
 namespace {
-
-// Whether the bytes lie one after the other in the block, unexpanded.
-bool isPlain(const rt::Memory& memory, const host::Ref& place, uint32_t bytes, uint32_t& offset) {
-  const rt::BitPlace first = memory.bitPlace(place.space, place.byte, 7);
-  offset = first.offset;
-  for (uint32_t i = 0; i < bytes; ++i) {
-    const rt::BitPlace at = memory.bitPlace(place.space, place.byte + i, 7);
-    if (at.mask != 0x80 || at.offset != first.offset + i) return false;
-  }
-  return true;
-}
 
 bool isSigned(nc::ExchangeType type) {
   return type == nc::ExchangeType::Int8 || type == nc::ExchangeType::Int16 || type == nc::ExchangeType::Int32 ||
@@ -72,32 +60,22 @@ uint64_t converted(const Wire& wire, uint64_t bits) {
 } // namespace
 
 Pin pinAt(const rung_program& program, const host::Ref& place, nc::ExchangeType type) {
-  const rt::Memory memory(program, nullptr);
+  const rt::Memory memory(program, nullptr); // for its places only
   Pin pin{.type = type, .place = place};
-  if (place.kind == host::RefKind::Text) {
+  if (place.kind == host::RefKind::Text)
     pin.kind = Pin::Kind::Text;
-  } else if (place.kind == host::RefKind::Bit) {
-    const rt::BitPlace bit = memory.bitPlace(place.space, place.byte, place.bit);
-    pin.kind = Pin::Kind::Bit;
-    pin.offset = bit.offset;
-    pin.mask = bit.mask;
-  } else {
-    pin.kind = isPlain(memory, place, bytesOf(type), pin.offset) ? Pin::Kind::Plain : Pin::Kind::Scattered;
-  }
+  else if (place.kind == host::RefKind::Bit)
+    pin.located = memory.locateBit(place.space, place.byte, place.bit);
+  else
+    pin.located = memory.locate(place.space, place.byte, bytesOf(type));
   return pin;
 }
 
 uint64_t WireMemory::read(const Pin& pin) const {
   switch (pin.kind) {
-  case Pin::Kind::Bit: return (memory_.block()[pin.offset] & pin.mask) != 0 ? 1 : 0;
-  case Pin::Kind::Plain: {
-    uint64_t bits = 0; // memory of programs is little-endian, and so are the machines they run on
-    std::memcpy(&bits, memory_.block() + pin.offset, bytesOf(pin.type));
-    return bits;
-  }
-  case Pin::Kind::Scattered: return memory_.read(pin.place.space, pin.place.byte, bytesOf(pin.type));
-  case Pin::Kind::Cell: return cells_->at(pin.offset).bits;
-  case Pin::Kind::CellBit: return cells_->at(pin.offset).bits >> pin.mask & 1;
+  case Pin::Kind::Memory: return memory_.read(pin.located);
+  case Pin::Kind::Cell: return cells_->at(pin.cell).bits;
+  case Pin::Kind::CellBit: return cells_->at(pin.cell).bits >> pin.bit & 1;
   case Pin::Kind::Text: return 0;
   }
   return 0;
@@ -105,17 +83,15 @@ uint64_t WireMemory::read(const Pin& pin) const {
 
 void WireMemory::write(const Pin& pin, uint64_t bits) const {
   switch (pin.kind) {
-  case Pin::Kind::Bit: memory_.writePlace({pin.offset, pin.mask}, bits != 0); return;
-  case Pin::Kind::Plain: std::memcpy(memory_.block() + pin.offset, &bits, bytesOf(pin.type)); return;
-  case Pin::Kind::Scattered: memory_.write(pin.place.space, pin.place.byte, bytesOf(pin.type), bits); return;
+  case Pin::Kind::Memory: memory_.write(pin.located, pin.located.width() == 1 ? bits != 0 : bits); return;
   case Pin::Kind::Cell: {
     const uint32_t width = widthOf(pin.type);
-    cells_->at(pin.offset).bits = width == 64 ? bits : bits & ((uint64_t{1} << width) - 1);
+    cells_->at(pin.cell).bits = width == 64 ? bits : bits & ((uint64_t{1} << width) - 1);
     return;
   }
   case Pin::Kind::CellBit: {
-    uint64_t& cell = cells_->at(pin.offset).bits;
-    cell = (cell & ~(uint64_t{1} << pin.mask)) | uint64_t{bits != 0} << pin.mask;
+    uint64_t& cell = cells_->at(pin.cell).bits;
+    cell = (cell & ~(uint64_t{1} << pin.bit)) | uint64_t{bits != 0} << pin.bit;
     return;
   }
   case Pin::Kind::Text: return;

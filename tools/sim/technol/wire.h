@@ -12,17 +12,16 @@ namespace rung::sim::technol {
 // A place that a connection begins or ends at: a bit, a number or a text.
 struct Pin {
   enum class Kind : uint8_t {
-    Bit,       // `mask` of the byte at `offset` of the block
-    Plain,     // the bytes at `offset` of the block
-    Scattered, // at `place`, in expanded bytes
-    Text,      // at `place`
-    Cell,      // of a module
-    CellBit,   // bit `mask` of a module's cell
+    Memory,  // the number or bit at `located`, which is `place`
+    Text,    // at `place`
+    Cell,    // of a module
+    CellBit, // a bit of a module's cell
   };
-  Kind kind = Kind::Bit;
+  Kind kind = Kind::Memory;
   nc::ExchangeType type = nc::ExchangeType::Bit;
-  uint8_t mask = 0;
-  uint32_t offset = 0; // in the block; or the number of a cell
+  uint8_t bit = 0;   // of the cell
+  uint32_t cell = 0; // its number
+  rt::Place located;
   host::Ref place;
 };
 Pin pinAt(const rung_program& program, const host::Ref& place, nc::ExchangeType type);

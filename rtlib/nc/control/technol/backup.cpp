@@ -5,7 +5,10 @@
 
 namespace rung::nc::technol {
 
-void Backup::powerOn(const host::Instance& instance) { request_ = signalPlace(instance, "REQ_BACKUP_MEM"); }
+void Backup::powerOn(const host::Instance& instance) {
+  const std::optional<host::Ref> place = signalPlace(instance, "REQ_BACKUP_MEM");
+  request_ = place ? host::locate(instance.memory(), *place) : rt::Place();
+}
 
 void Backup::afterMain(host::Instance& instance) {
   if (!stored_) saved(instance);

@@ -1,8 +1,6 @@
 // REQ_BACKUP_MEM: the program asks that PLC_MEM_BACKUP be saved now; the control resets the bit when it is done (man.
 // l.7549-7568, l.13500-13518).
 #pragma once
-#include <optional>
-
 #include "rtlib/host/instance.h"
 
 namespace rung::nc::technol {
@@ -13,14 +11,12 @@ public:
   void setStored(bool stored) { stored_ = stored; }
   void powerOn(const host::Instance& instance);
   void afterMain(host::Instance& instance);
-  bool asked(const host::Instance& instance) const { return request_ && instance.read(*request_) != 0; }
-  void saved(host::Instance& instance) {
-    if (request_) host::writeRaw(instance.memory(), *request_, 0);
-  }
+  bool asked(const host::Instance& instance) const { return instance.memory().read(request_) != 0; }
+  void saved(host::Instance& instance) { instance.memory().write(request_, 0); }
 
 private:
   bool stored_ = false;
-  std::optional<host::Ref> request_;
+  rt::Place request_;
 };
 
 } // namespace rung::nc::technol

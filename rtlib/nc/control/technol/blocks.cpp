@@ -18,15 +18,14 @@ bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || nam
 constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
 
 // Every program has these cells. A program's own cell of the same name is not the interface's.
-host::Ref hostCell(const host::Instance& instance, std::string_view name) {
-  return cellPlace(instance, name).value_or(host::Ref{});
+rt::Place hostCell(const host::Instance& instance, std::string_view name) {
+  return host::locate(instance.memory(), cellPlace(instance, name).value_or(host::Ref{}));
 }
-host::Ref interfaceCell(const host::Instance& instance, std::string_view name) {
-  return signalPlace(instance, name).value_or(host::Ref{});
+rt::Place interfaceCell(const host::Instance& instance, std::string_view name) {
+  return host::locate(instance.memory(), signalPlace(instance, name).value_or(host::Ref{}));
 }
-void put(host::Instance& instance, const host::Ref& place, uint64_t value) {
-  host::writeRaw(instance.memory(), place, value);
-}
+uint64_t get(const host::Instance& instance, const rt::Place& place) { return instance.memory().read(place); }
+void put(host::Instance& instance, const rt::Place& place, uint64_t value) { instance.memory().write(place, value); }
 
 } // namespace
 
@@ -57,19 +56,20 @@ void Blocks::reset(const host::Instance& instance) {
     if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
       continue;
     const auto place = placeOf(instance, signal);
-    if (place && lastsOneBlock(name)) lastOneBlock_.push_back(*place);
-    if (place && name.starts_with("PO_OS")) motionBits_.push_back(*place);
+    if (!place) continue;
+    if (lastsOneBlock(name)) lastOneBlock_.push_back(host::locate(instance.memory(), *place));
+    if (name.starts_with("PO_OS")) motionBits_.push_back(host::locate(instance.memory(), *place));
   }
 }
 
 bool Blocks::start(host::Instance& instance, std::span<const CommandValue> values) {
   if (busy()) return false;
-  for (const host::Ref& place : untilNextStart_) put(instance, place, 0);
+  for (const rt::Place& place : untilNextStart_) put(instance, place, 0);
   for (const CommandValue& value : values) {
     if (value.isReal)
       host::writeReal(instance.memory(), value.place, value.real);
     else
-      put(instance, value.place, static_cast<uint64_t>(value.integer));
+      host::writeRaw(instance.memory(), value.place, static_cast<uint64_t>(value.integer));
   }
   put(instance, positionReached_, 0);
   phase_ = Phase::Starting;
@@ -87,7 +87,7 @@ bool Blocks::reached(host::Instance& instance) {
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
 // l.6456-6467).
 bool Blocks::mayStart(const host::Instance& instance) const {
-  return instance.read(initOwed_) == 0 && instance.read(startDisable_) == 0 && instance.read(startSuspend_) == 0;
+  return get(instance, initOwed_) == 0 && get(instance, startDisable_) == 0 && get(instance, startSuspend_) == 0;
 }
 
 void Blocks::enter(host::Instance& instance, Phase phase) {
@@ -122,20 +122,20 @@ bool Blocks::pass(host::Instance& instance, const Module& module) {
     put(instance, module.done, 0);
   }
   first_ = false;
-  return instance.runTask(module.task) && instance.read(module.done) != 0;
+  return instance.runTask(module.task) && get(instance, module.done) != 0;
 }
 
 void Blocks::endMotion(host::Instance& instance) {
   put(instance, positionReached_, 1);
-  for (const host::Ref& bit : motionBits_) put(instance, bit, 0);
+  for (const rt::Place& bit : motionBits_) put(instance, bit, 0);
 }
 
 void Blocks::finish(host::Instance& instance) {
   put(instance, blockInProgress_, 0);
-  for (const host::Ref& bit : lastOneBlock_) put(instance, bit, 0);
+  for (const rt::Place& bit : lastOneBlock_) put(instance, bit, 0);
   if (queue_ != RUNG_NONE)
     for (uint32_t byte = 0; byte < instance.program().spaces[queue_].byte_count; ++byte)
-      put(instance, host::intRef(queue_, byte, 8), 0);
+      instance.memory().writeByte(queue_, byte, 0);
   enter(instance, Phase::Idle);
 }
 

@@ -41,7 +41,7 @@ private:
   // A block module: its task, the state in which it waits, whether it has run through.
   struct Module {
     uint32_t task = RUNG_NONE;
-    host::Ref cont, done;
+    rt::Place cont, done;
   };
 
   bool mayStart(const host::Instance& instance) const;
@@ -54,11 +54,11 @@ private:
   bool reached_ = false;
   // Looked up once, as every scan may need them.
   Module init_, done_;
-  host::Ref initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_;
+  rt::Place initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_;
   bool first_ = false;                  // pass of the module
-  std::vector<host::Ref> lastOneBlock_; // zero again at the end of the block
-  std::vector<host::Ref> motionBits_;   // PO_OS...
-  std::vector<host::Ref> untilNextStart_;
+  std::vector<rt::Place> lastOneBlock_; // zero again at the end of the block
+  std::vector<rt::Place> motionBits_;   // PO_OS...
+  std::vector<rt::Place> untilNextStart_;
   uint32_t queue_ = RUNG_NONE; // the space of the queue of command blocks
 };
 

@@ -41,6 +41,7 @@ MODULES = {
     "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
     "codegen/clang": ALL_IR | {"codegen/cpp"},
 }
+NOT_ON_A_MACHINE = ("tools/sim/", "tools/driver/", "tools/scenario/", "frontend/", "codegen/", "ir/")
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 
 # Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
@@ -91,8 +92,19 @@ def offence(root, path, target):
     return None if used == source or used in MODULES[source] else f"({source}) may not include {target}"
 
 
-def check(root):
+def check_tools(root):
+    """What ships with a machine carries neither the simulation nor the compiler."""
     found = []
+    for file in sorted((root / "tools/rung-hal").rglob("*")):
+        if file.suffix in SUFFIXES:
+            for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
+                if match.group(1).startswith(NOT_ON_A_MACHINE):
+                    found.append(f"{file.relative_to(root).as_posix()}: may not include {match.group(1)}")
+    return found
+
+
+def check(root):
+    found = check_tools(root)
     for top in ("frontend", "ir", "codegen", "rtlib"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in SUFFIXES:

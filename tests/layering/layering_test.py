@@ -37,6 +37,8 @@ BAD = {
     "fmt in rtlib": ("rtlib/host/x.cpp", "#include <fmt/format.h>"),
     "cryptography outside the host": ("codegen/cpp/x.cpp", "#include <sodium.h>"),
     "gtest in a library": ("ir/core/x.cpp", "#include <gtest/gtest.h>"),
+    "the machine's component includes the simulation": ("tools/rung-hal/x.cpp", '#include "tools/sim/simulated_nc.h"'),
+    "the machine's component includes the compiler": ("tools/rung-hal/x.cpp", '#include "ir/core/module.h"'),
     "a library includes a tool": ("codegen/cpp/x.cpp", '#include "tools/rungc/main.cpp"'),
     "an include without its folder": ("ir/core/x.cpp", '#include "module.h"'),
     "an unknown module": ("ir/extra/x.cpp", "#include <vector>"),

@@ -73,6 +73,7 @@ uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcep
 }
 
 // Runs from `pc` to the end of the run, a fault, or a chunk at or after `limit` outside every subroutine.
+template <bool Timed>
 uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   const rung_chunk* chunks = program_->chunks;
   const rung_chunk_fn* functions = program_->chunk_fns;
@@ -83,7 +84,8 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     if (chunk.weight > budget) return overrun(task, chunk);
     budget -= chunk.weight;
     pc = functions != nullptr ? functions[pc](memory_, ctx_) : program_->run_chunk(memory_, ctx_, pc);
-    if (isLate()) return overrun(task, chunk);
+    if constexpr (Timed)
+      if (isLate()) return overrun(task, chunk);
     if (ctx_->extra_weight == 0) continue;
     const uint32_t extra = ctx_->extra_weight;
     ctx_->extra_weight = 0;
@@ -127,7 +129,8 @@ bool Runner::runWhole(uint32_t task) noexcept {
   copy(t.begin_first, t.begin_count);
   beginStack();
   uint32_t budget = t.budget;
-  return finish(task, runChunks(t.entry, RUNG_PC_DONE, t, budget));
+  return finish(task, limit_.ns != 0 ? runChunks<true>(t.entry, RUNG_PC_DONE, t, budget)
+                                     : runChunks<false>(t.entry, RUNG_PC_DONE, t, budget));
 }
 
 bool Runner::runNextPart(uint32_t task) noexcept {
@@ -150,7 +153,8 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
   if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
   beginStack();
-  state.pc = runChunks(state.pc, limit, t, state.budget);
+  state.pc = limit_.ns != 0 ? runChunks<true>(state.pc, limit, t, state.budget)
+                            : runChunks<false>(state.pc, limit, t, state.budget);
   return finish(task, state.pc);
 }
 

@@ -83,11 +83,13 @@ public:
   bool stopped() const noexcept { return stopped_; }
 
 private:
+  // `Timed`: with a limit in time; without one the clock costs nothing.
+  template <bool Timed>
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   void startTime() noexcept {
     if (limit_.ns != 0) deadline_ = limit_.nowNs() + limit_.ns;
   }
-  bool isLate() const noexcept { return limit_.ns != 0 && limit_.nowNs() > deadline_; }
+  bool isLate() const noexcept { return limit_.nowNs() > deadline_; }
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
   void begin(uint32_t task) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;

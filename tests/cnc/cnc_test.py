@@ -135,17 +135,32 @@ def fault(bench, _options):
     bench.copy(HERE / "stuck.map", "program.map")
     show = "loadusr -w sleep 0.2\nshow pin box\n"
     done = bench.halrun(LOAD.format(options="name=box", prefix="box") + "setp box.number 77\nsetp box.run 1\n" + show +
-                        "setp box.stick 1\n" + show + "setp box.stick 0\n" + show + "show funct\n")
+                        "setp box.stick 1\n" + show + "setp box.stick 0\n" + show + "setp box.reset 1\n" +
+                        show + "show funct\n")
     values = {pin: shown(done.stdout, "box." + pin) for pin in ("lamp", "value", "fault", "fault-line", "scans")}
-    expect(values["lamp"] == ["TRUE", "FALSE", "FALSE"], values)
-    expect([float(value) for value in values["value"]] == [77, 0, 0], values)
-    expect(values["fault"] == ["FALSE", "TRUE", "TRUE"], values)
+    expect(values["lamp"] == ["TRUE", "FALSE", "FALSE", "TRUE"], values)
+    expect([float(value) for value in values["value"]] == [77, 0, 0, 77], values)
+    expect(values["fault"] == ["FALSE", "TRUE", "TRUE", "FALSE"], values)
     lines = (HERE / "stuck.pmc").read_text(encoding="utf-8").splitlines()
     loop = range(lines.index("FUNC LBL") + 1, lines.index("PRM  L1", lines.index("FUNC JMPB")) + 2)
     expect(int(values["fault-line"][1], 0) in loop, values)
     expect(int(values["scans"][0], 0) > 0, values)
     expect("box: the program has stopped: dead-loop at " in done.stdout, "no message")
     expect("stuck.pmc:" in done.stdout, "no source file in the message")
+    expect("box: the program has been restarted" in done.stdout, "no message of the restart")
+
+
+def unload(bench, _options):
+    """Unloaded while its thread runs, it switches its outputs off, and can be loaded again, many times."""
+    bench.program(HERE / "stuck.pmc")
+    bench.copy(HERE / "stuck.map", "program.map")
+    load = "loadrt rung_hal so=@DIR@/program.so map=@DIR@/program.map name=box\naddf box.scan servo\n"
+    again = "unloadrt rung_hal\nshow sig\n" + load + "net lamp box.lamp\nsetp box.run 1\nloadusr -w sleep 0.2\nshow sig\n"
+    done = bench.halrun("loadrt threads name1=servo period1=1000000\nstart\nnewsig lamp bit\n" + load +
+                        "net lamp box.lamp\nsetp box.run 1\nloadusr -w sleep 0.2\nshow sig\n" + 10 * again)
+    lamps = [row.split()[1] for row in done.stdout.splitlines() if row.split()[-1:] == ["lamp"] and len(row.split()) == 3]
+    expect(lamps == ["TRUE"] + 10 * ["FALSE", "TRUE"], lamps)
+    expect(done.returncode == 0, done.returncode)
 
 
 def retained(bench, _options):
@@ -185,7 +200,7 @@ def mistakes(bench, _options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, unload, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

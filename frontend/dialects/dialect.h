@@ -19,7 +19,7 @@ namespace rung::frontend {
 
 struct CompileOptions {
   // The dialect's configuration (scenario `config KEY VALUE`), and the key "period_us" when a period was asked for.
-  // Keys that the compiler does not use are none of its business: they may be the NC model's.
+  // Keys that the compiler does not use are none of its business: they may be the control's.
   std::map<std::string, std::string> config;
   std::map<std::string, SourceRange> configPlaces; // of the values that a project file gives
   std::vector<std::string> includePaths; // folders where included files are looked for after those of the program

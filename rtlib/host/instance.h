@@ -22,7 +22,7 @@ namespace rung::host {
 
 class Instance;
 
-// The NC model's place in the schedule. onHook and onFault may run tasks; respond runs inside one: it may run none, and
+// The control's place in the schedule. onHook and onFault may run tasks; respond runs inside one: it may run none, and
 // it may read the program's memory but not write it.
 class ScheduleHooks {
 public:

@@ -11,7 +11,7 @@ namespace rung::host {
 
 class PublishedText {
 public:
-  // What there is no room for is left out.
+  // What does not fit is cut off.
   void set(std::string_view text) noexcept {
     const uint32_t version = version_.load(std::memory_order_relaxed);
     version_.store(version + 1, std::memory_order_relaxed);

@@ -184,7 +184,7 @@ bool RetainSaver::save(std::string& error) try {
   onDiskKnown_ = true;
   saved_.fetch_add(1, std::memory_order_relaxed);
   return true;
-} catch (const std::exception& thrown) { // there is no memory left
+} catch (const std::exception& thrown) { // out of memory
   error = thrown.what();
   return false;
 }

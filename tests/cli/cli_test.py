@@ -193,7 +193,7 @@ class Retained(Cli):
         self.assertEqual(self.run_it(program).returncode, OK)
 
     def test_a_disk_that_fails_for_a_while(self):
-        """A folder in the way of the temporary file stands for it."""
+        """A folder where the temporary file would be takes the place of a failing disk."""
         program = self.counter()
         with self.running(program) as process:
             self.obstruct()

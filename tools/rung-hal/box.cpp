@@ -113,11 +113,10 @@ std::string Box::close() {
 // What MODULE_DONE switches off goes to the pins.
 void Box::lastScans() noexcept {
   if (retained_) retained_->finish(); // for the case that the program faults in its last scans
-  if (!control_->powerOff(instance_)) return;
-  for (uint32_t i = 0; i < nc::Control::kMostLastScans && !instance_.faulted() && control_->endsLater(instance_); ++i) {
+  control_->powerOff(instance_, [this] {
     do slice();
     while (!instance_.atListStart() && !instance_.faulted());
-  }
+  });
 }
 
 StepResult Box::step(int64_t ns, bool reset) noexcept {
@@ -171,7 +170,7 @@ void Box::locatePlaces() {
   outputValues_.resize(outputs_.size());
 }
 
-// Constants too in every slice: no restart and no model of the NC can undo them.
+// Constants too in every slice: neither a restart nor the control can undo them.
 void Box::readPins() noexcept {
   for (size_t i = 0; i < binding_.inputs.size(); ++i) {
     const PinLink& link = binding_.inputs[i];

@@ -181,12 +181,14 @@ void reportFault(const Component& c) {
 void runStep(Component& c, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   const long long begin = rtapi_get_time();
-  c.box->setTimeLimit(int64_t{c.status->maxTime} * kNsInUs);
+  // While it does not run, the box may belong to the thread that restarts it.
+  if (c.box->running()) c.box->setTimeLimit(int64_t{c.status->maxTime} * kNsInUs);
   const hal::StepResult result = c.box->step(periodNs, *c.status->reset.bit);
-  *c.status->functionsBusy.bit = c.box->functions().busy();
-  *c.status->functionsTimeout.bit = c.box->functions().late();
-  *c.status->functionsLost.u32 = c.box->functions().lost();
-  *c.status->fault.bit = !c.box->running();
+  const bool runs = c.box->running();
+  *c.status->fault.bit = !runs;
+  *c.status->functionsBusy.bit = runs && c.box->functions().busy();
+  *c.status->functionsTimeout.bit = runs && c.box->functions().late();
+  if (runs) *c.status->functionsLost.u32 = c.box->functions().lost();
   switch (result) {
   case hal::StepResult::Waiting: return;
   case hal::StepResult::Ran: break;

@@ -17,16 +17,16 @@ constexpr unsigned kPublicMode = 0644;
 int newKey(const std::string& path) {
   const host::SecretKey key = host::SecretKey::make();
   const std::string publicPath = path + ".pub";
-  std::string wrong =
-      host::replaceFile(publicPath, host::textOf(key.publicKey()), {.mode = kPublicMode, .mayReplace = false, .lasts = true});
+  std::string wrong = host::replaceFile(publicPath, host::textOf(key.publicKey()),
+                                        {.mode = kPublicMode, .mayReplace = false, .lasts = true});
   if (!wrong.empty()) return environmentError(wrong);
   wrong = host::replaceFile(path, key.text(), {.mode = kSecretMode, .mayReplace = false, .lasts = true});
   if (!wrong.empty()) {
     std::remove(publicPath.c_str());
     return environmentError(wrong);
   }
-  fmt::print("key {}: {} signs and stays secret, {} goes to {} of the machines\n", host::textOf(key.publicKey().id()), path,
-             publicPath, host::kKeysFolder);
+  fmt::print("key {}: {} signs and stays secret, {} goes to {} of the machines\n", host::textOf(key.publicKey().id()),
+             path, publicPath, host::kKeysFolder);
   return kOk;
 }
 

@@ -20,7 +20,7 @@ struct CompileStep {
 CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
                            bool instrument, bool marks);
 
-// Whether the compiler itself reads this configuration key; the rest is for the NC model.
+// Whether the compiler itself reads this configuration key; the rest is for the simulated NC.
 bool readsKey(const frontend::Dialect& dialect, std::string_view key);
 
 } // namespace rung::scenario

@@ -12,7 +12,7 @@
 
 namespace rung::scenario {
 
-// Lends the NC model's hooks to the instance and adds the scenario's prepared answers.
+// Lends the simulated NC's hooks to the instance and adds the scenario's prepared answers.
 class Lane final : public host::ScheduleHooks {
 public:
   // Files that the NC's configuration names lie in `folder`. The engine outlives the lane.

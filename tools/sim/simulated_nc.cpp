@@ -21,9 +21,7 @@ void SimulatedNc::powerOn(host::Instance& instance, nc::PowerOn kind) {
 }
 
 void SimulatedNc::powerOff(host::Instance& instance) {
-  if (!control().powerOff(instance)) return;
-  for (uint32_t i = 0; i < nc::Control::kMostLastScans && !instance.faulted() && control().endsLater(instance); ++i)
-    scan(instance);
+  control().powerOff(instance, [&] { scan(instance); });
 }
 
 void SimulatedNc::scan(host::Instance& instance) {

@@ -144,7 +144,7 @@ typedef struct rung_rung_info {
 typedef struct rung_task {
   const char* name;
   uint32_t entry;        /* chunk */
-  uint32_t period_us;    /* 0: only when the schedule or the NC model starts it */
+  uint32_t period_us;    /* 0: only when the schedule or the control starts it */
   uint32_t budget;       /* weight that one run may use up, else the fault `budget_fault` */
   uint32_t budget_fault; /* in `faults` */
   uint32_t begin_first;  /* in `copies` */
@@ -159,7 +159,7 @@ enum rung_step_op {
   RUNG_STEP_ADVANCE = 0, /* the clock moves on by `arg` microseconds */
   RUNG_STEP_RUN = 1,     /* run `task` `arg` times */
   RUNG_STEP_PART = 2,    /* run the next part of `task`; after the last part of a run a new run begins */
-  RUNG_STEP_HOOK = 3,    /* the dialect's NC model does its work number `arg` */
+  RUNG_STEP_HOOK = 3,    /* the dialect's control does its work number `arg` */
   RUNG_STEP_SLOT = 4,    /* a slot ends here */
 };
 

@@ -32,11 +32,13 @@ public:
     start(instance);
   }
 
-  // What the control runs before a regular power-off. True: the program must be scanned on while `endsLater`, but not
-  // more than kMostLastScans times.
-  static constexpr uint32_t kMostLastScans = 500;
-  virtual bool powerOff(host::Instance& instance) { return (void)instance, false; }
-  virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
+  // A regular power-off: what the control runs before it, then the scans that the program still needs, which the host
+  // runs; they are bounded.
+  template <class Scan>
+  void powerOff(host::Instance& instance, Scan scan) {
+    if (!beginPowerOff(instance)) return;
+    for (uint32_t i = 0; i < kMostLastScans && !instance.faulted() && endsLater(instance); ++i) scan();
+  }
 
   // After a scan, a slot or a slice.
   virtual void afterSlice(host::Instance& instance) { (void)instance; }
@@ -45,7 +47,7 @@ public:
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
 
   // The place that a name of the program or of the NC's interface refers to for somebody who reads it, and for the NC
-  // or the machine that writes it. Nothing: there is no such name.
+  // or the machine that writes it. Nothing when the name is unknown.
   virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
   virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const {
     return readPlace(instance, name);
@@ -74,10 +76,17 @@ public:
   virtual void saved(host::Instance& instance) { (void)instance; }
 
 protected:
+  // True: the program has to be scanned on while `endsLater`.
+  virtual bool beginPowerOff(host::Instance& instance) { return (void)instance, false; }
+  virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
+
   // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
   virtual std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const {
     return (void)instance, (void)name, std::nullopt;
   }
+
+private:
+  static constexpr uint32_t kMostLastScans = 500;
 };
 
 // By rung_program::dialect; a plain control for a dialect that has none of its own.

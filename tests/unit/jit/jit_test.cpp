@@ -184,7 +184,6 @@ TEST_F(JitCache, LeavesWhatOthersCouldHaveWritten) {
   EXPECT_THAT(engine->report().cacheTrouble, testing::HasSubstr("every user may write to it"));
 }
 
-
 // What the file of one key holds goes under the name of another.
 class JitCacheOfOthers : public JitCache {
 protected:

@@ -1,4 +1,4 @@
-// An instance as the scenario runner and the NC models use it.
+// An instance as the scenario runner and the controls use it.
 #include "rtlib/host/instance.h"
 
 #include <gtest/gtest.h>

@@ -251,7 +251,7 @@ TEST_F(RetainTest, AFolderInTheWay) {
   EXPECT_EQ(load().generation, 4u);
 }
 
-// A write that ends in the middle, as on a full disk: the limit stands for it, because it needs no rights.
+// A write that ends in the middle, as on a full disk: a limit on its size does the same and needs no rights.
 TEST_F(RetainTest, AWriteThatEndsInTheMiddle) {
   saveThree();
   RetainStore s = store();

@@ -2,7 +2,6 @@
 #include "rtlib/nc/control/nct/nct_control.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/messages.h"

@@ -11,7 +11,7 @@
 
 namespace rung::nc::technol {
 
-// A cell of the command block by its name. Nothing: there is no such cell.
+// A cell of the command block by its name. Nothing when the name is unknown.
 std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name);
 
 // What a block puts into a cell of the command block.

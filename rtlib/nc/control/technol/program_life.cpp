@@ -16,13 +16,13 @@ void ProgramLife::powerOn(host::Instance& instance) {
   runWith(instance, "INIT", kPower, false);
 }
 
-bool ProgramLife::owesDone(const host::Instance& instance) const { return readCell(instance, "@DONE.PENDING") != 0; }
+bool ProgramLife::donePending(const host::Instance& instance) const { return readCell(instance, "@DONE.PENDING") != 0; }
 
 // A program that is stopped has had its shutdown.
 bool ProgramLife::powerOff(host::Instance& instance) {
   if (instance.stopped()) return false;
   runWith(instance, "DONE", kPower, false);
-  return owesDone(instance);
+  return donePending(instance);
 }
 
 void ProgramLife::start(host::Instance& instance) {
@@ -41,7 +41,7 @@ void ProgramLife::stop(host::Instance& instance) {
 void ProgramLife::clear(host::Instance& instance) { runWith(instance, "CLEAR", 0, false); }
 
 void ProgramLife::afterScan(host::Instance& instance) {
-  if (!stopping_ || owesDone(instance)) return;
+  if (!stopping_ || donePending(instance)) return;
   stopping_ = false;
   instance.setStopped(true);
 }

@@ -11,7 +11,7 @@ public:
   void powerOn(host::Instance& instance);
   // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is pending.
   bool powerOff(host::Instance& instance);
-  bool owesDone(const host::Instance& instance) const;
+  bool donePending(const host::Instance& instance) const;
 
   // The commands START PLC and STOP PLC, DR = 1; CLEAR.
   void start(host::Instance& instance);

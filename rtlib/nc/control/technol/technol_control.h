@@ -13,8 +13,6 @@ class TechnolControl final : public Control {
 public:
   void prepare(host::Instance& instance, PowerOn kind) override;
   void start(host::Instance& instance) override { life_.powerOn(instance); }
-  bool powerOff(host::Instance& instance) override { return life_.powerOff(instance); }
-  bool endsLater(const host::Instance& instance) const override { return life_.owesDone(instance); }
 
   void onHook(host::Instance& instance, uint32_t work) override;
   void onFault(host::Instance& instance) override;
@@ -37,6 +35,8 @@ public:
   technol::Blocks& blocks() { return blocks_; }
 
 protected:
+  bool beginPowerOff(host::Instance& instance) override { return life_.powerOff(instance); }
+  bool endsLater(const host::Instance& instance) const override { return life_.donePending(instance); }
   std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
 
 private:

@@ -255,13 +255,14 @@ private:
   }
 
   void parseStep() {
-    std::vector<Step>& list = scanner_.acceptWord("scan") ? module_.scan : module_.fast;
-    if (&list == &module_.fast) scanner_.expectWord("fast");
+    const auto* list = std::begin(kStepLists);
+    while (list + 1 != std::end(kStepLists) && !scanner_.acceptWord(list->keyword)) ++list;
+    if (list + 1 == std::end(kStepLists)) scanner_.expectWord(list->keyword);
     Step step;
     step.op = parseKeyword(kStepOps, "step");
     step.task = TaskId{parseReference(scanner_, names_.tasks, "task")};
     step.arg = scanner_.u32();
-    list.push_back(step);
+    (module_.*list->steps).push_back(step);
   }
 
   void resolveCalls() {

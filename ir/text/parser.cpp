@@ -1,6 +1,9 @@
 // The parser of the text form (see text.h and README.md).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "ir/text/keywords.h"
 #include "ir/text/rung_parser.h"
 #include "ir/text/text.h"
@@ -255,9 +258,9 @@ private:
   }
 
   void parseStep() {
-    const auto* list = std::begin(kStepLists);
-    while (list + 1 != std::end(kStepLists) && !scanner_.acceptWord(list->keyword)) ++list;
-    if (list + 1 == std::end(kStepLists)) scanner_.expectWord(list->keyword);
+    const auto accepted = [&](const StepList& list) { return scanner_.acceptWord(list.keyword); };
+    const auto* list = std::ranges::find_if(kStepLists, accepted);
+    if (list == std::end(kStepLists)) return scanner_.fail("'scan', 'fast' or 'slice' expected");
     Step step;
     step.op = parseKeyword(kStepOps, "step");
     step.task = TaskId{parseReference(scanner_, names_.tasks, "task")};

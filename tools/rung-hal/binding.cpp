@@ -31,14 +31,35 @@ public:
 
 private:
   void checkFunctions() {
-    nc::Functions* functions = control_.functions();
     for (const MapSend& send : map_.sends)
-      if (functions == nullptr)
-        fail(send.line, "send: the handshake of M, S and T functions is not supported yet for this dialect (" +
-                            std::string(instance_.program().dialect) +
-                            "); remove the line, and connect the signals by in and out lines");
-    if (map_.highSpeedLine != 0 && (functions == nullptr || !functions->useHighSpeed()))
+      if (const nc::Functions* functions = functionsOf(send)) checkKind(send, *functions);
+    nc::Functions* first = control_.functions(0);
+    if (map_.highSpeedLine != 0 && (first == nullptr || !first->useHighSpeed()))
       fail(map_.highSpeedLine, "high-speed: this dialect has no such handshake; remove the line");
+  }
+
+  const nc::Functions* functionsOf(const MapSend& send) {
+    const nc::Functions* functions = control_.functions(send.channel);
+    if (functions != nullptr) return functions;
+    uint32_t channels = 0;
+    while (control_.functions(channels) != nullptr) ++channels;
+    const std::string dialect = instance_.program().dialect;
+    if (channels == 0)
+      fail(send.line, "send: programs of the dialect " + dialect + " take no M, S and T functions; remove the line");
+    else
+      fail(send.line, "channel " + std::to_string(send.channel + 1) + ": a control of the dialect " + dialect +
+                          (channels == 1 ? " has one channel" : " has channels 1 to " + std::to_string(channels)));
+    return nullptr;
+  }
+
+  void checkKind(const MapSend& send, const nc::Functions& functions) {
+    const std::string kind(nc::kFunctionKinds[static_cast<size_t>(send.kind)]);
+    if (!functions.carries(send.kind, 0))
+      fail(send.line, "send: the dialect " + std::string(instance_.program().dialect) + " has no function " + kind +
+                          "; remove the line, and connect its signals by in and out lines");
+    else if (!send.codePin && !functions.carries(send.kind, static_cast<uint32_t>(send.code)))
+      fail(send.line, "send: " + kind + std::to_string(send.code) + " does not fit the signals of the dialect " +
+                          instance_.program().dialect);
   }
 
   void addLink(std::vector<PinLink>& links, const MapLink& link, Access access) {

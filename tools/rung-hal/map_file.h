@@ -45,6 +45,7 @@ struct MapEdge {
 struct MapSend {
   MapEdge edge;
   nc::FunctionKind kind = nc::FunctionKind::M;
+  uint32_t channel = 0; // of the control, from 0; the map counts from 1
   int32_t code = 0;
   std::optional<uint32_t> codePin; // instead of `code`
   std::optional<uint32_t> donePin;

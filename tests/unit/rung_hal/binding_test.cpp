@@ -132,7 +132,7 @@ in.a = { type = "bit", name = "NOWHERE" }
 
 TEST(Binding, Constants) {
   const Bound bound = boundTo(testing::gskProgram(), R"([const]
-SYM = true
+"X0.0" = true
 D0 = 255
 D1 = -128
 "D2:2" = 40000
@@ -146,18 +146,23 @@ D1 = -128
   EXPECT_EQ(bound.binding.constants[2].type, PinType::S32);
   EXPECT_EQ(bound.binding.constants[4].type, PinType::Float);
   EXPECT_EQ(bound.binding.constants[4].place.kind, host::RefKind::Int); // rounded there
-  const Bound real = boundTo(testing::technolProgram(), "const.realcell = 5");
+  // 8 bytes hold either an integer or a real number: the value says which.
+  const Bound real = boundTo(testing::technolProgram(), "const.realcell = 5.0");
   EXPECT_THAT(real.errors, IsEmpty());
   ASSERT_EQ(real.binding.constants.size(), 1u);
-  EXPECT_EQ(real.binding.constants[0].type, PinType::Float);
+  EXPECT_EQ(real.binding.constants[0].place.kind, host::RefKind::Real);
+  const Bound integer = boundTo(testing::technolProgram(), "const.realcell = 5");
+  EXPECT_THAT(integer.errors, IsEmpty());
+  ASSERT_EQ(integer.binding.constants.size(), 1u);
+  EXPECT_EQ(integer.binding.constants[0].place.kind, host::RefKind::Int);
   EXPECT_THAT(gskErrors(R"([const]
-SYM = 1
+"X0.0" = 1
 D0 = true
 D1 = 256
 D2 = -129
 "D3:2" = 65536.0
 )"),
-              ElementsAre("m.map:2:1: SYM is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
+              ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
                           "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
                           "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
                           "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits"));

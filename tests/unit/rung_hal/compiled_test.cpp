@@ -9,7 +9,6 @@
 namespace rung::hal {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr int64_t kMs = 1'000'000;
@@ -491,50 +490,6 @@ TEST_F(TechnolBox, AStepAllocatesNothing) {
             }),
             0);
   EXPECT_TRUE(b["changed"].bit);
-}
-
-// ---- maps that do not fit ------------------------------------------------------------------------------------------
-
-TEST_F(TechnolBox, KindsCodesAndChannelsThatItDoesNotHave) {
-  const Bench bad(program.program(), R"(
-[[send]]
-pin = "a"
-edge = "rise"
-function = "B"
-code = 1
-[[send]]
-pin = "a"
-edge = "rise"
-function = "M"
-code = 100
-[[send]]
-pin = "a"
-edge = "rise"
-function = "M"
-code = 3
-channel = 2
-)");
-  EXPECT_THAT(bad.errors, ElementsAre("m.map:2:1: send: the dialect technol has no function B; remove it, and connect "
-                                      "its signals by pins in [in] and [out]",
-                                      "m.map:7:1: send: M100 does not fit the signals of the dialect technol",
-                                      "m.map:12:1: send: found channel 2, expected 1: a control of the dialect technol "
-                                      "has one channel"));
-}
-
-TEST_F(NctBox, KindsCodesAndChannelsThatItDoesNotHave) {
-  const Bench bad(program.program(), R"(
-high-speed = true
-[[send]]
-pin = "a"
-edge = "rise"
-function = "M"
-code = 3
-channel = 9
-)");
-  EXPECT_THAT(
-      bad.errors,
-      ElementsAre("m.map:3:1: send: found channel 9, expected 1 to 8, the channels of a control of the dialect nct",
-                  ::testing::HasSubstr("high-speed")));
 }
 
 } // namespace

@@ -33,6 +33,10 @@ private:
     for (const MapSend& send : map_.sends)
       if (const nc::Functions* functions = functionsOf(send)) checkKind(send, *functions);
     nc::Functions* first = control_.functions(0);
+    for (const MapGroup& row : map_.groups)
+      if (first == nullptr || !first->setGroup(row.code, row.group))
+        fail(row.at, "m-groups: found M" + std::to_string(row.code) + " in group " + std::to_string(row.group) +
+                         ", which a control of the dialect " + dialect() + " cannot have; remove the line");
     if (map_.highSpeed && (first == nullptr || !first->useHighSpeed()))
       fail(*map_.highSpeed, "high-speed: this dialect has no such handshake; remove the line");
   }

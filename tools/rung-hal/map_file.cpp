@@ -142,7 +142,7 @@ private:
     bool (Reader::*take)(const toml::node&, Row&); // false: it is not what is expected
   };
 
-  static const Key<MapFile> kFileKeys[7];
+  static const Key<MapFile> kFileKeys[8];
   static const Key<PinRow> kPinKeys[3];
   static const Key<SendRow> kSendKeys[6];
   static const Key<EdgeRow> kAbortKeys[2];
@@ -203,6 +203,7 @@ private:
   bool takeOutputs(const toml::node& node, MapFile& map) { return takePins(node, true, map.outputs); }
   bool takeConstants(const toml::node& node, MapFile& map);
   bool takeSends(const toml::node& node, MapFile& map);
+  bool takeGroups(const toml::node& node, MapFile& map);
   bool takeAborts(const toml::node& node, MapFile& map);
 
   bool takePins(const toml::node& node, bool output, std::vector<MapLink>& links);
@@ -291,6 +292,7 @@ const Reader::Key<MapFile> Reader::kFileKeys[] = {
     {"out", false, "a table", "[out] and its pins in the lines after it", &Reader::takeOutputs},
     {"const", false, "a table", "[const] and NAME = VALUE in the lines after it", &Reader::takeConstants},
     {"send", false, "a list of tables", "[[send]] and its keys in the lines after it", &Reader::takeSends},
+    {"m-groups", false, "a table", "[m-groups] and CODE = GROUP in the lines after it", &Reader::takeGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
 };
 
@@ -383,6 +385,25 @@ bool Reader::takeList(const toml::node& node, std::string_view name, const Key<R
 
 bool Reader::takeSends(const toml::node& node, MapFile&) {
   return takeList(node, "send", kSendKeys, [this](const SendRow& row, MapPosition at) { addSend(row, at); });
+}
+
+bool Reader::takeGroups(const toml::node& node, MapFile& map) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return false;
+  for (const auto& [key, value] : inFileOrder(*table)) {
+    const std::string_view name = key->str();
+    MapGroup row{.at = positionOf(key->source())};
+    const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), row.code);
+    const auto group = value->value_exact<int64_t>();
+    if (error != std::errc() || rest != name.data() + name.size())
+      fail(row.at, "m-groups: found \"" + std::string(name) +
+                       "\", expected the number of an M function; write for example 70 = 10");
+    else if (!group || !std::in_range<uint32_t>(*group))
+      wrong(positionOf(*value), "m-groups." + std::string(name), shown(*value), "the number of a group", "70 = 10");
+    else
+      map.groups.push_back({row.code, static_cast<uint32_t>(*group), row.at});
+  }
+  return true;
 }
 
 bool Reader::takeAborts(const toml::node& node, MapFile& map) {

@@ -62,6 +62,13 @@ struct MapSend {
   MapPosition at;
 };
 
+// m-groups: the group that the machine has an M function in.
+struct MapGroup {
+  uint32_t code = 0;
+  uint32_t group = 0;
+  MapPosition at; // of the code
+};
+
 // Everything in the order of the file.
 struct MapFile {
   std::string path; // for messages
@@ -70,6 +77,7 @@ struct MapFile {
   std::vector<MapLink> outputs;
   std::vector<MapConst> constants;
   std::vector<MapSend> sends;
+  std::vector<MapGroup> groups;
   std::vector<MapEdge> aborts;          // reset, emergency stop: every function ends
   int64_t timeoutNs = 0;                // of a function; 0: none
   std::optional<MapPosition> highSpeed; // where the high-speed handshake is asked for

@@ -20,6 +20,9 @@ public:
   // From now on the program finishes every kind of function by a signal of its own, so that kinds do not wait for each
   // other. False: the dialect has no such mode.
   virtual bool useHighSpeed() { return false; }
+  // The machine has this M function in a group of its choice, from now on. False: the dialect has no such group, or the
+  // function has its group for good.
+  virtual bool setGroup(uint32_t code, uint32_t group) { return (void)code, (void)group, false; }
   // False: the dialect has no signals for this kind of function, or none that hold the code.
   virtual bool carries(FunctionKind kind, uint32_t code) const = 0;
 

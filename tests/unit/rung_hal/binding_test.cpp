@@ -187,6 +187,14 @@ send = [
                           "m.map:8:3: send: found channel 2, expected 1: a control of the dialect technol has one "
                           "channel",
                           "m.map:2:14: high-speed: this dialect has no such handshake; remove the line"));
+  EXPECT_THAT(boundTo(testing::technolProgram(), "[m-groups]\n70 = 10\n71 = 15\n100 = 10\n").errors,
+              ElementsAre("m.map:3:1: m-groups: found M71 in group 15, which a control of the dialect technol cannot "
+                          "have; remove the line",
+                          "m.map:4:1: m-groups: found M100 in group 10, which a control of the dialect technol cannot "
+                          "have; remove the line"));
+  EXPECT_THAT(boundTo(testing::nctProgram(), "[m-groups]\n70 = 10\n").errors,
+              ElementsAre("m.map:2:1: m-groups: found M70 in group 10, which a control of the dialect nct cannot "
+                          "have; remove the line"));
   EXPECT_THAT(boundTo(testing::nctProgram(), R"(
 send = [
   { pin = "a", edge = "rise", function = "B", code = -1, channel = 8 },

@@ -52,10 +52,16 @@ edge = "rise"
 pin = "prepare"
 channel = 2
 
+[m-groups]
+70 = 10
+
 [[abort]]
 pin = "estop"
 edge = "rise"
 )");
+  ASSERT_EQ(map.groups.size(), 1u);
+  EXPECT_EQ(map.groups[0].code, 70u);
+  EXPECT_EQ(map.groups[0].group, 10u);
   ASSERT_EQ(map.pins.size(), 7u);
   EXPECT_EQ(map.pins[0].name, "start");
   EXPECT_EQ(map.pins[0].type, PinType::Bit);
@@ -307,6 +313,16 @@ channel = 0
   EXPECT_THAT(errorsOf("[[abort]]\npin = \"a\"\n"), ElementsAre(StartsWith("m.map:1:1: abort: found no key edge, ")));
   EXPECT_THAT(errorsOf("abort = [{ pin = \"a\", edge = \"high\" }]"),
               ElementsAre(StartsWith("m.map:1:30: abort.edge: found \"high\", expected \"rise\" or \"fall\"")));
+}
+
+TEST(MapFile, BadGroups) {
+  EXPECT_THAT(errorsOf("[m-groups]\nM70 = 10\n71 = \"ten\"\n72 = -1\n"),
+              ElementsAre("m.map:2:1: m-groups: found \"M70\", expected the number of an M function; write for example "
+                          "70 = 10",
+                          "m.map:3:6: m-groups.71: found \"ten\", expected the number of a group; write for example 70 "
+                          "= 10",
+                          "m.map:4:6: m-groups.72: found -1, expected the number of a group; write for example 70 = "
+                          "10"));
 }
 
 TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {

@@ -20,7 +20,8 @@ constexpr const char* kData = "        DFM  GO,GO2,,,,,,\nINITS:  DS 2\nDONES:  
 constexpr const char* kInit = "        LOD  INITS\n        INR\n        STO  INITS\n"
                               "        LDR  CAPI\n        JL0  NO_CA\n        LOD  CAS\n        INR\n        STO  CAS\n"
                               "NO_CA:  BEX\n        LDR  GO\n        LO   CAPI\n        EX0\n";
-constexpr const char* kDone = "        LOD  DONES\n        INR\n        STO  DONES\n        BEX\n        LDR  GO2\n        EX0\n";
+constexpr const char* kDone =
+    "        LOD  DONES\n        INR\n        STO  DONES\n        BEX\n        LDR  GO2\n        EX0\n";
 
 class TechnolHandshake : public ::testing::Test {
 protected:
@@ -190,6 +191,20 @@ TEST_F(TechnolHandshake, CodesInNoGroupAreInTheLast) {
   EXPECT_EQ(get("ZMM14PI"), 1u);
   EXPECT_EQ(get("PB16"), 0x92u);
   EXPECT_EQ(get("BLK[0].M[14]"), 0x92u);
+}
+
+TEST_F(TechnolHandshake, TheMachineHasGroupsOfItsOwn) {
+  EXPECT_TRUE(functions().setGroup(92, 12));
+  functions().start(M, 92);
+  scan();
+  EXPECT_EQ(get("ZMM12PI"), 1u);
+  EXPECT_EQ(get("PB14"), 0x92u);
+  EXPECT_EQ(get("BLK[0].M[12]"), 0x92u);
+  EXPECT_EQ(get("ZMM14PI"), 0u);
+  EXPECT_FALSE(functions().setGroup(3, 12)); // fixed (l.7213)
+  EXPECT_FALSE(functions().setGroup(92, 0));
+  EXPECT_FALSE(functions().setGroup(92, 15));
+  EXPECT_FALSE(functions().setGroup(100, 12));
 }
 
 TEST_F(TechnolHandshake, AToolAndASpeed) {

@@ -10,19 +10,18 @@
 namespace rung::nc {
 namespace {
 
-constexpr uint32_t kMostM = 99;
 constexpr uint32_t kMostTool = 99'999'999;
 
-// Groups of M functions (man. l.6703-6743, 7157-7180). Those of the groups 4 and 10 to 13 are the machine's own, by its
-// configuration; what is in no group is in 14.
+// Groups of M functions (man. l.6703-6743, 7157-7182). A machine may have further ones in all groups; what is in none is
+// in 14 (l.7184-7193).
 struct GroupOfM {
-  uint32_t code;
-  uint32_t group;
+  uint8_t code;
+  uint8_t group;
 };
 constexpr GroupOfM kGroupsOfM[] = {{0, 1},  {1, 1},  {2, 1},  {30, 1}, {3, 2},  {4, 2},  {5, 2},  {19, 2}, {40, 3},
                                    {41, 3}, {42, 3}, {43, 3}, {44, 3}, {7, 5},  {8, 5},  {9, 5},  {17, 5}, {50, 6},
                                    {51, 6}, {52, 6}, {53, 6}, {10, 7}, {11, 7}, {48, 8}, {49, 8}, {6, 9},  {60, 9}};
-constexpr uint32_t kOtherGroup = 14;
+constexpr uint8_t kOtherGroup = 14;
 // It leaves the gear to the control, which sets M41PI to M44PI by the speed (l.6906-6909).
 constexpr uint32_t kAutomaticGear = 40;
 
@@ -58,12 +57,19 @@ rt::Place cell(const host::Instance& instance, std::string_view name) {
   return host::locate(instance.memory(), technol::signalPlace(instance, name).value_or(host::Ref{}));
 }
 
-uint32_t groupOf(uint32_t code) {
-  const auto* found = std::ranges::find(kGroupsOfM, code, &GroupOfM::code);
-  return found == std::end(kGroupsOfM) ? kOtherGroup : found->group;
+} // namespace
+
+TechnolFunctions::TechnolFunctions(technol::Blocks& blocks) : blocks_(blocks) {
+  groupOfM_.fill(kOtherGroup);
+  for (const GroupOfM& row : kGroupsOfM) groupOfM_[row.code] = row.group;
 }
 
-} // namespace
+bool TechnolFunctions::setGroup(uint32_t code, uint32_t group) {
+  const bool fixed = std::ranges::find(kGroupsOfM, code, &GroupOfM::code) != std::end(kGroupsOfM);
+  if (fixed || code > kMostM || group < 1 || group > kGroups) return false;
+  groupOfM_[code] = static_cast<uint8_t>(group);
+  return true;
+}
 
 void TechnolFunctions::locate(host::Instance& instance) {
   static_assert(std::size(kDecodedBits) == kDecoded);
@@ -113,7 +119,7 @@ std::optional<uint32_t> TechnolFunctions::start(FunctionKind kind, uint32_t code
 }
 
 void TechnolFunctions::addM(Values& values, uint32_t code) const {
-  const uint32_t number = groupOf(code);
+  const uint32_t number = groupOfM_[code];
   const Group& group = groups_[number];
   values.add(group.changed, 1);
   values.add(group.code, bcd(code));

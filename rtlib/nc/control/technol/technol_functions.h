@@ -13,11 +13,14 @@ namespace rung::nc {
 class TechnolFunctions final : public Functions {
 public:
   // The blocks outlive it.
-  explicit TechnolFunctions(technol::Blocks& blocks) : blocks_(blocks) {}
+  explicit TechnolFunctions(technol::Blocks& blocks);
 
   // At power-on: the instance outlives the calls of Functions.
   void locate(host::Instance& instance);
 
+  // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
+  // in a group (l.7184-7213).
+  bool setGroup(uint32_t code, uint32_t group) override;
   // M up to 99, T up to 99999999: what their BCD cells hold. There is no second auxiliary function.
   bool carries(FunctionKind kind, uint32_t code) const override;
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
@@ -26,6 +29,7 @@ public:
   void abort() override { blocks_.annul(*instance_); }
 
 private:
+  static constexpr uint32_t kMostM = 99;
   static constexpr uint32_t kGroups = 14; // of M functions, from 1
   static constexpr uint32_t kDecoded = 21;
   static constexpr uint32_t kMostValues = 16; // of a block
@@ -51,7 +55,8 @@ private:
 
   technol::Blocks& blocks_;
   host::Instance* instance_ = nullptr;
-  rt::Place automatic_; // AUTPI
+  std::array<uint8_t, kMostM + 1> groupOfM_; // by code
+  rt::Place automatic_;                      // AUTPI
   std::array<Group, kGroups + 1> groups_;
   std::array<rt::Place, kDecoded> decoded_;
   rt::Place speedChanged_, speed_;

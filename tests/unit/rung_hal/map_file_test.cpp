@@ -167,7 +167,7 @@ b = { typ = "bit", name = "X0.0" }
 c = 5
 )"),
               ElementsAre("m.map:1:1: the file: found an unknown key timout, expected timeout, high-speed, in, out, "
-                          "const, send, abort; did you mean timeout?",
+                          "const, send, m-groups, abort; did you mean timeout?",
                           "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
                           "write for example type = \"bit\"",
                           "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "

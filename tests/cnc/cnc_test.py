@@ -166,8 +166,9 @@ def unload(bench, _options):
 def retained(bench, _options):
     """D goes on where the last session stopped; a place that cannot be written stops the loading."""
     bench.program(HERE / "stuck.pmc")
-    bench.file("program.map", "in s32 number D4:4\nout s32 kept D4:4\n")
-    bench.file("first.map", "out s32 kept D4:4\n")
+    kept = 'out.kept = { type = "s32", name = "D4:4" }\n'
+    bench.file("program.map", 'in.number = { type = "s32", name = "D4:4" }\n' + kept)
+    bench.file("first.map", kept)
     load = LOAD.format(options="retain=@DIR@/memory", prefix="rung")
     show = "loadusr -w sleep 0.3\nshow pin rung.kept\n"
     bench.halrun(load + "setp rung.number 4711\n" + show)
@@ -175,6 +176,50 @@ def retained(bench, _options):
     expect(shown(done.stdout, "rung.kept") == ["4711"], shown(done.stdout, "rung.kept"))
     done = bench.halrun(LOAD.format(options="retain=/nowhere/memory", prefix="rung"))
     expect("cannot write /nowhere/memory" in done.stdout, "no message")
+
+
+def example(bench, options, commands, pins):
+    """Loads the example's program with its map, and gives the values of pins after each `show`."""
+    bench.program(options.program)
+    bench.file("program.map", "".join(Path(path).read_text(encoding="utf-8") for path in options.map))
+    show = "".join(f"show pin rung.{pin}\n" for pin in pins)
+    script = "".join(f"loadusr -w sleep {line.split()[1]}\n" if line.startswith("wait") else
+                     show if line == "show" else f"setp rung.{line}\n" for line in commands)
+    done = bench.halrun(LOAD.format(options="", prefix="rung") + script)
+    return {pin: shown(done.stdout, "rung." + pin) for pin in pins}
+
+
+def turning_centre(bench, options):
+    """NCT: machine on, M8, M9 with their acknowledges, T of channel 2."""
+    values = example(bench, options, [
+        # doors shut, turrets clamped on place 1, chucks open, quill back; contactors, hydraulics follow
+        "inputs-0 0x63B31F", "inputs-1 0x227", "inputs-2 0x27", "probe 1", "spindle-stopped 1", "wait 0.2", "show",
+        "estop-ok 1", "wait 0.1", "machine-on 1", "wait 0.1", "show",
+        "wait 0.5", "inputs-0 0x63BB3F", "wait 0.2", "coolant-flood 1", "wait 0.2", "show",
+        "coolant-flood 0", "turret-2-place 1", "turret-2-turn 1", "wait 0.3", "show",
+    ], ["enable", "outputs-0", "outputs-1", "finished", "turret-2-there", "functions-busy", "functions-lost", "fault"])
+    expect(values["enable"] == ["FALSE", "TRUE", "TRUE", "TRUE"], values)
+    expect(values["finished"] == 4 * ["TRUE"], values)
+    pump = [int(value, 0) >> 6 & 1 for value in values["outputs-1"]]
+    expect(pump == [0, 0, 1, 0], values)
+    expect(values["turret-2-there"] == ["FALSE", "FALSE", "FALSE", "TRUE"], values)
+    expect(values["functions-busy"] == 4 * ["FALSE"], values)
+    expect(values["functions-lost"] == 4 * ["0"] and values["fault"] == 4 * ["FALSE"], values)
+
+
+def machining_centre(bench, options):
+    """TECHNOL: machine on, M8 and T as blocks."""
+    values = example(bench, options, [
+        # door shut and locked, arm at home, gear 1, workpiece and table clamped, spindle empty
+        "p1in 0xD4", "p2in 0x7F", "p3in 0x40", "p4in 0x65", "p5in 0x54", "p6in 0xAD", "wait 1.3", "show",
+        "estop-ok 1", "wait 0.1", "p1in 0xD6", "wait 0.1", "p1in 0xF6", "wait 0.1", "p1in 0xFE", "wait 0.4", "show",
+        "coolant-flood 1", "wait 0.2", "show", "coolant-flood 0", "wait 0.2", "show",
+    ], ["enable", "lamp-on", "p3out", "block-running", "functions-busy", "fault"])
+    expect(values["enable"] == ["FALSE", "TRUE", "TRUE", "TRUE"], values)
+    pump = [int(value, 0) & 1 for value in values["p3out"]]
+    expect(pump == [0, 0, 1, 0], values)
+    expect(values["functions-busy"] == 4 * ["FALSE"] and values["block-running"] == 4 * ["FALSE"], values)
+    expect(values["fault"] == 4 * ["FALSE"], values)
 
 
 def mistakes(bench, _options):
@@ -187,11 +232,21 @@ def mistakes(bench, _options):
         expect(done.returncode != 0, "loaded in spite of the mistake")
         return done.stdout
 
-    output = load("in bit a X0.0\nin bit b Y0.0\nsend a up M 3\nout bit c NOWHERE\n")
-    expect("program.map:2: Y0.0 is an output of the program; it cannot be written" in output, "line 2")
-    expect("program.map:3: 'up': rise or fall is expected" in output, "line 3")
-    expect("program.map:4: NOWHERE: the program has no such name or address" in output, "line 4")
-    expect("cannot make pin rung.fault" in load("out bit fault Y0.0\n"), "a reserved name")
+    output = load("""[in]
+a = { type = "bit", name = "X0.0" }
+b = { type = "bit", name = "Y0.0" }
+[out]
+c = { type = "bit", name = "NOWHERE" }
+[[abort]]
+pin = "a"
+edge = "up"
+""")
+    expect("program.map:3:28: Y0.0 is an output of the program; it cannot be written" in output, "line 3")
+    expect("program.map:5:28: NOWHERE: the program has no such name or address" in output, "line 5")
+    expect('program.map:8:8: abort.edge: found "up", expected "rise" or "fall"; write' in output, "line 8")
+    output = load("[in]\nin bit a X0.0\n")
+    expect("program.map:2:4: Error while parsing key-value pair" in output, "not TOML")
+    expect("cannot make pin rung.fault" in load('out.fault = { type = "bit", name = "Y0.0" }\n'), "a reserved name")
     expect("rung_hal: cannot load /nowhere.so: " in load("", "so=/nowhere.so"), "a missing program")
     expect("and2.so: it has no seal" in load("", "so=/usr/lib/linuxcnc/modules/and2.so"), "not a program")
     shutil.copy(bench.home / "program.so", bench.home / "nobodys.so")
@@ -200,7 +255,7 @@ def mistakes(bench, _options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, unload, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, unload, retained, turning_centre, machining_centre, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

@@ -62,8 +62,9 @@ public:
   // does not fit is cut off.
   virtual size_t describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept;
 
-  // The handshake of M, S and T functions; null: this dialect's is not supported yet.
-  virtual Functions* functions() { return nullptr; }
+  // The handshake of M, S and T functions in a channel, which count from 0; null: the control has no such channel, or
+  // the dialect no such functions.
+  virtual Functions* functions(uint32_t channel) { return (void)channel, nullptr; }
 
   // The program's retained memory was there but could not be restored: called before the power-on.
   virtual void reportRetainedLost() {}

@@ -60,6 +60,7 @@ public:
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     SimulatedNc::powerOn(instance, kind);
+    signals_.emplace(instance);
     if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
     simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
@@ -95,9 +96,9 @@ public:
     if (!window) return false;
     const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
     if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
-    reply = replyOf(request, window->write,
-                    simulated_ ? simulator_.answer(*window, nc::gsk::SignalsIo(instance))
-                               : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
+    reply =
+        replyOf(request, window->write,
+                simulated_ ? simulator_.answer(*window, *signals_) : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
     return true;
   }
 
@@ -122,7 +123,7 @@ private:
 
   void beforeSlot(host::Instance& instance) {
     if (simulated_ && !instance.faulted()) {
-      simulator_.step(nc::gsk::SignalsIo(instance));
+      simulator_.step(*signals_);
       answerLowSpeed(instance);
     }
     writePositions(instance);
@@ -148,9 +149,8 @@ private:
     while (!waiting_.empty() && waiting_.front().slots == 0) {
       const rt::ServiceRequest& next = waiting_.front().request;
       const auto window = windowRequest(instance, next);
-      instance.services().complete(
-          window ? replyOf(next, window->write, simulator_.answer(*window, nc::gsk::SignalsIo(instance)))
-                 : nc::refuse(instance.program(), next));
+      instance.services().complete(window ? replyOf(next, window->write, simulator_.answer(*window, *signals_))
+                                          : nc::refuse(instance.program(), next));
       waiting_.pop_front();
     }
   }
@@ -186,7 +186,8 @@ private:
   bool simulated_ = false;
   nc::GskControl control_;
   gsk::Simulator simulator_;
-  std::deque<Waiting> waiting_; // low-speed window requests
+  std::optional<nc::gsk::SignalsIo> signals_; // from the power-on
+  std::deque<Waiting> waiting_;               // low-speed window requests
 };
 
 std::string SimulatedGsk::config(std::string_view key, std::string_view value) {

@@ -12,7 +12,7 @@ public:
   void prepare(host::Instance& instance, PowerOn kind) override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
-  GskFunctions* functions() override { return &functions_; }
+  GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 
 protected:
   std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;

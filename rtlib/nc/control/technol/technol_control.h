@@ -6,6 +6,7 @@
 #include "rtlib/nc/control/technol/blocks.h"
 #include "rtlib/nc/control/technol/messages.h"
 #include "rtlib/nc/control/technol/program_life.h"
+#include "rtlib/nc/control/technol/technol_functions.h"
 
 namespace rung::nc {
 
@@ -22,6 +23,8 @@ public:
   std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
+
+  TechnolFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 
   bool savesOnRequest() const override { return true; }
   void setStored(bool stored) override { backup_.setStored(stored); }
@@ -41,6 +44,7 @@ protected:
 
 private:
   technol::Blocks blocks_;
+  TechnolFunctions functions_{blocks_};
   technol::ProgramLife life_;
   technol::Messages messages_;
   technol::Backup backup_;

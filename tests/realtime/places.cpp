@@ -55,8 +55,8 @@ hal::MapFile mapOf(const Names& names) {
   map.path = "all.map";
   const auto add = [&](std::vector<hal::MapLink>& links, const std::string& name, bool output) {
     const auto pin = static_cast<uint32_t>(map.pins.size());
-    map.pins.push_back({(output ? "out-" : "in-") + std::to_string(pin), hal::PinType::Bit, output});
-    links.push_back({pin, name, 1, pin + 1});
+    map.pins.push_back({(output ? "out-" : "in-") + std::to_string(pin), hal::PinType::Bit, output, {pin + 1}});
+    links.push_back({pin, name, 1, {pin + 1}});
   };
   for (const std::string& name : names.inputs) add(map.inputs, name, false);
   for (const std::string& name : names.outputs) add(map.outputs, name, true);

@@ -25,7 +25,8 @@ hal::MapFile mapOf(const Names& names);
 class Toggles {
 public:
   bool next(bool old) { return random_() % 32 == 0 ? !old : old; }
-  int32_t nextNumber(int32_t old) { return random_() % 32 == 0 ? static_cast<int32_t>(random_() % 100) : old; }
+  // A number, or bits side by side.
+  int32_t nextNumber(int32_t old) { return random_() % 8 == 0 ? old ^ (1 << random_() % 16) : old; }
 
 private:
   std::mt19937_64 random_{20260101};

@@ -3,6 +3,9 @@
 
 #include <malloc.h>
 
+#include <algorithm>
+#include <new>
+
 #include "tests/realtime/guard.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/count_system_calls.h"
@@ -65,9 +68,17 @@ TEST(Guard, CountsEveryEntryOfTheHeap) {
               block = made;
             }),
             2);
-  EXPECT_EQ(allocationsOf([] { ::operator delete(block = ::operator new(10)); }), 2);
-  constexpr std::align_val_t kLine{64};
-  EXPECT_EQ(allocationsOf([] { ::operator delete(block = ::operator new(64, kLine), kLine); }), 2);
+  EXPECT_EQ(allocationsOf([] {
+              block = ::operator new(10);
+              ::operator delete(block);
+            }),
+            2);
+  EXPECT_EQ(allocationsOf([] {
+              constexpr std::align_val_t kLine{64};
+              block = ::operator new(64, kLine);
+              ::operator delete(block, kLine);
+            }),
+            2);
   EXPECT_EQ(allocationsOf([] { std::free(nullptr); }), 0);
 }
 

@@ -12,8 +12,10 @@
 #include <cstdio>
 #include <ctime>
 
-// Where the component keeps its parameters, as RTAPI finds them.
+// The component, and where it keeps its parameters, as RTAPI finds them.
 extern "C" {
+int rtapi_app_main();
+void rtapi_app_exit();
 extern void* rtapi_info_address_so;
 extern void* rtapi_info_address_map;
 extern void* rtapi_info_address_retain;

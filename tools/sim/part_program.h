@@ -26,20 +26,22 @@ public:
   ProgramText(std::string_view text, uint32_t lastVariable) : text_(text), lastVariable_(lastVariable) {}
 
   bool atBlockEnd() const;
-  bool nextBlock();                                                       // false: there is none
-  char written() const { return at_ < text_.size() ? text_[at_] : '\0'; } // the next character, at the end 0
-  char here() const;                                                      // the same, as a capital letter
+  // Over the end of a block; false: the text ends there.
+  bool nextBlock();
+  // The next character, 0 at the end of the text; `here`: as a capital letter.
+  char written() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  char here() const;
   bool atLetter() const { return here() >= 'A' && here() <= 'Z'; }
   void advance() { ++at_; }
   void skipBlanks();
-  // Whether a word in capital letters follows, which is then left behind.
+  // Takes `word`, which is in capital letters; false: something else follows.
   bool take(std::string_view word);
-  // What follows "("; "" or what is wrong.
+  // To the end of a comment whose "(" has been taken; "" or what is wrong.
   std::string skipComment();
 
   // Nothing where there is no such number; the position is then of no use.
   std::optional<double> number();
-  std::optional<uint32_t> variable(); // what follows "#"
+  std::optional<uint32_t> variable(); // after "#"
   std::optional<ProgramValue> value();
 
 private:

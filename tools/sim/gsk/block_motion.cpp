@@ -1,5 +1,6 @@
 // Blocks of a part program: modal codes, coordinates and the motion along the path (see operation.h).
 #include <cmath>
+#include <utility>
 
 #include "tools/sim/gsk/operation_run.h"
 
@@ -58,7 +59,8 @@ void Operation::modalCode(Run&, int tenths, double p) {
 
 // The codes first, then the words that they govern.
 void Operation::prepare(Run& run, const Block& block) {
-  codes_ = {};
+  codes_.m.clear();
+  codes_ = {.m = std::move(codes_.m)}; // with its memory
   moveCount_ = 0;
   dwellMs_ = 0;
   std::array<std::optional<double>, kAxes> words;

@@ -42,6 +42,7 @@ struct Modal {
 
 class Operation {
 public:
+  Operation() { codes_.m.reserve(3); } // of a block
   void load(PartProgram program);
   void loadMdi(PartProgram program);
   bool select(uint32_t number, bool mdi); // a program loaded before

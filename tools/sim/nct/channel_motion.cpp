@@ -12,7 +12,6 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr double kNear = 1e-9;
 constexpr double kLeastFeed = 1e-9; // 0 would be rapid traverse
 constexpr double kMinuteUs = 60e6;
 

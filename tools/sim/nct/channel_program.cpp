@@ -12,6 +12,7 @@ constexpr int kCodes[] = {0,   10,  20,  30,  40,  51,  90,  170, 180, 190, 200,
                           740, 780, 800, 808, 818, 840, 842, 843, 900, 910, 920, 940, 950, 960, 970};
 
 constexpr uint32_t kLastMacro = 9999;
+constexpr uint32_t kLastNumber = 99'999'999; // of blocks, programs and codes
 
 class Reader final : public ProgramReader<ProgramBlock> {
 public:
@@ -39,7 +40,7 @@ private:
   std::string readTarget(ProgramBlock& block, ProgramJump jump) {
     text_.skipBlanks();
     const auto target = text_.number();
-    if (!target || *target < 1) return "expected the number of a block after GOTO";
+    if (!target || *target < 1 || *target > UINT32_MAX) return "expected the number of a block after GOTO";
     jump.target = static_cast<uint32_t>(*target);
     block.jump = jump;
     return {};
@@ -86,7 +87,7 @@ private:
 
   static std::string take(const ProgramWord& word, ProgramBlock& block) {
     const double number = word.value.number;
-    const bool eightDigits = number >= 0 && number <= 99'999'999;
+    const bool eightDigits = number >= 0 && number <= kLastNumber;
     if (word.letter == 'N' || word.letter == 'O') {
       if (!eightDigits || word.value.variable != 0) return "numbers have up to eight digits";
       if (word.letter == 'N') block.sequence = static_cast<uint32_t>(number);

@@ -7,7 +7,6 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr double kNear = 1e-9;
 constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
 
 } // namespace

@@ -53,6 +53,8 @@ struct Links {
   PalletManagement* pallets = nullptr;
 };
 
+inline constexpr double kNear = 1e-9; // units or turns: a way of less is none
+
 // "" done, a text: what is wrong, nothing: not this topic's.
 using Handled = std::optional<std::string>;
 

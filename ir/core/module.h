@@ -171,6 +171,7 @@ struct Module {
   TaskId fastTask;
   std::vector<Step> scan;
   std::vector<Step> fast;
+  std::vector<Step> slices; // see rung_program
   bool instrumented = false;
 
   const Space& at(SpaceId id) const { return spaces[id.index]; }

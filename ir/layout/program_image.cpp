@@ -37,6 +37,7 @@ public:
     addRungs();
     addSteps(module_.scan, image_.scan_);
     addSteps(module_.fast, image_.fast_);
+    addSteps(module_.slices, image_.slices_);
     addTexts();
     link();
   }
@@ -204,6 +205,7 @@ private:
     point(image_.partEnds_, p.part_ends, p.part_end_count);
     point(image_.scan_, p.scan, p.scan_count);
     point(image_.fast_, p.fast, p.fast_count);
+    point(image_.slices_, p.slices, p.slice_count);
     pointTexts(image_.routines_, p.routines, p.routine_count);
     pointTexts(image_.files_, p.files, p.file_count);
     pointTexts(image_.faults_, p.faults, p.fault_count);

@@ -39,6 +39,7 @@ private:
   std::vector<uint32_t> partEnds_;
   std::vector<rung_step> scan_;
   std::vector<rung_step> fast_;
+  std::vector<rung_step> slices_;
   std::vector<const char*> routines_;
   std::vector<const char*> files_;
   std::vector<const char*> faults_;

@@ -202,6 +202,11 @@ private:
                     {RUNG_STEP_PART, TaskId{0}, 1},
                     {RUNG_STEP_RUN, TaskId{1}, 2},
                     {RUNG_STEP_SLOT, {}, 0}};
+    module_.slices = {{RUNG_STEP_ADVANCE, {}, 2000},
+                      {RUNG_STEP_RUN, TaskId{1}, 1},
+                      {RUNG_STEP_PART, TaskId{0}, 1},
+                      {RUNG_STEP_ADVANCE, {}, 2000},
+                      {RUNG_STEP_RUN, TaskId{1}, 1}};
   }
 
   RandomSource random_;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "ir/core/module.h"
 #include "rung/program.h"
 
 namespace rung::ir {
@@ -25,6 +26,11 @@ inline constexpr Keyword kStepOps[] = {{"advance", RUNG_STEP_ADVANCE},
                                        {"part", RUNG_STEP_PART},
                                        {"hook", RUNG_STEP_HOOK},
                                        {"slot", RUNG_STEP_SLOT}};
+struct StepList {
+  std::string_view keyword;
+  std::vector<Step> Module::* steps;
+};
+inline constexpr StepList kStepLists[] = {{"scan", &Module::scan}, {"fast", &Module::fast}, {"slice", &Module::slices}};
 inline constexpr Keyword kMessageOps[] = {{"clear", RUNG_MESSAGE_CLEAR},
                                           {"show", RUNG_MESSAGE_SHOW},
                                           {"show_log", RUNG_MESSAGE_SHOW_LOG},

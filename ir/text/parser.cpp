@@ -1,6 +1,9 @@
 // The parser of the text form (see text.h and README.md).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "ir/text/keywords.h"
 #include "ir/text/rung_parser.h"
 #include "ir/text/text.h"
@@ -255,13 +258,14 @@ private:
   }
 
   void parseStep() {
-    std::vector<Step>& list = scanner_.acceptWord("scan") ? module_.scan : module_.fast;
-    if (&list == &module_.fast) scanner_.expectWord("fast");
+    const auto accepted = [&](const StepList& list) { return scanner_.acceptWord(list.keyword); };
+    const auto* list = std::ranges::find_if(kStepLists, accepted);
+    if (list == std::end(kStepLists)) return scanner_.fail("'scan', 'fast' or 'slice' expected");
     Step step;
     step.op = parseKeyword(kStepOps, "step");
     step.task = TaskId{parseReference(scanner_, names_.tasks, "task")};
     step.arg = scanner_.u32();
-    list.push_back(step);
+    (module_.*list->steps).push_back(step);
   }
 
   void resolveCalls() {

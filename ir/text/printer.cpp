@@ -104,8 +104,8 @@ public:
     if (!module_.tasks.empty()) put("\n");
     for (const Task& task : module_.tasks) printTask(task);
     put("schedule main {} fast {}\n", tasks_.text(module_.mainTask.index), tasks_.text(module_.fastTask.index));
-    for (const Step& step : module_.scan) printStep("scan", step);
-    for (const Step& step : module_.fast) printStep("fast", step);
+    for (const StepList& list : kStepLists)
+      for (const Step& step : module_.*list.steps) printStep(list.keyword, step);
   }
 
   void printRung(const Rung& rung, uint32_t number, const Remark& remark);

@@ -163,10 +163,15 @@ void checkTasks(ModuleCheck& check) {
   }
 }
 
+uint64_t advances(const std::vector<Step>& steps) {
+  uint64_t us = 0;
+  for (const Step& step : steps) us += step.op == RUNG_STEP_ADVANCE ? step.arg : 0;
+  return us;
+}
+
 // A real clock waits between two scans.
 bool takesTime(const Module& m) {
-  const auto advances = [](const Step& step) { return step.op == RUNG_STEP_ADVANCE && step.arg != 0; };
-  if (std::any_of(m.scan.begin(), m.scan.end(), advances)) return true;
+  if (advances(m.scan) != 0) return true;
   return m.mainTask.index >= m.tasks.size() || m.tasks[m.mainTask.index].periodUs != 0;
 }
 
@@ -177,7 +182,7 @@ void checkSchedule(ModuleCheck& check) {
   if (!exists(m.mainTask) && (check.mode == Mode::Final || m.mainTask.valid()))
     check.fail(Rule::Schedule, "there is no main task");
   if (!exists(m.fastTask) && m.fastTask.valid()) check.fail(Rule::Schedule, "the fast task does not exist");
-  for (const std::vector<Step>* steps : {&m.scan, &m.fast})
+  for (const std::vector<Step>* steps : {&m.scan, &m.fast, &m.slices})
     for (const Step& step : *steps) {
       const bool needsTask = step.op == RUNG_STEP_RUN || step.op == RUNG_STEP_PART;
       if (step.op > RUNG_STEP_SLOT)
@@ -185,6 +190,8 @@ void checkSchedule(ModuleCheck& check) {
       else if (needsTask != exists(step.task) || needsTask != step.task.valid())
         check.fail(Rule::Schedule, needsTask ? "a step without its task" : "a step with a task that it does not use");
     }
+  if (!m.slices.empty() && advances(m.slices) != advances(m.scan))
+    check.fail(Rule::Schedule, "the slices do not take the time of a scan");
   if (check.mode == Mode::Final && check.errorCount() == errorsBefore && !takesTime(m))
     check.fail(Rule::Schedule, "a scan takes no time");
 }

@@ -20,6 +20,7 @@ void Runner::reset() noexcept {
   ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
   ctx_->extra_weight = 0;
   position_ = 0;
+  chooseList(false);
   faulted_ = false;
   stopped_ = false;
 }
@@ -208,11 +209,19 @@ void Runner::doStep(const rung_step& step) noexcept {
   }
 }
 
+void Runner::chooseList(bool realClock) noexcept {
+  if (position_ != 0) return;
+  if (realClock && program_->slice_count != 0)
+    list_ = {program_->slices, program_->slice_count};
+  else
+    list_ = {program_->scan, program_->scan_count};
+}
+
 // Does the step that comes next; false when it was the last of the list, which then is at its beginning again.
 bool Runner::stepOnce() noexcept {
   if (position_ == 0) advance(untimedPeriodUs_);
-  if (position_ < program_->scan_count) doStep(program_->scan[position_]);
-  if (position_ + 1 < program_->scan_count) {
+  if (position_ < list_.size()) doStep(list_[position_]);
+  if (position_ + 1 < list_.size()) {
     ++position_;
     return true;
   }
@@ -223,6 +232,7 @@ bool Runner::stepOnce() noexcept {
 void Runner::scan() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  chooseList(false);
   bool more = true;
   while (more && !faulted_) more = stepOnce();
 }
@@ -230,9 +240,10 @@ void Runner::scan() noexcept {
 void Runner::slot() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  chooseList(false);
   bool more = true;
   while (more && !faulted_) {
-    const bool slotEnds = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_SLOT;
+    const bool slotEnds = position_ < list_.size() && list_[position_].op == RUNG_STEP_SLOT;
     more = stepOnce() && !slotEnds;
   }
 }
@@ -245,15 +256,17 @@ void Runner::fast() noexcept {
 
 uint32_t Runner::sliceDelayUs() const noexcept {
   if (position_ == 0 && untimedPeriodUs_ != 0) return untimedPeriodUs_;
-  const bool waits = position_ < program_->scan_count && program_->scan[position_].op == RUNG_STEP_ADVANCE;
-  return waits ? program_->scan[position_].arg : 0;
+  const bool slices = position_ == 0 && program_->slice_count != 0;
+  const rung_step* next = slices ? program_->slices : position_ < list_.size() ? &list_[position_] : nullptr;
+  return next != nullptr && next->op == RUNG_STEP_ADVANCE ? next->arg : 0;
 }
 
 void Runner::slice() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  chooseList(true);
   bool more = true;
-  while (more && !faulted_) more = stepOnce() && program_->scan[position_].op != RUNG_STEP_ADVANCE;
+  while (more && !faulted_) more = stepOnce() && list_[position_].op != RUNG_STEP_ADVANCE;
 }
 
 } // namespace rung::rt

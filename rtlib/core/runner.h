@@ -11,6 +11,7 @@
 // once (it may run tasks), and from then on scans and tasks do nothing until `reset`.
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "rung/program.h"
 
@@ -65,7 +66,8 @@ public:
 
   // For a real clock: how long to wait before the next slice, and the slice: one ADVANCE and what follows it up to the
   // next ADVANCE or the end of the list. A pass of a list without ADVANCE takes a period of the main task, spent at its
-  // beginning.
+  // beginning. Where the program has a list of slices, a pass that begins with a slice is one of that list, and whoever
+  // continues it stays in it.
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
 
@@ -101,6 +103,7 @@ private:
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
+  void chooseList(bool realClock) noexcept;
   bool stepOnce() noexcept;
 
   const rung_program* program_;
@@ -110,8 +113,9 @@ private:
   RunnerHooks hooks_;
   TimeLimit limit_;
   int64_t deadline_ = 0;
-  uint32_t position_ = 0;        // in rung_program::scan
-  uint32_t untimedPeriodUs_ = 0; // what a pass of a list without ADVANCE takes
+  std::span<const rung_step> list_; // the pass: rung_program::scan or ::slices
+  uint32_t position_ = 0;           // in it
+  uint32_t untimedPeriodUs_ = 0;    // what a pass of a list without ADVANCE takes
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;

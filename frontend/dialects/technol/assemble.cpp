@@ -197,11 +197,17 @@ private:
   ir::TaskId of(ModuleKind kind) const { return ids_[static_cast<size_t>(kind)]; }
   void run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t times = 1) const;
   void fastSteps(std::vector<ir::Step>& steps, uint32_t times) const;
+  void makeScan();
+  void pass(std::vector<ir::Step>& steps, uint32_t us, uint32_t fastRuns) const;
+  static void step(std::vector<ir::Step>& steps, uint32_t op, uint32_t arg) {
+    steps.push_back({.op = op, .task = {RUNG_NONE}, .arg = arg});
+  }
 
   Lowering& lowering_;
   ir::Module& module_;
   uint32_t periodUs_;
   std::array<ir::TaskId, kModuleKinds> ids_{};
+  ir::TaskId bitMessages_;
 };
 
 // A long program without a loop must not run into the watchdog.
@@ -230,7 +236,7 @@ void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
   const bool exchanges = lowering_.program().exchangesFast;
   if (!others && !exchanges) return run(steps, ModuleKind::Fast, times);
   const auto exchange = [&](ModuleKind kind, uint32_t hook) {
-    if (exchanges && of(kind).valid()) steps.push_back({.op = RUNG_STEP_HOOK, .task = {RUNG_NONE}, .arg = hook});
+    if (exchanges && of(kind).valid()) step(steps, RUNG_STEP_HOOK, hook);
   };
   for (uint32_t i = 0; i < times; ++i) {
     exchange(ModuleKind::Cyclic, nc::kHookFast);
@@ -260,20 +266,36 @@ void TaskMaker::make() {
     add(lowering_.eventNames()[i], lowering_.events()[i].routine, 1, 0, false);
   module_.mainTask = of(ModuleKind::Main);
   module_.fastTask = of(ModuleKind::Fast);
-  const ir::TaskId none{RUNG_NONE};
-  const auto step = [&](uint32_t op, uint32_t arg) { module_.scan.push_back({.op = op, .task = none, .arg = arg}); };
-  step(RUNG_STEP_ADVANCE, periodUs_);
-  step(RUNG_STEP_HOOK, nc::kHookBeforeInput);
-  run(module_.scan, ModuleKind::Input);
-  fastSteps(module_.scan, std::max(1u, periodUs_ / kFastPeriodUs));
-  step(RUNG_STEP_HOOK, nc::kHookAfterInput);
-  run(module_.scan, ModuleKind::Main);
-  step(RUNG_STEP_HOOK, nc::kHookAfterMain);
-  run(module_.scan, ModuleKind::Cont);
   if (const LoweredModule& messages = lowering_.bitMessages(); messages.routine.valid())
-    module_.scan.push_back(
-        {.op = RUNG_STEP_RUN, .task = add("EDEF", messages.routine, messages.weight, periodUs_, false), .arg = 1});
+    bitMessages_ = add("EDEF", messages.routine, messages.weight, periodUs_, false);
   fastSteps(module_.fast, 1);
+  makeScan();
+}
+
+// A pass of the modules with the period. On the virtual clock all fast runs of a period lie between MODULE_INPUT and
+// MODULE_MAIN (technol.md 12.2). On a real one MODULE_FAST runs every millisecond (man. l.2660-2669): the first time in
+// that place, then alone.
+void TaskMaker::makeScan() {
+  const uint32_t fastRuns = std::max(1u, periodUs_ / kFastPeriodUs);
+  pass(module_.scan, periodUs_, fastRuns);
+  if (module_.fast.empty() || fastRuns == 1) return;
+  pass(module_.slices, periodUs_ - (fastRuns - 1) * kFastPeriodUs, 1);
+  for (uint32_t i = 1; i < fastRuns; ++i) {
+    step(module_.slices, RUNG_STEP_ADVANCE, kFastPeriodUs);
+    fastSteps(module_.slices, 1);
+  }
+}
+
+void TaskMaker::pass(std::vector<ir::Step>& steps, uint32_t us, uint32_t fastRuns) const {
+  step(steps, RUNG_STEP_ADVANCE, us);
+  step(steps, RUNG_STEP_HOOK, nc::kHookBeforeInput);
+  run(steps, ModuleKind::Input);
+  fastSteps(steps, fastRuns);
+  step(steps, RUNG_STEP_HOOK, nc::kHookAfterInput);
+  run(steps, ModuleKind::Main);
+  step(steps, RUNG_STEP_HOOK, nc::kHookAfterMain);
+  run(steps, ModuleKind::Cont);
+  if (bitMessages_.valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = bitMessages_, .arg = 1});
 }
 
 } // namespace

@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define RUNG_ABI_VERSION 2u
+#define RUNG_ABI_VERSION 3u
 #define RUNG_PROGRAM_SYMBOL "rung_program_v1"
 #define RUNG_NONE 0xFFFFFFFFu     /* "not there" in every index field */
 #define RUNG_PC_DONE 0xFFFFFFFFu  /* a chunk returns this when the task's run has ended */
@@ -265,9 +265,11 @@ typedef struct rung_program {
   uint32_t part_end_count;
   uint32_t scan_count;
   uint32_t fast_count;
+  uint32_t slice_count;
   uint32_t fault_count;
   uint32_t service_count;
   uint32_t text_count;
+  uint32_t reserved;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
@@ -283,6 +285,7 @@ typedef struct rung_program {
   const uint32_t* part_ends; /* chunk before which a part ends, ascending; RUNG_PC_DONE for the last part of a task */
   const rung_step* scan;     /* one scan of the main task; repeated. It takes time: its own, or the task's period */
   const rung_step* fast;     /* one run of the fast task alone */
+  const rung_step* slices; /* `scan` on a real clock, where that has another order; else none. It takes the same time */
   const char* const* faults;
   const char* const* services;
   const char* const* texts; /* message texts: pairs of number (decimal) and text */

@@ -290,7 +290,7 @@ TEST(TextParse, ErrorsSayWhere) {
       {"routine R {", 2, 12, "'}' expected"},
       {"task T entry R", 2, 14, "there is no routine 'R'"},
       {"step scan jump - 0", 2, 11, "there is no step 'jump'"},
-      {"step slow", 2, 6, "'fast' expected"},
+      {"step slow", 2, 6, "'scan', 'fast' or 'slice' expected"},
       {"task T entry - period 0 budget 0 fault - parts 1 {\nbegin -[0] -[0]", 3, 13, "'>' expected"},
   };
   const Mistake ops[] = {

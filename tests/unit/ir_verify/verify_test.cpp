@@ -201,6 +201,7 @@ TEST(VerifyModule, Schedule) {
         m.tasks[0].periodUs = 0;
       },
       Rule::Schedule, "takes no time");
+  expectBroken([](Module& m) { m.slices = {{RUNG_STEP_ADVANCE, {}, 1}}; }, Rule::Schedule, "the time of a scan");
   expectBroken([](Module& m) { m.scan[0].task = TaskId{0}; }, Rule::Schedule, "does not use");
   expectBroken([](Module& m) { m.scan[1].task = {}; }, Rule::Schedule, "without its task");
   expectBroken([](Module& m) { m.fast.push_back({RUNG_STEP_PART, TaskId{7}, 1}); }, Rule::Schedule, "without its task");

@@ -195,6 +195,20 @@ const Case kCases[] = {
     {"PartLast", [](TestProgram& t) { t.partEnds[1] = 1; }, "task 0 has a last part that does not end with the run"},
     {"StepOp", [](TestProgram& t) { t.fast[0].op = 9; }, "fast step 0 has the unknown operation 9"},
     {"StepTask", [](TestProgram& t) { t.scan[0].task = 1; }, "scan step 0 has task 1, there are 1"},
+    {"SlicesOfAnotherTime",
+     [](TestProgram& t) {
+       static constexpr rung_step kSlices[] = {{RUNG_STEP_ADVANCE, RUNG_NONE, 7}};
+       t.program.slices = kSlices;
+       t.program.slice_count = 1;
+     },
+     "the slices take 7 us, a scan 0"},
+    {"SliceWithoutTask",
+     [](TestProgram& t) {
+       static constexpr rung_step kSlices[] = {{RUNG_STEP_RUN, 9, 1}};
+       t.program.slices = kSlices;
+       t.program.slice_count = 1;
+     },
+     "slice step 0"},
     {"NoTime", [](TestProgram& t) { t.tasks[0].period_us = 0; }, "the scan list takes no time"},
 
     {"NoRoutine", [](TestProgram& t) { t.routines[0] = nullptr; }, "routine 0 is missing"},

@@ -377,6 +377,37 @@ TEST_F(RunnerTest, SlotsOfASlotlessListAreScans) {
   EXPECT_EQ(runner->nowUs(), 16000);
 }
 
+// A program may have another order for a real clock, which takes the same time. Scans keep theirs.
+TEST_F(RunnerTest, SlicesOfTheirOwnList) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addChunk(step<1, RUNG_PC_DONE>);
+  const uint32_t fast = test.addTask("FAST", 0);
+  const uint32_t main = test.addTask("MAIN", 1);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000}, {RUNG_STEP_RUN, fast, 2}, {RUNG_STEP_RUN, main, 1}};
+  test.slices = {{RUNG_STEP_ADVANCE, RUNG_NONE, 1000},
+                 {RUNG_STEP_RUN, fast, 1},
+                 {RUNG_STEP_RUN, main, 1},
+                 {RUNG_STEP_ADVANCE, RUNG_NONE, 1000},
+                 {RUNG_STEP_RUN, fast, 1}};
+  EXPECT_EQ(start().sliceDelayUs(), 1000u);
+  runner->slice();
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+  EXPECT_FALSE(runner->atListStart());
+  EXPECT_EQ(runner->sliceDelayUs(), 1000u);
+  runner->slice();
+  EXPECT_EQ(takeTrace(), Trace{0});
+  EXPECT_TRUE(runner->atListStart());
+  EXPECT_EQ(runner->nowUs(), 2000);
+  runner->scan();
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 1}));
+  EXPECT_EQ(runner->nowUs(), 4000);
+  runner->slice();
+  runner->scan(); // what is left of the pass
+  EXPECT_EQ(takeTrace(), (Trace{0, 1, 0}));
+  EXPECT_TRUE(runner->atListStart());
+  EXPECT_EQ(runner->nowUs(), 6000);
+}
+
 TEST_F(RunnerTest, SlicesEndBeforeTheClockMovesOn) {
   test.addChunk(step<0, RUNG_PC_DONE>);
   test.addChunk(step<1, RUNG_PC_DONE>);

@@ -31,7 +31,7 @@ struct TestProgram {
   std::vector<rung_task> tasks;
   std::vector<uint32_t> partEnds;
   std::vector<rung_step> scan;
-  std::vector<rung_step> fast;
+  std::vector<rung_step> fast, slices;
   bool instrumented = false;
   std::vector<const char*> faults = {"dead-loop", "division by zero"};
   std::vector<const char*> services = {"WINDR", "WINDW"};
@@ -113,6 +113,7 @@ struct TestProgram {
     point(partEnds, program.part_ends, program.part_end_count);
     point(scan, program.scan, program.scan_count);
     point(fast, program.fast, program.fast_count);
+    point(slices, program.slices, program.slice_count);
     point(faults, program.faults, program.fault_count);
     point(services, program.services, program.service_count);
     point(texts, program.texts, program.text_count);

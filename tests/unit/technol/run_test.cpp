@@ -128,6 +128,25 @@ TEST(TechnolRun, JumpsAndLoops) {
   EXPECT_EQ(m.get("SUM"), 5050);
 }
 
+// A millisecond a slice: MODULE_FAST runs in each, what has the period in the first one.
+TEST(TechnolRun, FastModuleRunsEveryMillisecondOnARealClock) {
+  Machine m(Parts{.data = "N: DS 2\nSEEN: DS 2\nSCANS: DS 2\n",
+                  .main = "  LOD N\n  STO SEEN\n  LOD SCANS\n  INR\n  STO SCANS\n",
+                  .fast = "  LOD N\n  INR\n  STO N\n"});
+  const int64_t begin = m.instance().nowUs();
+  for (int slice = 1; slice <= 40; ++slice) {
+    EXPECT_EQ(m.instance().sliceDelayUs(), 1000u);
+    m.instance().slice();
+    EXPECT_EQ(m.get("N"), slice);
+    EXPECT_EQ(m.get("SCANS"), slice <= 20 ? 1 : 2);
+    EXPECT_EQ(m.get("SEEN"), slice <= 20 ? 1 : 21);
+    EXPECT_EQ(m.instance().atListStart(), slice % 20 == 0);
+  }
+  EXPECT_EQ(m.instance().nowUs() - begin, 40'000);
+  m.scan();
+  EXPECT_EQ(m.get("SEEN"), 60); // all twenty before MODULE_MAIN
+}
+
 TEST(TechnolRun, EndlessLoopMeetsTheWatchdog) {
   Machine m(Parts{.main = "LOOP: JUM LOOP\n"});
   m.scan();

@@ -39,8 +39,8 @@ private:
   bool flush();
   bool isolated() const { return line_ == &control_; }
 
-  MemoryLine control_; // its side of the wire
-  mutable MemoryLine remote_;
+  MemoryLine control_; // the two sides of the network in memory
+  MemoryLine remote_;
   SocketLine sockets_;
   Line* line_ = &control_; // where the program's connection leads
 

@@ -31,7 +31,7 @@ public:
   void slot(int count = 1) {
     for (int i = 0; i < count; ++i) model_->slot(*instance_);
   }
-  SimulatedNc& nc() { return *model_; }
+  SimulatedNc& nc() const { return *model_; }
   host::Instance& instance() { return *instance_; }
 
 private:

@@ -6,10 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
+#include <utility>
 
 namespace rung::host {
 
@@ -18,15 +17,6 @@ namespace {
 constexpr int kNotRegular = EBADFD; // no call here gives it
 
 std::string cannotWrite(const std::string& path, int code) { return "cannot write " + path + ": " + fileProblem(code); }
-
-// Makes a rename last. Some file systems have nothing to write for a folder and say so: EINVAL.
-bool syncFolder(const std::string& folder, std::string& error) {
-  const File file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  const int code = file.ok() && ::fsync(file.fd()) == 0 ? 0 : errno;
-  if (code == 0 || code == EINVAL) return true;
-  error = cannotWrite(folder, code);
-  return false;
-}
 
 } // namespace
 
@@ -45,23 +35,6 @@ std::string fileProblem(int code) {
   return std::generic_category().message(code);
 }
 
-std::optional<std::vector<uint8_t>> readDiskFile(const std::string& path, size_t most) {
-  const File file = openDiskFile(path, O_RDONLY);
-  struct stat status{};
-  if (!file.ok() || ::fstat(file.fd(), &status) != 0) return std::nullopt;
-  std::vector<uint8_t> bytes(std::min(static_cast<size_t>(status.st_size), most));
-  size_t have = 0;
-  while (have < bytes.size()) {
-    const ssize_t n = ::read(file.fd(), bytes.data() + have, bytes.size() - have);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return std::nullopt;
-    if (n == 0) break;
-    have += static_cast<size_t>(n);
-  }
-  bytes.resize(have);
-  return bytes;
-}
-
 bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error) {
   const std::string temporary = path + ".tmp";
   // A crash may have left it; whatever is there is not written through.
@@ -74,14 +47,11 @@ bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, st
     error = cannotWrite(temporary, errno);
     return false;
   }
-  const bool written = writeAll(file.fd(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}) &&
-                       ::fsync(file.fd()) == 0 && file.close();
-  if (!written || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    error = cannotWrite(path, errno);
-    ::unlink(temporary.c_str());
-    return false;
-  }
-  return syncFolder(folderOf(path), error);
+  const std::string wrong =
+      finishReplacing(AT_FDCWD, std::move(file), temporary, path,
+                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {.lasts = true});
+  if (!wrong.empty()) error = "cannot write " + path + ": " + wrong;
+  return wrong.empty();
 }
 
 // A file of its own, because a lock belongs to the file and not to its name: one on a file that is replaced would be

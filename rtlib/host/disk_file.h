@@ -1,10 +1,8 @@
 // Files that a power failure must not damage and another process must not share. Blocks: not for the scan thread.
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "rtlib/host/file.h"
 
@@ -16,9 +14,6 @@ File openDiskFile(const std::string& path, int flags);
 
 // What `code` of errno means for a file: "No space left on device".
 std::string fileProblem(int code);
-
-// Nothing, with errno, when the file cannot be read; cut after `most` bytes.
-std::optional<std::vector<uint8_t>> readDiskFile(const std::string& path, size_t most);
 
 // The new contents are on disk when it returns true; else `error` says which file and why, and the file is the old or
 // the new one, whole. PATH.tmp is used up, so crashes leave one file at most:

@@ -44,6 +44,13 @@ bool rename(int folder, const std::string& from, const std::string& to, bool may
   return ::renameat2(folder, from.c_str(), folder, to.c_str(), mayReplace ? 0 : RENAME_NOREPLACE) == 0;
 }
 
+// Makes a rename last. Some file systems have nothing to write for a folder and say so: EINVAL.
+std::string syncFolder(int folder, const std::string& name) {
+  const File file(::openat(folder, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const bool synced = file.ok() && ::fsync(file.fd()) == 0;
+  return synced || errno == EINVAL ? "" : "its folder: " + std::string(std::strerror(errno));
+}
+
 bool writeInto(const std::string& path, std::string_view bytes) {
   File file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
   return file.ok() && writeAll(file.fd(), bytes) && file.close();
@@ -89,22 +96,22 @@ std::string readAll(int fd, size_t most, std::string& bytes) {
   }
 }
 
-std::string replaceFileIn(int folder, const std::string& name, std::string_view bytes, const Writing& writing) {
-  std::string unfinished;
-  File file = createUnfinished(folder, name, writing.mode, unfinished);
-  if (!file.ok()) return std::strerror(errno);
+std::string finishReplacing(int folder, File file, const std::string& unfinished, const std::string& name,
+                            std::string_view bytes, const Writing& writing) {
   if (!writeAll(file.fd(), bytes) || (writing.lasts && ::fsync(file.fd()) != 0) || !file.close() ||
       !rename(folder, unfinished, name, writing.mayReplace)) {
     std::string why = std::strerror(errno);
     ::unlinkat(folder, unfinished.c_str(), 0);
     return why;
   }
-  if (writing.lasts) {
-    // Makes the name last; some file systems refuse, the file is whole anyway.
-    const File place(::openat(folder, folderOf(name).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (place.ok()) ::fsync(place.fd());
-  }
-  return {};
+  return writing.lasts ? syncFolder(folder, folderOf(name)) : std::string();
+}
+
+std::string replaceFileIn(int folder, const std::string& name, std::string_view bytes, const Writing& writing) {
+  std::string unfinished;
+  File file = createUnfinished(folder, name, writing.mode, unfinished);
+  if (!file.ok()) return std::strerror(errno);
+  return finishReplacing(folder, std::move(file), unfinished, name, bytes, writing);
 }
 
 std::string replaceFile(const std::string& path, std::string_view bytes, const Writing& writing) {

@@ -47,6 +47,11 @@ struct Writing {
   bool lasts = false;     // on the disk when the function returns, whatever happens to the machine then
 };
 
+// The second half of replacing a file: `unfinished`, a file of the same folder that nobody else uses, gets the bytes
+// through `file` and then the name; it is gone when that fails. Empty, or why not.
+std::string finishReplacing(int folder, File file, const std::string& unfinished, const std::string& name,
+                            std::string_view bytes, const Writing& writing);
+
 // The name, seen from an open folder or from AT_FDCWD, leads to the whole old file or to the whole new one at any time,
 // also where several processes write to one name; who has the old file open or loaded keeps it as it was. Empty, or why
 // not.

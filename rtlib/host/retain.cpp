@@ -3,12 +3,12 @@
 //   contents
 #include "rtlib/host/retain.h"
 
+#include <fcntl.h>
 #include <zlib.h>
 
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <optional>
 #include <utility>
 
 namespace rung::host {
@@ -38,7 +38,6 @@ uint32_t checksum(std::span<const uint8_t> file) {
 
 // One of the two files, as found.
 struct Found {
-  bool there = false;
   bool good = false; // whole and intact
   uint64_t layoutHash = 0;
   uint64_t generation = 0;
@@ -48,13 +47,17 @@ struct Found {
 
 Found look(const std::string& path) {
   Found found;
-  const std::optional<std::vector<uint8_t>> bytes = readDiskFile(path, kMostBytes);
-  if (!bytes) {
+  const File disk = openDiskFile(path, O_RDONLY);
+  if (!disk.ok()) {
     if (errno != ENOENT) found.wrong = path + ": " + fileProblem(errno);
     return found;
   }
-  found.there = true;
-  const std::span<const uint8_t> file = *bytes;
+  std::string bytes;
+  if (const std::string wrong = readAll(disk.fd(), kMostBytes, bytes); !wrong.empty()) {
+    found.wrong = path + ": " + wrong;
+    return found;
+  }
+  const std::span file(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
   if (file.size() < kHeaderSize) {
     found.wrong = path + ": too short";
   } else if (std::memcmp(file.data(), kMagic, 8) != 0) {

@@ -1,7 +1,7 @@
 // Finding and checking configuration keys (see config_key.h).
 #include "rtlib/nc/config_key.h"
 
-#include <charconv>
+#include "rtlib/nc/number.h"
 
 namespace rung::nc {
 namespace {
@@ -12,12 +12,6 @@ bool matches(std::string_view pattern, std::string_view key) {
   const std::string_view before = pattern.substr(0, open);
   const std::string_view after = pattern.substr(pattern.rfind('>') + 1);
   return key.size() > before.size() + after.size() && key.starts_with(before) && key.ends_with(after);
-}
-
-bool isNumber(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
 }
 
 bool isOneOf(std::string_view words, std::string_view value) {
@@ -52,7 +46,7 @@ bool isRight(const ConfigKey& row, std::string_view value) {
   switch (row.form) {
   case ConfigForm::Choice: return isOneOf(row.takes, value);
   case ConfigForm::Whole: return wholeNumber(value) >= row.least && wholeNumber(value) <= row.most;
-  case ConfigForm::Number: return isNumber(value);
+  case ConfigForm::Number: return realIn(value).has_value();
   case ConfigForm::Duration: return durationUs(value) >= row.least && durationUs(value) <= row.most;
   case ConfigForm::File: return !value.empty();
   case ConfigForm::Text: return true;
@@ -63,9 +57,8 @@ bool isRight(const ConfigKey& row, std::string_view value) {
 } // namespace
 
 int64_t wholeNumber(std::string_view text) {
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && value >= 0 && text.size() <= 18 ? value : -1;
+  const auto value = numberIn<int64_t>(text);
+  return value && *value >= 0 && text.size() <= 18 ? *value : -1;
 }
 
 int64_t durationUs(std::string_view text) {

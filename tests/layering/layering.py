@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks who may include whom (docs/architecture.md): layering.py [ROOT]; exit 1 and a line for each offence."""
+"""Checks who may include whom, and that the runtime knows its dialects in rtlib/nc alone (docs/architecture.md):
+layering.py [ROOT]; exit 1 and a line for each offence."""
 import re
 import sys
 from pathlib import Path
@@ -16,7 +17,8 @@ MODULES = {
     "rtlib/core": {"rtlib/abi"},
     "rtlib/nc": {"rtlib/abi"},
     "rtlib/host": {"rtlib/abi", "rtlib/core"},
-    "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/host"},
+    "rtlib/nc/names": {"rtlib/abi", "rtlib/core", "rtlib/host"},  # without the signal tables
+    "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/nc/names", "rtlib/host"},
     "rtlib/profile": {"rtlib/abi", "rtlib/core", "rtlib/host"},
     "ir/support": set(),
     "ir/core": IR,
@@ -36,7 +38,8 @@ MODULES = {
     "frontend/lower": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema"},
     "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
     **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
-    "codegen/cpp": ALL_IR,
+    "codegen/process": {"ir/support"},
+    "codegen/cpp": ALL_IR | {"codegen/process"},
     "codegen/llvm": ALL_IR,
     "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
     "codegen/clang": ALL_IR | {"codegen/cpp"},
@@ -47,7 +50,7 @@ FREE = ("tools", "tests", "examples")  # may include everything, but nobody incl
 
 # Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
 FOREIGN = {
-    "llvm/": ("codegen/llvm", "codegen/jit", "codegen/clang"),
+    "llvm/": ("codegen/llvm", "codegen/jit", "codegen/clang", "codegen/process"),
     "llvm-c/": (),
     "lld/": ("codegen/llvm", "codegen/jit"),
     "clang/": ("codegen/clang",),
@@ -55,6 +58,9 @@ FOREIGN = {
     "nlohmann/": ("ir/support", "codegen"),
     "CLI/": (),
     "expat.h": (),
+    "pugixml.hpp": (),
+    "toml++/": (),
+    "utf8proc.h": ("ir/support",),
     "zlib.h": ("rtlib/host",),
     "sodium.h": ("rtlib/host",),
     "gtest/": (),
@@ -63,6 +69,10 @@ FOREIGN = {
 }
 SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".def"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+[<"]([^>"]+)[>"]', re.MULTILINE)
+
+# The name of a dialect as a word or a part of an identifier (gskNames, kNctTimeout, TECHNOL's); not in "function".
+DIALECT_NAME = re.compile(r"(?<![A-Za-z])(?:gsk|nct|technol)(?![a-z])|(?:Gsk|Nct|Technol)(?![a-z])"
+                          r"|(?<![A-Z])(?:GSK|NCT|TECHNOL)(?![A-Z])")
 
 
 def within(path, folder):
@@ -105,8 +115,24 @@ def check_tools(root):
     return found
 
 
+def check_dialect_names(root):
+    """Code, comments and file names of rtlib outside rtlib/nc."""
+    found = []
+    for file in sorted((root / "rtlib").rglob("*")):
+        path = file.relative_to(root).as_posix()
+        if within(path, "rtlib/nc") or not file.is_file():
+            continue
+        for match in DIALECT_NAME.finditer(path):
+            found.append(f"{path}: names a dialect ({match.group()}): belongs in rtlib/nc")
+        text = file.read_text(encoding="utf-8")
+        for match in DIALECT_NAME.finditer(text):
+            line = text.count("\n", 0, match.start()) + 1
+            found.append(f"{path}:{line}: names a dialect ({match.group()}): belongs in rtlib/nc")
+    return found
+
+
 def check(root):
-    found = check_tools(root)
+    found = check_tools(root) + check_dialect_names(root)
     for top in ("frontend", "ir", "codegen", "rtlib"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in SUFFIXES:
@@ -125,7 +151,7 @@ def check(root):
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     found = check(root)
-    print("\n".join(found) or "include directions are right")
+    print("\n".join(found) or "include directions are right, and no dialect is named in rtlib outside rtlib/nc")
     return 1 if found else 0
 
 

@@ -83,9 +83,11 @@ private:
     const bool isBit = place->kind == host::RefKind::Bit;
     if (isBit && type != PinType::Bit) return void(fail(constant.at, constant.name + " is a bit; write true or false"));
     if (!isBit && type == PinType::Bit) return void(fail(constant.at, constant.name + " is not a bit; write a number"));
-    if (place->kind == host::RefKind::Int && !fits(constant.value, place->width))
-      return void(fail(constant.at, constant.name + ": the value does not fit into the cell, which has " +
-                                        std::to_string(place->width) + " bits"));
+    if (place->kind == host::RefKind::Int && !fits(constant, place->width))
+      return void(
+          fail(constant.at, constant.name + ": the value does not fit into the cell, which has " +
+                                std::to_string(place->width) + " bits" +
+                                (type == PinType::Float ? "; a real number becomes an integer with a sign" : "")));
     links.push_back({type, *place, constant.value});
   }
 
@@ -96,9 +98,11 @@ private:
     return isPosition(name) ? place : host::asReal(instance_.memory(), place).value_or(place);
   }
 
-  // With a sign or without.
-  static bool fits(double value, uint32_t width) {
-    return value >= -std::ldexp(1, static_cast<int>(width) - 1) && value < std::ldexp(1, static_cast<int>(width));
+  // Integers with a sign or without; what is converted from a real number has one.
+  static bool fits(const MapConst& constant, uint32_t width) {
+    const double half = std::ldexp(1, static_cast<int>(width) - 1);
+    const double value = std::round(constant.value);
+    return value >= -half && value < (constant.type == PinType::Float ? half : 2 * half);
   }
 
   std::optional<host::Ref> find(const std::string& name, PinType type, Access access, MapPosition at) {

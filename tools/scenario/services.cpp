@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cctype>
-#include <charconv>
 #include <fmt/format.h>
 #include <optional>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/number.h"
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
@@ -42,11 +42,9 @@ std::optional<BlockKey> blockKey(const ServiceSignature& signature, std::string_
   if (!signature.hasBlock() || key.size() < 2 || (std::tolower(key[0]) != 'w' && std::tolower(key[0]) != 'd'))
     return std::nullopt;
   BlockKey parsed{.isReal = std::tolower(key[0]) == 'd'};
-  const auto [end, error] = std::from_chars(key.data() + 1, key.data() + key.size(), parsed.word);
+  parsed.word = nc::numberIn<uint32_t>(key.substr(1)).value_or(0);
   const uint32_t last = parsed.isReal ? nc::nct::kBlockWords - 2 : nc::nct::kBlockWords - 1;
-  if (error != std::errc() || end != key.data() + key.size() || parsed.word < 1 || parsed.word > last)
-    return std::nullopt;
-  return parsed;
+  return parsed.word >= 1 && parsed.word <= last ? std::optional(parsed) : std::nullopt;
 }
 
 // The buffer of a request, read from and written to the memory of the program.

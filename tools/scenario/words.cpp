@@ -2,10 +2,11 @@
 #include "tools/scenario/words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+
+#include "rtlib/nc/number.h"
 
 namespace rung::scenario {
 namespace {
@@ -100,10 +101,9 @@ std::optional<int64_t> parseInt(std::string_view text) {
   if (negative || (!text.empty() && text[0] == '+')) text.remove_prefix(1);
   const int base = takeBase(text);
   const std::string digits = withoutUnderscores(text);
-  uint64_t magnitude = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), magnitude, base);
-  if (error != std::errc() || end != digits.data() + digits.size() || digits.empty()) return std::nullopt;
-  return static_cast<int64_t>(negative ? 0 - magnitude : magnitude);
+  const auto magnitude = nc::numberIn<uint64_t>(digits, base);
+  if (!magnitude) return std::nullopt;
+  return static_cast<int64_t>(negative ? 0 - *magnitude : *magnitude);
 }
 
 Value valueOf(const ScenarioWord& word) {

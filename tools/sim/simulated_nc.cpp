@@ -25,16 +25,19 @@ void SimulatedNc::powerOff(host::Instance& instance) {
 }
 
 void SimulatedNc::scan(host::Instance& instance) {
+  beginSlice(instance);
   instance.scan();
   finishSlice(instance);
 }
 
 void SimulatedNc::slot(host::Instance& instance) {
+  beginSlice(instance);
   instance.slot();
   finishSlice(instance);
 }
 
 void SimulatedNc::fast(host::Instance& instance) {
+  beginSlice(instance);
   instance.fast();
   finishSlice(instance);
 }
@@ -103,6 +106,7 @@ namespace {
 class SimulatedPlain final : public SimulatedNc {
 public:
   nc::Control& control() override { return control_; }
+  const nc::Control& control() const override { return control_; }
 
 private:
   nc::Control control_;

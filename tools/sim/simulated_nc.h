@@ -52,7 +52,7 @@ public:
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
   virtual nc::Control& control() = 0;
-  const nc::Control& control() const { return const_cast<SimulatedNc*>(this)->control(); }
+  virtual const nc::Control& control() const = 0;
 
   // Switches the control and the machine on.
   virtual void powerOn(host::Instance& instance, nc::PowerOn kind);
@@ -69,8 +69,8 @@ public:
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
   virtual void scan(host::Instance& instance);
-  virtual void slot(host::Instance& instance);
-  virtual void fast(host::Instance& instance);
+  void slot(host::Instance& instance);
+  void fast(host::Instance& instance);
   // For a real clock: what the NC does before the first and between two slices.
   virtual void betweenSlices(host::Instance& instance) { control().afterSlice(instance); }
 
@@ -105,8 +105,9 @@ public:
 protected:
   // Whether the log gets a line for this message.
   virtual bool isLogged(const rung_message& message) const;
-  // After a scan, a slot or the fast part: messages, and what the control does then.
-  void finishSlice(host::Instance& instance);
+  // Before and after a scan, a slot or the fast part; after it: messages, and what the control does then.
+  virtual void beginSlice(host::Instance& instance) { (void)instance; }
+  virtual void finishSlice(host::Instance& instance);
 
   std::string inFolder(std::string_view file) const;
 

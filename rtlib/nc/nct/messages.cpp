@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstring>
 
+#include "rtlib/nc/number.h"
+
 namespace rung::nc::nct {
 namespace {
 
@@ -46,8 +48,9 @@ std::optional<Placeholder> readPlaceholder(std::string_view text) {
   const char kind = text[1];
   if ((kind != '#' && kind != '*') || text.substr(2, 3) != "0:F") return std::nullopt;
   Placeholder place{.length = end + 1, .real = kind == '*'};
-  const auto [behind, error] = std::from_chars(text.data() + 5, text.data() + end, place.decimals);
-  if (error != std::errc() || behind != text.data() + end || text[5] == '-') return std::nullopt;
+  const auto decimals = numberIn<decltype(place.decimals)>(text.substr(5, end - 5));
+  if (!decimals || text[5] == '-') return std::nullopt;
+  place.decimals = *decimals;
   if (place.decimals > (place.real ? kMostDecimals : 0)) return std::nullopt;
   return place;
 }

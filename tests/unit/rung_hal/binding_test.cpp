@@ -155,17 +155,19 @@ D1 = -128
   EXPECT_THAT(integer.errors, IsEmpty());
   ASSERT_EQ(integer.binding.constants.size(), 1u);
   EXPECT_EQ(integer.binding.constants[0].place.kind, host::RefKind::Int);
-  EXPECT_THAT(gskErrors(R"([const]
+  EXPECT_THAT(
+      gskErrors(R"([const]
 "X0.0" = 1
 D0 = true
 D1 = 256
 D2 = -129
-"D3:2" = 65536.0
+"D3:2" = 40000.0
 )"),
-              ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
-                          "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
-                          "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
-                          "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits"));
+      ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
+                  "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
+                  "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
+                  "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits; a real number becomes an "
+                  "integer with a sign"));
 }
 
 TEST(Binding, FunctionsThatADialectDoesNotHave) {

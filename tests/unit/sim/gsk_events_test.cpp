@@ -25,6 +25,8 @@ TEST(GskConfig, WrongValues) {
   EXPECT_EQ(nc->config("param.7010", "x"), "param.7010: expected a number, found 'x'");
   EXPECT_EQ(nc->config("param.7010.9", "1"), "param.7010.9: there are axes 1 to 8");
   EXPECT_EQ(nc->config("param.7010.x", "1"), "param.7010.x: there are axes 1 to 8");
+  EXPECT_EQ(nc->config("param.7010", "nan"), "param.7010: expected a number, found 'nan'");
+  EXPECT_EQ(nc->config("param.7010", "inf"), "param.7010: expected a number, found 'inf'");
   EXPECT_EQ(nc->config("jog", "fast"), "jog: expected a number, found 'fast'");
   EXPECT_EQ(nc->config("param.", "1"), "unknown configuration key 'param.'");
   EXPECT_EQ(nc->config("speed", "1"), "unknown configuration key 'speed'");
@@ -55,6 +57,11 @@ TEST_F(GskSimulated, EventsWithoutTheirKeys) {
             "event program does not know 'loops'");
 }
 
+TEST(GskConfig, ParametersWithAnExponent) {
+  const GskMachine machine(Config{{"nc", "simulated"}, {"param.1225", "1.5e3"}});
+  EXPECT_EQ(machine.nc().quantity("PARAM.1225"), 1500);
+}
+
 TEST_F(GskSimulated, Quantities) {
   SimulatedNc& nc = machine_.nc();
   EXPECT_FALSE(nc.quantity("MPOS.4")); // three axes
@@ -80,6 +87,10 @@ TEST_F(GskSimulated, PartPrograms) {
   EXPECT_EQ(load("#5"), "block 1: expected #NUMBER=VALUE");
   EXPECT_EQ(load("M3 M8"), "block 1: more than one M code; parameter 1803.6 allows three");
   EXPECT_EQ(load("S-1"), "block 1: S takes no such number");
+  EXPECT_EQ(load("N-1"), "block 1: N takes no such number");
+  EXPECT_EQ(load("M3; O4294967296"), "block 2: O takes no such number");
+  EXPECT_EQ(load("#4294967296=1"), "block 1: expected #NUMBER=VALUE");
+  EXPECT_EQ(load("XINF"), "block 1: a number is missing after 'X'");
   EXPECT_EQ(load(" ; ;"), "the program has no blocks");
   EXPECT_EQ(load("/ n7 g1 x-1.5 (to the stop) f100;;\nM30"), "");
 }

@@ -65,6 +65,8 @@ TEST(ChannelProgram, Mistakes) {
   EXPECT_EQ(wrong("(open"), "block 1: a comment without ')'");
   EXPECT_EQ(wrong("GOTO 5"), "there is no block N5");
   EXPECT_EQ(wrong("GOTO"), "block 1: expected the number of a block after GOTO");
+  EXPECT_EQ(wrong("GOTO 4294967296"), "block 1: expected the number of a block after GOTO");
+  EXPECT_EQ(wrong("XNAN"), "block 1: a number is missing after X");
   EXPECT_EQ(wrong("IF 5"), "block 1: expected a macro variable after IF");
   EXPECT_EQ(wrong("IF #5=3"), "block 1: expected '=' or a comparison after the macro variable");
   EXPECT_EQ(wrong("#5 EQ 1 M3"), "block 1: expected GOTO");

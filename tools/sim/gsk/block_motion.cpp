@@ -1,12 +1,12 @@
 // Blocks of a part program: modal codes, coordinates and the motion along the path (see operation.h).
 #include <cmath>
+#include <utility>
 
 #include "tools/sim/gsk/operation_run.h"
 
 namespace rung::sim::gsk {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
 int64_t placeOnPath(const PathMove& move, uint32_t axis) {
   const double way = static_cast<double>(move.target[axis] - move.start[axis]);
   return move.done >= 1 - 1e-12 ? move.target[axis] : move.start[axis] + std::llround(way * move.done);
@@ -36,14 +36,13 @@ double Operation::absolute(const Machine& machine, uint32_t axis) const {
 }
 
 void Operation::modalCode(Run&, int tenths, double p) {
+  modal_.path.take(tenths);
   switch (tenths) {
   case 0:
   case 10:
     modal_.cutting = tenths == 10;
     modal_.external = false;
     return;
-  case 200: modal_.inch = true; return;
-  case 210: modal_.inch = false; return;
   case 430: modal_.lengthSign = 1; return;
   case 490: modal_.lengthSign = 0; return;
   case 541: modal_.workOffset = 6 + static_cast<uint32_t>(std::max(p, 1.0)); return;
@@ -52,10 +51,6 @@ void Operation::modalCode(Run&, int tenths, double p) {
     modal_.external = true;
     modal_.cutting = false;
     return;
-  case 900: modal_.incremental = false; return;
-  case 910: modal_.incremental = true; return;
-  case 940: modal_.perTurn = false; return;
-  case 950: modal_.perTurn = true; return;
   default:
     if (tenths >= 540 && tenths <= 590) modal_.workOffset = 1 + static_cast<uint32_t>(tenths - 540) / 10;
     return;
@@ -64,8 +59,9 @@ void Operation::modalCode(Run&, int tenths, double p) {
 
 // The codes first, then the words that they govern.
 void Operation::prepare(Run& run, const Block& block) {
-  codes_ = {};
-  moves_.clear();
+  codes_.m.clear();
+  codes_ = {.m = std::move(codes_.m)}; // with its memory
+  moveCount_ = 0;
   dwellMs_ = 0;
   std::array<std::optional<double>, kAxes> words;
   int special = -1;
@@ -93,7 +89,7 @@ void Operation::prepare(Run& run, const Block& block) {
     } else if (word.letter == '#') {
       run.machine.setMacro(word.variable, std::llround(v * kTableScale), run.io);
     } else if (word.letter == 'F') {
-      modal_.feed = v * (modal_.inch ? kMmPerInch : 1);
+      modal_.path.feed = modal_.path.length(v);
     } else if (word.letter == 'H') {
       modal_.h = code();
     } else if (word.letter == 'D') {
@@ -125,16 +121,13 @@ void Operation::prepareMotion(Run& run, const std::array<std::optional<double>, 
     if (!words[i]) continue;
     any = true;
     if (m.isPlcAxis(i)) m.alarms.raise(kAlarmPlcAxis);
-    const int64_t units = std::llround(*words[i] * kUnitsPerMm * (modal_.inch ? kMmPerInch : 1));
-    if (special == kInMachine)
-      move.target[i] = units;
-    else
-      move.target[i] = modal_.incremental ? move.start[i] + units : units + shift(m, i);
+    const int64_t units = std::llround(modal_.path.length(*words[i] * kUnitsPerMm));
+    move.target[i] = special == kInMachine ? units : modal_.path.target(units, move.start[i], shift(m, i));
   }
   if (!any) return;
-  if (!move.rapid && modal_.feed <= 0) m.alarms.raise(kAlarmNoFeed);
+  if (!move.rapid && modal_.path.feed <= 0) m.alarms.raise(kAlarmNoFeed);
   externalOwed_ = modal_.external;
-  moves_.push_back(move);
+  moves_[moveCount_++] = move;
   if (special != kToReference && special != kToOtherReference) return;
   const uint32_t point = special == kToReference ? 1 : std::clamp<uint32_t>(p == 0 ? 2 : p, 2, 4);
   move.start = move.target;
@@ -145,7 +138,7 @@ void Operation::prepareMotion(Run& run, const std::array<std::optional<double>, 
     move.target[i] = Axes::reference(m.tables, i, point);
     move.arrives = static_cast<uint8_t>(move.arrives | 1 << i);
   }
-  moves_.push_back(move);
+  moves_[moveCount_++] = move;
 }
 
 // The part of the path that this slot covers.
@@ -160,7 +153,7 @@ double Operation::pathStep(Run& run, const PathMove& move) {
   length = std::sqrt(length);
   if (length == 0) return 1;
   if (!move.rapid) {
-    double feed = modal_.perTurn ? modal_.feed * std::fabs(m.spindle.actual()) : modal_.feed;
+    double feed = modal_.path.feedPerMinute(m.spindle.actual());
     if (run.io.g(46, 7)) feed = m.tables.parameterReal(kParamDryRun); // l.5339
     feed *= feedOverride(run.io);
     if (run.io.g(19, 6)) feed = std::min(feed, m.tables.parameterReal(kParamSafeFeed)); // FVL
@@ -173,7 +166,7 @@ double Operation::pathStep(Run& run, const PathMove& move) {
 
 void Operation::advance(Run& run) {
   Machine& m = run.machine;
-  if (move_ >= moves_.size()) {
+  if (!moving()) {
     dwellMs_ = std::max(0.0, dwellMs_ - kSlotMs);
     return;
   }

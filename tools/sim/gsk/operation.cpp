@@ -96,7 +96,7 @@ void Operation::progress(Run& run) {
   // A block without motion and codes takes no time; a motion takes at least a slot.
   for (size_t blocks = 0; blocks <= running()->blocks.size(); ++blocks) {
     if (!inBlock_ && (!moves || !beginBlock(run))) break;
-    if (moves && !moved && (move_ < moves_.size() || dwellMs_ > 0)) {
+    if (moves && !moved && (moving() || dwellMs_ > 0)) {
       advance(run);
       moved = true;
     }
@@ -118,7 +118,7 @@ bool Operation::beginBlock(Run& run) {
   if (guarded && !run.io.g(8, 3)) return false; // *BSL l.5557
   const Modal before = modal_;
   prepare(run, program.blocks[next_]);
-  const bool cutting = !moves_.empty() && !moves_.front().rapid;
+  const bool cutting = moveCount_ != 0 && !moves_[0].rapid;
   if (guarded && cutting && !run.io.g(8, 1)) { // *CSL l.5569
     modal_ = before;
     return false;
@@ -139,7 +139,7 @@ bool Operation::beginBlock(Run& run) {
 }
 
 bool Operation::blockDone(Run& run) {
-  if (move_ < moves_.size() || dwellMs_ > 0 || functions_.busy()) return false;
+  if (moving() || dwellMs_ > 0 || functions_.busy()) return false;
   if (!externalOwed_) return true;
   externalOwed_ = false;
   AuxiliaryCodes external;
@@ -174,10 +174,8 @@ void Operation::reset(const nc::gsk::SignalsIo& io, Machine& machine) {
   if (state_ != RunState::Reset || inBlock_)
     for (uint32_t i = 0; i < kAxes; ++i)
       if (!machine.isPlcAxis(i)) machine.axes[i].moving = false;
-  const Modal initial;
-  modal_ = {.inch = modal_.inch, .feed = modal_.feed, .workOffset = initial.workOffset};
-  moves_.clear();
-  move_ = 0;
+  modal_ = {.path = {.inch = modal_.path.inch, .feed = modal_.path.feed}};
+  moveCount_ = move_ = 0;
   dwellMs_ = 0;
   inBlock_ = externalOwed_ = stopAfterBlock_ = false;
   state_ = RunState::Reset;
@@ -188,10 +186,10 @@ void Operation::writeSignals(const nc::gsk::SignalsIo& io) const {
   io.setF(0, 7, state_ != RunState::Reset); // Table 5-1
   io.setF(0, 5, state_ == RunState::Start);
   io.setF(0, 4, state_ == RunState::Hold);
-  io.setF(1, 3, inBlock_ && move_ >= moves_.size() && dwellMs_ <= 0 && functions_.busy()); // DEN l.5875
-  io.setF(2, 7, io.g(46, 7));                                                              // MDRN l.5367
-  io.setF(2, 6, inBlock_ && state_ == RunState::Start && move_ < moves_.size() && !moves_[move_].rapid);
-  io.setF(2, 0, modal_.inch); // l.4106
+  io.setF(1, 3, inBlock_ && !moving() && dwellMs_ <= 0 && functions_.busy()); // DEN l.5875
+  io.setF(2, 7, io.g(46, 7));                                                 // MDRN l.5367
+  io.setF(2, 6, inBlock_ && state_ == RunState::Start && moving() && !moves_[move_].rapid);
+  io.setF(2, 0, modal_.path.inch); // l.4106
   io.setF(4, 4, io.g(5, 6));
   io.setF(4, 3, io.g(46, 1));
   io.setF(4, 1, io.g(44, 1));

@@ -8,6 +8,7 @@
 #include "tools/sim/gsk/auxiliary.h"
 #include "tools/sim/gsk/machine.h"
 #include "tools/sim/gsk/part_program.h"
+#include "tools/sim/path_modes.h"
 
 namespace rung::sim::gsk {
 
@@ -31,12 +32,9 @@ struct PathMove {
 };
 
 struct Modal {
-  bool cutting = false; // G1
-  bool incremental = false;
-  bool perTurn = false;
-  bool inch = false;
-  bool external = false; // G81 until G80 or a code of group 01
-  double feed = 0;
+  PathModes path;
+  bool cutting = false;    // G1
+  bool external = false;   // G81 until G80 or a code of group 01
   uint32_t workOffset = 1; // G54
   uint32_t h = 0, d = 0;
   int lengthSign = 0; // G43 is 1
@@ -44,6 +42,7 @@ struct Modal {
 
 class Operation {
 public:
+  Operation() { codes_.m.reserve(3); } // of a block
   void load(PartProgram program);
   void loadMdi(PartProgram program);
   bool select(uint32_t number, bool mdi); // a program loaded before
@@ -72,6 +71,7 @@ private:
   bool blockDone(Run& run);
   void finishBlock(Run& run);
   void end();
+  bool moving() const { return move_ < moveCount_; }
   double pathStep(Run& run, const PathMove& move);
   int64_t shift(const Machine& machine, uint32_t axis) const;
   void writeSignals(const nc::gsk::SignalsIo& io) const;
@@ -93,8 +93,9 @@ private:
   bool inBlock_ = false;
   Modal modal_;
   AuxiliaryCodes codes_;
-  std::vector<PathMove> moves_;
-  size_t move_ = 0;
+  std::array<PathMove, 2> moves_; // of a block: over an intermediate point to a reference point
+  size_t moveCount_ = 0;
+  size_t move_ = 0; // under way
   double dwellMs_ = 0;
   bool externalOwed_ = false;
   nc::GskFunctions functions_{nc::GskFunctions::Answer::ByLevel};

@@ -1,31 +1,28 @@
 // Part programs of the simulated CNC: the text of `event program` and `event mdi`, read into blocks.
 //
-//   program := block { (";" | newline) block }
-//   block   := ["/"] { word | "(" comment ")" | "#" number "=" value }     word := letter value
-//   value   := number | "#" number
+//   block := ["/"] { word | "(" comment ")" | "#" number "=" value }
 #pragma once
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace rung::sim::gsk {
+#include "tools/sim/part_program.h"
 
-struct Value {
-  double number = 0;
-  uint32_t variable = 0; // of a macro variable; 0: the number counts
-};
+namespace rung::sim::gsk {
 
 struct Word {
   char letter = 0; // '#': assignment to `variable`
   uint32_t variable = 0;
-  Value value;
+  ProgramValue value;
 };
 
 struct Block {
   bool skipped = false;  // "/"
   uint32_t sequence = 0; // N, 0: none
   std::vector<Word> words;
+
+  bool empty() const { return sequence == 0 && words.empty(); }
 };
 
 struct PartProgram {

@@ -1,7 +1,7 @@
 // Quantities of the simulated CNC by name: what scenarios read and set (see simulator.h).
-#include <charconv>
 #include <cmath>
 
+#include "rtlib/nc/number.h"
 #include "tools/sim/gsk/simulator.h"
 
 namespace rung::sim::gsk {
@@ -18,12 +18,9 @@ struct Name {
 std::optional<uint32_t> lastNumber(std::string_view& name) {
   const size_t dot = name.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
-  uint32_t value = 0;
-  const std::string_view digits = name.substr(dot + 1);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  name = name.substr(0, dot);
-  return value;
+  const auto number = nc::numberIn<uint32_t>(name.substr(dot + 1));
+  if (number) name = name.substr(0, dot);
+  return number;
 }
 
 Name split(std::string_view text) {
@@ -81,10 +78,14 @@ std::optional<double> Simulator::quantity(std::string_view text) const {
   if (const auto cell = cellOf(n)) return real(m.tables.get(cell->table, cell->number, cell->attribute));
   if (n.numbers != 1 || n.first < 1 || n.first > m.axes.count()) return std::nullopt;
   const uint32_t axis = n.first - 1;
-  if (n.head == "MPOS") return std::floor(static_cast<double>(m.axes[axis].machine) / 10); // 0.001 mm
+  if (n.head == "MPOS") return machinePosition(axis);
   if (n.head == "APOS") return operation_.absolute(m, axis);
   if (n.head == "RPOS") return real(m.axes[axis].relative);
   return std::nullopt;
+}
+
+double Simulator::machinePosition(uint32_t axis) const {
+  return axis < machine_.axes.count() ? std::floor(static_cast<double>(machine_.axes[axis].machine) / 10) : 0;
 }
 
 std::string Simulator::setQuantity(std::string_view text, double value) {

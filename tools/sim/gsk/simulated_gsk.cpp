@@ -3,9 +3,7 @@
 // and C.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <deque>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/config_key.h"
@@ -13,32 +11,16 @@
 #include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tools/sim/gsk/simulator.h"
+#include "tools/sim/keys.h"
 #include "tools/sim/simulated_nc.h"
 
 namespace rung::sim {
 namespace {
 
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-// "tmr.3" with prefix "tmr." gives 3.
-std::optional<uint32_t> numberBehind(std::string_view key, std::string_view prefix) {
-  if (!key.starts_with(prefix)) return std::nullopt;
-  const std::string_view digits = key.substr(prefix.size());
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  return value;
-}
-
 // The events and their keys.
 struct EventKeys {
   std::string_view event;
-  std::array<std::string_view, 2> keys;
+  std::initializer_list<std::string_view> keys;
 };
 constexpr EventKeys kEvents[] = {{"program", {"blocks", "block"}},
                                  {"mdi", {"blocks", "block"}},
@@ -46,17 +28,14 @@ constexpr EventKeys kEvents[] = {{"program", {"blocks", "block"}},
                                  {"handwheel", {"pulses", "wheel"}},
                                  {"alarm", {"number"}}};
 
-const NcArgument* find(const std::vector<NcArgument>& keys, std::string_view key) {
-  for (const NcArgument& argument : keys)
-    if (argument.key == key) return &argument;
-  return nullptr;
-}
-
 class SimulatedGsk final : public SimulatedNc {
 public:
   std::string config(std::string_view key, std::string_view value) override;
 
+  SimulatedGsk() { waiting_.reserve(rt::ServiceQueue::kMaxPending); }
+
   nc::Control& control() override { return control_; }
+  const nc::Control& control() const override { return control_; }
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     SimulatedNc::powerOn(instance, kind);
@@ -64,6 +43,9 @@ public:
     if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
     simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
+    const uint32_t space = host::findSpace(instance.program(), "@MPOS");
+    for (uint32_t axis = 0; axis < gsk::kAxes; ++axis)
+      positionPlaces_[axis] = space == RUNG_NONE ? rt::Place() : instance.memory().locate(space, 4 * axis, 4);
   }
 
   // Slot by slot, to the end of the cycle of Level 2.
@@ -71,22 +53,12 @@ public:
     do slot(instance);
     while (!instance.atListStart() && !instance.faulted());
   }
-  void slot(host::Instance& instance) override {
-    beforeSlot(instance);
-    SimulatedNc::slot(instance);
-    takeRequests(instance);
-  }
-  void fast(host::Instance& instance) override {
-    beforeSlot(instance);
-    SimulatedNc::fast(instance);
-    takeRequests(instance);
-  }
 
   // A slice is a slot.
   void betweenSlices(host::Instance& instance) override {
     SimulatedNc::betweenSlices(instance);
     takeRequests(instance);
-    beforeSlot(instance);
+    beginSlice(instance);
   }
 
   // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
@@ -106,13 +78,28 @@ public:
 
   std::string setQuantity(std::string_view name, double value) override {
     if (simulated_) return simulator_.setQuantity(name, value);
-    const auto axis = numberBehind(name, "MPOS.");
-    if (!axis || *axis < 1 || *axis > gsk::kAxes)
-      return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
-    return SimulatedNc::setQuantity(name, value);
+    const auto axis = axisOfPosition(name);
+    if (!axis) return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
+    scriptedPositions_[*axis] = value;
+    return {};
   }
   std::optional<double> quantity(std::string_view name) const override {
-    return simulated_ ? simulator_.quantity(name) : SimulatedNc::quantity(name);
+    if (simulated_) return simulator_.quantity(name);
+    const auto axis = axisOfPosition(name);
+    return axis ? scriptedPositions_[*axis] : std::nullopt;
+  }
+
+protected:
+  void beginSlice(host::Instance& instance) override {
+    if (simulated_ && !instance.faulted()) {
+      simulator_.step(*signals_);
+      answerLowSpeed(instance);
+    }
+    writePositions(instance);
+  }
+  void finishSlice(host::Instance& instance) override {
+    SimulatedNc::finishSlice(instance);
+    takeRequests(instance);
   }
 
 private:
@@ -121,27 +108,25 @@ private:
     uint32_t slots = 0;
   };
 
-  void beforeSlot(host::Instance& instance) {
-    if (simulated_ && !instance.faulted()) {
-      simulator_.step(*signals_);
-      answerLowSpeed(instance);
-    }
-    writePositions(instance);
+  // From 0, of MPOS.1 to MPOS.8.
+  static std::optional<uint32_t> axisOfPosition(std::string_view name) {
+    const auto axis = numbersBehind(name, "MPOS.");
+    if (!axis || axis->size() != 1 || axis->front() < 1 || axis->front() > gsk::kAxes) return std::nullopt;
+    return axis->front() - 1;
   }
 
   // What PSGNL and PSGN2 read: 8 positions of 4 bytes in 0.001 mm.
   void writePositions(host::Instance& instance) const {
-    const uint32_t space = host::findSpace(instance.program(), "@MPOS");
-    if (space == RUNG_NONE) return;
     for (uint32_t axis = 0; axis < gsk::kAxes; ++axis) {
-      const double position = quantity("MPOS." + std::to_string(axis + 1)).value_or(0);
-      instance.memory().write(space, 4 * axis, 4, static_cast<uint64_t>(std::llround(position)));
+      const double position = simulated_ ? simulator_.machinePosition(axis) : scriptedPositions_[axis].value_or(0);
+      instance.memory().write(positionPlaces_[axis], static_cast<uint64_t>(std::llround(position)));
     }
   }
 
   void takeRequests(host::Instance& instance) {
     rt::ServiceRequest request;
-    while (simulated_ && instance.services().take(request)) waiting_.push_back({request, gsk::kLowSpeedSlots});
+    while (simulated_ && waiting_.size() < waiting_.capacity() && instance.services().take(request))
+      waiting_.push_back({request, gsk::kLowSpeedSlots});
   }
 
   void answerLowSpeed(host::Instance& instance) {
@@ -151,7 +136,7 @@ private:
       const auto window = windowRequest(instance, next);
       instance.services().complete(window ? replyOf(next, window->write, simulator_.answer(*window, *signals_))
                                           : nc::refuse(instance.program(), next));
-      waiting_.pop_front();
+      waiting_.erase(waiting_.begin());
     }
   }
 
@@ -187,7 +172,9 @@ private:
   nc::GskControl control_;
   gsk::Simulator simulator_;
   std::optional<nc::gsk::SignalsIo> signals_; // from the power-on
-  std::deque<Waiting> waiting_;               // low-speed window requests
+  std::vector<Waiting> waiting_; // low-speed window requests, oldest first; room for all that can be pending
+  std::array<rt::Place, gsk::kAxes> positionPlaces_ = {};                // @MPOS
+  std::array<std::optional<double>, gsk::kAxes> scriptedPositions_ = {}; // 0.001 mm
 };
 
 std::string SimulatedGsk::config(std::string_view key, std::string_view value) {
@@ -199,15 +186,15 @@ std::string SimulatedGsk::config(std::string_view key, std::string_view value) {
   if (key == "overtravel") simulator_.setLimitSwitches(value == "on");
   if (key == "encoders") simulator_.setAbsoluteEncoders(value == "absolute");
   if (key == "protect") simulator_.setProtected(value == "on");
-  if (key == "jog") simulator_.setJogSpeed(number(value).value_or(0));
+  if (key == "jog") simulator_.setJogSpeed(nc::realIn(value).value_or(0));
   if (!key.starts_with("param.")) return {};
   // param.N, or param.N.A for axis A alone.
   const size_t dot = key.find('.', 6);
-  const auto parameter = numberBehind(key.substr(0, dot), "param.");
-  const uint32_t axis = dot == std::string_view::npos ? 1 : numberBehind(key.substr(dot), ".").value_or(0);
+  const auto parameter = nc::numberIn<uint32_t>(key.substr(6, dot == std::string_view::npos ? dot : dot - 6));
+  const uint32_t axis = dot == std::string_view::npos ? 1 : nc::numberIn<uint32_t>(key.substr(dot + 1)).value_or(0);
   if (!parameter) return std::string(key) + ": a parameter has a number, param.7010";
   if (axis < 1 || axis > gsk::kAxes) return std::string(key) + ": there are axes 1 to 8";
-  simulator_.setParameter(*parameter, axis - 1, number(value).value_or(0));
+  simulator_.setParameter(*parameter, axis - 1, nc::realIn(value).value_or(0));
   return {};
 }
 
@@ -215,11 +202,9 @@ std::string SimulatedGsk::event(host::Instance& instance, std::string_view name,
   const auto known = std::ranges::find(kEvents, name, &EventKeys::event);
   if (known == std::end(kEvents)) return SimulatedNc::event(instance, name, keys);
   if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
-  for (const NcArgument& key : keys)
-    if (std::ranges::find(known->keys, key.key) == known->keys.end())
-      return "event " + std::string(name) + " does not know '" + key.key + "'";
+  if (std::string wrong = unknownKey(name, keys, known->keys); !wrong.empty()) return wrong;
   if (name == "program" || name == "mdi") {
-    const NcArgument* blocks = find(keys, "blocks") != nullptr ? find(keys, "blocks") : find(keys, "block");
+    const NcArgument* blocks = findKey(keys, findKey(keys, "blocks") != nullptr ? "blocks" : "block");
     if (blocks == nullptr || !blocks->isText) return "event " + std::string(name) + " takes blocks=\"...\"";
     return simulator_.loadProgram(blocks->text, name == "mdi");
   }
@@ -228,13 +213,13 @@ std::string SimulatedGsk::event(host::Instance& instance, std::string_view name,
     return {};
   }
   if (name == "alarm") {
-    const NcArgument* alarm = find(keys, "number");
+    const NcArgument* alarm = findKey(keys, "number");
     if (alarm == nullptr || alarm->integer <= 0) return "event alarm takes number=N";
     simulator_.raiseAlarm(static_cast<uint32_t>(alarm->integer));
     return {};
   }
-  const NcArgument* pulses = find(keys, "pulses");
-  const NcArgument* wheel = find(keys, "wheel");
+  const NcArgument* pulses = findKey(keys, "pulses");
+  const NcArgument* wheel = findKey(keys, "wheel");
   const int64_t which = wheel == nullptr ? 1 : wheel->integer;
   if (pulses == nullptr || which < 1 || which > 2) return "event handwheel takes pulses=N and wheel=1 or wheel=2";
   simulator_.turnWheel(static_cast<uint32_t>(which), pulses->integer);

@@ -9,8 +9,7 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr double kEnd = 1e12;  // a target that is never reached
-constexpr double kNear = 1e-9; // a way of nothing
+constexpr double kEnd = 1e12; // a target that is never reached
 
 // Feed by CP_JOGFD with N0316 = 1, mm/min (l.10779-10796); above 15 the row goes on, tenfold in five steps.
 constexpr double kJogFeeds[] = {0, 2, 3.2, 5, 7.9, 12.6, 20, 32, 50, 79, 126, 200, 320, 500, 790, 1260};

@@ -12,8 +12,6 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr double kInch = 25.4;
-constexpr double kNear = 1e-9;
 constexpr double kLeastFeed = 1e-9; // 0 would be rapid traverse
 constexpr double kMinuteUs = 60e6;
 
@@ -29,9 +27,8 @@ void forAxes(uint32_t axes, Visit visit) {
 
 void ChannelMotion::reset(bool powerOn) {
   motion_ = 0;
-  absolute_ = true;
-  if (powerOn) inch_ = false;
-  perTurn_ = surface_ = exactStop_ = overrideOff_ = polygon_ = gearBox_ = highSpeed_ = false;
+  modes_ = {.inch = modes_.inch && !powerOn, .feed = modes_.feed};
+  surface_ = exactStop_ = overrideOff_ = polygon_ = gearBox_ = highSpeed_ = false;
   cancel();
 }
 
@@ -78,6 +75,7 @@ bool ChannelMotion::takesSpeed(const ProgramBlock& block) const {
 // ---- words -------------------------------------------------------------------------------------------------------
 
 void ChannelMotion::takeCode(int tenths, Words& words) {
+  modes_.take(tenths);
   switch (tenths) {
   case 0:
   case 10:
@@ -93,8 +91,6 @@ void ChannelMotion::takeCode(int tenths, Words& words) {
   case 40: words.dwell = true; break;
   case 51: highSpeed_ = true; break;
   case 90: words.exact = true; break;
-  case 200:
-  case 210: inch_ = tenths == 200; break;
   case 280: words.reference = true; break;
   case 310: words.skip = true; break;
   case 502:
@@ -109,11 +105,7 @@ void ChannelMotion::takeCode(int tenths, Words& words) {
     break;
   case 808:
   case 818: gearBox_ = tenths == 818; break;
-  case 900:
-  case 910: absolute_ = tenths == 900; break;
   case 920: words.speedLimit = 0; break;
-  case 940:
-  case 950: perTurn_ = tenths == 950; break;
   case 960:
   case 970: surface_ = tenths == 960; break;
   default: break; // planes, compensations, zero points: nothing here depends on them
@@ -125,12 +117,9 @@ void ChannelMotion::takeAxis(char letter, double value, Words& words) {
   if (found < 0) return;
   const auto axis = static_cast<uint32_t>(found);
   const bool rotary = letter >= 'A' && letter <= 'C';
-  const double length = inch_ && !rotary ? value * kInch : value;
+  const double length = rotary ? value : modes_.length(value);
   words.axes |= uint32_t{1} << axis;
-  if (words.machine)
-    words.target[axis] = length;
-  else
-    words.target[axis] = absolute_ ? length + links_.axes->zeroPoint(axis) : commanded_[axis] + length;
+  words.target[axis] = words.machine ? length : modes_.target(length, commanded_[axis], links_.axes->zeroPoint(axis));
 }
 
 ChannelMotion::Words ChannelMotion::read(const ProgramBlock& block) {
@@ -142,9 +131,9 @@ ChannelMotion::Words ChannelMotion::read(const ProgramBlock& block) {
     const double number = value(word.value);
     switch (word.letter) {
     case 'G': break;
-    case 'F': feed_ = inch_ ? number * kInch : number; break;
+    case 'F': modes_.feed = modes_.length(number); break;
     case 'P': words.time = number; break;
-    case 'R': words.height = inch_ ? number * kInch : number; break;
+    case 'R': words.height = modes_.length(number); break;
     case 'S':
       if (words.speedLimit >= 0)
         speedLimit_ = number;
@@ -209,7 +198,7 @@ void ChannelMotion::planDrilling(const Words& words) {
   above[z] = commanded_[z];
   add(words.axes & ~depth, above, 0);
   if ((words.axes & depth) == 0) return;
-  above[z] = absolute_ ? words.height + links_.axes->zeroPoint(z) : commanded_[z] + words.height;
+  above[z] = modes_.target(words.height, commanded_[z], links_.axes->zeroPoint(z));
   Position bottom = above;
   bottom[z] = words.target[z];
   const uint32_t tap = kFeed | kTap | (motion_ == 842 || motion_ == 843 ? kRigid : 0);
@@ -232,7 +221,7 @@ double ChannelMotion::way(const Waypoint& waypoint) const {
 // Per minute, before the override that the axes take.
 double ChannelMotion::feed() const {
   const SignalMemory& signals = links_.signals;
-  double feed = perTurn_ ? feed_ * std::abs(links_.spindles->speed(spindle())) : feed_;
+  double feed = modes_.feedPerMinute(links_.spindles->speed(spindle()));
   if (signals.get(signals_.toggle[2], channel_)) feed = links_.parameters->real(parameters_.maxFeed, 0); // dry run
   if (signals.get(signals_.rapidKey, channel_)) feed *= links_.parameters->real(parameters_.feedFactor, channel_);
   const double override = signals.get(signals_.feedOverride, channel_);
@@ -339,11 +328,11 @@ void ChannelMotion::showSignals() const {
   show(signals_.reference, (flags & kReference) != 0);
   show(signals_.skip, (flags & kSkip) != 0);
   show(signals_.dwell, dwellUs_ > 0);
-  show(signals_.perTurn, perTurn_ && (flags & kFeed) != 0);
+  show(signals_.perTurn, modes_.perTurn && (flags & kFeed) != 0);
   show(signals_.inPositionCheck, checking_);
   show(signals_.surfaceSpeed, surface_);
   show(signals_.polygon, polygon_);
-  show(signals_.inch, inch_);
+  show(signals_.inch, modes_.inch);
   show(signals_.highSpeed, highSpeed_);
   show(signals_.gearBox, gearBox_);
   if (surface_) showSurfaceSpeed();

@@ -6,6 +6,7 @@
 #include "tools/sim/nct/channel_program.h"
 #include "tools/sim/nct/channel_signals.h"
 #include "tools/sim/nct/topic.h"
+#include "tools/sim/path_modes.h"
 
 namespace rung::sim::nct {
 
@@ -87,9 +88,10 @@ private:
 
   // Modal
   int motion_ = 0; // tenths of the G code
-  bool absolute_ = true, inch_ = false, perTurn_ = false, surface_ = false, exactStop_ = false, overrideOff_ = false;
+  PathModes modes_;
+  bool surface_ = false, exactStop_ = false, overrideOff_ = false;
   bool polygon_ = false, gearBox_ = false, highSpeed_ = false;
-  double feed_ = 0, surfaceSpeed_ = 0, speedLimit_ = 0;
+  double surfaceSpeed_ = 0, speedLimit_ = 0;
 
   Position commanded_{}; // machine coordinates, at the end of the blocks so far
   Position blockStart_{};

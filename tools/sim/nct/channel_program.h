@@ -1,10 +1,9 @@
 // Part programs of the simulated NCT control: the text of `event program` and `event mdi`, read into blocks.
 //
-//   program := block { (";" | newline) block }
-//   block   := ["/" [1-8]] { word | assignment | jump | "(" comment ")" }
-//   word    := letter value | "S" digits "=" value            value := number | "#" number
+//   block := ["/" [1-8]] { word | assignment | jump | "(" comment ")" }
+//   word  := letter value | "S" digits "=" value
 //   assignment := "#" number "=" value
-//   jump    := [["IF"] "#" number ("EQ"|"NE"|"GT"|"LT"|"GE"|"LE") value] "GOTO" number
+//   jump  := [["IF"] "#" number ("EQ"|"NE"|"GT"|"LT"|"GE"|"LE") value] "GOTO" number
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -12,14 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/sim/part_program.h"
+
 namespace rung::sim::nct {
 
 inline constexpr uint32_t kCodesOfABlock = 8; // M codes, l.9470
-
-struct ProgramValue {
-  double number = 0;
-  uint32_t variable = 0; // of a macro variable; 0: the number counts
-};
 
 struct ProgramWord {
   char letter = 0;
@@ -46,6 +42,8 @@ struct ProgramBlock {
   std::vector<ProgramWord> words;
   std::vector<ProgramAssignment> assignments;
   std::optional<ProgramJump> jump;
+
+  bool empty() const { return sequence == 0 && words.empty() && assignments.empty() && !jump; }
 };
 
 struct ChannelProgram {

@@ -2,7 +2,6 @@
 #include "tools/sim/nct/pallet_management.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace rung::sim::nct {
@@ -19,11 +18,9 @@ std::optional<PalletName> palletName(std::string_view name) {
   name.remove_prefix(7);
   PalletName result;
   for (uint32_t* number : {&result.place.magazine, &result.place.place}) {
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), *number);
-    if (error != std::errc()) return std::nullopt;
-    name.remove_prefix(static_cast<size_t>(end - name.data()));
-    if (!name.starts_with('.')) return std::nullopt;
-    name.remove_prefix(1);
+    const auto taken = takeNumberAndDot(name);
+    if (!taken) return std::nullopt;
+    *number = *taken;
   }
   result.column = name;
   return result;
@@ -32,15 +29,11 @@ std::optional<PalletName> palletName(std::string_view name) {
 // PROGRAM, PROGRAM1 … PROGRAM64: from 0; 64 when it is another name.
 uint32_t programIndex(std::string_view name) {
   constexpr std::string_view kProgram = "PROGRAM";
-  for (const char c : kProgram) {
-    if (name.empty() || (name.front() != c && name.front() != c - 'A' + 'a')) return kMaxPrograms;
-    name.remove_prefix(1);
-  }
+  if (upper(name.substr(0, kProgram.size())) != kProgram) return kMaxPrograms;
+  name.remove_prefix(kProgram.size());
   if (name.empty()) return 0;
-  uint32_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  const bool good = error == std::errc() && end == name.data() + name.size() && number >= 1 && number <= kMaxPrograms;
-  return good ? number - 1 : kMaxPrograms;
+  const uint32_t number = nc::numberIn<uint32_t>(name).value_or(0);
+  return number >= 1 && number <= kMaxPrograms ? number - 1 : kMaxPrograms;
 }
 
 } // namespace
@@ -94,11 +87,9 @@ std::string PalletManagement::setColumn(PalletPlace place, std::string_view name
 
 Handled PalletManagement::config(std::string_view key, std::string_view value) {
   if (!key.starts_with("pallet.")) return std::nullopt;
-  const std::optional<double> number = numberOf(value);
+  const std::optional<double> number = nc::realIn(value);
   if (!number) return "'" + std::string(value) + "' is not a number";
-  std::string name(key);
-  for (char& c : name)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  std::string name = upper(key);
   const std::optional<PalletName> pallet = palletName(name);
   if (!pallet) return "a key of a pallet is pallet.MAGAZINE.PLACE.COLUMN";
   if (palletColumn(pallet->column) == 0 && programIndex(pallet->column) == kMaxPrograms) return "no such column";

@@ -17,19 +17,20 @@ public:
   std::string config(std::string_view key, std::string_view value) override;
 
   nc::Control& control() override { return control_; }
+  const nc::Control& control() const override { return control_; }
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     log_.clear();
     if (nvramLost_) control_.reportRetainedLost();
     control_.prepare(instance, kind);
     if (kind == nc::PowerOn::Warm && byEthercat_) loseRetained(instance);
-    ts_ = nc::nct::SignalMemory(instance);
-    ts_.set(onSimulator_, true);
-    ts_.set(nvramByEthercat_, byEthercat_);
+    control_.signals().set(onSimulator_, true);
+    control_.signals().set(nvramByEthercat_, byEthercat_);
     if (ran_) ownAcknowledge_ = 0; // written before the first power-on, it holds
     ran_ = false;
     requested_ = 0;
-    if (simulated_) simulator_.powerOn(instance, std::exchange(keptRestored_, false) ? nc::PowerOn::Warm : kind);
+    if (simulated_)
+      simulator_.powerOn(instance, control_.signals(), std::exchange(keptRestored_, false) ? nc::PowerOn::Warm : kind);
     control_.start(instance);
   }
 
@@ -61,18 +62,6 @@ public:
       giveAxes();
   }
 
-  void scan(host::Instance& instance) override {
-    SimulatedNc::scan(instance);
-    answer(instance);
-  }
-  void slot(host::Instance& instance) override {
-    SimulatedNc::slot(instance);
-    answer(instance);
-  }
-  void fast(host::Instance& instance) override {
-    SimulatedNc::fast(instance);
-    answer(instance);
-  }
   void betweenSlices(host::Instance& instance) override {
     SimulatedNc::betweenSlices(instance);
     simulator_.setRealTime();
@@ -105,6 +94,12 @@ public:
     return place;
   }
 
+protected:
+  void finishSlice(host::Instance& instance) override {
+    SimulatedNc::finishSlice(instance);
+    answer(instance);
+  }
+
 private:
   // Controls whose non-volatile memory lies on EtherCAT do not keep PLCNVRAM (man. l.8061).
   static void loseRetained(host::Instance& instance) {
@@ -115,20 +110,20 @@ private:
   // Scripted, an axis goes to the PLC on request, unless the scenario says otherwise afterwards (inventory 8).
   void giveAxes() {
     for (uint32_t i = 0; i < plcAxis_.count(); ++i) {
-      const bool request = ts_.get(plcAxisRequest_, i);
+      const bool request = control_.signals().get(plcAxisRequest_, i);
       if (request == ((requested_ >> i & 1) != 0)) continue;
       requested_ ^= uint32_t{1} << i;
-      if ((ownAcknowledge_ >> i & 1) == 0) ts_.set(plcAxis_, i, request);
+      if ((ownAcknowledge_ >> i & 1) == 0) control_.signals().set(plcAxis_, i, request);
     }
   }
 
   // The operator's buttons: CANCEL alone, or the message that NUMBER, CHANNEL and INDEX name, or ALL=1.
   std::string cancel(const std::vector<NcArgument>& keys) {
-    if (std::string wrong = nct::unknownKey("cancel", keys, {"number", "channel", "index", "all"}); !wrong.empty())
+    if (std::string wrong = unknownKey("cancel", keys, {"number", "channel", "index", "all"}); !wrong.empty())
       return wrong;
     nc::nct::Messages& list = control_.list();
-    const auto key = [&](std::string_view name) { return static_cast<uint32_t>(nct::integerKey(keys, name, 0)); };
-    if (nct::findKey(keys, "number") != nullptr)
+    const auto key = [&](std::string_view name) { return static_cast<uint32_t>(integerKey(keys, name, 0)); };
+    if (findKey(keys, "number") != nullptr)
       return list.cancel(nc::nct::messageCode(key("number"), key("channel"), key("index")))
                  ? ""
                  : "event cancel: this message is not displayed";
@@ -161,7 +156,6 @@ private:
   nc::nct::BitSignal nvramByEthercat_{"N_NVECAT"};
   nc::nct::BitSignal plcAxisRequest_{"AP_PLCR"};
   nc::nct::BitSignal plcAxis_{"AN_PLCA"};
-  nc::nct::SignalMemory ts_;
   nc::NctControl control_;
   nct::Simulator simulator_;
   bool ran_ = false;                    // a cycle, since the power-on

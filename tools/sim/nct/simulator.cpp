@@ -60,8 +60,8 @@ void Simulator::deliver() {
 
 // ---- time --------------------------------------------------------------------------------------------------------
 
-void Simulator::attach(host::Instance& instance) {
-  links_.signals = SignalMemory(instance);
+void Simulator::attach(host::Instance& instance, const SignalMemory& signals) {
+  links_.signals = signals;
   links_.memory = PlcMemory(instance);
   blocks_ = {};
   const uint32_t space = host::findSpace(instance.program(), nc::nct::kBlockSpace);
@@ -71,8 +71,8 @@ void Simulator::attach(host::Instance& instance) {
     blocks_ = instance.block().subspan(blocks.ranges[0].offset, blocks.byte_count);
 }
 
-void Simulator::powerOn(host::Instance& instance, nc::PowerOn kind) {
-  attach(instance);
+void Simulator::powerOn(host::Instance& instance, const SignalMemory& signals, nc::PowerOn kind) {
+  attach(instance, signals);
   findServices(instance.program());
   waitingCount_ = 0;
   links_.nowUs = sliceUs_ = instance.nowUs();

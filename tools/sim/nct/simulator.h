@@ -34,8 +34,8 @@ public:
   std::optional<double> quantity(std::string_view name) const;
   Handled setQuantity(std::string_view name, double value);
 
-  // The program's memory has been started.
-  void powerOn(host::Instance& instance, nc::PowerOn kind);
+  // The program's memory has been started; `signals` are the control's.
+  void powerOn(host::Instance& instance, const SignalMemory& signals, nc::PowerOn kind);
   // Before every time slice; `cycle`: it is the first one of a PLC cycle.
   void timeSlice(host::Instance& instance, bool cycle);
   // MACR, MACW, SCP, MOVCMND; false: another service.
@@ -51,7 +51,7 @@ public:
 
 private:
   enum class Service : uint8_t { Other, Mr, Mw, Macr, Macw, Scp, Movcmnd };
-  void attach(host::Instance& instance);
+  void attach(host::Instance& instance, const SignalMemory& signals);
   void findServices(const rung_program& program);
   Service serviceOf(const rt::ServiceRequest& request) const;
   // The execution code of a request; nothing: still at work.

@@ -7,7 +7,6 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr double kNear = 1e-9;
 constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
 
 } // namespace
@@ -265,7 +264,7 @@ Handled Spindles::config(std::string_view key, std::string_view value) {
     return std::nullopt;
   }
   if (key != "spindles") return std::nullopt;
-  number(static_cast<uint32_t>(numberOf(value).value_or(0)));
+  number(static_cast<uint32_t>(nc::realIn(value).value_or(0)));
   return "";
 }
 

@@ -2,7 +2,6 @@
 #include "tools/sim/nct/tool_management.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace rung::sim::nct {
@@ -20,12 +19,8 @@ uint32_t spindleOf(uint32_t cartridge) { return cartridge / 10 - 1; }
 std::optional<std::pair<uint32_t, std::string_view>> numberAndRest(std::string_view name, std::string_view prefix) {
   if (!name.starts_with(prefix)) return std::nullopt;
   name.remove_prefix(prefix.size());
-  uint32_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc()) return std::nullopt;
-  name.remove_prefix(static_cast<size_t>(end - name.data()));
-  if (!name.starts_with('.')) return std::nullopt;
-  return std::pair{number, name.substr(1)};
+  const auto number = takeNumberAndDot(name);
+  return number ? std::optional(std::pair{*number, name}) : std::nullopt;
 }
 
 double valueOf(const NcArgument& key) { return key.isReal ? key.real : static_cast<double>(key.integer); }
@@ -121,16 +116,21 @@ void ToolManagement::showBusy() {
 std::string ToolManagement::configCartridge(uint32_t number, std::string_view value) {
   if (number < 1 || number > kMagazines) return "magazines are cartridge.1 to cartridge.4";
   CartridgeShape shape{.number = number};
-  const char* end = value.data() + value.size();
-  const auto read = [&](const char* at, uint32_t& into) { return std::from_chars(at, end, into); };
-  auto at = read(value.data(), shape.columns);
-  if (at.ec == std::errc() && at.ptr != end && *at.ptr == 'x') {
+  auto count = nc::takeNumber<uint32_t>(value);
+  if (count && value.starts_with('x')) {
     shape.matrix = true;
-    shape.rows = shape.columns;
-    at = read(at.ptr + 1, shape.columns);
+    shape.rows = *count;
+    value.remove_prefix(1);
+    count = nc::takeNumber<uint32_t>(value);
   }
-  if (at.ec == std::errc() && at.ptr != end && *at.ptr == '@') at = read(at.ptr + 1, shape.firstPot);
-  if (at.ec != std::errc() || at.ptr != end) return "a cartridge is POTS or ROWSxCOLUMNS, and @FIRSTPOT";
+  auto firstPot = std::optional(shape.firstPot);
+  if (count && value.starts_with('@')) {
+    value.remove_prefix(1);
+    firstPot = nc::takeNumber<uint32_t>(value);
+  }
+  shape.columns = count.value_or(0);
+  shape.firstPot = firstPot.value_or(0);
+  if (!count || !firstPot || !value.empty()) return "a cartridge is POTS or ROWSxCOLUMNS, and @FIRSTPOT";
   if (shape.columns > kMostPots || shape.rows > kMostPots || shape.pots() > kMostPots || shape.firstPot > kMostPots)
     return "a cartridge has up to 999 pots";
   magazines_[number - 1] = shape.pots() == 0 ? CartridgeShape{} : shape;
@@ -168,11 +168,9 @@ Handled ToolManagement::config(std::string_view key, std::string_view value) {
     return std::string();
   }
   if (!key.starts_with("tool.") && !key.starts_with("pot.") && !key.starts_with("pattern.")) return std::nullopt;
-  const std::optional<double> number = numberOf(value);
+  const std::optional<double> number = nc::realIn(value);
   if (!number) return "'" + std::string(value) + "' is not a number";
-  std::string name(key);
-  for (char& c : name)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  std::string name = upper(key);
   if (Handled wrong = setQuantity(name, *number)) {
     if (wrong->empty()) settings_.push_back({std::move(name), *number});
     return wrong;

@@ -71,6 +71,7 @@ private:
   int32_t writeTool(Block& block);
   int32_t readTool(Block& block);
   int32_t deleteTool(Block& block);
+  bool hasDatumAmount(const Block& block) const;
   int32_t writeDatum(Block& block);
   int32_t readDatum(Block& block);
   int32_t searchUser(Block& block);

@@ -184,16 +184,22 @@ int32_t ToolManagement::deleteTool(Block& block) {
   return nc::nct::kExecuted;
 }
 
+// A column that does not exist is an error of its own, which comes after others (l.5217).
+bool ToolManagement::hasDatumAmount(const Block& block) const {
+  if (block.amount() != 4 && block.amount() != 5) return false;
+  const int32_t number = block.word(4);
+  return !isColumn(number, limits_.userColumns) ||
+         block.amount() == static_cast<int32_t>(3 + columnWords(static_cast<ToolColumn>(number)));
+}
+
 int32_t ToolManagement::writeDatum(Block& block) {
-  if (block.amount() != 4 && block.amount() != 5) return nc::nct::kBadAmount;
+  if (!hasDatumAmount(block)) return nc::nct::kBadAmount;
   const int32_t number = block.word(4);
   const auto column = static_cast<ToolColumn>(number);
-  const bool known = isColumn(number, limits_.userColumns);
-  if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return nc::nct::kBadAmount;
   if (locked()) return nc::nct::kWriteProtected;
   uint32_t tool = 0;
   if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
-  if (!known) return kWrongNumber;
+  if (!isColumn(number, limits_.userColumns)) return kWrongNumber;
   ToolRow& row = tables_.tools.row(tool);
   if (row.info(kInfoDisabled) && column != kToolInfo)
     return nc::nct::kWriteProtected; // the info takes the lock away again
@@ -208,14 +214,12 @@ int32_t ToolManagement::writeDatum(Block& block) {
 }
 
 int32_t ToolManagement::readDatum(Block& block) {
-  if (block.amount() != 4 && block.amount() != 5) return nc::nct::kBadAmount;
+  if (!hasDatumAmount(block)) return nc::nct::kBadAmount;
   const int32_t number = block.word(4);
   const auto column = static_cast<ToolColumn>(number);
-  const bool known = isColumn(number, limits_.userColumns);
-  if (known && block.amount() != static_cast<int32_t>(3 + columnWords(column))) return nc::nct::kBadAmount; // l.5217
   uint32_t tool = 0;
   if (const int32_t code = findTool(block, tool); code != nc::nct::kExecuted) return code;
-  if (!known) return kWrongNumber;
+  if (!isColumn(number, limits_.userColumns)) return kWrongNumber;
   putDatum(block, 5, column, tables_.tools.row(tool).datum(column));
   return nc::nct::kExecuted;
 }

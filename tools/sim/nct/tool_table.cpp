@@ -2,9 +2,10 @@
 #include "tools/sim/nct/tool_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
+
+#include "tools/sim/keys.h"
 
 namespace rung::sim::nct {
 namespace {
@@ -13,20 +14,6 @@ constexpr std::string_view kNames[] = {"TYPE", "INFO", "FIGURE", "STATUS", "COUN
                                        "H",    "D",    "G",      "W",      "S",       "F"};
 constexpr int32_t kMaxType = 99'999'999; // 8 digits, l.4338
 
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return result;
-}
-
-std::optional<uint32_t> number(std::string_view text) {
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 } // namespace
 
 ToolColumn toolColumn(std::string_view name) {
@@ -34,7 +21,7 @@ ToolColumn toolColumn(std::string_view name) {
   const auto found = std::ranges::find(kNames, std::string_view(wanted));
   if (found != std::end(kNames)) return static_cast<ToolColumn>(found - std::begin(kNames)) + 1;
   if (!wanted.starts_with("USER")) return 0;
-  const std::optional<uint32_t> user = number(std::string_view(wanted).substr(4));
+  const std::optional<uint32_t> user = nc::numberIn<uint32_t>(std::string_view(wanted).substr(4));
   return user && *user >= 1 && *user <= kToolUserColumns ? kToolUser1 + *user - 1 : 0;
 }
 

@@ -12,6 +12,7 @@
 
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "rtlib/nc/nct/operand_block.h"
+#include "tools/sim/keys.h"
 #include "tools/sim/nct/kept.h"
 #include "tools/sim/simulated_nc.h"
 
@@ -51,6 +52,8 @@ struct Links {
   ToolManagement* tools = nullptr;
   PalletManagement* pallets = nullptr;
 };
+
+inline constexpr double kNear = 1e-9; // units or turns: a way of less is none
 
 // "" done, a text: what is wrong, nothing: not this topic's.
 using Handled = std::optional<std::string>;
@@ -92,17 +95,5 @@ protected:
 private:
   Links& links_;
 };
-
-// ---- helpers for keys --------------------------------------------------------------------------------------------
-
-const NcArgument* findKey(const std::vector<NcArgument>& keys, std::string_view key);
-int64_t integerKey(const std::vector<NcArgument>& keys, std::string_view key, int64_t otherwise);
-// "" or "event NAME does not know 'KEY'".
-std::string unknownKey(std::string_view event, const std::vector<NcArgument>& keys,
-                       std::initializer_list<std::string_view> known);
-std::optional<double> numberOf(std::string_view text);
-// The numbers after a prefix: "MPOS.3" with "MPOS." gives {3}, "param.0516.2" with "param." {516, 2}. Nothing when the
-// prefix or the form is another.
-std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::string_view prefix);
 
 } // namespace rung::sim::nct

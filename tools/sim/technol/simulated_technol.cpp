@@ -22,6 +22,7 @@ namespace {
 class SimulatedTechnol final : public SimulatedNc {
 public:
   nc::Control& control() override { return control_; }
+  const nc::Control& control() const override { return control_; }
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     log_.clear();

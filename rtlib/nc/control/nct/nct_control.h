@@ -31,6 +31,8 @@ public:
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
   nct::Messages& list() { return messages_; }
+  // The time-slice memory, once the program has been prepared.
+  const nct::SignalMemory& signals() const { return ts_; }
 
   NctFunctions* functions(uint32_t channel) override {
     return channel < functions_.size() ? &functions_[channel] : nullptr;

@@ -2,9 +2,9 @@
 #include "rtlib/nc/control/technol/identifier.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/nc/number.h"
 
 namespace rung::nc::technol {
 namespace {
@@ -51,10 +51,8 @@ std::string_view charactersOf(std::span<const int64_t> words, std::span<char> ro
 }
 
 std::optional<uint32_t> decimal(std::string_view text) {
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value > INT32_MAX) return std::nullopt;
-  return value;
+  const auto value = numberIn<uint32_t>(text);
+  return value && *value <= INT32_MAX ? value : std::nullopt;
 }
 
 std::optional<uint32_t> takeIndex(std::string_view& text) {

@@ -23,6 +23,12 @@ public:
   std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
+  // As a line of the log.
+  std::string text(const ShownMessage& message) const override;
+
+  // A character is one byte, Windows-1250; the last byte of a text is its terminator.
+  std::string shownText(std::string_view inMemory) const override;
+  std::string memoryText(std::string_view shown, uint32_t bytes) const override;
 
   TechnolFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 

@@ -1,10 +1,9 @@
-// Keys of events and of the configuration (see topic.h).
-#include "tools/sim/nct/topic.h"
+// Keys of events, of the configuration and of quantities (see keys.h).
+#include "tools/sim/keys.h"
 
 #include <algorithm>
-#include <charconv>
 
-namespace rung::sim::nct {
+namespace rung::sim {
 
 const NcArgument* findKey(const std::vector<NcArgument>& keys, std::string_view key) {
   const auto found = std::ranges::find(keys, key, &NcArgument::key);
@@ -24,27 +23,31 @@ std::string unknownKey(std::string_view event, const std::vector<NcArgument>& ke
   return {};
 }
 
-std::optional<double> numberOf(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return std::nullopt;
-  const char* at = text.data() + prefix.size();
-  const char* last = text.data() + text.size();
+  text.remove_prefix(prefix.size());
   std::vector<uint32_t> numbers;
-  while (true) {
-    uint32_t number = 0;
-    const auto [end, error] = std::from_chars(at, last, number);
-    if (error != std::errc()) return std::nullopt;
-    numbers.push_back(number);
-    if (end == last) return numbers;
-    if (*end != '.') return std::nullopt;
-    at = end + 1;
-  }
+  while (const auto number = takeNumberAndDot(text)) numbers.push_back(*number);
+  const auto last = nc::numberIn<uint32_t>(text);
+  if (!last) return std::nullopt;
+  numbers.push_back(*last);
+  return numbers;
 }
 
-} // namespace rung::sim::nct
+std::optional<uint32_t> takeNumberAndDot(std::string_view& text) {
+  std::string_view rest = text;
+  const auto number = nc::takeNumber<uint32_t>(rest);
+  if (!number || !rest.starts_with('.')) return std::nullopt;
+  text = rest.substr(1);
+  return number;
+}
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = upper(c);
+  return result;
+}
+
+} // namespace rung::sim

@@ -126,6 +126,15 @@ void printAndParse(uint32_t n) {
   if (!parse(print(module)).module) std::abort();
 }
 
+uint32_t sizeOf(const char* text) { return static_cast<uint32_t>(std::atoi(text)); }
+
+// What the test must notice.
+void quadratic(uint32_t n) {
+  volatile uint32_t steps = 0;
+  for (uint32_t i = 0; i < n; ++i)
+    for (uint32_t k = 0; k < n; ++k) steps = steps + 1;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -139,12 +148,13 @@ int main(int argc, char** argv) {
       {"optimise-registers", optimiseRegisters},
       {"print-and-parse", printAndParse},
   };
+  if (argc == 3 && argv[1] == std::string_view("quadratic")) return quadratic(sizeOf(argv[2])), 0;
   if (argc != 3) { // their names
     for (const auto& [name, work] : cases) std::printf("%s\n", std::string(name).c_str());
     return 0;
   }
   const auto found = cases.find(argv[1]);
   if (found == cases.end()) return 2;
-  found->second(static_cast<uint32_t>(std::atoi(argv[2])));
+  found->second(sizeOf(argv[2]));
   return 0;
 }

@@ -21,6 +21,12 @@ def instructions(case, size):
     return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
 
 
+def growth(case):
+    """The first step of instructions, and by how much the second is larger."""
+    one, two, four = (instructions(case, factor * SIZE) for factor in (1, 2, 4))
+    return two - one, (four - two) / (two - one)
+
+
 @unittest.skipUnless(shutil.which("valgrind"), "valgrind is not installed; ./dev setup does it")
 class Growth(unittest.TestCase):
     def test_is_linear(self):
@@ -28,9 +34,12 @@ class Growth(unittest.TestCase):
         self.assertGreater(len(cases), 5)
         for case in cases:
             with self.subTest(case):
-                one, two, four = (instructions(case, factor * SIZE) for factor in (1, 2, 4))
-                self.assertGreater(two - one, 100 * SIZE, "what was counted is no work")
-                self.assertLess((four - two) / (two - one), MOST)
+                step, factor = growth(case)
+                self.assertGreater(step, 100 * SIZE, "what was counted is no work")
+                self.assertLess(factor, MOST)
+
+    def test_notices_quadratic_work(self):
+        self.assertGreater(growth("quadratic")[1], 3.5)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 
 #include <hal.h>
 #include <rtapi.h>
-#include <rtapi_app.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -18,7 +18,7 @@ struct Outcome {
 };
 
 // Milliseconds of the program's time that each of the following runs.
-constexpr int kRunMs = 5000;
+constexpr int kRunMs = 10'000;
 
 // In LinuxCNC's component, in a thread of 1 ms, with the pins of the map.
 Outcome runInBox(const rung_program& program, hal::MapFile map, const std::string& retain);

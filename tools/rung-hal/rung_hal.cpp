@@ -136,8 +136,9 @@ bool makeParameters(Component& c) {
 bool makePins(Component& c) {
   const std::vector<hal::MapPin>& pins = c.box->pins();
   c.status = static_cast<StatusPins*>(hal_malloc(sizeof(StatusPins)));
-  c.cells = static_cast<hal::PinCell*>(hal_malloc(static_cast<long>((pins.size() + 1) * sizeof(hal::PinCell))));
-  if (c.status == nullptr || c.cells == nullptr) {
+  if (c.status != nullptr)
+    c.cells = static_cast<hal::PinCell*>(hal_malloc(static_cast<long>((pins.size() + 1) * sizeof(hal::PinCell))));
+  if (c.cells == nullptr) {
     complain("%s: HAL has no memory for the pins\n", kModule);
     return false;
   }

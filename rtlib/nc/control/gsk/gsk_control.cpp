@@ -49,6 +49,7 @@ std::optional<host::Ref> GskControl::signal(const host::Instance& instance, std:
   const Signal* found = findSignal(gskSignals(), name);
   if (found == nullptr) return std::nullopt;
   const uint32_t space = host::findSpace(instance.program(), found->area);
+  if (space == RUNG_NONE) return std::nullopt;
   if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
   const uint32_t bytes = elementBytes(found->type);
   if (bytes == 0) return std::nullopt;

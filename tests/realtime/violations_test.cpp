@@ -61,7 +61,8 @@ Outcome run(Host host, const rung_program& program, const std::string& retain) {
     const TemporaryFolder folder;
     outcome = run(host, program.program, (folder / "plc").string());
   }
-  std::fprintf(stderr, "%s, %d slices", outcome.problem.c_str(), static_cast<int>(outcome.slices));
+  std::fprintf(stderr, "%s, %d slices, %d messages", outcome.problem.c_str(), static_cast<int>(outcome.slices),
+               static_cast<int>(outcome.messages));
   std::exit(outcome.problem.empty() ? 0 : 1);
 }
 
@@ -92,11 +93,17 @@ INSTANTIATE_TEST_SUITE_P(Guard, Noticed,
                            return hostName(std::get<0>(info.param)) + std::string(name(std::get<1>(info.param)));
                          });
 
+// Its messages are taken, too.
 class Clean : public testing::TestWithParam<Host> {};
 
 TEST_P(Clean, Program) {
-  const auto harmless = [](uint8_t* mem, rung_ctx*) { return ++mem[16], RUNG_PC_DONE; };
-  EXPECT_EXIT(runAndExit(GetParam(), harmless), testing::ExitedWithCode(0), "^, 1[0-2][0-9][0-9] slices");
+  const auto harmless = [](uint8_t* mem, rung_ctx* ctx) {
+    const rung_message message = {RUNG_MESSAGE_SHOW, 20, 0, 0, 0, 0, 0};
+    if (++mem[16] % 10 == 0) ctx->host->message(ctx, &message);
+    return RUNG_PC_DONE;
+  };
+  EXPECT_EXIT(runAndExit(GetParam(), harmless), testing::ExitedWithCode(0),
+              "^, 1[0-2][0-9][0-9] slices, 1[0-3][0-9] messages");
 }
 
 INSTANTIATE_TEST_SUITE_P(Guard, Clean, testing::Values(Host::Box, Host::Bare, Host::Clock),

@@ -136,7 +136,6 @@ TEST_F(TechnolFaults, InModuleInit) {
     std::vector<std::string> reports;
     EXPECT_TRUE(b.box->serve(reports));
     EXPECT_THAT(reports, IsEmpty());
-    b.box->step(0, false);
   }
 }
 

@@ -44,7 +44,7 @@ protected:
   }
   uint64_t get(std::string_view name) { return instance_->read(place(name)); }
   double real(std::string_view name) { return instance_->readReal(place(name)); }
-  void set(std::string_view name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), ""); }
+  void set(std::string_view name, uint64_t value) { EXPECT_FALSE(instance_->write(place(name), value)); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) {
       functions().step();
@@ -201,7 +201,7 @@ TEST_F(TechnolHandshake, TheMachineHasGroupsOfItsOwn) {
   EXPECT_EQ(get("PB14"), 0x92u);
   EXPECT_EQ(get("BLK[0].M[12]"), 0x92u);
   EXPECT_EQ(get("ZMM14PI"), 0u);
-  EXPECT_FALSE(functions().setGroup(3, 12)); // fixed (l.7213)
+  EXPECT_FALSE(functions().setGroup(3, 12)); // fixed (l.7214)
   EXPECT_FALSE(functions().setGroup(92, 0));
   EXPECT_FALSE(functions().setGroup(92, 15));
   EXPECT_FALSE(functions().setGroup(100, 12));

@@ -18,12 +18,29 @@ add_link_options(-fuse-ld=lld "-B${LLVM_TOOLS_BINARY_DIR}")
 # Same bytes whatever the folder of the clone.
 add_compile_options("-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=")
 
+set(rung_instrumentation "")
 if(RUNG_SANITIZE)
   # The function check reads bytes before a callee's entry, which code made by the JIT does not have.
-  add_compile_options("-fsanitize=${RUNG_SANITIZE}" -fno-sanitize-recover=all -fno-omit-frame-pointer
+  list(APPEND rung_instrumentation "-fsanitize=${RUNG_SANITIZE}" -fno-sanitize-recover=all -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:Clang>:-fno-sanitize=function>)
-  add_link_options("-fsanitize=${RUNG_SANITIZE}")
 endif()
+if(RUNG_COVERAGE)
+  list(APPEND rung_instrumentation -fprofile-instr-generate -fcoverage-mapping)
+endif()
+add_compile_options(${rung_instrumentation})
+add_link_options(${rung_instrumentation})
+
+# Takes that away again, for a program that valgrind runs, with nothing but sources of its own, or whose instructions
+# are counted.
+function(rung_do_not_instrument target)
+  foreach(property IN ITEMS COMPILE_OPTIONS LINK_OPTIONS)
+    get_target_property(options ${target} ${property})
+    if(options AND rung_instrumentation)
+      list(REMOVE_ITEM options ${rung_instrumentation})
+      set_target_properties(${target} PROPERTIES ${property} "${options}")
+    endif()
+  endforeach()
+endfunction()
 
 find_program(RUNG_CCACHE ccache)
 if(RUNG_CCACHE)

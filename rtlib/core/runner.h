@@ -8,7 +8,7 @@
 // run that ended early idles until its n steps are over, so that the schedule and the parts stay in phase.
 //
 // A fault stops everything: it is recorded in the context, the safe-state spans are zeroed, the fault hook is called
-// once (it may run tasks: TECHNOL's MODULE_HALT), and from then on scans and tasks do nothing until `reset`.
+// once (it may run tasks), and from then on scans and tasks do nothing until `reset`.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -33,15 +33,16 @@ LogicalByte byteAt(const rung_program& program, uint32_t offset) {
 }
 
 // Names the byte, or its bit when only one differs.
-std::string byteDifference(const rung_program& program, LogicalByte at, uint8_t here, uint8_t there) {
+std::string byteDifference(const rung_program& program, LogicalByte at, uint8_t here, uint8_t there,
+                           DescribePlace describe) {
   const uint32_t changed = here ^ there;
   for (uint32_t bit = 0; bit < 8; ++bit)
     if (changed == 1u << bit)
-      return describeBit(program, at.space, at.byte, bit) + values((here >> bit) & 1, (there >> bit) & 1);
-  return describeByte(program, at.space, at.byte) + values(here, there);
+      return describe(program, bitRef(at.space, at.byte, bit)) + values((here >> bit) & 1, (there >> bit) & 1);
+  return describe(program, intRef(at.space, at.byte, 8)) + values(here, there);
 }
 
-Difference rawDifference(const Instance& here, const Instance& there) {
+Difference rawDifference(const Instance& here, const Instance& there, DescribePlace describe) {
   const auto a = here.block();
   const auto b = there.block();
   if (std::memcmp(a.data(), b.data(), a.size()) == 0) return std::nullopt;
@@ -53,10 +54,10 @@ Difference rawDifference(const Instance& here, const Instance& there) {
   // Equal as bits and yet not equal: an expanded bit holds more than 0 or 1.
   if (at.space == RUNG_NONE || valueHere == valueThere)
     return "memory at offset " + std::to_string(offset) + values(a[offset], b[offset]);
-  return byteDifference(here.program(), at, valueHere, valueThere);
+  return byteDifference(here.program(), at, valueHere, valueThere, describe);
 }
 
-Difference logicalDifference(const Instance& here, const Instance& there) {
+Difference logicalDifference(const Instance& here, const Instance& there, DescribePlace describe) {
   const rung_program& p = here.program();
   if (p.space_count != there.program().space_count) return "the programs have different spaces";
   for (uint32_t s = 0; s < p.space_count; ++s) {
@@ -65,7 +66,7 @@ Difference logicalDifference(const Instance& here, const Instance& there) {
     for (uint32_t byte = 0; byte < p.spaces[s].byte_count; ++byte) {
       const uint8_t a = here.memory().readByte(s, byte);
       const uint8_t b = there.memory().readByte(s, byte);
-      if (a != b) return byteDifference(p, {s, byte}, a, b);
+      if (a != b) return byteDifference(p, {s, byte}, a, b, describe);
     }
   }
   return std::nullopt;
@@ -114,11 +115,12 @@ Difference serviceDifference(const Instance& here, const Instance& there) {
 
 } // namespace
 
-std::optional<std::string> firstDifference(const Instance& here, const Instance& there) {
+std::optional<std::string> firstDifference(const Instance& here, const Instance& there, DescribePlace describe) {
   const bool sameLayout = here.program().layout_hash == there.program().layout_hash &&
                           here.program().memory_size == there.program().memory_size;
   if (Difference d = faultDifference(here, there)) return d;
-  if (Difference d = sameLayout ? rawDifference(here, there) : logicalDifference(here, there)) return d;
+  if (Difference d = sameLayout ? rawDifference(here, there, describe) : logicalDifference(here, there, describe))
+    return d;
   if (here.nowUs() != there.nowUs())
     return "clock: " + std::to_string(here.nowUs()) + " us here, " + std::to_string(there.nowUs()) + " us there";
   if (Difference d = messageDifference(here.messages(), there.messages())) return d;

@@ -8,8 +8,11 @@
 
 namespace rung::host {
 
-// The first difference, with the place named ("D10 (COUNT): 3 here, 4 there"); nothing when there is none. Layouts may
-// differ; then only the spaces are compared, not the compiler's own slots.
-std::optional<std::string> firstDifference(const Instance& here, const Instance& there);
+// How a reader would write a bit, or the byte that an integer of 8 bits lies in.
+using DescribePlace = std::string (*)(const rung_program& program, const Ref& place);
+
+// The first difference, with the place described ("D10 (COUNT): 3 here, 4 there"); nothing when there is none. Layouts
+// may differ; then only the spaces are compared, not the compiler's own slots.
+std::optional<std::string> firstDifference(const Instance& here, const Instance& there, DescribePlace describe);
 
 } // namespace rung::host

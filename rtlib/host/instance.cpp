@@ -41,27 +41,22 @@ Instance::Instance(const rung_program& program, ScheduleHooks* hooks)
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-std::string Instance::write(const Ref& ref, uint64_t value) {
-  std::string problem = overwritten_.problem(ref);
-  if (problem.empty()) writeRaw(memory(), ref, value);
-  return problem;
+std::optional<Ref> Instance::write(const Ref& ref, uint64_t value) {
+  const std::optional<Ref> copied = overwritten_.source(ref);
+  if (!copied) writeRaw(memory(), ref, value);
+  return copied;
 }
 
-std::string Instance::writeReal(const Ref& ref, double value) {
-  std::string problem = overwritten_.problem(ref);
-  if (problem.empty()) host::writeReal(memory(), ref, value);
-  return problem;
+std::optional<Ref> Instance::writeReal(const Ref& ref, double value) {
+  const std::optional<Ref> copied = overwritten_.source(ref);
+  if (!copied) host::writeReal(memory(), ref, value);
+  return copied;
 }
 
-std::string Instance::writeText(const Ref& ref, std::string_view text) {
-  std::string problem = overwritten_.problem(ref);
-  if (problem.empty()) host::writeText(memory(), ref, text);
-  return problem;
-}
-
-std::string Instance::write(std::string_view name, uint64_t value) {
-  const std::optional<Ref> place = resolve(name);
-  return place ? write(*place, value) : "the program has no name or address '" + std::string(name) + "'";
+std::optional<Ref> Instance::writeText(const Ref& ref, std::string_view text) {
+  const std::optional<Ref> copied = overwritten_.source(ref);
+  if (!copied) host::writeText(memory(), ref, text);
+  return copied;
 }
 
 // ---- hooks -------------------------------------------------------------------------------------------------------

@@ -13,7 +13,6 @@
 
 #include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
-#include "rtlib/host/names.h"
 #include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/host/ref.h"
@@ -92,20 +91,15 @@ public:
   rt::Memory memory() const { return {*program_, block_.get()}; }
   std::span<uint8_t> block() { return {block_.get(), program_->memory_size}; }
   std::span<const uint8_t> block() const { return {block_.get(), program_->memory_size}; }
-  std::optional<Ref> resolve(std::string_view name, const NameFallback& fallback = {}) const {
-    return host::resolve(*program_, name, fallback);
-  }
   uint64_t read(const Ref& ref) const { return readRaw(memory(), ref); }
   double readReal(const Ref& ref) const { return host::readReal(memory(), ref); }
   std::string readText(const Ref& ref) const { return host::readText(memory(), ref); }
-  // What the machine, a person or a test writes between two scans. Each gives "", or why the program would never see
-  // the value, which is not written then, and where to write it: the inputs of an NCT program, copied before each run.
-  // (A simulated control writes what it likes with writeRaw.)
-  [[nodiscard]] std::string write(const Ref& ref, uint64_t value);
-  [[nodiscard]] std::string writeReal(const Ref& ref, double value);
-  [[nodiscard]] std::string writeText(const Ref& ref, std::string_view text);
-  // By name; a name that the program does not have is an error too.
-  [[nodiscard]] std::string write(std::string_view name, uint64_t value);
+  // What the machine, a person or a test writes between two scans. Each gives nothing when the value is written. Where
+  // another place is copied over `ref` before the program reads it, nothing is written, and that place is the result:
+  // a value lasts there. (A control writes what it likes with writeRaw.)
+  [[nodiscard]] std::optional<Ref> write(const Ref& ref, uint64_t value);
+  [[nodiscard]] std::optional<Ref> writeReal(const Ref& ref, double value);
+  [[nodiscard]] std::optional<Ref> writeText(const Ref& ref, std::string_view text);
 
   rt::MessageQueue& messages() { return port_->messages; }
   const rt::MessageQueue& messages() const { return port_->messages; }

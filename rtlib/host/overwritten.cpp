@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "rtlib/host/names.h"
-
 namespace rung::host {
 namespace {
 
@@ -70,14 +68,6 @@ std::optional<Ref> Overwritten::source(const Ref& ref) const {
     }
   }
   return std::nullopt;
-}
-
-std::string Overwritten::problem(const Ref& ref) const {
-  const std::optional<Ref> from = source(ref);
-  if (!from) return {};
-  const std::string lasting = placeName(*program_, *from);
-  return "a value written to " + placeName(*program_, ref) + " is lost: " + lasting +
-         " is copied over it before the program reads it; write " + lasting;
 }
 
 } // namespace rung::host

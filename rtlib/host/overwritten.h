@@ -1,9 +1,7 @@
 // Places that the input copies of a task overwrite before the program reads them: what a host writes there is lost, and
-// lasts where the copy comes from (NCT: the word B of an input is a copy of !B; a GSK program has such places only in
-// hidden spaces, TECHNOL has none).
+// lasts where the copy comes from.
 #pragma once
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "rtlib/host/ref.h"
@@ -16,8 +14,6 @@ public:
 
   // The place that is copied over `ref`; nothing when a value written to `ref` lasts.
   std::optional<Ref> source(const Ref& ref) const;
-  // "", or why a value written to `ref` is lost and where to write it.
-  std::string problem(const Ref& ref) const;
 
 private:
   const rung_program* program_;

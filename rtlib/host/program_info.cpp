@@ -1,6 +1,7 @@
 // Table look-ups (the check of the tables is in check_program.cpp).
 #include "rtlib/host/program_info.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace rung::host {
@@ -21,6 +22,19 @@ uint32_t findService(const rung_program& program, std::string_view name) {
   for (uint32_t i = 0; i < program.service_count; ++i)
     if (name == program.services[i]) return i;
   return RUNG_NONE;
+}
+
+const rung_symbol* firstSymbolFrom(const rung_program& program, std::string_view name) {
+  const rung_symbol* end = program.symbols + program.symbol_count;
+  const rung_symbol* found = std::lower_bound(program.symbols, end, name, [](const rung_symbol& s, std::string_view n) {
+    return std::string_view(s.name) < n;
+  });
+  return found == end ? nullptr : found;
+}
+
+const rung_symbol* findSymbol(const rung_program& program, std::string_view name) {
+  const rung_symbol* symbol = firstSymbolFrom(program, name);
+  return symbol != nullptr && name == symbol->name ? symbol : nullptr;
 }
 
 std::string_view serviceName(const rung_program& program, uint32_t service) {

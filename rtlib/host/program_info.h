@@ -18,6 +18,11 @@ uint32_t findSpace(const rung_program& program, std::string_view name);
 uint32_t findTask(const rung_program& program, std::string_view name);
 uint32_t findService(const rung_program& program, std::string_view name);
 
+// Symbols by their exact name; the first whose name is not less than `name` (in the order of bytes, the table's). Null
+// when there is none.
+const rung_symbol* findSymbol(const rung_program& program, std::string_view name);
+const rung_symbol* firstSymbolFrom(const rung_program& program, std::string_view name);
+
 std::string_view serviceName(const rung_program& program, uint32_t service); // "" when there is none
 std::string_view messageText(const rung_program& program, uint32_t number);  // "" when there is none
 

@@ -1,5 +1,7 @@
-// Typed access on top of logical bytes.
+// Places and typed access to them on top of logical bytes.
 #include "rtlib/host/ref.h"
+
+#include <algorithm>
 
 namespace rung::host {
 
@@ -23,6 +25,40 @@ Ref intRef(uint32_t space, uint32_t byte, uint32_t width) {
 Ref realRef(uint32_t space, uint32_t byte) {
   Ref ref = intRef(space, byte, 64);
   ref.kind = RefKind::Real;
+  return ref;
+}
+
+Ref refOf(const rung_symbol& symbol) {
+  Ref ref;
+  ref.readonly = (symbol.flags & RUNG_SYMBOL_READONLY) != 0;
+  if ((symbol.flags & RUNG_SYMBOL_CONST) != 0) {
+    ref.kind = RefKind::Constant;
+    ref.width = 64;
+    ref.constant = symbol.value;
+    return ref;
+  }
+  ref.space = symbol.space;
+  ref.byte = symbol.byte;
+  ref.count = std::max(1u, symbol.count);
+  ref.kind = RefKind::Int;
+  switch (static_cast<rung_type>(symbol.type)) {
+  case RUNG_TYPE_BIT:
+    ref.kind = RefKind::Bit;
+    ref.bit = static_cast<uint8_t>(symbol.bit);
+    break;
+  case RUNG_TYPE_I8: ref.width = 8; break;
+  case RUNG_TYPE_I16: ref.width = 16; break;
+  case RUNG_TYPE_I32: ref.width = 32; break;
+  case RUNG_TYPE_I64: ref.width = 64; break;
+  case RUNG_TYPE_F64:
+    ref.width = 64;
+    ref.kind = RefKind::Real;
+    break;
+  case RUNG_TYPE_TEXT:
+    ref.width = 8;
+    ref.kind = RefKind::Text;
+    break;
+  }
   return ref;
 }
 

@@ -1,5 +1,5 @@
-// The place that a name refers to, and typed access to it. A Ref is plain data: resolve once, use for the life of the
-// program. Multi-byte values are little-endian; integers are unsigned here, readers that want a sign extend by `width`.
+// A place of a program, and typed access to it. A Ref is plain data: found once, used for the life of the program.
+// Multi-byte values are little-endian; integers are unsigned here, readers that want a sign extend by `width`.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -27,13 +27,14 @@ struct Ref {
 Ref bitRef(uint32_t space, uint32_t byte, uint32_t bit); // bit may be 8 or more: it counts on from `byte`
 Ref intRef(uint32_t space, uint32_t byte, uint32_t width);
 Ref realRef(uint32_t space, uint32_t byte); // 64 bits
+Ref refOf(const rung_symbol& symbol);       // a Constant for a symbol without a place
 
 // Element `index` of an array; nothing when there is none.
 std::optional<Ref> element(const Ref& array, uint32_t index);
 // Bit `number` of an integer; nothing when it is not that wide.
 std::optional<Ref> bitOf(const Ref& cell, uint32_t number);
 // The 64-bit real that the cell holds: an integer of 64 bits, or two words of a space that is addressed in words of 32
-// bits (NCT). Nothing when the cell is narrower, or its second word lies outside.
+// bits. Nothing when the cell is narrower, or its second word lies outside.
 std::optional<Ref> asReal(const rt::Memory& memory, const Ref& ref);
 
 // The place for accesses in every scan; outside all spaces for a Constant, and a Text's first byte.

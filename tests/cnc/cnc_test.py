@@ -166,8 +166,9 @@ def unload(bench, _options):
 def retained(bench, _options):
     """D goes on where the last session stopped; a place that cannot be written stops the loading."""
     bench.program(HERE / "stuck.pmc")
-    bench.file("program.map", "in s32 number D4:4\nout s32 kept D4:4\n")
-    bench.file("first.map", "out s32 kept D4:4\n")
+    kept = 'out.kept = { type = "s32", name = "D4:4" }\n'
+    bench.file("program.map", 'in.number = { type = "s32", name = "D4:4" }\n' + kept)
+    bench.file("first.map", kept)
     load = LOAD.format(options="retain=@DIR@/memory", prefix="rung")
     show = "loadusr -w sleep 0.3\nshow pin rung.kept\n"
     bench.halrun(load + "setp rung.number 4711\n" + show)
@@ -187,11 +188,21 @@ def mistakes(bench, _options):
         expect(done.returncode != 0, "loaded in spite of the mistake")
         return done.stdout
 
-    output = load("in bit a X0.0\nin bit b Y0.0\nsend a up M 3\nout bit c NOWHERE\n")
-    expect("program.map:2: Y0.0 is an output of the program; it cannot be written" in output, "line 2")
-    expect("program.map:3: 'up': rise or fall is expected" in output, "line 3")
-    expect("program.map:4: NOWHERE: the program has no such name or address" in output, "line 4")
-    expect("cannot make pin rung.fault" in load("out bit fault Y0.0\n"), "a reserved name")
+    output = load("""[in]
+a = { type = "bit", name = "X0.0" }
+b = { type = "bit", name = "Y0.0" }
+[out]
+c = { type = "bit", name = "NOWHERE" }
+[[abort]]
+pin = "a"
+edge = "up"
+""")
+    expect("program.map:3:28: Y0.0 is an output of the program; it cannot be written" in output, "line 3")
+    expect("program.map:5:28: NOWHERE: the program has no such name or address" in output, "line 5")
+    expect('program.map:8:8: abort.edge: found "up", expected "rise" or "fall"; write' in output, "line 8")
+    output = load("[in]\nin bit a X0.0\n")
+    expect("program.map:2:4: Error while parsing key-value pair" in output, "not TOML")
+    expect("cannot make pin rung.fault" in load('out.fault = { type = "bit", name = "Y0.0" }\n'), "a reserved name")
     expect("rung_hal: cannot load /nowhere.so: " in load("", "so=/nowhere.so"), "a missing program")
     expect("and2.so: it has no seal" in load("", "so=/usr/lib/linuxcnc/modules/and2.so"), "not a program")
     shutil.copy(bench.home / "program.so", bench.home / "nobodys.so")

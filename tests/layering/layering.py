@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks who may include whom (docs/architecture.md): layering.py [ROOT]; exit 1 and a line for each offence."""
+"""Checks who may include whom, and that the runtime knows its dialects in rtlib/nc alone (docs/architecture.md):
+layering.py [ROOT]; exit 1 and a line for each offence."""
 import re
 import sys
 from pathlib import Path
@@ -16,7 +17,8 @@ MODULES = {
     "rtlib/core": {"rtlib/abi"},
     "rtlib/nc": {"rtlib/abi"},
     "rtlib/host": {"rtlib/abi", "rtlib/core"},
-    "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/host"},
+    "rtlib/nc/names": {"rtlib/abi", "rtlib/core", "rtlib/host"},  # without the signal tables
+    "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/nc/names", "rtlib/host"},
     "rtlib/profile": {"rtlib/abi", "rtlib/core", "rtlib/host"},
     "ir/support": set(),
     "ir/core": IR,
@@ -42,6 +44,7 @@ MODULES = {
     "codegen/clang": ALL_IR | {"codegen/cpp"},
 }
 NOT_ON_A_MACHINE = ("tools/sim/", "tools/driver/", "tools/scenario/", "frontend/", "codegen/", "ir/")
+ON_A_MACHINE_TOO = {"ir/support/similar.h"}  # spelling suggestions: a library of its own
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 
 # Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
@@ -62,6 +65,10 @@ FOREIGN = {
 }
 SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".def"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+[<"]([^>"]+)[>"]', re.MULTILINE)
+
+# The name of a dialect as a word or a part of an identifier (gskNames, kNctTimeout, TECHNOL's); not in "function".
+DIALECT_NAME = re.compile(r"(?<![A-Za-z])(?:gsk|nct|technol)(?![a-z])|(?:Gsk|Nct|Technol)(?![a-z])"
+                          r"|(?<![A-Z])(?:GSK|NCT|TECHNOL)(?![A-Z])")
 
 
 def within(path, folder):
@@ -98,13 +105,30 @@ def check_tools(root):
     for file in sorted((root / "tools/rung-hal").rglob("*")):
         if file.suffix in SUFFIXES:
             for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
-                if match.group(1).startswith(NOT_ON_A_MACHINE):
-                    found.append(f"{file.relative_to(root).as_posix()}: may not include {match.group(1)}")
+                target = match.group(1)
+                if target.startswith(NOT_ON_A_MACHINE) and target not in ON_A_MACHINE_TOO:
+                    found.append(f"{file.relative_to(root).as_posix()}: may not include {target}")
+    return found
+
+
+def check_dialect_names(root):
+    """Code, comments and file names of rtlib outside rtlib/nc."""
+    found = []
+    for file in sorted((root / "rtlib").rglob("*")):
+        path = file.relative_to(root).as_posix()
+        if within(path, "rtlib/nc") or not file.is_file():
+            continue
+        for match in DIALECT_NAME.finditer(path):
+            found.append(f"{path}: names a dialect ({match.group()}): belongs in rtlib/nc")
+        text = file.read_text(encoding="utf-8")
+        for match in DIALECT_NAME.finditer(text):
+            line = text.count("\n", 0, match.start()) + 1
+            found.append(f"{path}:{line}: names a dialect ({match.group()}): belongs in rtlib/nc")
     return found
 
 
 def check(root):
-    found = check_tools(root)
+    found = check_tools(root) + check_dialect_names(root)
     for top in ("frontend", "ir", "codegen", "rtlib"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in SUFFIXES:
@@ -123,7 +147,7 @@ def check(root):
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     found = check(root)
-    print("\n".join(found) or "include directions are right")
+    print("\n".join(found) or "include directions are right, and no dialect is named in rtlib outside rtlib/nc")
     return 1 if found else 0
 
 

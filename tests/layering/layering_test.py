@@ -10,8 +10,10 @@ sys.path.insert(0, str(Path(__file__).parent))
 import layering
 
 GOOD = {
+    "rtlib/nc/signal.h": "",
     "rtlib/abi/rung/program.h": "",
-    "rtlib/host/loader.h": '#include "rung/program.h"\n',
+    "rtlib/host/loader.h": '#include "rung/program.h"\nint function, FUNCTION, fNction; // distinct\n',
+    "rtlib/nc/names/gsk.cpp": 'const char* kGskName = "gsk"; // GSK\n',
     "ir/support/source.h": "#include <vector>\n",
     "ir/core/module.h": '#include "ir/support/source.h"\n#include "rung/program.h"\n',
     "frontend/table/instruction.h": '#include "ir/core/module.h"\n',
@@ -20,6 +22,8 @@ GOOD = {
     "frontend/dialects/all.cpp": '#include "frontend/dialects/gsk/rows.h"\n',
     "codegen/cpp/emit.h": '#include "ir/core/module.h"\n',
     "codegen/llvm/emit.cpp": "#include <llvm/IR/Module.h>\n",
+    "ir/support/similar.h": "#include <string>\n",
+    "tools/rung-hal/map_file.cpp": '#include "ir/support/similar.h"\n',
     "tools/rungc/main.cpp": '#include "codegen/cpp/emit.h"\n#include <CLI/CLI.hpp>\n',
 }
 BAD = {
@@ -39,6 +43,14 @@ BAD = {
     "gtest in a library": ("ir/core/x.cpp", "#include <gtest/gtest.h>"),
     "the machine's component includes the simulation": ("tools/rung-hal/x.cpp", '#include "tools/sim/simulated_nc.h"'),
     "the machine's component includes the compiler": ("tools/rung-hal/x.cpp", '#include "ir/core/module.h"'),
+    "a dialect as a text": ("rtlib/host/x.cpp", 'bool is = dialect == "gsk";'),
+    "a dialect in an identifier": ("rtlib/core/x.h", "constexpr int kNctSlices = 5;"),
+    "a dialect at the head of an identifier": ("rtlib/core/x.h", "void technolHalt();"),
+    "a dialect in a macro": ("rtlib/abi/rung/x.h", "#define RUNG_GSK_SLOTS 1"),
+    "a dialect in a comment": ("rtlib/profile/x.cpp", "// as TECHNOL's modules do"),
+    "a dialect in a page": ("rtlib/README.md", "The GSK25i has it."),
+    "a dialect in the name of a file": ("rtlib/host/gsk_names.h", ""),
+    "the signal tables in the names": ("rtlib/nc/names/x.cpp", '#include "rtlib/nc/signal.h"'),
     "a library includes a tool": ("codegen/cpp/x.cpp", '#include "tools/rungc/main.cpp"'),
     "an include without its folder": ("ir/core/x.cpp", '#include "module.h"'),
     "an unknown module": ("ir/extra/x.cpp", "#include <vector>"),

@@ -6,6 +6,7 @@
 #include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "rtlib/host/compare.h"
+#include "rtlib/nc/names/names.h"
 
 namespace rung::testing {
 namespace {
@@ -41,7 +42,7 @@ std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& 
   for (int scan = 1; scan <= scans; ++scan) {
     a->scan();
     b->scan();
-    auto difference = host::firstDifference(*a, *b);
+    auto difference = host::firstDifference(*a, *b, nc::describe);
     if (!difference) difference = firstCountDifference(*a, *b);
     if (difference) return fmt::format("scan {}: {} against {}: {}", scan, first.name(), second.name(), *difference);
   }

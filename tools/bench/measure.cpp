@@ -17,6 +17,7 @@
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/file.h"
+#include "rtlib/nc/names/names.h"
 #include "tools/bench/gsk_workload.h"
 #include "tools/bench/technol_workload.h"
 #include "tools/driver/engines.h"
@@ -90,11 +91,12 @@ Result<void> settle(host::Instance& instance, const Workload& work, std::vector<
                     RunHand runHand) {
   std::mt19937_64 random(kSeed + 1);
   instance.coldStart();
-  for (const std::string& name : work.ones) host::writeRaw(instance.memory(), *instance.resolve(name), 1);
+  for (const std::string& name : work.ones)
+    host::writeRaw(instance.memory(), *nc::resolve(instance.program(), name), 1);
   std::vector<host::Ref> bits;
   std::vector<host::Ref> words;
-  for (const std::string& name : work.bits) bits.push_back(*instance.resolve(name));
-  for (const std::string& name : work.words) words.push_back(*instance.resolve(name));
+  for (const std::string& name : work.bits) bits.push_back(*nc::resolve(instance.program(), name));
+  for (const std::string& name : work.words) words.push_back(*nc::resolve(instance.program(), name));
   const auto wordAt = [&](size_t i) { return hand.data() + bits.size() + 2 * i; };
   for (uint32_t bit = 0; bit < work.inputs; ++bit) {
     hand[bit] = static_cast<uint8_t>(random() & 1);

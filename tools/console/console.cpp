@@ -8,7 +8,6 @@
 
 #include "ir/support/similar.h"
 #include "rtlib/nc/faults.h"
-#include "tools/console/message_text.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/words.h"
 
@@ -239,7 +238,7 @@ Outcome Console::unwatch(std::span<const std::string> words) {
 Outcome Console::messages(std::span<const std::string> words) {
   if (!words.empty()) return fail("expected no more words (the command is: messages)");
   const std::vector<nc::ShownMessage> shown = session_.nc().control().messages(session_.instance());
-  for (const nc::ShownMessage& message : shown) print_(messageText(session_.instance().program(), message));
+  for (const nc::ShownMessage& message : shown) print_(session_.nc().control().text(message));
   if (shown.empty()) print_("no messages");
   return Outcome::Done;
 }

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "tools/console/message_text.h"
-
 namespace rung::console {
 namespace {
 
@@ -45,16 +43,16 @@ void Watch::look(const scenario::Session& session) {
 }
 
 void Watch::printMessages(const scenario::Session& session) {
-  std::vector<nc::ShownMessage> now = session.nc().control().messages(session.instance());
+  const nc::Control& control = session.nc().control();
+  std::vector<nc::ShownMessage> now = control.messages(session.instance());
   if (now == shown_) return;
-  const rung_program& program = session.instance().program();
   const auto has = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {
     return std::ranges::find(list, message) != list.end();
   };
   for (const nc::ShownMessage& message : shown_)
-    if (!has(now, message)) print_(atTime(session, messageText(program, message) + " is gone"));
+    if (!has(now, message)) print_(atTime(session, control.text(message) + " is gone"));
   for (const nc::ShownMessage& message : now)
-    if (!has(shown_, message)) print_(atTime(session, messageText(program, message)));
+    if (!has(shown_, message)) print_(atTime(session, control.text(message)));
   shown_ = std::move(now);
 }
 

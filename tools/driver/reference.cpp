@@ -8,9 +8,7 @@
 
 #include "ir/core/op_info.h"
 #include "rtlib/nc/faults.h"
-#include "rtlib/nc/gsk/signals.h"
-#include "rtlib/nc/nct/signals.h"
-#include "rtlib/nc/technol/signals.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::driver {
 
@@ -315,12 +313,6 @@ std::string faultTopic() {
   return out;
 }
 
-std::span<const nc::Signal> signalsOf(std::string_view dialect) {
-  if (dialect == "gsk") return nc::gskSignals().rows;
-  if (dialect == "nct") return nc::nctSignals().rows;
-  return nc::technolSignals().rows;
-}
-
 } // namespace
 
 std::optional<std::string> explain(std::string_view word) {
@@ -366,8 +358,9 @@ std::vector<ReferenceEntry> referenceEntries() {
     for (const nc::Fault& fault : nc::faultsOf(dialect->name))
       entries.push_back(
           {std::string(fault.text), fmt::format("{} fault", dialect->name), std::string(fault.explanation), ""});
-    for (const nc::Signal& signal : signalsOf(dialect->name))
-      entries.push_back({signal.symbol, fmt::format("{} signal", dialect->name), signal.meaning, signal.group});
+    if (const nc::SignalTable* signals = nc::signalsOf(dialect->name))
+      for (const nc::Signal& signal : *signals)
+        entries.push_back({signal.symbol, fmt::format("{} signal", dialect->name), signal.meaning, signal.group});
   }
   for (const DiagInfo* info : sortedDiags())
     entries.push_back({std::string(info->code), info->severity == Severity::Error ? "error" : "warning",

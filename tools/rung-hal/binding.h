@@ -1,4 +1,4 @@
-// The lines of a mapping file with their names looked up in a program: plain places, ready for the scan.
+// The entries of a mapping file with their names looked up in a program: plain places, ready for the scan.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -29,8 +29,8 @@ struct Binding {
   std::vector<ConstLink> constants;
 };
 
-// Every name that does not exist or does not suit its line is one entry of `errors`, "PATH:LINE: what is wrong"; so are
-// functions that the control does not hand over.
+// Every name that does not exist or does not suit its entry is one text in `errors`, "PATH:LINE:COLUMN: what is wrong";
+// so are functions that the control does not hand over.
 Binding bindMap(const MapFile& map, const host::Instance& instance, nc::Control& control,
                 std::vector<std::string>& errors);
 

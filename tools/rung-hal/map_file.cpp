@@ -1,236 +1,414 @@
-// Parser of the mapping file: a line is a keyword and blank-separated words.
+// Reader of the mapping file: a table is a list of keys, and a key is one row, with what it takes and what takes it.
 #include "tools/rung-hal/map_file.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
+
+#include <toml++/toml.h>
+
+#include "ir/support/similar.h"
 
 namespace rung::hal {
 namespace {
 
-using Words = std::vector<std::string_view>;
+constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinType::Float};
+constexpr int64_t kLeast = std::numeric_limits<int32_t>::min(); // of the integers of a constant
+constexpr int64_t kMost = std::numeric_limits<uint32_t>::max();
+constexpr double kLongestTimeout = 1e6; // seconds
 
-constexpr std::string_view kBlanks = " \t\r";
+MapPosition positionOf(const toml::source_region& region) { return {region.begin.line, region.begin.column}; }
+MapPosition positionOf(const toml::node& node) { return positionOf(node.source()); }
 
-// '#' opens a comment only at the start of a word: NCT has names such as AN_PLCA,#1.
-Words splitLine(std::string_view line) {
-  Words words;
-  size_t at = line.find_first_not_of(kBlanks);
-  while (at != std::string_view::npos && line[at] != '#') {
-    const size_t end = line.find_first_of(kBlanks, at);
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(kBlanks, end);
+// False: no constant has such a value.
+bool takeValue(const toml::node& node, MapConst& constant) {
+  if (const auto bit = node.value_exact<bool>()) {
+    constant.value = *bit ? 1 : 0;
+    return true;
   }
-  return words;
+  if (const auto integer = node.value_exact<int64_t>()) {
+    constant.type = *integer < 0 ? PinType::S32 : PinType::U32;
+    constant.value = static_cast<double>(*integer);
+    return *integer >= kLeast && *integer <= kMost;
+  }
+  const auto real = node.value_exact<double>();
+  constant.type = PinType::Float;
+  constant.value = real.value_or(0);
+  return real && std::isfinite(*real);
 }
 
-std::optional<PinType> pinTypeOf(std::string_view word) {
-  for (const PinType type : {PinType::Bit, PinType::S32, PinType::U32, PinType::Float})
-    if (word == pinTypeName(type)) return type;
+// A value as a file has it; of tables and lists the kind.
+std::string shown(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "a list";
+  if (const auto text = node.value_exact<std::string>()) return "\"" + *text + "\"";
+  if (const auto integer = node.value_exact<int64_t>()) return std::to_string(*integer);
+  if (const auto boolean = node.value_exact<bool>()) return *boolean ? "true" : "false";
+  if (const auto real = node.value_exact<double>()) {
+    char text[32];
+    return {text, std::to_chars(std::begin(text), std::end(text), *real).ptr};
+  }
+  return "a date or a time";
+}
+
+// "" where the value is not a text.
+std::string textOf(const toml::node& node) { return node.value_exact<std::string>().value_or(""); }
+
+std::optional<double> numberOf(const toml::node& node) {
+  if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
+  if (const auto real = node.value_exact<double>(); real && std::isfinite(*real)) return real;
   return std::nullopt;
 }
 
+// NAME.REST = … is the key REST of a table NAME.
+bool isUnquotedName(const toml::node& node) {
+  const toml::table* table = node.as_table();
+  return table != nullptr && !table->empty() &&
+         std::ranges::all_of(*table, [](const auto& entry) { return entry.second.is_table(); });
+}
+
 bool isPinName(std::string_view word) {
-  if (word.empty()) return false;
-  for (const char c : word) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (!letter && !(c >= '0' && c <= '9') && c != '-' && c != '_' && c != '.') return false;
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  return !word.empty() && word.find_first_not_of(kAllowed) == std::string_view::npos;
+}
+
+using Entry = std::pair<const toml::key*, const toml::node*>;
+
+// toml++ keeps the keys of a table sorted by name.
+std::vector<Entry> inFileOrder(const toml::table& table) {
+  std::vector<Entry> entries;
+  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
+  std::ranges::sort(entries, {}, [](const Entry& entry) { return positionOf(entry.first->source()); });
+  return entries;
+}
+
+struct Place { // of a value
+  std::string text;
+  MapPosition at;
+};
+
+// An entry of [in] or [out].
+struct PinRow {
+  std::optional<PinType> type;
+  std::vector<Place> names;
+  std::optional<double> scale;
+  MapPosition scaleAt;
+};
+
+struct EdgeRow {
+  std::string pin;
+  MapPosition pinAt;
+  bool rising = true;
+};
+
+// An entry of [[send]].
+struct SendRow {
+  EdgeRow edge;
+  nc::FunctionKind kind = nc::FunctionKind::M;
+  int32_t code = 0;
+  std::optional<Place> codePin;
+  std::optional<Place> donePin;
+};
+
+class Reader {
+public:
+  explicit Reader(MapFile& map) : map_(map) {}
+
+  void read(const toml::table& file);
+  void syntax(const toml::parse_error& error) {
+    fail(positionOf(error.source()),
+         std::string(error.description()) + "; the file must be TOML, and further mistakes are found once this is");
+  }
+
+  std::vector<std::string> errors() {
+    std::ranges::stable_sort(errors_, {}, &std::pair<MapPosition, std::string>::first);
+    std::vector<std::string> texts;
+    for (const auto& [at, what] : errors_) texts.push_back(map_.message(at, what));
+    return texts;
+  }
+
+private:
+  // A key of a table that is read into a Row.
+  template <class Row>
+  struct Key {
+    std::string_view name;
+    bool needed;
+    std::string_view expected;
+    std::string_view example;
+    bool (Reader::*take)(const toml::node&, Row&); // false: it is not what is expected
+  };
+
+  static const Key<MapFile> kFileKeys[7];
+  static const Key<PinRow> kPinKeys[3];
+  static const Key<SendRow> kSendKeys[5];
+  static const Key<EdgeRow> kAbortKeys[2];
+
+  void fail(MapPosition at, std::string what) { errors_.emplace_back(at, std::move(what)); }
+  void wrong(MapPosition at, const std::string& where, const std::string& found, std::string_view expected,
+             std::string_view example) {
+    fail(at, where + ": found " + found + ", expected " + std::string(expected) + "; write for example " +
+                 std::string(example));
+  }
+
+  // Reads a table by its keys; `where` is its name in messages, "" for the file. False: there were mistakes.
+  template <class Row, size_t N>
+  bool readKeys(const toml::table& table, std::string_view where, const Key<Row> (&keys)[N], Row& row) {
+    const size_t before = errors_.size();
+    const std::string prefix = where.empty() ? "" : std::string(where) + ".";
+    for (const auto& [key, node] : inFileOrder(table)) {
+      const auto known = std::ranges::find(keys, key->str(), &Key<Row>::name);
+      if (known == std::end(keys))
+        unknownKey(*key, where, keys);
+      else if (!(this->*known->take)(*node, row))
+        wrong(positionOf(*node), prefix + std::string(known->name), shown(*node), known->expected, known->example);
+    }
+    for (const Key<Row>& key : keys)
+      if (key.needed && !table.contains(key.name))
+        fail(positionOf(table), std::string(where) + ": found no key " + std::string(key.name) + ", expected " +
+                                    std::string(key.expected) + "; write for example " + std::string(key.example));
+    return errors_.size() == before;
+  }
+
+  template <class Row, size_t N>
+  void unknownKey(const toml::key& key, std::string_view where, const Key<Row> (&keys)[N]) {
+    Similar similar(key.str());
+    std::string all;
+    for (const Key<Row>& known : keys) {
+      similar.offer(known.name);
+      all += (all.empty() ? "" : ", ") + std::string(known.name);
+    }
+    std::string text = (where.empty() ? "the file" : std::string(where)) + ": found an unknown key " +
+                       std::string(key.str()) + ", expected " + all;
+    if (!similar.best().empty()) text += "; did you mean " + std::string(similar.best()) + "?";
+    fail(positionOf(key.source()), std::move(text));
+  }
+
+  // The file's keys.
+  bool takeTimeout(const toml::node& node, MapFile& map) {
+    const std::optional<double> seconds = numberOf(node);
+    if (!seconds || !(*seconds > 0 && *seconds <= kLongestTimeout)) return false;
+    map.timeoutNs = static_cast<int64_t>(*seconds * 1e9);
+    return true;
+  }
+  bool takeHighSpeed(const toml::node& node, MapFile& map) {
+    const auto wanted = node.value_exact<bool>();
+    if (wanted.value_or(false)) map.highSpeed = positionOf(node);
+    return wanted.has_value();
+  }
+  bool takeInputs(const toml::node& node, MapFile& map) { return takePins(node, false, map.inputs); }
+  bool takeOutputs(const toml::node& node, MapFile& map) { return takePins(node, true, map.outputs); }
+  bool takeConstants(const toml::node& node, MapFile& map);
+  bool takeSends(const toml::node& node, MapFile& map);
+  bool takeAborts(const toml::node& node, MapFile& map);
+
+  bool takePins(const toml::node& node, bool output, std::vector<MapLink>& links);
+  void readPin(const toml::key& key, const toml::node& node, bool output, std::vector<MapLink>& links);
+  template <class Row, size_t N, class Add>
+  bool takeList(const toml::node& node, std::string_view name, const Key<Row> (&keys)[N], Add add);
+
+  // Keys of a pin.
+  bool takeType(const toml::node& node, PinRow& row) {
+    const auto found = std::ranges::find(kPinTypes, textOf(node), pinTypeName);
+    if (found == std::end(kPinTypes)) return false;
+    row.type = *found;
+    return true;
+  }
+  bool takeNames(const toml::node& node, PinRow& row) {
+    if (const toml::array* list = node.as_array())
+      return !list->empty() &&
+             std::ranges::all_of(*list, [&](const toml::node& element) { return takeOneName(element, row); });
+    return takeOneName(node, row);
+  }
+  bool takeOneName(const toml::node& node, PinRow& row) {
+    row.names.push_back({textOf(node), positionOf(node)});
+    return !row.names.back().text.empty();
+  }
+  bool takeScale(const toml::node& node, PinRow& row) {
+    row.scale = numberOf(node);
+    row.scaleAt = positionOf(node);
+    return row.scale.value_or(0) != 0;
+  }
+
+  // Keys of a function and of an abort.
+  std::optional<Place> pinNameOf(const toml::node& node) {
+    Place name{textOf(node), positionOf(node)};
+    return isPinName(name.text) ? std::optional(std::move(name)) : std::nullopt;
+  }
+  bool takeEdgePin(const toml::node& node, EdgeRow& row) {
+    const std::optional<Place> name = pinNameOf(node);
+    if (name) row = {name->text, name->at, row.rising};
+    return name.has_value();
+  }
+  bool takeEdge(const toml::node& node, EdgeRow& row) {
+    const std::string direction = textOf(node);
+    row.rising = direction == "rise";
+    return row.rising || direction == "fall";
+  }
+  bool takeSendPin(const toml::node& node, SendRow& row) { return takeEdgePin(node, row.edge); }
+  bool takeSendEdge(const toml::node& node, SendRow& row) { return takeEdge(node, row.edge); }
+  bool takeFunction(const toml::node& node, SendRow& row) {
+    const auto kind = std::ranges::find(nc::kFunctionKinds, textOf(node));
+    row.kind = static_cast<nc::FunctionKind>(kind - std::begin(nc::kFunctionKinds));
+    return kind != std::end(nc::kFunctionKinds);
+  }
+  bool takeCode(const toml::node& node, SendRow& row) {
+    row.codePin = pinNameOf(node);
+    const auto number = node.value_exact<int64_t>();
+    if (number && std::in_range<int32_t>(*number)) row.code = static_cast<int32_t>(*number);
+    return row.codePin || (number && std::in_range<int32_t>(*number));
+  }
+  bool takeDone(const toml::node& node, SendRow& row) {
+    row.donePin = pinNameOf(node);
+    return row.donePin.has_value();
+  }
+
+  // The pin of that name, made when it is new. Nothing: the name has another use, which is reported.
+  std::optional<uint32_t> pin(const Place& name, PinType type, bool output);
+  std::optional<MapEdge> edge(const EdgeRow& row) {
+    const std::optional<uint32_t> index = pin({row.pin, row.pinAt}, PinType::Bit, false);
+    if (!index) return std::nullopt;
+    return MapEdge{*index, row.rising};
+  }
+  void addSend(const SendRow& row, MapPosition at);
+
+  MapFile& map_;
+  std::vector<std::pair<MapPosition, std::string>> errors_;
+};
+
+const Reader::Key<MapFile> Reader::kFileKeys[] = {
+    {"timeout", false, "seconds, above 0 and at most 1000000", "timeout = 30", &Reader::takeTimeout},
+    {"high-speed", false, "true or false", "high-speed = true", &Reader::takeHighSpeed},
+    {"in", false, "a table", "[in] and its pins in the lines after it", &Reader::takeInputs},
+    {"out", false, "a table", "[out] and its pins in the lines after it", &Reader::takeOutputs},
+    {"const", false, "a table", "[const] and NAME = VALUE in the lines after it", &Reader::takeConstants},
+    {"send", false, "a list of tables", "[[send]] and its keys in the lines after it", &Reader::takeSends},
+    {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
+};
+
+const Reader::Key<PinRow> Reader::kPinKeys[] = {
+    {"type", true, "\"bit\", \"s32\", \"u32\" or \"float\"", "type = \"bit\"", &Reader::takeType},
+    {"name", true, "a name of the program, or a list of names", "name = \"X0.0\"", &Reader::takeNames},
+    {"scale", false, "a number other than 0", "scale = 1000", &Reader::takeScale},
+};
+
+const Reader::Key<SendRow> Reader::kSendKeys[] = {
+    {"pin", true, "the name of a pin", "pin = \"spindle-forward\"", &Reader::takeSendPin},
+    {"edge", true, "\"rise\" or \"fall\"", "edge = \"rise\"", &Reader::takeSendEdge},
+    {"function", true, "\"M\", \"S\", \"T\" or \"B\"", "function = \"M\"", &Reader::takeFunction},
+    {"code", true, "an integer of 32 bits with a sign, or the name of an s32 pin", "code = 3", &Reader::takeCode},
+    {"done", false, "the name of a pin", "done = \"tool-changed\"", &Reader::takeDone},
+};
+
+const Reader::Key<EdgeRow> Reader::kAbortKeys[] = {
+    {"pin", true, "the name of a pin", "pin = \"estop\"", &Reader::takeEdgePin},
+    {"edge", true, "\"rise\" or \"fall\"", "edge = \"rise\"", &Reader::takeEdge},
+};
+
+void Reader::read(const toml::table& file) { readKeys(file, "", kFileKeys, map_); }
+
+bool Reader::takePins(const toml::node& node, bool output, std::vector<MapLink>& links) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return false;
+  for (const auto& [key, pinNode] : inFileOrder(*table)) readPin(*key, *pinNode, output, links);
+  return true;
+}
+
+void Reader::readPin(const toml::key& key, const toml::node& node, bool output, std::vector<MapLink>& links) {
+  const Place name{std::string(key.str()), positionOf(key.source())};
+  const std::string where = (output ? "out." : "in.") + name.text;
+  if (!isPinName(name.text))
+    return fail(name.at,
+                where + ": found \"" + name.text + "\", expected the name of a pin: letters, digits, '-', '_' and '.'");
+  const toml::table* table = node.as_table();
+  if (table == nullptr)
+    return wrong(positionOf(node), where, shown(node), "a table", name.text + " = { type = \"bit\", name = \"X0.0\" }");
+  if (isUnquotedName(node))
+    return fail(name.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
+                             name.text + ".1\" = { … }");
+  PinRow row;
+  if (!readKeys(*table, where, kPinKeys, row)) return;
+  if (row.scale && row.type != PinType::Float)
+    return fail(row.scaleAt, where + ".scale: found a scale of type " + std::string(pinTypeName(*row.type)) +
+                                 ", expected one of type float only; remove it, or write type = \"float\"");
+  if (output && row.names.size() > 1)
+    return fail(row.names[1].at, where + ".name: found several names, expected one, because an output pin has one "
+                                         "source; give the other names pins of their own");
+  const std::optional<uint32_t> index = pin(name, *row.type, output);
+  if (!index) return;
+  for (Place& place : row.names) links.push_back({*index, std::move(place.text), row.scale.value_or(1), place.at});
+}
+
+bool Reader::takeConstants(const toml::node& node, MapFile& map) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return false;
+  for (const auto& [key, value] : inFileOrder(*table)) {
+    MapConst constant{PinType::Bit, std::string(key->str()), 0, positionOf(key->source())};
+    if (takeValue(*value, constant)) {
+      map.constants.push_back(std::move(constant));
+      continue;
+    }
+    const std::string where = "const." + constant.name;
+    if (value->is_table())
+      fail(constant.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
+                            constant.name + ".1\" = true");
+    else
+      wrong(positionOf(*value), where, shown(*value),
+            "true, false, an integer from -2147483648 to 4294967295, or a real number",
+            "\"" + constant.name + "\" = 1");
   }
   return true;
 }
 
-std::optional<double> realOf(std::string_view word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
+// [[name]] tables: calls add(row, position) for each without mistakes.
+template <class Row, size_t N, class Add>
+bool Reader::takeList(const toml::node& node, std::string_view name, const Key<Row> (&keys)[N], Add add) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr || !std::ranges::all_of(*list, &toml::node::is_table)) return false;
+  for (const toml::node& element : *list) {
+    Row row;
+    if (readKeys(*element.as_table(), name, keys, row)) add(row, positionOf(element));
+  }
+  return true;
 }
 
-std::optional<int64_t> integerOf(std::string_view word) {
-  const bool negative = word.starts_with('-');
-  if (negative) word.remove_prefix(1);
-  const bool hex = word.starts_with("0x") || word.starts_with("0X");
-  if (hex) word.remove_prefix(2);
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, hex ? 16 : 10);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return negative ? -static_cast<int64_t>(value) : static_cast<int64_t>(value);
+bool Reader::takeSends(const toml::node& node, MapFile&) {
+  return takeList(node, "send", kSendKeys, [this](const SendRow& row, MapPosition at) { addSend(row, at); });
 }
 
-std::optional<double> valueOf(PinType type, std::string_view word) {
-  if (type == PinType::Float) return realOf(word);
-  const std::optional<int64_t> value = integerOf(word);
-  if (!value) return std::nullopt;
-  switch (type) {
-  case PinType::Bit: return *value == 0 || *value == 1 ? std::optional<double>(*value) : std::nullopt;
-  case PinType::S32:
-    if (*value < std::numeric_limits<int32_t>::min() || *value > std::numeric_limits<int32_t>::max()) break;
-    return static_cast<double>(*value);
-  case PinType::U32:
-    if (*value < 0) break;
-    return static_cast<double>(*value);
-  case PinType::Float: break;
-  }
-  return std::nullopt;
+bool Reader::takeAborts(const toml::node& node, MapFile& map) {
+  return takeList(node, "abort", kAbortKeys, [&](const EdgeRow& row, MapPosition) {
+    if (const std::optional<MapEdge> cause = edge(row)) map.aborts.push_back(*cause);
+  });
 }
 
-class Parser {
-public:
-  Parser(MapFile& map, std::vector<std::string>& errors) : map_(map), errors_(errors) {}
+void Reader::addSend(const SendRow& row, MapPosition at) {
+  const size_t before = errors_.size();
+  MapSend sent{.kind = row.kind, .code = row.code, .at = at};
+  sent.edge = edge(row.edge).value_or(MapEdge{});
+  if (row.codePin) sent.codePin = pin(*row.codePin, PinType::S32, false);
+  if (row.donePin) sent.donePin = pin(*row.donePin, PinType::Bit, true);
+  if (errors_.size() == before) map_.sends.push_back(sent);
+}
 
-  void line(std::string_view text, uint32_t number) {
-    line_ = number;
-    const Words words = splitLine(text);
-    if (words.empty()) return;
-    const std::string_view keyword = words[0];
-    if (keyword == "in" || keyword == "out")
-      link(words);
-    else if (keyword == "const")
-      constant(words);
-    else if (keyword == "send")
-      send(words);
-    else if (keyword == "abort")
-      abort(words);
-    else if (keyword == "timeout")
-      timeout(words);
-    else if (keyword == "high-speed")
-      highSpeed(words);
-    else
-      error("unknown keyword '" + std::string(keyword) +
-            "': in, out, const, send, abort, timeout or high-speed is expected");
-  }
-
-private:
-  void error(const std::string& what) { errors_.push_back(map_.path + ":" + std::to_string(line_) + ": " + what); }
-
-  bool hasForm(const Words& words, size_t least, size_t most, const char* form) {
-    if (words.size() >= least && words.size() <= most) return true;
-    error(std::string("the form is: ") + form);
-    return false;
-  }
-
-  std::optional<PinType> type(std::string_view word) {
-    const std::optional<PinType> found = pinTypeOf(word);
-    if (!found) error("unknown type '" + std::string(word) + "': bit, s32, u32 or float is expected");
-    return found;
-  }
-
-  // The pin of that name, made when it is new.
-  std::optional<uint32_t> pin(std::string_view name, PinType wanted, bool output) {
-    if (!isPinName(name)) {
-      error("'" + std::string(name) + "' is not a pin name: letters, digits, '-', '_' and '.' are allowed");
-      return std::nullopt;
-    }
-    for (uint32_t i = 0; i < map_.pins.size(); ++i) {
-      const MapPin& old = map_.pins[i];
-      if (old.name != name) continue;
-      // One input may feed several names, but an output has one source.
-      if (output && old.output) {
-        error("output pin '" + old.name + "' is already mapped");
-        return std::nullopt;
-      }
-      if (old.type == wanted && old.output == output) return i;
-      error("pin '" + old.name + "' is already defined as " + (old.output ? "out " : "in ") +
-            std::string(pinTypeName(old.type)));
-      return std::nullopt;
-    }
-    map_.pins.push_back({std::string(name), wanted, output});
+std::optional<uint32_t> Reader::pin(const Place& name, PinType type, bool output) {
+  const auto old = std::ranges::find(map_.pins, name.text, &MapPin::name);
+  if (old == map_.pins.end()) {
+    map_.pins.push_back({name.text, type, output, name.at});
     return static_cast<uint32_t>(map_.pins.size() - 1);
   }
-
-  void link(const Words& words) {
-    const bool output = words[0] == "out";
-    if (!hasForm(words, 4, 5, output ? "out TYPE PIN NAME [SCALE]" : "in TYPE PIN NAME [SCALE]")) return;
-    const std::optional<PinType> pinType = type(words[1]);
-    if (!pinType) return;
-    const std::optional<double> factor = scale(words, *pinType);
-    if (!factor) return;
-    const std::optional<uint32_t> index = pin(words[2], *pinType, output);
-    if (!index) return;
-    (output ? map_.outputs : map_.inputs).push_back({*index, std::string(words[3]), *factor, line_});
-  }
-
-  std::optional<double> scale(const Words& words, PinType pinType) {
-    if (words.size() < 5) return 1;
-    const std::optional<double> factor = realOf(words[4]);
-    if (pinType == PinType::Float && factor && std::isfinite(*factor) && *factor != 0) return factor;
-    error(pinType == PinType::Float
-              ? "'" + std::string(words[4]) + "' is not a scale: a number other than 0 is expected"
-              : "a scale is possible only for float");
-    return std::nullopt;
-  }
-
-  void constant(const Words& words) {
-    if (!hasForm(words, 4, 4, "const TYPE NAME VALUE")) return;
-    const std::optional<PinType> constType = type(words[1]);
-    if (!constType) return;
-    const std::optional<double> value = valueOf(*constType, words[3]);
-    if (!value) return error("'" + std::string(words[3]) + "' is not a value of type " + std::string(words[1]));
-    map_.constants.push_back({*constType, std::string(words[2]), *value, line_});
-  }
-
-  std::optional<MapEdge> edge(std::string_view name, std::string_view direction) {
-    if (direction != "rise" && direction != "fall") {
-      error("'" + std::string(direction) + "': rise or fall is expected");
-      return std::nullopt;
-    }
-    const std::optional<uint32_t> index = pin(name, PinType::Bit, false);
-    if (!index) return std::nullopt;
-    return MapEdge{*index, direction == "rise"};
-  }
-
-  void send(const Words& words) {
-    if (!hasForm(words, 5, 6, "send PIN rise|fall M|S|T|B CODE|CODEPIN [DONEPIN]")) return;
-    const auto kind = std::ranges::find(nc::kFunctionKinds, words[3]);
-    if (kind == std::end(nc::kFunctionKinds))
-      return error("'" + std::string(words[3]) + "' is not a kind of function: M, S, T or B is expected");
-    MapSend sent;
-    sent.kind = static_cast<nc::FunctionKind>(kind - std::begin(nc::kFunctionKinds));
-    sent.line = line_;
-    const std::optional<MapEdge> trigger = edge(words[1], words[2]);
-    if (!trigger || !sendCode(words[4], sent)) return;
-    sent.edge = *trigger;
-    if (words.size() == 6) {
-      sent.donePin = pin(words[5], PinType::Bit, true);
-      if (!sent.donePin) return;
-    }
-    map_.sends.push_back(sent);
-  }
-
-  void abort(const Words& words) {
-    if (!hasForm(words, 3, 3, "abort PIN rise|fall")) return;
-    if (const std::optional<MapEdge> cause = edge(words[1], words[2])) map_.aborts.push_back(*cause);
-  }
-
-  void timeout(const Words& words) {
-    constexpr double kLongest = 1e6;
-    if (!hasForm(words, 2, 2, "timeout SECONDS")) return;
-    const std::optional<double> seconds = realOf(words[1]);
-    if (!seconds || !(*seconds > 0 && *seconds <= kLongest))
-      return error("'" + std::string(words[1]) +
-                   "' is not a time in seconds: a number above 0, up to 1000000, is expected");
-    if (map_.timeoutNs != 0) return error("the time is already set");
-    map_.timeoutNs = static_cast<int64_t>(*seconds * 1e9);
-  }
-
-  void highSpeed(const Words& words) {
-    if (hasForm(words, 1, 1, "high-speed")) map_.highSpeedLine = line_;
-  }
-
-  bool sendCode(std::string_view word, MapSend& sent) {
-    if (const std::optional<double> number = valueOf(PinType::S32, word)) {
-      sent.code = static_cast<int32_t>(*number);
-      return true;
-    }
-    sent.codePin = pin(word, PinType::S32, false);
-    return sent.codePin.has_value();
-  }
-
-  MapFile& map_;
-  std::vector<std::string>& errors_;
-  uint32_t line_ = 0;
-};
+  // One input may feed several names and functions, but an output has one source.
+  if (!output && !old->output && old->type == type) return static_cast<uint32_t>(old - map_.pins.begin());
+  const auto kind = [](bool isOutput, PinType itsType) {
+    return std::string(isOutput ? "an output" : "an input") + " pin of type " + std::string(pinTypeName(itsType));
+  };
+  fail(name.at, "pin " + name.text + ": found " + kind(old->output, old->type) + " with this name in line " +
+                    std::to_string(old->at.line) + ", expected " + kind(output, type) +
+                    (output && old->output ? " that has no other source" : "") + "; give one of them another name");
+  return std::nullopt;
+}
 
 } // namespace
 
@@ -244,16 +422,20 @@ std::string_view pinTypeName(PinType type) {
   return "?";
 }
 
+std::string MapFile::message(MapPosition at, std::string_view what) const {
+  return path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " + std::string(what);
+}
+
 MapFile parseMap(std::string_view text, std::string path, std::vector<std::string>& errors) {
   MapFile map;
   map.path = std::move(path);
-  Parser parser(map, errors);
-  uint32_t number = 0;
-  while (!text.empty()) {
-    const size_t end = text.find('\n');
-    parser.line(text.substr(0, end), ++number);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  Reader reader(map);
+  try {
+    reader.read(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    reader.syntax(error);
   }
+  for (std::string& error : reader.errors()) errors.push_back(std::move(error));
   return map;
 }
 

@@ -19,7 +19,7 @@ std::string setValue(Lane& lane, const Statement& s) {
   if (!place && s.value.kind != ValueKind::Text && lane.nc().writeCell(s.name, cellOf(s.value))) return {};
   if (!place) return unknownName(lane.instance(), lane.nc(), s.name);
   lane.nc().beforeWrite(lane.instance(), *place);
-  return writeValue(lane.instance(), *place, s.value);
+  return writeValue(lane.instance(), lane.nc().control(), *place, s.value);
 }
 
 std::string expectValue(const Lane& lane, const Statement& s) {

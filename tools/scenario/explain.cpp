@@ -177,8 +177,8 @@ std::optional<std::string> Explanation::nameLine(const Use& use) const {
   }
   if (use.computed) return shownRange(program_, shown) + ", at a computed address";
   const Ref place = refOf(use);
-  return fmt::format("{} = {}{}", shownName(program_, moved(place, shown)), show(readValue(instance_, place, false)),
-                     age(place));
+  return fmt::format("{} = {}{}", shownName(program_, moved(place, shown)),
+                     show(readValue(instance_, session_.nc().control(), place, false)), age(place));
 }
 
 } // namespace

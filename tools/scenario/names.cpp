@@ -30,7 +30,8 @@ Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc&
     if (const auto quantity = nc.quantity(name.substr(kQuantity.size()))) return realReading(*quantity);
     return failure(fmt::format("the simulated NC has no quantity '{}'", name));
   }
-  if (const std::optional<host::Ref> place = nc.readPlace(instance, name)) return readValue(instance, *place, wantReal);
+  if (const std::optional<host::Ref> place = nc.readPlace(instance, name))
+    return readValue(instance, nc.control(), *place, wantReal);
   if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
   return failure(unknownName(instance, nc, name));
 }
@@ -39,7 +40,7 @@ NamedValue::NamedValue(std::string name, const host::Instance& instance, const s
     : name_(std::move(name)), place_(nc.readPlace(instance, name_)) {}
 
 Reading NamedValue::read(const host::Instance& instance, const sim::SimulatedNc& nc) const {
-  if (place_) return readValue(instance, *place_, false);
+  if (place_) return readValue(instance, nc.control(), *place_, false);
   const Result<Reading> reading = readName(instance, nc, name_, false);
   return reading.ok() ? reading.value() : realReading(0); // a quantity that is not there yet
 }

@@ -13,7 +13,7 @@ ir::BitRange bitsOf(const host::Ref& place);
 
 // The symbol that lies exactly there; "" when there is none.
 std::string symbolAt(const rung_program& program, const host::Ref& place);
-// For messages: "CLAMPED (X2.0)", "X2.1"; of a program whose areas have no addresses (TECHNOL) "CLAMPED".
+// For messages: "CLAMPED (X2.0)", "X2.1"; of a program without addresses (nc::hasAddresses) "CLAMPED".
 std::string shownName(const rung_program& program, const host::Ref& place);
 // For computed addresses: "one of D100 to D119".
 std::string shownRange(const rung_program& program, const ir::BitRange& range);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rtlib/host/compare.h"
+#include "rtlib/nc/names/names.h"
 #include "tools/scenario/expectations.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/values.h"
@@ -69,7 +70,7 @@ void Session::addObserver(Observer& observer) {
 // The engines must agree after every scan.
 std::string Session::difference() const {
   for (size_t i = 1; i < lanes_.size(); ++i)
-    if (const auto found = host::firstDifference(instance(), lanes_[i]->instance()))
+    if (const auto found = host::firstDifference(instance(), lanes_[i]->instance(), nc::describe))
       return fmt::format("engines disagree: {} against {}: {}", lanes_[0]->engineName(), lanes_[i]->engineName(),
                          *found);
   return {};
@@ -188,8 +189,7 @@ std::string Session::run(const Statement& s) {
   case Kind::Scan: return advance(s.count, &sim::SimulatedNc::scan);
   case Kind::Fast: return advance(s.count, &sim::SimulatedNc::fast);
   case Kind::Slot:
-    if (std::string_view(instance().program().dialect) != "gsk")
-      return "only the second level of a GSK program is run in slots (8 ms)";
+    if (!nc().control().runsInSlots()) return "only the second level of a GSK program is run in slots (8 ms)";
     return advance(s.count, &sim::SimulatedNc::slot);
   case Kind::Run: return runFor(s.microseconds);
   case Kind::Expect:

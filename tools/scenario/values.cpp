@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/nc/names/write.h"
 
 namespace rung::scenario {
 
@@ -24,9 +24,6 @@ int64_t asSigned(uint64_t value, uint32_t width) {
   const uint64_t sign = 1ull << (width - 1);
   return static_cast<int64_t>((modulo(value, width) ^ sign) - sign);
 }
-
-// TECHNOL keeps a character in one byte, Windows-1250; scenarios are UTF-8.
-bool oneByteTexts(const Instance& instance) { return std::string_view(instance.program().dialect) == "technol"; }
 
 std::string show(const Value& value) {
   return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text;
@@ -76,12 +73,11 @@ sim::NcCell cellOf(const Value& number) {
   return {.bits = static_cast<uint64_t>(number.integer)};
 }
 
-Reading readValue(const Instance& instance, const Ref& place, bool wantReal) {
+Reading readValue(const Instance& instance, const nc::Control& control, const Ref& place, bool wantReal) {
   if (place.kind == RefKind::Text) {
     Reading reading;
     reading.kind = ValueKind::Text;
-    reading.text = instance.readText(place);
-    if (oneByteTexts(instance)) reading.text = nc::shownText(reading.text);
+    reading.text = control.shownText(instance.readText(place));
     return reading;
   }
   if (wantReal && place.kind == RefKind::Int)
@@ -94,22 +90,20 @@ Reading readValue(const Instance& instance, const Ref& place, bool wantReal) {
   return reading;
 }
 
-std::string writeValue(Instance& instance, const Ref& place, const Value& value) {
+std::string writeValue(Instance& instance, const nc::Control& control, const Ref& place, const Value& value) {
   if (place.kind == RefKind::Constant) return "a constant cannot be set";
   if (place.kind == RefKind::Text) {
     if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
-    // The last byte of a TECHNOL text is its terminator.
-    const bool oneByte = oneByteTexts(instance);
-    return instance.writeText(place, oneByte ? nc::memoryText(value.text).substr(0, place.count - 1u) : value.text);
+    return nc::writeText(instance, place, control.memoryText(value.text, place.count));
   }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
   if (value.isBit && place.kind != RefKind::Bit)
     return fmt::format("this name is not a bit, so it cannot be {}: expected a number", value.text);
   if (place.kind == RefKind::Bit && (value.kind == ValueKind::Real || (value.integer != 0 && value.integer != 1)))
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
-  if (place.kind == RefKind::Real) return instance.writeReal(place, value.real);
-  if (value.kind == ValueKind::Int) return instance.write(place, static_cast<uint64_t>(value.integer));
-  if (const auto real = host::asReal(instance.memory(), place)) return instance.writeReal(*real, value.real);
+  if (place.kind == RefKind::Real) return nc::writeReal(instance, place, value.real);
+  if (value.kind == ValueKind::Int) return nc::write(instance, place, static_cast<uint64_t>(value.integer));
+  if (const auto real = host::asReal(instance.memory(), place)) return nc::writeReal(instance, *real, value.real);
   return fmt::format("this name is an integer of {} bits, so it cannot be {}: expected a whole number, or a name of 64 "
                      "bits, which a real has",
                      place.width, value.text);

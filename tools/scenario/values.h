@@ -21,7 +21,7 @@ struct Reading {
 };
 
 // `wantReal`: two words or eight bytes are read as one double.
-Reading readValue(const host::Instance& instance, const host::Ref& place, bool wantReal);
+Reading readValue(const host::Instance& instance, const nc::Control& control, const host::Ref& place, bool wantReal);
 std::string show(const Reading& reading);
 // Without the hexadecimal form: "65535 (-1)".
 std::string showShort(const Reading& reading);
@@ -31,7 +31,8 @@ sim::NcCell cellOf(const Value& number);
 int64_t signedOf(const Reading& integer);
 
 // Each gives "" or what is wrong.
-std::string writeValue(host::Instance& instance, const host::Ref& place, const Value& value);
+std::string writeValue(host::Instance& instance, const nc::Control& control, const host::Ref& place,
+                       const Value& value);
 std::string checkValue(const Reading& reading, const Statement& expect);
 std::string checkRange(const Reading& reading, const Statement& expect);
 std::string messageDifference(const nc::ShownMessage& message, const std::vector<KeyValue>& keys);

@@ -9,6 +9,7 @@
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/control/technol/technol_control.h"
+#include "rtlib/nc/names/names.h"
 
 namespace rung::nc {
 
@@ -25,7 +26,7 @@ bool Control::respond(host::Instance& instance, const rt::ServiceRequest& reques
 }
 
 std::optional<host::Ref> Control::readPlace(const host::Instance& instance, std::string_view name) const {
-  return instance.resolve(name, [&](std::string_view unknown) { return signal(instance, unknown); });
+  return resolve(instance.program(), name, [&](std::string_view unknown) { return signal(instance, unknown); });
 }
 
 size_t Control::describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept {
@@ -38,6 +39,14 @@ size_t Control::describe(const rung_program& program, const rung_message& messag
   const std::string_view shownText = text.substr(0, out.size() - shownNumber.size());
   std::ranges::copy(shownText, std::ranges::copy(shownNumber, out.begin()).out);
   return shownNumber.size() + shownText.size();
+}
+
+std::string Control::text(const ShownMessage& message) const {
+  std::string text = "message " + std::to_string(message.number);
+  if (message.channel != 0 || message.index != 0)
+    text += " (channel " + std::to_string(message.channel) + ", index " + std::to_string(message.index) + ")";
+  if (!message.text.empty()) text += " \"" + message.text + "\"";
+  return text;
 }
 
 std::unique_ptr<Control> makeControl(std::string_view dialect) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,6 +62,17 @@ public:
   // The line of a log: the message's number as the dialect writes it, and its text. Gives the characters written; what
   // does not fit is cut off.
   virtual size_t describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept;
+  // A message as its operator reads it: `message 12 (channel 1, index 0) "text"`.
+  virtual std::string text(const ShownMessage& message) const;
+
+  // A text of the program's memory as UTF-8, and one in UTF-8 as `bytes` bytes of memory hold it.
+  virtual std::string shownText(std::string_view inMemory) const { return std::string(inMemory); }
+  virtual std::string memoryText(std::string_view shown, uint32_t bytes) const {
+    return (void)bytes, std::string(shown);
+  }
+
+  // Whether the program is run in slots of its schedule, too (Instance::slot).
+  virtual bool runsInSlots() const { return false; }
 
   // The handshake of M, S and T functions; null: this dialect's is not supported yet.
   virtual Functions* functions() { return nullptr; }

@@ -11,6 +11,7 @@
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
+#include "rtlib/nc/names/names.h"
 
 namespace rung::codegen {
 namespace {
@@ -89,19 +90,19 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   EXPECT_EQ(engine->program().layout_hash, layout.hash());
   host::Instance instance(engine->program());
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("Y0.0")), 0u);
-  EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "Y0.0")), 0u);
+  EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
-  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 1u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 1u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 1u);
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 2u);
   instance.scan();
   EXPECT_TRUE(instance.faulted());
   EXPECT_EQ(instance.fault().line, 9u);
   EXPECT_NE(instance.faultText().find("limit reached"), std::string::npos);
-  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u) << "the trap comes before the store";
-  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 0u) << "outputs go to their safe state";
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 2u) << "the trap comes before the store";
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 0u) << "outputs go to their safe state";
 }
 
 INSTANTIATE_TEST_SUITE_P(Compilers, BuiltWith, testing::Values("g++", "clang++-19"), [](const auto& info) {

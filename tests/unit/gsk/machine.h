@@ -6,6 +6,7 @@
 #include "ir/layout/layout.h"
 #include "ir/verify/verify.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/nc/names/names.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {
@@ -26,7 +27,7 @@ public:
   }
 
   uint64_t get(const std::string& name) const { return instance_->read(ref(name)); }
-  void set(const std::string& name, uint64_t value) { EXPECT_EQ(instance_->write(ref(name), value), ""); }
+  void set(const std::string& name, uint64_t value) { EXPECT_EQ(instance_->write(ref(name), value), std::nullopt); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) instance_->scan();
   }
@@ -35,7 +36,7 @@ public:
 
 private:
   host::Ref ref(const std::string& name) const {
-    const auto found = instance_->resolve(name);
+    const auto found = nc::resolve(instance_->program(), name);
     if (!found) ADD_FAILURE() << name;
     return found.value_or(host::Ref{});
   }

@@ -5,6 +5,7 @@
 #include "ir/core/parts.h"
 #include "ir/random/random.h"
 #include "rtlib/host/compare.h"
+#include "rtlib/nc/names/names.h"
 #include "tests/unit/ir_interp/machine.h"
 
 namespace rung::ir {
@@ -504,7 +505,7 @@ TEST(InterpModules, LayoutDoesNotShow) {
     for (int scan = 0; scan < 4; ++scan) {
       a->scan();
       b->scan();
-      const auto difference = host::firstDifference(*a, *b);
+      const auto difference = host::firstDifference(*a, *b, nc::describe);
       ASSERT_FALSE(difference) << "seed " << seed << ", scan " << scan << ": " << *difference;
     }
   }

@@ -15,6 +15,7 @@
 #include "ir/verify/verify.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/nc/names/names.h"
 #include "tests/unit/ir_passes/passes_testing.h"
 
 namespace rung::ir {
@@ -113,7 +114,7 @@ void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
   for (uint32_t byte = 0; byte < bytes; ++byte)
     EXPECT_EQ(
         instance.write(host::intRef(0, byte, 8), (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255),
-        "");
+        std::nullopt);
 }
 
 std::string slotDifference(const Running& a, const Running& b) {
@@ -138,7 +139,7 @@ std::string difference(Module before, Module after, uint64_t seed) {
       changeInputs(running->instance, seed, scan);
       running->instance.scan();
     }
-    if (const auto found = host::firstDifference(a.instance, b.instance))
+    if (const auto found = host::firstDifference(a.instance, b.instance, nc::describe))
       return fmt::format("scan {}: {}", scan, *found);
     b.module.slots.resize(a.module.slots.size() - 1);
     if (const std::string found = slotDifference(b, a); !found.empty()) return fmt::format("scan {}: {}", scan, found);

@@ -17,6 +17,7 @@
 
 #include "ir/core/builder.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/nc/names/names.h"
 #include "tests/unit/llvm/sample_module.h"
 
 namespace rung::codegen {
@@ -62,14 +63,14 @@ TEST_P(JitLevels, RunsCallsAndTraps) {
   } // the engine needs neither
   EXPECT_EQ(engine->name(), "jit");
   host::Instance instance(engine->program());
-  EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
+  EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 1u);
   instance.scan();
   instance.scan();
   EXPECT_TRUE(instance.faulted());
   EXPECT_EQ(instance.fault().line, 11u);
-  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 2u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, JitLevels, testing::Values(LlvmLevel::Fast, LlvmLevel::Opt),
@@ -132,9 +133,9 @@ protected:
     if (engine == nullptr) return 1000;
     EXPECT_EQ(engine->report().cacheTrouble, "");
     host::Instance instance(engine->program());
-    EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
+    EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
     instance.scan();
-    EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 1u);
+    EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 1u);
     return engine->report().fromCache;
   }
   std::vector<fs::path> files() const { return {fs::directory_iterator(folder_), fs::directory_iterator()}; }

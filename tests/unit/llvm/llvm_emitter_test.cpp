@@ -14,6 +14,7 @@
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
+#include "rtlib/nc/names/names.h"
 #include "tests/unit/llvm/sample_module.h"
 
 namespace rung::codegen {
@@ -169,18 +170,18 @@ TEST(LlvmSharedObject, RunsCallsAndTraps) {
   EXPECT_EQ(engine->program().code_hash, 42u);
   EXPECT_EQ(engine->program().layout_hash, layout.hash());
   host::Instance instance(engine->program());
-  EXPECT_EQ(instance.read(*instance.resolve("D6")), 7u) << "an initial value";
-  EXPECT_EQ(instance.write(*instance.resolve("X0.0"), 1), "");
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D6")), 7u) << "an initial value";
+  EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 1u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 1u);
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u);
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 2u);
   instance.scan();
   EXPECT_TRUE(instance.faulted());
   EXPECT_EQ(instance.fault().line, 11u);
   EXPECT_THAT(instance.faultText(), HasSubstr("limit reached"));
-  EXPECT_EQ(instance.read(*instance.resolve("D4:2")), 2u) << "the trap comes before the store";
-  EXPECT_EQ(instance.read(*instance.resolve("LAMP")), 0u) << "outputs go to their safe state";
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 2u) << "the trap comes before the store";
+  EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 0u) << "outputs go to their safe state";
 }
 
 TEST(LlvmSharedObject, AMissingTemporaryFolderIsAnErrorOfTheEnvironment) {

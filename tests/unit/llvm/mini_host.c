@@ -37,7 +37,8 @@ static int64_t result(rung_ctx* ctx, uint32_t ticket, uint32_t number) {
 }
 
 static void copySpans(const rung_program* p, uint32_t first, uint32_t count) {
-  for (const rung_copy* c = p->copies + first; c != p->copies + first + count; ++c)
+  for (uint32_t k = first; k < first + count; ++k) {
+    const rung_copy* c = &p->copies[k];
     for (uint32_t i = 0; i < c->size; ++i) {
       if (c->kind == RUNG_COPY_ALL) {
         memory[c->to + i] = memory[c->from + i];
@@ -47,6 +48,7 @@ static void copySpans(const rung_program* p, uint32_t first, uint32_t count) {
       memory[c->to + i] = (uint8_t)((memory[c->to + i] & ~*mask) | (memory[c->from + i] & *mask));
       *mask = 0;
     }
+  }
 }
 
 static void runMain(const rung_program* p, rung_ctx* ctx) {

@@ -6,6 +6,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/host/compare.h"
+#include "rtlib/nc/names/names.h"
 
 namespace rung::nct::test {
 
@@ -67,7 +68,7 @@ std::vector<EngineKind> Machines::interpreterAndJit() { return {EngineKind::Inte
 
 std::string Machines::difference() const {
   for (const Machine& machine : machines_)
-    if (const auto found = host::firstDifference(machines_.front().instance(), machine.instance()))
+    if (const auto found = host::firstDifference(machines_.front().instance(), machine.instance(), nc::describe))
       return machine.name() + ": " + *found;
   return {};
 }

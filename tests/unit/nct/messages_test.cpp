@@ -79,7 +79,7 @@ public:
     nc_->powerOn(*instance_, nc::PowerOn::Cold);
   }
   void set(std::string_view bit, bool value) {
-    EXPECT_EQ(instance_->write(*nc_->writePlace(*instance_, bit), value ? 1 : 0), "");
+    EXPECT_EQ(instance_->write(*nc_->writePlace(*instance_, bit), value ? 1 : 0), std::nullopt);
   }
   uint64_t read(const std::string& name) { return instance_->read(*nc_->readPlace(*instance_, name)); }
   void scan() { nc_->scan(*instance_); }

@@ -50,14 +50,14 @@ TEST_F(InstanceTest, StartsColdAndScans) {
   EXPECT_EQ(byte(instance, 2), 17u);
   instance.scan();
   instance.scan();
-  EXPECT_EQ(instance.read(*instance.resolve("COUNT")), 2u);
+  EXPECT_EQ(instance.read(refOf(*findSymbol(test.program, "COUNT"))), 2u);
   EXPECT_EQ(instance.nowUs(), 16000);
 }
 
 TEST_F(InstanceTest, ColdStartForgetsWarmStartKeeps) {
   Instance instance(test.program);
   for (const bool warm : {false, true}) {
-    for (uint32_t i : {0u, 1u, 2u, 40u, 41u}) EXPECT_EQ(instance.write(intRef(0, i, 8), 50 + i), "");
+    for (uint32_t i : {0u, 1u, 2u, 40u, 41u}) EXPECT_EQ(instance.write(intRef(0, i, 8), 50 + i), std::nullopt);
     instance.runTask("ASK");
     EXPECT_EQ(instance.services().waiting(), 1u);
     instance.messages().push({});
@@ -75,8 +75,8 @@ TEST_F(InstanceTest, ColdStartForgetsWarmStartKeeps) {
 
 TEST_F(InstanceTest, RetainedMemoryGoesOutAndIn) {
   Instance first(test.program);
-  EXPECT_EQ(first.write(intRef(0, 1, 8), 7), "");
-  EXPECT_EQ(first.write(intRef(0, 40, 16), 0x1234), "");
+  EXPECT_EQ(first.write(intRef(0, 1, 8), 7), std::nullopt);
+  EXPECT_EQ(first.write(intRef(0, 40, 16), 0x1234), std::nullopt);
   std::vector<uint8_t> image(first.retainedSize());
   ASSERT_EQ(image.size(), 3u);
   first.copyRetained(image);

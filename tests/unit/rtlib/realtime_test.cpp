@@ -80,7 +80,7 @@ TEST_F(RealTimeTest, MemoryStaysLocked) {
 
 TEST_F(RealTimeTest, FaultEndsTheLoop) {
   Instance instance(test.program);
-  EXPECT_EQ(instance.write(intRef(0, 1, 8), 1), "");
+  EXPECT_EQ(instance.write(intRef(0, 1, 8), 1), std::nullopt);
   const RealTimeStats stats = runRealTime(instance, {}, [] { return true; });
   EXPECT_EQ(stats.slices, 1u);
   EXPECT_TRUE(instance.faulted());

@@ -429,7 +429,7 @@ protected:
                                          std::chrono::milliseconds(periodMs));
   }
   uint64_t offer(RetainSaver& to, uint32_t value) {
-    EXPECT_EQ(instance->write(intRef(0, 1, 8), value), "");
+    EXPECT_EQ(instance->write(intRef(0, 1, 8), value), std::nullopt);
     return to.offer(*instance);
   }
   // Waits for what the saver does by itself.

@@ -44,7 +44,7 @@ protected:
     Instance instance(engine.program());
     instance.scan();
     instance.scan();
-    return instance.read(*instance.resolve("D0"));
+    return instance.read(intRef(0, 0, 8)); // D0
   }
 
   rung::TemporaryFolder folder_;

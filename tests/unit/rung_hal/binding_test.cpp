@@ -31,8 +31,12 @@ Bound boundTo(const rung_program& program, std::string_view text) {
 std::vector<std::string> gskErrors(std::string_view text) { return boundTo(testing::gskProgram(), text).errors; }
 
 TEST(Binding, AddressesSymbolsAndSignalsOfGsk) {
-  const Bound bound =
-      boundTo(testing::gskProgram(), "in bit a X000.3\nout bit b SYM\nin s32 c F10:4\nout bit fin FIN\n");
+  const Bound bound = boundTo(testing::gskProgram(), R"(
+in.a = { type = "bit", name = "X000.3" }
+out.b = { type = "bit", name = "SYM" }
+in.c = { type = "s32", name = "F10:4" }
+out.fin = { type = "bit", name = "FIN" }
+)");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.inputs.size(), 2u);
   EXPECT_EQ(bound.binding.inputs[0].place, host::bitRef(0, 0, 3));
@@ -43,7 +47,10 @@ TEST(Binding, AddressesSymbolsAndSignalsOfGsk) {
 }
 
 TEST(Binding, MachinePositions) {
-  const Bound bound = boundTo(testing::gskProgram(), "in float a NC.MPOS.1 1000\nin s32 b NC.MPOS.8\n");
+  const Bound bound = boundTo(testing::gskProgram(), R"(
+in.a = { type = "float", name = "NC.MPOS.1", scale = 1000 }
+in.b = { type = "s32", name = "NC.MPOS.8" }
+)");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.inputs.size(), 2u);
   const uint32_t space = host::findSpace(testing::gskProgram(), "@MPOS");
@@ -51,18 +58,27 @@ TEST(Binding, MachinePositions) {
   EXPECT_EQ(bound.binding.inputs[0].scale, 1000);
   EXPECT_EQ(bound.binding.inputs[1].place, host::intRef(space, 28, 32));
   EXPECT_EQ(bound.binding.inputs[1].scale, 1);
-  EXPECT_THAT(gskErrors("in bit a NC.MPOS.1\nin s32 b NC.MPOS.9\nin s32 c NC.MPOS.0\nout s32 d NC.MPOS.1\n"
-                        "in s32 e NC.MPOS.x\n"),
-              ElementsAre("m.map:1: NC.MPOS.1 is not a bit; s32, u32 or float is possible",
-                          "m.map:2: NC.MPOS.9: axes are 1 to 8", "m.map:3: NC.MPOS.0: axes are 1 to 8",
-                          "m.map:5: NC.MPOS.x: axes are 1 to 8",
-                          "m.map:4: NC.MPOS.1 is written by HAL, not by the program"));
-  EXPECT_THAT(boundTo(testing::nctProgram(), "in s32 a NC.MPOS.1\n").errors,
-              ElementsAre("m.map:1: NC.MPOS.1: the program reads no machine positions"));
+  EXPECT_THAT(gskErrors(R"(
+in.a = { type = "bit", name = "NC.MPOS.1" }
+in.b = { type = "s32", name = "NC.MPOS.9" }
+in.c = { type = "s32", name = "NC.MPOS.0" }
+out.d = { type = "s32", name = "NC.MPOS.1" }
+in.e = { type = "s32", name = "NC.MPOS.x" }
+)"),
+              ElementsAre("m.map:2:31: NC.MPOS.1 is not a bit; s32, u32 or float is possible",
+                          "m.map:3:31: NC.MPOS.9: axes are 1 to 8", "m.map:4:31: NC.MPOS.0: axes are 1 to 8",
+                          "m.map:6:31: NC.MPOS.x: axes are 1 to 8",
+                          "m.map:5:32: NC.MPOS.1 is written by HAL, not by the program"));
+  EXPECT_THAT(boundTo(testing::nctProgram(), R"(in.a = { type = "s32", name = "NC.MPOS.1" })").errors,
+              ElementsAre("m.map:1:31: NC.MPOS.1: the program reads no machine positions"));
 }
 
 TEST(Binding, NctNamesAreTheHardwaresSide) {
-  const Bound bound = boundTo(testing::nctProgram(), "in bit a 0056.17\nout s32 w 0400\nout float d 0400\n");
+  const Bound bound = boundTo(testing::nctProgram(), R"(
+in.a = { type = "bit", name = "0056.17" }
+out.w = { type = "s32", name = "0400" }
+out.d = { type = "float", name = "0400" }
+)");
   EXPECT_THAT(bound.errors, IsEmpty());
   const uint32_t slice = host::findSpace(testing::nctProgram(), "TS");
   ASSERT_EQ(bound.binding.inputs.size(), 1u);
@@ -73,7 +89,11 @@ TEST(Binding, NctNamesAreTheHardwaresSide) {
 }
 
 TEST(Binding, TechnolCells) {
-  const Bound bound = boundTo(testing::technolProgram(), "out float r realcell\nout s32 c COUNT\nout bit b COUNT.3\n");
+  const Bound bound = boundTo(testing::technolProgram(), R"(
+out.r = { type = "float", name = "realcell" }
+out.c = { type = "s32", name = "COUNT" }
+out.b = { type = "bit", name = "COUNT.3" }
+)");
   EXPECT_THAT(bound.errors, IsEmpty());
   const uint32_t data = host::findSpace(testing::technolProgram(), "DATA");
   ASSERT_EQ(bound.binding.outputs.size(), 3u);
@@ -83,38 +103,91 @@ TEST(Binding, TechnolCells) {
 }
 
 TEST(Binding, FloatPinsConvertOtherIntegers) {
-  const Bound bound = boundTo(testing::technolProgram(), "out float c COUNT\n");
+  const Bound bound = boundTo(testing::technolProgram(), R"(out.c = { type = "float", name = "COUNT" })");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.outputs.size(), 1u);
   EXPECT_EQ(bound.binding.outputs[0].place.kind, host::RefKind::Int);
 }
 
 TEST(Binding, NamesThatDoNotFit) {
-  EXPECT_THAT(gskErrors("# x\nin bit a NOWHERE"),
-              ElementsAre("m.map:2: NOWHERE: the program has no such name or address"));
-  EXPECT_THAT(gskErrors("in bit a X99.0"), ElementsAre("m.map:1: X99.0: the program has no such name or address"));
-  EXPECT_THAT(gskErrors("in bit a Y0.0"),
-              ElementsAre("m.map:1: Y0.0 is an output of the program; it cannot be written"));
-  EXPECT_THAT(gskErrors("const bit Y0.0 1"),
-              ElementsAre("m.map:1: Y0.0 is an output of the program; it cannot be written"));
-  EXPECT_THAT(gskErrors("out bit a D0"),
-              ElementsAre("m.map:1: D0 is not a bit; s32, u32, float or a bit of it is possible"));
-  EXPECT_THAT(gskErrors("out u32 a SYM"), ElementsAre("m.map:1: SYM is a bit, not u32"));
-  EXPECT_THAT(gskErrors("out s32 a LIMIT"), ElementsAre("m.map:1: LIMIT is a constant of the program"));
-  EXPECT_THAT(boundTo(testing::technolProgram(), "out s32 a NAME").errors,
-              ElementsAre("m.map:1: NAME is a text; HAL has no pins for texts"));
+  EXPECT_THAT(gskErrors(R"(
+# x
+in.a = { type = "bit", name = "NOWHERE" }
+)"),
+              ElementsAre("m.map:3:31: NOWHERE: the program has no such name or address"));
+  EXPECT_THAT(gskErrors(R"(in.a = { type = "bit", name = "X99.0" })"),
+              ElementsAre("m.map:1:31: X99.0: the program has no such name or address"));
+  EXPECT_THAT(gskErrors(R"(in.a = { type = "bit", name = "Y0.0" })"),
+              ElementsAre("m.map:1:31: Y0.0 is an output of the program; it cannot be written"));
+  EXPECT_THAT(gskErrors(R"(const."Y0.0" = true)"),
+              ElementsAre("m.map:1:7: Y0.0 is an output of the program; it cannot be written"));
+  EXPECT_THAT(gskErrors(R"(out.a = { type = "bit", name = "D0" })"),
+              ElementsAre("m.map:1:32: D0 is not a bit; s32, u32, float or a bit of it is possible"));
+  EXPECT_THAT(gskErrors(R"(out.a = { type = "u32", name = "SYM" })"), ElementsAre("m.map:1:32: SYM is a bit, not u32"));
+  EXPECT_THAT(gskErrors(R"(out.a = { type = "s32", name = "LIMIT" })"),
+              ElementsAre("m.map:1:32: LIMIT is a constant of the program"));
+  EXPECT_THAT(boundTo(testing::technolProgram(), R"(out.a = { type = "s32", name = "NAME" })").errors,
+              ElementsAre("m.map:1:32: NAME is a text; HAL has no pins for texts"));
+}
+
+TEST(Binding, Constants) {
+  const Bound bound = boundTo(testing::gskProgram(), R"([const]
+"X0.0" = true
+D0 = 255
+D1 = -128
+"D2:2" = 40000
+"F20:2" = 7.5
+"NC.MPOS.2" = -2000000000
+)");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  ASSERT_EQ(bound.binding.constants.size(), 6u);
+  EXPECT_EQ(bound.binding.constants[0].type, PinType::Bit);
+  EXPECT_EQ(bound.binding.constants[1].value, 255);
+  EXPECT_EQ(bound.binding.constants[2].type, PinType::S32);
+  EXPECT_EQ(bound.binding.constants[4].type, PinType::Float);
+  EXPECT_EQ(bound.binding.constants[4].place.kind, host::RefKind::Int); // rounded there
+  // 8 bytes hold either an integer or a real number: the value says which.
+  const Bound real = boundTo(testing::technolProgram(), "const.realcell = 5.0");
+  EXPECT_THAT(real.errors, IsEmpty());
+  ASSERT_EQ(real.binding.constants.size(), 1u);
+  EXPECT_EQ(real.binding.constants[0].place.kind, host::RefKind::Real);
+  const Bound integer = boundTo(testing::technolProgram(), "const.realcell = 5");
+  EXPECT_THAT(integer.errors, IsEmpty());
+  ASSERT_EQ(integer.binding.constants.size(), 1u);
+  EXPECT_EQ(integer.binding.constants[0].place.kind, host::RefKind::Int);
+  EXPECT_THAT(gskErrors(R"([const]
+"X0.0" = 1
+D0 = true
+D1 = 256
+D2 = -129
+"D3:2" = 65536.0
+)"),
+              ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
+                          "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
+                          "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
+                          "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits"));
 }
 
 TEST(Binding, FunctionsOfOtherDialectsAreRefused) {
   const auto refusal = [](const std::string& line, const std::string& dialect) {
     return "m.map:" + line + ": send: the handshake of M, S and T functions is not supported yet for this dialect (" +
-           dialect + "); remove the line, and connect the signals by in and out lines";
+           dialect + "); remove the table, and connect the signals in [in] and [out]";
   };
-  EXPECT_THAT(boundTo(testing::nctProgram(), "send a rise M 3\nsend a fall M 5\n").errors,
-              ElementsAre(refusal("1", "nct"), refusal("2", "nct")));
-  EXPECT_THAT(
-      boundTo(testing::technolProgram(), "send a rise T 1\nhigh-speed").errors,
-      ElementsAre(refusal("1", "technol"), "m.map:2: high-speed: this dialect has no such handshake; remove the line"));
+  EXPECT_THAT(boundTo(testing::nctProgram(), R"(
+send = [
+  { pin = "a", edge = "rise", function = "M", code = 3 },
+  { pin = "a", edge = "fall", function = "M", code = 5 }
+]
+)")
+                  .errors,
+              ElementsAre(refusal("3:3", "nct"), refusal("4:3", "nct")));
+  EXPECT_THAT(boundTo(testing::technolProgram(), R"(
+high-speed = true
+send = [{ pin = "a", edge = "rise", function = "T", code = 1 }]
+)")
+                  .errors,
+              ElementsAre(refusal("3:9", "technol"),
+                          "m.map:2:14: high-speed: this dialect has no such handshake; remove the line"));
 }
 
 } // namespace

@@ -74,9 +74,18 @@ public:
 };
 
 TEST(Box, PinsOfAllTypes) {
-  Bench b(testing::gskProgram(), "in bit i X0.0\nout bit o Y0.0\n"
-                                 "in s32 si F10:4\nout s32 so D4:4\nout s32 byte D4\nout float fo D4:4\n"
-                                 "in u32 ui F14:4\nout u32 uo D8:4\nin float fi F20:2\nout float back F20:2\n");
+  Bench b(testing::gskProgram(), R"(
+in.i = { type = "bit", name = "X0.0" }
+out.o = { type = "bit", name = "Y0.0" }
+in.si = { type = "s32", name = "F10:4" }
+out.so = { type = "s32", name = "D4:4" }
+out.byte = { type = "s32", name = "D4" }
+out.fo = { type = "float", name = "D4:4" }
+in.ui = { type = "u32", name = "F14:4" }
+out.uo = { type = "u32", name = "D8:4" }
+in.fi = { type = "float", name = "F20:2" }
+out.back = { type = "float", name = "F20:2" }
+)");
   ASSERT_THAT(b.errors, IsEmpty());
   b["i"].bit = true;
   b["si"].s32 = -2;
@@ -97,7 +106,7 @@ TEST(Box, PinsOfAllTypes) {
 }
 
 TEST(Box, ASliceRunsWhenItsTimeHasCome) {
-  Bench b(testing::gskProgram(), "out u32 count D0:2\n");
+  Bench b(testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })");
   ASSERT_THAT(b.errors, IsEmpty());
   for (int ms = 1; ms <= 80; ++ms) {
     EXPECT_EQ(b.box->step(kMs), ms % 8 == 0 ? StepResult::Ran : StepResult::Waiting) << ms;
@@ -113,7 +122,7 @@ TEST(Box, ASliceRunsWhenItsTimeHasCome) {
 }
 
 TEST(Box, SlicesInAStepAreBoundedAndNoneIsLost) {
-  Bench b(testing::gskProgram(), "out u32 count D0:2\n");
+  Bench b(testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })");
   b.box->step(800 * kMs);
   EXPECT_EQ(b["count"].u32, 64u);
   b.box->step(0);
@@ -121,7 +130,11 @@ TEST(Box, SlicesInAStepAreBoundedAndNoneIsLost) {
 }
 
 TEST(Box, ASlottedScheduleCountsWholePasses) {
-  Bench b(testing::nctProgram(), "in bit i 0056.17\nout bit o 0400.00\nout bit on N_ON\n");
+  Bench b(testing::nctProgram(), R"(
+in.i = { type = "bit", name = "0056.17" }
+out.o = { type = "bit", name = "0400.00" }
+out.on = { type = "bit", name = "N_ON" }
+)");
   ASSERT_THAT(b.errors, IsEmpty());
   b["i"].bit = true;
   b.box->step(5 * kMs);
@@ -134,8 +147,14 @@ TEST(Box, ASlottedScheduleCountsWholePasses) {
 }
 
 TEST(Box, ConstantsHold) {
-  Bench b(testing::gskProgram(), "const bit X0.0 1\nout bit o Y0.0\nconst s32 D0:2 100\nout u32 count D0:2\n"
-                                 "const float F20:2 7.0\nout u32 f F20:2\n");
+  Bench b(testing::gskProgram(), R"(
+const."X0.0" = true
+out.o = { type = "bit", name = "Y0.0" }
+const."D0:2" = 100
+out.count = { type = "u32", name = "D0:2" }
+const."F20:2" = 7.0
+out.f = { type = "u32", name = "F20:2" }
+)");
   ASSERT_THAT(b.errors, IsEmpty());
   b.scans(3);
   EXPECT_TRUE(b["o"].bit);
@@ -145,7 +164,13 @@ TEST(Box, ConstantsHold) {
 
 TEST(Box, AFaultClearsTheOutputsForGood) {
   Bench b(testing::gskProgram(),
-          "in bit i X0.0\nin bit bad X1.0\nout bit o Y0.0\nout u32 count D0:2\nout float fc D0:2\n");
+          R"(
+in.i = { type = "bit", name = "X0.0" }
+in.bad = { type = "bit", name = "X1.0" }
+out.o = { type = "bit", name = "Y0.0" }
+out.count = { type = "u32", name = "D0:2" }
+out.fc = { type = "float", name = "D0:2" }
+)");
   b["i"].bit = true;
   b.scans(2);
   EXPECT_TRUE(b["o"].bit);
@@ -165,7 +190,11 @@ TEST(Box, AFaultClearsTheOutputsForGood) {
 
 // The end code 6 of a window function that the CNC does not provide (man. l.8668-8676).
 TEST(Box, WindowRequestsEndAtOnceWithCode6) {
-  Bench b(testing::gskProgram(), "in bit ask X1.1\nout u32 state D12\nout u32 end D13\n");
+  Bench b(testing::gskProgram(), R"(
+in.ask = { type = "bit", name = "X1.1" }
+out.state = { type = "u32", name = "D12" }
+out.end = { type = "u32", name = "D13" }
+)");
   b["ask"].bit = true;
   b.scans(300); // more than may be pending
   EXPECT_EQ(b["state"].u32, static_cast<uint32_t>(RUNG_SERVICE_DONE));
@@ -173,8 +202,12 @@ TEST(Box, WindowRequestsEndAtOnceWithCode6) {
 }
 
 TEST(Box, MachinePositionsComeFromHal) {
-  Bench b(testing::gskProgram(), "in float x NC.MPOS.1 1000\nin s32 y NC.MPOS.2\nout s32 gotx D16:4\n"
-                                 "out float goty D20:4 1000\n");
+  Bench b(testing::gskProgram(), R"(
+in.x = { type = "float", name = "NC.MPOS.1", scale = 1000 }
+in.y = { type = "s32", name = "NC.MPOS.2" }
+out.gotx = { type = "s32", name = "D16:4" }
+out.goty = { type = "float", name = "D20:4", scale = 1000 }
+)");
   ASSERT_THAT(b.errors, IsEmpty());
   b["x"].real = -12.3456; // mm
   b["y"].s32 = 250;       // 0.001 mm
@@ -202,7 +235,11 @@ protected:
 
 TEST_F(BoxRetained, GoesOn) {
   for (uint32_t round = 1; round <= 3; ++round) {
-    Bench b(testing::gskProgram(), "out u32 count D0:2\nin s32 value F10:4\n", file);
+    Bench b(testing::gskProgram(), R"(
+out.count = { type = "u32", name = "D0:2" }
+in.value = { type = "s32", name = "F10:4" }
+)",
+            file);
     ASSERT_THAT(b.errors, IsEmpty());
     counting = true;
     allocations = 0;
@@ -237,7 +274,11 @@ TEST_F(BoxRetained, AFaultLeavesTheLastScan) {
   program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
   program.link();
   {
-    Bench b(program.program, "in bit stop X0.0\nout u32 count D0\n", file);
+    Bench b(program.program, R"(
+in.stop = { type = "bit", name = "X0.0" }
+out.count = { type = "u32", name = "D0" }
+)",
+            file);
     ASSERT_THAT(b.errors, IsEmpty());
     b.scans(5);
     b["stop"].bit = true;
@@ -245,7 +286,11 @@ TEST_F(BoxRetained, AFaultLeavesTheLastScan) {
     EXPECT_EQ(b.box->step(8 * kMs), StepResult::Waiting);
     EXPECT_EQ(b.box->close(), "");
   }
-  Bench b(program.program, "out u32 count D0\nout u32 second D1\n", file);
+  Bench b(program.program, R"(
+out.count = { type = "u32", name = "D0" }
+out.second = { type = "u32", name = "D1" }
+)",
+          file);
   ASSERT_THAT(b.errors, IsEmpty());
   b.scans(1);
   EXPECT_EQ(b["count"].u32, 6u);
@@ -254,7 +299,7 @@ TEST_F(BoxRetained, AFaultLeavesTheLastScan) {
 
 TEST_F(BoxRetained, NctLearnsThatItsMemoryIsLost) {
   const auto start = [&] {
-    Bench b(testing::nctProgram(), "out bit ok N_NVRAMOK\n", file);
+    Bench b(testing::nctProgram(), R"(out.ok = { type = "bit", name = "N_NVRAMOK" })", file);
     EXPECT_THAT(b.errors, IsEmpty());
     b.box->step(10 * kMs);
     const bool ok = b["ok"].bit;
@@ -309,7 +354,11 @@ void buildBackup(test::TestProgram& program) {
 TEST_F(BoxRetained, ATechnolRequestIsAnsweredWhenItIsOnDisk) {
   test::TestProgram program;
   buildBackup(program);
-  Bench b(program.program, "in bit ask ASK\nout bit asked REQ_BACKUP_MEM\n", file);
+  Bench b(program.program, R"(
+in.ask = { type = "bit", name = "ASK" }
+out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
+)",
+          file);
   ASSERT_THAT(b.errors, IsEmpty());
   const host::RetainMap map(program.program);
   const auto onDisk = [&] { return host::RetainStore(file, map.hash(), map.size()).load().bytes.at(0); };
@@ -351,7 +400,10 @@ TEST_F(BoxRetained, ATechnolRequestIsAnsweredWhenItIsOnDisk) {
 TEST_F(BoxRetained, ATechnolRequestWithoutAFile) {
   test::TestProgram program;
   buildBackup(program);
-  Bench b(program.program, "in bit ask ASK\nout bit asked REQ_BACKUP_MEM\n");
+  Bench b(program.program, R"(
+in.ask = { type = "bit", name = "ASK" }
+out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
+)");
   b["ask"].bit = true;
   b.box->step(20 * kMs);
   EXPECT_FALSE(b["asked"].bit);
@@ -361,7 +413,7 @@ TEST_F(BoxRetained, ATechnolRequestWithoutAFile) {
 std::vector<uint32_t> shown;
 
 TEST(Box, MessagesReachTheSink) {
-  Bench b(testing::gskProgram(), "in bit show X1.2\n");
+  Bench b(testing::gskProgram(), R"(in.show = { type = "bit", name = "X1.2" })");
   b.box->setMessageSink(
       [](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.number); });
   b["show"].bit = true;
@@ -379,8 +431,13 @@ TEST(Box, BlocksThatNeverComeAreReported) {
 
 // The NC's part of messages works here too: the program learns what is on the screen, and CANCEL is a pin.
 TEST(Box, NctMessages) {
-  Bench b(testing::nctProgram(), "in bit show 0056.18\nin bit cancel N_CLRMSG\nout bit on 0400.01\nout bit any N_MSGA\n"
-                                 "out u32 code N_ACTMSG\n");
+  Bench b(testing::nctProgram(), R"(
+in.show = { type = "bit", name = "0056.18" }
+in.cancel = { type = "bit", name = "N_CLRMSG" }
+out.on = { type = "bit", name = "0400.01" }
+out.any = { type = "bit", name = "N_MSGA" }
+out.code = { type = "u32", name = "N_ACTMSG" }
+)");
   ASSERT_THAT(b.errors, IsEmpty());
   shown.clear();
   b.box->setMessageSink(
@@ -408,9 +465,10 @@ TEST(Box, NctMessages) {
 }
 
 TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
-  EXPECT_THAT(Bench(testing::gskProgram(), "in bit a Y0.0\nin bit").errors,
-              ElementsAre("m.map:2: the form is: in TYPE PIN NAME [SCALE]",
-                          "m.map:1: Y0.0 is an output of the program; it cannot be written"));
+  EXPECT_THAT(Bench(testing::gskProgram(), "in.a = { type = \"bit\", name = \"Y0.0\" }\ntimeout = 0").errors,
+              ElementsAre("m.map:2:11: timeout: found 0, expected seconds, above 0 and at most 1000000; write for "
+                          "example timeout = 30",
+                          "m.map:1:31: Y0.0 is an output of the program; it cannot be written"));
   Bench timeless(testing::timelessProgram(), "");
   EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));
   EXPECT_EQ(timeless.box, nullptr);
@@ -419,7 +477,12 @@ TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
 // ---- after a fault -----------------------------------------------------------------------------------------------
 
 TEST(Box, AResetRestartsTheProgram) {
-  Bench b(testing::gskProgram(), "in bit bad X1.0\nin bit i X0.0\nout bit o Y0.0\nout u32 count D0:2\n");
+  Bench b(testing::gskProgram(), R"(
+in.bad = { type = "bit", name = "X1.0" }
+in.i = { type = "bit", name = "X0.0" }
+out.o = { type = "bit", name = "Y0.0" }
+out.count = { type = "u32", name = "D0:2" }
+)");
   b["i"].bit = true;
   b.scans(3);
   b["bad"].bit = true;
@@ -445,7 +508,11 @@ TEST(Box, AResetRestartsTheProgram) {
 
 TEST_F(BoxRetained, ARestartTakesTheLastWholeScan) {
 
-  Bench b(testing::gskProgram(), "in bit bad X1.0\nout u32 count D0:2\n", file);
+  Bench b(testing::gskProgram(), R"(
+in.bad = { type = "bit", name = "X1.0" }
+out.count = { type = "u32", name = "D0:2" }
+)",
+          file);
   b.scans(5);
   b["bad"].bit = true;
   EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
@@ -459,7 +526,10 @@ TEST_F(BoxRetained, ARestartTakesTheLastWholeScan) {
 }
 
 TEST(Box, ItsEndSwitchesTheOutputsOff) {
-  Bench b(testing::gskProgram(), "in bit i X0.0\nout bit o Y0.0\n");
+  Bench b(testing::gskProgram(), R"(
+in.i = { type = "bit", name = "X0.0" }
+out.o = { type = "bit", name = "Y0.0" }
+)");
   b["i"].bit = true;
   b.scans(1);
   EXPECT_TRUE(b["o"].bit);
@@ -469,7 +539,10 @@ TEST(Box, ItsEndSwitchesTheOutputsOff) {
 
 // N_SIMU says that the NC runs on a simulator; a program passes its interlocks by then.
 TEST(Box, AMachineIsNoSimulator) {
-  Bench b(testing::nctProgram(), "out bit simulator N_SIMU\nout bit ready N_NCREADY\n");
+  Bench b(testing::nctProgram(), R"(
+out.simulator = { type = "bit", name = "N_SIMU" }
+out.ready = { type = "bit", name = "N_NCREADY" }
+)");
   b.box->step(10 * kMs);
   EXPECT_FALSE(b["simulator"].bit);
   EXPECT_TRUE(b["ready"].bit);
@@ -478,10 +551,23 @@ TEST(Box, AMachineIsNoSimulator) {
 // ---- M, S and T functions
 // --------------------------------------------------------------------------------------------
 
-constexpr std::string_view kFunctions = "send cw rise M 3\nsend cw fall M 5\nsend change rise M 6 changed\n"
-                                        "send prepare rise T number prepared\nin bit held X1.3\nin bit fin X2.0\n"
-                                        "out bit mf F7.0\nout bit tf F7.3\nout bit done G4.3\nout s32 m F10:4\n"
-                                        "out s32 t F26:4\nabort estop rise\ntimeout 1.5\n";
+constexpr std::string_view kFunctions = R"(
+in.held = { type = "bit", name = "X1.3" }
+in.fin = { type = "bit", name = "X2.0" }
+out.mf = { type = "bit", name = "F7.0" }
+out.tf = { type = "bit", name = "F7.3" }
+out.done = { type = "bit", name = "G4.3" }
+out.m = { type = "s32", name = "F10:4" }
+out.t = { type = "s32", name = "F26:4" }
+timeout = 1.5
+send = [
+  { pin = "cw", edge = "rise", function = "M", code = 3 },
+  { pin = "cw", edge = "fall", function = "M", code = 5 },
+  { pin = "change", edge = "rise", function = "M", code = 6, done = "changed" },
+  { pin = "prepare", edge = "rise", function = "T", code = "number", done = "prepared" }
+]
+abort = [{ pin = "estop", edge = "rise" }]
+)";
 
 TEST(Functions, OneHandshake) {
   Bench b(testing::gskProgram(), kFunctions);
@@ -566,7 +652,10 @@ TEST(Functions, OfOneSlotRunSideBySide) {
 
 // A tool that takes its time to come does not hold up the spindle's stop.
 TEST(Functions, OfTheHighSpeedModeDoNotWaitForOtherKinds) {
-  Bench b(testing::gskProgram(), std::string(kFunctions) + "high-speed\nin bit tool-there X2.1\n");
+  Bench b(testing::gskProgram(), std::string(kFunctions) + R"(
+high-speed = true
+in.tool-there = { type = "bit", name = "X2.1" }
+)");
   ASSERT_THAT(b.errors, IsEmpty());
   b["prepare"].bit = true;
   b.scans(3);
@@ -646,7 +735,9 @@ TEST(Functions, NoAcknowledgeWhenTheCauseHasGone) {
 }
 
 TEST(Functions, WhatFindsTheQueueFullIsCounted) {
-  Bench b(testing::gskProgram(), "send a rise M 3\n"); // no slice runs, so nothing is finished
+  Bench b(
+      testing::gskProgram(),
+      R"(send = [{ pin = "a", edge = "rise", function = "M", code = 3 }])"); // no slice runs, so nothing is finished
   for (uint32_t i = 0; i < FunctionQueue::kRoom + 3; ++i) {
     b["a"].bit = true;
     b.box->step(kMs / 1000);
@@ -672,14 +763,23 @@ TEST(Box, AStepAllocatesNothing) {
   EXPECT_EQ(allocationsOf(gsk, 200), 0);
   EXPECT_TRUE(gsk["changed"].bit);
 
-  Bench busy(testing::gskProgram(), "in bit ask X1.1\nin bit show X1.2\nin bit bad X1.0\nout bit o Y0.0\n");
+  Bench busy(testing::gskProgram(), R"(
+in.ask = { type = "bit", name = "X1.1" }
+in.show = { type = "bit", name = "X1.2" }
+in.bad = { type = "bit", name = "X1.0" }
+out.o = { type = "bit", name = "Y0.0" }
+)");
   busy["ask"].bit = busy["show"].bit = true;
   EXPECT_EQ(allocationsOf(busy, 100), 0);
   busy["bad"].bit = true;
   EXPECT_EQ(allocationsOf(busy, 8), 0);
   EXPECT_EQ(busy.box->fault().code, 0u);
 
-  Bench nct(testing::nctProgram(), "in bit i 0056.17\nout bit o 0400.00\nin bit show 0056.18\n");
+  Bench nct(testing::nctProgram(), R"(
+in.i = { type = "bit", name = "0056.17" }
+out.o = { type = "bit", name = "0400.00" }
+in.show = { type = "bit", name = "0056.18" }
+)");
   EXPECT_EQ(allocationsOf(nct, 1000), 0);
   nct["show"].bit = true;
   EXPECT_EQ(allocationsOf(nct, 500), 0);
@@ -687,7 +787,7 @@ TEST(Box, AStepAllocatesNothing) {
   EXPECT_EQ(allocationsOf(nct, 500), 0);
   EXPECT_EQ(nct.box->scans(), 200u);
 
-  Bench technol(testing::technolProgram(), "out float r realcell\n");
+  Bench technol(testing::technolProgram(), R"(out.r = { type = "float", name = "realcell" })");
   EXPECT_EQ(allocationsOf(technol, 200), 0);
   EXPECT_EQ(technol.box->scans(), 10u);
 

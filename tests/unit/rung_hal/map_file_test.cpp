@@ -9,42 +9,82 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
-TEST(MapFile, ReadsEveryKindOfLine) {
+MapFile faultless(std::string_view text) {
   std::vector<std::string> errors;
-  const MapFile map = parseMap("# a machine\n"
-                               "in bit start X0.0   # the button\n"
-                               "\tout\tfloat  feed.1 AN_FEED,#1\r\n"
-                               "\n"
-                               "const s32 D4:4 -12\n"
-                               "send spindle-on fall M 5\n"
-                               "abort estop rise\n"
-                               "timeout 2.5\n"
-                               "high-speed\n"
-                               "send prepare rise T number prepared", // the last line needs no end
-                               "m.map", errors);
+  MapFile map = parseMap(text, "m.map", errors);
   EXPECT_THAT(errors, IsEmpty());
+  return map;
+}
+
+std::vector<std::string> errorsOf(std::string_view text) {
+  std::vector<std::string> errors;
+  parseMap(text, "m.map", errors);
+  return errors;
+}
+
+TEST(MapFile, ReadsEveryTable) {
+  const MapFile map = faultless(R"(# a machine
+timeout = 2.5
+high-speed = true
+
+[in]
+start = { type = "bit", name = "X0.0" } # the button
+
+[out]
+"feed.1" = { type = "float", name = "AN_FEED,#1", scale = -0.5 }
+
+[const]
+"D4:4" = -12
+
+[[send]]
+pin = "spindle-on"
+edge = "fall"
+function = "M"
+code = 5
+
+[[send]]
+done = "prepared"
+code = "number"
+function = "T"
+edge = "rise"
+pin = "prepare"
+
+[[abort]]
+pin = "estop"
+edge = "rise"
+)");
   ASSERT_EQ(map.pins.size(), 7u);
   EXPECT_EQ(map.pins[0].name, "start");
   EXPECT_EQ(map.pins[0].type, PinType::Bit);
   EXPECT_FALSE(map.pins[0].output);
+  EXPECT_EQ(map.pins[0].at, (MapPosition{6, 1}));
   EXPECT_EQ(map.pins[1].name, "feed.1");
   EXPECT_EQ(map.pins[1].type, PinType::Float);
   EXPECT_TRUE(map.pins[1].output);
   ASSERT_EQ(map.inputs.size(), 1u);
   EXPECT_EQ(map.inputs[0].name, "X0.0");
-  EXPECT_EQ(map.inputs[0].line, 2u);
+  EXPECT_EQ(map.inputs[0].scale, 1);
+  EXPECT_EQ(map.inputs[0].at, (MapPosition{6, 32}));
   ASSERT_EQ(map.outputs.size(), 1u);
   EXPECT_EQ(map.outputs[0].pin, 1u);
-  EXPECT_EQ(map.outputs[0].name, "AN_FEED,#1"); // '#' within a word is part of the name
+  EXPECT_EQ(map.outputs[0].name, "AN_FEED,#1");
+  EXPECT_EQ(map.outputs[0].scale, -0.5);
   ASSERT_EQ(map.constants.size(), 1u);
+  EXPECT_EQ(map.constants[0].name, "D4:4");
   EXPECT_EQ(map.constants[0].value, -12);
+  EXPECT_EQ(map.constants[0].at, (MapPosition{12, 1}));
   ASSERT_EQ(map.sends.size(), 2u);
+  EXPECT_EQ(map.pins[map.sends[0].edge.pin].name, "spindle-on");
   EXPECT_FALSE(map.sends[0].edge.rising);
   EXPECT_EQ(map.sends[0].kind, nc::FunctionKind::M);
   EXPECT_EQ(map.sends[0].code, 5);
   EXPECT_FALSE(map.sends[0].codePin.has_value());
   EXPECT_FALSE(map.sends[0].donePin.has_value());
+  EXPECT_EQ(map.sends[0].at, (MapPosition{14, 1}));
+  EXPECT_EQ(map.pins[map.sends[1].edge.pin].name, "prepare");
+  EXPECT_TRUE(map.sends[1].edge.rising);
   EXPECT_EQ(map.sends[1].kind, nc::FunctionKind::T);
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].name, "number");
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].type, PinType::S32);
@@ -54,99 +94,236 @@ TEST(MapFile, ReadsEveryKindOfLine) {
   EXPECT_EQ(map.pins[map.aborts[0].pin].name, "estop");
   EXPECT_TRUE(map.aborts[0].rising);
   EXPECT_EQ(map.timeoutNs, 2'500'000'000);
-  EXPECT_EQ(map.highSpeedLine, 9u);
+  EXPECT_EQ(map.highSpeed, (MapPosition{3, 14}));
 }
 
-TEST(MapFile, APinOfSeveralLinesIsOnePin) {
-  std::vector<std::string> errors;
-  const MapFile map = parseMap("in bit cw X0.0\nin bit cw X0.1\nsend cw rise M 3\nsend cw fall M 5\n", "m.map", errors);
-  EXPECT_THAT(errors, IsEmpty());
+TEST(MapFile, NothingIsNeeded) {
+  const MapFile map = faultless("high-speed = false\n[in]\n");
+  EXPECT_THAT(map.pins, IsEmpty());
+  EXPECT_EQ(map.timeoutNs, 0);
+  EXPECT_FALSE(map.highSpeed.has_value());
+}
+
+TEST(MapFile, PinsAreInTheOrderOfTheFile) {
+  const MapFile map = faultless(R"(
+in.zulu = { type = "bit", name = "X0.0" }
+out.mike = { type = "bit", name = "Y0.0" }
+in.alpha = { type = "bit", name = "X0.1" }
+)");
+  std::vector<std::string> names;
+  for (const MapPin& pin : map.pins) names.push_back(pin.name);
+  EXPECT_THAT(names, ElementsAre("zulu", "alpha", "mike")); // table for table
+}
+
+TEST(MapFile, OneInputPinFeedsNamesAndFunctions) {
+  const MapFile map = faultless(R"(
+in.cw = { type = "bit", name = ["X0.0", "X0.1"] }
+send = [{ pin = "cw", edge = "rise", function = "M", code = 3 },
+        { pin = "cw", edge = "fall", function = "M", code = 5 }]
+)");
   EXPECT_EQ(map.pins.size(), 1u);
-  EXPECT_EQ(map.inputs.size(), 2u);
+  ASSERT_EQ(map.inputs.size(), 2u);
+  EXPECT_EQ(map.inputs[0].name, "X0.0");
+  EXPECT_EQ(map.inputs[1].name, "X0.1");
+  EXPECT_EQ(map.inputs[1].at, (MapPosition{2, 41}));
+  EXPECT_EQ(map.sends.size(), 2u);
 }
 
 TEST(MapFile, ValuesOfConstants) {
-  std::vector<std::string> errors;
-  const MapFile map = parseMap("const bit X0.0 1\nconst u32 D0 0xFFFFFFFF\nconst s32 D0 -2147483648\n"
-                               "const u32 D0 4294967295\nconst float R 1.5e-3\n",
-                               "m.map", errors);
-  EXPECT_THAT(errors, IsEmpty());
+  const MapFile map = faultless(R"([const]
+"X0.0" = true
+"X0.1" = false
+A = 0xFFFFFFFF
+B = -2147483648
+R = 1.5e-3
+)");
   ASSERT_EQ(map.constants.size(), 5u);
+  EXPECT_EQ(map.constants[0].type, PinType::Bit);
   EXPECT_EQ(map.constants[0].value, 1);
-  EXPECT_EQ(map.constants[1].value, 4294967295.0);
-  EXPECT_EQ(map.constants[2].value, -2147483648.0);
-  EXPECT_EQ(map.constants[3].value, 4294967295.0);
+  EXPECT_EQ(map.constants[1].value, 0);
+  EXPECT_EQ(map.constants[2].type, PinType::U32);
+  EXPECT_EQ(map.constants[2].value, 4294967295.0);
+  EXPECT_EQ(map.constants[3].type, PinType::S32);
+  EXPECT_EQ(map.constants[3].value, -2147483648.0);
+  EXPECT_EQ(map.constants[4].type, PinType::Float);
   EXPECT_EQ(map.constants[4].value, 1.5e-3);
 }
 
-std::vector<std::string> errorsOf(std::string_view text) {
-  std::vector<std::string> errors;
-  parseMap(text, "m.map", errors);
-  return errors;
+TEST(MapFile, EveryMistakeIsReportedInTheOrderOfTheFile) {
+  EXPECT_THAT(errorsOf(R"(timout = 5
+[out]
+a = { type = "word", name = "Y0.0" }
+[in]
+b = { typ = "bit", name = "X0.0" }
+c = 5
+)"),
+              ElementsAre("m.map:1:1: the file: found an unknown key timout, expected timeout, high-speed, in, out, "
+                          "const, send, abort; did you mean timeout?",
+                          "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
+                          "write for example type = \"bit\"",
+                          "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "
+                          "for example type = \"bit\"",
+                          "m.map:5:7: in.b: found an unknown key typ, expected type, name, scale; did you mean type?",
+                          "m.map:6:5: in.c: found 5, expected a table; write for example c = { type = \"bit\", name = "
+                          "\"X0.0\" }"));
 }
 
-TEST(MapFile, EveryMistakeIsReportedWithItsLine) {
-  EXPECT_THAT(
-      errorsOf("# fine\ninput bit a X0.0\nin bit a\n"),
-      ElementsAre("m.map:2: unknown keyword 'input': in, out, const, send, abort, timeout or high-speed is expected",
-                  "m.map:3: the form is: in TYPE PIN NAME [SCALE]"));
-  EXPECT_THAT(errorsOf("in word a X0"),
-              ElementsAre("m.map:1: unknown type 'word': bit, s32, u32 or float is expected"));
-  EXPECT_THAT(errorsOf("in bit a/b X0.0"),
-              ElementsAre("m.map:1: 'a/b' is not a pin name: letters, digits, '-', '_' and '.' are allowed"));
-  EXPECT_THAT(errorsOf("in bit a X0.0\nin s32 a X1"), ElementsAre("m.map:2: pin 'a' is already defined as in bit"));
-  EXPECT_THAT(errorsOf("in bit a X0.0\nout bit a Y0.0"), ElementsAre("m.map:2: pin 'a' is already defined as in bit"));
-  EXPECT_THAT(errorsOf("out bit a Y0.0\nout bit a Y0.1"), ElementsAre("m.map:2: output pin 'a' is already mapped"));
+TEST(MapFile, MistakesOfSyntaxEndTheReading) {
+  const std::vector<std::string> errors = errorsOf("timeout = -1\n[in]\nin bit a X0.0\n");
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_THAT(errors[0], StartsWith("m.map:3:4: "));
+  EXPECT_THAT(errors[0], ::testing::EndsWith("; the file must be TOML, and further mistakes are found once this is"));
+  EXPECT_THAT(errorsOf("out.a = { type = \"bit\", name = \"Y0.0\" }\nout.a = { type = \"bit\", name = \"Y0.1\" }\n"),
+              ElementsAre(StartsWith("m.map:2:")));
+  EXPECT_THAT(errorsOf("\xFF"), ElementsAre(StartsWith("m.map:1:1: ")));
 }
 
-TEST(MapFile, Scales) {
-  std::vector<std::string> errors;
-  const MapFile map = parseMap("in float a D0:4 1000\nout float b D4:4 -0.5\nin float c D8:4\n", "m.map", errors);
-  EXPECT_THAT(errors, IsEmpty());
-  ASSERT_EQ(map.inputs.size(), 2u);
-  EXPECT_EQ(map.inputs[0].scale, 1000);
-  EXPECT_EQ(map.inputs[1].scale, 1);
-  ASSERT_EQ(map.outputs.size(), 1u);
-  EXPECT_EQ(map.outputs[0].scale, -0.5);
-  parseMap("in s32 a D0:4 10\nin float b D0:4 0\nout float c D0:4 x\nin float d D0:4 inf\n", "m.map", errors);
-  EXPECT_THAT(errors, ElementsAre("m.map:1: a scale is possible only for float",
-                                  "m.map:2: '0' is not a scale: a number other than 0 is expected",
-                                  "m.map:3: 'x' is not a scale: a number other than 0 is expected",
-                                  "m.map:4: 'inf' is not a scale: a number other than 0 is expected"));
+TEST(MapFile, TablesOfTheWrongKind) {
+  EXPECT_THAT(errorsOf("in = 1\nout = []\nconst = \"x\"\n[send]\npin = \"a\"\n"),
+              ElementsAre("m.map:1:6: in: found 1, expected a table; write for example [in] and its pins in the lines "
+                          "after it",
+                          "m.map:2:7: out: found a list, expected a table; write for example [out] and its pins in "
+                          "the lines after it",
+                          "m.map:3:9: const: found \"x\", expected a table; write for example [const] and NAME = "
+                          "VALUE in the lines after it",
+                          "m.map:4:1: send: found a table, expected a list of tables; write for example [[send]] and "
+                          "its keys in the lines after it"));
+  EXPECT_THAT(errorsOf("abort = [1]"),
+              ElementsAre("m.map:1:9: abort: found a list, expected a list of tables; write for example [[abort]] and "
+                          "its keys in the lines after it"));
 }
 
-TEST(MapFile, BadValues) {
-  EXPECT_THAT(errorsOf("const bit X0.0 2"), ElementsAre("m.map:1: '2' is not a value of type bit"));
-  EXPECT_THAT(errorsOf("const u32 D0 -1"), ElementsAre("m.map:1: '-1' is not a value of type u32"));
-  EXPECT_THAT(errorsOf("const u32 D0 4294967296"), ElementsAre("m.map:1: '4294967296' is not a value of type u32"));
-  EXPECT_THAT(errorsOf("const s32 D0 2147483648"), ElementsAre("m.map:1: '2147483648' is not a value of type s32"));
-  EXPECT_THAT(errorsOf("const s32 D0 12x"), ElementsAre("m.map:1: '12x' is not a value of type s32"));
-  EXPECT_THAT(errorsOf("const s32 D0 0x"), ElementsAre("m.map:1: '0x' is not a value of type s32"));
-  EXPECT_THAT(errorsOf("const s32 D0 --5"), ElementsAre("m.map:1: '--5' is not a value of type s32"));
-  EXPECT_THAT(errorsOf("const float D0 1,5"), ElementsAre("m.map:1: '1,5' is not a value of type float"));
+TEST(MapFile, NamesOfPins) {
+  EXPECT_THAT(errorsOf("in.\"a/b\" = { type = \"bit\", name = \"X0.0\" }"),
+              ElementsAre("m.map:1:4: in.a/b: found \"a/b\", expected the name of a pin: letters, digits, '-', '_' and "
+                          "'.'"));
+  EXPECT_THAT(errorsOf("[in]\nfeed.1 = { type = \"bit\", name = \"X0.0\" }"),
+              ElementsAre("m.map:2:1: in.feed: found a name with a dot, expected quotes around it; write for example "
+                          "\"feed.1\" = { … }"));
+  EXPECT_THAT(errorsOf(R"([in]
+a = { type = "bit", name = "X0.0" }
+[out]
+a = { type = "bit", name = "Y0.0" }
+)"),
+              ElementsAre("m.map:4:1: pin a: found an input pin of type bit with this name in line 2, expected an "
+                          "output pin of type bit; give one of them another name"));
+}
+
+TEST(MapFile, NamesOfTheProgram) {
+  EXPECT_THAT(errorsOf(R"([in]
+a = { type = "bit", name = "" }
+b = { type = "bit", name = [] }
+c = { type = "bit", name = ["X0.0", 5] }
+d = { type = "bit" }
+[out]
+e = { type = "bit", name = ["Y0.0", "Y0.1"] }
+)"),
+              ElementsAre(StartsWith("m.map:2:28: in.a.name: found \"\", expected a name of the program"),
+                          StartsWith("m.map:3:28: in.b.name: found a list, expected a name of the program, or a list"),
+                          StartsWith("m.map:4:28: in.c.name: found a list, expected a name of the program, or a list"),
+                          StartsWith("m.map:5:5: in.d: found no key name, expected a name of the program"),
+                          "m.map:7:37: out.e.name: found several names, expected one, because an output pin has one "
+                          "source; give the other names pins of their own"));
+}
+
+TEST(MapFile, BadScales) {
+  EXPECT_THAT(errorsOf(R"([in]
+a = { type = "s32", name = "D0:4", scale = 10 }
+b = { type = "float", name = "D0:4", scale = 0 }
+c = { type = "float", name = "D0:4", scale = "x" }
+d = { type = "float", name = "D0:4", scale = inf }
+)"),
+              ElementsAre("m.map:2:44: in.a.scale: found a scale of type s32, expected one of type float only; remove "
+                          "it, or write type = \"float\"",
+                          "m.map:3:46: in.b.scale: found 0, expected a number other than 0; write for example scale = "
+                          "1000",
+                          "m.map:4:46: in.c.scale: found \"x\", expected a number other than 0; write for example "
+                          "scale = 1000",
+                          "m.map:5:46: in.d.scale: found inf, expected a number other than 0; write for example scale "
+                          "= 1000"));
+}
+
+TEST(MapFile, BadConstants) {
+  const std::string expected = ", expected true, false, an integer from -2147483648 to 4294967295, or a real number; "
+                               "write for example ";
+  EXPECT_THAT(errorsOf(R"([const]
+"D0:4" = 4294967296
+A = -2147483649
+B = "1"
+C = nan
+D = 1979-05-27
+X0.0 = true
+)"),
+              ElementsAre("m.map:2:10: const.D0:4: found 4294967296" + expected + "\"D0:4\" = 1",
+                          "m.map:3:5: const.A: found -2147483649" + expected + "\"A\" = 1",
+                          "m.map:4:5: const.B: found \"1\"" + expected + "\"B\" = 1",
+                          "m.map:5:5: const.C: found nan" + expected + "\"C\" = 1",
+                          "m.map:6:5: const.D: found a date or a time" + expected + "\"D\" = 1",
+                          "m.map:7:1: const.X0: found a name with a dot, expected quotes around it; write for example "
+                          "\"X0.1\" = true"));
+}
+
+TEST(MapFile, BadTimesAndModes) {
+  const std::string expected = ", expected seconds, above 0 and at most 1000000; write for example timeout = 30";
+  for (const std::string value : {"0", "-1", "nan", "1000000.5", "\"5 s\""})
+    EXPECT_THAT(errorsOf("timeout = " + value), ElementsAre("m.map:1:11: timeout: found " + value + expected));
+  EXPECT_EQ(faultless("timeout = 1000000").timeoutNs, 1'000'000'000'000'000);
+  EXPECT_THAT(errorsOf("high-speed = 1"),
+              ElementsAre("m.map:1:14: high-speed: found 1, expected true or false; write for example high-speed = "
+                          "true"));
 }
 
 TEST(MapFile, BadFunctions) {
-  EXPECT_THAT(errorsOf("send a rise Q 3"),
-              ElementsAre("m.map:1: 'Q' is not a kind of function: M, S, T or B is expected"));
-  EXPECT_THAT(errorsOf("send a up M 3"), ElementsAre("m.map:1: 'up': rise or fall is expected"));
-  EXPECT_THAT(errorsOf("send a rise M"),
-              ElementsAre("m.map:1: the form is: send PIN rise|fall M|S|T|B CODE|CODEPIN [DONEPIN]"));
-  EXPECT_THAT(errorsOf("out bit a Y0.0\nsend a rise M 3"),
-              ElementsAre("m.map:2: pin 'a' is already defined as out bit"));
+  EXPECT_THAT(errorsOf(R"([[send]]
+pin = "a b"
+edge = "up"
+function = "Q"
+code = 2147483648
+done = 5
+)"),
+              ElementsAre("m.map:2:7: send.pin: found \"a b\", expected the name of a pin; write for example pin = "
+                          "\"spindle-forward\"",
+                          "m.map:3:8: send.edge: found \"up\", expected \"rise\" or \"fall\"; write for example edge = "
+                          "\"rise\"",
+                          "m.map:4:12: send.function: found \"Q\", expected \"M\", \"S\", \"T\" or \"B\"; write for "
+                          "example function = \"M\"",
+                          "m.map:5:8: send.code: found 2147483648, expected an integer of 32 bits with a sign, or the "
+                          "name of an s32 pin; write for example code = 3",
+                          "m.map:6:8: send.done: found 5, expected the name of a pin; write for example done = "
+                          "\"tool-changed\""));
+  EXPECT_THAT(errorsOf("[[send]]\nfuntion = \"M\"\n"),
+              ElementsAre(StartsWith("m.map:1:1: send: found no key pin, "),
+                          StartsWith("m.map:1:1: send: found no key edge, "),
+                          StartsWith("m.map:1:1: send: found no key function, "),
+                          StartsWith("m.map:1:1: send: found no key code, "),
+                          "m.map:2:1: send: found an unknown key funtion, expected pin, edge, function, code, done; "
+                          "did you mean function?"));
+  EXPECT_THAT(errorsOf("[[abort]]\npin = \"a\"\n"), ElementsAre(StartsWith("m.map:1:1: abort: found no key edge, ")));
+  EXPECT_THAT(errorsOf("abort = [{ pin = \"a\", edge = \"high\" }]"),
+              ElementsAre(StartsWith("m.map:1:30: abort.edge: found \"high\", expected \"rise\" or \"fall\"")));
+}
+
+TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {
+  EXPECT_THAT(errorsOf(R"(
+out.a = { type = "bit", name = "Y0.0" }
+send = [{ pin = "a", edge = "rise", function = "M", code = 3 }]
+)"),
+              ElementsAre("m.map:3:17: pin a: found an output pin of type bit with this name in line 2, expected an "
+                          "input pin of type bit; give one of them another name"));
   // Two acknowledges on one pin, or one that a name feeds too, would fight.
-  EXPECT_THAT(errorsOf("out bit d Y0.0\nsend a rise M 3 d"), ElementsAre("m.map:2: output pin 'd' is already mapped"));
-  EXPECT_THAT(errorsOf("send a rise M 3 d\nsend b rise M 4 d"),
-              ElementsAre("m.map:2: output pin 'd' is already mapped"));
-  EXPECT_THAT(errorsOf("abort a"), ElementsAre("m.map:1: the form is: abort PIN rise|fall"));
-  EXPECT_THAT(errorsOf("abort a high"), ElementsAre("m.map:1: 'high': rise or fall is expected"));
-  EXPECT_THAT(errorsOf("timeout 0\ntimeout nan\ntimeout 1e9\ntimeout 5 s"),
-              ElementsAre("m.map:1: '0' is not a time in seconds: a number above 0, up to 1000000, is expected",
-                          "m.map:2: 'nan' is not a time in seconds: a number above 0, up to 1000000, is expected",
-                          "m.map:3: '1e9' is not a time in seconds: a number above 0, up to 1000000, is expected",
-                          "m.map:4: the form is: timeout SECONDS"));
-  EXPECT_THAT(errorsOf("timeout 5\ntimeout 6"), ElementsAre("m.map:2: the time is already set"));
-  EXPECT_THAT(errorsOf("high-speed on"), ElementsAre("m.map:1: the form is: high-speed"));
+  EXPECT_THAT(errorsOf(R"(
+out.d = { type = "bit", name = "Y0.0" }
+send = [{ pin = "a", edge = "rise", function = "M", code = 3, done = "d" }]
+)"),
+              ElementsAre("m.map:3:70: pin d: found an output pin of type bit with this name in line 2, expected an "
+                          "output pin of type bit that has no other source; give one of them another name"));
+  EXPECT_THAT(errorsOf(R"(
+send = [{ pin = "a", edge = "rise", function = "M", code = 3, done = "d" },
+        { pin = "b", edge = "rise", function = "M", code = "a", done = "d" }]
+)"),
+              ElementsAre(StartsWith("m.map:3:60: pin a: found an input pin of type bit with this name in line 2, "
+                                     "expected an input pin of type s32; "),
+                          StartsWith("m.map:3:72: pin d: found an output pin of type bit with this name in line 2, ")));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include "rtlib/nc/names/names.h"
 #include "tests/unit/rtlib/test_program.h"
 #include "tools/sim/simulated_nc.h"
 
@@ -26,7 +27,7 @@ public:
     model_->powerOn(*instance_, nc::PowerOn::Cold);
   }
 
-  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), ""); }
+  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), std::nullopt); }
   uint64_t get(const char* name) { return instance_->read(place(name)); }
   void slot(int count = 1) {
     for (int i = 0; i < count; ++i) model_->slot(*instance_);
@@ -36,7 +37,7 @@ public:
 
 private:
   host::Ref place(const char* name) {
-    const auto found = instance_->resolve(name);
+    const auto found = nc::resolve(instance_->program(), name);
     EXPECT_TRUE(found) << name;
     return found.value_or(host::Ref{});
   }

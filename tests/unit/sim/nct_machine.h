@@ -41,7 +41,7 @@ public:
     model_->powerOn(*instance_, nc::PowerOn::Cold);
   }
 
-  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name, true), value), ""); }
+  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name, true), value), std::nullopt); }
   uint64_t get(const char* name) { return instance_->read(place(name, false)); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) model_->scan(*instance_);

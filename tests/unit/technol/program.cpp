@@ -6,6 +6,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "ir/verify/verify.h"
+#include "rtlib/nc/names/names.h"
 #include "rtlib/nc/technol/messages.h"
 #include "rtlib/nc/technol/signals.h"
 
@@ -84,7 +85,7 @@ void Machine::scan(int times) {
 }
 
 host::Ref Machine::resolve(std::string_view name) const {
-  const auto ref = instance_->resolve(name, interfaceCell);
+  const auto ref = nc::resolve(instance_->program(), name, interfaceCell);
   EXPECT_TRUE(ref) << name;
   return ref.value_or(host::Ref{});
 }
@@ -98,10 +99,10 @@ double Machine::real(std::string_view name) const {
   return instance_->readReal(*host::asReal(instance_->memory(), resolve(name)));
 }
 void Machine::set(std::string_view name, int64_t value) {
-  EXPECT_EQ(instance_->write(resolve(name), static_cast<uint64_t>(value)), "");
+  EXPECT_EQ(instance_->write(resolve(name), static_cast<uint64_t>(value)), std::nullopt);
 }
 void Machine::setReal(std::string_view name, double value) {
-  EXPECT_EQ(instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value), "");
+  EXPECT_EQ(instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value), std::nullopt);
 }
 
 std::vector<std::string> Machine::messages() {

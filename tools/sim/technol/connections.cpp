@@ -8,6 +8,7 @@
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/nc/names/names.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/signals.h"
 #include "tools/sim/technol/ports.h"
@@ -241,7 +242,7 @@ private:
       made.isDestination = !made.isSource;
       return made;
     }
-    const auto place = instance_.resolve(reference.base);
+    const auto place = nc::resolve(instance_.program(), reference.base);
     if (!place) return no(problem, "there is no module, port or variable of this name");
     uint32_t element = 0;
     const SharedVariable* found = place->kind == host::RefKind::Constant ? nullptr : variables_.at(*place, element);

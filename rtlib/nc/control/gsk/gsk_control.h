@@ -12,6 +12,8 @@ public:
   void prepare(host::Instance& instance, PowerOn kind) override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
+  // The second level is cut into slots of 8 ms.
+  bool runsInSlots() const override { return true; }
   GskFunctions* functions() override { return &functions_; }
 
 protected:

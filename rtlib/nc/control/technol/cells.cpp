@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/nc/names/names.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::nc::technol {
@@ -16,7 +17,7 @@ constexpr const char* kBlocks = "BLK";
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// The type that a program writes in front of an element; the host reads and writes elements in their own.
+// The type that a program writes before an element; the host reads and writes elements in their own.
 std::string_view withoutType(std::string_view element) {
   for (const std::string_view type : {"BYTE.", "WORD.", "DWRD.", "QWRD.", "REAL."})
     if (element.size() > type.size() && equalIgnoringCase(element.substr(0, type.size()), type))
@@ -88,7 +89,7 @@ std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string
 }
 
 std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name) {
-  return instance.resolve(name, [&](std::string_view unknown) { return signalPlace(instance, unknown); });
+  return resolve(instance.program(), name, [&](std::string_view unknown) { return signalPlace(instance, unknown); });
 }
 
 uint64_t readCell(const host::Instance& instance, std::string_view name) {

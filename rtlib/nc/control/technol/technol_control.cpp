@@ -1,7 +1,10 @@
 // Hooks of a TECHNOL program's schedule (see technol_control.h).
 #include "rtlib/nc/control/technol/technol_control.h"
 
+#include <cstdio>
+
 #include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/exchange.h"
 
 namespace rung::nc {
@@ -26,6 +29,22 @@ void TechnolControl::afterSlice(host::Instance& instance) {
 
 size_t TechnolControl::describe(const rung_program&, const rung_message& message, std::span<char> out) const noexcept {
   return messages_.describe(message, out);
+}
+
+std::string TechnolControl::text(const ShownMessage& message) const {
+  char number[16];
+  std::snprintf(number, sizeof number, "PLC%05u", message.number);
+  std::string text = number;
+  for (const int64_t value :
+       {int64_t{static_cast<uint32_t>(message.index)}, message.value, int64_t{message.par2}, int64_t{message.par3}})
+    text += " " + std::to_string(value);
+  return message.text.empty() ? text : text + " " + message.text;
+}
+
+std::string TechnolControl::shownText(std::string_view inMemory) const { return nc::shownText(inMemory); }
+
+std::string TechnolControl::memoryText(std::string_view shown, uint32_t bytes) const {
+  return nc::memoryText(shown).substr(0, bytes - 1u);
 }
 
 std::optional<host::Ref> TechnolControl::signal(const host::Instance& instance, std::string_view name) const {

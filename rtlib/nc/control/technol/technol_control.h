@@ -22,6 +22,12 @@ public:
   std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
+  // As a line of the log.
+  std::string text(const ShownMessage& message) const override;
+
+  // A character is one byte, Windows-1250; the last byte of a text is its terminator.
+  std::string shownText(std::string_view inMemory) const override;
+  std::string memoryText(std::string_view shown, uint32_t bytes) const override;
 
   bool savesOnRequest() const override { return true; }
   void setStored(bool stored) override { backup_.setStored(stored); }

@@ -1,14 +1,14 @@
 // Names as each dialect writes them.
-#include "rtlib/host/names.h"
+#include "rtlib/nc/names/names.h"
 
 #include <gtest/gtest.h>
 
-#include "rtlib/host/program_info.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
 using namespace rung::host;
+using namespace rung::nc;
 using rung::test::TestProgram;
 
 class GskNames : public testing::Test {
@@ -65,11 +65,22 @@ TEST_F(GskNames, FallbackServesWhatTheProgramDoesNotKnow) {
 }
 
 TEST_F(GskNames, Descriptions) {
-  EXPECT_EQ(describeBit(test.program, x, 2, 1), "X2.1 (START)");
-  EXPECT_EQ(describeBit(test.program, x, 2, 2), "X2.2");
-  EXPECT_EQ(describeByte(test.program, d, 10), "D10 (COUNT)");
-  EXPECT_EQ(describeByte(test.program, d, 11), "D11");
-  EXPECT_EQ(describeByte(test.program, d, 31), "D31 (@NEXT)");
+  EXPECT_EQ(describe(test.program, bitRef(x, 2, 1)), "X2.1 (START)");
+  EXPECT_EQ(describe(test.program, bitRef(x, 2, 2)), "X2.2");
+  EXPECT_EQ(describe(test.program, intRef(d, 10, 8)), "D10 (COUNT)");
+  EXPECT_EQ(describe(test.program, intRef(d, 11, 8)), "D11");
+  EXPECT_EQ(describe(test.program, intRef(d, 31, 8)), "D31 (@NEXT)");
+  EXPECT_EQ(describe(test.program, bitRef(9, 2, 1)), "no space");
+}
+
+TEST_F(GskNames, OfPlaces) {
+  EXPECT_EQ(placeName(test.program, bitRef(x, 2, 1)), "START");
+  EXPECT_EQ(placeName(test.program, bitRef(x, 2, 2)), "X2.2");
+  EXPECT_EQ(placeName(test.program, intRef(d, 10, 16)), "D10");
+  EXPECT_EQ(cellAddress(test.program, intRef(d, 10, 16)), "D10:2");
+  EXPECT_EQ(cellAddress(test.program, intRef(d, 10, 8)), "D10");
+  EXPECT_EQ(cellAddress(test.program, bitRef(x, 2, 1)), "X2.1");
+  EXPECT_TRUE(hasAddresses(test.program));
 }
 
 class NctNames : public testing::Test {
@@ -139,10 +150,18 @@ TEST_F(NctNames, FallbackGetsTheNameWithoutModifierAndBit) {
 }
 
 TEST_F(NctNames, Descriptions) {
-  EXPECT_EQ(describeBit(test.program, m, 242, 1), "0060.17 (READY)");
-  EXPECT_EQ(describeBit(test.program, ts, 224, 5), "!0056.05");
-  EXPECT_EQ(describeByte(test.program, m, 224), "0056 (APPLE)");
-  EXPECT_EQ(describeByte(test.program, m, 227), "0056 byte 3 (APPLE)");
+  EXPECT_EQ(describe(test.program, bitRef(m, 242, 1)), "0060.17 (READY)");
+  EXPECT_EQ(describe(test.program, bitRef(ts, 224, 5)), "!0056.05");
+  EXPECT_EQ(describe(test.program, intRef(m, 224, 8)), "0056 (APPLE)");
+  EXPECT_EQ(describe(test.program, intRef(m, 227, 8)), "0056 byte 3 (APPLE)");
+}
+
+TEST_F(NctNames, OfPlaces) {
+  EXPECT_EQ(placeName(test.program, bitRef(ts, 242, 1)), "!READY");
+  EXPECT_EQ(placeName(test.program, bitRef(ts, 242, 2)), "!0060.18");
+  EXPECT_EQ(placeName(test.program, *at("BACK")), "-2");
+  EXPECT_EQ(cellAddress(test.program, intRef(ts, 224, 32)), "!0056");
+  EXPECT_TRUE(hasAddresses(test.program));
 }
 
 constexpr char kLong31[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ01234";
@@ -237,37 +256,38 @@ TEST_F(TechnolNames, FallbackSeesUpperCaseAndTheWholeNameFirst) {
 }
 
 TEST_F(TechnolNames, Descriptions) {
-  EXPECT_EQ(describeByte(test.program, data, 5), "DATA+5 (CELL)");
-  EXPECT_EQ(describeBit(test.program, data, 9, 5), "DATA+9.5 (WEIGHT)");
+  EXPECT_EQ(describe(test.program, intRef(data, 5, 8)), "DATA+5 (CELL)");
+  EXPECT_EQ(describe(test.program, bitRef(data, 9, 5)), "DATA+9.5 (WEIGHT)");
 }
 
-TEST(ProgramInfo, LookUps) {
-  TestProgram test;
-  test.addPacked("D", 1, 4, 0);
-  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
-  test.addTask("MAIN", 0);
-  test.link();
-  EXPECT_EQ(findSpace(test.program, "D"), 0u);
-  EXPECT_EQ(findSpace(test.program, "E"), RUNG_NONE);
-  EXPECT_EQ(findTask(test.program, "MAIN"), 0u);
-  EXPECT_EQ(findService(test.program, "WINDW"), 1u);
-  EXPECT_EQ(serviceName(test.program, 0), "WINDR");
-  EXPECT_EQ(serviceName(test.program, 9), "");
-  EXPECT_EQ(messageText(test.program, 23), "LUBRICATION");
-  EXPECT_EQ(messageText(test.program, 2), "");
-  EXPECT_EQ(scanPeriodUs(test.program), 8000u);
+TEST_F(TechnolNames, OfPlaces) {
+  EXPECT_EQ(placeName(test.program, intRef(data, 4, 16)), "CELL");
+  EXPECT_EQ(cellAddress(test.program, intRef(data, 4, 16)), "DATA+4");
+  EXPECT_FALSE(hasAddresses(test.program));
 }
 
-TEST(ProgramInfo, FaultTexts) {
+// A weight follows the last point of a name that is nothing else.
+TEST_F(TechnolNames, WeightsOfPartsOfNames) {
+  EXPECT_EQ(at("TABLE[1].WEIGHT"), bitRef(data, 20, 5));
+  EXPECT_EQ(at("CELL+3.WEIGHT"), bitRef(data, 7, 5));
+  EXPECT_FALSE(at("CELL:2.WEIGHT"));
+  EXPECT_FALSE(at("CELL.WEIGHT:1"));
+}
+
+TEST(NamesOfAnUnknownDialect, AreSymbolsAndTheirParts) {
   TestProgram test;
-  for (int i = 0; i < 4; ++i) test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  const uint32_t area = test.addPacked("R", 1, 32, 0);
+  test.addSymbol("CELL", area, 4, RUNG_TYPE_I16);
+  test.addSymbol("TABLE", area, 8, RUNG_TYPE_I16, 0, 4);
   test.link();
-  EXPECT_EQ(faultText(test.program, {0, 3, 12, 0}), "dead-loop (rung 4 \"title\", main.pmc:12)");
-  EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (rung 1, main.pmc:10)");
-  test.rungs[0].number = 0;
-  EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (MAIN, main.pmc:10)");
-  EXPECT_EQ(faultText(test.program, {7, 99, 0, 0}), "undescribed fault (unknown rung)");
-  EXPECT_EQ(faultText(test.program, {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE}), "");
+  EXPECT_EQ(resolve(test.program, "CELL"), intRef(area, 4, 16));
+  EXPECT_EQ(resolve(test.program, "CELL.3"), bitRef(area, 4, 3));
+  EXPECT_EQ(resolve(test.program, "CELL:4"), intRef(area, 4, 32));
+  EXPECT_EQ(resolve(test.program, "TABLE[2]"), intRef(area, 12, 16));
+  EXPECT_EQ(resolve(test.program, "CELL+1"), intRef(area, 5, 16));
+  for (const char* name : {"cell", "CELL:8", "R4", "0001", "TABLE[4]", "CELL+31"})
+    EXPECT_FALSE(resolve(test.program, name)) << name;
+  EXPECT_EQ(describe(test.program, bitRef(area, 4, 3)), "R+4.3 (CELL)");
 }
 
 } // namespace

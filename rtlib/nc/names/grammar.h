@@ -1,0 +1,73 @@
+// How a dialect writes names of places: a class a dialect; this one is that of a program whose dialect has none.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "rtlib/nc/names/names.h"
+
+namespace rung::nc {
+
+class NameSearch;
+
+// Without state: one object serves all programs and threads.
+class NameGrammar {
+public:
+  virtual ~NameGrammar() = default;
+
+  // Names are looked up in upper case, as the program's tables have them.
+  virtual bool ignoresCase() const { return false; }
+  // An address goes before a signal of the control with the same name.
+  virtual bool addressFirst() const { return false; }
+  virtual bool hasAddresses() const { return true; }
+  // Bytes of the longest cell that a name may ask for: 4 or 8.
+  virtual uint32_t longestCell() const { return 4; }
+
+  // The symbol of this name; null when there is none.
+  virtual const rung_symbol* symbol(const rung_program& program, std::string_view name) const;
+  // A name that is not a symbol, of at least one character: NAME:bytes, NAME[n], CELL.n, NAME+n.
+  virtual std::optional<host::Ref> takeApart(NameSearch& search, std::string_view name) const;
+
+  // Of a place in one of the program's spaces: AREA+n, AREA+n.b.
+  virtual std::string address(const rung_program& program, const host::Ref& place) const;
+  virtual std::string cellAddress(const rung_program& program, const host::Ref& place) const {
+    return address(program, place);
+  }
+  virtual std::string placeName(const rung_program& program, const host::Ref& place) const;
+};
+
+// One look-up of a name, and what the grammars take names apart with. The program and the fallback outlive it.
+class NameSearch {
+public:
+  NameSearch(const rung_program& program, const NameGrammar& grammar, const NameFallback& fallback)
+      : program_(program), grammar_(grammar), fallback_(fallback), memory_(program, nullptr) {}
+
+  // A symbol, a signal of the control, or what the grammar makes of the name.
+  std::optional<host::Ref> find(std::string_view name);
+
+  const rung_program& program() const { return program_; }
+  uint32_t space(std::string_view name) const;
+  // The place itself, or nothing when it lies outside of its space.
+  std::optional<host::Ref> inSpace(const std::optional<host::Ref>& ref) const;
+  // Bit `digits` of the cell `name`.
+  std::optional<host::Ref> bitIn(std::string_view name, std::string_view digits);
+  // One cell of so many bytes (1, 2, 4 or the longest) that begins where the integer does.
+  std::optional<host::Ref> widened(std::optional<host::Ref> ref, std::optional<uint32_t> bytes) const;
+
+  // Texts and reals as integers, the form that has a width; nothing of a bit or a constant.
+  static std::optional<host::Ref> inBytes(std::optional<host::Ref> ref);
+  static bool allDigits(std::string_view text);
+  // Of 32 bits, decimal digits only.
+  static std::optional<uint32_t> number(std::string_view text);
+
+private:
+  std::optional<host::Ref> nested(std::string_view name);
+
+  const rung_program& program_;
+  const NameGrammar& grammar_;
+  const NameFallback& fallback_;
+  rt::Memory memory_; // for its bounds only
+  int depth_ = 0;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,46 @@
+// BASE.b, BASE:bytes, and area letter with address (see gsk.h).
+#include "rtlib/nc/names/gsk.h"
+
+namespace rung::nc {
+
+using host::Ref;
+using host::RefKind;
+
+namespace {
+
+class GskNames final : public NameGrammar {
+public:
+  // T10 is an address in programs, so it is one here, and not the signal of that name.
+  bool addressFirst() const override { return true; }
+
+  std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
+    if (const size_t colon = name.rfind(':'); colon != std::string_view::npos)
+      return search.widened(search.find(name.substr(0, colon)), NameSearch::number(name.substr(colon + 1)));
+    if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
+      return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
+    const std::optional<uint32_t> byte = NameSearch::number(name.substr(1));
+    if (!byte) return std::nullopt;
+    return search.inSpace(host::intRef(search.space(name.substr(0, 1)), *byte, 8));
+  }
+
+  std::string address(const rung_program& program, const Ref& place) const override {
+    const std::string area = program.spaces[place.space].name;
+    if (area.size() != 1) return NameGrammar::address(program, place); // hidden: no program can name it
+    const std::string text = area + std::to_string(place.byte);
+    return place.kind == RefKind::Bit ? text + "." + std::to_string(place.bit) : text;
+  }
+
+  std::string cellAddress(const rung_program& program, const Ref& place) const override {
+    const bool longer = place.kind != RefKind::Bit && place.width > 8;
+    return address(program, place) + (longer ? ":" + std::to_string(place.width / 8) : "");
+  }
+};
+
+} // namespace
+
+const NameGrammar& gskNames() {
+  static const GskNames names;
+  return names;
+}
+
+} // namespace rung::nc

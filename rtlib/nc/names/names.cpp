@@ -1,0 +1,194 @@
+// What names of all dialects have in common, and the table of the dialects (see names.h, grammar.h).
+#include "rtlib/nc/names/names.h"
+
+#include <algorithm>
+#include <charconv>
+#include <span>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/names/grammar.h"
+#include "rtlib/nc/names/gsk.h"
+#include "rtlib/nc/names/nct.h"
+#include "rtlib/nc/names/technol.h"
+
+namespace rung::nc {
+
+using host::Ref;
+using host::RefKind;
+
+namespace {
+
+constexpr int kMostNested = 8; // NAME[2].3 is two; longer names than any dialect has are refused
+
+struct Row {
+  std::string_view dialect;
+  const NameGrammar& (*grammar)();
+};
+constexpr Row kDialects[] = {{"gsk", gskNames}, {"nct", nctNames}, {"technol", technolNames}};
+
+const NameGrammar& grammarOf(const rung_program& program) {
+  static const NameGrammar plain;
+  const Row* row = std::ranges::find(kDialects, std::string_view(program.dialect), &Row::dialect);
+  return row == std::end(kDialects) ? plain : row->grammar();
+}
+
+std::string upperCase(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return upper;
+}
+
+uint32_t bytesOf(const rung_symbol& symbol) {
+  const Ref ref = host::refOf(symbol);
+  return ref.kind == RefKind::Bit ? (ref.bit + ref.count + 7) / 8 : ref.width / 8u * ref.count;
+}
+
+// A bit symbol only counts where its own bit is asked for.
+bool liesAt(const rung_symbol& symbol, const Ref& place) {
+  if ((symbol.flags & RUNG_SYMBOL_CONST) != 0 || symbol.space != place.space) return false;
+  if (place.byte < symbol.byte || place.byte - symbol.byte >= bytesOf(symbol)) return false;
+  if (symbol.type != RUNG_TYPE_BIT || symbol.count > 1) return true;
+  return place.kind == RefKind::Bit && symbol.bit == place.bit;
+}
+
+std::string addressBy(const NameGrammar& grammar, const rung_program& program, const Ref& place) {
+  return place.space < program.space_count ? grammar.address(program, place) : "no space";
+}
+
+} // namespace
+
+// ---- grammar of a dialect that has none of its own ---------------------------------------------------------------
+
+const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_view name) const {
+  return host::findSymbol(program, name);
+}
+
+std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view name) const {
+  if (const size_t colon = name.rfind(':'); colon != std::string_view::npos)
+    return search.widened(NameSearch::inBytes(search.find(name.substr(0, colon))),
+                          NameSearch::number(name.substr(colon + 1)));
+  if (const size_t bracket = name.rfind('['); name.back() == ']' && bracket != std::string_view::npos) {
+    const std::optional<Ref> array = search.find(name.substr(0, bracket));
+    const std::optional<uint32_t> index = NameSearch::number(name.substr(bracket + 1, name.size() - bracket - 2));
+    return array && index ? search.inSpace(host::element(*array, *index)) : std::nullopt;
+  }
+  if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
+    return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
+  const size_t plus = name.rfind('+');
+  if (plus == std::string_view::npos) return std::nullopt;
+  // What begins so many bytes later, in the width of its cells.
+  std::optional<Ref> ref = NameSearch::inBytes(search.find(name.substr(0, plus)));
+  const std::optional<uint32_t> bytes = NameSearch::number(name.substr(plus + 1));
+  if (!ref || !bytes || *bytes > 0xFFFFFFF) return std::nullopt;
+  ref->byte += *bytes;
+  ref->count = 1;
+  return search.inSpace(ref);
+}
+
+std::string NameGrammar::address(const rung_program& program, const Ref& place) const {
+  const std::string text = std::string(program.spaces[place.space].name) + "+" + std::to_string(place.byte);
+  return place.kind == RefKind::Bit ? text + "." + std::to_string(place.bit) : text;
+}
+
+std::string NameGrammar::placeName(const rung_program& program, const Ref& place) const {
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
+    Ref own = host::refOf(symbol);
+    own.readonly = place.readonly;
+    if (own == place) return symbol.name;
+  }
+  return addressBy(*this, program, place);
+}
+
+// ---- search ------------------------------------------------------------------------------------------------------
+
+std::optional<Ref> NameSearch::find(std::string_view name) {
+  if (name.empty() || depth_ >= kMostNested) return std::nullopt;
+  if (const rung_symbol* symbol = grammar_.symbol(program_, name)) return host::refOf(*symbol);
+  const bool addressFirst = grammar_.addressFirst();
+  if (addressFirst)
+    if (std::optional<Ref> ref = nested(name)) return ref;
+  if (fallback_)
+    if (std::optional<Ref> ref = fallback_(name)) return ref;
+  return addressFirst ? std::nullopt : nested(name);
+}
+
+std::optional<Ref> NameSearch::nested(std::string_view name) {
+  ++depth_;
+  const std::optional<Ref> ref = grammar_.takeApart(*this, name);
+  --depth_;
+  return ref;
+}
+
+uint32_t NameSearch::space(std::string_view name) const { return host::findSpace(program_, name); }
+
+std::optional<Ref> NameSearch::inSpace(const std::optional<Ref>& ref) const {
+  if (!ref || !memory_.contains(ref->space, ref->byte, std::max(1u, ref->width / 8u))) return std::nullopt;
+  return ref;
+}
+
+std::optional<Ref> NameSearch::bitIn(std::string_view name, std::string_view digits) {
+  const std::optional<uint32_t> bit = number(digits);
+  const std::optional<Ref> cell = bit ? find(name) : std::nullopt;
+  return cell ? host::bitOf(*cell, *bit) : std::nullopt;
+}
+
+std::optional<Ref> NameSearch::widened(std::optional<Ref> ref, std::optional<uint32_t> bytes) const {
+  if (!ref || ref->kind != RefKind::Int || !bytes) return std::nullopt;
+  if (*bytes != 1 && *bytes != 2 && *bytes != 4 && *bytes != grammar_.longestCell()) return std::nullopt;
+  ref->width = static_cast<uint8_t>(*bytes * 8);
+  ref->count = 1;
+  return inSpace(ref);
+}
+
+std::optional<Ref> NameSearch::inBytes(std::optional<Ref> ref) {
+  if (ref && (ref->kind == RefKind::Text || ref->kind == RefKind::Real)) ref->kind = RefKind::Int;
+  return ref && ref->kind == RefKind::Int ? ref : std::nullopt;
+}
+
+bool NameSearch::allDigits(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::optional<uint32_t> NameSearch::number(std::string_view text) {
+  if (!allDigits(text)) return std::nullopt;
+  uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+// ---- names.h -----------------------------------------------------------------------------------------------------
+
+std::optional<Ref> resolve(const rung_program& program, std::string_view name, const NameFallback& fallback) {
+  const NameGrammar& grammar = grammarOf(program);
+  NameSearch search(program, grammar, fallback);
+  return grammar.ignoresCase() ? search.find(upperCase(name)) : search.find(name);
+}
+
+std::string placeName(const rung_program& program, const Ref& place) {
+  if (place.kind == RefKind::Constant) return std::to_string(place.constant);
+  return grammarOf(program).placeName(program, place);
+}
+
+std::string address(const rung_program& program, const Ref& place) {
+  return addressBy(grammarOf(program), program, place);
+}
+
+std::string cellAddress(const rung_program& program, const Ref& place) {
+  return place.space < program.space_count ? grammarOf(program).cellAddress(program, place) : "no space";
+}
+
+bool hasAddresses(const rung_program& program) { return grammarOf(program).hasAddresses(); }
+
+std::string describe(const rung_program& program, const Ref& place) {
+  constexpr int kMostNames = 3;
+  std::string names;
+  int found = 0;
+  for (uint32_t i = 0; i < program.symbol_count && found < kMostNames; ++i) {
+    if (!liesAt(program.symbols[i], place)) continue;
+    names += (found++ == 0 ? "" : ", ") + std::string(program.symbols[i].name);
+  }
+  return address(program, place) + (found == 0 ? "" : " (" + names + ")");
+}
+
+} // namespace rung::nc

@@ -1,0 +1,36 @@
+// From a name as the dialect writes it to a place, and back. The forms of a dialect are in the file of its name (gsk.h,
+// nct.h, technol.h); a program of any other dialect has those of grammar.h. Symbols of the program go before all else,
+// hidden ones ("@DR") too.
+//
+// Names are for starting, for people and for texts: nothing here belongs in a scan.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "rtlib/host/ref.h"
+
+namespace rung::nc {
+
+// Asked for a name that the program's own symbols do not hold: first the whole name, then what remains of it when
+// modifiers, indices and bits are taken off. It gets the name as written, in upper case where case does not count.
+using NameFallback = std::function<std::optional<host::Ref>(std::string_view)>;
+
+// Nothing when the name is unknown, or its place lies outside the program's spaces.
+std::optional<host::Ref> resolve(const rung_program& program, std::string_view name, const NameFallback& fallback = {});
+
+// A short name of the place that `resolve` finds again: a symbol of its own, else the dialect's address.
+std::string placeName(const rung_program& program, const host::Ref& place);
+
+// The dialect's address of the place's bit, or of its first byte.
+std::string address(const rung_program& program, const host::Ref& place);
+// The same with the length of a longer cell, where the dialect writes one after the address (D10:2).
+std::string cellAddress(const rung_program& program, const host::Ref& place);
+// False: a user of the dialect knows the names of its cells only.
+bool hasAddresses(const rung_program& program);
+
+// How a reader would write that bit or byte: the address, with the symbols that lie there in brackets.
+std::string describe(const rung_program& program, const host::Ref& place);
+
+} // namespace rung::nc

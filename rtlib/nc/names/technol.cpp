@@ -1,0 +1,69 @@
+// The plain grammar, with TYPE.NAME, CELL.WEIGHT and the rules for symbols (see technol.h).
+#include "rtlib/nc/names/technol.h"
+
+#include <utility>
+
+#include "rtlib/host/program_info.h"
+
+namespace rung::nc {
+
+using host::Ref;
+using host::RefKind;
+
+namespace {
+
+constexpr size_t kSignificant = 31; // characters of a symbol
+
+// "WORD." at the beginning of the name, which loses it; its bytes.
+std::optional<uint32_t> takeType(std::string_view& name) {
+  constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
+      {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {"REAL.", 8}};
+  for (const auto& [type, bytes] : kTypes) {
+    if (!name.starts_with(type) || name.size() == type.size()) continue;
+    name.remove_prefix(type.size());
+    return bytes;
+  }
+  return std::nullopt;
+}
+
+// A bit symbol after the dot means its number in its byte (technol.md 4.1).
+std::optional<Ref> weighted(const std::optional<Ref>& cell, const std::optional<Ref>& weight) {
+  if (!cell || !weight || weight->kind != RefKind::Bit || cell->kind == RefKind::Constant) return std::nullopt;
+  Ref ref = host::bitRef(cell->space, cell->byte, weight->bit);
+  ref.readonly = cell->readonly;
+  return ref;
+}
+
+class TechnolNames final : public NameGrammar {
+public:
+  bool ignoresCase() const override { return true; }
+  bool hasAddresses() const override { return false; }
+  uint32_t longestCell() const override { return 8; }
+
+  const rung_symbol* symbol(const rung_program& program, std::string_view name) const override {
+    if (const rung_symbol* exact = host::findSymbol(program, name)) return exact;
+    if (name.size() < kSignificant || name.find_first_of(".[") != std::string_view::npos) return nullptr;
+    const std::string_view head = name.substr(0, kSignificant);
+    const rung_symbol* symbol = host::firstSymbolFrom(program, head);
+    return symbol != nullptr && std::string_view(symbol->name).starts_with(head) ? symbol : nullptr;
+  }
+
+  std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
+    if (const std::optional<uint32_t> bytes = takeType(name))
+      return search.widened(NameSearch::inBytes(search.find(name)), bytes);
+    const size_t dot = name.rfind('.');
+    const bool hasLength = name.find(':') != std::string_view::npos;
+    if (dot == std::string_view::npos || hasLength || name.back() == ']' || NameSearch::allDigits(name.substr(dot + 1)))
+      return NameGrammar::takeApart(search, name);
+    return weighted(search.find(name.substr(0, dot)), search.find(name.substr(dot + 1)));
+  }
+};
+
+} // namespace
+
+const NameGrammar& technolNames() {
+  static const TechnolNames names;
+  return names;
+}
+
+} // namespace rung::nc

@@ -1,0 +1,31 @@
+// The text about a value that would be lost (see write.h).
+#include "rtlib/nc/names/write.h"
+
+#include "rtlib/nc/names/names.h"
+
+namespace rung::nc {
+
+namespace {
+
+std::string lost(const rung_program& program, const host::Ref& ref, const std::optional<host::Ref>& copied) {
+  if (!copied) return {};
+  const std::string lasting = placeName(program, *copied);
+  return "a value written to " + placeName(program, ref) + " is lost: " + lasting +
+         " is copied over it before the program reads it; write " + lasting;
+}
+
+} // namespace
+
+std::string write(host::Instance& instance, const host::Ref& ref, uint64_t value) {
+  return lost(instance.program(), ref, instance.write(ref, value));
+}
+
+std::string writeReal(host::Instance& instance, const host::Ref& ref, double value) {
+  return lost(instance.program(), ref, instance.writeReal(ref, value));
+}
+
+std::string writeText(host::Instance& instance, const host::Ref& ref, std::string_view text) {
+  return lost(instance.program(), ref, instance.writeText(ref, text));
+}
+
+} // namespace rung::nc

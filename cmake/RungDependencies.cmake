@@ -9,11 +9,14 @@ find_package(CLI11 REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(EXPAT 2.5 REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(pugixml 1.13 REQUIRED CONFIG)
 find_package(tomlplusplus 3.3 REQUIRED CONFIG)
 find_path(RUNG_EDIT_INCLUDE histedit.h REQUIRED)
 find_library(RUNG_EDIT_LIBRARY edit REQUIRED)
 find_path(RUNG_SODIUM_INCLUDE sodium.h REQUIRED)
 find_library(RUNG_SODIUM_LIBRARY sodium REQUIRED)
+find_path(RUNG_UTF8PROC_INCLUDE utf8proc.h REQUIRED)
+find_library(RUNG_UTF8PROC_LIBRARY utf8proc REQUIRED)
 find_package(LLVM 19.1 REQUIRED CONFIG) # plain "19" is rejected by LLVM's version file
 find_package(LLD 19.1 REQUIRED CONFIG)
 
@@ -26,6 +29,11 @@ target_link_libraries(rung_edit INTERFACE "${RUNG_EDIT_LIBRARY}")
 add_library(rung_sodium INTERFACE)
 target_include_directories(rung_sodium SYSTEM INTERFACE "${RUNG_SODIUM_INCLUDE}")
 target_link_libraries(rung_sodium INTERFACE "${RUNG_SODIUM_LIBRARY}")
+
+# Decoding and widths of characters; its package has no CMake config file.
+add_library(rung_utf8proc INTERFACE)
+target_include_directories(rung_utf8proc SYSTEM INTERFACE "${RUNG_UTF8PROC_INCLUDE}")
+target_link_libraries(rung_utf8proc INTERFACE "${RUNG_UTF8PROC_LIBRARY}")
 
 # The shared libLLVM; the only way our code links LLVM.
 add_library(rung_llvm INTERFACE)

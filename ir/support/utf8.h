@@ -26,7 +26,8 @@ CodePoint decodeUtf8(std::string_view text, size_t offset);
 /// Offset of the first byte that is no UTF-8, npos when all is well.
 size_t findInvalidUtf8(std::string_view text);
 
-/// How many cells a terminal uses for a printable character: 2 for East Asian wide ones, 0 for combining marks, else 1.
+/// How many cells a terminal uses for a character: 2 for East Asian wide ones and emoji, 0 for combining marks and for
+/// what is not printable, else 1.
 unsigned displayWidth(uint32_t codePoint);
 
 } // namespace rung

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree as xml
 from pathlib import Path
 
 RUNGC = None
@@ -550,6 +551,19 @@ class Statuses(Cli):
         self.assertEqual(rungc("test", good, bad, "--engine", "interp", "--junit", report).returncode, WRONG)
         text = Path(report).read_text()
         self.assertIn('tests="2" failures="1" errors="0"', text)
+
+    def test_junit_is_xml_whatever_the_texts_hold(self):
+        self.file("lamp.lad", LAMP)
+        name = str(Path(self.folder.name) / "odd&<\x01\udcff.scn")  # the byte FF is not UTF-8
+        Path(name).write_text('program lamp.lad\nscan\nprint "a<b>&\'c ]]> \u4e2d"\nexpect 5101.00 1\n', encoding="utf-8")
+        report = str(Path(self.folder.name) / "report.xml")
+        self.assertEqual(rungc("test", name, "--engine", "interp", "--junit", report).returncode, WRONG)
+        case = xml.parse(report).getroot().find("testcase")
+        self.assertTrue(case.get("name").endswith("odd&<?\ufffd.scn"), case.get("name"))
+        self.assertIn("a<b>&'c ]]> \u4e2d", case.find("system-out").text)
+        failure = case.find("failure")
+        self.assertIn("odd&<?\ufffd.scn:4: ", failure.text)
+        self.assertEqual(failure.get("message"), failure.text.split("\n")[0])
 
 
 class Products(Cli):

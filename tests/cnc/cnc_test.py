@@ -178,6 +178,51 @@ def retained(bench, _options):
     expect("cannot write /nowhere/memory" in done.stdout, "no message")
 
 
+def example(bench, options, commands, pins):
+    """Loads the example's program with its map, and gives the values of pins after each `show`."""
+    bench.program(options.program)
+    bench.file("program.map", "".join(Path(path).read_text(encoding="utf-8") for path in options.map))
+    show = "".join(f"show pin rung.{pin}\n" for pin in pins)
+    script = "".join(f"loadusr -w sleep {line.split()[1]}\n" if line.startswith("wait") else
+                     show if line == "show" else f"setp rung.{line}\n" for line in commands)
+    done = bench.halrun(LOAD.format(options="", prefix="rung") + script)
+    return {pin: shown(done.stdout, "rung." + pin) for pin in pins}
+
+
+def turning_centre(bench, options):
+    """NCT: machine on, M8, M9, and T of channel 2."""
+    values = example(bench, options, [
+        # doors shut, turrets clamped on place 1, chucks open, quill back; contactors, hydraulics follow
+        "inputs-0 0x63B31F", "inputs-1 0x227", "inputs-2 0x27", "probe 1", "spindle-stopped 1", "wait 0.2", "show",
+        "estop-ok 1", "wait 0.1", "machine-on 1", "wait 0.1", "show",
+        "wait 0.5", "inputs-0 0x63BB3F", "wait 0.2", "coolant-flood 1", "wait 0.2", "show",
+        "coolant-flood 0", "turret-2-place 1", "turret-2-turn 1", "wait 0.3", "show",
+    ], ["enable", "outputs-0", "outputs-1", "finished", "turret-2-there", "functions-busy", "functions-lost", "fault"])
+    expect(values["enable"] == ["FALSE", "TRUE", "TRUE", "TRUE"], values)
+    expect(values["finished"] == 4 * ["TRUE"], values)
+    pump = [int(value, 0) >> 6 & 1 for value in values["outputs-1"]]
+    expect(pump == [0, 0, 1, 0], values)
+    expect(values["turret-2-there"] == ["FALSE", "FALSE", "FALSE", "TRUE"], values)
+    expect(values["functions-busy"] == 4 * ["FALSE"], values)
+    expect([int(value, 0) for value in values["functions-lost"]] == 4 * [0], values)
+    expect(values["fault"] == 4 * ["FALSE"], values)
+
+
+def machining_centre(bench, options):
+    """TECHNOL: machine on, M8 and M9 as blocks."""
+    values = example(bench, options, [
+        # door shut and locked, arm at home, gear 1, workpiece and table clamped, spindle empty
+        "p1in 0xD4", "p2in 0x7F", "p3in 0x40", "p4in 0x65", "p5in 0x54", "p6in 0xAD", "wait 1.3", "show",
+        "estop-ok 1", "wait 0.1", "p1in 0xD6", "wait 0.1", "p1in 0xF6", "wait 0.1", "p1in 0xFE", "wait 0.4", "show",
+        "coolant-flood 1", "wait 0.2", "show", "coolant-flood 0", "wait 0.2", "show",
+    ], ["enable", "lamp-on", "p3out", "block-running", "functions-busy", "fault"])
+    expect(values["enable"] == ["FALSE", "TRUE", "TRUE", "TRUE"], values)
+    pump = [int(value, 0) >> 1 & 1 for value in values["p3out"]]
+    expect(pump == [0, 0, 1, 0], values)
+    expect(values["functions-busy"] == 4 * ["FALSE"] and values["block-running"] == 4 * ["FALSE"], values)
+    expect(values["fault"] == 4 * ["FALSE"], values)
+
+
 def mistakes(bench, _options):
     """What is wrong with the files is said when they are loaded, and nothing is loaded then."""
     bench.program(HERE / "stuck.pmc")
@@ -211,7 +256,7 @@ edge = "up"
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, unload, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, unload, retained, turning_centre, machining_centre, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

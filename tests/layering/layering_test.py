@@ -37,6 +37,8 @@ BAD = {
     "codegen includes frontend": ("codegen/cpp/x.cpp", '#include "frontend/table/instruction.h"'),
     "LLVM outside its wall": ("codegen/cpp/x.cpp", "#include <llvm/IR/Module.h>"),
     "LLVM in quotes": ("ir/core/x.cpp", '# include "llvm/IR/Module.h"'),
+    "XML outside the tools": ("ir/support/x.cpp", "#include <pugixml.hpp>"),
+    "Unicode outside the base": ("frontend/ladder/x.cpp", "#include <utf8proc.h>"),
     "clang outside its wall": ("codegen/llvm/x.cpp", "#include <clang/AST/AST.h>"),
     "fmt in rtlib": ("rtlib/host/x.cpp", "#include <fmt/format.h>"),
     "cryptography outside the host": ("codegen/cpp/x.cpp", "#include <sodium.h>"),

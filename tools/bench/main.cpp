@@ -1,7 +1,6 @@
 // rung-bench: measures every engine on generated programs and prints docs/performance.md. Each case runs in a process
 // of its own, so that its resident memory is its own; figures are medians, and ratios are taken in one process.
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "codegen/process/process.h"
 #include "ir/support/temporary_folder.h"
 #include "tools/bench/measure.h"
 
@@ -48,16 +48,24 @@ int measureOne(const Case& which) {
 
 // Runs this program for one case; nothing when it failed.
 std::optional<nlohmann::json> runCase(const Case& which) {
-  const std::string command =
-      fmt::format("'{}' --engine {} --compiler '{}' --program {} --units {} --hand '{}' {}",
-                  std::filesystem::read_symlink("/proc/self/exe").string(), which.engine, which.compiler, which.program,
-                  which.units, which.handWritten, which.optimise ? "" : "--fast");
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return std::nullopt;
-  std::string text;
-  std::array<char, 4096> buffer;
-  while (const size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
-  if (pclose(pipe) != 0) return std::nullopt;
+  const rung::TemporaryFolder folder;
+  if (!folder.ok()) return std::nullopt;
+  std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                                    "--engine",
+                                    which.engine,
+                                    "--compiler",
+                                    which.compiler,
+                                    "--program",
+                                    which.program,
+                                    "--units",
+                                    std::to_string(which.units),
+                                    "--hand",
+                                    which.handWritten};
+  if (!which.optimise) words.emplace_back("--fast");
+  const rung::Result<int> code = rung::codegen::runProgram(words, {.out = (folder / "figures").string(), .error = {}});
+  if (!code.ok()) fmt::print(stderr, "rung-bench: {}\n", code.error());
+  if (!code.ok() || code.value() != 0) return std::nullopt;
+  const std::string text = folder.contentsOf("figures").value_or("");
   return nlohmann::json::parse(text, nullptr, false);
 }
 

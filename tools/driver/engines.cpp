@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/jit/jit_engine.h"
 #include "codegen/llvm/llvm_emitter.h"
+#include "codegen/process/process.h"
 #include "ir/interp/interp.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/sealing.h"
@@ -16,8 +16,6 @@
 
 namespace rung::driver {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct NamedEngine {
   EngineKind kind;
@@ -61,18 +59,6 @@ codegen::LlvmOptions llvmOptions(const EngineOptions& options) {
   return llvm;
 }
 
-bool isInstalled(std::string_view program) {
-  const char* path = std::getenv("PATH");
-  std::string_view folders = path == nullptr ? "/usr/bin:/bin" : path;
-  while (!folders.empty()) {
-    const size_t end = std::min(folders.find(':'), folders.size());
-    std::error_code ignored;
-    if (end > 0 && fs::exists(fs::path(folders.substr(0, end)) / program, ignored)) return true;
-    folders.remove_prefix(std::min(end + 1, folders.size()));
-  }
-  return false;
-}
-
 } // namespace
 
 std::string_view engineName(EngineKind kind) { return kEngines[static_cast<size_t>(kind)].name; }
@@ -95,7 +81,7 @@ std::span<const EngineKind> allEngines() {
 std::string defaultCppCompiler() {
   if (const char* named = std::getenv("CXX"); named != nullptr && *named != 0) return named;
   for (const char* candidate : {"clang++-19", "g++"})
-    if (isInstalled(candidate)) return candidate;
+    if (codegen::findProgram(candidate)) return candidate;
   return "c++";
 }
 

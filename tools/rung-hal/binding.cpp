@@ -30,14 +30,42 @@ public:
 
 private:
   void checkFunctions() {
-    nc::Functions* functions = control_.functions();
     for (const MapSend& send : map_.sends)
-      if (functions == nullptr)
-        fail(send.at, "send: the handshake of M, S and T functions is not supported yet for this dialect (" +
-                          std::string(instance_.program().dialect) +
-                          "); remove the table, and connect the signals in [in] and [out]");
-    if (map_.highSpeed && (functions == nullptr || !functions->useHighSpeed()))
+      if (const nc::Functions* functions = functionsOf(send)) checkKind(send, *functions);
+    nc::Functions* first = control_.functions(0);
+    for (const MapGroup& row : map_.groups)
+      if (first == nullptr || !first->setGroup(row.code, row.group))
+        fail(row.at, "m-groups: found M" + std::to_string(row.code) + " in group " + std::to_string(row.group) +
+                         ", which a control of the dialect " + dialect() + " cannot have; remove the line");
+    if (map_.highSpeed && (first == nullptr || !first->useHighSpeed()))
       fail(*map_.highSpeed, "high-speed: this dialect has no such handshake; remove the line");
+  }
+
+  std::string dialect() const { return instance_.program().dialect; }
+
+  const nc::Functions* functionsOf(const MapSend& send) {
+    const nc::Functions* functions = control_.functions(send.channel);
+    if (functions != nullptr) return functions;
+    uint32_t channels = 0;
+    while (control_.functions(channels) != nullptr) ++channels;
+    if (channels == 0)
+      fail(send.at, "send: the dialect " + dialect() + " has no M, S and T functions; remove the table");
+    else
+      fail(send.at, "send: found channel " + std::to_string(send.channel + 1) + ", expected 1" +
+                        (channels == 1 ? ": a control of the dialect " + dialect() + " has one channel"
+                                       : " to " + std::to_string(channels) +
+                                             ", the channels of a control of the dialect " + dialect()));
+    return nullptr;
+  }
+
+  void checkKind(const MapSend& send, const nc::Functions& functions) {
+    const std::string kind(nc::kFunctionKinds[static_cast<size_t>(send.kind)]);
+    if (!functions.carries(send.kind, 0))
+      fail(send.at, "send: found function " + kind + ", which the dialect " + dialect() +
+                        " does not have; remove the table, and connect its signals in [in] and [out]");
+    else if (!send.codePin && !functions.carries(send.kind, static_cast<uint32_t>(send.code)))
+      fail(send.at, "send: found " + kind + std::to_string(send.code) + ", a code that the signals of the dialect " +
+                        dialect() + " do not hold; write another code");
   }
 
   void addLink(std::vector<PinLink>& links, const MapLink& link, Access access) {
@@ -55,9 +83,11 @@ private:
     const bool isBit = place->kind == host::RefKind::Bit;
     if (isBit && type != PinType::Bit) return void(fail(constant.at, constant.name + " is a bit; write true or false"));
     if (!isBit && type == PinType::Bit) return void(fail(constant.at, constant.name + " is not a bit; write a number"));
-    if (place->kind == host::RefKind::Int && !fits(constant.value, place->width))
-      return void(fail(constant.at, constant.name + ": the value does not fit into the cell, which has " +
-                                        std::to_string(place->width) + " bits"));
+    if (place->kind == host::RefKind::Int && !fits(constant, place->width))
+      return void(
+          fail(constant.at, constant.name + ": the value does not fit into the cell, which has " +
+                                std::to_string(place->width) + " bits" +
+                                (type == PinType::Float ? "; a real number becomes an integer with a sign" : "")));
     links.push_back({type, *place, constant.value});
   }
 
@@ -68,9 +98,11 @@ private:
     return isPosition(name) ? place : host::asReal(instance_.memory(), place).value_or(place);
   }
 
-  // With a sign or without.
-  static bool fits(double value, uint32_t width) {
-    return value >= -std::ldexp(1, static_cast<int>(width) - 1) && value < std::ldexp(1, static_cast<int>(width));
+  // Integers with a sign or without; what is converted from a real number has one.
+  static bool fits(const MapConst& constant, uint32_t width) {
+    const double half = std::ldexp(1, static_cast<int>(width) - 1);
+    const double value = std::round(constant.value);
+    return value >= -half && value < (constant.type == PinType::Float ? half : 2 * half);
   }
 
   std::optional<host::Ref> find(const std::string& name, PinType type, Access access, MapPosition at) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
-#include <span>
-#include <string_view>
 
 #include "rtlib/host/program_info.h"
 
@@ -39,21 +37,6 @@ void setPin(PinType type, const PinCell& cell, uint64_t value) noexcept {
   }
 }
 
-// TECHNOL: no part-program block starts here, so its block modules never run, and M, S, T in them do nothing.
-void warnOfBlocks(const rung_program& program, std::vector<std::string>& warnings) {
-  for (const std::string_view module : {"MODULE_BLOCK_INIT", "MODULE_BLOCK_DONE"}) {
-    const auto inModule = [&](const rung_rung_info& rung) {
-      return rung.number != 0 && rung.routine < program.routine_count && program.routines[rung.routine] == module;
-    };
-    const std::span rungs(program.rungs, program.rung_count);
-    const auto first = std::ranges::find_if(rungs, inModule);
-    if (first == rungs.end()) continue;
-    const char* file = first->file < program.file_count ? program.files[first->file] : "?";
-    warnings.push_back(std::string(file) + ":" + std::to_string(first->first_line) + ": WARNING: " +
-                       std::string(module) + " never runs in LinuxCNC yet: M, S and T functions in it do nothing");
-  }
-}
-
 } // namespace
 
 Box::Box(const rung_program& program, MapFile map, std::string retain)
@@ -70,9 +53,8 @@ std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::ve
   box->binding_ = bindMap(box->map_, box->instance_, *box->control_, errors);
   if (!errors.empty()) return nullptr;
   box->locatePlaces();
-  box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->control_->functions());
+  box->functions_ = std::make_unique<FunctionQueue>(box->map_, *box->control_);
   if (!box->start(errors, warnings)) return nullptr;
-  warnOfBlocks(program, warnings);
   return box;
 }
 
@@ -125,7 +107,7 @@ StepResult Box::step(int64_t ns, bool reset) noexcept {
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
   if (state != State::Running) return StepResult::Waiting;
-  functions_->sample(instance_, cells_, ns);
+  functions_->sample(cells_, ns);
   owedNs_ += ns;
   StepResult result = StepResult::Waiting;
   for (uint32_t i = 0; i < kMaxSlices && !instance_.faulted(); ++i) {
@@ -143,7 +125,7 @@ StepResult Box::step(int64_t ns, bool reset) noexcept {
 
 void Box::slice() noexcept {
   if (cells_ != nullptr) {
-    functions_->advance(instance_, cells_);
+    functions_->advance(cells_);
     readPins();
   }
   instance_.slice();

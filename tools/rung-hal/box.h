@@ -32,7 +32,7 @@ class Box {
 public:
   // Null, and `errors` say why, when the map does not fit the program, which outlives the box. The start is cold, or
   // with the memory that `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the
-  // retained memory, and of parts of the program that never run here.
+  // retained memory.
   static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
                                    const std::string& retain, std::vector<std::string>& warnings);
   // After the last step, or where none can come any more: the program's last scans run, output pins are 0 then, and

@@ -2,18 +2,20 @@
 #include "tools/rung-hal/function_queue.h"
 
 #include <algorithm>
-#include <array>
 
 namespace rung::hal {
 
 // At the start all pins count as 0: what is on already is an edge.
-FunctionQueue::FunctionQueue(const MapFile& map, nc::Functions* functions)
-    : sends_(map.sends), aborts_(map.aborts), functions_(functions), timeoutNs_(map.timeoutNs), calls_(kRoom) {
+FunctionQueue::FunctionQueue(const MapFile& map, nc::Control& control)
+    : sends_(map.sends), aborts_(map.aborts), timeoutNs_(map.timeoutNs), calls_(kRoom) {
   for (const MapSend& send : sends_) wasTriggered_.push_back(!send.edge.rising);
   for (const MapEdge& edge : aborts_) wasAborted_.push_back(!edge.rising);
+  for (const MapSend& send : sends_)
+    while (channels_.size() <= send.channel)
+      channels_.push_back(control.functions(static_cast<uint32_t>(channels_.size())));
 }
 
-void FunctionQueue::sample(host::Instance& instance, const PinCell* pins, int64_t ns) noexcept {
+void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {
   late_ = false;
   for (uint32_t i = 0; i < count_; ++i) {
     calls_[i].ageNs += ns;
@@ -22,7 +24,7 @@ void FunctionQueue::sample(host::Instance& instance, const PinCell* pins, int64_
   // First, so that what the same event sends, a spindle's stop, goes to the program at once.
   for (uint32_t i = 0; i < aborts_.size(); ++i) {
     const bool now = triggered(aborts_[i], pins);
-    if (now && !wasAborted_[i]) abort(instance);
+    if (now && !wasAborted_[i]) abort();
     wasAborted_[i] = now;
   }
   for (uint32_t i = 0; i < sends_.size(); ++i) {
@@ -36,39 +38,43 @@ void FunctionQueue::sample(host::Instance& instance, const PinCell* pins, int64_
 }
 
 void FunctionQueue::queue(Call call) noexcept {
-  if (count_ == kRoom)
+  if (count_ == kRoom || !functionsOf(call).carries(sends_[call.send].kind, call.code))
     ++lost_;
   else
     calls_[count_++] = call;
 }
 
-void FunctionQueue::abort(host::Instance& instance) noexcept {
+void FunctionQueue::abort() noexcept {
   count_ = 0;
   late_ = false;
-  if (functions_ != nullptr) functions_->abort(instance);
+  for (nc::Functions* channel : channels_) channel->abort();
 }
 
-void FunctionQueue::advance(host::Instance& instance, const PinCell* pins) noexcept {
+void FunctionQueue::advance(const PinCell* pins) noexcept {
   if (count_ == 0) return;
-  functions_->step(instance);
-  std::array<bool, std::size(nc::kFunctionKinds)> waits = {}; // an older one of the kind is not finished
-  uint32_t kept = 0;
-  for (uint32_t i = 0; i < count_; ++i) {
-    Call call = calls_[i];
-    const nc::FunctionKind kind = sends_[call.send].kind;
-    if (call.started && finish(call, pins)) continue;
-    bool& waiting = waits[static_cast<size_t>(kind)];
-    if (!call.started && !waiting) call.started = functions_->start(instance, kind, call.code);
-    waiting = true;
-    calls_[kept++] = call;
-  }
-  count_ = kept;
+  for (nc::Functions* channel : channels_) channel->step();
+  const auto first = calls_.begin();
+  const auto kept = std::remove_if(first, first + count_, [&](const Call& call) { return finish(call, pins); });
+  count_ = static_cast<uint32_t>(kept - first);
+  for (uint32_t i = 0; i < count_; ++i) start(i);
+}
+
+// Unless an older one of its kind and channel waits.
+void FunctionQueue::start(uint32_t index) noexcept {
+  Call& call = calls_[index];
+  const MapSend& send = sends_[call.send];
+  const auto overtakes = [&](const Call& older) {
+    const MapSend& before = sends_[older.send];
+    return !older.line && before.kind == send.kind && before.channel == send.channel;
+  };
+  if (call.line || std::any_of(calls_.begin(), calls_.begin() + index, overtakes)) return;
+  call.line = functionsOf(call).start(send.kind, call.code);
 }
 
 // The acknowledge is for a cause that is still there.
 bool FunctionQueue::finish(const Call& call, const PinCell* pins) const noexcept {
   const MapSend& send = sends_[call.send];
-  if (functions_->busy(send.kind)) return false;
+  if (!call.line || functionsOf(call).busy(*call.line)) return false;
   if (send.donePin && triggered(send.edge, pins)) *pins[*send.donePin].bit = true;
   return true;
 }

@@ -2,13 +2,14 @@
 // queues a function, the dialect's handshake (rtlib/nc/control/functions.h) hands it to the program, and the
 // acknowledge pin comes on when the program has finished it; it falls with the pin that caused the function.
 //
-// Functions of one kind keep their order. One of another kind does not wait for them, unless the dialect's signals
-// allow one at a time only.
+// Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
+// begins as soon as the handshake takes it.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/control.h"
 #include "tools/rung-hal/map_file.h"
 #include "tools/rung-hal/pin_cell.h"
 
@@ -18,14 +19,14 @@ class FunctionQueue {
 public:
   static constexpr uint32_t kRoom = 64;
 
-  // `functions` may be null where there are no sends.
-  FunctionQueue(const MapFile& map, nc::Functions* functions);
+  // The control has the channels of all sends.
+  FunctionQueue(const MapFile& map, nc::Control& control);
 
   // In every call of the scan function: notices edges, and an abort, which empties the queue and ends what the program
   // was doing. `ns`: time since the last call.
-  void sample(host::Instance& instance, const PinCell* pins, int64_t ns) noexcept;
+  void sample(const PinCell* pins, int64_t ns) noexcept;
   // Before every slice of the program.
-  void advance(host::Instance& instance, const PinCell* pins) noexcept;
+  void advance(const PinCell* pins) noexcept;
 
   // The program has been switched on anew.
   void restart() noexcept { count_ = 0; }
@@ -34,7 +35,7 @@ public:
   bool busy() const noexcept { return count_ != 0; }
   // One has not been finished within the map's time since it was queued.
   bool late() const noexcept { return late_; }
-  // Functions that found the queue full.
+  // Functions that found the queue full, and those whose code the dialect's signals do not hold.
   uint32_t lost() const noexcept { return lost_; }
 
 private:
@@ -42,21 +43,23 @@ private:
     uint32_t send = 0;
     uint32_t code = 0;
     int64_t ageNs = 0;
-    bool started = false;
+    std::optional<uint32_t> line; // of the handshake, once it has begun
   };
 
   bool triggered(const MapEdge& edge, const PinCell* pins) const noexcept { return *pins[edge.pin].bit == edge.rising; }
   void queue(Call call) noexcept;
-  void abort(host::Instance& instance) noexcept;
+  void abort() noexcept;
   bool finish(const Call& call, const PinCell* pins) const noexcept;
+  void start(uint32_t index) noexcept;
+  nc::Functions& functionsOf(const Call& call) const noexcept { return *channels_[sends_[call.send].channel]; }
 
   std::vector<MapSend> sends_;
   std::vector<bool> wasTriggered_; // by sends_
   std::vector<MapEdge> aborts_;
-  std::vector<bool> wasAborted_; // by aborts_
-  nc::Functions* functions_;
-  int64_t timeoutNs_;       // 0: none
-  std::vector<Call> calls_; // the oldest first; room for kRoom
+  std::vector<bool> wasAborted_;         // by aborts_
+  std::vector<nc::Functions*> channels_; // from the first to the last that a send is for
+  int64_t timeoutNs_;                    // 0: none
+  std::vector<Call> calls_;              // the oldest first; room for kRoom
   uint32_t count_ = 0;
   uint32_t lost_ = 0;
   bool late_ = false;

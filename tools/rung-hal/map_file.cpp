@@ -111,6 +111,7 @@ struct SendRow {
   int32_t code = 0;
   std::optional<Place> codePin;
   std::optional<Place> donePin;
+  uint32_t channel = 1;
 };
 
 class Reader {
@@ -141,9 +142,9 @@ private:
     bool (Reader::*take)(const toml::node&, Row&); // false: it is not what is expected
   };
 
-  static const Key<MapFile> kFileKeys[7];
+  static const Key<MapFile> kFileKeys[8];
   static const Key<PinRow> kPinKeys[3];
-  static const Key<SendRow> kSendKeys[5];
+  static const Key<SendRow> kSendKeys[6];
   static const Key<EdgeRow> kAbortKeys[2];
 
   void fail(MapPosition at, std::string what) { errors_.emplace_back(at, std::move(what)); }
@@ -202,6 +203,7 @@ private:
   bool takeOutputs(const toml::node& node, MapFile& map) { return takePins(node, true, map.outputs); }
   bool takeConstants(const toml::node& node, MapFile& map);
   bool takeSends(const toml::node& node, MapFile& map);
+  bool takeGroups(const toml::node& node, MapFile& map);
   bool takeAborts(const toml::node& node, MapFile& map);
 
   bool takePins(const toml::node& node, bool output, std::vector<MapLink>& links);
@@ -260,6 +262,11 @@ private:
     if (number && std::in_range<int32_t>(*number)) row.code = static_cast<int32_t>(*number);
     return row.codePin || (number && std::in_range<int32_t>(*number));
   }
+  bool takeChannel(const toml::node& node, SendRow& row) {
+    const auto number = node.value_exact<int64_t>();
+    if (number && std::in_range<uint32_t>(*number)) row.channel = static_cast<uint32_t>(*number);
+    return number && std::in_range<uint32_t>(*number) && *number != 0;
+  }
   bool takeDone(const toml::node& node, SendRow& row) {
     row.donePin = pinNameOf(node);
     return row.donePin.has_value();
@@ -285,6 +292,7 @@ const Reader::Key<MapFile> Reader::kFileKeys[] = {
     {"out", false, "a table", "[out] and its pins in the lines after it", &Reader::takeOutputs},
     {"const", false, "a table", "[const] and NAME = VALUE in the lines after it", &Reader::takeConstants},
     {"send", false, "a list of tables", "[[send]] and its keys in the lines after it", &Reader::takeSends},
+    {"m-groups", false, "a table", "[m-groups] and CODE = GROUP in the lines after it", &Reader::takeGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
 };
 
@@ -300,6 +308,7 @@ const Reader::Key<SendRow> Reader::kSendKeys[] = {
     {"function", true, "\"M\", \"S\", \"T\" or \"B\"", "function = \"M\"", &Reader::takeFunction},
     {"code", true, "an integer of 32 bits with a sign, or the name of an s32 pin", "code = 3", &Reader::takeCode},
     {"done", false, "the name of a pin", "done = \"tool-changed\"", &Reader::takeDone},
+    {"channel", false, "the number of a channel of the control, from 1", "channel = 2", &Reader::takeChannel},
 };
 
 const Reader::Key<EdgeRow> Reader::kAbortKeys[] = {
@@ -378,6 +387,25 @@ bool Reader::takeSends(const toml::node& node, MapFile&) {
   return takeList(node, "send", kSendKeys, [this](const SendRow& row, MapPosition at) { addSend(row, at); });
 }
 
+bool Reader::takeGroups(const toml::node& node, MapFile& map) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return false;
+  for (const auto& [key, value] : inFileOrder(*table)) {
+    const std::string_view name = key->str();
+    MapGroup row{.at = positionOf(key->source())};
+    const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), row.code);
+    const auto group = value->value_exact<int64_t>();
+    if (error != std::errc() || rest != name.data() + name.size())
+      fail(row.at, "m-groups: found \"" + std::string(name) +
+                       "\", expected the number of an M function; write for example 70 = 10");
+    else if (!group || !std::in_range<uint32_t>(*group))
+      wrong(positionOf(*value), "m-groups." + std::string(name), shown(*value), "the number of a group", "70 = 10");
+    else
+      map.groups.push_back({row.code, static_cast<uint32_t>(*group), row.at});
+  }
+  return true;
+}
+
 bool Reader::takeAborts(const toml::node& node, MapFile& map) {
   return takeList(node, "abort", kAbortKeys, [&](const EdgeRow& row, MapPosition) {
     if (const std::optional<MapEdge> cause = edge(row)) map.aborts.push_back(*cause);
@@ -386,7 +414,7 @@ bool Reader::takeAborts(const toml::node& node, MapFile& map) {
 
 void Reader::addSend(const SendRow& row, MapPosition at) {
   const size_t before = errors_.size();
-  MapSend sent{.kind = row.kind, .code = row.code, .at = at};
+  MapSend sent{.kind = row.kind, .channel = row.channel - 1, .code = row.code, .at = at};
   sent.edge = edge(row.edge).value_or(MapEdge{});
   if (row.codePin) sent.codePin = pin(*row.codePin, PinType::S32, false);
   if (row.donePin) sent.donePin = pin(*row.donePin, PinType::Bit, true);

@@ -55,10 +55,18 @@ struct MapEdge {
 struct MapSend {
   MapEdge edge;
   nc::FunctionKind kind = nc::FunctionKind::M;
+  uint32_t channel = 0; // of the control, from 0; the map counts from 1
   int32_t code = 0;
   std::optional<uint32_t> codePin; // instead of `code`
   std::optional<uint32_t> donePin;
   MapPosition at;
+};
+
+// m-groups: the group that the machine has an M function in.
+struct MapGroup {
+  uint32_t code = 0;
+  uint32_t group = 0;
+  MapPosition at; // of the code
 };
 
 // Everything in the order of the file.
@@ -69,6 +77,7 @@ struct MapFile {
   std::vector<MapLink> outputs;
   std::vector<MapConst> constants;
   std::vector<MapSend> sends;
+  std::vector<MapGroup> groups;
   std::vector<MapEdge> aborts;          // reset, emergency stop: every function ends
   int64_t timeoutNs = 0;                // of a function; 0: none
   std::optional<MapPosition> highSpeed; // where the high-speed handshake is asked for

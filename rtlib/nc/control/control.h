@@ -74,8 +74,9 @@ public:
   // Whether the program is run in slots of its schedule, too (Instance::slot).
   virtual bool runsInSlots() const { return false; }
 
-  // The handshake of M, S and T functions; null: this dialect's is not supported yet.
-  virtual Functions* functions() { return nullptr; }
+  // The handshake of M, S and T functions in a channel, which count from 0; null: the control has no such channel, or
+  // the dialect no such functions.
+  virtual Functions* functions(uint32_t channel) { return (void)channel, nullptr; }
 
   // The program's retained memory was there but could not be restored: called before the power-on.
   virtual void reportRetainedLost() {}

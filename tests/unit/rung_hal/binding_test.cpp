@@ -155,39 +155,57 @@ D1 = -128
   EXPECT_THAT(integer.errors, IsEmpty());
   ASSERT_EQ(integer.binding.constants.size(), 1u);
   EXPECT_EQ(integer.binding.constants[0].place.kind, host::RefKind::Int);
-  EXPECT_THAT(gskErrors(R"([const]
+  EXPECT_THAT(
+      gskErrors(R"([const]
 "X0.0" = 1
 D0 = true
 D1 = 256
 D2 = -129
-"D3:2" = 65536.0
+"D3:2" = 40000.0
 )"),
-              ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
-                          "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
-                          "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
-                          "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits"));
+      ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
+                  "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
+                  "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
+                  "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits; a real number becomes an "
+                  "integer with a sign"));
 }
 
-TEST(Binding, FunctionsOfOtherDialectsAreRefused) {
-  const auto refusal = [](const std::string& line, const std::string& dialect) {
-    return "m.map:" + line + ": send: the handshake of M, S and T functions is not supported yet for this dialect (" +
-           dialect + "); remove the table, and connect the signals in [in] and [out]";
-  };
-  EXPECT_THAT(boundTo(testing::nctProgram(), R"(
+TEST(Binding, FunctionsThatADialectDoesNotHave) {
+  EXPECT_THAT(boundTo(testing::technolProgram(), R"(
+high-speed = true
 send = [
-  { pin = "a", edge = "rise", function = "M", code = 3 },
-  { pin = "a", edge = "fall", function = "M", code = 5 }
+  { pin = "a", edge = "rise", function = "B", code = 1 },
+  { pin = "a", edge = "rise", function = "M", code = 100 },
+  { pin = "a", edge = "rise", function = "M", code = 99 },
+  { pin = "a", edge = "rise", function = "T", code = "number" },
+  { pin = "a", edge = "rise", function = "M", code = 3, channel = 2 },
 ]
 )")
                   .errors,
-              ElementsAre(refusal("3:3", "nct"), refusal("4:3", "nct")));
-  EXPECT_THAT(boundTo(testing::technolProgram(), R"(
-high-speed = true
-send = [{ pin = "a", edge = "rise", function = "T", code = 1 }]
+              ElementsAre("m.map:4:3: send: found function B, which the dialect technol does not have; remove the "
+                          "table, and connect its signals in [in] and [out]",
+                          "m.map:5:3: send: found M100, a code that the signals of the dialect technol do not hold; "
+                          "write another code",
+                          "m.map:8:3: send: found channel 2, expected 1: a control of the dialect technol has one "
+                          "channel",
+                          "m.map:2:14: high-speed: this dialect has no such handshake; remove the line"));
+  EXPECT_THAT(boundTo(testing::technolProgram(), "[m-groups]\n70 = 10\n71 = 15\n100 = 10\n").errors,
+              ElementsAre("m.map:3:1: m-groups: found M71 in group 15, which a control of the dialect technol cannot "
+                          "have; remove the line",
+                          "m.map:4:1: m-groups: found M100 in group 10, which a control of the dialect technol cannot "
+                          "have; remove the line"));
+  EXPECT_THAT(boundTo(testing::nctProgram(), "[m-groups]\n70 = 10\n").errors,
+              ElementsAre("m.map:2:1: m-groups: found M70 in group 10, which a control of the dialect nct cannot "
+                          "have; remove the line"));
+  EXPECT_THAT(boundTo(testing::nctProgram(), R"(
+send = [
+  { pin = "a", edge = "rise", function = "B", code = -1, channel = 8 },
+  { pin = "a", edge = "rise", function = "M", code = 3, channel = 9 },
+]
 )")
                   .errors,
-              ElementsAre(refusal("3:9", "technol"),
-                          "m.map:2:14: high-speed: this dialect has no such handshake; remove the line"));
+              ElementsAre("m.map:4:3: send: found channel 9, expected 1 to 8, the channels of a control of the dialect "
+                          "nct"));
 }
 
 } // namespace

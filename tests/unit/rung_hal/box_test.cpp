@@ -421,14 +421,6 @@ TEST(Box, MessagesReachTheSink) {
   EXPECT_THAT(shown, ElementsAre(7u, 7u));
 }
 
-TEST(Box, BlocksThatNeverComeAreReported) {
-  EXPECT_THAT(
-      Bench(testing::technolProgram(), "").warnings,
-      ElementsAre("main.pmc:40: WARNING: MODULE_BLOCK_INIT never runs in LinuxCNC yet: M, S and T functions in it "
-                  "do nothing"));
-  EXPECT_THAT(Bench(testing::gskProgram(), "").warnings, IsEmpty());
-}
-
 // The NC's part of messages works here too: the program learns what is on the screen, and CANCEL is a pin.
 TEST(Box, NctMessages) {
   Bench b(testing::nctProgram(), R"(

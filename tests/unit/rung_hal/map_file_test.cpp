@@ -50,11 +50,18 @@ code = "number"
 function = "T"
 edge = "rise"
 pin = "prepare"
+channel = 2
+
+[m-groups]
+70 = 10
 
 [[abort]]
 pin = "estop"
 edge = "rise"
 )");
+  ASSERT_EQ(map.groups.size(), 1u);
+  EXPECT_EQ(map.groups[0].code, 70u);
+  EXPECT_EQ(map.groups[0].group, 10u);
   ASSERT_EQ(map.pins.size(), 7u);
   EXPECT_EQ(map.pins[0].name, "start");
   EXPECT_EQ(map.pins[0].type, PinType::Bit);
@@ -84,6 +91,8 @@ edge = "rise"
   EXPECT_FALSE(map.sends[0].donePin.has_value());
   EXPECT_EQ(map.sends[0].at, (MapPosition{14, 1}));
   EXPECT_EQ(map.pins[map.sends[1].edge.pin].name, "prepare");
+  EXPECT_EQ(map.sends[0].channel, 0u);
+  EXPECT_EQ(map.sends[1].channel, 1u);
   EXPECT_TRUE(map.sends[1].edge.rising);
   EXPECT_EQ(map.sends[1].kind, nc::FunctionKind::T);
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].name, "number");
@@ -158,7 +167,7 @@ b = { typ = "bit", name = "X0.0" }
 c = 5
 )"),
               ElementsAre("m.map:1:1: the file: found an unknown key timout, expected timeout, high-speed, in, out, "
-                          "const, send, abort; did you mean timeout?",
+                          "const, send, m-groups, abort; did you mean timeout?",
                           "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
                           "write for example type = \"bit\"",
                           "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "
@@ -280,6 +289,7 @@ edge = "up"
 function = "Q"
 code = 2147483648
 done = 5
+channel = 0
 )"),
               ElementsAre("m.map:2:7: send.pin: found \"a b\", expected the name of a pin; write for example pin = "
                           "\"spindle-forward\"",
@@ -290,17 +300,29 @@ done = 5
                           "m.map:5:8: send.code: found 2147483648, expected an integer of 32 bits with a sign, or the "
                           "name of an s32 pin; write for example code = 3",
                           "m.map:6:8: send.done: found 5, expected the name of a pin; write for example done = "
-                          "\"tool-changed\""));
+                          "\"tool-changed\"",
+                          "m.map:7:11: send.channel: found 0, expected the number of a channel of the control, from 1; "
+                          "write for example channel = 2"));
   EXPECT_THAT(errorsOf("[[send]]\nfuntion = \"M\"\n"),
               ElementsAre(StartsWith("m.map:1:1: send: found no key pin, "),
                           StartsWith("m.map:1:1: send: found no key edge, "),
                           StartsWith("m.map:1:1: send: found no key function, "),
                           StartsWith("m.map:1:1: send: found no key code, "),
-                          "m.map:2:1: send: found an unknown key funtion, expected pin, edge, function, code, done; "
-                          "did you mean function?"));
+                          "m.map:2:1: send: found an unknown key funtion, expected pin, edge, function, code, done, "
+                          "channel; did you mean function?"));
   EXPECT_THAT(errorsOf("[[abort]]\npin = \"a\"\n"), ElementsAre(StartsWith("m.map:1:1: abort: found no key edge, ")));
   EXPECT_THAT(errorsOf("abort = [{ pin = \"a\", edge = \"high\" }]"),
               ElementsAre(StartsWith("m.map:1:30: abort.edge: found \"high\", expected \"rise\" or \"fall\"")));
+}
+
+TEST(MapFile, BadGroups) {
+  EXPECT_THAT(errorsOf("[m-groups]\nM70 = 10\n71 = \"ten\"\n72 = -1\n"),
+              ElementsAre("m.map:2:1: m-groups: found \"M70\", expected the number of an M function; write for example "
+                          "70 = 10",
+                          "m.map:3:6: m-groups.71: found \"ten\", expected the number of a group; write for example 70 "
+                          "= 10",
+                          "m.map:4:6: m-groups.72: found -1, expected the number of a group; write for example 70 = "
+                          "10"));
 }
 
 TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {

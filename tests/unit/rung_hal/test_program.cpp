@@ -112,7 +112,6 @@ constexpr rung_symbol kTechnolSymbols[] = {
 constexpr rung_chunk kChunks[] = {{0, 1, 1}};
 constexpr rung_rung_info kRungs[] = {{"all of it", 0, 40, 44, 0, 1, 1, 0}};
 constexpr const char* kRoutines[] = {"MAIN"};
-constexpr const char* kBlockRoutines[] = {"MODULE_BLOCK_INIT"};
 constexpr const char* kFiles[] = {"main.pmc"};
 constexpr uint32_t kPartEnds[] = {RUNG_PC_DONE};
 constexpr const char* kFaults[] = {"dead-loop"};
@@ -194,7 +193,6 @@ const rung_program& technolProgram() {
     rung_program p = withMemory(common("technol", kTasks20ms, kTechnolCode), 128, kTechnolSpaces, kScanHook);
     p.symbol_count = 3;
     p.symbols = kTechnolSymbols;
-    p.routines = kBlockRoutines;
     return p;
   }();
   return program;

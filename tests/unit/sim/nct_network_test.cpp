@@ -76,6 +76,67 @@ TEST(NctNetwork, ControlsWithTheSamePortDoNotMeet) {
   }
 }
 
+NcArgument number(std::string_view key, int64_t value) { return {.key = std::string(key), .integer = value}; }
+NcArgument word(std::string_view key, std::string_view text) {
+  return {.key = std::string(key), .isText = true, .text = std::string(text)};
+}
+
+std::string device(NctMachine& machine, const std::vector<NcArgument>& keys) {
+  return machine.nc().event(machine.instance(), "device", keys);
+}
+
+// What has no room in memory waits, and nothing is lost or exchanged.
+TEST(NctNetwork, TheDeviceIsNotTakenMoreFromThanTheProgramReceives) {
+  NctMachine machine;
+  ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 2, kOutside, 49202}), 0);
+  ASSERT_EQ(device(machine, {word("open", "client"), number("port", 49202)}), "");
+  int sent = 0;
+  while (sent < 100 && device(machine, {number("send", 350), number("w0", sent)}).empty()) ++sent;
+  EXPECT_EQ(sent, 11);
+  for (int i = 0; i < sent; ++i) {
+    ASSERT_EQ(machine.ask(false, 62, {3, 1, 6000, 350}), 0);
+    EXPECT_EQ(machine.word(6000), i);
+  }
+}
+
+TEST(NctNetwork, OneClientWaitsForTheNextConnection) {
+  NctMachine machine;
+  ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 2, kOutside, 49202}), 0);
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(device(machine, {word("open", "client"), number("port", 49202)}), "");
+    ASSERT_EQ(device(machine, {number("send", 1), number("w0", i)}), "");
+    ASSERT_EQ(device(machine, {number("close", 1)}), "");
+  }
+  EXPECT_EQ(device(machine, {word("open", "client"), number("port", 49202)}), "nobody listens on port 49202");
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(machine.ask(false, 62, {4, 1, 6000, 1}), 0);
+    EXPECT_EQ(machine.word(6000), i);
+    EXPECT_EQ(machine.ask(false, 62, {4, 1, 6000, 1}), 62);
+    EXPECT_EQ(machine.blockWord(5), nct::kWindowsDisconnected);
+  }
+  EXPECT_EQ(machine.ask(false, 62, {4, 1, 6000, 1}), 65); // the server listens
+  EXPECT_EQ(device(machine, {word("open", "client"), number("port", 49202)}), "");
+}
+
+TEST(NctNetwork, ADatagramForAClosedPortIsLost) {
+  NctMachine machine;
+  ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 1, kOutside, 49202}), 0);
+  ASSERT_EQ(device(machine, {word("open", "udp"), number("port", 49300)}), "");
+  EXPECT_EQ(machine.ask(true, 63, {3, 1, 6000, 1}), 0); // to 49202
+  EXPECT_EQ(machine.nc().quantity("DEVICE.WORDS"), 0);
+  EXPECT_EQ(machine.ask(true, 63, {6, 1, 6000, 1, 0, 0, 49300}), 0);
+  EXPECT_EQ(machine.nc().quantity("DEVICE.WORDS"), 1);
+}
+
+TEST(NctNetwork, AStreamThatTheDeviceHasClosedTakesNothing) {
+  NctMachine machine;
+  ASSERT_EQ(device(machine, {word("open", "server"), number("port", 49202)}), "");
+  ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 3, kOutside, 49202}, 2), 0);
+  ASSERT_EQ(device(machine, {number("close", 1)}), "");
+  EXPECT_EQ(machine.ask(true, 63, {4, 1, 6000, 1}), 62);
+  EXPECT_EQ(machine.blockWord(5), nct::kWindowsReset);
+}
+
 TEST(NctNetwork, LoopbackReachesOtherPrograms) {
   NctMachine machine({{"network", "loopback"}});
   Socket partner;
@@ -86,7 +147,7 @@ TEST(NctNetwork, LoopbackReachesOtherPrograms) {
   ASSERT_EQ(machine.ask(true, 63, {6, 1, 6000, 1, 0, 0, partner.port()}), 0);
   ASSERT_TRUE(partner.readable(kPatienceMs));
   std::array<uint8_t, 8> bytes{};
-  const Socket::Received received = partner.receive(bytes);
+  const nct::Received received = partner.receive(bytes);
   EXPECT_EQ(received.bytes, 4u);
   EXPECT_EQ(bytes[0], 1);
   EXPECT_EQ(bytes[3], 4);
@@ -163,7 +224,7 @@ TEST(NctNetwork, AFullStreamHoldsUpOnlyItself) {
   std::vector<uint8_t> rest;
   for (int i = 0; i < 100000 && received < sent + 1400; ++i) {
     machine.scan();
-    const Socket::Received got = partner.receive(bytes);
+    const nct::Received got = partner.receive(bytes);
     for (size_t k = 0; k < got.bytes; ++k) {
       const uint64_t at = (received + k) % 1400;
       if (at < 4) rest.push_back(bytes[k]);

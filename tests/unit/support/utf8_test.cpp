@@ -36,7 +36,12 @@ TEST(Utf8, KnowsTheCellsOfATerminal) {
   EXPECT_EQ(displayWidth('x'), 1u);
   EXPECT_EQ(displayWidth(0xE9), 1u);
   EXPECT_EQ(displayWidth(0x4E2D), 2u);
+  EXPECT_EQ(displayWidth(0x2500), 1u); // a line of a drawing
+  EXPECT_EQ(displayWidth(0x1F600), 2u);
+  EXPECT_EQ(displayWidth(0x1F321), 1u); // a thermometer is a picture as wide as a letter
   EXPECT_EQ(displayWidth(0x0301), 0u);
+  EXPECT_EQ(displayWidth(0x05B0), 0u); // a Hebrew vowel
+  EXPECT_EQ(displayWidth('\x01'), 0u);
 }
 
 } // namespace

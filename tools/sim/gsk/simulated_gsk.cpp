@@ -39,6 +39,7 @@ public:
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     SimulatedNc::powerOn(instance, kind);
+    signals_.emplace(instance);
     if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
     simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
@@ -67,9 +68,9 @@ public:
     if (!window) return false;
     const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
     if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
-    reply = replyOf(request, window->write,
-                    simulated_ ? simulator_.answer(*window, nc::gsk::SignalsIo(instance))
-                               : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
+    reply =
+        replyOf(request, window->write,
+                simulated_ ? simulator_.answer(*window, *signals_) : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
     return true;
   }
 
@@ -91,7 +92,7 @@ public:
 protected:
   void beginSlice(host::Instance& instance) override {
     if (simulated_ && !instance.faulted()) {
-      simulator_.step(nc::gsk::SignalsIo(instance));
+      simulator_.step(*signals_);
       answerLowSpeed(instance);
     }
     writePositions(instance);
@@ -133,9 +134,8 @@ private:
     while (!waiting_.empty() && waiting_.front().slots == 0) {
       const rt::ServiceRequest& next = waiting_.front().request;
       const auto window = windowRequest(instance, next);
-      instance.services().complete(
-          window ? replyOf(next, window->write, simulator_.answer(*window, nc::gsk::SignalsIo(instance)))
-                 : nc::refuse(instance.program(), next));
+      instance.services().complete(window ? replyOf(next, window->write, simulator_.answer(*window, *signals_))
+                                          : nc::refuse(instance.program(), next));
       waiting_.erase(waiting_.begin());
     }
   }
@@ -171,6 +171,7 @@ private:
   bool simulated_ = false;
   nc::GskControl control_;
   gsk::Simulator simulator_;
+  std::optional<nc::gsk::SignalsIo> signals_; // from the power-on
   std::vector<Waiting> waiting_; // low-speed window requests, oldest first; room for all that can be pending
   std::array<rt::Place, gsk::kAxes> positionPlaces_ = {};                // @MPOS
   std::array<std::optional<double>, gsk::kAxes> scriptedPositions_ = {}; // 0.001 mm

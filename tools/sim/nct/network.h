@@ -1,19 +1,20 @@
-// The network of the PLC program: MW 60, 61, MR 62, MW 63 (man. 6.22), UDP and TCP through real sockets that are only
-// looked at between two scans and never wait.
+// The network of the PLC program: MW 60, 61, MR 62, MW 63 (man. 6.22), UDP and TCP.
 //
-// `config network isolated` (default): every control has an address of its own on the loopback, so that any number of
-// them run at a time with the same ports; whatever target a program names is the simulated device. `config network
-// loopback`: the control is 127.0.0.1 and reaches other programs on 127.0.0.0/8 by their addresses and ports.
+// `config network isolated` (default): a network in memory, of the control and the simulated device alone; whatever
+// target a program names is the device. `config network loopback`: the control is 127.0.0.1 and reaches other programs
+// on 127.0.0.0/8 by their addresses and ports, through real sockets that are only looked at between two scans and never
+// wait.
 #pragma once
 #include <array>
 
 #include "tools/sim/nct/network_device.h"
+#include "tools/sim/nct/socket_line.h"
 
 namespace rung::sim::nct {
 
 class Network final : public Topic {
 public:
-  using Topic::Topic;
+  explicit Network(Links& links) : Topic(links) { MemoryLine::join(control_, remote_); }
 
   bool serves(bool write, uint32_t function) const override;
   std::optional<int32_t> service(uint32_t function, Block& block) override;
@@ -31,33 +32,27 @@ private:
   std::optional<int32_t> open(Block& block);
   std::optional<int32_t> connecting(Block& block);
   int32_t receive(Block& block);
-  int32_t receiveFrom(Block& block, Socket& socket);
+  int32_t take(Block& block);
   std::optional<int32_t> send(Block& block);
   int32_t failed(Block& block, int32_t error);
   void close();
-  void claimAddress();
-  void acceptClient();
   bool flush();
-  Endpoint own() const { return {ownAddress_, port_}; }
-  Endpoint reachable(Endpoint target) const;
-  bool isolated() const { return isolated_; }
+  bool isolated() const { return line_ == &control_; }
 
-  bool isolated_ = true;
-  Socket guard_; // its port, unique on this machine, makes the addresses unique
-  uint32_t ownAddress_ = 0;
-  uint32_t deviceAddress_ = 0;
+  MemoryLine control_; // the two sides of the network in memory
+  MemoryLine remote_;
+  SocketLine sockets_;
+  Line* line_ = &control_; // where the program's connection leads
 
   Protocol protocol_ = Protocol::None; // of the connection
   bool connecting_ = false;
   int64_t connectingSince_ = 0;
-  Socket listener_;
-  Socket socket_;
   uint32_t target_ = 0; // as the program wrote it
   uint16_t port_ = 0;
   Buffer unsent_{}; // of a stream that had no room
   size_t unsentBytes_ = 0;
   size_t unsentAt_ = 0;
-  mutable NetworkDevice device_;
+  mutable NetworkDevice device_{remote_};
 };
 
 } // namespace rung::sim::nct

@@ -4,44 +4,18 @@
 #include <cstring>
 
 namespace rung::sim::nct {
-namespace {
 
-constexpr int kPatienceMs = 200; // for the other side; the loopback answers at once
-
-std::string opened(int32_t error) {
-  return error == 0 ? std::string() : "the device cannot open its port: error " + std::to_string(error);
-}
-
-} // namespace
-
-void NetworkDevice::close() {
-  role_ = Role::None;
-  listener_.close();
-  socket_.close();
-}
-
-std::string NetworkDevice::open(std::string_view role, Endpoint own, Endpoint links) {
-  close();
+std::string NetworkDevice::open(std::string_view role, uint16_t port) {
   messageBytes_ = 0;
-  if (role == "udp") {
-    role_ = Role::Udp;
-    return opened(socket_.openUdp(own));
-  }
-  if (role == "server") {
-    role_ = Role::Server;
-    return opened(listener_.listen(own));
-  }
+  udp_ = role == "udp";
+  if (udp_) return line_.openUdp(port), "";
+  if (role == "server") return line_.listen(port), "";
   if (role != "client") return "event device: open=\"udp\", \"server\" or \"client\"";
-  role_ = Role::Client;
-  own.port = 0;
-  if (const int32_t error = socket_.connect(own, links)) return opened(error);
-  socket_.writable(kPatienceMs);
-  const std::optional<int32_t> done = socket_.connected();
-  return done && *done == 0 ? std::string() : "nobody listens on port " + std::to_string(links.port);
+  return line_.connect({0, port}, 0) == 0 ? "" : "nobody listens on port " + std::to_string(port);
 }
 
 // WORDS words; those that the event does not name are 0.
-std::string NetworkDevice::send(const std::vector<NcArgument>& keys, Endpoint links) {
+std::string NetworkDevice::send(const std::vector<NcArgument>& keys, uint16_t control) {
   const int64_t words = integerKey(keys, "send", 0);
   if (words < 1 || words > kMostNetworkWords) return "event device: send=1 to 350 words";
   std::array<uint8_t, kMostNetworkWords * 4> bytes{};
@@ -53,53 +27,43 @@ std::string NetworkDevice::send(const std::vector<NcArgument>& keys, Endpoint li
     std::memcpy(bytes.data() + size_t{4} * (*number)[0], &word, sizeof word);
   }
   poll();
-  if (!socket_.isOpen()) return "the device has no connection";
+  if (!line_.isOpen()) return "the device has no connection";
   const std::span<const uint8_t> message(bytes.data(), static_cast<size_t>(words) * 4);
-  const Socket::Sent sent = role_ == Role::Udp ? socket_.sendTo(message, links) : socket_.send(message);
-  return sent.bytes == message.size() ? std::string() : "the device cannot send: error " + std::to_string(sent.error);
+  const Sent sent = udp_ ? line_.sendTo(message, {0, control}) : line_.send(message);
+  if (sent.error != 0) return "the device cannot send: the control has closed the connection";
+  return sent.bytes == message.size() ? "" : "the device cannot send: the control has not received what it sent before";
 }
 
-std::string NetworkDevice::event(const std::vector<NcArgument>& keys, Endpoint own, Endpoint links) {
+std::string NetworkDevice::event(const std::vector<NcArgument>& keys, uint16_t control) {
   const int64_t port = integerKey(keys, "port", 0);
   if (port < 0 || port > 65535) return "event device: port=1 to 65535";
-  if (port != 0) own.port = static_cast<uint16_t>(port);
-  const NcArgument* role = findKey(keys, "open");
-  if (role != nullptr && port != 0) links.port = static_cast<uint16_t>(port);
-  if (role != nullptr) return own.port == 0 ? "event device: open needs port=N" : open(role->text, own, links);
-  if (findKey(keys, "send") != nullptr) return send(keys, links);
+  if (const NcArgument* role = findKey(keys, "open")) {
+    const uint16_t opened = port != 0 ? static_cast<uint16_t>(port) : control;
+    return opened == 0 ? "event device: open needs port=N" : open(role->text, opened);
+  }
+  if (findKey(keys, "send") != nullptr) return send(keys, control);
   if (findKey(keys, "close") == nullptr) return "event device takes open, send or close";
   close();
   return {};
 }
 
 void NetworkDevice::poll() {
-  if (role_ == Role::Server && !socket_.isOpen()) socket_ = listener_.accept();
+  line_.accept();
   std::array<uint8_t, kMostNetworkWords * 4> bytes;
-  while (socket_.isOpen()) {
-    const Socket::Received received = socket_.receive(bytes);
+  while (line_.isOpen()) {
+    const Received received = line_.receive(bytes, false);
     if (received.nothing) return;
-    if (received.error != 0 || (received.bytes == 0 && role_ != Role::Udp)) return socket_.close();
+    if (received.bytes == 0) return line_.closeConnection();
     std::memcpy(message_.data(), bytes.data(), received.bytes);
     messageBytes_ = received.bytes;
   }
 }
 
-uint32_t NetworkDevice::receivedWords() {
-  (socket_.isOpen() ? socket_ : listener_).readable(messageBytes_ == 0 ? kPatienceMs : 0);
-  poll();
-  return static_cast<uint32_t>(messageBytes_ / 4);
-}
-
-std::optional<double> NetworkDevice::receivedWord(uint32_t number) {
+std::optional<double> NetworkDevice::receivedWord(uint32_t number) const {
   if (number >= receivedWords()) return std::nullopt;
   int32_t word = 0;
   std::memcpy(&word, message_.data() + size_t{4} * number, sizeof word);
   return word;
-}
-
-bool NetworkDevice::connected() {
-  poll();
-  return socket_.isOpen();
 }
 
 } // namespace rung::sim::nct

@@ -1,38 +1,37 @@
-// The other side of the simulated network: a device that scenarios open, close and make send (`event device …`). It
-// talks to the control through real sockets, and has an address of its own on the loopback.
+// The other side of the simulated network: a device that scenarios open, close and make send (`event device …`).
 #pragma once
 #include <array>
 #include <string>
 #include <vector>
 
-#include "tools/sim/nct/socket.h"
+#include "tools/sim/nct/memory_line.h"
 #include "tools/sim/nct/topic.h"
 
 namespace rung::sim::nct {
 
-inline constexpr uint32_t kMostNetworkWords = 350; // of a message (l.4029)
-
 class NetworkDevice {
 public:
-  // Keys of the event: open=udp|server|client with port=N; send=WORDS with w0=V …; close=1. `control` is where the
-  // control's own side listens.
-  std::string event(const std::vector<NcArgument>& keys, Endpoint own, Endpoint links);
-  void close();
+  // The device's side of the wire, joined with the control's.
+  explicit NetworkDevice(MemoryLine& line) : line_(line) {}
 
-  // The last message that came: its length, its words.
-  uint32_t receivedWords();
-  std::optional<double> receivedWord(uint32_t number);
-  bool connected();
-
-private:
-  enum class Role : uint8_t { None, Udp, Server, Client };
-  std::string open(std::string_view role, Endpoint own, Endpoint links);
-  std::string send(const std::vector<NcArgument>& keys, Endpoint links);
+  // Keys of the event: open=udp|server|client with port=N; send=WORDS with w0=V …; close=1. `control` is the port of
+  // the control's connection, 0: it has none; `open` without a port takes it.
+  std::string event(const std::vector<NcArgument>& keys, uint16_t control);
+  void close() { line_.close(); }
+  // Takes what the control has sent.
   void poll();
 
-  Role role_ = Role::None;
-  Socket listener_;
-  Socket socket_;
+  // The last message that came: its length, its words.
+  uint32_t receivedWords() const { return static_cast<uint32_t>(messageBytes_ / 4); }
+  std::optional<double> receivedWord(uint32_t number) const;
+  bool connected() const { return line_.isOpen(); }
+
+private:
+  std::string open(std::string_view role, uint16_t port);
+  std::string send(const std::vector<NcArgument>& keys, uint16_t control);
+
+  MemoryLine& line_;
+  bool udp_ = false; // what was opened last
   std::array<uint8_t, kMostNetworkWords * 4> message_{};
   size_t messageBytes_ = 0;
 };

@@ -34,13 +34,13 @@ int32_t windowsError(int error) {
   case ENETUNREACH: return kWindowsUnreachable;
   case ECONNABORTED: return 10053;
   case ECONNRESET:
-  case EPIPE: return 10054;
+  case EPIPE: return kWindowsReset;
   case ENOBUFS: return 10055;
   case ENOTCONN: return 10057;
-  case ETIMEDOUT: return 10060;
-  case ECONNREFUSED: return 10061;
+  case ETIMEDOUT: return kWindowsTimeout;
+  case ECONNREFUSED: return kWindowsRefused;
   case EHOSTUNREACH: return 10065;
-  default: return 10022;
+  default: return kWindowsInvalid;
   }
 }
 
@@ -128,7 +128,7 @@ Socket Socket::accept() {
 bool Socket::readable(int ms) const { return waitFor(fd_, POLLIN, ms); }
 bool Socket::writable(int ms) const { return waitFor(fd_, POLLOUT, ms); }
 
-Socket::Received Socket::receive(std::span<uint8_t> to, bool peek) {
+Received Socket::receive(std::span<uint8_t> to, bool peek) {
   sockaddr_in from{};
   socklen_t size = sizeof from;
   const ssize_t bytes = ::recvfrom(fd_, to.data(), to.size(), peek ? MSG_PEEK : 0, generic(from), &size);
@@ -143,13 +143,13 @@ Socket::Received Socket::receive(std::span<uint8_t> to, bool peek) {
   return received;
 }
 
-Socket::Sent Socket::send(std::span<const uint8_t> from) {
+Sent Socket::send(std::span<const uint8_t> from) {
   const ssize_t bytes = ::send(fd_, from.data(), from.size(), MSG_NOSIGNAL);
   if (bytes >= 0) return {static_cast<size_t>(bytes), 0};
   return {0, errno == EAGAIN || errno == EINTR ? 0 : windowsError(errno)};
 }
 
-Socket::Sent Socket::sendTo(std::span<const uint8_t> from, Endpoint to) {
+Sent Socket::sendTo(std::span<const uint8_t> from, Endpoint to) {
   if (!isLoopback(to.address)) return {0, kWindowsUnreachable};
   const sockaddr_in address = systemAddress(to);
   const ssize_t bytes = ::sendto(fd_, from.data(), from.size(), MSG_NOSIGNAL, generic(address), sizeof address);

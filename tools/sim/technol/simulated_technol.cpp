@@ -152,7 +152,8 @@ std::string SimulatedTechnol::blockStart(host::Instance& instance, const std::ve
     if (!place) return "unknown signal '" + cell.key + "'";
     if (place->kind == host::RefKind::Bit && (cell.isReal || (cell.integer != 0 && cell.integer != 1)))
       return "'" + cell.key + "' is a bit";
-    values.push_back({*place, cell.isReal || place->kind == host::RefKind::Real, cell.integer, cell.real});
+    const bool isReal = cell.isReal || place->kind == host::RefKind::Real;
+    values.push_back({host::locate(instance.memory(), *place), isReal, cell.integer, cell.real});
   }
   control_.blocks().start(instance, values);
   return {};

@@ -14,7 +14,7 @@ public:
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
-  GskFunctions* functions() override { return &functions_; }
+  GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 
 protected:
   std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;

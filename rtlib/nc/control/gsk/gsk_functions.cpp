@@ -123,16 +123,11 @@ void GskFunctions::abort(const gsk::SignalsIo& io) {
   running_ = {};
 }
 
-bool GskFunctions::start(host::Instance& instance, FunctionKind kind, uint32_t code) {
-  const gsk::SignalsIo io(instance);
+std::optional<uint32_t> GskFunctions::start(FunctionKind kind, uint32_t code) {
   const Line line = lineOf(kind);
   // A code of M that stayed beside a function of another kind gives way to the new one.
-  if (line == Line::M && running_[0].phase == Phase::Idle && highSpeed_) dropCodes(io);
-  return start(io, line, code);
-}
-
-bool GskFunctions::busy(FunctionKind kind) const {
-  return running_[static_cast<size_t>(lineOf(kind))].phase != Phase::Idle;
+  if (line == Line::M && running_[0].phase == Phase::Idle && highSpeed_) dropCodes(*io_);
+  return start(*io_, line, code) ? std::optional(static_cast<uint32_t>(line)) : std::nullopt;
 }
 
 } // namespace rung::nc

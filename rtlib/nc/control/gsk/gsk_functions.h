@@ -7,6 +7,7 @@
 // seen. In a machine an answer counts once it has been seen absent after the strobe.
 #pragma once
 #include <array>
+#include <optional>
 
 #include "rtlib/nc/control/functions.h"
 #include "rtlib/nc/control/gsk/signals_io.h"
@@ -22,6 +23,12 @@ public:
   enum class Answer : uint8_t { ByLevel, AfterAbsence };
   explicit GskFunctions(Answer counts = Answer::AfterAbsence) : counts_(counts) {}
 
+  // At power-on: where the signals are.
+  void locate(host::Instance& instance) {
+    io_.emplace(instance);
+    running_ = {};
+  }
+
   // Takes effect with functions handed over from now on.
   void setHighSpeed(bool on) { highSpeed_ = on; }
   // The code is in F from now on. False: it has to wait.
@@ -35,10 +42,11 @@ public:
     setHighSpeed(true);
     return true;
   }
-  bool start(host::Instance& instance, FunctionKind kind, uint32_t code) override;
-  void step(host::Instance& instance) override { step(gsk::SignalsIo(instance)); }
-  bool busy(FunctionKind kind) const override;
-  void abort(host::Instance& instance) override { abort(gsk::SignalsIo(instance)); }
+  bool carries(FunctionKind, uint32_t) const override { return true; }
+  std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
+  void step() override { step(*io_); }
+  bool busy(uint32_t line) const override { return running_[line].phase != Phase::Idle; }
+  void abort() override { abort(*io_); }
 
 private:
   enum class Phase : uint8_t { Idle, Code, Strobe, Release };
@@ -53,6 +61,7 @@ private:
   void end(const gsk::SignalsIo& io, uint32_t line);
 
   std::array<Running, kLines> running_ = {}; // by Line
+  std::optional<gsk::SignalsIo> io_;
   Answer counts_;
   bool highSpeed_ = false;
 };

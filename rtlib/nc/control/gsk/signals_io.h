@@ -1,5 +1,5 @@
-// Access of the simulated CNC to the areas of a GSK25i program: it reads X and G and writes F. An area that the program
-// does not have reads 0 and takes nothing.
+// Access of the CNC to the areas of a GSK25i program, which are found when it is made: it reads X and G and writes F.
+// An area that the program does not have reads 0 and takes nothing. The instance outlives it.
 #pragma once
 #include "rtlib/host/program_info.h"
 

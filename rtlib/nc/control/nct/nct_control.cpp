@@ -26,6 +26,7 @@ void NctControl::prepare(host::Instance& instance, PowerOn kind) {
   slicesOfCycle_ = std::max(hooksOf(instance.program()), 1u);
   timeSlices_ = cycles_ = slice_ = 0;
   messages_.powerOn(instance);
+  for (NctFunctions& channel : functions_) channel.locate(instance);
   writeConstants();
   retainedLost_ = false;
 }

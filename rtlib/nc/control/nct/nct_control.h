@@ -3,6 +3,7 @@
 #pragma once
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/nct/messages.h"
+#include "rtlib/nc/control/nct/nct_functions.h"
 #include "rtlib/nc/control/nct/signal_memory.h"
 
 namespace rung::nc {
@@ -33,6 +34,10 @@ public:
   // The time-slice memory, once the program has been prepared.
   const nct::SignalMemory& signals() const { return ts_; }
 
+  NctFunctions* functions(uint32_t channel) override {
+    return channel < functions_.size() ? &functions_[channel] : nullptr;
+  }
+
   void reportRetainedLost() override { retainedLost_ = true; }
 
 protected:
@@ -61,6 +66,8 @@ private:
                       {nct::BitSignal("N_P1M"), 60'000'000}};
   nct::SignalMemory ts_;
   nct::Messages messages_;
+  std::array<NctFunctions, 8> functions_ = {NctFunctions(0), NctFunctions(1), NctFunctions(2), NctFunctions(3),
+                                            NctFunctions(4), NctFunctions(5), NctFunctions(6), NctFunctions(7)};
   nct::Messages::Slice now_ = nct::Messages::Slice::Alone;
   uint64_t timeSlices_ = 0;
   uint64_t cycles_ = 0;

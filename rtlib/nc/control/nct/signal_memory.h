@@ -1,4 +1,4 @@
-// What the simulated NC sees of a program's memory: the NC's side of the NC area (the time-slice memory TS) by signals
+// What the NC sees of a program's memory: the NC's side of the NC area (the time-slice memory TS) by signals
 // that were looked up once, and the words of the PLC memory M. Nothing here allocates after construction.
 #pragma once
 #include <cstdint>

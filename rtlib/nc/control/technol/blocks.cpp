@@ -51,6 +51,7 @@ void Blocks::reset(const host::Instance& instance) {
   statusRestart_ = interfaceCell(instance, "STATUS_RESTART");
   blockInProgress_ = interfaceCell(instance, "PO_F");
   positionReached_ = interfaceCell(instance, "PO_POL");
+  annulment_ = interfaceCell(instance, "CAPI");
   for (const Signal& signal : technolSignals()) {
     const std::string_view name = signal.symbol;
     if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
@@ -67,9 +68,9 @@ bool Blocks::start(host::Instance& instance, std::span<const CommandValue> value
   for (const rt::Place& place : untilNextStart_) put(instance, place, 0);
   for (const CommandValue& value : values) {
     if (value.isReal)
-      host::writeReal(instance.memory(), value.place, value.real);
+      instance.memory().writeReal(value.place, value.real);
     else
-      host::writeRaw(instance.memory(), value.place, static_cast<uint64_t>(value.integer));
+      put(instance, value.place, static_cast<uint64_t>(value.integer));
   }
   put(instance, positionReached_, 0);
   phase_ = Phase::Starting;
@@ -82,6 +83,13 @@ bool Blocks::reached(host::Instance& instance) {
   reached_ = true;
   if (phase_ == Phase::Motion) endMotion(instance);
   return true;
+}
+
+void Blocks::annul(host::Instance& instance) {
+  if (busy()) finish(instance);
+  const CommandValue mode[] = {{.place = annulment_, .integer = 1}};
+  start(instance, mode);
+  reached(instance);
 }
 
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.

@@ -16,7 +16,7 @@ std::optional<host::Ref> commandCell(const host::Instance& instance, std::string
 
 // What a block puts into a cell of the command block.
 struct CommandValue {
-  host::Ref place;
+  rt::Place place;
   bool isReal = false; // else `integer`; an integer cell gets a real rounded
   int64_t integer = 0;
   double real = 0;
@@ -33,6 +33,9 @@ public:
   // in motion.
   bool reached(host::Instance& instance);
   bool busy() const { return phase_ != Phase::Idle; }
+  // Central annulment: the block under way is given up where it is, and a block in that mode, without motion, follows
+  // (man. l.6748-6761, 10826). It is what programs wait for that let a block go no further (l.5180-5183, 6444-6447).
+  void annul(host::Instance& instance);
   // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
   void supervise(host::Instance& instance);
 
@@ -54,7 +57,7 @@ private:
   bool reached_ = false;
   // Looked up once, as every scan may need them.
   Module init_, done_;
-  rt::Place initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_;
+  rt::Place initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_, annulment_;
   bool first_ = false;                  // pass of the module
   std::vector<rt::Place> lastOneBlock_; // zero again at the end of the block
   std::vector<rt::Place> motionBits_;   // PO_OS...

@@ -13,6 +13,7 @@ void TechnolControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   messages_.clear();
   blocks_.reset(instance);
+  functions_.locate(instance);
   backup_.powerOn(instance);
 }
 

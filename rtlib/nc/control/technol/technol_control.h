@@ -6,6 +6,7 @@
 #include "rtlib/nc/control/technol/blocks.h"
 #include "rtlib/nc/control/technol/messages.h"
 #include "rtlib/nc/control/technol/program_life.h"
+#include "rtlib/nc/control/technol/technol_functions.h"
 
 namespace rung::nc {
 
@@ -29,6 +30,8 @@ public:
   std::string shownText(std::string_view inMemory) const override;
   std::string memoryText(std::string_view shown, uint32_t bytes) const override;
 
+  TechnolFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
+
   bool savesOnRequest() const override { return true; }
   void setStored(bool stored) override { backup_.setStored(stored); }
   bool asksToSave(const host::Instance& instance) const override { return backup_.asked(instance); }
@@ -47,6 +50,7 @@ protected:
 
 private:
   technol::Blocks blocks_;
+  TechnolFunctions functions_{blocks_};
   technol::ProgramLife life_;
   technol::Messages messages_;
   technol::Backup backup_;

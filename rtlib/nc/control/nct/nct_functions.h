@@ -1,0 +1,82 @@
+// The handshake of one channel's M, S, T and auxiliary functions in NCT (man. l.9440-9535, 10241-10317): the NC writes
+// the code and sets the strobe for one PLC cycle, in which the program takes its acknowledge away; it gives it back
+// when the function is carried out, and CP_FIN when all are.
+//
+// Acknowledges are 1 at rest (l.10271). The program takes one away for a code that it knows (l.9494, 10259-10263), and
+// may give it back in the same cycle; so its absence need not be seen. What counts is the level once the program has
+// run a whole PLC cycle with the strobe, not what is left from before it.
+#pragma once
+#include <array>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/nct/signal_memory.h"
+
+namespace rung::nc {
+
+class NctFunctions final : public Functions {
+public:
+  // Lines: M 1 to 8, S, T, auxiliary 1 to 3.
+  static constexpr uint32_t kCodes = 8;
+  static constexpr uint32_t kSpeed = 8;
+  static constexpr uint32_t kTool = 9;
+  static constexpr uint32_t kAuxiliary = 10;
+  static constexpr uint32_t kLines = 13;
+
+  explicit NctFunctions(uint32_t channel) : channel_(channel) {} // from 0
+
+  // At power-on: the instance outlives the calls of Functions.
+  void locate(host::Instance& instance);
+
+  // The signals themselves, for an NC that keeps account of its blocks. At the beginning of a PLC cycle:
+  void dropStrobes(const nct::SignalMemory& signals); // those of the last one
+  void issue(const nct::SignalMemory& signals, uint32_t line, int32_t code);
+  bool acknowledged(const nct::SignalMemory& signals, uint32_t line) const {
+    return signals.get(acknowledge_[line], channel_);
+  }
+
+  // A machine hands functions over as they come. A line is free when its acknowledge is 1: after an abort the program
+  // may still be busy with the function that was on it. M codes begin in their order, one a PLC cycle. S and T leave
+  // the spindle (CN_SSEL), its range (CN_RNGREQ) and the place of the tool to whoever knows them; spindle 1 and range
+  // 11 where those say nothing.
+  bool carries(FunctionKind, uint32_t) const override { return true; }
+  std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
+  void step() override;
+  bool busy(uint32_t line) const override { return phases_[line] != Phase::Idle; }
+  void abort() override;
+
+private:
+  enum class Phase : uint8_t { Idle, Strobe, Open };
+
+  bool free(uint32_t line) const { return phases_[line] == Phase::Idle && acknowledged(signals_, line); }
+  std::optional<uint32_t> freeLine(FunctionKind kind) const;
+  void selectSpindle() const;
+
+  uint32_t channel_;
+  const host::Instance* instance_ = nullptr;
+  nct::SignalMemory signals_;
+  std::array<Phase, kLines> phases_ = {};
+  uint32_t strobes_ = 0; // one bit a line
+
+  nct::BitSignal strobe_[kLines] = {
+      nct::BitSignal("CN_M1STB"),  nct::BitSignal("CN_M2STB"),   nct::BitSignal("CN_M3STB"),
+      nct::BitSignal("CN_M4STB"),  nct::BitSignal("CN_M5STB"),   nct::BitSignal("CN_M6STB"),
+      nct::BitSignal("CN_M7STB"),  nct::BitSignal("CN_M8STB"),   nct::BitSignal("CN_SSTB"),
+      nct::BitSignal("CN_TSTB"),   nct::BitSignal("CN_AUX1STB"), nct::BitSignal("CN_AUX2STB"),
+      nct::BitSignal("CN_AUX3STB")};
+  nct::BitSignal acknowledge_[kLines] = {
+      nct::BitSignal("CP_M1ACK"),  nct::BitSignal("CP_M2ACK"),   nct::BitSignal("CP_M3ACK"),
+      nct::BitSignal("CP_M4ACK"),  nct::BitSignal("CP_M5ACK"),   nct::BitSignal("CP_M6ACK"),
+      nct::BitSignal("CP_M7ACK"),  nct::BitSignal("CP_M8ACK"),   nct::BitSignal("CP_SACK"),
+      nct::BitSignal("CP_TACK"),   nct::BitSignal("CP_AUX1ACK"), nct::BitSignal("CP_AUX2ACK"),
+      nct::BitSignal("CP_AUX3ACK")};
+  nct::WordSignal code_[kLines] = {nct::WordSignal("CN_M1C"),  nct::WordSignal("CN_M2C"),   nct::WordSignal("CN_M3C"),
+                                   nct::WordSignal("CN_M4C"),  nct::WordSignal("CN_M5C"),   nct::WordSignal("CN_M6C"),
+                                   nct::WordSignal("CN_M7C"),  nct::WordSignal("CN_M8C"),   nct::WordSignal("CN_SC"),
+                                   nct::WordSignal("CN_TC"),   nct::WordSignal("CN_AUX1C"), nct::WordSignal("CN_AUX2C"),
+                                   nct::WordSignal("CN_AUX3C")};
+  nct::WordSignal spindle_{"CN_SSEL"}, range_{"CN_RNGREQ"};
+  nct::BitSignal finished_{"CP_FIN"};
+};
+
+} // namespace rung::nc

@@ -1,0 +1,67 @@
+// M, S and T functions of TECHNOL: a function is a block of the part program without motion. The control writes its
+// code and its change bit into the command block (man. l.6682-6968, 6978-7136) and sends the block through
+// MODULE_BLOCK_INIT and MODULE_BLOCK_DONE (blocks.h); the function is finished when the block is. Blocks follow each
+// other, so functions do (l.2682-2711). Reset and emergency stop are the central annulment (Blocks::annul).
+#pragma once
+#include <array>
+
+#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/technol/blocks.h"
+
+namespace rung::nc {
+
+class TechnolFunctions final : public Functions {
+public:
+  // The blocks outlive it.
+  explicit TechnolFunctions(technol::Blocks& blocks);
+
+  // At power-on: the instance outlives the calls of Functions.
+  void locate(host::Instance& instance);
+
+  // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
+  // in a group (l.7184-7213).
+  bool setGroup(uint32_t code, uint32_t group) override;
+  // M up to 99, T up to 99999999: what their BCD cells hold. There is no second auxiliary function.
+  bool carries(FunctionKind kind, uint32_t code) const override;
+  std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
+  void step() override {}
+  bool busy(uint32_t) const override { return blocks_.busy(); }
+  void abort() override { blocks_.annul(*instance_); }
+
+private:
+  static constexpr uint32_t kMostM = 99;
+  static constexpr uint32_t kGroups = 14; // of M functions, from 1
+  static constexpr uint32_t kDecoded = 21;
+  static constexpr uint32_t kMostValues = 16; // of a block
+
+  struct Group {
+    rt::Place changed, code;           // ZMMxPI; PBxx
+    rt::Place blockChanged, blockCode; // BLK[0].Mx, BLK[0].M[x]
+  };
+  // What a block writes.
+  struct Values {
+    std::array<technol::CommandValue, kMostValues> all;
+    uint32_t count = 0;
+
+    void add(const rt::Place& place, int64_t value) { all[count++] = {.place = place, .integer = value}; }
+    void addReal(const rt::Place& place, double value) {
+      all[count++] = {.place = place, .isReal = true, .real = value};
+    }
+  };
+
+  void addM(Values& values, uint32_t code) const;
+  void addSpeed(Values& values, uint32_t code) const;
+  void addTool(Values& values, uint32_t code) const;
+
+  technol::Blocks& blocks_;
+  host::Instance* instance_ = nullptr;
+  std::array<uint8_t, kMostM + 1> groupOfM_; // by code
+  rt::Place automatic_;                      // AUTPI
+  std::array<Group, kGroups + 1> groups_;
+  std::array<rt::Place, kDecoded> decoded_;
+  rt::Place speedChanged_, speed_;
+  rt::Place toolChanged_, blockToolChanged_, blockTool_;
+  std::array<rt::Place, 4> toolDigits_;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,25 @@
+// A program from text, compiled and loaded in the process.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "tools/driver/engines.h"
+
+namespace rung::testing {
+
+class CompiledProgram {
+public:
+  // `file` names the text in messages; its ending and contents say the dialect. A program that does not compile ends
+  // the test.
+  CompiledProgram(const std::string& file, const std::string& text,
+                  driver::EngineKind engine = driver::EngineKind::Jit);
+
+  // Valid as long as this object.
+  const rung_program& program() const { return engine_->program(); }
+
+private:
+  driver::Compiled compiled_;
+  std::unique_ptr<host::Engine> engine_;
+};
+
+} // namespace rung::testing

@@ -32,7 +32,6 @@ COMMANDS = {
     "power-loop": (ladder("|--[5100.00]--+--[5100.01]--+---(5100.02)\n"
                           "              |             +--[5100.03]--+\n"
                           "              +---------------------------+\n"), "check a.lad"),
-    "not-built-yet": ({"a.plc": "DATA\nDATA_END\nMODULE_INIT\n        LDR  1\n        CAN_SEND\nMODULE_INIT_END\n"}, "check a.plc"),
     "dialect-conflict": ({"a.lad": LAMP, "b.lad": "dialect gsk\nmodule LEVEL1\n"}, "check a.lad b.lad"),
     "unknown-dialect": ({"a.lad": LAMP}, "check a.lad --dialect klingon"),
     "unknown-config-key": (project(PROJECT + "[config]\nPLCNVRAN = 4000\n"), "check"),

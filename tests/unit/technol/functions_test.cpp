@@ -201,7 +201,7 @@ TEST_F(TechnolHandshake, TheMachineHasGroupsOfItsOwn) {
   EXPECT_EQ(get("PB14"), 0x92u);
   EXPECT_EQ(get("BLK[0].M[12]"), 0x92u);
   EXPECT_EQ(get("ZMM14PI"), 0u);
-  EXPECT_FALSE(functions().setGroup(3, 12)); // fixed (l.7213)
+  EXPECT_FALSE(functions().setGroup(3, 12)); // fixed (l.7214)
   EXPECT_FALSE(functions().setGroup(92, 0));
   EXPECT_FALSE(functions().setGroup(92, 15));
   EXPECT_FALSE(functions().setGroup(100, 12));

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kMostTool = 99'999'999;
 
 // Groups of M functions (man. l.6703-6743, 7157-7182). A machine may have further ones in all groups; what is in none is
-// in 14 (l.7184-7193).
+// in 14 (l.7184-7214).
 struct GroupOfM {
   uint8_t code;
   uint8_t group;
@@ -22,7 +22,7 @@ constexpr GroupOfM kGroupsOfM[] = {{0, 1},  {1, 1},  {2, 1},  {30, 1}, {3, 2},  
                                    {41, 3}, {42, 3}, {43, 3}, {44, 3}, {7, 5},  {8, 5},  {9, 5},  {17, 5}, {50, 6},
                                    {51, 6}, {52, 6}, {53, 6}, {10, 7}, {11, 7}, {48, 8}, {49, 8}, {6, 9},  {60, 9}};
 constexpr uint8_t kOtherGroup = 14;
-// It leaves the gear to the control, which sets M41PI to M44PI by the speed (l.6906-6909).
+// It leaves the gear to the control, which sets M41PI to M44PI by the speed (l.6904-6907).
 constexpr uint32_t kAutomaticGear = 40;
 
 // The cells with the code of a group in BCD (l.6785-6806).

@@ -19,7 +19,7 @@ public:
   void locate(host::Instance& instance);
 
   // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
-  // in a group (l.7184-7213).
+  // in a group (l.7184-7214).
   bool setGroup(uint32_t code, uint32_t group) override;
   // M up to 99, T up to 99999999: what their BCD cells hold. There is no second auxiliary function.
   bool carries(FunctionKind kind, uint32_t code) const override;

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The text of a host's runtime without signal tables, by the linker's map of tests/size/minimal_host.cpp: size_test.py MAP
 
-Prints what each archive brings, in bytes. Code, constants, exception tables; not strings that several files share."""
+Prints what each archive brings, in bytes: code, constants and exception tables; not the strings, which the linker merges with
+those of the tables."""
 import collections
 import re
 import sys
@@ -11,9 +12,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 MAP = None
 # docs/architecture.md states it.
-MOST = 0
+MOST = 200_000
+# Tables of frames are merged as well; those of all files count.
+FRAMES = r"\s*[0-9a-f]+\s+[0-9a-f]+\s+([0-9a-f]+)\s+\d+\s+\.eh_frame\s*$"
 ARCHIVES = ("rung_rt_core", "rung_host", "rung_nc_names", "rung_nc_control")
-TEXT = (".text", ".rodata", ".eh_frame", ".gcc_except_table")
+TEXT = (".text", ".rodata", ".gcc_except_table")
 
 
 def sections(text):
@@ -27,9 +30,10 @@ def sections(text):
 
 class Size(unittest.TestCase):
     def test_the_runtime_without_tables_is_small(self):
+        text = Path(MAP).read_text()
         sizes = collections.Counter()
         files = collections.Counter()
-        for archive, member, section, size in sections(Path(MAP).read_text()):
+        for archive, member, section, size in sections(text):
             if section.startswith(TEXT):
                 sizes[archive] += size
                 files[archive, member] += size
@@ -39,13 +43,15 @@ class Size(unittest.TestCase):
             for (owner, member), size in files.most_common():
                 if owner == archive and size > 4000:
                     print(f"    {member:32} {size:6}")
-        total = sum(sizes[archive] for archive in ARCHIVES)
+        frames = int(re.search(FRAMES, text, re.MULTILINE).group(1), 16)
+        print(f"{'frames':16} {frames:7}")
+        total = sum(sizes[archive] for archive in ARCHIVES) + frames
         print(f"{'sum':16} {total:7}, at most {MOST}; tables and lists of rung_nc: {sizes['rung_nc']}")
         self.assertLessEqual(total, MOST, "the runtime has grown")
         self.assertGreater(total, MOST * 0.9, "it has become smaller: lower MOST, and the figure in docs/architecture.md")
 
     def test_the_figure_of_the_docs(self):
-        self.assertIn(f"{MOST // 1000} kB", (ROOT / "docs/architecture.md").read_text(), "docs/architecture.md states another size")
+        self.assertTrue(f"under {MOST // 1000} kB" in (ROOT / "docs/architecture.md").read_text(), "docs/architecture.md states another size")
 
 
 if __name__ == "__main__":

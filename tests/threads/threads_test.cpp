@@ -96,8 +96,10 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
   ASSERT_EQ(error, "");
   std::atomic<bool> done = false;
   std::thread scans([&] {
-    for (int i = 0; i < 300 || retained.saved() < 3; ++i) {
+    uint8_t& kept = machine.instance().block()[program.retains[0].offset];
+    for (uint32_t i = 0; i < 300 || (retained.saved() < 3 && i < 1'000'000); ++i) {
       machine.scan();
+      kept = i & 1; // whatever the inputs do, images differ
       retained.offer(machine.instance(), false);
     }
     done = true;
@@ -109,6 +111,7 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
     std::this_thread::yield();
   }
   scans.join();
+  EXPECT_GE(retained.saved(), 3u);
   EXPECT_EQ(retained.finish(machine.instance()), "");
   Bytes kept(machine.instance().retainedSize());
   machine.instance().copyRetained(kept);

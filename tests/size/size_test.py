@@ -17,7 +17,7 @@ ARCHIVES = ("rung_rt_core", "rung_host", "rung_nc_names", "rung_nc_control")
 TEXT = (".text", ".rodata", ".eh_frame", ".gcc_except_table")
 
 
-def sections(Path(MAP).read_text()):
+def sections(text):
     """(archive, object, section, bytes) of the input sections of archives."""
     for line in text.splitlines():
         found = re.match(r"\s*[0-9a-f]+\s+[0-9a-f]+\s+([0-9a-f]+)\s+\d+\s+\S*?lib(\w+)\.a\((\S+)\):\((\S+?)\)", line)

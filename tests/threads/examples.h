@@ -1,6 +1,7 @@
 // Example programs as loaded shared objects, made by the compiler and with the sanitizer of the tests themselves.
 #pragma once
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct Example {
   std::string name;               // of the folder in examples
   std::vector<std::string> files; // of its sources, in the program's order
 };
+inline void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 
 // Null fails the test.
 std::unique_ptr<host::SoEngine> load(const Example& example);

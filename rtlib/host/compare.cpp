@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "rtlib/host/program_info.h"
+
 namespace rung::host {
 
 namespace {
@@ -12,24 +14,6 @@ using Difference = std::optional<std::string>;
 
 std::string values(uint64_t here, uint64_t there) {
   return ": " + std::to_string(here) + " here, " + std::to_string(there) + " there";
-}
-
-struct LogicalByte {
-  uint32_t space = RUNG_NONE;
-  uint32_t byte = 0;
-};
-
-// What lies at an offset of the memory block; no space when it is a slot of the compiler.
-LogicalByte byteAt(const rung_program& program, uint32_t offset) {
-  for (uint32_t s = 0; s < program.space_count; ++s) {
-    for (uint32_t r = 0; r < program.spaces[s].range_count; ++r) {
-      const rung_range& range = program.spaces[s].ranges[r];
-      const uint32_t each = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
-      if (offset >= range.offset && (offset - range.offset) / each < range.byte_count)
-        return {s, range.first_byte + (offset - range.offset) / each};
-    }
-  }
-  return {};
 }
 
 // Names the byte, or its bit when only one differs.
@@ -48,13 +32,13 @@ Difference rawDifference(const Instance& here, const Instance& there, DescribePl
   if (std::memcmp(a.data(), b.data(), a.size()) == 0) return std::nullopt;
   const auto place = std::mismatch(a.begin(), a.end(), b.begin());
   const auto offset = static_cast<uint32_t>(place.first - a.begin());
-  const LogicalByte at = byteAt(here.program(), offset);
-  const uint8_t valueHere = here.memory().readByte(at.space, at.byte);
-  const uint8_t valueThere = there.memory().readByte(at.space, at.byte);
-  // Equal as bits and yet not equal: an expanded bit holds more than 0 or 1.
-  if (at.space == RUNG_NONE || valueHere == valueThere)
-    return "memory at offset " + std::to_string(offset) + values(a[offset], b[offset]);
-  return byteDifference(here.program(), at, valueHere, valueThere, describe);
+  if (const std::optional<LogicalByte> at = byteAt(here.program(), offset)) {
+    const uint8_t valueHere = here.memory().readByte(at->space, at->byte);
+    const uint8_t valueThere = there.memory().readByte(at->space, at->byte);
+    if (valueHere != valueThere) return byteDifference(here.program(), *at, valueHere, valueThere, describe);
+  }
+  // A slot of the compiler, or equal as bits and yet not equal: an expanded bit holds more than 0 or 1.
+  return "memory at offset " + std::to_string(offset) + values(a[offset], b[offset]);
 }
 
 Difference logicalDifference(const Instance& here, const Instance& there, DescribePlace describe) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "rtlib/host/program_info.h"
+
 namespace rung::host {
 namespace {
 
@@ -20,21 +22,6 @@ uint32_t byteCount(const Ref& ref) {
   case RefKind::Real: break;
   }
   return std::max(1u, ref.width / 8u);
-}
-
-struct LogicalByte {
-  uint32_t space = RUNG_NONE;
-  uint32_t byte = 0;
-};
-
-std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset) {
-  for (uint32_t s = 0; s < program.space_count; ++s)
-    for (const rung_range& range : std::span(program.spaces[s].ranges, program.spaces[s].range_count)) {
-      const uint32_t step = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
-      if (offset >= range.offset && offset - range.offset < range.byte_count * step)
-        return LogicalByte{s, range.first_byte + (offset - range.offset) / step};
-    }
-  return std::nullopt;
 }
 
 } // namespace

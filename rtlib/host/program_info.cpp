@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 
 namespace rung::host {
 
@@ -35,6 +36,16 @@ const rung_symbol* firstSymbolFrom(const rung_program& program, std::string_view
 const rung_symbol* findSymbol(const rung_program& program, std::string_view name) {
   const rung_symbol* symbol = firstSymbolFrom(program, name);
   return symbol != nullptr && name == symbol->name ? symbol : nullptr;
+}
+
+std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset) {
+  for (uint32_t s = 0; s < program.space_count; ++s)
+    for (const rung_range& range : std::span(program.spaces[s].ranges, program.spaces[s].range_count)) {
+      const uint32_t step = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
+      if (offset >= range.offset && (offset - range.offset) / step < range.byte_count)
+        return LogicalByte{s, range.first_byte + (offset - range.offset) / step};
+    }
+  return std::nullopt;
 }
 
 std::string_view serviceName(const rung_program& program, uint32_t service) {

@@ -2,6 +2,7 @@
 // without further checks of its tables.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,13 @@ uint32_t findService(const rung_program& program, std::string_view name);
 // when there is none.
 const rung_symbol* findSymbol(const rung_program& program, std::string_view name);
 const rung_symbol* firstSymbolFrom(const rung_program& program, std::string_view name);
+
+// The byte of a space that lies at an offset of the memory block, or whose bits do; nothing for a slot of the compiler.
+struct LogicalByte {
+  uint32_t space = RUNG_NONE;
+  uint32_t byte = 0;
+};
+std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset);
 
 std::string_view serviceName(const rung_program& program, uint32_t service); // "" when there is none
 std::string_view messageText(const rung_program& program, uint32_t number);  // "" when there is none

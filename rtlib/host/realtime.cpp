@@ -2,11 +2,11 @@
 #include "rtlib/host/realtime.h"
 
 #include <pthread.h>
-#include <sched.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <ctime>
 
 namespace rung::host {
@@ -21,32 +21,29 @@ void sleepUntil(int64_t ns) {
   }
 }
 
-// The thread's scheduling while the loop runs, put back afterwards. Memory stays locked: a lock is the process's, and
-// whoever else relies on one cannot be known.
-class Scheduling {
-public:
-  Scheduling(const RealTimeOptions& options, RealTimeStats& stats) {
-    if (options.priority > 0 && pthread_getschedparam(pthread_self(), &oldPolicy_, &oldParam_) == 0) {
-      sched_param param{};
-      param.sched_priority = options.priority;
-      raised_ = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
-    }
-    stats.priorityGranted = raised_;
-    if (options.lockMemory) stats.memoryLocked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-  }
-  ~Scheduling() {
-    if (raised_) pthread_setschedparam(pthread_self(), oldPolicy_, &oldParam_);
-  }
-  Scheduling(const Scheduling&) = delete;
-  Scheduling& operator=(const Scheduling&) = delete;
-
-private:
-  int oldPolicy_ = 0;
-  sched_param oldParam_{};
-  bool raised_ = false;
-};
-
 } // namespace
+
+RealTimeThread::RealTimeThread(const RealTimeOptions& options) {
+  if (options.priority > 0) raise(options.priority);
+  if (!problem_.empty() || !options.lockMemory || mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return;
+  problem_ = std::string("memory cannot be locked: ") + std::strerror(errno) +
+             "; raise the limit of locked memory (ulimit -l), or run with CAP_IPC_LOCK";
+}
+
+RealTimeThread::~RealTimeThread() {
+  if (raised_) pthread_setschedparam(pthread_self(), oldPolicy_, &oldParam_);
+}
+
+void RealTimeThread::raise(int priority) {
+  sched_param param{};
+  param.sched_priority = priority;
+  int wrong = pthread_getschedparam(pthread_self(), &oldPolicy_, &oldParam_);
+  if (wrong == 0) wrong = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+  raised_ = wrong == 0;
+  if (raised_) return;
+  problem_ = "real-time priority " + std::to_string(priority) + ": " + std::strerror(wrong) +
+             "; raise the limit of real-time priorities (ulimit -r), or run with CAP_SYS_NICE";
+}
 
 int64_t monotonicNs() {
   timespec now{};
@@ -54,9 +51,8 @@ int64_t monotonicNs() {
   return int64_t{now.tv_sec} * kNsPerSecond + now.tv_nsec;
 }
 
-RealTimeStats runRealTime(Instance& instance, const RealTimeOptions& options, const std::function<bool()>& keepGoing) {
+RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepGoing) {
   RealTimeStats stats;
-  const Scheduling scheduling(options, stats);
   // Monotonic time at which the program's clock would be 0.
   const int64_t origin = monotonicNs() - instance.nowUs() * 1000;
   do {

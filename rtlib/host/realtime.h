@@ -2,8 +2,11 @@
 // by more than its own period is counted as missed periods; the program's clock is moved over them, so timers stay
 // right.
 #pragma once
+#include <sched.h>
+
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "rtlib/host/instance.h"
 
@@ -12,8 +15,29 @@ namespace rung::host {
 int64_t monotonicNs();
 
 struct RealTimeOptions {
-  int priority = 0;        // above 0: SCHED_FIFO with this priority, when the system grants it
-  bool lockMemory = false; // mlockall, when the system grants it; the process's memory stays locked afterwards
+  int priority = 0;        // above 0: SCHED_FIFO with this priority, 1 to 99
+  bool lockMemory = false; // mlockall of what is there and of what comes
+};
+
+// What the thread that makes it asks of the system. The scheduling is put back when the object ends; the process's
+// memory stays locked, because whoever else relies on that cannot be known.
+class RealTimeThread {
+public:
+  explicit RealTimeThread(const RealTimeOptions& options);
+  ~RealTimeThread();
+  RealTimeThread(const RealTimeThread&) = delete;
+  RealTimeThread& operator=(const RealTimeThread&) = delete;
+
+  // "" or what the system does not grant, why, and what would make it.
+  const std::string& problem() const { return problem_; }
+
+private:
+  void raise(int priority);
+
+  std::string problem_;
+  sched_param oldParam_{};
+  int oldPolicy_ = 0;
+  bool raised_ = false;
 };
 
 struct RealTimeStats {
@@ -21,11 +45,9 @@ struct RealTimeStats {
   uint64_t missed = 0;   // periods that were left out
   int64_t maxLateNs = 0; // from the due time to the start of a slice
   int64_t maxRunNs = 0;
-  bool priorityGranted = false;
-  bool memoryLocked = false;
 };
 
 // Runs on the calling thread until `keepGoing`, asked after every slice, says no, or a fault stops the program.
-RealTimeStats runRealTime(Instance& instance, const RealTimeOptions& options, const std::function<bool()>& keepGoing);
+RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepGoing);
 
 } // namespace rung::host

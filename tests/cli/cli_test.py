@@ -751,6 +751,21 @@ class Seals(Cli):
         self.assertEqual(done.returncode, OK, done.stderr)
         self.assertIn(b"10 scans", done.stdout)
 
+    def test_run_with_a_real_time_priority(self):
+        source = self.file("lamp.lad", LAMP)
+        for options in (["--priority", "10"], ["--lock-memory"]):
+            alone = rungc("run", source, *options)
+            self.assertEqual(alone.returncode, USAGE)
+            self.assertIn(b"--realtime", alone.stderr)
+            done = rungc("run", source, "--for", "50ms", "--realtime", *options)
+            if done.returncode == OK:
+                self.assertIn(b"5 scans", done.stdout)
+            else:  # a system that does not grant it
+                self.assertEqual(done.returncode, ENVIRONMENT, done.stderr)
+                self.assertRegex(done.stderr, rb"rungc: (real-time priority 10|memory cannot be locked): .*ulimit -[rl]")
+        for priority in ("0", "100", "high"):
+            self.assertEqual(rungc("run", source, "--realtime", "--priority", priority).returncode, USAGE)
+
     def test_run_shows_messages(self):
         self.file("texts.txt", '1 "EMERGENCY STOP"\n')
         source = self.file("stop.pmc", "FUNC END1\nLDI X9.0\nOUT A0.0\nFUNC END2\n")

@@ -1,6 +1,7 @@
-// Counts the allocations of a thread: through the sanitizer's hooks where one owns the allocator, else by standing in
-// front of the C library's malloc. For one source of a test program: it defines malloc.
+// Counts what a thread asks of the heap, releases too: through the sanitizer's hooks where one owns the allocator, else
+// by taking the place of all of malloc's entries in the C library. For one source of a test program: it defines malloc.
 #pragma once
+#include <cerrno>
 #include <cstdlib>
 
 #if defined(__has_feature)
@@ -15,7 +16,7 @@
 namespace {
 
 thread_local bool counting = false;
-thread_local int allocations = 0;
+thread_local int allocations = 0; // and releases
 
 void countOne() {
   if (counting) ++allocations;
@@ -28,13 +29,18 @@ void countOne() {
 
 namespace {
 const int hooksInstalled = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, size_t) { countOne(); },
-                                                                     [](const volatile void*) {});
+                                                                     [](const volatile void*) { countOne(); });
 } // namespace
 #else
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* old, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+void* __libc_valloc(size_t size);
+void* __libc_pvalloc(size_t size);
+void __libc_free(void* block);
+
 void* malloc(size_t size) {
   countOne();
   return __libc_malloc(size);
@@ -46,6 +52,40 @@ void* calloc(size_t count, size_t size) {
 void* realloc(void* old, size_t size) {
   countOne();
   return __libc_realloc(old, size);
+}
+void* reallocarray(void* old, size_t count, size_t size) {
+  countOne();
+  size_t bytes = 0;
+  if (!__builtin_mul_overflow(count, size, &bytes)) return __libc_realloc(old, bytes);
+  errno = ENOMEM;
+  return nullptr;
+}
+void* memalign(size_t alignment, size_t size) {
+  countOne();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  countOne();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, size_t alignment, size_t size) {
+  countOne();
+  void* const made = __libc_memalign(alignment, size);
+  if (made == nullptr) return ENOMEM;
+  *block = made;
+  return 0;
+}
+void* valloc(size_t size) {
+  countOne();
+  return __libc_valloc(size);
+}
+void* pvalloc(size_t size) {
+  countOne();
+  return __libc_pvalloc(size);
+}
+void free(void* block) {
+  if (block != nullptr) countOne();
+  __libc_free(block);
 }
 }
 #endif

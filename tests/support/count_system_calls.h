@@ -10,25 +10,51 @@ namespace {
 
 thread_local volatile char systemCallsTrap = 0; // the kernel reads it at each call: 1 raises SIGSYS instead
 thread_local volatile std::sig_atomic_t trapped = 0;
+thread_local volatile std::sig_atomic_t lastTrapped = 0; // its number
 
-// The first system call of `work`, which is not carried out, is counted; nothing where the kernel cannot do that.
+// While this object lives, the thread that made it has its system calls trapped between `enter` and `exit`; neither is
+// a system call itself. The first call in between is not carried out but counted, and ends the trap.
+class SystemCallTrap {
+public:
+  SystemCallTrap() {
+    struct sigaction action{};
+    action.sa_flags = SA_SIGINFO;
+    action.sa_sigaction = [](int, siginfo_t* info, void*) {
+      systemCallsTrap = 0; // else returning from here would be the next one
+      trapped = trapped + 1;
+      lastTrapped = info->si_syscall;
+    };
+    sigaction(SIGSYS, &action, &before_);
+    trapped = 0;
+    works_ = prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_ON, 0, 0, &systemCallsTrap) == 0;
+  }
+  ~SystemCallTrap() {
+    systemCallsTrap = 0;
+    if (works_) prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_OFF, 0, 0, 0);
+    sigaction(SIGSYS, &before_, nullptr);
+  }
+  SystemCallTrap(const SystemCallTrap&) = delete;
+  SystemCallTrap& operator=(const SystemCallTrap&) = delete;
+
+  bool works() const { return works_; } // the kernel can do it
+  void enter() const { systemCallsTrap = works_ ? 1 : 0; }
+  void exit() const { systemCallsTrap = 0; }
+  int count() const { return trapped; }
+  int last() const { return lastTrapped; } // the number of the last one
+
+private:
+  struct sigaction before_{};
+  bool works_ = false;
+};
+
+// The first system call of `work` is counted; nothing where the kernel cannot do that.
 template <class F>
 std::optional<int> systemCallsOf(F&& work) {
-  struct sigaction action{};
-  struct sigaction before{};
-  action.sa_handler = [](int) {
-    systemCallsTrap = 0; // else returning from here would be the next one
-    trapped = trapped + 1;
-  };
-  sigaction(SIGSYS, &action, &before);
-  trapped = 0;
-  const bool can = prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_ON, 0, 0, &systemCallsTrap) == 0;
-  systemCallsTrap = can ? 1 : 0;
+  const SystemCallTrap trap;
+  trap.enter();
   work();
-  systemCallsTrap = 0;
-  if (can) prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_OFF, 0, 0, 0);
-  sigaction(SIGSYS, &before, nullptr);
-  return can ? std::optional<int>(trapped) : std::nullopt;
+  trap.exit();
+  return trap.works() ? std::optional<int>(trap.count()) : std::nullopt;
 }
 
 } // namespace

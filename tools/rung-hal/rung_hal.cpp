@@ -152,8 +152,9 @@ bool makePins(Component& c) {
             status("functions-lost", HAL_U32, s.functionsLost) && makePin(c, "reset", HAL_BIT, HAL_IN, &s.reset.any);
   for (size_t i = 0; i < pins.size() && ok; ++i)
     ok = makePin(c, pins[i].name.c_str(), halType(pins[i].type), pins[i].output ? HAL_OUT : HAL_IN, &c.cells[i].any);
-  c.box->connect(c.cells);
-  return ok && makeParameters(c);
+  if (!ok || !makeParameters(c)) return false;
+  c.box->connect(c.cells); // all of them are there
+  return true;
 }
 
 void printMessage(const nc::Control& control, const rung_program& program, const rung_message& message) {
@@ -229,7 +230,8 @@ int start() {
   c.service = std::thread([&c] { serve(c); });
   const std::string function = c.prefix + ".scan";
   const int result = hal_export_funct(function.c_str(), scan, component, 1, 0, componentId);
-  if (result != 0) complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
+  if (result == 0) return hal_ready(componentId);
+  complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
   return result;
 }
 
@@ -282,11 +284,11 @@ void end() {
 } // namespace
 
 int rtapi_app_main() {
-  componentId = hal_init(kModule);
-  if (componentId < 0) return componentId;
+  const int id = hal_init(kModule);
+  if (id < 0) return id; // where one is loaded already, it continues
+  componentId = id;
   const int result = guarded(start);
-  if (result == 0) return hal_ready(componentId);
-  guarded([] { return end(), 0; });
+  if (result != 0) guarded([] { return end(), 0; });
   return result;
 }
 

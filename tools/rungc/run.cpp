@@ -37,6 +37,7 @@ struct RunOptions {
   std::string trace;
   bool prompt = false;
   bool realtime = false;
+  host::RealTimeOptions thread; // of a real-time run
   bool debugger = false;
   bool unsealed = false;
   std::string level = "2";
@@ -211,14 +212,16 @@ private:
     advance.microseconds = options_.forUs;
     advance.text = options_.duration.empty() ? fmt::format("scan {}", advance.count) : "run " + options_.duration;
     if (options_.realtime) {
-      runRealTime(advance);
+      return runRealTime(advance);
     } else if (advance.count > 0 || advance.kind == scenario::Kind::Run) {
       return console_->execute(advance) == console::Outcome::Failed ? kWrong : kOk;
     }
     return kOk;
   }
 
-  void runRealTime(const scenario::Statement& end) {
+  int runRealTime(const scenario::Statement& end) {
+    const host::RealTimeThread thread(options_.thread);
+    if (!thread.problem().empty()) return environmentError(thread.problem());
     const bool timed = end.kind == scenario::Kind::Run;
     session_.setInterrupt([this, end, timed] {
       return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
@@ -226,6 +229,7 @@ private:
     const host::RealTimeStats stats = session_.runRealTime();
     fmt::print(out_, "{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
                stats.missed, static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
+    return kOk;
   }
 
   // After every scan.
@@ -355,7 +359,15 @@ void addRun(CLI::App& app, int& status) {
   command->add_option("--watch", options->watch, "Names whose changes are printed");
   command->add_option("--trace", options->trace,
                       "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
-  command->add_flag("--realtime", options->realtime, "On the machine's clock")->excludes(scenario)->excludes(prompt);
+  CLI::Option* realtime = command->add_flag("--realtime", options->realtime, "On the machine's clock")
+                              ->excludes(scenario)
+                              ->excludes(prompt);
+  command
+      ->add_option("--priority", options->thread.priority,
+                   "Real-time priority of the run, 1 to 99 (SCHED_FIFO); without it the machine's ordinary scheduling")
+      ->check(CLI::Range(1, 99))
+      ->needs(realtime);
+  command->add_flag("--lock-memory", options->thread.lockMemory, "Keep all memory of the run in RAM")->needs(realtime);
   command->add_flag("--debugger", options->debugger, "Let gdb see code compiled in the process");
   command->add_flag("--unsealed", options->unsealed,
                     "Load a shared object that has no seal; a damaged one may then crash");

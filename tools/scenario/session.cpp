@@ -97,7 +97,7 @@ std::string Session::afterScan() {
 host::RealTimeStats Session::runRealTime() {
   Lane& lane = *lanes_[0];
   lane.nc().betweenSlices(lane.instance());
-  return host::runRealTime(lane.instance(), {}, [&] {
+  return host::runRealTime(lane.instance(), [&] {
     lane.takeMessages();
     scans_ += lane.instance().atListStart() ? 1 : 0;
     lane.nc().betweenSlices(lane.instance());

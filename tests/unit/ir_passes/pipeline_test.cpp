@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -197,83 +196,6 @@ INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
                                          NamedPass{"Dead", removeDeadOps},
                                          NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
                          [](const auto& test) { return test.param.name; });
-
-// ---- time
-// ------------------------------------------------------------------------------------------------------------
-
-double secondsOf(Module& module) {
-  const auto start = std::chrono::steady_clock::now();
-  runPasses(module, {.optimise = true, .instrument = true, .verifyEach = false});
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Module emptyModule(uint32_t rungs, uint32_t slots) {
-  Module module;
-  module.name = "large";
-  module.spaces = {{.name = "M", .unitBytes = 4, .units = 10000}};
-  for (uint32_t i = 0; i < slots; ++i)
-    module.slots.push_back({.type = Type::I32, .transient = true, .key = fmt::format("r{}", i)});
-  module.routines.resize(1);
-  module.routines[0].rungs.resize(rungs);
-  module.tasks.push_back({.name = "T", .entry = RoutineId{0}});
-  return module;
-}
-
-// Twenty registers that every rung stores and loads, and a jump.
-TEST(Scale, ManyRungs) {
-  constexpr uint32_t kRungs = 100'000;
-  constexpr uint32_t kRegisters = 20;
-  Module module = emptyModule(kRungs, kRegisters);
-  for (uint32_t i = 0; i < kRungs; ++i) {
-    RungBuilder b(module, module.routines[0].rungs[i]);
-    const ValueId x = b.load(Type::Bit, {SpaceId{0}, i % 40000, i % 8});
-    const ValueId y = b.and_(b.load(Type::Bit, {SpaceId{0}, i % 40000, i % 8}), x);
-    const ValueId old = b.slotLoad(SlotId{i % kRegisters});
-    for (uint32_t k = 0; k < 3; ++k) b.slotStore(SlotId{(i + k) % kRegisters}, b.add(old, b.i32(k)));
-    b.store({SpaceId{0}, (i + 7) % 40000, i % 8}, b.or_(y, b.not_(x)));
-    if (i + 50 < kRungs) b.gotoRung(i + 50, x);
-  }
-  EXPECT_LT(secondsOf(module), 6.0) << "takes about half a second in an optimised build";
-}
-
-// As many registers as rungs, each stored in the first rung and loaded in the last ones: all live everywhere.
-TEST(Scale, ManyRegisters) {
-  constexpr uint32_t kRungs = 20'000;
-  Module module = emptyModule(kRungs, kRungs);
-  {
-    RungBuilder b(module, module.routines[0].rungs[0]);
-    const ValueId zero = b.i32(0);
-    for (uint32_t i = 0; i < kRungs; ++i) b.slotStore(SlotId{i}, zero);
-  }
-  RungBuilder b(module, module.routines[0].rungs[kRungs - 1]);
-  for (uint32_t i = 0; i < kRungs; ++i) b.store({SpaceId{0}, 0, 0}, b.slotLoad(SlotId{i}));
-  EXPECT_LT(secondsOf(module), 6.0);
-}
-
-// One rung of half a million operations, with regions in regions.
-TEST(Scale, OneLargeRung) {
-  Module module = emptyModule(2, 1);
-  RungBuilder b(module, module.routines[0].rungs[0]);
-  const ValueId cond = b.load(Type::Bit, {SpaceId{0}, 0, 0});
-  constexpr uint32_t kDepth = 2000;
-  for (uint32_t i = 0; i < kDepth; ++i) {
-    if (i % 2 == 0)
-      b.if_(cond);
-    else
-      b.loop(1);
-  }
-  for (uint32_t i = 0; i < 80'000; ++i) {
-    const Place place{SpaceId{0}, 4 * (i % 5000), 0};
-    b.store(place, b.add(b.load(Type::I32, place), b.loadAt(Type::I32, {SpaceId{0}, 0, 100}, b.i32(i % 7))));
-  }
-  for (uint32_t i = kDepth; i-- > 0;) {
-    if (i % 2 == 0)
-      b.endIf();
-    else
-      b.endLoop();
-  }
-  EXPECT_LT(secondsOf(module), 6.0);
-}
 
 } // namespace
 } // namespace rung::ir

@@ -2,8 +2,6 @@
 // modules are goldens in tests/golden/ir.
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "ir/core/builder.h"
 #include "ir/random/random.h"
 #include "ir/text/text.h"
@@ -332,7 +330,7 @@ TEST(TextParse, TruncatedTexts) {
   }
 }
 
-// 100,000 rungs in seconds: nothing is quadratic.
+// tests/growth counts what it costs.
 TEST(TextParse, LargeModules) {
   Module module;
   module.files = {"a"};
@@ -344,9 +342,7 @@ TEST(TextParse, LargeModules) {
   module.routines = {{.name = "R", .rungs = std::vector<Rung>(100000, rung)}};
   for (uint32_t i = 0; i < 100000; ++i)
     module.symbols.push_back({.name = "S" + std::to_string(i), .space = SpaceId{0}, .byte = i});
-  const auto start = std::chrono::steady_clock::now();
   expectRoundTrip(module);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60)) << "more than linear";
 }
 
 } // namespace

@@ -1,6 +1,4 @@
-// Size: many rungs, long lines, many branches. The bounds are generous; a quadratic step exceeds them by far.
-#include <chrono>
-
+// Size: many rungs, long lines, many branches; tests/growth counts what they cost.
 #include <gtest/gtest.h>
 
 #include "ladder_testing.h"
@@ -8,46 +6,30 @@
 namespace rung::ladder {
 namespace {
 
-class Stopwatch {
-public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-constexpr double kBound = 20.0; // with sanitizers on a busy machine; about a second without
-
 TEST(Scale, HundredThousandRungs) {
   std::string text = "dialect t\nmodule M\n";
   for (int i = 0; i < 100'000; ++i) text += "rung \"r\"\n|--[A]--+--[/B]--(X)\n|--[C]--+\n\n";
-  const Stopwatch watch;
   const Parsed parsed(std::move(text));
   EXPECT_EQ(parsed.errors(), "");
   EXPECT_EQ(parsed.ladder.rungs.size(), 100'000u);
   EXPECT_EQ(parsed.ladder.rungs.back().elements.size(), 4u);
-  EXPECT_LT(watch.seconds(), kBound);
 }
 
 TEST(Scale, LineOfTenMegabytes) {
   std::string drawing = "|--";
   while (drawing.size() < 10'000'000) drawing += "[A]--";
   drawing += "(X)\n";
-  const Stopwatch watch;
   const Parsed parsed = parseDrawing(drawing);
   EXPECT_EQ(parsed.errors(), "");
   EXPECT_GT(parsed.ladder.rungs.at(0).elements.size(), 1'900'000u);
-  EXPECT_LT(watch.seconds(), kBound);
 }
 
 TEST(Scale, ManyOneWordBoxesBelowEachOther) {
   std::string line = "|--[A]";
   for (int i = 0; i < 20'000; ++i) line += "--{XX }";
   const std::string shifted = "|---[A]" + line.substr(6);
-  const Stopwatch watch;
   const Parsed parsed = parseDrawing(line + "\n" + shifted + "\n");
   EXPECT_GT(parsed.diags.errorCount(), 0u);
-  EXPECT_LT(watch.seconds(), kBound);
 }
 
 TEST(Scale, NestedBranches) {
@@ -61,20 +43,16 @@ TEST(Scale, NestedBranches) {
     for (int j = 0; j < i; ++j) line[static_cast<size_t>(7 + 6 * j)] = '|';
     drawing += line + "+-[C]-(Y)\n";
   }
-  const Stopwatch watch;
   const Parsed parsed = parseDrawing(drawing);
   EXPECT_EQ(parsed.errors(), "");
   EXPECT_EQ(parsed.ladder.rungs.at(0).elements.size(), 2u + kDepth + 2u * kDepth);
-  EXPECT_LT(watch.seconds(), kBound);
 }
 
 TEST(Scale, ErrorInEveryLine) {
   std::string text = "dialect t\nmodule M\n";
   for (int i = 0; i < 200'000; ++i) text += "rung\n|--[A\n";
-  const Stopwatch watch;
   const Parsed parsed(std::move(text));
   EXPECT_EQ(parsed.diags.errorCount(), 200'000u);
-  EXPECT_LT(watch.seconds(), kBound);
 }
 
 TEST(Scale, RubbishOfManyKinds) {

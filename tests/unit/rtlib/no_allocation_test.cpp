@@ -59,12 +59,12 @@ TEST(NoAllocation, CounterCounts) {
               kept = std::malloc(10);
               std::free(kept);
             }),
-            1);
+            2);
   EXPECT_EQ(allocationsOf([&] {
               kept = ::operator new(10);
               ::operator delete(kept);
             }),
-            1);
+            2);
 }
 
 TEST(NoAllocation, NeitherStartNorScan) {

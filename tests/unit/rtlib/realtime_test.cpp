@@ -1,15 +1,19 @@
-// The loop on the machine's clock. Bounds are loose: the machine may be busy.
+// The loop on the machine's clock, and what a thread asks of the system for it.
 #include "rtlib/host/realtime.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
-#include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <string>
-#include <thread>
 
+#include "tests/support/fake_clock.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
@@ -29,34 +33,117 @@ protected:
   TestProgram test;
 };
 
+constexpr int64_t kMs = 1'000'000;
+
 TEST_F(RealTimeTest, ClockOfTheProgramFollowsTheMachines) {
   Instance instance(test.program);
-  const int64_t start = monotonicNs();
+  FakeClock clock(1000 * kMs);
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, {}, [&] { return ++slices < 20; });
-  const int64_t elapsed = monotonicNs() - start;
+  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 20; });
   EXPECT_EQ(stats.slices, 20u);
+  EXPECT_EQ(stats.missed, 0u);
+  EXPECT_EQ(stats.maxLateNs, 0);
+  EXPECT_EQ(stats.maxRunNs, 0);
   EXPECT_EQ(instance.memory().readByte(0, 0), 20);
-  EXPECT_GE(elapsed, 40'000'000);
-  EXPECT_EQ(instance.nowUs(), 2000 * static_cast<int64_t>(20 + stats.missed));
-  EXPECT_LE(instance.nowUs() * 1000, elapsed);
-  EXPECT_FALSE(stats.priorityGranted);
-  EXPECT_FALSE(stats.memoryLocked);
+  EXPECT_EQ(instance.nowUs(), 40'000);
+  EXPECT_EQ(clock.ns(), 1040 * kMs);
+  EXPECT_EQ(clock.sleeps(), 20);
 }
 
 TEST_F(RealTimeTest, LatePeriodsAreCountedAndTheClockCatchesUp) {
   Instance instance(test.program);
+  FakeClock clock(1000 * kMs);
   int slices = 0;
-  const int64_t start = monotonicNs();
-  const RealTimeStats stats = runRealTime(instance, {}, [&] {
-    if (++slices == 2) std::this_thread::sleep_for(std::chrono::milliseconds(21));
+  const RealTimeStats stats = runRealTime(instance, [&] {
+    if (++slices == 2) clock.advance(21 * kMs);
     return slices < 4;
   });
   EXPECT_EQ(stats.slices, 4u);
-  EXPECT_GE(stats.missed, 9u);
-  EXPECT_GE(stats.maxLateNs, 18'000'000);
-  EXPECT_GE(instance.nowUs(), 8000 + 18000);
-  EXPECT_LE(instance.nowUs() * 1000, monotonicNs() - start);
+  EXPECT_EQ(stats.missed, 9u); // due at 6 ms, run at 25 ms: those of 6 to 22 ms
+  EXPECT_EQ(stats.maxLateNs, 19 * kMs);
+  EXPECT_EQ(instance.nowUs(), 26'000);
+  EXPECT_EQ(clock.ns(), 1026 * kMs); // the fourth is in time again
+}
+
+// Less than a period is caught up without loss.
+TEST_F(RealTimeTest, ALateWakeUpMissesNothing) {
+  Instance instance(test.program);
+  FakeClock clock;
+  clock.setLateness(kMs);
+  int slices = 0;
+  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 10; });
+  EXPECT_EQ(stats.missed, 0u);
+  EXPECT_EQ(stats.maxLateNs, kMs);
+  EXPECT_EQ(instance.nowUs(), 20'000);
+}
+
+TEST_F(RealTimeTest, TheLongestSliceIsMeasured) {
+  static FakeClock* running = nullptr;
+  TestProgram slow;
+  slow.addPacked("R", 1, 8, 0);
+  slow.addChunk([](uint8_t* mem, rung_ctx*) {
+    running->advance(++mem[0] == 3 ? 700'000 : 100'000);
+    return RUNG_PC_DONE;
+  });
+  slow.addTask("MAIN", 0);
+  slow.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000}, {RUNG_STEP_RUN, 0, 1}};
+  slow.link();
+  Instance instance(slow.program);
+  FakeClock clock;
+  running = &clock;
+  int slices = 0;
+  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 5; });
+  EXPECT_EQ(stats.maxRunNs, 700'000);
+  EXPECT_EQ(stats.maxLateNs, 0);
+}
+
+// On the machine's own clock, which is only known not to stand still.
+TEST_F(RealTimeTest, SleepsOnTheMachinesClock) {
+  Instance instance(test.program);
+  const int64_t start = monotonicNs();
+  int slices = 0;
+  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 5; });
+  EXPECT_GE(monotonicNs() - start, 10 * kMs);
+  EXPECT_EQ(instance.nowUs(), 2000 * static_cast<int64_t>(5 + stats.missed));
+}
+
+// ---- what is asked of the system ----
+
+int policy() { return sched_getscheduler(0); }
+
+TEST(RealTimeThread, AsksForNothingByItself) {
+  const int before = policy();
+  const RealTimeThread thread({});
+  EXPECT_EQ(thread.problem(), "");
+  EXPECT_EQ(policy(), before);
+}
+
+TEST(RealTimeThread, HasItsPriorityAndPutsItBack) {
+  const int before = policy();
+  {
+    const RealTimeThread thread({.priority = 10});
+    if (!thread.problem().empty()) GTEST_SKIP() << thread.problem();
+    EXPECT_EQ(policy(), SCHED_FIFO);
+    sched_param param{};
+    sched_getparam(0, &param);
+    EXPECT_EQ(param.sched_priority, 10);
+  }
+  EXPECT_EQ(policy(), before);
+}
+
+TEST(RealTimeThread, SaysWhatIsNotGranted) {
+  const auto refused = [](const RealTimeOptions& options) {
+    const rlimit none = {0, 0};
+    setrlimit(RLIMIT_RTPRIO, &none);
+    setrlimit(RLIMIT_MEMLOCK, &none);
+    if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) std::exit(1);
+    const RealTimeThread thread(options);
+    std::fprintf(stderr, "%s", thread.problem().c_str());
+    std::exit(policy() == SCHED_OTHER ? 0 : 1);
+  };
+  EXPECT_EXIT(refused({.priority = 10}), testing::ExitedWithCode(0), "^real-time priority 10: .*ulimit -r");
+  EXPECT_EXIT(refused({.lockMemory = true}), testing::ExitedWithCode(0), "^memory cannot be locked: .*ulimit -l");
+  EXPECT_EXIT(refused({.priority = 100}), testing::ExitedWithCode(0), "^real-time priority 100: ");
 }
 
 // Bytes of this process that are locked in memory.
@@ -67,21 +154,20 @@ std::string lockedMemory() {
   return {};
 }
 
-// A lock that the host has taken for itself is still there afterwards.
-TEST_F(RealTimeTest, MemoryStaysLocked) {
-  if (mlockall(MCL_CURRENT) != 0) GTEST_SKIP() << "this system grants no locked memory";
-  const std::string before = lockedMemory();
-  Instance instance(test.program);
-  const RealTimeStats stats = runRealTime(instance, {.lockMemory = true}, [] { return false; });
-  EXPECT_TRUE(stats.memoryLocked);
-  EXPECT_THAT(lockedMemory(), testing::Not(testing::HasSubstr(" 0 kB"))) << before;
+// A lock is the process's.
+TEST(RealTimeThread, MemoryStaysLocked) {
+  {
+    const RealTimeThread thread({.lockMemory = true});
+    if (!thread.problem().empty()) GTEST_SKIP() << thread.problem();
+  }
+  EXPECT_THAT(lockedMemory(), testing::Not(testing::HasSubstr(" 0 kB")));
   munlockall();
 }
 
 TEST_F(RealTimeTest, FaultEndsTheLoop) {
   Instance instance(test.program);
   EXPECT_EQ(instance.write(intRef(0, 1, 8), 1), std::nullopt);
-  const RealTimeStats stats = runRealTime(instance, {}, [] { return true; });
+  const RealTimeStats stats = runRealTime(instance, [] { return true; });
   EXPECT_EQ(stats.slices, 1u);
   EXPECT_TRUE(instance.faulted());
 }

@@ -4,47 +4,14 @@
 
 #include "tests/support/compiled_program.h"
 #include "tests/support/count_allocations.h"
-#include "tools/rung-hal/box.h"
+#include "tests/unit/rung_hal/bench.h"
 
 namespace rung::hal {
 namespace {
 
 using ::testing::IsEmpty;
 
-constexpr int64_t kMs = 1'000'000;
-
-union PinValue {
-  bool bit;
-  int32_t s32;
-  uint32_t u32;
-  double real = 0;
-};
-
-class Bench {
-public:
-  Bench(const rung_program& program, std::string_view text) {
-    MapFile map = parseMap(text, "m.map", errors);
-    values.resize(map.pins.size());
-    for (PinValue& value : values) cells.push_back({.any = &value});
-    box = Box::make(program, std::move(map), errors, {}, warnings);
-    if (box) box->connect(cells.data());
-  }
-
-  PinValue& operator[](std::string_view name) {
-    for (size_t i = 0; i < values.size(); ++i)
-      if (box->pins()[i].name == name) return values[i];
-    ADD_FAILURE() << "no pin " << name;
-    return values[0];
-  }
-  void run(int64_t ms) {
-    for (int64_t i = 0; i < ms; ++i) EXPECT_NE(box->step(kMs), StepResult::Failed);
-  }
-
-  std::vector<std::string> errors, warnings;
-  std::vector<PinValue> values;
-  std::vector<PinCell> cells;
-  std::unique_ptr<Box> box;
-};
+using testing::Bench;
 
 // ---- NCT -----------------------------------------------------------------------------------------------------------
 
@@ -182,7 +149,7 @@ protected:
     EXPECT_THAT(b.errors, IsEmpty());
     b.run(20); // the acknowledges are initialised
   }
-  testing::CompiledProgram program{"test.lad", kNct};
+  rung::testing::CompiledProgram program{"test.lad", kNct};
   Bench b{program.program(), kNctMap};
 };
 
@@ -412,7 +379,7 @@ edge = "rise"
 class TechnolBox : public ::testing::Test {
 protected:
   TechnolBox() { EXPECT_THAT(b.errors, IsEmpty()); }
-  testing::CompiledProgram program{"test.plc", kTechnol};
+  rung::testing::CompiledProgram program{"test.plc", kTechnol};
   Bench b{program.program(), kTechnolMap};
 };
 

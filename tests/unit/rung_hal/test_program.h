@@ -14,7 +14,8 @@ const rung_program& gskProgram();
 // shows message 7 of channel 3 with index 5, its output is M0400.01.
 const rung_program& nctProgram();
 
-// TECHNOL, 20 ms, spaces NCI and DATA with the cells REALCELL (8 bytes), COUNT (2 bytes), NAME (a text).
+// TECHNOL, 20 ms, spaces NCI and DATA with the cells REALCELL (8 bytes), COUNT (2 bytes), NAME (a text): for
+// names and types, it does nothing.
 const rung_program& technolProgram();
 
 // No schedule and no period.

@@ -44,7 +44,7 @@ protected:
   }
   uint64_t get(std::string_view name) { return instance_->read(place(name)); }
   double real(std::string_view name) { return instance_->readReal(place(name)); }
-  void set(std::string_view name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), ""); }
+  void set(std::string_view name, uint64_t value) { EXPECT_FALSE(instance_->write(place(name), value)); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) {
       functions().step();

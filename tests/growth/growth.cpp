@@ -1,0 +1,160 @@
+// Work whose instructions growth_test.py counts: growth CASE SIZE. The input has SIZE parts of one kind.
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "ir/core/builder.h"
+#include "ir/passes/pipeline.h"
+#include "ir/text/text.h"
+#include "tests/unit/ladder/ladder_testing.h"
+
+namespace {
+
+using namespace rung;
+using namespace rung::ir;
+
+// ---- ladder text ----
+
+void parseRungs(uint32_t n) {
+  std::string text = "dialect t\nmodule M\n";
+  for (uint32_t i = 0; i < n; ++i) text += "rung \"r\"\n|--[A]--+--[/B]--(X)\n|--[C]--+\n\n";
+  const ladder::Parsed parsed(std::move(text));
+}
+
+void parseErrors(uint32_t n) {
+  std::string text = "dialect t\nmodule M\n";
+  for (uint32_t i = 0; i < n; ++i) text += "rung\n|--[A\n";
+  const ladder::Parsed parsed(std::move(text));
+}
+
+void parseLine(uint32_t n) {
+  std::string drawing = "|--";
+  for (uint32_t i = 0; i < n; ++i) drawing += "[A]--";
+  const ladder::Parsed parsed = ladder::parseDrawing(drawing + "(X)\n");
+}
+
+void parseBoxesBelowEachOther(uint32_t n) {
+  std::string line = "|--[A]";
+  for (uint32_t i = 0; i < n; ++i) line += "--{XX }";
+  const ladder::Parsed parsed = ladder::parseDrawing(line + "\n|---[A]" + line.substr(6) + "\n");
+}
+
+// ---- modules ----
+
+Module emptyModule(uint32_t rungs, uint32_t slots) {
+  Module module;
+  module.name = "large";
+  module.files = {"a"};
+  module.spaces = {{.name = "M", .unitBytes = 4, .units = 10000}};
+  for (uint32_t i = 0; i < slots; ++i)
+    module.slots.push_back({.type = Type::I32, .transient = true, .key = fmt::format("r{}", i)});
+  module.routines.resize(1);
+  module.routines[0].rungs.resize(rungs);
+  module.tasks.push_back({.name = "T", .entry = RoutineId{0}});
+  return module;
+}
+
+void optimise(Module& module) { runPasses(module, {.optimise = true, .instrument = true, .verifyEach = false}); }
+
+// Twenty registers that every rung stores and loads, and a jump.
+Module manyRungs(uint32_t n) {
+  constexpr uint32_t kRegisters = 20;
+  Module module = emptyModule(n, kRegisters);
+  for (uint32_t i = 0; i < n; ++i) {
+    RungBuilder b(module, module.routines[0].rungs[i]);
+    const ValueId x = b.load(Type::Bit, {SpaceId{0}, i % 40000, i % 8});
+    const ValueId y = b.and_(b.load(Type::Bit, {SpaceId{0}, i % 40000, i % 8}), x);
+    const ValueId old = b.slotLoad(SlotId{i % kRegisters});
+    for (uint32_t k = 0; k < 3; ++k) b.slotStore(SlotId{(i + k) % kRegisters}, b.add(old, b.i32(k)));
+    b.store({SpaceId{0}, (i + 7) % 40000, i % 8}, b.or_(y, b.not_(x)));
+    if (i + 50 < n) b.gotoRung(i + 50, x);
+  }
+  return module;
+}
+
+void optimiseRungs(uint32_t n) {
+  Module module = manyRungs(n);
+  optimise(module);
+}
+
+// One rung, with regions in regions around it.
+void optimiseLargeRung(uint32_t n) {
+  Module module = emptyModule(2, 1);
+  RungBuilder b(module, module.routines[0].rungs[0]);
+  const ValueId cond = b.load(Type::Bit, {SpaceId{0}, 0, 0});
+  const uint32_t depth = n / 40;
+  for (uint32_t i = 0; i < depth; ++i) {
+    if (i % 2 == 0)
+      b.if_(cond);
+    else
+      b.loop(1);
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    const Place place{SpaceId{0}, 4 * (i % 5000), 0};
+    b.store(place, b.add(b.load(Type::I32, place), b.loadAt(Type::I32, {SpaceId{0}, 0, 100}, b.i32(i % 7))));
+  }
+  for (uint32_t i = depth; i-- > 0;) {
+    if (i % 2 == 0)
+      b.endIf();
+    else
+      b.endLoop();
+  }
+  optimise(module);
+}
+
+// As many registers as rungs, each stored in the first rung and loaded in the last: all live everywhere.
+void optimiseRegisters(uint32_t n) {
+  Module module = emptyModule(n, n);
+  {
+    RungBuilder b(module, module.routines[0].rungs[0]);
+    const ValueId zero = b.i32(0);
+    for (uint32_t i = 0; i < n; ++i) b.slotStore(SlotId{i}, zero);
+  }
+  RungBuilder b(module, module.routines[0].rungs[n - 1]);
+  for (uint32_t i = 0; i < n; ++i) b.store({SpaceId{0}, 0, 0}, b.slotLoad(SlotId{i}));
+  optimise(module);
+}
+
+void printAndParse(uint32_t n) {
+  Module module = manyRungs(n);
+  for (uint32_t i = 0; i < n; ++i)
+    module.symbols.push_back({.name = "S" + std::to_string(i), .space = SpaceId{0}, .byte = i % 40000});
+  if (!parse(print(module)).module) std::abort();
+}
+
+uint32_t sizeOf(const char* text) { return static_cast<uint32_t>(std::atoi(text)); }
+
+// What the test must notice.
+void quadratic(uint32_t n) {
+  volatile uint32_t steps = 0;
+  for (uint32_t i = 0; i < n; ++i)
+    for (uint32_t k = 0; k < n; ++k) steps = steps + 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const std::map<std::string_view, std::function<void(uint32_t)>> cases = {
+      {"parse-rungs", parseRungs},
+      {"parse-errors", parseErrors},
+      {"parse-line", parseLine},
+      {"parse-boxes", parseBoxesBelowEachOther},
+      {"optimise-rungs", optimiseRungs},
+      {"optimise-large-rung", optimiseLargeRung},
+      {"optimise-registers", optimiseRegisters},
+      {"print-and-parse", printAndParse},
+  };
+  if (argc == 3 && argv[1] == std::string_view("quadratic")) return quadratic(sizeOf(argv[2])), 0;
+  if (argc != 3) { // their names
+    for (const auto& [name, work] : cases) std::printf("%s\n", std::string(name).c_str());
+    return 0;
+  }
+  const auto found = cases.find(argv[1]);
+  if (found == cases.end()) return 2;
+  found->second(sizeOf(argv[2]));
+  return 0;
+}

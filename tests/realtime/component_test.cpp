@@ -1,0 +1,300 @@
+// The component of LinuxCNC with another HAL around it: what its scan does in real time, and that loading and unloading
+// leave nothing, wherever they fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "ir/support/temporary_folder.h"
+#include "tests/realtime/fake_hal.h"
+#include "tests/realtime/guard.h"
+
+namespace rung::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+namespace fs = std::filesystem;
+
+constexpr int64_t kMs = 1'000'000;
+
+// Message 99 at each pass while SHOW is on; MODULE_DONE switches LAMP off.
+constexpr const char* kMessages = R"(DATA
+        DFM SHOW,LAMP
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_MAIN
+        LDR SHOW
+        ESET1 99
+        FL 1,LAMP
+MODULE_MAIN_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_DONE
+MODULE_DONE_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+)";
+constexpr const char* kMessagesMap = "in.show = { type = \"bit\", name = \"SHOW\" }\n"
+                                     "out.lamp = { type = \"bit\", name = \"LAMP\" }\n";
+
+size_t entriesOf(const char* folder) {
+  return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+size_t openFiles() { return entriesOf("/proc/self/fd"); }
+size_t threads() { return entriesOf("/proc/self/task"); }
+
+class Component : public testing::Test {
+protected:
+  // A GSK program that never ends while pin stick is on, and one of TECHNOL that shows messages.
+  static void SetUpTestSuite() {
+    built = std::make_unique<TemporaryFolder>();
+    write("messages.plc", kMessages);
+    write("messages.map", kMessagesMap);
+    build("tests/cnc/stuck.pmc", "stuck.so");
+    build(path("messages.plc"), "messages.so");
+  }
+  static void TearDownTestSuite() { built.reset(); }
+
+  static std::string path(const char* name) { return (*built / name).string(); }
+  static void write(const char* name, const std::string& text) { std::ofstream(*built / name) << text; }
+  static void build(const std::string& source, const char* object) {
+    const std::string command = std::string(RUNG_TEST_RUNGC) + " build -q " + source + " -o " + path(object);
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  }
+
+  int loadStuck(const std::string& retain = {}) { return hal.load(path("stuck.so"), "tests/cnc/stuck.map", retain); }
+  int loadMessages() { return hal.load(path("messages.so"), path("messages.map")); }
+
+  volatile bool& bit(const char* name) { return hal.value<bool>(std::string("rung.") + name); }
+  volatile uint32_t& number(const char* name) { return hal.value<uint32_t>(std::string("rung.") + name); }
+
+  // Milliseconds of a servo thread, under the guard.
+  void scan(int ms) {
+    const FakeHal::Function function = hal.function("rung.scan");
+    Guard guard;
+    for (int i = 0; i < ms; ++i) {
+      const Guarded realTime(guard);
+      function.call(kMs);
+    }
+    EXPECT_EQ(guard.offences(), "");
+  }
+  // Where something else than the scan is at work.
+  template <class Condition>
+  bool scanUntil(Condition condition) {
+    for (int i = 0; i < 2000 && !condition(); ++i) {
+      scan(1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return condition();
+  }
+
+  void expectNothingLeft() {
+    EXPECT_TRUE(hal.empty());
+    EXPECT_EQ(hal.initialised(), 0);
+    EXPECT_EQ(openFiles(), filesBefore);
+    EXPECT_EQ(threads(), threadsBefore);
+  }
+
+  static std::unique_ptr<TemporaryFolder> built;
+  size_t filesBefore = openFiles();
+  size_t threadsBefore = threads();
+  FakeHal hal;
+};
+
+std::unique_ptr<TemporaryFolder> Component::built;
+
+TEST_F(Component, ScansBetweenItsPins) {
+  ASSERT_EQ(loadStuck(), 0);
+  bit("run") = true;
+  number("number") = 7;
+  scan(7);
+  EXPECT_EQ(number("scans"), 0u);
+  scan(1);
+  EXPECT_EQ(number("scans"), 1u);
+  EXPECT_TRUE(bit("lamp"));
+  EXPECT_EQ(hal.value<double>("rung.value"), 7);
+  EXPECT_FALSE(bit("fault"));
+  EXPECT_GT(number("scan-time"), 0u);
+  EXPECT_GE(number("scan-time-max"), number("scan-time"));
+  hal.unload();
+  EXPECT_THAT(hal.lines(), IsEmpty());
+  EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.run")); // an input, which is HAL's
+  expectNothingLeft();
+}
+
+TEST_F(Component, AFaultIsReportedAndResetRestarts) {
+  ASSERT_EQ(loadStuck(), 0);
+  bit("run") = true;
+  scan(8);
+  bit("stick") = true;
+  scan(8);
+  EXPECT_TRUE(bit("fault"));
+  EXPECT_FALSE(bit("lamp"));
+  EXPECT_EQ(number("fault-line"), 12u);
+  EXPECT_THAT(hal.lines(), ElementsAre(HasSubstr("rung: the program has stopped: ")));
+  EXPECT_THAT(hal.lines()[0], HasSubstr("stuck.pmc:12 (rung "));
+  bit("stick") = false;
+  scan(100);
+  EXPECT_TRUE(bit("fault")); // nobody has asked
+  bit("reset") = true;
+  ASSERT_TRUE(scanUntil([&] { return !bit("fault"); }));
+  scan(8);
+  EXPECT_TRUE(bit("lamp"));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: the program has been restarted")));
+  hal.unload();
+  expectNothingLeft();
+}
+
+// The parameter is in microseconds; the program would use its budget up much later.
+TEST_F(Component, MaxTimeStopsTheProgram) {
+  ASSERT_EQ(loadStuck(), 0);
+  number("max-time") = 1;
+  bit("stick") = true;
+  scan(8);
+  EXPECT_TRUE(bit("fault"));
+  hal.unload();
+  expectNothingLeft();
+}
+
+TEST_F(Component, MessagesArePrintedInTheScan) {
+  ASSERT_EQ(loadMessages(), 0);
+  bit("show") = true;
+  scan(60);
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung_hal: message ")));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr("99")));
+  EXPECT_TRUE(bit("lamp"));
+  hal.unload();
+  EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.show"));
+  expectNothingLeft();
+}
+
+TEST_F(Component, AnotherPrefix) {
+  ASSERT_EQ(hal.load(path("stuck.so"), "tests/cnc/stuck.map", {}, "plc"), 0);
+  EXPECT_TRUE(hal.has("plc.lamp"));
+  EXPECT_TRUE(hal.has("plc.scan"));
+  EXPECT_FALSE(hal.has("rung.lamp"));
+  hal.unload();
+  expectNothingLeft();
+}
+
+TEST_F(Component, LoadsAgainWithWhatItHasKept) {
+  const std::string retain = path("kept");
+  ASSERT_EQ(loadStuck(retain), 0);
+  bit("run") = true;
+  number("number") = 7;
+  scan(8);
+  hal.unload();
+  expectNothingLeft();
+  ASSERT_EQ(loadStuck(retain), 0);
+  scan(8); // nothing writes D0
+  EXPECT_EQ(hal.value<double>("rung.value"), 7);
+  hal.unload();
+  ASSERT_EQ(loadMessages(), 0); // another program
+  scan(20);
+  EXPECT_TRUE(bit("lamp"));
+  hal.unload();
+  expectNothingLeft();
+}
+
+TEST_F(Component, ASecondOneDoesNotDisturbTheFirst) {
+  ASSERT_EQ(loadStuck(), 0);
+  EXPECT_LT(loadMessages(), 0);
+  bit("run") = true;
+  scan(8);
+  EXPECT_TRUE(bit("lamp"));
+  hal.unload();
+  expectNothingLeft();
+  EXPECT_EQ(loadMessages(), 0); // nothing is in its way
+  hal.unload();
+  expectNothingLeft();
+}
+
+// LinuxCNC does not call rtapi_app_exit when loading has failed.
+TEST_F(Component, NothingIsLeftWhereverLoadingFails) {
+  const std::string retain = path("failing");
+  int tried = 0;
+  for (;; ++tried) {
+    SCOPED_TRACE(tried);
+    ASSERT_LT(tried, 100);
+    hal.failAt(tried + 1);
+    const int before = hal.asked();
+    if (loadStuck(retain) == 0) break;
+    EXPECT_EQ(hal.asked(), before + tried + 1); // nothing is asked for after the failure
+    expectNothingLeft();
+  }
+  EXPECT_GT(tried, 15); // hal_init, memory, status pins, those of the map, the parameter, the function, hal_ready
+  bit("run") = true;
+  scan(8);
+  EXPECT_TRUE(bit("lamp"));
+  hal.unload();
+  expectNothingLeft();
+}
+
+TEST_F(Component, MistakesAreReportedAndNothingIsLeft) {
+  write("wrong.map", "in.a = { type = \"bit\", name = \"NOT_THERE\" }\n");
+  const auto mistake = [&](const std::string& program, const std::string& map, const std::string& retain = {}) {
+    const size_t before = hal.lines().size();
+    EXPECT_LT(hal.load(program, map, retain), 0);
+    expectNothingLeft();
+    const std::vector<std::string> lines = hal.lines();
+    return lines.size() == before + 1 ? lines.back() : "not one line";
+  };
+  EXPECT_THAT(mistake("", "tests/cnc/stuck.map"), HasSubstr("so=PROGRAM.so and map=MAPPING_FILE are needed"));
+  EXPECT_THAT(mistake(path("stuck.so"), ""), HasSubstr("so=PROGRAM.so and map=MAPPING_FILE are needed"));
+  EXPECT_THAT(mistake(path("none.so"), "tests/cnc/stuck.map"), HasSubstr("none.so"));
+  EXPECT_THAT(mistake("tests/cnc/stuck.map", "tests/cnc/stuck.map"), HasSubstr("stuck.map"));
+  EXPECT_THAT(mistake(path("stuck.so"), "tests/cnc/none.map"), HasSubstr("cannot read tests/cnc/none.map"));
+  EXPECT_THAT(mistake(path("stuck.so"), path("wrong.map")), HasSubstr("NOT_THERE"));
+  EXPECT_THAT(mistake(path("stuck.so"), "tests/cnc/stuck.map", path("none") + "/plc"), HasSubstr("cannot write"));
+}
+
+// HAL takes the function out of its thread without waiting for a call that is on its way.
+TEST_F(Component, UnloadsBesideARunningThread) {
+  for (int round = 0; round < 5; ++round) {
+    ASSERT_EQ(loadStuck(path("beside")), 0);
+    bit("run") = true;
+    hal.startThread("rung.scan", kMs);
+    while (hal.calls() < 30) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(bit("lamp"));
+    hal.unload();
+    EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.run"));
+    expectNothingLeft();
+  }
+}
+
+// The thread scans while the restart is made ready.
+TEST_F(Component, RestartsBesideARunningThread) {
+  ASSERT_EQ(loadStuck(path("restarts")), 0);
+  hal.startThread("rung.scan", kMs);
+  const auto wait = [&](bool faulted) {
+    for (int i = 0; i < 5000 && bit("fault") != faulted; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return bit("fault") == faulted;
+  };
+  for (int round = 0; round < 3; ++round) {
+    bit("stick") = true;
+    ASSERT_TRUE(wait(true));
+    bit("stick") = false;
+    bit("reset") = true;
+    ASSERT_TRUE(wait(false));
+    bit("reset") = false;
+  }
+  hal.unload();
+}
+
+} // namespace
+} // namespace rung::test

@@ -1,0 +1,205 @@
+// See hosts.h.
+#include "tests/realtime/hosts.h"
+
+#include <functional>
+
+#include "rtlib/host/realtime.h"
+#include "rtlib/nc/control/retention.h"
+#include "tests/realtime/guard.h"
+#include "tests/realtime/places.h"
+#include "tests/support/fake_clock.h"
+#include "tools/rung-hal/box.h"
+
+namespace rung::test {
+namespace {
+
+constexpr int64_t kNsInMs = 1'000'000;
+
+std::string inSlice(uint64_t slice, const std::string& offences) {
+  return offences.empty() ? std::string() : "slice " + std::to_string(slice) + ": " + offences;
+}
+
+// ---- LinuxCNC ----
+
+union PinValue {
+  bool bit;
+  int32_t s32;
+  uint32_t u32;
+  double real = 0;
+};
+
+// Pins as HAL would have them.
+class Pins {
+public:
+  explicit Pins(const std::vector<hal::MapPin>& pins) : pins_(pins), values_(pins.size()) {
+    for (PinValue& value : values_) cells_.push_back({.any = &value});
+  }
+  const hal::PinCell* cells() const { return cells_.data(); }
+
+  void toggle() {
+    for (size_t i = 0; i < pins_.size(); ++i)
+      if (!pins_[i].output) toggle(pins_[i].type, values_[i]);
+  }
+
+private:
+  void toggle(hal::PinType type, PinValue& value) {
+    switch (type) {
+    case hal::PinType::Bit: value.bit = toggles_.next(value.bit); return;
+    case hal::PinType::S32: value.s32 = toggles_.nextNumber(value.s32); return;
+    case hal::PinType::U32:
+      value.u32 = static_cast<uint32_t>(toggles_.nextNumber(static_cast<int32_t>(value.u32)));
+      return;
+    case hal::PinType::Float: value.real = toggles_.nextNumber(static_cast<int32_t>(value.real)); return;
+    }
+  }
+
+  const std::vector<hal::MapPin>& pins_;
+  std::vector<PinValue> values_;
+  std::vector<hal::PinCell> cells_;
+  Toggles toggles_;
+};
+
+uint64_t shown = 0;
+
+// As the component prints it.
+void describe(const nc::Control& control, const rung_program& program, const rung_message& message) {
+  ++shown;
+  char line[nc::kMessageLine];
+  line[control.describe(program, message, std::span(line).first(sizeof line - 1))] = '\0';
+}
+
+// ---- a host of its own ----
+
+class Bare {
+public:
+  Bare(const rung_program& program, const std::string& retain)
+      : control_(nc::makeControl(program.dialect)), instance_(program, control_.get()),
+        retention_(*control_, instance_, retain), inputs_(instance_, *control_, namesOf(instance_, *control_).inputs) {
+    std::string report;
+    std::string error;
+    const auto kind = retention_.load(report, error);
+    if (kind)
+      control_->powerOn(instance_, *kind);
+    else
+      outcome_.problem = error;
+  }
+
+  host::Instance& instance() { return instance_; }
+  Guard& guard() { return guard_; }
+  Outcome& outcome() { return outcome_; }
+
+  // All that follows the slice, in real time.
+  void afterSlice() {
+    control_->afterSlice(instance_);
+    retention_.afterSlice();
+    rung_message message;
+    while (instance_.messages().pop(message)) {
+      control_->accept(message);
+      describe(*control_, instance_.program(), message);
+      ++outcome_.messages;
+    }
+    ++outcome_.slices;
+  }
+
+  // Not in real time.
+  void betweenSlices() {
+    outcome_.problem = inSlice(outcome_.slices, guard_.offences());
+    inputs_.toggle(instance_);
+    if (!instance_.faulted()) return;
+    ++outcome_.faults;
+    control_->powerOn(instance_, nc::PowerOn::Warm);
+  }
+
+  bool goesOn() const { return outcome_.problem.empty() && instance_.nowUs() < int64_t{kRunMs} * 1000; }
+
+  Outcome end() {
+    const std::string error = retention_.finish();
+    if (outcome_.problem.empty()) outcome_.problem = error;
+    return outcome_;
+  }
+
+private:
+  std::unique_ptr<nc::Control> control_;
+  host::Instance instance_;
+  nc::Retention retention_;
+  Inputs inputs_;
+  Guard guard_;
+  Outcome outcome_;
+};
+
+} // namespace
+
+Outcome runInBox(const rung_program& program, hal::MapFile map, const std::string& retain) {
+  Outcome outcome;
+  std::vector<std::string> errors;
+  std::vector<std::string> reports;
+  const std::unique_ptr<hal::Box> box = hal::Box::make(program, std::move(map), errors, retain, reports);
+  for (const std::string& error : errors) outcome.problem += error + "\n";
+  if (!box) return outcome;
+  Pins pins(box->pins());
+  box->connect(pins.cells());
+  box->setMessageSink(describe);
+  shown = 0;
+  Guard guard;
+  bool reset = false;
+  for (int ms = 0; ms < kRunMs && outcome.problem.empty(); ++ms) {
+    pins.toggle();
+    hal::StepResult result;
+    {
+      const Guarded realTime(guard);
+      if (box->running()) box->setTimeLimit(1000 * kNsInMs);
+      result = box->step(kNsInMs, reset);
+    }
+    outcome.problem = inSlice(outcome.slices, guard.offences());
+    outcome.slices += result == hal::StepResult::Ran ? 1 : 0;
+    outcome.faults += result == hal::StepResult::Failed ? 1 : 0;
+    reset = !box->running() && !reset;
+    box->serve(reports);
+  }
+  outcome.messages = shown;
+  const std::string error = box->close();
+  if (outcome.problem.empty()) outcome.problem = error;
+  return outcome;
+}
+
+Outcome runBare(const rung_program& program, const std::string& retain) {
+  Bare bare(program, retain);
+  while (bare.goesOn()) {
+    {
+      const Guarded realTime(bare.guard());
+      bare.instance().slice();
+      bare.afterSlice();
+    }
+    bare.betweenSlices();
+  }
+  return bare.end();
+}
+
+Outcome runOnClock(const rung_program& program, const std::string& retain) {
+  Bare bare(program, retain);
+  FakeClock clock(bare.instance().nowUs() * 1000);
+  const std::function<bool()> keepGoing = [&] {
+    bare.afterSlice();
+    bare.guard().exit();
+    bare.betweenSlices();
+    clock.setLateness(bare.outcome().slices % 50 == 0 ? 30 * kNsInMs : 0); // periods are missed, too
+    bare.guard().enter();
+    return bare.goesOn();
+  };
+  while (bare.goesOn()) {
+    {
+      const Guarded realTime(bare.guard());
+      host::runRealTime(bare.instance(), keepGoing);
+    }
+    bare.betweenSlices(); // after a fault
+  }
+  return bare.end();
+}
+
+hal::MapFile mapOfAll(const rung_program& program) {
+  const std::unique_ptr<nc::Control> control = nc::makeControl(program.dialect);
+  const host::Instance instance(program, control.get());
+  return mapOf(namesOf(instance, *control));
+}
+
+} // namespace rung::test

@@ -1,0 +1,77 @@
+// See places.h.
+#include "tests/realtime/places.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "rtlib/nc/signals.h"
+
+namespace rung::test {
+namespace {
+
+constexpr size_t kMostPins = 600; // each way: as many as a large machine has
+
+// The flags of the space where a name's bit is; 0: it is none that a pin could have.
+uint32_t spaceFlags(const host::Instance& instance, const std::optional<host::Ref>& place) {
+  if (!place || place->kind != host::RefKind::Bit || place->count != 1) return 0;
+  return instance.program().spaces[place->space].flags;
+}
+
+std::vector<std::string> candidates(const rung_program& program) {
+  std::vector<std::string> names;
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count))
+    if (symbol.name[0] != '@') names.emplace_back(symbol.name);
+  if (const nc::SignalTable* signals = nc::signalsOf(program.dialect))
+    for (const nc::Signal& signal : *signals) names.emplace_back(signal.symbol);
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+// Not more than the limit, from all of the list.
+void thin(std::vector<std::string>& names) {
+  if (names.size() <= kMostPins) return;
+  std::vector<std::string> kept;
+  for (size_t i = 0; i < kMostPins; ++i) kept.push_back(names[i * names.size() / kMostPins]);
+  names = std::move(kept);
+}
+
+} // namespace
+
+Names namesOf(const host::Instance& instance, const nc::Control& control) {
+  Names names;
+  for (const std::string& name : candidates(instance.program())) {
+    const uint32_t flags = spaceFlags(instance, control.writePlace(instance, name));
+    if ((flags & RUNG_SPACE_INPUT) != 0) names.inputs.push_back(name);
+    if ((flags & RUNG_SPACE_OUTPUT) != 0) names.outputs.push_back(name);
+  }
+  thin(names.inputs);
+  thin(names.outputs);
+  return names;
+}
+
+hal::MapFile mapOf(const Names& names) {
+  hal::MapFile map;
+  map.path = "all.map";
+  const auto add = [&](std::vector<hal::MapLink>& links, const std::string& name, bool output) {
+    const auto pin = static_cast<uint32_t>(map.pins.size());
+    map.pins.push_back({(output ? "out-" : "in-") + std::to_string(pin), hal::PinType::Bit, output, {pin + 1}});
+    links.push_back({pin, name, 1, {pin + 1}});
+  };
+  for (const std::string& name : names.inputs) add(map.inputs, name, false);
+  for (const std::string& name : names.outputs) add(map.outputs, name, true);
+  return map;
+}
+
+Inputs::Inputs(const host::Instance& instance, const nc::Control& control, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    places_.push_back({host::locate(instance.memory(), *control.writePlace(instance, name))});
+  values_.resize(places_.size());
+}
+
+void Inputs::toggle(host::Instance& instance) {
+  for (uint64_t& value : values_) value = toggles_.next(value != 0) ? 1 : 0;
+  rt::writePlaces(instance.memory(), places_, values_);
+}
+
+} // namespace rung::test

@@ -1,0 +1,55 @@
+// A box and its pins, as HAL would have them.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/rung-hal/box.h"
+
+namespace rung::hal::testing {
+
+constexpr int64_t kMs = 1'000'000;
+
+union PinValue {
+  bool bit;
+  int32_t s32;
+  uint32_t u32;
+  double real = 0;
+};
+
+class Bench {
+public:
+  Bench(const rung_program& program, std::string_view text, const std::string& retain = {}) {
+    MapFile map = parseMap(text, "m.map", errors);
+    values.resize(map.pins.size());
+    for (PinValue& value : values) cells.push_back({.any = &value});
+    box = Box::make(program, std::move(map), errors, retain, warnings);
+    if (box) box->connect(cells.data());
+  }
+
+  PinValue& operator[](std::string_view name) {
+    for (size_t i = 0; i < values.size(); ++i)
+      if (box->pins()[i].name == name) return values[i];
+    ADD_FAILURE() << "no pin " << name;
+    return values[0];
+  }
+  // Scans of an 8 ms program.
+  void scans(int count) {
+    for (int i = 0; i < count; ++i) EXPECT_EQ(box->step(8 * kMs), StepResult::Ran);
+  }
+  // A thread of 1 ms; the program does not stop.
+  void run(int64_t ms) {
+    for (int64_t i = 0; i < ms; ++i) EXPECT_NE(box->step(kMs), StepResult::Failed);
+  }
+
+  std::vector<std::string> errors;
+  std::vector<std::string> warnings;
+  std::vector<PinValue> values;
+  std::vector<PinCell> cells;
+  std::unique_ptr<Box> box;
+};
+
+} // namespace rung::hal::testing

@@ -71,8 +71,7 @@ const Bytes* newestOf(const Bytes& a, const std::optional<Bytes>& b) {
 
 void checkLoad(const rung::host::RetainImage& image, const Bytes& a, const std::optional<Bytes>& b) {
   const Bytes* newest = newestOf(a, b);
-  const bool fits =
-      newest != nullptr && number(*newest, 8, 8) == kLayout && newest->size() == kHeaderSize + kSize;
+  const bool fits = newest != nullptr && number(*newest, 8, 8) == kLayout && newest->size() == kHeaderSize + kSize;
   RUNG_CHECK(image.found == fits, "an intact image of this layout is found, and no other");
   if (fits) {
     RUNG_CHECK(std::equal(image.bytes.begin(), image.bytes.end(), newest->begin() + kHeaderSize, newest->end()),

@@ -3,7 +3,9 @@
 // known here, so the program is refused. One walk over each table, and a search over the ranges where memory is named.
 #include <algorithm>
 #include <charconv>
+#include <concepts>
 #include <cstring>
+#include <initializer_list>
 #include <vector>
 
 #include "rtlib/host/program_info.h"
@@ -16,8 +18,21 @@ constexpr uint32_t kMaxAlign = 4096;
 constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
-std::string text(std::string_view part) { return std::string(part); }
-std::string text(uint32_t number) { return std::to_string(number); }
+// A word or a number of a message. The messages are put together in one place: each by itself would be half of the code
+// of this file.
+struct Part {
+  Part(const char* word) : text(word) {}
+  template <std::unsigned_integral T>
+  Part(T value) : number(value) {}
+  const char* text = nullptr; // null: the number
+  uint64_t number = 0;
+};
+
+std::string textOf(std::initializer_list<Part> parts) {
+  std::string text;
+  for (const Part& part : parts) text += part.text != nullptr ? std::string(part.text) : std::to_string(part.number);
+  return text;
+}
 
 uint32_t scaleOf(uint32_t repr) { return repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1; }
 
@@ -62,12 +77,12 @@ private:
   // The first error stays.
   template <class... Parts>
   void fail(const Parts&... parts) {
-    if (error_.empty()) error_ = (text(parts) + ...);
+    if (error_.empty()) error_ = textOf({parts...});
   }
   // An entry of a table, and what is wrong with it.
   template <class... Parts>
   void failAt(const char* table, uint32_t number, const Parts&... parts) {
-    fail(table, " ", number, " ", parts...);
+    if (error_.empty()) error_ = textOf({table, " ", number, " ", parts...});
   }
   void index(const char* table, uint32_t number, const char* field, uint32_t value, uint32_t count) {
     if (value >= count) failAt(table, number, "has ", field, " ", value, ", there are ", count);

@@ -18,8 +18,9 @@ namespace {
 constexpr char kMagic[] = "RUNGRET1";
 constexpr size_t kHeaderSize = 32;
 constexpr size_t kCrcAt = 28;
-constexpr size_t kMostBytes = 64 << 20; // longer than any image
-constexpr int kRetryPeriods = 10;       // between tries on a disk that fails
+constexpr uint64_t kNoGeneration = ~uint64_t{0}; // none could follow it
+constexpr size_t kMostBytes = 64 << 20;          // longer than any image
+constexpr int kRetryPeriods = 10;                // between tries on a disk that fails
 
 void put(std::vector<uint8_t>& to, size_t at, uint64_t value, size_t size) {
   for (size_t i = 0; i < size; ++i) to[at + i] = static_cast<uint8_t>(value >> (8 * i));
@@ -66,6 +67,8 @@ Found look(const std::string& path) {
     found.wrong = path + ": wrong length";
   } else if (get(file, kCrcAt, 4) != checksum(file)) {
     found.wrong = path + ": wrong checksum";
+  } else if (get(file, 16, 8) == kNoGeneration) {
+    found.wrong = path + ": wrong generation";
   } else {
     found.good = true;
     found.layoutHash = get(file, 8, 8);

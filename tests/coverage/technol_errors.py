@@ -1,7 +1,7 @@
 """TECHNOL: a program with mistakes is told exactly these, each once. Run by coverage_test.py.
 
 errors-*.scn and bad-*.scn expect errors and warnings by their lines; here they are all that is reported. The columns are in
-tests/golden/technol/errors.txt, which RUNG_UPDATE=1 writes anew."""
+tests/coverage/technol_errors.txt, which RUNG_UPDATE=1 writes anew."""
 import json
 import os
 import re
@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests/scenarios/technol"
-GOLDEN = ROOT / "tests/golden/technol/errors.txt"
+GOLDEN = ROOT / "tests/coverage/technol_errors.txt"
 
 
 class TechnolErrors(unittest.TestCase):
@@ -38,4 +38,4 @@ class TechnolErrors(unittest.TestCase):
         text = "\n".join(lines) + "\n"
         if "RUNG_UPDATE" in os.environ:
             GOLDEN.write_text(text)
-        self.assertEqual(GOLDEN.read_text(), text, "tests/golden/technol/errors.txt")
+        self.assertEqual(GOLDEN.read_text(), text, "tests/coverage/technol_errors.txt")

@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: every file of a folder, then COUNT mutations of them, the same ones every time.
-// bounded FOLDER COUNT
+// Runs a fuzz target without libFuzzer: every seed, then EACH mutations for each of them, the same ones every time;
+// RUNG_MUTATIONS=N tries N instead. A PATH is a seed or a folder of seeds. bounded EACH PATH...
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +10,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "tests/fuzz/mutations.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
@@ -71,20 +73,30 @@ void run(const std::string& text) {
 } // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("bounded FOLDER COUNT\n", stderr);
+  if (argc < 3) {
+    std::fputs("bounded EACH PATH...\n", stderr);
     return 2;
   }
-  std::vector<std::filesystem::path> paths(std::filesystem::directory_iterator(argv[1]), {});
+  namespace fs = std::filesystem;
+  std::vector<fs::path> paths;
+  for (int i = 2; i < argc; ++i)
+    if (fs::is_directory(argv[i]))
+      paths.insert(paths.end(), fs::directory_iterator(argv[i]), {});
+    else
+      paths.emplace_back(argv[i]);
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> seeds;
-  for (const auto& path : paths) {
+  for (const fs::path& path : paths) {
     std::ifstream file(path, std::ios::binary);
+    if (!file) {
+      std::fprintf(stderr, "cannot read %s\n", path.c_str());
+      return 2;
+    }
     seeds.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     run(seeds.back());
   }
   if (seeds.empty()) return 2;
-  Mutator mutator(std::move(seeds));
-  for (long count = std::atol(argv[2]); count > 0; --count) run(mutator.next());
+  long count = rung::fuzz::mutationsOfEach(std::atol(argv[1])) * static_cast<long>(seeds.size());
+  for (Mutator mutator(std::move(seeds)); count > 0; --count) run(mutator.next());
   return 0;
 }

@@ -10,16 +10,12 @@
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
+#include "tests/fuzz/mutations.h"
 
 namespace {
 
 using namespace rung::host;
 namespace fs = std::filesystem;
-
-int mutations() {
-  const char* asked = std::getenv("RUNG_MUTATIONS");
-  return asked != nullptr ? std::atoi(asked) : 300;
-}
 
 // What disks, links and copies do to a file.
 class Damage {
@@ -65,7 +61,7 @@ TEST_P(ProgramFile, DamageIsRefusedWithAReason) {
   std::string error;
   ASSERT_NE(SoEngine::open(path, error), nullptr) << error;
   Damage damage(folder.contentsOf("program.so").value());
-  for (int i = 0; i < mutations(); ++i) {
+  for (long i = 0; i < rung::fuzz::mutationsOfEach(300); ++i) {
     ASSERT_EQ(replaceFile(path, damage.next(), {.mode = kProgramMode}), "");
     ASSERT_EQ(SoEngine::open(path, error), nullptr) << "mutation " << i;
     ASSERT_THAT(error, testing::MatchesRegex("cannot load .*: its? .+")) << "mutation " << i;

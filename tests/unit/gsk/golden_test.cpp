@@ -1,45 +1,22 @@
 // Programs beside what they become: NAME.pmc or NAME.lad with NAME.ir (the module's text) or NAME.diag (what the
-// compiler says). RUNG_UPDATE=1 writes the expectations anew; a review reads the difference.
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
+// compiler says).
 #include <gtest/gtest.h>
 
 #include "ir/text/text.h"
+#include "tests/support/golden.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {
 namespace {
 
-const std::filesystem::path kFolder = "tests/golden/gsk";
-
-std::string readFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::vector<std::filesystem::path> programs() {
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    if (entry.path().extension() == ".pmc" || entry.path().extension() == ".lad") paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
 TEST(GskGolden, AllPrograms) {
-  ASSERT_FALSE(programs().empty()) << "run in the root of the repository";
-  for (const std::filesystem::path& program : programs()) {
-    const auto result = compileFiles({{program.filename(), readFile(program)}});
-    const std::string text = result->module ? ir::print(*result->module) : result->text();
-    const std::filesystem::path expected =
-        std::filesystem::path(program).replace_extension(result->module ? ".ir" : ".diag");
-    if (std::getenv("RUNG_UPDATE") != nullptr) std::ofstream(expected, std::ios::binary) << text;
-    EXPECT_EQ(readFile(expected), text) << expected;
+  rung::test::Golden golden("tests/golden/gsk", {".pmc", ".lad"});
+  for (const std::filesystem::path& program : golden.inputs()) {
+    const auto result = compileFiles({{program.filename(), golden.read(program)}});
+    if (result->module)
+      golden.expect(program, ".ir", ir::print(*result->module));
+    else
+      golden.expect(program, ".diag", result->text());
   }
 }
 

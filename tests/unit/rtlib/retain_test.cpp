@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -130,6 +131,27 @@ TEST_F(RetainTest, BothDamagedIsAReportedColdStart) {
   EXPECT_THAT(image.report, HasSubstr("plc.a: wrong checksum"));
   EXPECT_THAT(image.report, HasSubstr("plc.b: wrong checksum"));
   EXPECT_THAT(image.report, HasSubstr("starting cold"));
+}
+
+// No image could be newer, so saving would never be seen again.
+TEST_F(RetainTest, AnImageWithTheLastGenerationIsNotTaken) {
+  saveThree();
+  std::fstream file(base + ".a", std::ios::in | std::ios::out | std::ios::binary);
+  Bytes bytes(std::istreambuf_iterator<char>(file), {});
+  ASSERT_EQ(bytes.size(), 35u);
+  std::fill_n(bytes.begin() + 16, 8, uint8_t{0xFF});
+  const uLong sum = crc32(crc32(0, bytes.data(), 28), bytes.data() + 32, 3);
+  for (int i = 0; i < 4; ++i) bytes[static_cast<size_t>(28 + i)] = static_cast<uint8_t>(sum >> (8 * i));
+  file.clear();
+  file.seekp(0);
+  file.write(reinterpret_cast<const char*>(bytes.data()), 35);
+  file.close();
+  RetainStore s = store();
+  const RetainImage image = s.load();
+  EXPECT_THAT(image.report, HasSubstr("plc.a: wrong generation"));
+  EXPECT_EQ(image.bytes, (Bytes{2, 2, 2}));
+  save(s, {9, 9, 9});
+  EXPECT_EQ(load().bytes, (Bytes{9, 9, 9}));
 }
 
 TEST_F(RetainTest, SavingOverwritesTheDamagedFile) {

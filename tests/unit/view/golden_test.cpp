@@ -1,13 +1,8 @@
-// tests/golden/view: programs beside their pictures, small enough to look at. RUNG_UPDATE=1 draws them anew.
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
+// tests/golden/view: programs beside their pictures, small enough to look at.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/golden.h"
 #include "tests/unit/view/drawn.h"
 #include "tools/view/html.h"
 #include "tools/view/overlay.h"
@@ -16,37 +11,20 @@
 namespace rung::view::test {
 namespace {
 
-const std::filesystem::path kFolder = "tests/golden/view";
+using rung::test::Golden;
 
-std::string readFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-void compare(const std::filesystem::path& expected, const std::string& text) {
-  if (std::getenv("RUNG_UPDATE") != nullptr) std::ofstream(expected, std::ios::binary) << text;
-  EXPECT_EQ(readFile(expected), text) << expected;
-}
-
-TEST(ViewGolden, AllPrograms) {
-  size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
-    const std::filesystem::path& path = entry.path();
-    if (path.extension() != ".lad" && path.extension() != ".pmc") continue;
-    ++count;
-    const auto drawn = draw(path.filename(), readFile(path));
+void expectPrograms(Golden& golden) {
+  for (const std::filesystem::path& path : golden.inputs()) {
+    const auto drawn = draw(path.filename(), golden.read(path));
     ASSERT_NE(drawn, nullptr) << path;
-    compare(std::filesystem::path(path).replace_extension(".svg"), renderSvg(drawn->program));
-    compare(std::filesystem::path(path).replace_extension(".html"), renderHtml(drawn->program));
+    golden.expect(path, ".svg", renderSvg(drawn->program));
+    golden.expect(path, ".html", renderHtml(drawn->program));
   }
-  EXPECT_GT(count, 0u) << "run in the root of the repository";
 }
 
 // Every look of a rung and of an element that runs give them.
-TEST(ViewGolden, Runs) {
-  const auto drawn = draw("shapes.lad", readFile(kFolder / "shapes.lad"));
+void expectRuns(Golden& golden) {
+  const auto drawn = draw("shapes.lad", golden.read("tests/golden/view/shapes.lad"));
   ASSERT_NE(drawn, nullptr);
   Overlay overlay{.title = "Coverage", .summary = {"Two scenarios, 1,204 scans."}, .heat = "share of all operations"};
   const double shares[] = {0.4, 0.25, 0, 0.02, 0, 0.33};
@@ -73,9 +51,15 @@ TEST(ViewGolden, Runs) {
     }
   }
   lay(overlay, drawn->program);
-  compare(kFolder / "runs.svg", renderSvg(drawn->program));
-  compare(kFolder / "runs.html", renderHtml(drawn->program));
-  compare(kFolder / "table.html", renderTable("A table", "NCT", rowsOf(*drawn->module), overlay));
+  golden.expect("runs.svg", renderSvg(drawn->program));
+  golden.expect("runs.html", renderHtml(drawn->program));
+  golden.expect("table.html", renderTable("A table", "NCT", rowsOf(*drawn->module), overlay));
+}
+
+TEST(ViewGolden, All) {
+  Golden golden("tests/golden/view", {".lad", ".pmc"});
+  expectPrograms(golden);
+  expectRuns(golden);
 }
 
 } // namespace

@@ -1,0 +1,42 @@
+// The least that a machine's software does with a program file, and all that it needs of the runtime for that: loads
+// it, keeps its retained memory, answers for its control, and scans it in a thread of its own.
+// minimal_host PROGRAM.so RETAINED SCANS
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "rtlib/host/so_engine.h"
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/retention.h"
+
+using namespace rung;
+
+int main(int argc, char** argv) {
+  if (argc != 4) return 2;
+  std::string error;
+  const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(argv[1], error);
+  if (engine == nullptr) return std::puts(error.c_str()), 1;
+  const std::unique_ptr<nc::Control> control = nc::makeControl(engine->program().dialect);
+  host::Instance instance(engine->program(), control.get());
+  nc::Retention retention(*control, instance, argv[2]);
+  std::string report;
+  const std::optional<nc::PowerOn> kind = retention.load(report, error);
+  std::puts(report.c_str());
+  if (!kind) return std::puts(error.c_str()), 1;
+  control->powerOn(instance, *kind);
+  const std::optional<host::Ref> ready = control->readPlace(instance, "READY"); // as it names all that it exchanges
+  long scans = std::atol(argv[3]);
+  for (; scans > 0 && !instance.faulted(); --scans) { // the machine's own thread would wait for its period here
+    instance.slice();
+    control->afterSlice(instance);
+    retention.afterSlice();
+    for (rung_message message; instance.messages().pop(message);) control->accept(message);
+  }
+  if (instance.faulted()) std::puts(instance.faultText().c_str());
+  if (ready) std::printf("ready: %d\n", static_cast<int>(instance.read(*ready)));
+  error = retention.finish();
+  control->powerOff(instance, [&] { instance.slice(); });
+  return std::puts(error.c_str()), 0;
+}

@@ -23,7 +23,7 @@ std::string unknownKey(std::string_view event, const std::vector<NcArgument>& ke
   return {};
 }
 
-std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::string_view prefix) {
+std::optional<std::vector<uint32_t>> numbersAfter(std::string_view text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return std::nullopt;
   text.remove_prefix(prefix.size());
   std::vector<uint32_t> numbers;

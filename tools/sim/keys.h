@@ -18,7 +18,7 @@ std::string unknownKey(std::string_view event, const std::vector<NcArgument>& ke
                        std::initializer_list<std::string_view> known);
 // The numbers after a prefix: "MPOS.3" with "MPOS." gives {3}, "param.0516.2" with "param." {516, 2}. Nothing when the
 // prefix or the form is another.
-std::optional<std::vector<uint32_t>> numbersBehind(std::string_view text, std::string_view prefix);
+std::optional<std::vector<uint32_t>> numbersAfter(std::string_view text, std::string_view prefix);
 // "3.REST" gives 3, and the text is REST; nothing when its form is another.
 std::optional<uint32_t> takeNumberAndDot(std::string_view& text);
 // With the letters A to Z instead of a to z.

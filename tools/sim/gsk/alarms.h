@@ -13,7 +13,7 @@ inline constexpr uint32_t kAlarmOverTravel = 910;    // + axis (1-8); negative d
 
 class Alarms {
 public:
-  Alarms() { active_.reserve(32); } // all that the CNC raises by itself
+  Alarms() { active_.reserve(32); } // all that the CNC raises on its own
   void raise(uint32_t number) {
     if (std::ranges::find(active_, number) == active_.end()) active_.push_back(number);
   }

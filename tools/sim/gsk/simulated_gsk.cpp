@@ -110,7 +110,7 @@ private:
 
   // From 0, of MPOS.1 to MPOS.8.
   static std::optional<uint32_t> axisOfPosition(std::string_view name) {
-    const auto axis = numbersBehind(name, "MPOS.");
+    const auto axis = numbersAfter(name, "MPOS.");
     if (!axis || axis->size() != 1 || axis->front() < 1 || axis->front() > gsk::kAxes) return std::nullopt;
     return axis->front() - 1;
   }

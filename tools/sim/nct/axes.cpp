@@ -218,7 +218,7 @@ Handled Axes::event(std::string_view name, const std::vector<NcArgument>& keys) 
 
 std::optional<double> Axes::quantity(std::string_view name) const {
   const auto axisOf = [&](std::string_view prefix) -> std::optional<uint32_t> {
-    const auto key = numbersBehind(name, prefix);
+    const auto key = numbersAfter(name, prefix);
     if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kAxes) return std::nullopt;
     return (*key)[0] - 1;
   };
@@ -232,7 +232,7 @@ std::optional<double> Axes::quantity(std::string_view name) const {
 Handled Axes::setQuantity(std::string_view name, double value) {
   const bool position = name.starts_with("MPOS.");
   if (!position && !name.starts_with("ZERO.")) return std::nullopt;
-  const auto key = numbersBehind(name, position ? "MPOS." : "ZERO.");
+  const auto key = numbersAfter(name, position ? "MPOS." : "ZERO.");
   if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kAxes) return "there are axes 1 to 32";
   Axis& state = axes_[(*key)[0] - 1];
   (position ? state.position : state.zeroPoint) = value;

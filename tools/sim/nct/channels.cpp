@@ -41,7 +41,7 @@ void Channels::select(uint32_t channel, int32_t number) {
 }
 
 Handled Channels::config(std::string_view key, std::string_view value) {
-  const auto channel = numbersBehind(key, "turning.");
+  const auto channel = numbersAfter(key, "turning.");
   if (!channel || channel->size() != 1) return std::nullopt;
   if (channel->front() < 1 || channel->front() > nc::nct::kChannels) return "channels are 1 to 8";
   channels_[channel->front() - 1]->setTurning(value == "on");
@@ -117,7 +117,7 @@ std::string Channels::checkGroups(const ChannelProgram& program, uint32_t channe
 
 std::optional<double> Channels::quantity(std::string_view name) const {
   const auto channelBehind = [&](std::string_view prefix) -> std::optional<uint32_t> {
-    const auto channel = numbersBehind(name, prefix);
+    const auto channel = numbersAfter(name, prefix);
     if (!channel || channel->size() != 1 || channel->front() < 1 || channel->front() > nc::nct::kChannels)
       return std::nullopt;
     return channel->front() - 1;
@@ -131,7 +131,7 @@ std::optional<double> Channels::quantity(std::string_view name) const {
 
 Handled Channels::setQuantity(std::string_view name, double value) {
   for (const bool wanted : {false, true}) {
-    const auto channel = numbersBehind(name, wanted ? "PARTSWANTED." : "PARTS.");
+    const auto channel = numbersAfter(name, wanted ? "PARTSWANTED." : "PARTS.");
     if (!channel) continue;
     if (channel->size() != 1 || channel->front() < 1 || channel->front() > nc::nct::kChannels)
       return "channels are 1 to 8";

@@ -110,7 +110,7 @@ Handled Drives::event(std::string_view name, const std::vector<NcArgument>& keys
 }
 
 std::optional<double> Drives::quantity(std::string_view name) const {
-  const auto key = numbersBehind(name, "DRIVE.");
+  const auto key = numbersAfter(name, "DRIVE.");
   if (!key || key->size() != 2 || (*key)[0] < 1 || (*key)[0] > kDrives || (*key)[1] >= kDriveData) return std::nullopt;
   return datum((*key)[0], (*key)[1]);
 }

@@ -54,7 +54,7 @@ public:
   // Data can be sent and received: UDP, or a stream that this side has not closed.
   virtual bool isOpen() const = 0;
   virtual void close() = 0;
-  // The connection alone: what listens goes on listening.
+  // The connection alone: what listens keeps listening.
   virtual void closeConnection() = 0;
 
   // A datagram, what is beyond the end of `to` is lost; or what the stream has, at most `to`. `peek` leaves it there.

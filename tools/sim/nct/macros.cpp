@@ -65,13 +65,13 @@ bool Macros::programWrite(uint32_t variable, uint32_t channel, double value) {
 }
 
 std::optional<double> Macros::quantity(std::string_view name) const {
-  const auto key = numbersBehind(name, "MACRO.");
+  const auto key = numbersAfter(name, "MACRO.");
   if (!key || key->size() != 2 || (*key)[0] < 1) return std::nullopt;
   return programRead((*key)[1], (*key)[0] - 1);
 }
 
 Handled Macros::setQuantity(std::string_view name, double value) {
-  const auto key = numbersBehind(name, "MACRO.");
+  const auto key = numbersAfter(name, "MACRO.");
   if (!key) return std::nullopt;
   if (key->size() != 2 || (*key)[0] < 1 || !programWrite((*key)[1], (*key)[0] - 1, value))
     return "NC.MACRO.C.N: channel 1 to 8, variable 100 to 999 or 1100 to 1135";

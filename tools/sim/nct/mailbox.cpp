@@ -286,7 +286,7 @@ Handled Mailbox::event(std::string_view name, const std::vector<NcArgument>& key
 
 // ETHERCAT.DEVICE.INDEX.SUBINDEX, decimal.
 std::optional<double> Mailbox::quantity(std::string_view name) const {
-  const auto key = numbersBehind(name, "ETHERCAT.");
+  const auto key = numbersAfter(name, "ETHERCAT.");
   if (!key || key->size() != 3) return std::nullopt;
   for (const Object& object : objects_)
     if (object.device == (*key)[0] && object.index == (*key)[1] && object.sub == (*key)[2])

@@ -187,7 +187,7 @@ std::optional<double> Network::quantity(std::string_view name) const {
   device_.poll();
   if (name == "DEVICE.WORDS") return device_.receivedWords();
   if (name == "DEVICE.CONNECTED") return device_.connected() ? 1 : 0;
-  const auto word = numbersBehind(name, "DEVICE.");
+  const auto word = numbersAfter(name, "DEVICE.");
   if (!word || word->size() != 1) return std::nullopt;
   return device_.receivedWord((*word)[0]);
 }

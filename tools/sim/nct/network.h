@@ -2,8 +2,8 @@
 //
 // `config network isolated` (default): a network in memory, of the control and the simulated device alone; whatever
 // target a program names is the device. `config network loopback`: the control is 127.0.0.1 and reaches other programs
-// on 127.0.0.0/8 by their addresses and ports, through real sockets that are only looked at between two scans and never
-// wait.
+// on 127.0.0.0/8 by their addresses and ports, through real sockets that are only looked at between two scans. They
+// never wait, but for 100 ms when a connection is opened on the virtual clock.
 #pragma once
 #include <array>
 

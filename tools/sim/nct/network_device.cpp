@@ -21,7 +21,7 @@ std::string NetworkDevice::send(const std::vector<NcArgument>& keys, uint16_t co
   std::array<uint8_t, kMostNetworkWords * 4> bytes{};
   for (const NcArgument& key : keys) {
     if (key.key == "send" || key.key == "port") continue;
-    const auto number = numbersBehind(key.key, "w");
+    const auto number = numbersAfter(key.key, "w");
     if (!number || number->size() != 1 || (*number)[0] >= words) return "event device does not know '" + key.key + "'";
     const auto word = static_cast<uint32_t>(key.integer);
     std::memcpy(bytes.data() + size_t{4} * (*number)[0], &word, sizeof word);

@@ -50,13 +50,13 @@ Handled Nvram::event(std::string_view name, const std::vector<NcArgument>& keys)
 }
 
 std::optional<double> Nvram::quantity(std::string_view name) const {
-  const auto key = numbersBehind(name, "NVRAM.");
+  const auto key = numbersAfter(name, "NVRAM.");
   if (!key || key->size() != 1 || (*key)[0] >= words_.size()) return std::nullopt;
   return words_[(*key)[0]];
 }
 
 Handled Nvram::setQuantity(std::string_view name, double value) {
-  const auto key = numbersBehind(name, "NVRAM.");
+  const auto key = numbersAfter(name, "NVRAM.");
   if (!key) return std::nullopt;
   if (key->size() != 1 || (*key)[0] >= words_.size()) return "NC.NVRAM has the words 0 to 1023";
   words_[(*key)[0]] = static_cast<int32_t>(static_cast<int64_t>(value));

@@ -161,7 +161,7 @@ std::string Parameters::setConfigured(const std::vector<uint32_t>& key, double v
 }
 
 Handled Parameters::config(std::string_view key, std::string_view value) {
-  const auto place = numbersBehind(key, key.starts_with("param.N") ? "param.N" : "param.");
+  const auto place = numbersAfter(key, key.starts_with("param.N") ? "param.N" : "param.");
   if (!place) return std::nullopt;
   const std::optional<double> amount = nc::realIn(value);
   if (!amount) return std::string(key) + ": expected a number, found '" + std::string(value) + "'";
@@ -177,7 +177,7 @@ Handled Parameters::event(std::string_view name, const std::vector<NcArgument>& 
 }
 
 std::optional<double> Parameters::quantity(std::string_view name) const {
-  const auto key = numbersBehind(name, name.starts_with("PARAM.N") ? "PARAM.N" : "PARAM.");
+  const auto key = numbersAfter(name, name.starts_with("PARAM.N") ? "PARAM.N" : "PARAM.");
   if (!key || key->size() > 2) return std::nullopt;
   const nc::nct::ParameterRow* row = nc::nct::findParameter((*key)[0]);
   const uint32_t index = key->size() == 2 ? (*key)[1] : 1;
@@ -186,7 +186,7 @@ std::optional<double> Parameters::quantity(std::string_view name) const {
 }
 
 Handled Parameters::setQuantity(std::string_view name, double value) {
-  const auto key = numbersBehind(name, name.starts_with("PARAM.N") ? "PARAM.N" : "PARAM.");
+  const auto key = numbersAfter(name, name.starts_with("PARAM.N") ? "PARAM.N" : "PARAM.");
   if (!key) return std::nullopt;
   std::string wrong = setConfigured(*key, value, values_);
   changed();

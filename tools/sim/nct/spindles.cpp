@@ -282,13 +282,13 @@ Handled Spindles::event(std::string_view name, const std::vector<NcArgument>& ke
 
 std::optional<double> Spindles::quantity(std::string_view name) const {
   const bool speed = name.starts_with("SPINDLE.");
-  const auto key = numbersBehind(name, speed ? "SPINDLE." : "SPOS.");
+  const auto key = numbersAfter(name, speed ? "SPINDLE." : "SPOS.");
   if (!key || key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kSpindles) return std::nullopt;
   return speed ? spindles_[(*key)[0] - 1].speed : spindles_[(*key)[0] - 1].position;
 }
 
 Handled Spindles::setQuantity(std::string_view name, double value) {
-  const auto key = numbersBehind(name, "SPOS.");
+  const auto key = numbersAfter(name, "SPOS.");
   if (!key) return std::nullopt;
   if (key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kSpindles) return "there are spindles 1 to 16";
   spindles_[(*key)[0] - 1].position = value;

@@ -161,7 +161,7 @@ std::string ToolManagement::configTables(std::string_view key, double value) {
 }
 
 Handled ToolManagement::config(std::string_view key, std::string_view value) {
-  if (const auto number = numbersBehind(key, "cartridge."); number && number->size() == 1)
+  if (const auto number = numbersAfter(key, "cartridge."); number && number->size() == 1)
     return configCartridge(number->front(), value);
   if (key == "tool.count") {
     countsT_ = value == "T";
@@ -179,7 +179,7 @@ Handled ToolManagement::config(std::string_view key, std::string_view value) {
 }
 
 std::optional<double> ToolManagement::quantity(std::string_view name) const {
-  if (const auto place = numbersBehind(name, "POT."); place && place->size() == 2) {
+  if (const auto place = numbersAfter(name, "POT."); place && place->size() == 2) {
     const PotPlace pot{place->at(0), place->at(1)};
     if (!exists(pot.cartridge) || !tables_.cartridges.hasPot(pot)) return std::nullopt;
     return tables_.cartridges.dataNumber(pot);
@@ -216,7 +216,7 @@ std::string ToolManagement::setColumn(uint32_t dataNumber, ToolColumn column, do
 }
 
 Handled ToolManagement::setQuantity(std::string_view name, double value) {
-  if (const auto place = numbersBehind(name, "POT."); place && place->size() == 2) {
+  if (const auto place = numbersAfter(name, "POT."); place && place->size() == 2) {
     const PotPlace pot{place->at(0), place->at(1)};
     if (!tables_.cartridges.hasPot(pot)) return "no such pot";
     if (value != 0 && !tables_.tools.has(static_cast<int64_t>(value))) return "no such data number";

@@ -18,8 +18,8 @@ constexpr uint32_t kMaxAlign = 4096;
 constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
-// A word or a number of a message. The messages are put together in one place: each by itself would be half of the code
-// of this file.
+// A word or a number of a message. One function puts all messages together: code for each of them would be half of
+// this file's.
 struct Part {
   Part(const char* word) : text(word) {}
   template <std::unsigned_integral T>

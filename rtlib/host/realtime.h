@@ -28,7 +28,7 @@ public:
   RealTimeThread(const RealTimeThread&) = delete;
   RealTimeThread& operator=(const RealTimeThread&) = delete;
 
-  // "" or what the system does not grant, why, and what would make it.
+  // "" or what the system does not grant, why, and how to get it.
   const std::string& problem() const { return problem_; }
 
 private:

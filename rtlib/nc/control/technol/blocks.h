@@ -34,7 +34,7 @@ public:
   bool reached(host::Instance& instance);
   bool busy() const { return phase_ != Phase::Idle; }
   // Central annulment: the block under way is given up where it is, and a block in that mode, without motion, follows
-  // (man. l.6748-6761, 10826). It is what programs wait for that let a block go no further (l.5180-5183, 6444-6447).
+  // (man. l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447).
   void annul(host::Instance& instance);
   // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
   void supervise(host::Instance& instance);

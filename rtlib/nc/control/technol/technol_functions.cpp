@@ -12,8 +12,8 @@ namespace {
 
 constexpr uint32_t kMostTool = 99'999'999;
 
-// Groups of M functions (man. l.6703-6743, 7157-7182). A machine may have further ones in all groups; what is in none is
-// in 14 (l.7184-7214).
+// Groups of M functions (man. l.6703-6743, 7157-7182). A machine may have further ones in all groups; what is in none
+// is in 14 (l.7184-7214).
 struct GroupOfM {
   uint8_t code;
   uint8_t group;

@@ -30,8 +30,8 @@ endif()
 add_compile_options(${rung_instrumentation})
 add_link_options(${rung_instrumentation})
 
-# Takes that away again, for a program that valgrind runs, with nothing but sources of its own, or whose instructions
-# are counted.
+# Takes the instrumentation from a program that valgrind runs, or whose instructions are counted. Such a program has
+# sources of its own only: the libraries stay instrumented.
 function(rung_do_not_instrument target)
   foreach(property IN ITEMS COMPILE_OPTIONS LINK_OPTIONS)
     get_target_property(options ${target} ${property})

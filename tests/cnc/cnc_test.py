@@ -164,7 +164,7 @@ def unload(bench, _options):
 
 
 def retained(bench, _options):
-    """D goes on where the last session stopped; a place that cannot be written stops the loading."""
+    """D continues where the last session stopped; a place that cannot be written stops the loading."""
     bench.program(HERE / "stuck.pmc")
     kept = 'out.kept = { type = "s32", name = "D4:4" }\n'
     bench.file("program.map", 'in.number = { type = "s32", name = "D4:4" }\n' + kept)
@@ -224,7 +224,7 @@ def machining_centre(bench, options):
 
 
 def mistakes(bench, _options):
-    """What is wrong with the files is said when they are loaded, and nothing is loaded then."""
+    """What is wrong with the files is reported at the start, and nothing is loaded then."""
     bench.program(HERE / "stuck.pmc")
 
     def load(text, options="", prefix="rung"):

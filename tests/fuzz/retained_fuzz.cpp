@@ -2,7 +2,7 @@
 // newest that is intact, or nothing, with the reason; and what is saved after that is loaded next.
 //
 // The input: a byte of flags, the length of .a in two bytes (low first), .a, .b. Flags 1 and 2: the checksum of .a or
-// .b is made right, so that what it covers is judged by itself; 4: .b is not there.
+// .b is made right, so that what it covers is judged on its own; 4: .b is not there.
 #include <zlib.h>
 
 #include <algorithm>

@@ -35,7 +35,7 @@ class Growth(unittest.TestCase):
         for case in cases:
             with self.subTest(case):
                 step, factor = growth(case)
-                self.assertGreater(step, 100 * SIZE, "what was counted is no work")
+                self.assertGreater(step, 100 * SIZE, "so few instructions are not the work of the case")
                 self.assertLess(factor, MOST)
 
     def test_notices_quadratic_work(self):

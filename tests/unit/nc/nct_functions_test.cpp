@@ -98,7 +98,7 @@ TEST_F(NctHandshake, ItEndsWhenTheAcknowledgeIsBack) {
   EXPECT_FALSE(functions().busy(0));
 }
 
-// The acknowledge of the time at rest is no answer while MAIN has not seen the strobe.
+// The acknowledge from before is not an answer while MAIN has not seen the strobe.
 TEST_F(NctHandshake, AnAcknowledgeOfBeforeIsNoAnswer) {
   functions().start(T, 5);
   for (uint32_t i = 1; i < kSlices; ++i) {

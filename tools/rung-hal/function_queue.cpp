@@ -31,8 +31,8 @@ void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {
     const MapSend& send = sends_[i];
     const bool now = triggered(send.edge, pins);
     const int32_t code = send.codePin ? *pins[*send.codePin].s32 : send.code;
+    if (!now) withdraw(i, pins);
     if (now && !wasTriggered_[i]) queue({.send = i, .code = static_cast<uint32_t>(code)});
-    if (!now && send.donePin) *pins[*send.donePin].bit = false;
     wasTriggered_[i] = now;
   }
 }
@@ -42,6 +42,13 @@ void FunctionQueue::queue(Call call) noexcept {
     ++lost_;
   else
     calls_[count_++] = call;
+}
+
+// The function itself is carried out all the same.
+void FunctionQueue::withdraw(uint32_t send, const PinCell* pins) noexcept {
+  for (uint32_t i = 0; i < count_; ++i)
+    if (calls_[i].send == send) calls_[i].wanted = false;
+  if (sends_[send].donePin) *pins[*sends_[send].donePin].bit = false;
 }
 
 void FunctionQueue::abort() noexcept {
@@ -71,11 +78,11 @@ void FunctionQueue::start(uint32_t index) noexcept {
   call.line = functionsOf(call).start(send.kind, call.code);
 }
 
-// The acknowledge is for a cause that is still there.
+// The acknowledge is for a cause that is still there, and not for a later one on the same pin.
 bool FunctionQueue::finish(const Call& call, const PinCell* pins) const noexcept {
   const MapSend& send = sends_[call.send];
   if (!call.line || functionsOf(call).busy(*call.line)) return false;
-  if (send.donePin && triggered(send.edge, pins)) *pins[*send.donePin].bit = true;
+  if (send.donePin && call.wanted) *pins[*send.donePin].bit = true;
   return true;
 }
 

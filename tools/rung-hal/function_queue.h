@@ -43,11 +43,13 @@ private:
     uint32_t send = 0;
     uint32_t code = 0;
     int64_t ageNs = 0;
+    bool wanted = true;           // the pin has kept the level that caused it
     std::optional<uint32_t> line; // of the handshake, once it has begun
   };
 
   bool triggered(const MapEdge& edge, const PinCell* pins) const noexcept { return *pins[edge.pin].bit == edge.rising; }
   void queue(Call call) noexcept;
+  void withdraw(uint32_t send, const PinCell* pins) noexcept;
   void abort() noexcept;
   bool finish(const Call& call, const PinCell* pins) const noexcept;
   void start(uint32_t index) noexcept;

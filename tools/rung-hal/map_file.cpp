@@ -19,6 +19,7 @@ constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinTy
 constexpr int64_t kLeast = std::numeric_limits<int32_t>::min(); // of the integers of a constant
 constexpr int64_t kMost = std::numeric_limits<uint32_t>::max();
 constexpr double kLongestTimeout = 1e6; // seconds
+constexpr double kShortestTimeout = 1e-9;
 
 MapPosition positionOf(const toml::source_region& region) { return {region.begin.line, region.begin.column}; }
 MapPosition positionOf(const toml::node& node) { return positionOf(node.source()); }
@@ -190,7 +191,7 @@ private:
   // The file's keys.
   bool takeTimeout(const toml::node& node, MapFile& map) {
     const std::optional<double> seconds = numberOf(node);
-    if (!seconds || !(*seconds > 0 && *seconds <= kLongestTimeout)) return false;
+    if (!seconds || !(*seconds >= kShortestTimeout && *seconds <= kLongestTimeout)) return false;
     map.timeoutNs = static_cast<int64_t>(*seconds * 1e9);
     return true;
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 #include <unordered_set>
 #include <utility>
 
@@ -48,11 +49,14 @@ Reading NamedValue::read(const host::Instance& instance, const sim::SimulatedNc&
 std::vector<std::string> namesOf(const host::Instance& instance, const sim::SimulatedNc& nc) {
   const rung_program& program = instance.program();
   std::vector<std::string> names;
-  for (uint32_t i = 0; i < program.symbol_count; ++i)
-    if ((program.symbols[i].flags & RUNG_SYMBOL_HIDDEN) == 0) names.emplace_back(program.symbols[i].name);
+  std::unordered_set<std::string_view> seen;
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
+    if ((symbol.flags & RUNG_SYMBOL_HIDDEN) != 0) continue;
+    names.emplace_back(symbol.name);
+    seen.insert(symbol.name);
+  }
   const nc::SignalTable* signals = nc::signalsOf(program.dialect);
   if (signals == nullptr) return names;
-  std::unordered_set<std::string_view> seen(names.begin(), names.end());
   for (const nc::Signal& signal : *signals) // not of every area, nor of every structure, a program names the rows
     if (seen.insert(signal.symbol).second && nc.readPlace(instance, signal.symbol)) names.emplace_back(signal.symbol);
   return names;

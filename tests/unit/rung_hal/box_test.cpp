@@ -551,6 +551,32 @@ TEST(Functions, CodesFromPinsAndCodesThatStay) {
   EXPECT_EQ(b["m"].s32, 0);
 }
 
+// A tool is chosen, given up and another one chosen while the first is on its way: the end of the first is no answer.
+TEST(Functions, TheAcknowledgeIsOfTheLastCause) {
+  Bench b(testing::gskProgram(), kFunctions);
+  b["held"].bit = true; // the program keeps its answer back
+  b["number"].s32 = 5;
+  b["prepare"].bit = true;
+  b.scans(3);
+  EXPECT_EQ(b["t"].s32, 5);
+  b["prepare"].bit = false;
+  b.box->step(kMs);
+  b["number"].s32 = 7;
+  b["prepare"].bit = true;
+  b.box->step(kMs);
+  b["held"].bit = false;
+  bool early = false;
+  for (int i = 0; i < 20 && b["t"].s32 == 5; ++i) {
+    b.scans(1);
+    early = early || (b["prepared"].bit && b["t"].s32 == 5);
+  }
+  EXPECT_FALSE(early);
+  EXPECT_EQ(b["t"].s32, 7);
+  EXPECT_FALSE(b["prepared"].bit);
+  b.scans(6);
+  EXPECT_TRUE(b["prepared"].bit);
+}
+
 TEST(Functions, OfOneKindWaitInTheirOrder) {
   Bench b(testing::gskProgram(), kFunctions);
   std::vector<int32_t> codes;

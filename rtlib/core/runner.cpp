@@ -20,7 +20,6 @@ void Runner::reset() noexcept {
   ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
   ctx_->extra_weight = 0;
   position_ = 0;
-  chooseList(false);
   faulted_ = false;
   stopped_ = false;
 }
@@ -209,12 +208,11 @@ void Runner::doStep(const rung_step& step) noexcept {
   }
 }
 
-void Runner::chooseList(bool realClock) noexcept {
-  if (position_ != 0) return;
-  if (realClock && program_->slice_count != 0)
-    list_ = {program_->slices, program_->slice_count};
-  else
-    list_ = {program_->scan, program_->scan_count};
+// The list of the pass under way, else that of the one that begins.
+std::span<const rung_step> Runner::pass(bool realClock) const noexcept {
+  if (position_ != 0) return list_;
+  if (realClock && program_->slice_count != 0) return {program_->slices, program_->slice_count};
+  return {program_->scan, program_->scan_count};
 }
 
 // Does the step that comes next; false when it was the last of the list, which then is at its beginning again.
@@ -232,7 +230,7 @@ bool Runner::stepOnce() noexcept {
 void Runner::scan() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
-  chooseList(false);
+  list_ = pass(false);
   bool more = true;
   while (more && !faulted_) more = stepOnce();
 }
@@ -240,7 +238,7 @@ void Runner::scan() noexcept {
 void Runner::slot() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
-  chooseList(false);
+  list_ = pass(false);
   bool more = true;
   while (more && !faulted_) {
     const bool slotEnds = position_ < list_.size() && list_[position_].op == RUNG_STEP_SLOT;
@@ -256,15 +254,15 @@ void Runner::fast() noexcept {
 
 uint32_t Runner::sliceDelayUs() const noexcept {
   if (position_ == 0 && untimedPeriodUs_ != 0) return untimedPeriodUs_;
-  const bool slices = position_ == 0 && program_->slice_count != 0;
-  const rung_step* next = slices ? program_->slices : position_ < list_.size() ? &list_[position_] : nullptr;
-  return next != nullptr && next->op == RUNG_STEP_ADVANCE ? next->arg : 0;
+  const std::span<const rung_step> list = pass(true);
+  const bool waits = position_ < list.size() && list[position_].op == RUNG_STEP_ADVANCE;
+  return waits ? list[position_].arg : 0;
 }
 
 void Runner::slice() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
-  chooseList(true);
+  list_ = pass(true);
   bool more = true;
   while (more && !faulted_) more = stepOnce() && list_[position_].op != RUNG_STEP_ADVANCE;
 }

@@ -103,7 +103,7 @@ private:
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
-  void chooseList(bool realClock) noexcept;
+  std::span<const rung_step> pass(bool realClock) const noexcept;
   bool stepOnce() noexcept;
 
   const rung_program* program_;

@@ -336,16 +336,11 @@ private:
     for (uint32_t i = 0; i < p_.scan_count; ++i) checkStep("scan step", i, p_.scan[i]);
     for (uint32_t i = 0; i < p_.fast_count; ++i) checkStep("fast step", i, p_.fast[i]);
     for (uint32_t i = 0; i < p_.slice_count; ++i) checkStep("slice step", i, p_.slices[i]);
-    const uint64_t scan = advances(p_.scan_count, p_.scan);
-    const uint64_t slices = advances(p_.slice_count, p_.slices);
+    const uint64_t scan = advanceUs({p_.scan, p_.scan_count});
+    const uint64_t slices = advanceUs({p_.slices, p_.slice_count});
     if (p_.slice_count != 0 && slices != scan) fail("the slices take ", slices, " us, a scan ", scan);
     if (scanPeriodUs(p_) == 0)
       fail("the scan list takes no time: it has no step that advances the clock, and the main task has no period");
-  }
-  static uint64_t advances(uint32_t count, const rung_step* steps) {
-    uint64_t us = 0;
-    for (uint32_t i = 0; i < count; ++i) us += steps[i].op == RUNG_STEP_ADVANCE ? steps[i].arg : 0;
-    return us;
   }
   void checkStep(const char* table, uint32_t number, const rung_step& step) {
     if (step.op > RUNG_STEP_SLOT) failAt(table, number, "has the unknown operation ", step.op);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <span>
 
 namespace rung::host {
 
@@ -62,10 +61,14 @@ std::string_view messageText(const rung_program& program, uint32_t number) {
   return {};
 }
 
-uint64_t scanPeriodUs(const rung_program& program) {
+uint64_t advanceUs(std::span<const rung_step> steps) {
   uint64_t sum = 0;
-  for (uint32_t i = 0; i < program.scan_count; ++i)
-    if (program.scan[i].op == RUNG_STEP_ADVANCE) sum += program.scan[i].arg;
+  for (const rung_step& step : steps) sum += step.op == RUNG_STEP_ADVANCE ? step.arg : 0;
+  return sum;
+}
+
+uint64_t scanPeriodUs(const rung_program& program) {
+  const uint64_t sum = advanceUs({program.scan, program.scan_count});
   if (sum != 0 || program.main_task >= program.task_count) return sum;
   return program.tasks[program.main_task].period_us;
 }

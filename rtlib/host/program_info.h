@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -34,7 +35,9 @@ std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset);
 std::string_view serviceName(const rung_program& program, uint32_t service); // "" when there is none
 std::string_view messageText(const rung_program& program, uint32_t number);  // "" when there is none
 
-// Time of one pass of the scan list: the sum of its ADVANCE steps, else the main task's period.
+// The sum of the ADVANCE steps of a list.
+uint64_t advanceUs(std::span<const rung_step> steps);
+// Time of one pass of the scan list: its ADVANCE steps, else the main task's period.
 uint64_t scanPeriodUs(const rung_program& program);
 
 // `rung 3 "title", main.pmc:12`, of what is not drawn `LEVEL1, main.pmc:12`; line 0 means the rung's first line.

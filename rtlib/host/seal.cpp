@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 #include <sodium.h>
-#include <span>
 
 namespace rung::host {
 namespace {
@@ -122,17 +121,19 @@ bool isSignedBy(const Seal& seal, const PublicKey& key) {
                                      key.bytes.data()) == 0;
 }
 
-std::optional<PublicKey> parsePublicKey(std::string_view text) {
-  if (!text.starts_with(kPublicWord)) return std::nullopt;
-  text.remove_prefix(kPublicWord.size());
+bool parseKeyLine(std::string_view text, std::string_view word, std::span<uint8_t> bytes) {
+  if (!text.starts_with(word)) return false;
+  text.remove_prefix(word.size());
   if (text.ends_with('\n')) text.remove_suffix(1);
-  PublicKey key;
   size_t length = 0;
-  if (text.size() != 2 * key.bytes.size() ||
-      sodium_hex2bin(key.bytes.data(), key.bytes.size(), text.data(), text.size(), nullptr, &length, nullptr) != 0 ||
-      length != key.bytes.size())
-    return std::nullopt;
-  return key;
+  return text.size() == 2 * bytes.size() &&
+         sodium_hex2bin(bytes.data(), bytes.size(), text.data(), text.size(), nullptr, &length, nullptr) == 0 &&
+         length == bytes.size();
+}
+
+std::optional<PublicKey> parsePublicKey(std::string_view text) {
+  PublicKey key;
+  return parseKeyLine(text, kPublicWord, key.bytes) ? std::optional(key) : std::nullopt;
 }
 
 std::string textOf(const PublicKey& key) { return std::string(kPublicWord) + hexOf(key.bytes) + "\n"; }

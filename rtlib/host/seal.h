@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -53,6 +54,9 @@ SealedFile readSealed(std::string_view file);
 // What is signed: the digest, in words that no signature for another purpose begins with.
 std::string signedMessage(const Digest& digest);
 bool isSignedBy(const Seal& seal, const PublicKey& key);
+
+// The one line of a key file: the word, then exactly these bytes in hexadecimal digits. False: it is something else.
+bool parseKeyLine(std::string_view text, std::string_view word, std::span<uint8_t> bytes);
 
 // The one line of a file NAME.pub: "rung-public-key-1 HEX". Nothing when it is something else.
 std::optional<PublicKey> parsePublicKey(std::string_view text);

@@ -20,15 +20,8 @@ SecretKey SecretKey::make() {
 }
 
 std::optional<SecretKey> SecretKey::parse(std::string_view text) {
-  if (!text.starts_with(kSecretWord)) return std::nullopt;
-  text.remove_prefix(kSecretWord.size());
-  if (text.ends_with('\n')) text.remove_suffix(1);
   std::array<uint8_t, kSeedSize> seed{};
-  size_t length = 0;
-  if (text.size() != 2 * kSeedSize ||
-      sodium_hex2bin(seed.data(), seed.size(), text.data(), text.size(), nullptr, &length, nullptr) != 0 ||
-      length != kSeedSize)
-    return std::nullopt;
+  if (!parseKeyLine(text, kSecretWord, seed)) return std::nullopt;
   SecretKey key;
   PublicKey ignored;
   crypto_sign_seed_keypair(ignored.bytes.data(), key.bytes_.data(), seed.data());

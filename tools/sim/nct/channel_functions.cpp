@@ -11,7 +11,6 @@ namespace {
 constexpr uint32_t kLines = nc::NctFunctions::kLines;
 constexpr uint32_t kFirstAuxiliary = nc::NctFunctions::kAuxiliary;
 static_assert(kCodesOfABlock == nc::NctFunctions::kCodes);
-constexpr int32_t kFirstRange = 11;    // CN_RNGREQ, l.10666
 constexpr int32_t kOffsetDigits = 100; // a lathe's T is tool and offset number, l.10674
 } // namespace
 
@@ -58,7 +57,7 @@ void ChannelFunctions::selectRange(const BlockFunctions& functions) {
   while (range < 7 && functions.speed > links_.parameters->real(parameters_.rangeEnd[range], functions.spindle - 1))
     ++range;
   signals.set(spindle_, channel_, static_cast<int32_t>(functions.spindle));
-  signals.set(range_, channel_, kFirstRange + range);
+  signals.set(range_, channel_, nc::NctFunctions::kFirstRange + range);
 }
 
 // Where the tool stands, if tool management works (l.9515-9522, 10732-10772).

@@ -7,7 +7,6 @@ namespace rung::nc {
 namespace {
 
 constexpr int32_t kFirstSpindle = 1; // CN_SSEL, 1 to 16 (man. l.10592)
-constexpr int32_t kFirstRange = 11;  // CN_RNGREQ, 11 to 18 (l.10650-10652)
 
 } // namespace
 

@@ -22,6 +22,7 @@ public:
   static constexpr uint32_t kTool = 9;
   static constexpr uint32_t kAuxiliary = 10;
   static constexpr uint32_t kLines = 13;
+  static constexpr int32_t kFirstRange = 11; // CN_RNGREQ, 11 to 18 (l.10650-10652, 10666)
 
   explicit NctFunctions(uint32_t channel) : channel_(channel) {} // from 0
 

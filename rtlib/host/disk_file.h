@@ -16,8 +16,8 @@ File openDiskFile(const std::string& path, int flags);
 std::string fileProblem(int code);
 
 // The new contents are on disk when it returns true; else `error` says which file and why, and the file is the old or
-// the new one, whole. PATH.tmp is used up, so crashes leave one file at most:
-// for one process at a time; where there are several, see replaceFile.
+// the new one, whole. PATH.tmp is used up, so crashes leave one file at most: for one process at a time; where several
+// write, see replaceFile.
 bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error);
 
 struct DiskLock {

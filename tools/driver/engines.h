@@ -41,8 +41,8 @@ struct EngineOptions {
 Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled,
                                                  const EngineOptions& options);
 
-// Why the JIT could not keep its code in the cache folder, or must not take any from there; empty: it could, or there
-// is no such folder. The engine is good all the same.
+// Why the JIT could not keep its code in the cache folder, or must not take any from there; empty when it could, or
+// when no folder was given. The engine works either way.
 std::string cacheTrouble(const host::Engine& engine);
 
 // An instance of the engine's program, with what an interpreter needs in its context.

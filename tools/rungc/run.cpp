@@ -211,9 +211,8 @@ private:
     advance.count = options_.scans.value_or(driven ? 0 : 1);
     advance.microseconds = options_.forUs;
     advance.text = options_.duration.empty() ? fmt::format("scan {}", advance.count) : "run " + options_.duration;
-    if (options_.realtime) {
-      return runRealTime(advance);
-    } else if (advance.count > 0 || advance.kind == scenario::Kind::Run) {
+    if (options_.realtime) return runRealTime(advance);
+    if (advance.count > 0 || advance.kind == scenario::Kind::Run) {
       return console_->execute(advance) == console::Outcome::Failed ? kWrong : kOk;
     }
     return kOk;

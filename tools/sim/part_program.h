@@ -39,7 +39,7 @@ public:
   // To the end of a comment whose "(" has been taken; "" or what is wrong.
   std::string skipComment();
 
-  // Nothing where there is no such number; the position is then of no use.
+  // Each gives nothing when the text continues differently; the text is not read further then.
   std::optional<double> number();
   std::optional<uint32_t> variable(); // after "#"
   std::optional<ProgramValue> value();

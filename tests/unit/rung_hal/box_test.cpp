@@ -551,7 +551,8 @@ TEST(Functions, CodesFromPinsAndCodesThatStay) {
   EXPECT_EQ(b["m"].s32, 0);
 }
 
-// A tool is chosen, given up and another one chosen while the first is on its way: the end of the first is no answer.
+// A tool is asked for, withdrawn, and another asked for while the first is on its way: the end of the first does not
+// answer the second.
 TEST(Functions, TheAcknowledgeIsOfTheLastCause) {
   Bench b(testing::gskProgram(), kFunctions);
   b["held"].bit = true; // the program keeps its answer back

@@ -49,7 +49,7 @@ public:
   virtual int32_t connect(Endpoint to, int settleMs) = 0;
   // 0 or an error; nothing: still connecting.
   virtual std::optional<int32_t> connected() = 0;
-  // After `listen`, where there is no connection: takes the next one that has come in.
+  // After `listen`, while nobody is connected: accepts the next client that waits.
   virtual void accept() = 0;
   // Data can be sent and received: UDP, or a stream that this side has not closed.
   virtual bool isOpen() const = 0;

@@ -21,7 +21,7 @@ public:
   // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
   // in a group (l.7184-7214).
   bool setGroup(uint32_t code, uint32_t group) override;
-  // M up to 99, T up to 99999999: what their BCD cells hold. There is no second auxiliary function.
+  // M up to 99, T up to 99999999: what their BCD cells hold. No B: the command block has no second auxiliary function.
   bool carries(FunctionKind kind, uint32_t code) const override;
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override {}

@@ -1,7 +1,7 @@
 // Finding and checking configuration keys (see config_key.h).
 #include "rtlib/nc/config_key.h"
 
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc {
 namespace {
@@ -46,7 +46,7 @@ bool isRight(const ConfigKey& row, std::string_view value) {
   switch (row.form) {
   case ConfigForm::Choice: return isOneOf(row.takes, value);
   case ConfigForm::Whole: return wholeNumber(value) >= row.least && wholeNumber(value) <= row.most;
-  case ConfigForm::Number: return realIn(value).has_value();
+  case ConfigForm::Number: return text::realIn(value).has_value();
   case ConfigForm::Duration: return durationUs(value) >= row.least && durationUs(value) <= row.most;
   case ConfigForm::File: return !value.empty();
   case ConfigForm::Text: return true;
@@ -57,7 +57,7 @@ bool isRight(const ConfigKey& row, std::string_view value) {
 } // namespace
 
 int64_t wholeNumber(std::string_view text) {
-  const auto value = numberIn<int64_t>(text);
+  const auto value = text::numberIn<int64_t>(text);
   return value && *value >= 0 && text.size() <= 18 ? *value : -1;
 }
 

@@ -12,7 +12,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/scope_symbols.h"
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
@@ -42,7 +42,7 @@ std::optional<BlockKey> blockKey(const ServiceSignature& signature, std::string_
   if (!signature.hasBlock() || key.size() < 2 || (std::tolower(key[0]) != 'w' && std::tolower(key[0]) != 'd'))
     return std::nullopt;
   BlockKey parsed{.isReal = std::tolower(key[0]) == 'd'};
-  parsed.word = nc::numberIn<uint32_t>(key.substr(1)).value_or(0);
+  parsed.word = text::numberIn<uint32_t>(key.substr(1)).value_or(0);
   const uint32_t last = parsed.isReal ? nc::nct::kBlockWords - 2 : nc::nct::kBlockWords - 1;
   return parsed.word >= 1 && parsed.word <= last ? std::optional(parsed) : std::nullopt;
 }

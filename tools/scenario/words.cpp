@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 
 namespace rung::scenario {
 namespace {
@@ -101,7 +101,7 @@ std::optional<int64_t> parseInt(std::string_view text) {
   if (negative || (!text.empty() && text[0] == '+')) text.remove_prefix(1);
   const int base = takeBase(text);
   const std::string digits = withoutUnderscores(text);
-  const auto magnitude = nc::numberIn<uint64_t>(digits, base);
+  const auto magnitude = text::numberIn<uint64_t>(digits, base);
   if (!magnitude) return std::nullopt;
   return static_cast<int64_t>(negative ? 0 - *magnitude : *magnitude);
 }

@@ -28,7 +28,7 @@ std::optional<std::vector<uint32_t>> numbersAfter(std::string_view text, std::st
   text.remove_prefix(prefix.size());
   std::vector<uint32_t> numbers;
   while (const auto number = takeNumberAndDot(text)) numbers.push_back(*number);
-  const auto last = nc::numberIn<uint32_t>(text);
+  const auto last = text::numberIn<uint32_t>(text);
   if (!last) return std::nullopt;
   numbers.push_back(*last);
   return numbers;
@@ -36,7 +36,7 @@ std::optional<std::vector<uint32_t>> numbersAfter(std::string_view text, std::st
 
 std::optional<uint32_t> takeNumberAndDot(std::string_view& text) {
   std::string_view rest = text;
-  const auto number = nc::takeNumber<uint32_t>(rest);
+  const auto number = text::takeNumber<uint32_t>(rest);
   if (!number || !rest.starts_with('.')) return std::nullopt;
   text = rest.substr(1);
   return number;

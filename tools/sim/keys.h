@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 #include "tools/sim/simulated_nc.h"
 
 namespace rung::sim {

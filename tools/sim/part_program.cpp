@@ -34,7 +34,7 @@ std::string ProgramText::skipComment() {
 std::optional<double> ProgramText::number() {
   if (written() == '+') ++at_;
   std::string_view rest = text_.substr(std::min(at_, text_.size()));
-  const auto number = nc::takeNumber<double>(rest, std::chars_format::fixed);
+  const auto number = text::takeNumber<double>(rest, std::chars_format::fixed);
   if (!number || !std::isfinite(*number)) return std::nullopt; // "INF" and "NAN" are words
   at_ = text_.size() - rest.size();
   return number;

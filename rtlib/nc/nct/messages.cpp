@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc::nct {
 namespace {
@@ -48,7 +48,7 @@ std::optional<Placeholder> readPlaceholder(std::string_view text) {
   const char kind = text[1];
   if ((kind != '#' && kind != '*') || text.substr(2, 3) != "0:F") return std::nullopt;
   Placeholder place{.length = end + 1, .real = kind == '*'};
-  const auto decimals = numberIn<decltype(place.decimals)>(text.substr(5, end - 5));
+  const auto decimals = text::numberIn<decltype(place.decimals)>(text.substr(5, end - 5));
   if (!decimals || text[5] == '-') return std::nullopt;
   place.decimals = *decimals;
   if (place.decimals > (place.real ? kMostDecimals : 0)) return std::nullopt;

@@ -1,7 +1,7 @@
 // Quantities of the simulated CNC by name: what scenarios read and set (see simulator.h).
 #include <cmath>
 
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 #include "tools/sim/gsk/simulator.h"
 
 namespace rung::sim::gsk {
@@ -18,7 +18,7 @@ struct Name {
 std::optional<uint32_t> lastNumber(std::string_view& name) {
   const size_t dot = name.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
-  const auto number = nc::numberIn<uint32_t>(name.substr(dot + 1));
+  const auto number = text::numberIn<uint32_t>(name.substr(dot + 1));
   if (number) name = name.substr(0, dot);
   return number;
 }

@@ -186,15 +186,15 @@ std::string SimulatedGsk::config(std::string_view key, std::string_view value) {
   if (key == "overtravel") simulator_.setLimitSwitches(value == "on");
   if (key == "encoders") simulator_.setAbsoluteEncoders(value == "absolute");
   if (key == "protect") simulator_.setProtected(value == "on");
-  if (key == "jog") simulator_.setJogSpeed(nc::realIn(value).value_or(0));
+  if (key == "jog") simulator_.setJogSpeed(text::realIn(value).value_or(0));
   if (!key.starts_with("param.")) return {};
   // param.N, or param.N.A for axis A alone.
   const size_t dot = key.find('.', 6);
-  const auto parameter = nc::numberIn<uint32_t>(key.substr(6, dot == std::string_view::npos ? dot : dot - 6));
-  const uint32_t axis = dot == std::string_view::npos ? 1 : nc::numberIn<uint32_t>(key.substr(dot + 1)).value_or(0);
+  const auto parameter = text::numberIn<uint32_t>(key.substr(6, dot == std::string_view::npos ? dot : dot - 6));
+  const uint32_t axis = dot == std::string_view::npos ? 1 : text::numberIn<uint32_t>(key.substr(dot + 1)).value_or(0);
   if (!parameter) return std::string(key) + ": a parameter has a number, param.7010";
   if (axis < 1 || axis > gsk::kAxes) return std::string(key) + ": there are axes 1 to 8";
-  simulator_.setParameter(*parameter, axis - 1, nc::realIn(value).value_or(0));
+  simulator_.setParameter(*parameter, axis - 1, text::realIn(value).value_or(0));
   return {};
 }
 

@@ -192,7 +192,7 @@ Handled Axes::config(std::string_view key, std::string_view value) {
     return "";
   }
   if (key != "rapid" && key != "jog") return std::nullopt;
-  const std::optional<double> speed = nc::realIn(value);
+  const std::optional<double> speed = text::realIn(value);
   if (!speed || *speed <= 0) return expected + "a speed per minute" + found;
   (key == "rapid" ? rapid_ : jog_) = *speed;
   return "";

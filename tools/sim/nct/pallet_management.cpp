@@ -32,7 +32,7 @@ uint32_t programIndex(std::string_view name) {
   if (upper(name.substr(0, kProgram.size())) != kProgram) return kMaxPrograms;
   name.remove_prefix(kProgram.size());
   if (name.empty()) return 0;
-  const uint32_t number = nc::numberIn<uint32_t>(name).value_or(0);
+  const uint32_t number = text::numberIn<uint32_t>(name).value_or(0);
   return number >= 1 && number <= kMaxPrograms ? number - 1 : kMaxPrograms;
 }
 
@@ -87,7 +87,7 @@ std::string PalletManagement::setColumn(PalletPlace place, std::string_view name
 
 Handled PalletManagement::config(std::string_view key, std::string_view value) {
   if (!key.starts_with("pallet.")) return std::nullopt;
-  const std::optional<double> number = nc::realIn(value);
+  const std::optional<double> number = text::realIn(value);
   if (!number) return "'" + std::string(value) + "' is not a number";
   std::string name = upper(key);
   const std::optional<PalletName> pallet = palletName(name);

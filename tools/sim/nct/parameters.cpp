@@ -163,7 +163,7 @@ std::string Parameters::setConfigured(const std::vector<uint32_t>& key, double v
 Handled Parameters::config(std::string_view key, std::string_view value) {
   const auto place = numbersAfter(key, key.starts_with("param.N") ? "param.N" : "param.");
   if (!place) return std::nullopt;
-  const std::optional<double> amount = nc::realIn(value);
+  const std::optional<double> amount = text::realIn(value);
   if (!amount) return std::string(key) + ": expected a number, found '" + std::string(value) + "'";
   const std::string wrong = setConfigured(*place, *amount, initial_);
   return wrong.empty() ? std::string() : std::string(key) + ": " + wrong;

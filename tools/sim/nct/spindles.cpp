@@ -264,7 +264,7 @@ Handled Spindles::config(std::string_view key, std::string_view value) {
     return std::nullopt;
   }
   if (key != "spindles") return std::nullopt;
-  number(static_cast<uint32_t>(nc::realIn(value).value_or(0)));
+  number(static_cast<uint32_t>(text::realIn(value).value_or(0)));
   return "";
 }
 

@@ -116,17 +116,17 @@ void ToolManagement::showBusy() {
 std::string ToolManagement::configCartridge(uint32_t number, std::string_view value) {
   if (number < 1 || number > kMagazines) return "magazines are cartridge.1 to cartridge.4";
   CartridgeShape shape{.number = number};
-  auto count = nc::takeNumber<uint32_t>(value);
+  auto count = text::takeNumber<uint32_t>(value);
   if (count && value.starts_with('x')) {
     shape.matrix = true;
     shape.rows = *count;
     value.remove_prefix(1);
-    count = nc::takeNumber<uint32_t>(value);
+    count = text::takeNumber<uint32_t>(value);
   }
   auto firstPot = std::optional(shape.firstPot);
   if (count && value.starts_with('@')) {
     value.remove_prefix(1);
-    firstPot = nc::takeNumber<uint32_t>(value);
+    firstPot = text::takeNumber<uint32_t>(value);
   }
   shape.columns = count.value_or(0);
   shape.firstPot = firstPot.value_or(0);
@@ -168,7 +168,7 @@ Handled ToolManagement::config(std::string_view key, std::string_view value) {
     return std::string();
   }
   if (!key.starts_with("tool.") && !key.starts_with("pot.") && !key.starts_with("pattern.")) return std::nullopt;
-  const std::optional<double> number = nc::realIn(value);
+  const std::optional<double> number = text::realIn(value);
   if (!number) return "'" + std::string(value) + "' is not a number";
   std::string name = upper(key);
   if (Handled wrong = setQuantity(name, *number)) {

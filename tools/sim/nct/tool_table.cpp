@@ -21,7 +21,7 @@ ToolColumn toolColumn(std::string_view name) {
   const auto found = std::ranges::find(kNames, std::string_view(wanted));
   if (found != std::end(kNames)) return static_cast<ToolColumn>(found - std::begin(kNames)) + 1;
   if (!wanted.starts_with("USER")) return 0;
-  const std::optional<uint32_t> user = nc::numberIn<uint32_t>(std::string_view(wanted).substr(4));
+  const std::optional<uint32_t> user = text::numberIn<uint32_t>(std::string_view(wanted).substr(4));
   return user && *user >= 1 && *user <= kToolUserColumns ? kToolUser1 + *user - 1 : 0;
 }
 

@@ -9,7 +9,7 @@ namespace {
 // "100ms", "2s", "500us".
 std::optional<int64_t> duration(std::string_view text) {
   const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  const auto value = nc::numberIn<uint32_t>(text.substr(0, digits));
+  const auto value = text::numberIn<uint32_t>(text.substr(0, digits));
   const std::string_view unit = text.substr(digits);
   if (!value || (unit != "ms" && unit != "s" && unit != "us")) return std::nullopt;
   return int64_t{*value} * (unit == "s" ? 1'000'000 : unit == "ms" ? 1000 : 1);
@@ -20,13 +20,14 @@ std::optional<int64_t> duration(std::string_view text) {
 // NAME, NAME.BB of a double word, with ,#INDEX after it.
 std::optional<Wiring::Place> Wiring::place(std::string_view name) {
   const size_t comma = std::min(name.find(",#"), name.size());
-  const auto index = comma == name.size() ? std::optional<uint32_t>(0) : nc::numberIn<uint32_t>(name.substr(comma + 2));
+  const auto index =
+      comma == name.size() ? std::optional<uint32_t>(0) : text::numberIn<uint32_t>(name.substr(comma + 2));
   name = name.substr(0, comma);
   const size_t dot = std::min(name.find('.'), name.size());
   const nc::Signal* signal = findSignal(nc::nctSignals(), name.substr(0, dot));
   const bool isBit = signal != nullptr && signal->type == nc::SignalType::Bit;
   const auto bit = dot == name.size() ? std::optional<uint32_t>(isBit ? signal->bit : 32)
-                                      : nc::numberIn<uint32_t>(name.substr(dot + 1));
+                                      : text::numberIn<uint32_t>(name.substr(dot + 1));
   if (signal == nullptr || !index || *index >= signal->count || !bit || *bit > 31) return std::nullopt;
   if (isBit != (dot == name.size()) || signal->type == nc::SignalType::Real) return std::nullopt;
   return Place{(signal->byteOffset + *index * signal->strideBytes) / 4, *bit};

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "rtlib/nc/control/technol/values.h"
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc::technol {
 namespace {
@@ -51,7 +51,7 @@ std::string_view charactersOf(std::span<const int64_t> words, std::span<char> ro
 }
 
 std::optional<uint32_t> decimal(std::string_view text) {
-  const auto value = numberIn<uint32_t>(text);
+  const auto value = text::numberIn<uint32_t>(text);
   return value && *value <= INT32_MAX ? value : std::nullopt;
 }
 

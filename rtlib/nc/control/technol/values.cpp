@@ -1,7 +1,7 @@
 // Numbers of the configuration (see values.h).
 #include "rtlib/nc/control/technol/values.h"
 
-#include "rtlib/nc/number.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc::technol {
 namespace {
@@ -23,12 +23,12 @@ std::string_view trimmed(std::string_view text) {
 std::optional<int64_t> integerOf(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with("0x") || text.starts_with("0X")) {
-    const auto bits = numberIn<uint64_t>(text.substr(2), 16);
+    const auto bits = text::numberIn<uint64_t>(text.substr(2), 16);
     return bits ? std::optional(static_cast<int64_t>(*bits)) : std::nullopt;
   }
-  return numberIn<int64_t>(withoutPlus(text), 10);
+  return text::numberIn<int64_t>(withoutPlus(text), 10);
 }
 
-std::optional<double> realOf(std::string_view text) { return realIn(withoutPlus(trimmed(text))); }
+std::optional<double> realOf(std::string_view text) { return text::realIn(withoutPlus(trimmed(text))); }
 
 } // namespace rung::nc::technol

@@ -1,4 +1,4 @@
-// Numbers that a text holds: of keys, names, files and part programs. Nothing allocates.
+// Numbers that a text holds. Nothing allocates.
 #pragma once
 #include <charconv>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace rung::nc {
+namespace rung::text {
 
 // The number that the text begins with, which loses it; without one, or out of the range of T, nothing, and the text
 // stays as it is. `format` as std::from_chars takes it: the base of an integer, the notation of a real.
@@ -32,4 +32,4 @@ inline std::optional<double> realIn(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-} // namespace rung::nc
+} // namespace rung::text

@@ -8,6 +8,9 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <utility>
+
+#include "rtlib/host/pace.h"
 
 namespace rung::host {
 
@@ -53,23 +56,24 @@ int64_t monotonicNs() {
 
 RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepGoing) {
   RealTimeStats stats;
-  // Monotonic time at which the program's clock would be 0.
-  const int64_t origin = monotonicNs() - instance.nowUs() * 1000;
+  Pace pace(instance);
+  int64_t now = monotonicNs();
+  const auto look = [&] {
+    const int64_t before = std::exchange(now, monotonicNs());
+    pace.elapse(now - before);
+  };
   do {
-    const int64_t delayUs = instance.sliceDelayUs();
-    const int64_t due = origin + (instance.nowUs() + delayUs) * 1000;
-    if (delayUs > 0) sleepUntil(due);
-    const int64_t start = monotonicNs();
-    stats.maxLateNs = std::max(stats.maxLateNs, start - due);
-    if (delayUs > 0 && start - due >= delayUs * 1000) {
-      const int64_t missed = (start - due) / (delayUs * 1000);
-      stats.missed += static_cast<uint64_t>(missed);
-      instance.advanceClock(missed * delayUs);
-    }
+    if (pace.untilNextNs() > 0) sleepUntil(now + pace.untilNextNs());
+    look();
+    stats.maxLateNs = std::max(stats.maxLateNs, -pace.untilNextNs());
+    pace.take();
     instance.slice();
     ++stats.slices;
-    stats.maxRunNs = std::max(stats.maxRunNs, monotonicNs() - start);
+    const int64_t start = now;
+    look();
+    stats.maxRunNs = std::max(stats.maxRunNs, now - start);
   } while (!instance.faulted() && keepGoing());
+  stats.missed = pace.missed();
   return stats;
 }
 

@@ -1,6 +1,5 @@
-// Runs an instance on the machine's clock: slice by slice, each at its time on CLOCK_MONOTONIC. A slice that comes late
-// by more than its own period is counted as missed periods; the program's clock is moved over them, so timers stay
-// right.
+// Runs an instance on the machine's clock: slice by slice, each at its time on CLOCK_MONOTONIC; what comes late is
+// caught up (see pace.h).
 #pragma once
 #include <sched.h>
 
@@ -42,7 +41,7 @@ private:
 
 struct RealTimeStats {
   uint64_t slices = 0;
-  uint64_t missed = 0;   // periods that were left out
+  uint64_t missed = 0;   // passes of the schedule that were left out
   int64_t maxLateNs = 0; // from the due time to the start of a slice
   int64_t maxRunNs = 0;
 };

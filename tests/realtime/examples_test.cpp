@@ -45,6 +45,7 @@ std::vector<hal::MapFile> mapsOf(const fs::path& example, const rung_program& pr
 [[noreturn]] void exitWith(const char* host, const Outcome& outcome) {
   std::string problem = outcome.problem;
   if (problem.empty() && outcome.slices < kFewestSlices) problem = "too few slices";
+  if (problem.empty() && outcome.faults != 0) problem = "the program has stopped";
   std::fprintf(stderr, "%s: %s (%u slices, %u messages, %u faults)\n", host, problem.c_str(),
                static_cast<unsigned>(outcome.slices), static_cast<unsigned>(outcome.messages),
                static_cast<unsigned>(outcome.faults));

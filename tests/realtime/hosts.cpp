@@ -182,7 +182,7 @@ Outcome runOnClock(const rung_program& program, const std::string& retain) {
     bare.afterSlice();
     bare.guard().exit();
     bare.betweenSlices();
-    clock.setLateness(bare.outcome().slices % 50 == 0 ? 30 * kNsInMs : 0); // periods are missed, too
+    clock.setLateness(bare.outcome().slices % 400 == 0 ? 350 * kNsInMs : 0); // passes are left out, too
     bare.guard().enter();
     return bare.goesOn();
   };

@@ -27,16 +27,18 @@ int main(int argc, char** argv) {
   if (!kind) return std::puts(error.c_str()), 1;
   control->powerOn(instance, *kind);
   const std::optional<host::Ref> ready = control->readPlace(instance, "READY"); // as it names all that it exchanges
-  long scans = std::atol(argv[3]);
-  for (; scans > 0 && !instance.faulted(); --scans) { // the machine's own thread would wait for its period here
-    instance.slice();
-    control->afterSlice(instance);
-    retention.afterSlice();
-    for (rung_message message; instance.messages().pop(message);) control->accept(message);
-  }
-  if (instance.faulted()) std::puts(instance.faultText().c_str());
+  const auto scan = [&] {
+    do { // the machine's own thread would wait for sliceDelayUs() here
+      instance.slice();
+      control->afterSlice(instance);
+      retention.afterSlice();
+      for (rung_message message; instance.messages().pop(message);) control->accept(message);
+    } while (!instance.atListStart() && !instance.faulted());
+  };
+  for (long scans = std::atol(argv[3]); scans > 0 && !instance.faulted(); --scans) scan();
   if (ready) std::printf("ready: %d\n", static_cast<int>(instance.read(*ready)));
+  if (!instance.faulted()) control->powerOff(instance, scan);
+  if (instance.faulted()) std::puts(instance.faultText().c_str());
   error = retention.finish();
-  control->powerOff(instance, [&] { instance.slice(); });
-  return std::puts(error.c_str()), 0;
+  return std::puts(error.c_str()), instance.faulted() || !error.empty() ? 1 : 0;
 }

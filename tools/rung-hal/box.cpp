@@ -10,8 +10,6 @@
 namespace rung::hal {
 namespace {
 
-constexpr uint32_t kMaxSlices = 64; // in one step; what is left is owed to the next
-
 rt::ListedPlace listed(const rt::Memory& memory, const host::Ref& place, PinType type, double scale) {
   using enum rt::ValueForm;
   constexpr rt::ValueForm kForms[] = {Raw, Signed, Raw, Real}; // of Bit, S32, U32, Float
@@ -41,7 +39,7 @@ void setPin(PinType type, const PinCell& cell, uint64_t value) noexcept {
 
 Box::Box(const rung_program& program, MapFile map, std::string retain)
     : map_(std::move(map)), retain_(std::move(retain)), control_(nc::makeControl(program.dialect)),
-      instance_(program, control_.get()) {}
+      instance_(program, control_.get()), pace_(instance_) {}
 
 std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
                                const std::string& retain, std::vector<std::string>& warnings) {
@@ -81,7 +79,7 @@ bool Box::serve(std::vector<std::string>& reports) {
     if (std::string error = retained_->finish(); !error.empty()) reports.push_back(error);
   retained_.reset();
   functions_->restart();
-  owedNs_ = 0;
+  pace_.restart();
   state_.store(start(reports, reports) ? State::Running : State::Stopped, std::memory_order_release);
   return true;
 }
@@ -108,12 +106,9 @@ StepResult Box::step(int64_t ns, bool reset) noexcept {
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
   if (state != State::Running) return StepResult::Waiting;
   functions_->sample(cells_, ns);
-  owedNs_ += ns;
+  pace_.elapse(ns);
   StepResult result = StepResult::Waiting;
-  for (uint32_t i = 0; i < kMaxSlices && !instance_.faulted(); ++i) {
-    const int64_t delayNs = int64_t{instance_.sliceDelayUs()} * 1000;
-    if (owedNs_ < delayNs) break;
-    owedNs_ -= delayNs;
+  while (!instance_.faulted() && pace_.take()) {
     slice();
     result = StepResult::Ran;
   }

@@ -9,6 +9,7 @@
 
 #include "rtlib/core/place_list.h"
 #include "rtlib/host/instance.h"
+#include "rtlib/host/pace.h"
 #include "rtlib/host/realtime.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/retention.h"
@@ -57,7 +58,8 @@ public:
 
   const rung_program& program() const { return instance_.program(); }
   const rung_fault& fault() const { return instance_.fault(); }
-  uint32_t scans() const { return scans_; } // passes of the schedule
+  uint32_t scans() const { return scans_; }          // passes of the schedule
+  uint64_t missed() const { return pace_.missed(); } // passes that were left out
   const FunctionQueue& functions() const { return *functions_; }
   // Of the retained memory; null: nothing is kept.
   const host::RetainedMemory* retained() const { return retained_ ? &retained_->memory() : nullptr; }
@@ -81,6 +83,7 @@ private:
   std::string retain_; // the file, or ""
   std::unique_ptr<nc::Control> control_;
   host::Instance instance_;
+  host::Pace pace_;
   Binding binding_;
   std::vector<rt::ListedPlace> inputs_, outputs_; // of binding_; its constants follow the inputs
   std::vector<uint64_t> inputValues_, outputValues_;
@@ -88,7 +91,6 @@ private:
   std::unique_ptr<nc::Retention> retained_;  // null: nothing is kept
   const PinCell* cells_ = nullptr;
   MessageSink sink_ = nullptr;
-  int64_t owedNs_ = 0; // time that the program's clock lags
   uint32_t scans_ = 0;
   bool wasReset_ = false;
   std::atomic<State> state_{State::Running};

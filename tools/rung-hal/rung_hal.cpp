@@ -45,6 +45,7 @@ struct StatusPins {
   hal::PinCell fault;
   hal::PinCell faultLine;
   hal::PinCell scans;
+  hal::PinCell missed;
   hal::PinCell scanTime; // ns
   hal::PinCell scanTimeMax;
   hal::PinCell functionsBusy;
@@ -147,8 +148,9 @@ bool makePins(Component& c) {
   };
   StatusPins& s = *c.status;
   bool ok = status("fault", HAL_BIT, s.fault) && status("fault-line", HAL_U32, s.faultLine) &&
-            status("scans", HAL_U32, s.scans) && status("scan-time", HAL_U32, s.scanTime) &&
-            status("scan-time-max", HAL_U32, s.scanTimeMax) && status("functions-busy", HAL_BIT, s.functionsBusy) &&
+            status("scans", HAL_U32, s.scans) && status("missed", HAL_U32, s.missed) &&
+            status("scan-time", HAL_U32, s.scanTime) && status("scan-time-max", HAL_U32, s.scanTimeMax) &&
+            status("functions-busy", HAL_BIT, s.functionsBusy) &&
             status("functions-timeout", HAL_BIT, s.functionsTimeout) &&
             status("functions-lost", HAL_U32, s.functionsLost) && makePin(c, "reset", HAL_BIT, HAL_IN, &s.reset.any);
   for (size_t i = 0; i < pins.size() && ok; ++i)
@@ -200,6 +202,7 @@ void runStep(Component& c, long periodNs) {
   *c.status->scanTime.u32 = time;
   if (time > *c.status->scanTimeMax.u32) *c.status->scanTimeMax.u32 = time;
   *c.status->scans.u32 = c.box->scans();
+  *c.status->missed.u32 = static_cast<uint32_t>(c.box->missed());
 }
 
 void scan(void* argument, long periodNs) {

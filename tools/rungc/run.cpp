@@ -226,7 +226,7 @@ private:
       return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
     });
     const host::RealTimeStats stats = session_.runRealTime();
-    fmt::print(out_, "{} slices, {} missed, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
+    fmt::print(out_, "{} slices, {} passes left out, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
                stats.missed, static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
     return kOk;
   }

@@ -50,22 +50,55 @@ TEST_F(RealTimeTest, ClockOfTheProgramFollowsTheMachines) {
   EXPECT_EQ(clock.sleeps(), 20);
 }
 
-TEST_F(RealTimeTest, LatePeriodsAreCountedAndTheClockCatchesUp) {
+TEST_F(RealTimeTest, WhatIsLateIsCaughtUp) {
   Instance instance(test.program);
   FakeClock clock(1000 * kMs);
   int slices = 0;
   const RealTimeStats stats = runRealTime(instance, [&] {
     if (++slices == 2) clock.advance(21 * kMs);
-    return slices < 4;
+    return slices < 13;
   });
-  EXPECT_EQ(stats.slices, 4u);
-  EXPECT_EQ(stats.missed, 9u); // due at 6 ms, run at 25 ms: those of 6 to 22 ms
-  EXPECT_EQ(stats.maxLateNs, 19 * kMs);
+  EXPECT_EQ(stats.slices, 13u);
+  EXPECT_EQ(stats.missed, 0u);
+  EXPECT_EQ(stats.maxLateNs, 19 * kMs); // due at 6 ms, run at 25 ms
   EXPECT_EQ(instance.nowUs(), 26'000);
-  EXPECT_EQ(clock.ns(), 1026 * kMs); // the fourth is in time again
+  EXPECT_EQ(clock.ns(), 1026 * kMs); // the thirteenth is in time again
 }
 
-// Less than a period is caught up without loss.
+TEST_F(RealTimeTest, PassesThatAreTooLateAreCountedAndTheClockIsRight) {
+  Instance instance(test.program);
+  FakeClock clock(1000 * kMs);
+  int slices = 0;
+  const RealTimeStats stats = runRealTime(instance, [&] {
+    if (++slices == 2) clock.advance(101 * kMs);
+    return slices < 14;
+  });
+  EXPECT_EQ(stats.missed, 39u); // due at 6 ms, run at 105 ms: 49 passes late, of which 10 are caught up
+  EXPECT_EQ(stats.maxLateNs, 99 * kMs);
+  EXPECT_EQ(instance.nowUs(), 106'000);
+  EXPECT_EQ(clock.ns(), 1106 * kMs);
+}
+
+// Whole passes only: what a pass has begun it ends.
+TEST_F(RealTimeTest, NoPassIsLeftHalfDone) {
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000},
+               {RUNG_STEP_RUN, 0, 1},
+               {RUNG_STEP_ADVANCE, RUNG_NONE, 3000},
+               {RUNG_STEP_RUN, 0, 1}};
+  test.link();
+  Instance instance(test.program);
+  FakeClock clock;
+  int slices = 0;
+  const RealTimeStats stats = runRealTime(instance, [&] {
+    if (++slices == 1) clock.advance(100 * kMs); // at 102 ms: the second slice is 97 ms late, the next pass 95 ms
+    return slices < 2 + 2 * 11;
+  });
+  EXPECT_EQ(stats.missed, 9u); // of 19
+  EXPECT_EQ(stats.maxLateNs, 97 * kMs);
+  EXPECT_EQ(instance.nowUs(), 105'000);
+}
+
+// Lateness of less than a period misses nothing.
 TEST_F(RealTimeTest, ALateWakeUpMissesNothing) {
   Instance instance(test.program);
   FakeClock clock;

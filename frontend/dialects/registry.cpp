@@ -1,13 +1,12 @@
 // The list of dialects. A new dialect is a folder beside this file and a line here.
-#include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/nct/nct.h"
 #include "frontend/dialects/technol/technol.h"
 #include "frontend/ladder/ladder.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend {
 
@@ -24,9 +23,7 @@ const Dialect* findDialect(std::string_view name) {
 
 const Dialect* dialectOf(const SourceManager& sources, FileId file) {
   if (const Dialect* named = findDialect(ladder::peekDialect(sources, file))) return named;
-  std::string name(sources.name(file));
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = text::lower(sources.name(file));
   for (const Dialect* dialect : allDialects())
     for (std::string_view extension : dialect->extensions)
       if (name.ends_with(extension)) return dialect;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "frontend/ladder/drawing.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ladder {
 namespace {
@@ -22,11 +23,6 @@ struct Row {
   uint32_t endColumn = 0;
   uint32_t group = 0;
 };
-
-bool sameName(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 class PinGrouper {
 public:
@@ -62,8 +58,8 @@ private:
 };
 
 bool PinGrouper::isNamed(const Group& group, std::string_view word) const {
-  return group.names &&
-         std::any_of(group.names->begin(), group.names->end(), [&](auto name) { return sameName(name, word); });
+  return group.names && std::any_of(group.names->begin(), group.names->end(),
+                                    [&](auto name) { return text::equalsIgnoringCase(name, word); });
 }
 
 /// Below a box that still lacks pins a wrong name is an unknown pin, not another box.

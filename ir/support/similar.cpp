@@ -4,19 +4,17 @@
 #include <algorithm>
 #include <array>
 
+#include "rtlib/text/letters.h"
+
 namespace rung {
 namespace {
 
 constexpr size_t kShortWord = 4;
 constexpr size_t kLongest = 32; // nobody misspells longer ones by two characters and looks for help
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
 } // namespace
 
-Similar::Similar(std::string_view word) : word_(word), bound_(word.size() <= kShortWord ? 2 : 3) {
-  std::transform(word_.begin(), word_.end(), word_.begin(), upper);
-}
+Similar::Similar(std::string_view word) : word_(text::upper(word)), bound_(word.size() <= kShortWord ? 2 : 3) {}
 
 // Damerau's distance with three rows of the table.
 size_t Similar::distance(std::string_view candidate) const {
@@ -28,9 +26,9 @@ size_t Similar::distance(std::string_view candidate) const {
     const Row& above = rows[(i - 1) % 3];
     row[0] = i;
     for (size_t j = 1; j <= candidate.size(); ++j) {
-      const char a = word_[i - 1], b = upper(candidate[j - 1]);
+      const char a = word_[i - 1], b = text::upper(candidate[j - 1]);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a == b ? 0u : 1u)});
-      const bool exchanged = i > 1 && j > 1 && a == upper(candidate[j - 2]) && word_[i - 2] == b;
+      const bool exchanged = i > 1 && j > 1 && a == text::upper(candidate[j - 2]) && word_[i - 2] == b;
       if (exchanged) row[j] = std::min(row[j], rows[(i + 1) % 3][j - 2] + 1);
     }
   }

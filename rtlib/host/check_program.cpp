@@ -2,13 +2,13 @@
 // relies on, in the order of that file. Enums are closed sets: what a newer compiler may mean by another value is not
 // known here, so the program is refused. One walk over each table, and a search over the ranges where memory is named.
 #include <algorithm>
-#include <charconv>
 #include <concepts>
 #include <cstring>
 #include <initializer_list>
 #include <vector>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/text/number.h"
 
 namespace rung::host {
 
@@ -50,12 +50,6 @@ uint32_t elementBits(uint32_t type) {
   case RUNG_TYPE_F64: return 64;
   default: return 0;
   }
-}
-
-bool isNumber(std::string_view digits) {
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size();
 }
 
 class Checker {
@@ -357,7 +351,7 @@ private:
     checkList("text", p_.text_count, p_.texts);
     if (p_.text_count % 2 != 0) fail("the texts of messages are not pairs: there are ", p_.text_count);
     for (uint32_t i = 0; i < p_.text_count && error_.empty(); i += 2)
-      if (!isNumber(p_.texts[i])) failAt("text", i, "is not the number of a message: ", p_.texts[i]);
+      if (!text::numberIn<uint32_t>(p_.texts[i])) failAt("text", i, "is not the number of a message: ", p_.texts[i]);
   }
   void checkList(const char* table, uint32_t count, const char* const* list) {
     for (uint32_t i = 0; i < count; ++i)

@@ -2,7 +2,8 @@
 #include "rtlib/host/program_info.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "rtlib/text/number.h"
 
 namespace rung::host {
 
@@ -52,12 +53,8 @@ std::string_view serviceName(const rung_program& program, uint32_t service) {
 }
 
 std::string_view messageText(const rung_program& program, uint32_t number) {
-  for (uint32_t i = 0; i + 1 < program.text_count; i += 2) {
-    const std::string_view key = program.texts[i];
-    uint32_t value = 0;
-    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), value);
-    if (error == std::errc() && end == key.data() + key.size() && value == number) return program.texts[i + 1];
-  }
+  for (uint32_t i = 0; i + 1 < program.text_count; i += 2)
+    if (text::numberIn<uint32_t>(program.texts[i]) == number) return program.texts[i + 1];
   return {};
 }
 

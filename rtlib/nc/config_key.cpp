@@ -58,7 +58,7 @@ bool isRight(const ConfigKey& row, std::string_view value) {
 
 int64_t wholeNumber(std::string_view text) {
   const auto value = text::numberIn<int64_t>(text);
-  return value && *value >= 0 && text.size() <= 18 ? *value : -1;
+  return value && *value >= 0 ? *value : -1;
 }
 
 int64_t durationUs(std::string_view text) {

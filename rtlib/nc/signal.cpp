@@ -3,20 +3,14 @@
 
 #include <algorithm>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::nc {
 
 namespace {
 
-char fold(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
 int compareNames(std::string_view a, std::string_view b, bool ignoreCase) {
-  if (!ignoreCase) return a.compare(b);
-  const size_t common = std::min(a.size(), b.size());
-  for (size_t i = 0; i < common; ++i) {
-    const auto x = static_cast<unsigned char>(fold(a[i])), y = static_cast<unsigned char>(fold(b[i]));
-    if (x != y) return x < y ? -1 : 1;
-  }
-  return a.size() == b.size() ? 0 : a.size() < b.size() ? -1 : 1;
+  return ignoreCase ? text::compareIgnoringCase(a, b) : a.compare(b);
 }
 
 } // namespace

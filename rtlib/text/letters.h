@@ -1,16 +1,37 @@
-// Capitals of ASCII letters, whatever the locale; all other bytes stay as they are.
+// Capitals and small letters of ASCII, whatever the locale; all other bytes stay as they are.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <string_view>
 
 namespace rung::text {
 
 constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 inline std::string upper(std::string_view text) {
   std::string result(text);
   for (char& c : result) c = upper(c);
   return result;
+}
+
+inline std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = lower(c);
+  return result;
+}
+
+// As std::string_view::compare of both in capitals. Does not allocate.
+constexpr int compareIgnoringCase(std::string_view a, std::string_view b) {
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const auto x = static_cast<unsigned char>(upper(a[i])), y = static_cast<unsigned char>(upper(b[i]));
+    if (x != y) return x < y ? -1 : 1;
+  }
+  return a.size() == b.size() ? 0 : a.size() < b.size() ? -1 : 1;
+}
+
+constexpr bool equalsIgnoringCase(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && compareIgnoringCase(a, b) == 0;
 }
 
 } // namespace rung::text

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <strings.h>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/text/letters.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/services.h"
 
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool begins(std::string_view word, const std::string& candidate) {
-  return candidate.size() >= word.size() && strncasecmp(candidate.data(), word.data(), word.size()) == 0;
+  return text::equalsIgnoringCase(std::string_view(candidate).substr(0, word.size()), word);
 }
 
 std::vector<std::string> beginning(std::string_view word, const std::vector<std::string>& candidates) {

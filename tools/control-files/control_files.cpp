@@ -14,9 +14,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::control_files {
 namespace {
@@ -197,7 +197,7 @@ private:
   std::optional<std::string_view> find(std::string_view name) {
     asked_.push_back(name);
     for (Given& given : given_) {
-      if (given.taken || !nc::technol::equalIgnoringCase(given.name, name)) continue;
+      if (given.taken || !text::equalsIgnoringCase(given.name, name)) continue;
       given.taken = true;
       return given.value;
     }
@@ -222,7 +222,7 @@ int knowEncoding(void*, const XML_Char* name, XML_Encoding* encoding) {
                               {"cp852", nc::CodePage::Cp852},
                               {"ibm852", nc::CodePage::Cp852}};
   for (const Named& known : kNames) {
-    if (!nc::technol::equalIgnoringCase(known.name, name)) continue;
+    if (!text::equalsIgnoringCase(known.name, name)) continue;
     for (int byte = 0; byte < 256; ++byte)
       encoding->map[byte] = static_cast<int>(unicodeOf(known.page, static_cast<uint8_t>(byte)));
     encoding->data = nullptr;

@@ -1,11 +1,10 @@
 // The checks (see configuration.h).
 #include "tools/driver/configuration.h"
 
-#include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 
 #include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
 #include "tools/sim/simulated_nc.h"
 
 namespace rung::driver {
@@ -27,24 +26,17 @@ std::string suggestion(const frontend::Dialect& dialect, std::string_view key) {
   return {};
 }
 
-std::string upperCase(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return out;
-}
-
 bool stands(const SourceManager& sources, const std::string& text) {
   for (uint32_t file = 0; file < sources.fileCount(); ++file)
     if (!sources.name(FileId{file}).ends_with(".toml") &&
-        upperCase(sources.text(FileId{file})).find(text) != std::string::npos)
+        text::upper(sources.text(FileId{file})).find(text) != std::string::npos)
       return true;
   return false;
 }
 
 // By an identifier, or by that before an attribute: `Feed` of `PLC.Input.Feed[2].Default`.
 bool isNamed(const SourceManager& sources, std::string_view key) {
-  const std::string name = upperCase(key);
+  const std::string name = text::upper(key);
   if (stands(sources, name)) return true;
   const size_t point = name.rfind('.');
   if (point == std::string::npos) return false;

@@ -9,6 +9,7 @@
 #include "ir/core/op_info.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::driver {
 
@@ -84,13 +85,6 @@ void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::
   fmt::format_to(put, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 std::vector<const DiagInfo*> sortedDiags() {
   std::vector<const DiagInfo*> rows;
   for (const DiagInfo& info : allDiags()) rows.push_back(&info);
@@ -123,7 +117,7 @@ void appendFaults(const Dialect& dialect, std::string& out) {
 // As GitHub makes it of a heading.
 std::string anchorOf(std::string_view heading) {
   std::string anchor;
-  for (const char c : lower(heading)) {
+  for (const char c : text::lower(heading)) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || (c & 0x80) != 0) anchor += c;
     if (c == ' ') anchor += '-';
   }
@@ -234,7 +228,7 @@ std::string shownDiagnostic(const DiagInfo& info) {
 
 // A fault by its text, or by the part before its colon or its module: `halt-status 13`, `watchdog`.
 bool isFault(const nc::Fault& fault, const std::string& word) {
-  std::string text = lower(fault.text);
+  std::string text = text::lower(fault.text);
   text.resize(text.find_last_not_of(' ') + 1); // the module follows
   return text == word || (text.starts_with(word) && (text[word.size()] == ':' || word.starts_with(text)));
 }
@@ -254,14 +248,14 @@ private:
 // By its name, or as a user writes it: tmr.1 is a tmr.N. The rows that take any key explain nothing.
 const nc::ConfigKey* configKey(const Dialect& dialect, std::string_view word) {
   for (const nc::ConfigKey& row : dialect.configKeys)
-    if (lower(nc::shownKey(row)) == lower(word)) return &row;
+    if (text::equalsIgnoringCase(nc::shownKey(row), word)) return &row;
   const nc::ConfigKey* row = nc::findConfigKey(dialect.configKeys, word);
   return row == nullptr || row->key.starts_with('<') ? nullptr : row;
 }
 
 void explainInDialect(const Dialect& dialect, std::string_view word, Collected& out) {
   for (const InstructionInfo* row : dialect.instructions)
-    if (lower(row->mnemonic) == lower(word)) {
+    if (text::equalsIgnoringCase(row->mnemonic, word)) {
       std::string text = fmt::format("[{}] ", dialect.name);
       appendInstruction(dialect, *row, text);
       out.add(text);
@@ -271,7 +265,7 @@ void explainInDialect(const Dialect& dialect, std::string_view word, Collected& 
                         row->reader == nc::ConfigReader::Compiler ? "compiler" : "control", nc::takesOf(*row),
                         row->otherwise.empty() ? "" : fmt::format("; without it {}", row->otherwise), row->doc));
   for (const nc::Fault& fault : nc::faultsOf(dialect.name))
-    if (isFault(fault, lower(word)))
+    if (isFault(fault, text::lower(word)))
       out.add(fmt::format("[{}] fault {}\n\n{}\n", dialect.name, fault.text, fault.explanation));
   if (dialect.explain != nullptr) out.add(dialect.explain(word));
 }
@@ -317,7 +311,7 @@ std::string faultTopic() {
 
 std::optional<std::string> explain(std::string_view word) {
   Collected out;
-  if (const DiagInfo* info = findDiag(lower(word))) out.add(shownDiagnostic(*info));
+  if (const DiagInfo* info = findDiag(text::lower(word))) out.add(shownDiagnostic(*info));
   for (const Dialect* dialect : frontend::allDialects()) explainInDialect(*dialect, word, out);
   std::string text = out.take();
   if (text.empty()) return std::nullopt;

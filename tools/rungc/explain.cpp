@@ -1,11 +1,11 @@
 // rungc explain and rungc doc: the reference, an entry or a page at a time.
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <iostream>
 #include <iterator>
 
 #include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
 #include "tools/driver/reference.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/plain_text.h"
@@ -15,18 +15,13 @@ namespace {
 
 constexpr size_t kShown = 40; // of what a search finds
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 // Names first, then titles.
 std::vector<driver::ReferenceEntry> search(const std::vector<driver::ReferenceEntry>& entries,
                                            const std::string& word) {
   std::vector<driver::ReferenceEntry> found;
-  const auto contains = [&](const std::string& text) { return lower(text).find(lower(word)) != std::string::npos; };
+  const auto contains = [&](const std::string& text) {
+    return text::lower(text).find(text::lower(word)) != std::string::npos;
+  };
   std::copy_if(entries.begin(), entries.end(), std::back_inserter(found),
                [&](const auto& entry) { return contains(entry.name); });
   std::copy_if(entries.begin(), entries.end(), std::back_inserter(found), [&](const auto& entry) {

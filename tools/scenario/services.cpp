@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <fmt/format.h>
 #include <optional>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/scenario/values.h"
 
@@ -20,11 +20,6 @@ namespace rung::scenario {
 using host::Instance;
 
 namespace {
-
-bool sameName(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 int64_t rawOf(const Value& value) {
   return value.kind == ValueKind::Real ? std::bit_cast<int64_t>(value.real) : value.integer;
@@ -39,9 +34,9 @@ struct BlockKey {
 
 // "w4" and "d4".
 std::optional<BlockKey> blockKey(const ServiceSignature& signature, std::string_view key) {
-  if (!signature.hasBlock() || key.size() < 2 || (std::tolower(key[0]) != 'w' && std::tolower(key[0]) != 'd'))
+  if (!signature.hasBlock() || key.size() < 2 || (text::lower(key[0]) != 'w' && text::lower(key[0]) != 'd'))
     return std::nullopt;
-  BlockKey parsed{.isReal = std::tolower(key[0]) == 'd'};
+  BlockKey parsed{.isReal = text::lower(key[0]) == 'd'};
   parsed.word = text::numberIn<uint32_t>(key.substr(1)).value_or(0);
   const uint32_t last = parsed.isReal ? nc::nct::kBlockWords - 2 : nc::nct::kBlockWords - 1;
   return parsed.word >= 1 && parsed.word <= last ? std::optional(parsed) : std::nullopt;
@@ -87,14 +82,15 @@ std::string blockDifference(const ServiceSignature& signature, nc::nct::Block bl
 // Bits of an argument that count.
 uint64_t maskOf(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view key) {
   const int length = signature.argument("length");
-  if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !sameName(key, "data")) return UINT64_MAX;
+  if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !text::equalsIgnoringCase(key, "data"))
+    return UINT64_MAX;
   const int64_t bytes = request.args[length];
   return bytes > 0 && bytes < 8 ? (uint64_t{1} << (8 * bytes)) - 1 : UINT64_MAX;
 }
 
 // A quantity of SCP goes by its name: the argument `symbol` is its index.
 bool isScopeName(const ServiceSignature& signature, const KeyValue& key) {
-  return key.value.kind == ValueKind::Text && sameName(key.key, "symbol") && signature.isNamed("SCP");
+  return key.value.kind == ValueKind::Text && text::equalsIgnoringCase(key.key, "symbol") && signature.isNamed("SCP");
 }
 
 std::string scopeDifference(const ServiceSignature& signature, int64_t found, const KeyValue& key) {
@@ -145,13 +141,13 @@ ServiceSignature::ServiceSignature(std::string_view text) {
   }
 }
 
-bool ServiceSignature::isNamed(std::string_view name) const { return sameName(name_, name); }
+bool ServiceSignature::isNamed(std::string_view name) const { return text::equalsIgnoringCase(name_, name); }
 int ServiceSignature::argument(std::string_view key) const { return indexOf(arguments_, key); }
 int ServiceSignature::result(std::string_view key) const { return indexOf(results_, key); }
 
 int ServiceSignature::indexOf(const std::vector<Name>& names, std::string_view key) {
   for (size_t i = 0; i < names.size(); ++i)
-    if (sameName(names[i].text, key)) return static_cast<int>(i);
+    if (text::equalsIgnoringCase(names[i].text, key)) return static_cast<int>(i);
   return -1;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::scenario {
@@ -56,9 +57,7 @@ std::string withoutUnderscores(std::string_view digits) {
 }
 
 std::optional<bool> parseBit(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string lower = text::lower(text);
   if (lower == "on" || lower == "true") return true;
   if (lower == "off" || lower == "false") return false;
   return std::nullopt;

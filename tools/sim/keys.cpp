@@ -42,12 +42,4 @@ std::optional<uint32_t> takeNumberAndDot(std::string_view& text) {
   return number;
 }
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = upper(c);
-  return result;
-}
-
 } // namespace rung::sim

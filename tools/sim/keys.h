@@ -21,8 +21,5 @@ std::string unknownKey(std::string_view event, const std::vector<NcArgument>& ke
 std::optional<std::vector<uint32_t>> numbersAfter(std::string_view text, std::string_view prefix);
 // "3.REST" gives 3, and the text is REST; nothing when its form is another.
 std::optional<uint32_t> takeNumberAndDot(std::string_view& text);
-// With the letters A to Z instead of a to z.
-char upper(char c);
-std::string upper(std::string_view text);
 
 } // namespace rung::sim

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/sim/keys.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::sim {
 
@@ -12,14 +13,14 @@ bool ProgramText::atBlockEnd() const { return at_ >= text_.size() || text_[at_] 
 
 bool ProgramText::nextBlock() { return at_++ < text_.size(); }
 
-char ProgramText::here() const { return upper(written()); }
+char ProgramText::here() const { return text::upper(written()); }
 
 void ProgramText::skipBlanks() {
   while (written() == ' ' || written() == '\t' || written() == '\r') ++at_;
 }
 
 bool ProgramText::take(std::string_view word) {
-  if (upper(text_.substr(std::min(at_, text_.size()), word.size())) != word) return false;
+  if (!text::equalsIgnoringCase(text_.substr(std::min(at_, text_.size()), word.size()), word)) return false;
   at_ += word.size();
   return true;
 }

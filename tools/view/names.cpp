@@ -1,7 +1,6 @@
 // Names, addresses and their comments (see names.h).
 #include "tools/view/names.h"
 
-#include <charconv>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,16 +8,10 @@
 #include "frontend/dialects/gsk/gsk.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/nct/signals.h"
+#include "rtlib/text/number.h"
 
 namespace rung::view {
 namespace {
-
-std::optional<uint32_t> number(std::string_view text) {
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
@@ -118,8 +111,8 @@ Named Names::findGsk(std::string_view operand) const {
   }
   if (operand.size() < 2 || !isDigit(operand[1])) return {{}, {}, isDigit(operand[0]) ? "" : std::string(operand)};
   const size_t point = operand.find('.');
-  const auto byte = number(operand.substr(1, point == std::string_view::npos ? point : point - 1));
-  const auto bit = point == std::string_view::npos ? 0u : number(operand.substr(point + 1));
+  const auto byte = text::numberIn<uint32_t>(operand.substr(1, point == std::string_view::npos ? point : point - 1));
+  const auto bit = point == std::string_view::npos ? 0u : text::numberIn<uint32_t>(operand.substr(point + 1));
   if (!byte || !bit || std::string_view("XYFGRDCTAK").find(operand[0]) == std::string_view::npos)
     return {{}, {}, isDigit(operand[0]) ? "" : std::string(operand)};
   return atAddress({operand.substr(0, 1), *byte, *bit, point != std::string_view::npos});
@@ -138,7 +131,7 @@ Named Names::findNct(std::string_view operand) const {
   const Known* name = numeric ? nullptr : known(base);
   if (name != nullptr) {
     place = name->place;
-  } else if (const auto word = number(base)) {
+  } else if (const auto word = text::numberIn<uint32_t>(base)) {
     place.byte = *word * 4;
   } else {
     return {{}, {}, std::string(base)};
@@ -148,7 +141,7 @@ Named Names::findNct(std::string_view operand) const {
   const std::string_view index = comma == std::string_view::npos ? "" : rest.substr(comma + 1);
   std::string open; // what is known at run time only
   if (bit.starts_with('.')) {
-    const uint32_t value = number(bit.substr(1)).value_or(0);
+    const uint32_t value = text::numberIn<uint32_t>(bit.substr(1)).value_or(0);
     place.isBit = true;
     place.byte = place.byte / 4 * 4 + value / 8;
     place.bit = value % 8;
@@ -156,8 +149,8 @@ Named Names::findNct(std::string_view operand) const {
     open = bit;
   }
   std::string_view constant = valueOf(index);
-  if (constant.starts_with('#') && number(constant.substr(1)))
-    place.byte += 4 * *number(constant.substr(1));
+  if (constant.starts_with('#') && text::numberIn<uint32_t>(constant.substr(1)))
+    place.byte += 4 * *text::numberIn<uint32_t>(constant.substr(1));
   else if (!index.empty())
     open.append(",").append(index);
   Named named = atAddress(place);

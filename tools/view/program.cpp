@@ -12,6 +12,7 @@
 #include "frontend/dialects/gsk/canonical.h"
 #include "frontend/ladder/drawing.h"
 #include "ir/support/check.h"
+#include "rtlib/text/letters.h"
 #include "tools/view/names.h"
 #include "tools/view/sheet_builder.h"
 
@@ -300,7 +301,7 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
   const auto letters = [](std::string_view text) {
     std::string result;
     for (char c : text)
-      if (c != ' ') result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+      if (c != ' ') result += text::upper(c);
     return result;
   };
   const std::string said = letters(title.substr(0, colon));

@@ -2,18 +2,9 @@
 #include "tools/view/rows.h"
 
 #include "frontend/dialects/gsk/gsk.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::view {
-namespace {
-
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return result;
-}
-
-} // namespace
 
 Rows::Rows(const frontend::Dialect& dialect) : ignoreCase_(&dialect == &gsk::kGsk) {
   for (const frontend::InstructionInfo* info : dialect.instructions) {
@@ -30,7 +21,7 @@ Rows::Rows(const frontend::Dialect& dialect) : ignoreCase_(&dialect == &gsk::kGs
 }
 
 const Rows::Entry* Rows::entry(std::string_view mnemonic) const {
-  const auto at = rows_.find(ignoreCase_ ? upper(mnemonic) : std::string(mnemonic));
+  const auto at = rows_.find(ignoreCase_ ? text::upper(mnemonic) : std::string(mnemonic));
   return at == rows_.end() ? nullptr : &at->second;
 }
 

@@ -1,10 +1,11 @@
 // Tokens to cells (see sheet_builder.h).
 #include "tools/view/sheet_builder.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "rtlib/text/letters.h"
 
 namespace rung::view {
 
@@ -18,11 +19,7 @@ using ladder::TokenKind;
 namespace {
 
 // GSK's word in front of the values of a table, in any case.
-bool isTableWord(std::string_view text) {
-  constexpr std::string_view kTable = "TABLE";
-  return std::equal(text.begin(), text.end(), kTable.begin(), kTable.end(),
-                    [](char a, char b) { return (a & ~0x20) == b; });
-}
+bool isTableWord(std::string_view text) { return text::equalsIgnoringCase(text, "TABLE"); }
 
 // The letters in a contact or coil.
 std::string markOf(const Element& element, std::string_view operand) {

@@ -1,6 +1,8 @@
 // See targets.h.
 #include "tools/view/targets.h"
 
+#include "rtlib/text/letters.h"
+
 namespace rung::view {
 
 TargetRole roleOf(const frontend::InstructionInfo& row, const frontend::OperandInfo& operand) {
@@ -15,8 +17,7 @@ TargetRole roleOf(const frontend::InstructionInfo& row, const frontend::OperandI
 uint32_t Targets::idOf(std::string_view module, std::string_view operand) {
   std::string key = std::string(module) + '\n';
   size_t at = 0;
-  for (; at < operand.size() && (operand[at] < '0' || operand[at] > '9'); ++at)
-    key += operand[at] >= 'a' && operand[at] <= 'z' ? static_cast<char>(operand[at] - 'a' + 'A') : operand[at];
+  for (; at < operand.size() && (operand[at] < '0' || operand[at] > '9'); ++at) key += text::upper(operand[at]);
   while (at + 1 < operand.size() && operand[at] == '0') ++at;
   key += operand.substr(at);
   const auto [found, fresh] = ids_.emplace(std::move(key), static_cast<uint32_t>(targets_.size()));

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::gsk {
 namespace {
 
@@ -14,7 +16,7 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 std::optional<uint32_t> hexDigit(char c) {
   if (isDigit(c)) return static_cast<uint32_t>(c - '0');
-  const char u = upper(c);
+  const char u = text::upper(c);
   if (u >= 'A' && u <= 'F') return static_cast<uint32_t>(u - 'A' + 10);
   return std::nullopt;
 }
@@ -31,18 +33,6 @@ std::optional<int64_t> parseHex(std::string_view text) {
 }
 
 } // namespace
-
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-std::string upperCase(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), upper);
-  return result;
-}
-
-bool equalNoCase(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return upper(x) == upper(y); });
-}
 
 std::string textOf(const Address& address) {
   const char letter = areaInfo(address.area).letter;
@@ -61,7 +51,7 @@ std::optional<uint64_t> parseDigits(std::string_view text) {
 }
 
 std::optional<int64_t> parseConstant(std::string_view text) {
-  if (text.size() > 2 && text[0] == '0' && upper(text[1]) == 'X') return parseHex(text.substr(2));
+  if (text.size() > 2 && text[0] == '0' && text::upper(text[1]) == 'X') return parseHex(text.substr(2));
   const bool negative = text.starts_with('-');
   const auto digits = parseDigits(text.substr(negative ? 1 : 0));
   if (!digits) return std::nullopt;
@@ -71,7 +61,7 @@ std::optional<int64_t> parseConstant(std::string_view text) {
 
 std::optional<AddressText> splitAddress(std::string_view text) {
   if (text.size() < 2) return std::nullopt;
-  const char letter = upper(text[0]);
+  const char letter = text::upper(text[0]);
   const auto area = std::find_if(kAreas.begin(), kAreas.end(), [&](const AreaInfo& a) { return a.letter == letter; });
   if (area == kAreas.end()) return std::nullopt;
   const size_t point = text.find('.');

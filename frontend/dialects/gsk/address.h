@@ -71,8 +71,4 @@ std::optional<int64_t> parseConstant(std::string_view text);
 // Whether `length` bytes from `address` touch a preset: all of T, the first two bytes of every counter in C (P8, P9).
 bool touchesPreset(const Address& address, uint32_t length);
 
-char upper(char c);
-std::string upperCase(std::string_view text);
-bool equalNoCase(std::string_view a, std::string_view b);
-
 } // namespace rung::gsk

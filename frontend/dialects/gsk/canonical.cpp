@@ -7,6 +7,7 @@
 
 #include "frontend/dialects/gsk/network_builder.h"
 #include "frontend/dialects/gsk/title.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -149,8 +150,9 @@ std::optional<std::vector<Logic>> parseBlocksHint(std::string_view comment) {
   if (!comment.starts_with(kBlocks)) return std::nullopt;
   std::vector<Logic> commands;
   for (std::string_view word : wordsIn(comment.substr(kBlocks.size()))) {
-    const auto* const at = std::find_if(std::begin(kLogic), std::end(kLogic),
-                                        [&](Logic kind) { return equalNoCase(nameOf(commandOf(kind, false)), word); });
+    const auto* const at = std::find_if(std::begin(kLogic), std::end(kLogic), [&](Logic kind) {
+      return text::equalsIgnoringCase(nameOf(commandOf(kind, false)), word);
+    });
     if (at == std::end(kLogic)) return std::nullopt;
     commands.push_back(*at);
   }

@@ -7,25 +7,27 @@
 
 #include "frontend/dialects/gsk/instructions.h"
 #include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
 
-bool isLetter(char c) { return upper(c) >= 'A' && upper(c) <= 'Z'; }
+bool isLetter(char c) { return text::upper(c) >= 'A' && text::upper(c) <= 'Z'; }
 bool isNameChar(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
 
 bool isCommand(std::string_view text) {
   constexpr std::string_view kWords[] = {"FUNC", "PRM", "TABLE", "DIALECT", "SYMBOL"};
   if (findFunction(text) != nullptr) return true;
   for (const Row& row : allRows())
-    if (row.info.number < 0 && equalNoCase(row.info.mnemonic, text)) return true;
-  return std::any_of(std::begin(kWords), std::end(kWords), [&](std::string_view w) { return equalNoCase(w, text); });
+    if (row.info.number < 0 && text::equalsIgnoringCase(row.info.mnemonic, text)) return true;
+  return std::any_of(std::begin(kWords), std::end(kWords),
+                     [&](std::string_view w) { return text::equalsIgnoringCase(w, text); });
 }
 
 // A name that cannot be taken for something else (P12).
 bool isFreeName(std::string_view text) {
   if (text.empty() || !isLetter(text[0]) || !std::all_of(text.begin(), text.end(), isNameChar)) return false;
-  const bool labelLike = (upper(text[0]) == 'L' || upper(text[0]) == 'P') && parseDigits(text.substr(1));
+  const bool labelLike = (text::upper(text[0]) == 'L' || text::upper(text[0]) == 'P') && parseDigits(text.substr(1));
   return !labelLike && !splitAddress(text) && !isCommand(text);
 }
 

@@ -11,6 +11,7 @@
 #include "frontend/dialects/gsk/rows_data.h"
 #include "frontend/dialects/gsk/rows_nc.h"
 #include "frontend/dialects/gsk/rows_timing.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -85,7 +86,7 @@ const Row* findFunction(uint64_t number) { return number < kFunctionNumbers ? kB
 
 const Row* findFunction(std::string_view mnemonic) {
   for (const Row& row : kRows)
-    if (row.info.number >= 0 && equalNoCase(row.info.mnemonic, mnemonic)) return &row;
+    if (row.info.number >= 0 && text::equalsIgnoringCase(row.info.mnemonic, mnemonic)) return &row;
   return nullptr;
 }
 

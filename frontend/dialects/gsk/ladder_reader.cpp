@@ -10,6 +10,7 @@
 #include "frontend/dialects/gsk/condition.h"
 #include "frontend/dialects/gsk/network_builder.h"
 #include "frontend/dialects/gsk/title.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -178,7 +179,7 @@ bool RungReader::checkPins() {
       diagnostics_.report(Diag::MissingPin, box_->range) << row_->info.mnemonic << further[i - 1];
       return false;
     }
-    if (i > further.size() || !equalNoCase(pins[i].name, further[i - 1])) {
+    if (i > further.size() || !text::equalsIgnoringCase(pins[i].name, further[i - 1])) {
       const std::string expected = i > further.size() ? "none" : std::string(further[i - 1]);
       diagnostics_.report(Diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
       return false;
@@ -273,7 +274,7 @@ void RungReader::emitBox() {
   bool table = false;
   for (const Word& operand : rung_.operandsOf(*box_)) {
     const Place at{operand.range, box_->line};
-    if (row_->hasTable && !table && equalNoCase(operand.text, "TABLE"))
+    if (row_->hasTable && !table && text::equalsIgnoringCase(operand.text, "TABLE"))
       table = true;
     else if (table)
       builder_.tableRow(operand, at);
@@ -336,11 +337,11 @@ private:
 void LadderReader::module(const ladder::Module& module) {
   unit_ = kNone;
   const std::string_view name = module.name[0].text;
-  if (module.name.size() == 1 && equalNoCase(name, "LEVEL1")) {
+  if (module.name.size() == 1 && text::equalsIgnoringCase(name, "LEVEL1")) {
     unit_ = units_.openModule(UnitKind::Level1, 0, module.range, module.range);
-  } else if (module.name.size() == 1 && equalNoCase(name, "LEVEL2")) {
+  } else if (module.name.size() == 1 && text::equalsIgnoringCase(name, "LEVEL2")) {
     unit_ = units_.openModule(UnitKind::Level2, 0, module.range, module.range);
-  } else if (module.name.size() == 2 && equalNoCase(name, "SUB")) {
+  } else if (module.name.size() == 2 && text::equalsIgnoringCase(name, "SUB")) {
     // The operand of SP, checked like one.
     Function sp{.row = findFunction("SP"), .range = module.range};
     if (checkFunction(context_, {module.name[1]}, {}, sp))
@@ -390,7 +391,7 @@ ladder::LadderFile parseLadderFile(Context& context, FileId file) {
 
 void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
   Diagnostics& diagnostics = context.diagnostics;
-  if (!file.dialect.empty() && !equalNoCase(file.dialect, "gsk"))
+  if (!file.dialect.empty() && !text::equalsIgnoringCase(file.dialect, "gsk"))
     diagnostics.report(Diag::DialectConflict, file.dialectRange) << file.dialect << "gsk";
   for (const ladder::Declaration& declaration : file.declarations) {
     switch (declaration.kind) {

@@ -7,6 +7,7 @@
 
 #include "frontend/dialects/gsk/network_builder.h"
 #include "frontend/dialects/gsk/title.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -150,7 +151,7 @@ void ListReader::lostOperand(Command command, const Word& name, Place at) {
 }
 
 void ListReader::checkDialect(const Word& word) {
-  if (!equalNoCase(word.text, "gsk"))
+  if (!text::equalsIgnoringCase(word.text, "gsk"))
     context_.diagnostics.report(Diag::DialectConflict, word.range) << word.text << "gsk";
 }
 
@@ -195,7 +196,7 @@ void ListReader::dispatch(Command command, std::span<const Word> words, Place at
 
 std::optional<Command> findCommand(std::string_view text) {
   const auto at = std::find_if(kCommandNames.begin(), kCommandNames.end(),
-                               [&](std::string_view name) { return equalNoCase(name, text); });
+                               [&](std::string_view name) { return text::equalsIgnoringCase(name, text); });
   if (at == kCommandNames.end()) return std::nullopt;
   return static_cast<Command>(at - kCommandNames.begin());
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/network_builder.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -138,7 +139,7 @@ bool ParameterCheck::checkMask(const Word& word, Param& param) {
 
 // Labels and subprograms. Number 0 stands in two places of the manual and is accepted (P2).
 bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param, char letter) {
-  const bool named = !word.text.empty() && upper(word.text[0]) == letter;
+  const bool named = !word.text.empty() && text::upper(word.text[0]) == letter;
   const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
   if (!number) {
     context_.diagnostics.report(Diag::BadOperand, word.range)

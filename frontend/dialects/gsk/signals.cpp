@@ -8,6 +8,7 @@
 
 #include "ir/support/similar.h"
 #include "rtlib/nc/gsk/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -76,7 +77,7 @@ const nc::Signal* similarSignal(std::string_view name) {
 std::string explainSignal(std::string_view word) {
   std::string text;
   for (const nc::Signal& signal : nc::gskSignals())
-    if (equalNoCase(signal.symbol, word)) text += textOf(signal);
+    if (text::equalsIgnoringCase(signal.symbol, word)) text += textOf(signal);
   const auto split = splitAddress(word);
   if (!split || split->byte >= areaInfo(split->area).bytes) return text;
   Address address{split->area, static_cast<uint32_t>(split->byte), 0, split->hasPoint};

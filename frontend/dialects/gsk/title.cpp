@@ -3,14 +3,15 @@
 
 #include <algorithm>
 
-#include "frontend/dialects/gsk/address.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
 
 bool isDecoration(std::string_view text) {
   return std::none_of(text.begin(), text.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (upper(c) >= 'A' && upper(c) <= 'Z') || static_cast<signed char>(c) < 0;
+    return (c >= '0' && c <= '9') || (text::upper(c) >= 'A' && text::upper(c) <= 'Z') ||
+           static_cast<signed char>(c) < 0;
   });
 }
 

@@ -2,12 +2,11 @@
 #include "frontend/dialects/nct/operand_parser.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <string>
 
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nct {
 namespace {
@@ -20,19 +19,8 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isHexDigit(char c) { return isDigit(c) || (c >= 'A' && c <= 'F') || (c >= 'a' && c <= 'f'); }
 bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, isDigit); }
 
-std::string_view withoutLeadingZeros(std::string_view digits) {
-  const size_t first = digits.find_first_not_of('0');
-  return first == std::string_view::npos ? std::string_view() : digits.substr(first);
-}
-
-// `digits` of at most 18 significant digits; more give a number that is too large for everything.
-int64_t decimalValue(std::string_view digits) {
-  digits = withoutLeadingZeros(digits);
-  if (digits.size() > 18) return INT64_MAX / 2;
-  int64_t value = 0;
-  for (char c : digits) value = value * 10 + (c - '0');
-  return value;
-}
+// A number of too many digits is too large for everything.
+int64_t decimalValue(std::string_view digits) { return text::numberIn<int64_t>(digits).value_or(INT64_MAX); }
 
 struct ConstantReader {
   const Word& word;
@@ -66,11 +54,9 @@ struct ConstantReader {
 
   std::optional<Constant> hexadecimal(std::string_view digits) {
     if (digits.empty() || !std::ranges::all_of(digits, isHexDigit)) return malformed();
-    digits = withoutLeadingZeros(digits);
-    if (digits.size() > 8) return tooLarge(kHexRange);
-    uint32_t value = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-    return Constant{.kind = ConstantKind::Hex, .integer = static_cast<int32_t>(value), .real = 0};
+    const auto value = text::numberIn<uint32_t>(digits, 16);
+    if (!value) return tooLarge(kHexRange);
+    return Constant{.kind = ConstantKind::Hex, .integer = static_cast<int32_t>(*value), .real = 0};
   }
 
   // The decimal point is required, an exponent does not exist (l.660).
@@ -82,10 +68,9 @@ struct ConstantReader {
     for (size_t i = 0; i < digits.size(); ++i)
       if (i != point && !isDigit(digits[i])) return malformed();
     const std::string padded = "0" + std::string(digits) + "0"; // a digit on both sides of the point
-    double value = 0;
-    const auto [end, error] = std::from_chars(padded.data(), padded.data() + padded.size(), value);
-    if (error == std::errc::result_out_of_range || std::isinf(value)) return tooLarge(kRealRange);
-    return Constant{.kind = ConstantKind::Real, .integer = 0, .real = negative ? -value : value};
+    const auto value = text::realIn(padded);
+    if (!value) return tooLarge(kRealRange);
+    return Constant{.kind = ConstantKind::Real, .integer = 0, .real = negative ? -*value : *value};
   }
 };
 

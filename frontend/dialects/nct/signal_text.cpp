@@ -2,21 +2,17 @@
 #include "frontend/dialects/nct/signal_text.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/reference.h"
 #include "frontend/dialects/nct/symbols.h"
 #include "rtlib/nc/nct/service_functions.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nct {
 namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-bool equalNoCase(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
-}
 
 // What the elements of a signal belong to; groups are those of signals.csv.
 std::string_view unitOf(const nc::Signal& signal) {
@@ -34,7 +30,7 @@ std::string_view unitOf(const nc::Signal& signal) {
 
 std::string explainSignal(std::string_view name) {
   for (const nc::Signal& signal : nc::nctSignals()) {
-    if (!equalNoCase(signal.symbol, name)) continue;
+    if (!text::equalsIgnoringCase(signal.symbol, name)) continue;
     std::string text = fmt::format("[nct] {}: {}, {}", signal.symbol, typeText(signal),
                                    signal.direction == nc::Direction::In ? "NC to PLC" : "PLC to NC");
     if (placeText(signal) != "-") text += fmt::format(", bit {}", placeText(signal));
@@ -55,7 +51,7 @@ std::string explainFlag(std::string_view name) {
       "values equal",
       "compared value lower"};
   for (size_t bit = 0; bit < std::size(kFlagNames); ++bit)
-    if (equalNoCase(kFlagNames[bit], name))
+    if (text::equalsIgnoringCase(kFlagNames[bit], name))
       return fmt::format("[nct] {}: flag, bit 0000.{:02}, read only\n  {}\n  Manual: l.721-777.\n", kFlagNames[bit],
                          bit, kMeanings[bit]);
   return "";
@@ -73,15 +69,14 @@ std::string explainQuantity(std::string_view name) {
 // "MW 70", "mr104".
 std::string explainFunction(std::string_view word) {
   for (const nc::nct::FunctionAccess access : {nc::nct::FunctionAccess::Read, nc::nct::FunctionAccess::Write}) {
-    if (!equalNoCase(word.substr(0, 2), mnemonicOf(access)) || word.size() < 3) continue;
+    if (!text::equalsIgnoringCase(word.substr(0, 2), mnemonicOf(access)) || word.size() < 3) continue;
     std::string_view digits = word.substr(2);
     digits.remove_prefix(std::min(digits.find_first_not_of(" #"), digits.size()));
-    uint32_t code = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
-    if (error != std::errc() || end != digits.data() + digits.size()) return "";
-    const nc::nct::ServiceFunction* function = nc::nct::findServiceFunction(code);
+    const auto code = text::numberIn<uint32_t>(digits);
+    if (!code) return "";
+    const nc::nct::ServiceFunction* function = nc::nct::findServiceFunction(*code);
     if (function == nullptr || function->access != access) return "";
-    std::string text = fmt::format("[nct] {} {}: {}\n", mnemonicOf(access), code, function->title);
+    std::string text = fmt::format("[nct] {} {}: {}\n", mnemonicOf(access), *code, function->title);
     for (const nc::nct::BlockWord& w : function->words)
       text +=
           fmt::format("  Word {}{}: {}.\n", w.first, w.first == w.last ? "" : fmt::format(" to {}", w.last), w.meaning);

@@ -7,6 +7,7 @@
 
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 
@@ -56,16 +57,10 @@ uint32_t abiType(Type type) {
   return RUNG_TYPE_I8;
 }
 
-std::string upperCase(std::string_view name) {
-  std::string text(name);
-  for (char& c : text) c = upper(c);
-  return text;
-}
-
 // DS 8 holds a QWORD or a REAL, DS n is bytes; a text has room for its terminator.
 ir::Symbol madeSymbol(const Symbol& symbol) {
   ir::Symbol made;
-  made.name = upperCase(symbol.name);
+  made.name = text::upper(symbol.name);
   made.space = symbol.space;
   made.byte = symbol.byte;
   made.bit = symbol.bit;

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/technol/reader.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
 
 #include <algorithm>
 
@@ -103,7 +104,7 @@ namespace {
 int64_t wordNumber(std::string_view words, std::string_view wanted) {
   for (int64_t number = 0; !words.empty(); ++number) {
     const size_t end = std::min(words.find(' '), words.size());
-    if (equalsNoCase(wanted, words.substr(0, end))) return number;
+    if (text::equalsIgnoringCase(wanted, words.substr(0, end))) return number;
     words.remove_prefix(std::min(end + 1, words.size()));
   }
   return -1;
@@ -129,7 +130,8 @@ void Declarations::exchanged(const Statement& statement, uint32_t index) {
   if (!mapped && word >= 0) made.type = nc::exchangeTypeOf(word);
   const size_t periodAt = mapped ? 3 : 4;
   const std::string_view period = operands.size() > periodAt ? onlyName(operands[periodAt]) : std::string_view();
-  if (equalsNoCase(period, "FAST") || equalsNoCase(period, "FASTEST")) program_.exchangesFast = true;
+  if (text::equalsIgnoringCase(period, "FAST") || text::equalsIgnoringCase(period, "FASTEST"))
+    program_.exchangesFast = true;
   Symbol symbol = exchangedSymbol(operands[0][0], made.type);
   symbol.broken = word < 0;
   symbol.exchanged = static_cast<uint32_t>(program_.exchanged.size());

@@ -1,10 +1,10 @@
 // Encodings of sources (see encoding.h).
 #include "frontend/dialects/technol/encoding.h"
 
-#include "frontend/dialects/technol/lexer.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/utf8.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -19,9 +19,9 @@ std::string_view withoutEndMark(std::string_view text) {
 } // namespace
 
 Encoding encodingNamed(std::string_view name) {
-  if (equalsNoCase(name, "UTF-8")) return Encoding::Utf8;
-  if (equalsNoCase(name, "WINDOWS-1250")) return Encoding::Windows1250;
-  if (equalsNoCase(name, "CP852")) return Encoding::Cp852;
+  if (text::equalsIgnoringCase(name, "UTF-8")) return Encoding::Utf8;
+  if (text::equalsIgnoringCase(name, "WINDOWS-1250")) return Encoding::Windows1250;
+  if (text::equalsIgnoringCase(name, "CP852")) return Encoding::Cp852;
   return Encoding::Detect;
 }
 

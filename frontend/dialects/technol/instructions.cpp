@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "frontend/dialects/technol/lexer.h"
 #include "frontend/dialects/technol/rows_bit.h"
 #include "frontend/dialects/technol/rows_data.h"
 #include "frontend/dialects/technol/rows_mechanism.h"
@@ -15,6 +14,7 @@
 #include "frontend/dialects/technol/rows_structure.h"
 #include "frontend/dialects/technol/rows_text.h"
 #include "frontend/dialects/technol/rows_timing.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -103,14 +103,8 @@ constexpr std::string_view kAssembler[] = {
 
 template <size_t N>
 bool isOneOf(std::string_view name, const std::string_view (&list)[N]) {
-  return std::any_of(std::begin(list), std::end(list), [&](std::string_view item) { return equalsNoCase(name, item); });
-}
-
-int compareNoCase(std::string_view name, std::string_view upperCase) {
-  const size_t common = std::min(name.size(), upperCase.size());
-  for (size_t i = 0; i < common; ++i)
-    if (upper(name[i]) != upperCase[i]) return upper(name[i]) < upperCase[i] ? -1 : 1;
-  return name.size() == upperCase.size() ? 0 : name.size() < upperCase.size() ? -1 : 1;
+  return std::any_of(std::begin(list), std::end(list),
+                     [&](std::string_view item) { return text::equalsIgnoringCase(name, item); });
 }
 
 } // namespace
@@ -119,11 +113,11 @@ std::span<const Row> allRows() { return kRows; }
 std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }
 
 const Row* findRow(std::string_view mnemonic) {
-  if (equalsNoCase(mnemonic, "JLO")) mnemonic = "JL0";
+  if (text::equalsIgnoringCase(mnemonic, "JLO")) mnemonic = "JL0";
   const auto at = std::lower_bound(kByName.begin(), kByName.end(), mnemonic, [](uint16_t row, std::string_view name) {
-    return compareNoCase(name, kRows[row].info.mnemonic) > 0;
+    return text::compareIgnoringCase(name, kRows[row].info.mnemonic) > 0;
   });
-  if (at == kByName.end() || compareNoCase(mnemonic, kRows[*at].info.mnemonic) != 0) return nullptr;
+  if (at == kByName.end() || text::compareIgnoringCase(mnemonic, kRows[*at].info.mnemonic) != 0) return nullptr;
   return &kRows[*at];
 }
 
@@ -183,7 +177,7 @@ std::string_view insteadOf(std::string_view assembler) {
       {"XOR", "XORB"},
   };
   for (const Pair& pair : kInstead)
-    if (equalsNoCase(assembler, pair.assembler)) return pair.instead;
+    if (text::equalsIgnoringCase(assembler, pair.assembler)) return pair.instead;
   return {};
 }
 

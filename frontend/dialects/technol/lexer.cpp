@@ -1,7 +1,8 @@
 // The lexer of TECHNOL (see lexer.h).
 #include "frontend/dialects/technol/lexer.h"
 
-#include <charconv>
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -56,15 +57,6 @@ void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& 
 
 } // namespace
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-bool equalsNoCase(std::string_view a, std::string_view upperCase) {
-  if (a.size() != upperCase.size()) return false;
-  for (size_t i = 0; i < a.size(); ++i)
-    if (upper(a[i]) != upperCase[i]) return false;
-  return true;
-}
-
 size_t commentOf(std::string_view line) {
   bool quoted = false;
   for (size_t i = 0; i < line.size(); ++i) {
@@ -117,18 +109,10 @@ bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diag
 
 namespace {
 
-std::optional<Number> parseRadix(std::string_view digits, unsigned radix) {
-  uint64_t value = 0;
-  if (digits.empty()) return std::nullopt;
-  for (char raw : digits) {
-    const char c = upper(raw);
-    const unsigned digit = isDigit(c)             ? static_cast<unsigned>(c - '0')
-                           : c >= 'A' && c <= 'F' ? static_cast<unsigned>(c - 'A') + 10
-                                                  : 99;
-    if (digit >= radix || value > (UINT64_MAX - digit) / radix) return std::nullopt;
-    value = value * radix + digit;
-  }
-  return Number{.value = static_cast<int64_t>(value)};
+std::optional<Number> parseRadix(std::string_view digits, int radix) {
+  const auto value = text::numberIn<uint64_t>(digits, radix);
+  if (!value) return std::nullopt;
+  return Number{.value = static_cast<int64_t>(*value)};
 }
 
 } // namespace
@@ -136,12 +120,10 @@ std::optional<Number> parseRadix(std::string_view digits, unsigned radix) {
 std::optional<Number> parseNumber(std::string_view text) {
   if (text.empty() || !isDigit(text[0])) return std::nullopt;
   if (text.find('.') != std::string_view::npos) {
-    double real = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), real);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return Number{.isReal = true, .real = real};
+    const auto real = text::numberIn<double>(text);
+    return real ? std::optional(Number{.isReal = true, .real = *real}) : std::nullopt;
   }
-  const char last = upper(text.back());
+  const char last = text::upper(text.back());
   if (last == 'H') return parseRadix(text.substr(0, text.size() - 1), 16);
   if (last == 'B') return parseRadix(text.substr(0, text.size() - 1), 2);
   return parseRadix(text, 10);

@@ -43,8 +43,4 @@ struct Number {
 // Decimal, 0F8H, 0101b or a real; nothing when the text is none of them or exceeds 64 bits.
 std::optional<Number> parseNumber(std::string_view text);
 
-// Upper case of ASCII.
-char upper(char c);
-bool equalsNoCase(std::string_view a, std::string_view upperCase);
-
 } // namespace rung::frontend::technol

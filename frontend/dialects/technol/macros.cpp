@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::frontend::technol {
 namespace {
 
@@ -34,7 +36,7 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
   for (const Token& token : tokens) {
     if (token.is(',')) continue;
     const auto* flag = std::find_if(std::begin(kFlags), std::end(kFlags),
-                                    [&](const FlagName& f) { return equalsNoCase(token.text, f.name); });
+                                    [&](const FlagName& f) { return text::equalsIgnoringCase(token.text, f.name); });
     if (flag == std::end(kFlags)) {
       program_.diagnostics.report(Diag::SyntaxError, token.range())
           << "T_NORMAL, T_BEGIN, T_END, T_PUSH, T_POP, C_0, C_1, D_OFF or D_ON"
@@ -82,12 +84,12 @@ void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
 
 bool MacroSet::take(std::span<const Token> tokens, uint32_t line) {
   Macro& macro = macros_.back();
-  if (tokens[0].kind == TokenKind::Name && equalsNoCase(tokens[0].text, "END_T_MACRO")) {
+  if (tokens[0].kind == TokenKind::Name && text::equalsIgnoringCase(tokens[0].text, "END_T_MACRO")) {
     flags(tokens.subspan(1), macro.stack);
     defining_ = false;
     return false;
   }
-  if (tokens[0].kind == TokenKind::Name && equalsNoCase(tokens[0].text, "T_LOCAL")) {
+  if (tokens[0].kind == TokenKind::Name && text::equalsIgnoringCase(tokens[0].text, "T_LOCAL")) {
     for (const Token& token : tokens.subspan(1))
       if (token.kind == TokenKind::Name) macro.locals.push_back(symbolKey(token.text));
     return true;
@@ -132,9 +134,9 @@ void MacroSet::control(std::span<const Token> operands, SourceRange at) {
     return;
   }
   const bool one = operands.size() == 1 && operands[0].kind == TokenKind::Name;
-  if (one && equalsNoCase(operands[0].text, "PRE"))
+  if (one && text::equalsIgnoringCase(operands[0].text, "PRE"))
     first_ = true;
-  else if (one && equalsNoCase(operands[0].text, "POS"))
+  else if (one && text::equalsIgnoringCase(operands[0].text, "POS"))
     first_ = false;
   else
     program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at))
@@ -167,7 +169,7 @@ void MacroSet::substitute(const Macro& macro, const Macro::Line& line,
   for (size_t i = 0; i < line.tokens.size(); ++i) {
     const Token& token = line.tokens[i];
     if (token.is(',')) inTmac = false;
-    if (token.kind == TokenKind::Name && equalsNoCase(token.text, "TMAC") && i + 1 < line.tokens.size() &&
+    if (token.kind == TokenKind::Name && text::equalsIgnoringCase(token.text, "TMAC") && i + 1 < line.tokens.size() &&
         line.tokens[i + 1].is('.')) {
       inTmac = true;
       ++i;

@@ -5,6 +5,7 @@
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/operand.h"
 #include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -31,7 +32,7 @@ constexpr PrefixType kBlockPrefixes[] = {{kByte, ir::Type::I8},
                                          {kQword, ir::Type::I64},
                                          {kReal, ir::Type::F64}};
 
-bool isBx(const Token& token) { return token.kind == TokenKind::Name && equalsNoCase(token.text, "BX"); }
+bool isBx(const Token& token) { return token.kind == TokenKind::Name && text::equalsIgnoringCase(token.text, "BX"); }
 
 } // namespace
 
@@ -219,7 +220,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
     if (tokens.empty()) return syntax("a bit", tokens);
   }
   out.type = ir::Type::Bit;
-  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('['))
+  if (tokens.size() > 1 && text::equalsIgnoringCase(tokens[0].text, "BLK") && tokens[1].is('['))
     return block(info, tokens, true, out);
   const size_t point = lastPoint(tokens);
   if (point != std::string_view::npos) {

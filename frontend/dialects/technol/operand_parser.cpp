@@ -4,6 +4,7 @@
 #include "ir/support/check.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ constexpr PrefixName kPrefixes[] = {
 
 const PrefixName* prefixNamed(std::string_view name) {
   for (const PrefixName& p : kPrefixes)
-    if (equalsNoCase(name, p.name)) return &p;
+    if (text::equalsIgnoringCase(name, p.name)) return &p;
   return nullptr;
 }
 
@@ -68,9 +69,8 @@ void forEachWord(std::string_view words, Visit visit) {
 bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
   if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
   const std::string_view name = tokens[0].text;
-  const auto sameLetter = [](char a, char b) { return upper(a) == upper(b); };
   forEachWord(words, [&](std::string_view word, int64_t at) {
-    if (!std::equal(name.begin(), name.end(), word.begin(), word.end(), sameLetter)) return;
+    if (!text::equalsIgnoringCase(name, word)) return;
     out.form = Operand::Form::Keyword;
     out.value = at;
   });
@@ -79,7 +79,7 @@ bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand&
 
 bool isNotGiven(std::span<const Token> tokens) {
   return tokens.size() == 1 &&
-         (tokens[0].is('-') || (tokens[0].kind == TokenKind::Name && equalsNoCase(tokens[0].text, "NIL")));
+         (tokens[0].is('-') || (tokens[0].kind == TokenKind::Name && text::equalsIgnoringCase(tokens[0].text, "NIL")));
 }
 
 } // namespace
@@ -187,7 +187,7 @@ bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, s
 
 uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
   if (tokens.size() < 2 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return 0;
-  if (equalsNoCase(tokens[0].text, "CNTS")) {
+  if (text::equalsIgnoringCase(tokens[0].text, "CNTS")) {
     program_.diagnostics.report(Diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
     tokens = tokens.subspan(2);
     return kCnst;
@@ -205,7 +205,7 @@ bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   Similar meant(tokens[0].text);
   const auto offer = [&](bool sameLetter) {
     for (const PrefixName& p : kPrefixes)
-      if ((p.name[0] == upper(tokens[0].text[0])) == sameLetter) meant.offer(p.name);
+      if ((p.name[0] == text::upper(tokens[0].text[0])) == sameLetter) meant.offer(p.name);
   };
   offer(true);
   if (meant.best().empty()) offer(false);
@@ -222,7 +222,7 @@ bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std:
     out.negated = true;
     tokens = tokens.subspan(1);
   }
-  if (tokens.size() > 1 && equalsNoCase(tokens[0].text, "BLK") && tokens[1].is('['))
+  if (tokens.size() > 1 && text::equalsIgnoringCase(tokens[0].text, "BLK") && tokens[1].is('['))
     return block(info, tokens, false, out);
   if (ownWord(kind, tokens, out)) return true;
   const uint8_t prefix = takePrefix(tokens);
@@ -320,7 +320,8 @@ bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens
 bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
                             Operand& out) {
   if (kind.info.kind == "register") {
-    if (tokens.size() == 1 && equalsNoCase(tokens[0].text, info.name)) return out.form = Operand::Form::Register, true;
+    if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
+      return out.form = Operand::Form::Register, true;
     program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
         << statement_->row->info.mnemonic;
     return false;
@@ -390,7 +391,7 @@ namespace {
 // TEXT+BX, TEXT+2+BX: the tokens without `+BX`, in `plain`. False when there is none.
 bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
   const auto isBx = [&](size_t i) {
-    return i + 1 < tokens.size() && tokens[i].is('+') && equalsNoCase(tokens[i + 1].text, "BX") &&
+    return i + 1 < tokens.size() && tokens[i].is('+') && text::equalsIgnoringCase(tokens[i + 1].text, "BX") &&
            (i + 2 == tokens.size() || tokens[i + 2].is('+') || tokens[i + 2].is('-') || tokens[i + 2].is(')'));
   };
   size_t at = 1;

@@ -4,6 +4,7 @@
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
 #include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
 
 #include <algorithm>
 
@@ -109,7 +110,7 @@ const Row* FileReader::instruction(std::span<const Token> tokens) {
     reportUnknown(tokens);
     return nullptr;
   }
-  if (row->info.mnemonic == "JL0" && equalsNoCase(token.text, "JLO"))
+  if (row->info.mnemonic == "JL0" && text::equalsIgnoringCase(token.text, "JLO"))
     program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), "JL0");
   return row;
 }
@@ -281,7 +282,8 @@ void FileReader::checkSwitch(const Statement& statement) {
   if (found > 1)
     program_.diagnostics.report(Diag::OperandCount, statement.range())
         << statement.row->info.mnemonic << "at most 1 operand" << found;
-  else if (tokens.size() > 1 || !(equalsNoCase(tokens[0].text, "ON") || equalsNoCase(tokens[0].text, "OFF")))
+  else if (tokens.size() > 1 ||
+           !(text::equalsIgnoringCase(tokens[0].text, "ON") || text::equalsIgnoringCase(tokens[0].text, "OFF")))
     program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
 }
 

@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -115,7 +116,7 @@ constexpr std::string_view kInclude = "T_INCLUDE";
 
 // `text` begins with this word.
 bool startsWith(std::string_view text, std::string_view word) {
-  if (text.size() <= word.size() || !equalsNoCase(text.substr(0, word.size()), word)) return false;
+  if (text.size() <= word.size() || !text::equalsIgnoringCase(text.substr(0, word.size()), word)) return false;
   return text[word.size()] == ' ' || text[word.size()] == '\t';
 }
 
@@ -135,10 +136,8 @@ std::string inAnyCase(const std::string& path, std::string_view name) {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(found.empty() ? "." : found, error)) {
       const std::string candidate = entry.path().filename().string();
-      const bool same =
-          candidate.size() == part.size() &&
-          std::equal(part.begin(), part.end(), candidate.begin(), [](char a, char b) { return upper(a) == upper(b); });
-      if (same && (entryName.empty() || candidate < entryName)) entryName = candidate;
+      if (text::equalsIgnoringCase(part, candidate) && (entryName.empty() || candidate < entryName))
+        entryName = candidate;
     }
     if (entryName.empty()) return "";
     found += entryName + (name.empty() ? "" : "/");

@@ -8,6 +8,7 @@
 #include "frontend/table/markdown.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -117,7 +118,7 @@ std::string plainWord(std::string_view name) {
   int depth = 0;
   for (const char c : name) {
     if (c == '[') ++depth;
-    if (depth == 0) word += upper(c);
+    if (depth == 0) word += text::upper(c);
     if (c == ']') --depth;
   }
   return word;
@@ -156,7 +157,7 @@ std::string explainWord(std::string_view name) {
     text += entry;
   }
   for (const Predefined& constant : predefinedConstants())
-    if (equalsNoCase(constant.name, word))
+    if (text::equalsIgnoringCase(constant.name, word))
       text += fmt::format("[technol] {}: constant {}\n", constant.name, constant.value);
   if (!word.empty() && plainWord(" " + std::string(nc::kLicences) + " ").find(" " + word + " ") != std::string::npos)
     text += fmt::format("[technol] {}: a licence of the hardware key, for LDR_LIC. Manual: l.7631.\n", name);

@@ -7,14 +7,15 @@
 #include "frontend/dialects/technol/reader.h"
 #include "ir/support/hash.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-bool isWord(const Token& token, std::string_view upperCase) {
-  return token.kind == TokenKind::Name && equalsNoCase(token.text, upperCase);
+bool isWord(const Token& token, std::string_view word) {
+  return token.kind == TokenKind::Name && text::equalsIgnoringCase(token.text, word);
 }
 
 // Bytes of DB, DW, DD, DQ; 0 for any other word.

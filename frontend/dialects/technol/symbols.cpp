@@ -5,6 +5,7 @@
 
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -103,9 +104,7 @@ std::span<const Predefined> predefinedConstants() { return kPredefined; }
 
 std::string symbolKey(std::string_view name) {
   const size_t mark = std::min(name.find(kUseMark), name.size());
-  std::string key(name.substr(0, std::min(mark, kSignificant)));
-  for (char& c : key) c = upper(c);
-  return key.append(name.substr(mark));
+  return text::upper(name.substr(0, std::min(mark, kSignificant))).append(name.substr(mark));
 }
 
 void SymbolTable::checkName(const Symbol& symbol) {
@@ -265,9 +264,7 @@ uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {
 const Symbol* SymbolTable::findMember(const char* structure, std::string_view member) {
   if (*structure == 0) return nullptr;
   const std::string full = std::string(structure) + "." + std::string(member);
-  std::string key = full;
-  for (char& c : key) c = upper(c);
-  const auto [entry, isNew] = members_.emplace(std::move(key), kNone);
+  const auto [entry, isNew] = members_.emplace(text::upper(full), kNone);
   if (isNew) {
     if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), full, structure)) {
       entry->second = static_cast<uint32_t>(symbols_.size());

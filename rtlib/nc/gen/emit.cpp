@@ -6,6 +6,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::nc::gen {
 
 namespace {
@@ -42,12 +44,7 @@ std::string literal(const std::string& text) {
   return result + '"';
 }
 
-std::string sortKey(std::string name, bool ignoreCase) {
-  if (ignoreCase)
-    for (char& c : name)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return name;
-}
+std::string sortKey(const std::string& name, bool ignoreCase) { return ignoreCase ? text::upper(name) : name; }
 
 void emitRow(std::ostream& out, const Row& row) {
   out << "    Signal{" << literal(row.symbol) << ", " << literal(row.address) << ", " << literal(row.area) << ", "

@@ -57,8 +57,6 @@ public:
   // Texts and reals as integers, the form that has a width; nothing of a bit or a constant.
   static std::optional<host::Ref> inBytes(std::optional<host::Ref> ref);
   static bool allDigits(std::string_view text);
-  // Of 32 bits, decimal digits only.
-  static std::optional<uint32_t> number(std::string_view text);
 
 private:
   std::optional<host::Ref> nested(std::string_view name);

@@ -1,6 +1,8 @@
 // BASE.b, BASE:bytes, and area letter with address (see gsk.h).
 #include "rtlib/nc/names/gsk.h"
 
+#include "rtlib/text/number.h"
+
 namespace rung::nc {
 
 using host::Ref;
@@ -15,10 +17,10 @@ public:
 
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
     if (const size_t colon = name.rfind(':'); colon != std::string_view::npos)
-      return search.widened(search.find(name.substr(0, colon)), NameSearch::number(name.substr(colon + 1)));
+      return search.widened(search.find(name.substr(0, colon)), text::numberIn<uint32_t>(name.substr(colon + 1)));
     if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
       return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
-    const std::optional<uint32_t> byte = NameSearch::number(name.substr(1));
+    const std::optional<uint32_t> byte = text::numberIn<uint32_t>(name.substr(1));
     if (!byte) return std::nullopt;
     return search.inSpace(host::intRef(search.space(name.substr(0, 1)), *byte, 8));
   }

@@ -2,7 +2,6 @@
 #include "rtlib/nc/names/names.h"
 
 #include <algorithm>
-#include <charconv>
 #include <span>
 
 #include "rtlib/host/program_info.h"
@@ -10,6 +9,8 @@
 #include "rtlib/nc/names/gsk.h"
 #include "rtlib/nc/names/nct.h"
 #include "rtlib/nc/names/technol.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc {
 
@@ -30,13 +31,6 @@ const NameGrammar& grammarOf(const rung_program& program) {
   static const NameGrammar plain;
   const Row* row = std::ranges::find(kDialects, std::string_view(program.dialect), &Row::dialect);
   return row == std::end(kDialects) ? plain : row->grammar();
-}
-
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return upper;
 }
 
 uint32_t bytesOf(const rung_symbol& symbol) {
@@ -67,10 +61,10 @@ const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_
 std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view name) const {
   if (const size_t colon = name.rfind(':'); colon != std::string_view::npos)
     return search.widened(NameSearch::inBytes(search.find(name.substr(0, colon))),
-                          NameSearch::number(name.substr(colon + 1)));
+                          text::numberIn<uint32_t>(name.substr(colon + 1)));
   if (const size_t bracket = name.rfind('['); name.back() == ']' && bracket != std::string_view::npos) {
     const std::optional<Ref> array = search.find(name.substr(0, bracket));
-    const std::optional<uint32_t> index = NameSearch::number(name.substr(bracket + 1, name.size() - bracket - 2));
+    const std::optional<uint32_t> index = text::numberIn<uint32_t>(name.substr(bracket + 1, name.size() - bracket - 2));
     return array && index ? search.inSpace(host::element(*array, *index)) : std::nullopt;
   }
   if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
@@ -79,7 +73,7 @@ std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view n
   if (plus == std::string_view::npos) return std::nullopt;
   // What begins so many bytes later, in the width of its cells.
   std::optional<Ref> ref = NameSearch::inBytes(search.find(name.substr(0, plus)));
-  const std::optional<uint32_t> bytes = NameSearch::number(name.substr(plus + 1));
+  const std::optional<uint32_t> bytes = text::numberIn<uint32_t>(name.substr(plus + 1));
   if (!ref || !bytes || *bytes > 0xFFFFFFF) return std::nullopt;
   ref->byte += *bytes;
   ref->count = 1;
@@ -128,7 +122,7 @@ std::optional<Ref> NameSearch::inSpace(const std::optional<Ref>& ref) const {
 }
 
 std::optional<Ref> NameSearch::bitIn(std::string_view name, std::string_view digits) {
-  const std::optional<uint32_t> bit = number(digits);
+  const std::optional<uint32_t> bit = text::numberIn<uint32_t>(digits);
   const std::optional<Ref> cell = bit ? find(name) : std::nullopt;
   return cell ? host::bitOf(*cell, *bit) : std::nullopt;
 }
@@ -150,19 +144,12 @@ bool NameSearch::allDigits(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::optional<uint32_t> NameSearch::number(std::string_view text) {
-  if (!allDigits(text)) return std::nullopt;
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() ? std::optional(value) : std::nullopt;
-}
-
 // ---- names.h -----------------------------------------------------------------------------------------------------
 
 std::optional<Ref> resolve(const rung_program& program, std::string_view name, const NameFallback& fallback) {
   const NameGrammar& grammar = grammarOf(program);
   NameSearch search(program, grammar, fallback);
-  return grammar.ignoresCase() ? search.find(upperCase(name)) : search.find(name);
+  return grammar.ignoresCase() ? search.find(text::upper(name)) : search.find(name);
 }
 
 std::string placeName(const rung_program& program, const Ref& place) {

@@ -1,9 +1,8 @@
 // !NAME, BASE,#n, WORD.bb, and four digits (see nct.h).
 #include "rtlib/nc/names/nct.h"
 
-#include <charconv>
-
 #include "rtlib/host/program_info.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc {
 
@@ -15,13 +14,6 @@ namespace {
 constexpr std::string_view kMemory = "M";
 constexpr std::string_view kTimeSliceMemory = "TS";
 
-std::optional<int64_t> integer(std::string_view text) {
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 std::string padded(uint32_t value, size_t digits) {
   const std::string text = std::to_string(value);
   return text.size() < digits ? std::string(digits - text.size(), '0') + text : text;
@@ -31,7 +23,7 @@ std::string padded(uint32_t value, size_t digits) {
 std::optional<Ref> shifted(NameSearch& search, std::optional<Ref> ref, std::string_view index) {
   std::optional<int64_t> words;
   if (index.starts_with('#')) {
-    words = integer(index.substr(1));
+    words = text::numberIn<int64_t>(index.substr(1));
   } else if (const std::optional<Ref> symbol = search.find(index); symbol && symbol->kind == RefKind::Constant) {
     words = symbol->constant;
   }
@@ -55,7 +47,7 @@ public:
       return shifted(search, search.find(name.substr(0, comma)), name.substr(comma + 1));
     if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
       return name.size() - dot == 3 ? search.bitIn(name.substr(0, dot), name.substr(dot + 1)) : std::nullopt;
-    const std::optional<uint32_t> word = NameSearch::number(name);
+    const std::optional<uint32_t> word = text::numberIn<uint32_t>(name);
     if (!word || name.size() != 4) return std::nullopt;
     return search.inSpace(host::intRef(search.space(kMemory), 4 * *word, 32));
   }

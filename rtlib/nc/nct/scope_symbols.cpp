@@ -1,8 +1,9 @@
 // The list of scope symbols (see scope_symbols.h).
 #include "rtlib/nc/nct/scope_symbols.h"
 
-#include <cctype>
 #include <iterator>
+
+#include "rtlib/text/letters.h"
 
 namespace rung::nc::nct {
 namespace {
@@ -77,20 +78,13 @@ constexpr ScopeSymbol kSymbols[] = {
     {"NCTDriveMess", "datum of an NCT servo drive", kDrive, kDatum, ScopeSource::Nc, 3383},
 };
 
-bool sameName(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  for (size_t i = 0; i < a.size(); ++i)
-    if (std::tolower(static_cast<unsigned char>(a[i])) != std::tolower(static_cast<unsigned char>(b[i]))) return false;
-  return true;
-}
-
 } // namespace
 
 std::span<const ScopeSymbol> scopeSymbols() { return kSymbols; }
 
 std::optional<uint32_t> findScopeSymbol(std::string_view name) {
   for (uint32_t i = 0; i < std::size(kSymbols); ++i)
-    if (sameName(kSymbols[i].name, name)) return i;
+    if (text::equalsIgnoringCase(kSymbols[i].name, name)) return i;
   return std::nullopt;
 }
 

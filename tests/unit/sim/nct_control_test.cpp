@@ -141,6 +141,7 @@ TEST(NctControl, WrongConfigurationIsToldAsSuch) {
                                                                                    {"follow.INP001", "OUT010.00"},
                                                                                    {"follow.INP001.03", "OUT010.40"},
                                                                                    {"follow.INP001.03", "OUT010.00@5"},
+                                                                                   {"follow.INP001.03", "OUT010.00@"},
                                                                                    {"follow.MB_NONE", "OUT010.00"},
                                                                                    {"nothing", "1"}})
     EXPECT_NE(model->config(key, value), "") << key << " " << value;

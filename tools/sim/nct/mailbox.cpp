@@ -2,8 +2,9 @@
 #include "tools/sim/nct/mailbox.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
+
+#include "rtlib/text/number.h"
 
 namespace rung::sim::nct {
 namespace {
@@ -28,10 +29,7 @@ enum SoeElement : uint32_t { kState, kName, kAttribute, kUnit, kMinimum, kMaximu
 std::optional<uint64_t> integer(std::string_view text) {
   const bool hex = text.starts_with("0x");
   if (hex) text.remove_prefix(2);
-  uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, hex ? 16 : 10);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return text::numberIn<uint64_t>(text, hex ? 16 : 10);
 }
 
 uint64_t ones(uint32_t bytes) { return bytes >= 8 ? ~uint64_t{0} : (uint64_t{1} << 8 * bytes) - 1; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::sim::nct {
 namespace {
 
@@ -29,7 +31,7 @@ std::optional<PalletName> palletName(std::string_view name) {
 // PROGRAM, PROGRAM1 … PROGRAM64: from 0; 64 when it is another name.
 uint32_t programIndex(std::string_view name) {
   constexpr std::string_view kProgram = "PROGRAM";
-  if (upper(name.substr(0, kProgram.size())) != kProgram) return kMaxPrograms;
+  if (!text::equalsIgnoringCase(name.substr(0, kProgram.size()), kProgram)) return kMaxPrograms;
   name.remove_prefix(kProgram.size());
   if (name.empty()) return 0;
   const uint32_t number = text::numberIn<uint32_t>(name).value_or(0);
@@ -89,7 +91,7 @@ Handled PalletManagement::config(std::string_view key, std::string_view value) {
   if (!key.starts_with("pallet.")) return std::nullopt;
   const std::optional<double> number = text::realIn(value);
   if (!number) return "'" + std::string(value) + "' is not a number";
-  std::string name = upper(key);
+  std::string name = text::upper(key);
   const std::optional<PalletName> pallet = palletName(name);
   if (!pallet) return "a key of a pallet is pallet.MAGAZINE.PLACE.COLUMN";
   if (palletColumn(pallet->column) == 0 && programIndex(pallet->column) == kMaxPrograms) return "no such column";

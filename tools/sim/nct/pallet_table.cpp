@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::sim::nct {
 
 PalletColumn palletColumn(std::string_view name) {
@@ -17,12 +19,8 @@ PalletColumn palletColumn(std::string_view name) {
                                                                   {"CUSTOM2", 8},
                                                                   {"CUSTOM3", 9},
                                                                   {"CUSTOM4", 10}};
-  const auto same = [&](std::string_view known) {
-    return std::ranges::equal(name, known,
-                              [](char c, char k) { return (c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c) == k; });
-  };
   for (const auto& [known, column] : kNames)
-    if (same(known)) return column;
+    if (text::equalsIgnoringCase(name, known)) return column;
   return 0;
 }
 

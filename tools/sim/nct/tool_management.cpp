@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::sim::nct {
 namespace {
 
@@ -170,7 +172,7 @@ Handled ToolManagement::config(std::string_view key, std::string_view value) {
   if (!key.starts_with("tool.") && !key.starts_with("pot.") && !key.starts_with("pattern.")) return std::nullopt;
   const std::optional<double> number = text::realIn(value);
   if (!number) return "'" + std::string(value) + "' is not a number";
-  std::string name = upper(key);
+  std::string name = text::upper(key);
   if (Handled wrong = setQuantity(name, *number)) {
     if (wrong->empty()) settings_.push_back({std::move(name), *number});
     return wrong;

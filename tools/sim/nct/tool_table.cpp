@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "tools/sim/keys.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::sim::nct {
 namespace {
@@ -17,7 +18,7 @@ constexpr int32_t kMaxType = 99'999'999; // 8 digits, l.4338
 } // namespace
 
 ToolColumn toolColumn(std::string_view name) {
-  const std::string wanted = upper(name);
+  const std::string wanted = text::upper(name);
   const auto found = std::ranges::find(kNames, std::string_view(wanted));
   if (found != std::end(kNames)) return static_cast<ToolColumn>(found - std::begin(kNames)) + 1;
   if (!wanted.starts_with("USER")) return 0;

@@ -1,21 +1,10 @@
 // Inputs that follow outputs (see wiring.h).
 #include "tools/sim/nct/wiring.h"
 
+#include "rtlib/nc/config_key.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::sim::nct {
-namespace {
-
-// "100ms", "2s", "500us".
-std::optional<int64_t> duration(std::string_view text) {
-  const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  const auto value = text::numberIn<uint32_t>(text.substr(0, digits));
-  const std::string_view unit = text.substr(digits);
-  if (!value || (unit != "ms" && unit != "s" && unit != "us")) return std::nullopt;
-  return int64_t{*value} * (unit == "s" ? 1'000'000 : unit == "ms" ? 1000 : 1);
-}
-
-} // namespace
 
 // NAME, NAME.BB of a double word, with ,#INDEX after it.
 std::optional<Wiring::Place> Wiring::place(std::string_view name) {
@@ -41,14 +30,13 @@ Handled Wiring::config(std::string_view key, std::string_view value) {
   const size_t at = std::min(value.find('@'), value.size());
   wire.inverted = value.starts_with('/');
   const auto source = place(value.substr(wire.inverted ? 1 : 0, at - (wire.inverted ? 1 : 0)));
-  const auto delay = at == value.size() ? std::optional<int64_t>(0) : duration(value.substr(at + 1));
+  wire.delayUs = at == value.size() ? 0 : nc::durationUs(value.substr(at + 1));
   if (!input) return std::string(key) + ": expected the bit of a signal after 'follow.'";
-  if (!source || !delay)
+  if (!source || wire.delayUs < 0)
     return std::string(key) + ": expected a bit such as OUT010.00, /OUT010.00 or OUT010.00@100ms, found '" +
            std::string(value) + "'";
   wire.input = *input;
   wire.source = *source;
-  wire.delayUs = *delay;
   wires_.push_back(wire);
   return "";
 }

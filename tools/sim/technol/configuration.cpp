@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <bit>
 
-#include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::sim::technol {
 namespace {
@@ -121,7 +121,7 @@ std::string Configuration::setLicence(std::string_view name, std::string_view va
   std::string_view rest = nc::kLicences;
   for (uint32_t bit = 1; !rest.empty(); bit <<= 1) {
     const size_t end = std::min(rest.find(' '), rest.size());
-    if (nc::technol::equalIgnoringCase(name, rest.substr(0, end))) {
+    if (text::equalsIgnoringCase(name, rest.substr(0, end))) {
       licences_ = value == "1" ? licences_ | bit : licences_ & ~bit;
       return {};
     }

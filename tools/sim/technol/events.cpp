@@ -2,6 +2,7 @@
 #include "tools/sim/technol/events.h"
 
 #include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::sim::technol {
 namespace {
@@ -28,8 +29,8 @@ void call(host::Instance& instance, std::string_view procedure, uint64_t dr, boo
 std::string command(host::Instance& instance, std::span<const NcArgument> keys, const ConstantOf& constantOf) {
   std::optional<int64_t> code, state;
   for (const NcArgument& key : keys) {
-    const bool isCode = nc::technol::equalIgnoringCase(key.key, "CODE");
-    if (!isCode && !nc::technol::equalIgnoringCase(key.key, "STATE")) return "PLCCOMMAND has no '" + key.key + "'";
+    const bool isCode = text::equalsIgnoringCase(key.key, "CODE");
+    if (!isCode && !text::equalsIgnoringCase(key.key, "STATE")) return "PLCCOMMAND has no '" + key.key + "'";
     std::optional<int64_t>& value = isCode ? code : state;
     value = key.isText && isCode ? constantOf(key.text) : key.integer;
     if (!value) return "unknown constant '" + key.text + "'";
@@ -45,9 +46,9 @@ std::string command(host::Instance& instance, std::span<const NcArgument> keys, 
 
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf) {
-  if (nc::technol::equalIgnoringCase(name, "PLCCOMMAND")) return command(instance, keys, constantOf);
+  if (text::equalsIgnoringCase(name, "PLCCOMMAND")) return command(instance, keys, constantOf);
   for (const PlcEvent& event : kEvents) {
-    if (!nc::technol::equalIgnoringCase(name, event.name)) continue;
+    if (!text::equalsIgnoringCase(name, event.name)) continue;
     // The procedure may set it again, and the start waits (man. l.6463-6467).
     if (event.code == kStartRequest.code)
       if (const auto suspend = nc::technol::signalPlace(instance, "START_SUSPEND"))

@@ -10,6 +10,7 @@
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
+#include "rtlib/text/letters.h"
 #include "tools/control-files/control_files.h"
 #include "tools/sim/simulated_nc.h"
 #include "tools/sim/technol/configuration.h"
@@ -82,11 +83,11 @@ public:
   }
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
-    if (nc::technol::equalIgnoringCase(name, "CONFIRM")) {
+    if (text::equalsIgnoringCase(name, "CONFIRM")) {
       control_.list().confirm();
       return {};
     }
-    if (nc::technol::equalIgnoringCase(name, "HALT")) {
+    if (text::equalsIgnoringCase(name, "HALT")) {
       instance.halt(nc::kTechnolRequested);
       takeMessages(instance);
       return {};

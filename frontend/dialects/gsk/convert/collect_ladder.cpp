@@ -10,6 +10,7 @@
 #include "frontend/dialects/gsk/convert/hints.h"
 #include "frontend/dialects/gsk/title.h"
 #include "ir/support/check.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::gsk::convert {
 namespace {
@@ -227,9 +228,9 @@ void LadderCollector::openRung() {
 void LadderCollector::module(uint32_t line) {
   const std::string_view name = words_.words[1].text;
   SourceUnit unit;
-  unit.kind = words_.words.size() > 2       ? UnitKind::Subprogram
-              : equalNoCase(name, "LEVEL1") ? UnitKind::Level1
-                                            : UnitKind::Level2;
+  unit.kind = words_.words.size() > 2                    ? UnitKind::Subprogram
+              : text::equalsIgnoringCase(name, "LEVEL1") ? UnitKind::Level1
+                                                         : UnitKind::Level2;
   if (unit.kind == UnitKind::Subprogram) unit.number = words_.words[2].text;
   unit.lead = out_.takeGap();
   unit.comment = clean(words_.comment);

@@ -8,6 +8,7 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::nc::technol {
 namespace {
@@ -15,12 +16,10 @@ namespace {
 constexpr const char* kCells = "I";
 constexpr const char* kBlocks = "BLK";
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 // The type that a program writes before an element; the host reads and writes elements in their own.
 std::string_view withoutType(std::string_view element) {
   for (const std::string_view type : {"BYTE.", "WORD.", "DWRD.", "QWRD.", "REAL."})
-    if (element.size() > type.size() && equalIgnoringCase(element.substr(0, type.size()), type))
+    if (element.size() > type.size() && text::equalsIgnoringCase(element.substr(0, type.size()), type))
       return element.substr(type.size());
   return element;
 }
@@ -45,10 +44,6 @@ std::optional<host::Ref> blockElement(const host::Instance& instance, std::strin
 }
 
 } // namespace
-
-bool equalIgnoringCase(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& signal) {
   const uint32_t space = host::findSpace(instance.program(), "NCI");
@@ -83,7 +78,7 @@ static std::optional<host::Ref> partPlace(const host::Instance& instance, std::s
 }
 
 std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name) {
-  if (name.size() > 4 && equalIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(instance, name);
+  if (name.size() > 4 && text::equalsIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(instance, name);
   const Signal* found = findSignal(technolSignals(), name, kCells);
   return found == nullptr ? partPlace(instance, name) : placeOf(instance, *found);
 }

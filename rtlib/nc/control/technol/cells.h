@@ -23,6 +23,4 @@ void writeCell(host::Instance& instance, std::string_view name, uint64_t value);
 // One run of a module or an event procedure. False: the program has none, or it failed.
 bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo);
 
-bool equalIgnoringCase(std::string_view a, std::string_view b);
-
 } // namespace rung::nc::technol

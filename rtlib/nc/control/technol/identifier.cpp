@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc::technol {
 namespace {
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 // Behind a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
@@ -30,7 +30,7 @@ std::string canonical(std::string_view identifier) {
   for (size_t i = 0; i < identifier.size(); ++i) {
     const auto digits = identifier[i] == '[' ? digitsOfIndex(identifier.substr(i + 1)) : std::nullopt;
     if (!digits) {
-      made += upper(identifier[i]);
+      made += text::upper(identifier[i]);
       continue;
     }
     if (!digits->empty()) made.append("[").append(*digits).append("]");

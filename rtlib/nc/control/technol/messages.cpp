@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "rtlib/text/letters.h"
+
 namespace rung::nc::technol {
 namespace {
 
@@ -44,8 +46,7 @@ private:
     char digits[kLongestValue + 1];
     const auto end = form == 'd' ? std::to_chars(digits, std::end(digits), static_cast<int32_t>(value))
                                  : std::to_chars(digits, std::end(digits), value, 16);
-    for (const char* c = digits; c != end.ptr; ++c)
-      put(form == 'X' && *c >= 'a' ? static_cast<char>(*c - 'a' + 'A') : *c);
+    for (const char* c = digits; c != end.ptr; ++c) put(form == 'X' ? text::upper(*c) : *c);
   }
 
   std::span<char> out_;

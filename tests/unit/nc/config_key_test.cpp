@@ -1,0 +1,35 @@
+// Whole numbers and durations of configuration values.
+#include <gtest/gtest.h>
+
+#include "rtlib/nc/config_key.h"
+
+namespace rung::nc {
+namespace {
+
+TEST(ConfigKey, WholeNumbers) {
+  EXPECT_EQ(wholeNumber("0"), 0);
+  EXPECT_EQ(wholeNumber("0000000000000000000000012"), 12);
+  EXPECT_EQ(wholeNumber("9223372036854775807"), INT64_MAX);
+  for (const char* wrong : {"", "-1", "+1", "1.0", "1 ", "0x1", "9223372036854775808"})
+    EXPECT_EQ(wholeNumber(wrong), -1) << wrong;
+}
+
+TEST(ConfigKey, DurationsHaveAUnit) {
+  EXPECT_EQ(durationUs("500us"), 500);
+  EXPECT_EQ(durationUs("2ms"), 2000);
+  EXPECT_EQ(durationUs("1s"), 1'000'000);
+  EXPECT_EQ(durationUs("0s"), 0);
+  EXPECT_EQ(durationUs("0000000000000000000000100ms"), 100'000);
+  for (const char* wrong : {"", "5", "ms", "-1ms", "+1ms", "1.5ms", "1 ms", "1ms ", "1m", "1S", "1min"})
+    EXPECT_EQ(durationUs(wrong), -1) << wrong;
+}
+
+TEST(ConfigKey, NoDurationOverflows) {
+  EXPECT_EQ(durationUs("4294967295s"), 4'294'967'295'000'000);
+  EXPECT_EQ(durationUs("1000000000000s"), 1'000'000'000'000'000'000);
+  EXPECT_EQ(durationUs("1000000000001s"), -1);
+  EXPECT_EQ(durationUs("9223372036854775807us"), -1);
+}
+
+} // namespace
+} // namespace rung::nc

@@ -1,0 +1,139 @@
+// Letters and numbers of texts.
+#include <clocale>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+
+namespace {
+
+using namespace rung;
+using std::nullopt;
+
+TEST(Letters, OnlyThoseOfAsciiChange) {
+  for (int byte = 0; byte < 256; ++byte) {
+    const char c = static_cast<char>(byte);
+    const bool small = byte >= 'a' && byte <= 'z', capital = byte >= 'A' && byte <= 'Z';
+    EXPECT_EQ(text::upper(c), small ? static_cast<char>(byte - 32) : c) << byte;
+    EXPECT_EQ(text::lower(c), capital ? static_cast<char>(byte + 32) : c) << byte;
+  }
+}
+
+TEST(Letters, OfTexts) {
+  EXPECT_EQ(text::upper(""), "");
+  EXPECT_EQ(text::lower(""), "");
+  EXPECT_EQ(text::upper("[az]{AZ}`@ 09_\xE4\xFD"), "[AZ]{AZ}`@ 09_\xE4\xFD");
+  EXPECT_EQ(text::lower("[az]{AZ}`@ 09_\xC4\xDD"), "[az]{az}`@ 09_\xC4\xDD");
+  EXPECT_EQ(text::upper(std::string_view("a\0b", 3)), std::string("A\0B", 3));
+  EXPECT_EQ(text::lower("Příliš"), "příliš"); // of UTF-8: no byte of ř or š is a letter
+}
+
+// Turkish has other capitals of i; where that locale is missing, this is the test above.
+TEST(Letters, WhateverTheLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* locale : {"tr_TR.ISO8859-9", "de_DE.ISO8859-1", "C.UTF-8"}) {
+    std::setlocale(LC_ALL, locale);
+    EXPECT_EQ(text::upper("i\xFD\xE4"), "I\xFD\xE4") << locale;
+    EXPECT_EQ(text::lower("I\xDD\xC4"), "i\xDD\xC4") << locale;
+    std::setlocale(LC_ALL, before.c_str());
+  }
+}
+
+TEST(Letters, CompareWithoutCase) {
+  EXPECT_TRUE(text::equalsIgnoringCase("", ""));
+  EXPECT_TRUE(text::equalsIgnoringCase("Word_9", "wORD_9"));
+  EXPECT_FALSE(text::equalsIgnoringCase("word", "words"));
+  EXPECT_FALSE(text::equalsIgnoringCase("words", "word"));
+  EXPECT_FALSE(text::equalsIgnoringCase("", "a"));
+  EXPECT_FALSE(text::equalsIgnoringCase("[", "{")); // as far apart as a and A
+  EXPECT_FALSE(text::equalsIgnoringCase("@", "`"));
+  EXPECT_FALSE(text::equalsIgnoringCase("\xC4", "\xE4"));
+  EXPECT_FALSE(text::equalsIgnoringCase(std::string_view("a\0b", 3), std::string_view("a\0c", 3)));
+}
+
+TEST(Letters, OrderIsThatOfTheCapitals) {
+  const std::string_view texts[] = {"",  "A",  "a",  "AB",   "ab",   "_",    "Z",
+                                    "[", "a_", "aB", "\x7F", "\x80", "\xFF", "a\xFF"};
+  for (const std::string_view a : texts)
+    for (const std::string_view b : texts) {
+      const int expected = text::upper(a).compare(text::upper(b)), found = text::compareIgnoringCase(a, b);
+      EXPECT_EQ(found < 0, expected < 0) << a << " " << b;
+      EXPECT_EQ(found > 0, expected > 0) << a << " " << b;
+    }
+}
+
+TEST(Letters, AreKnownToTheCompiler) {
+  static_assert(text::upper('a') == 'A' && text::lower('Z') == 'z');
+  static_assert(text::equalsIgnoringCase("Ab", "aB") && text::compareIgnoringCase("a", "B") < 0);
+}
+
+TEST(Number, IsTheWholeText) {
+  EXPECT_EQ(text::numberIn<uint32_t>("0"), 0u);
+  EXPECT_EQ(text::numberIn<uint32_t>("0012"), 12u);
+  for (const char* wrong : {"", " ", "x", "12 ", " 12", "12x", "1.5", "1,000", "0x12", "1e3", "\xB2", "12\xB2"})
+    EXPECT_EQ(text::numberIn<uint32_t>(wrong), nullopt) << wrong;
+  EXPECT_EQ(text::numberIn<uint32_t>(std::string_view("1\0", 2)), nullopt);
+  EXPECT_EQ(text::numberIn<uint32_t>(std::string_view()), nullopt);
+}
+
+TEST(Number, OnlySignedOnesHaveASign) {
+  for (const char* wrong : {"-1", "-0", "+1", "+", "-"}) EXPECT_EQ(text::numberIn<uint32_t>(wrong), nullopt) << wrong;
+  EXPECT_EQ(text::numberIn<int32_t>("-1"), -1);
+  EXPECT_EQ(text::numberIn<int32_t>("-0"), 0);
+  for (const char* wrong : {"+1", "--1", "- 1", "-"}) EXPECT_EQ(text::numberIn<int32_t>(wrong), nullopt) << wrong;
+}
+
+TEST(Number, EndsAtTheLimitsOfItsType) {
+  EXPECT_EQ(text::numberIn<uint8_t>("255"), 255);
+  EXPECT_EQ(text::numberIn<uint8_t>("256"), nullopt);
+  EXPECT_EQ(text::numberIn<uint32_t>("4294967295"), UINT32_MAX);
+  EXPECT_EQ(text::numberIn<uint32_t>("4294967296"), nullopt);
+  EXPECT_EQ(text::numberIn<uint32_t>("000000000000004294967295"), UINT32_MAX);
+  EXPECT_EQ(text::numberIn<int64_t>("9223372036854775807"), INT64_MAX);
+  EXPECT_EQ(text::numberIn<int64_t>("9223372036854775808"), nullopt);
+  EXPECT_EQ(text::numberIn<int64_t>("-9223372036854775808"), INT64_MIN);
+  EXPECT_EQ(text::numberIn<int64_t>("-9223372036854775809"), nullopt);
+  EXPECT_EQ(text::numberIn<uint64_t>("18446744073709551615"), UINT64_MAX);
+  EXPECT_EQ(text::numberIn<uint64_t>("18446744073709551616"), nullopt);
+}
+
+TEST(Number, OfAnotherBase) {
+  EXPECT_EQ(text::numberIn<uint32_t>("fF", 16), 255u);
+  EXPECT_EQ(text::numberIn<uint32_t>("FFFFFFFF", 16), UINT32_MAX);
+  EXPECT_EQ(text::numberIn<uint32_t>("100000000", 16), nullopt);
+  EXPECT_EQ(text::numberIn<uint32_t>("101", 2), 5u);
+  for (const char* wrong : {"", "0x1", "G", "-1"}) EXPECT_EQ(text::numberIn<uint32_t>(wrong, 16), nullopt) << wrong;
+  EXPECT_EQ(text::numberIn<uint32_t>("102", 2), nullopt);
+}
+
+TEST(Number, IsTakenFromTheBeginning) {
+  std::string_view rest = "12.5ms";
+  EXPECT_EQ(text::takeNumber<uint32_t>(rest), 12u);
+  EXPECT_EQ(rest, ".5ms");
+  EXPECT_EQ(text::takeNumber<uint32_t>(rest), nullopt);
+  EXPECT_EQ(rest, ".5ms");
+  rest = "300 "; // out of the range: nothing is taken
+  EXPECT_EQ(text::takeNumber<uint8_t>(rest), nullopt);
+  EXPECT_EQ(rest, "300 ");
+  rest = "1e3";
+  EXPECT_EQ(text::takeNumber<double>(rest, std::chars_format::fixed), 1.0);
+  EXPECT_EQ(rest, "e3");
+  rest = {};
+  EXPECT_EQ(text::takeNumber<uint32_t>(rest), nullopt);
+}
+
+TEST(Number, RealIsFinite) {
+  EXPECT_EQ(text::realIn("-0.5"), -0.5);
+  EXPECT_EQ(text::realIn("1e3"), 1000.0);
+  EXPECT_EQ(text::realIn("12"), 12.0);
+  EXPECT_EQ(text::realIn("1."), 1.0);
+  EXPECT_EQ(text::realIn("1.7976931348623157e308"), std::numeric_limits<double>::max());
+  for (const char* wrong : {"", "inf", "-INF", "nan", "1e309", "+1", " 1", "1 ", "1,5", "0x1p3", "."})
+    EXPECT_EQ(text::realIn(wrong), nullopt) << wrong;
+}
+
+} // namespace

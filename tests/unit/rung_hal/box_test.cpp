@@ -701,6 +701,84 @@ TEST(Functions, NoAcknowledgeWhenTheCauseHasGone) {
   EXPECT_FALSE(b["changed"].bit);
 }
 
+// A restart is a start: what is on already is an edge, whatever the pins were when the program stopped.
+class RestartedFunctions : public ::testing::Test {
+protected:
+  void restart() {
+    b["bad"].bit = true;
+    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+    b["bad"].bit = false;
+    b.box->step(0, true);
+    std::vector<std::string> reports;
+    EXPECT_TRUE(b.box->serve(reports));
+  }
+
+  Bench b{testing::gskProgram(), std::string(kFunctions) + R"(in.bad = { type = "bit", name = "X1.0" })"};
+};
+
+TEST_F(RestartedFunctions, AreHandedOverAgain) {
+  ASSERT_THAT(b.errors, IsEmpty());
+  b["change"].bit = true;
+  b.scans(5);
+  EXPECT_TRUE(b["changed"].bit);
+  restart();
+  EXPECT_FALSE(b["changed"].bit);
+  b.scans(1);
+  EXPECT_EQ(b["m"].s32, 6);
+  b.scans(4);
+  EXPECT_TRUE(b["changed"].bit);
+}
+
+TEST_F(RestartedFunctions, AreNewWithoutTheirPins) {
+  b["cw"].bit = true;
+  b.scans(5);
+  b["held"].bit = true;
+  b["prepare"].bit = true;
+  b.scans(200);
+  EXPECT_TRUE(b.box->functions().late());
+  b["cw"].bit = b["prepare"].bit = false;
+  restart();
+  EXPECT_FALSE(b.box->functions().late());
+  b.scans(3);
+  EXPECT_EQ(b["m"].s32, 0); // nor has "cw", which is off, fallen
+  EXPECT_FALSE(b.box->functions().busy());
+}
+
+// One that only counts the aborts.
+class CountingControl : public nc::Control, public nc::Functions {
+public:
+  nc::Functions* functions(uint32_t) override { return this; }
+  bool carries(nc::FunctionKind, uint32_t) const override { return true; }
+  std::optional<uint32_t> start(nc::FunctionKind, uint32_t) override { return std::nullopt; }
+  using nc::Control::start;
+  void step() override {}
+  bool busy(uint32_t) const override { return false; }
+  void abort() override { ++aborts; }
+
+  int aborts = 0;
+};
+
+TEST(Functions, PinsOfAbortsAreEdgesAfterARestart) {
+  std::vector<std::string> errors;
+  const MapFile map = parseMap(R"(
+send = [{ pin = "a", edge = "rise", function = "M", code = 3 }]
+abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
+)",
+                               "m.map", errors);
+  ASSERT_THAT(errors, IsEmpty());
+  bool a = false, on = true, off = false;
+  const PinCell cells[] = {{.bit = &a}, {.bit = &on}, {.bit = &off}};
+  CountingControl control;
+  FunctionQueue functions(map, control);
+  for (int aborts = 1; aborts <= 2; ++aborts) {
+    functions.sample(cells, kMs);
+    EXPECT_EQ(control.aborts, aborts);
+    functions.sample(cells, kMs);
+    EXPECT_EQ(control.aborts, aborts);
+    functions.restart();
+  }
+}
+
 TEST(Functions, WhatFindsTheQueueFullIsCounted) {
   Bench b(
       testing::gskProgram(),

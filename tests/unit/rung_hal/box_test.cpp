@@ -408,7 +408,8 @@ TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
   EXPECT_THAT(Bench(testing::gskProgram(), "in.a = { type = \"bit\", name = \"Y0.0\" }\ntimeout = 0").errors,
               ElementsAre("m.map:2:11: timeout: found 0, expected seconds, above 0 and at most 1000000; write for "
                           "example timeout = 30",
-                          "m.map:1:31: Y0.0 is an output of the program; it cannot be written"));
+                          "m.map:1:31: in.a.name: found Y0.0, an output of the program, expected a name that HAL may "
+                          "write; move the pin to [out]"));
   Bench timeless(testing::timelessProgram(), "");
   EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));
   EXPECT_EQ(timeless.box, nullptr);

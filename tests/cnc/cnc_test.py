@@ -242,8 +242,8 @@ c = { type = "bit", name = "NOWHERE" }
 pin = "a"
 edge = "up"
 """)
-    expect("program.map:3:28: Y0.0 is an output of the program; it cannot be written" in output, "line 3")
-    expect("program.map:5:28: NOWHERE: the program has no such name or address" in output, "line 5")
+    expect("program.map:3:28: in.b.name: found Y0.0, an output of the program, expected" in output, "line 3")
+    expect("program.map:5:28: out.c.name: found an unknown name NOWHERE, expected" in output, "line 5")
     expect('program.map:8:8: abort.edge: found "up", expected "rise" or "fall"; write' in output, "line 8")
     output = load("[in]\nin bit a X0.0\n")
     expect("program.map:2:4: Error while parsing key-value pair" in output, "not TOML")

@@ -1,19 +1,26 @@
-// libFuzzer target: any bytes as a mapping file of LinuxCNC's component. What is taken is ready to bind, every mistake
-// has its place.
+// libFuzzer target: any bytes as a mapping file of LinuxCNC's component, and what is taken of it bound to a program of
+// each dialect. What is bound lies in the program's memory and suits its entry, every mistake has its place.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <list>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ir/support/check.h"
+#include "tests/fuzz/mapped_programs.h"
+#include "tests/support/compiled_program.h"
+#include "tools/rung-hal/binding.h"
 #include "tools/rung-hal/map_file.h"
 
 namespace {
 
+using namespace rung;
 using namespace rung::hal;
 
 // Takes a number and what follows it off the text; false: they are not there.
@@ -67,11 +74,62 @@ void checkMap(const MapFile& map) {
   RUNG_CHECK(map.timeoutNs >= 0, "a time is not negative");
 }
 
+// ---- binding -------------------------------------------------------------------------------------------------------
+
+// Binding reads the instance only.
+struct Bound {
+  explicit Bound(const fuzz::MappedProgram& source)
+      : compiled(source.file, source.text, driver::EngineKind::Interp), instance(compiled.program()) {}
+
+  testing::CompiledProgram compiled;
+  host::Instance instance;
+};
+
+const std::list<Bound>& programs() {
+  static const std::list<Bound> made(std::begin(fuzz::kMappedPrograms), std::end(fuzz::kMappedPrograms));
+  return made;
+}
+
+void checkRef(const host::Instance& instance, const host::Ref& place, PinType type) {
+  const uint32_t bytes = std::max(1u, place.width / 8u);
+  RUNG_CHECK(place.space < instance.program().space_count, "a place is in a space of the program");
+  RUNG_CHECK(instance.memory().contains(place.space, place.byte, bytes), "a place is in the program's memory");
+  RUNG_CHECK((place.kind == host::RefKind::Bit) == (type == PinType::Bit), "a bit is for a bit");
+  RUNG_CHECK(place.kind != host::RefKind::Real || type == PinType::Float, "a real number is for a float");
+  RUNG_CHECK(place.kind != host::RefKind::Text && place.kind != host::RefKind::Constant, "a place holds a value");
+}
+
+void checkWritten(const host::Instance& instance, const host::Ref& place, PinType type) {
+  checkRef(instance, place, type);
+  const uint32_t flags = instance.program().spaces[place.space].flags;
+  RUNG_CHECK((flags & RUNG_SPACE_OUTPUT) == 0 || (flags & RUNG_SPACE_INPUT) != 0, "outputs are not written");
+}
+
+void checkBinding(const MapFile& map, const host::Instance& instance) {
+  std::vector<std::string> errors;
+  const std::unique_ptr<nc::Control> control = nc::makeControl(instance.program().dialect);
+  const Binding binding = bindMap(map, instance, *control, errors);
+  for (const PinLink& link : binding.inputs) checkWritten(instance, link.place, link.type);
+  for (const PinLink& link : binding.outputs) checkRef(instance, link.place, link.type);
+  for (const ConstLink& constant : binding.constants) checkWritten(instance, constant.place, constant.type);
+  const size_t links = binding.inputs.size() + binding.outputs.size() + binding.constants.size();
+  const size_t entries = map.inputs.size() + map.outputs.size() + map.constants.size();
+  RUNG_CHECK(links <= entries && entries - links <= errors.size(), "an entry is bound or has an error");
+  for (const std::string& error : errors) {
+    checkError(error);
+    const size_t found = error.find(": found "), expected = error.find(", expected ", found);
+    RUNG_CHECK(expected != std::string::npos && error.find("; ", expected) != std::string::npos,
+               "an error says what was found, what was expected and how to fix it");
+  }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::vector<std::string> errors;
-  checkMap(parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors));
+  const MapFile map = parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors);
+  checkMap(map);
   for (const std::string& error : errors) checkError(error);
+  for (const Bound& program : programs()) checkBinding(map, program.instance);
   return 0;
 }

@@ -5,14 +5,20 @@
 
 namespace rung::hal {
 
-// At the start all pins count as 0: what is on already is an edge.
 FunctionQueue::FunctionQueue(const MapFile& map, nc::Control& control)
-    : sends_(map.sends), aborts_(map.aborts), timeoutNs_(map.timeoutNs), calls_(kRoom) {
-  for (const MapSend& send : sends_) wasTriggered_.push_back(!send.edge.rising);
-  for (const MapEdge& edge : aborts_) wasAborted_.push_back(!edge.rising);
+    : sends_(map.sends), wasTriggered_(sends_.size()), aborts_(map.aborts), wasAborted_(aborts_.size()),
+      timeoutNs_(map.timeoutNs), calls_(kRoom) {
   for (const MapSend& send : sends_)
     while (channels_.size() <= send.channel)
       channels_.push_back(control.functions(static_cast<uint32_t>(channels_.size())));
+  restart();
+}
+
+void FunctionQueue::restart() noexcept {
+  count_ = 0;
+  late_ = false;
+  for (size_t i = 0; i < sends_.size(); ++i) wasTriggered_[i] = !sends_[i].edge.rising;
+  for (size_t i = 0; i < aborts_.size(); ++i) wasAborted_[i] = !aborts_[i].rising;
 }
 
 void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {

@@ -28,8 +28,8 @@ public:
   // Before every slice of the program.
   void advance(const PinCell* pins) noexcept;
 
-  // The program has been switched on anew.
-  void restart() noexcept { count_ = 0; }
+  // The program is switched on anew. All pins count as 0 before, as at the first start: what is on already is an edge.
+  void restart() noexcept;
 
   // A function was handed over, or waits.
   bool busy() const noexcept { return count_ != 0; }

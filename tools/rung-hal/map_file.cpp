@@ -11,6 +11,7 @@
 #include <toml++/toml.h>
 
 #include "ir/support/similar.h"
+#include "rtlib/text/number.h"
 
 namespace rung::hal {
 namespace {
@@ -356,12 +357,12 @@ bool Reader::takeConstants(const toml::node& node, MapFile& map) {
   if (table == nullptr) return false;
   for (const auto& [key, value] : inFileOrder(*table)) {
     MapConst constant{PinType::Bit, std::string(key->str()), 0, positionOf(key->source())};
-    if (takeValue(*value, constant)) {
-      map.constants.push_back(std::move(constant));
-      continue;
-    }
     const std::string where = "const." + constant.name;
-    if (value->is_table())
+    if (constant.name.empty())
+      fail(constant.at, "const: found \"\", expected a name of the program; write for example \"X0.0\" = true");
+    else if (takeValue(*value, constant))
+      map.constants.push_back(std::move(constant));
+    else if (value->is_table())
       fail(constant.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
                             constant.name + ".1\" = true");
     else
@@ -393,16 +394,21 @@ bool Reader::takeGroups(const toml::node& node, MapFile& map) {
   if (table == nullptr) return false;
   for (const auto& [key, value] : inFileOrder(*table)) {
     const std::string_view name = key->str();
-    MapGroup row{.at = positionOf(key->source())};
-    const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), row.code);
+    const MapPosition at = positionOf(key->source());
+    const std::optional<uint32_t> code = text::numberIn<uint32_t>(name);
     const auto group = value->value_exact<int64_t>();
-    if (error != std::errc() || rest != name.data() + name.size())
-      fail(row.at, "m-groups: found \"" + std::string(name) +
-                       "\", expected the number of an M function; write for example 70 = 10");
+    // 70 and 070 are two keys.
+    const auto first = std::ranges::find(map.groups, code, &MapGroup::code);
+    if (!code)
+      fail(at, "m-groups: found \"" + std::string(name) +
+                   "\", expected the number of an M function; write for example 70 = 10");
+    else if (first != map.groups.end())
+      fail(at, "m-groups: found M" + std::to_string(*code) + ", which is in line " + std::to_string(first->at.line) +
+                   " already, expected one group for each function; remove one of the lines");
     else if (!group || !std::in_range<uint32_t>(*group))
       wrong(positionOf(*value), "m-groups." + std::string(name), shown(*value), "the number of a group", "70 = 10");
     else
-      map.groups.push_back({row.code, static_cast<uint32_t>(*group), row.at});
+      map.groups.push_back({*code, static_cast<uint32_t>(*group), at});
   }
   return true;
 }

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 struct Bound {
   Binding binding;
@@ -65,12 +66,19 @@ in.c = { type = "s32", name = "NC.MPOS.0" }
 out.d = { type = "s32", name = "NC.MPOS.1" }
 in.e = { type = "s32", name = "NC.MPOS.x" }
 )"),
-              ElementsAre("m.map:2:31: NC.MPOS.1 is not a bit; s32, u32 or float is possible",
-                          "m.map:3:31: NC.MPOS.9: axes are 1 to 8", "m.map:4:31: NC.MPOS.0: axes are 1 to 8",
-                          "m.map:6:31: NC.MPOS.x: axes are 1 to 8",
-                          "m.map:5:32: NC.MPOS.1 is written by HAL, not by the program"));
+              ElementsAre("m.map:2:31: in.a.name: found the cell NC.MPOS.1 for type bit, expected a bit; write type = "
+                          "\"s32\", \"u32\" or \"float\"",
+                          "m.map:3:31: in.b.name: found NC.MPOS.9, expected NC.MPOS.1 to NC.MPOS.8; write for example "
+                          "NC.MPOS.1",
+                          StartsWith("m.map:4:31: in.c.name: found NC.MPOS.0, expected NC.MPOS.1 to NC.MPOS.8; "),
+                          StartsWith("m.map:6:31: in.e.name: found NC.MPOS.x, expected NC.MPOS.1 to NC.MPOS.8; "),
+                          "m.map:5:32: out.d.name: found NC.MPOS.1, which HAL writes, expected a name that the program "
+                          "writes; move the pin to [in]"));
+  EXPECT_THAT(gskErrors(R"(in.a = { type = "s32", name = "NC.MPOS.1x" })"),
+              ElementsAre(StartsWith("m.map:1:31: in.a.name: found NC.MPOS.1x, expected NC.MPOS.1 to NC.MPOS.8; ")));
   EXPECT_THAT(boundTo(testing::nctProgram(), R"(in.a = { type = "s32", name = "NC.MPOS.1" })").errors,
-              ElementsAre("m.map:1:31: NC.MPOS.1: the program reads no machine positions"));
+              ElementsAre("m.map:1:31: in.a.name: found NC.MPOS.1, expected a name of this program, which reads no "
+                          "machine positions; remove the entry"));
 }
 
 TEST(Binding, NctNamesAreTheHardwaresSide) {
@@ -109,25 +117,103 @@ TEST(Binding, FloatPinsConvertOtherIntegers) {
   EXPECT_EQ(bound.binding.outputs[0].place.kind, host::RefKind::Int);
 }
 
-TEST(Binding, NamesThatDoNotFit) {
-  EXPECT_THAT(gskErrors(R"(
+TEST(Binding, UnknownNames) {
+  EXPECT_THAT(
+      gskErrors(R"(
 # x
 in.a = { type = "bit", name = "NOWHERE" }
 )"),
-              ElementsAre("m.map:3:31: NOWHERE: the program has no such name or address"));
+      ElementsAre("m.map:3:31: in.a.name: found an unknown name NOWHERE, expected a symbol or an address of the "
+                  "program, or a signal of the NC interface; write the name as the program has it"));
   EXPECT_THAT(gskErrors(R"(in.a = { type = "bit", name = "X99.0" })"),
-              ElementsAre("m.map:1:31: X99.0: the program has no such name or address"));
+              ElementsAre(StartsWith("m.map:1:31: in.a.name: found an unknown name X99.0, expected a symbol")));
+  EXPECT_THAT(gskErrors(R"(const.NOWHERE = 1)"),
+              ElementsAre(StartsWith("m.map:1:7: const.NOWHERE: found an unknown name NOWHERE, expected a symbol")));
+}
+
+// What is offered would be taken: a symbol with a place, which HAL may write where it writes, of the type.
+TEST(Binding, UnknownNamesThatAreLikeASymbol) {
+  const auto meant = [](const rung_program& program, std::string_view text) {
+    const std::vector<std::string> errors = boundTo(program, text).errors;
+    const std::string error = errors.size() == 1 ? errors[0] : "not one mistake";
+    return error.substr(error.rfind("; ") + 2);
+  };
+  const std::string none = "write the name as the program has it";
+  const auto gsk = [&](std::string_view text) { return meant(testing::gskProgram(), text); };
+  EXPECT_EQ(gsk(R"(out.a = { type = "bit", name = "SYMB" })"), "did you mean SYM?");
+  EXPECT_EQ(gsk(R"(out.a = { type = "bit", name = "sym" })"), "did you mean SYM?");
+  EXPECT_EQ(gsk(R"(out.a = { type = "s32", name = "SYMB" })"), none); // it is a bit
+  EXPECT_EQ(gsk(R"(in.a = { type = "bit", name = "SYMB" })"), none);  // and an output
+  EXPECT_EQ(gsk(R"(out.a = { type = "s32", name = "LIMITS" })"), none);
+  const auto technol = [&](std::string_view text) { return meant(testing::technolProgram(), text); };
+  EXPECT_EQ(technol(R"(out.a = { type = "bit", name = "COUND.3" })"), "did you mean COUNT.3?");
+  EXPECT_EQ(technol(R"(out.a = { type = "bit", name = "COUND" })"), none);
+  EXPECT_EQ(technol(R"(out.a = { type = "bit", name = "COUND.16" })"), none); // it has 16 bits
+  EXPECT_EQ(technol(R"(out.a = { type = "bit", name = "COUNT.16" })"), none);
+  EXPECT_EQ(technol(R"(out.a = { type = "s32", name = "NAMES" })"), none);
+  EXPECT_EQ(technol(R"(out.a = { type = "float", name = "REALCEL" })"), "did you mean REALCELL?");
+  EXPECT_EQ(technol(R"(const.REALCEL = 5)"), "did you mean REALCELL?");
+}
+
+// A wrong program for the map must not cost a search of all its symbols for each name.
+TEST(Binding, SuggestionsAreFew) {
+  std::string text;
+  for (int i = 0; i <= 10; ++i) text += "out.p" + std::to_string(i) + " = { type = \"bit\", name = \"SYMB\" }\n";
+  const std::vector<std::string> errors = gskErrors(text);
+  ASSERT_EQ(errors.size(), 11u);
+  EXPECT_THAT(errors[9], ::testing::EndsWith("; did you mean SYM?"));
+  EXPECT_THAT(errors[10], ::testing::EndsWith("; write the name as the program has it"));
+}
+
+TEST(Binding, NamesThatDoNotFit) {
   EXPECT_THAT(gskErrors(R"(in.a = { type = "bit", name = "Y0.0" })"),
-              ElementsAre("m.map:1:31: Y0.0 is an output of the program; it cannot be written"));
+              ElementsAre("m.map:1:31: in.a.name: found Y0.0, an output of the program, expected a name that HAL may "
+                          "write; move the pin to [out]"));
   EXPECT_THAT(gskErrors(R"(const."Y0.0" = true)"),
-              ElementsAre("m.map:1:7: Y0.0 is an output of the program; it cannot be written"));
+              ElementsAre("m.map:1:7: const.Y0.0: found Y0.0, an output of the program, expected a name that HAL may "
+                          "write; remove the line"));
   EXPECT_THAT(gskErrors(R"(out.a = { type = "bit", name = "D0" })"),
-              ElementsAre("m.map:1:32: D0 is not a bit; s32, u32, float or a bit of it is possible"));
-  EXPECT_THAT(gskErrors(R"(out.a = { type = "u32", name = "SYM" })"), ElementsAre("m.map:1:32: SYM is a bit, not u32"));
-  EXPECT_THAT(gskErrors(R"(out.a = { type = "s32", name = "LIMIT" })"),
-              ElementsAre("m.map:1:32: LIMIT is a constant of the program"));
+              ElementsAre("m.map:1:32: out.a.name: found the cell D0 for type bit, expected a bit; write type = "
+                          "\"s32\", \"u32\" or \"float\", or name a bit of the cell"));
+  EXPECT_THAT(gskErrors(R"(out.a = { type = "u32", name = "SYM" })"),
+              ElementsAre("m.map:1:32: out.a.name: found the bit SYM for type u32, expected a cell; write type = "
+                          "\"bit\""));
+  EXPECT_THAT(
+      gskErrors(R"(out.a = { type = "s32", name = "LIMIT" })"),
+      ElementsAre("m.map:1:32: out.a.name: found the constant LIMIT (5), expected a place in the memory; remove "
+                  "the entry, the value never changes"));
   EXPECT_THAT(boundTo(testing::technolProgram(), R"(out.a = { type = "s32", name = "NAME" })").errors,
-              ElementsAre("m.map:1:32: NAME is a text; HAL has no pins for texts"));
+              ElementsAre("m.map:1:32: out.a.name: found the text NAME, expected a bit or a number; remove the entry, "
+                          "HAL has no pins for texts"));
+}
+
+// Signals of TECHNOL's interface are, and other 8 bytes only when the entry says so.
+TEST(Binding, RealNumbers) {
+  static constexpr rung_symbol kSpeed = {"SPEED", "", 1, 0, 0, RUNG_TYPE_F64, 1, 0, 0};
+  rung_program program = testing::technolProgram();
+  program.symbols = &kSpeed;
+  program.symbol_count = 1;
+  const Bound bound = boundTo(program, R"(
+out.a = { type = "float", name = "SPEED" }
+const.SPEED = 5
+)");
+  EXPECT_THAT(bound.errors, IsEmpty());
+  ASSERT_EQ(bound.binding.constants.size(), 1u);
+  EXPECT_EQ(bound.binding.constants[0].type, PinType::Float);
+  EXPECT_EQ(bound.binding.constants[0].place, host::realRef(1, 0));
+  EXPECT_THAT(
+      boundTo(program, R"(
+out.a = { type = "u32", name = "SPEED" }
+out.b = { type = "bit", name = "SPEED" }
+const.SPEED = true
+)")
+          .errors,
+      ElementsAre("m.map:2:32: out.a.name: found the real number SPEED for type u32, expected an integer; write "
+                  "type = \"float\"",
+                  "m.map:3:32: out.b.name: found the cell SPEED for type bit, expected a bit; write type = "
+                  "\"float\"",
+                  "m.map:4:7: const.SPEED: found true for a cell, expected a number; write for example "
+                  "\"SPEED\" = 1"));
 }
 
 TEST(Binding, Constants) {
@@ -163,11 +249,14 @@ D1 = 256
 D2 = -129
 "D3:2" = 40000.0
 )"),
-      ElementsAre("m.map:2:1: X0.0 is a bit; write true or false", "m.map:3:1: D0 is not a bit; write a number",
-                  "m.map:4:1: D1: the value does not fit into the cell, which has 8 bits",
-                  "m.map:5:1: D2: the value does not fit into the cell, which has 8 bits",
-                  "m.map:6:1: D3:2: the value does not fit into the cell, which has 16 bits; a real number becomes an "
-                  "integer with a sign"));
+      ElementsAre("m.map:2:1: const.X0.0: found 1 for a bit, expected true or false; write for example \"X0.0\" = true",
+                  "m.map:3:1: const.D0: found true for a cell, expected a number; write for example \"D0\" = 1",
+                  "m.map:4:1: const.D1: found 256, expected -128 to 255, what the cell of 8 bits holds; write such a "
+                  "value, or name a longer cell",
+                  "m.map:5:1: const.D2: found -129, expected -128 to 255, what the cell of 8 bits holds; write such a "
+                  "value, or name a longer cell",
+                  "m.map:6:1: const.D3:2: found 40000, expected -32768 to 32767, what the cell of 16 bits holds of a "
+                  "real number, which becomes an integer with a sign; write such a value, or name a longer cell"));
 }
 
 TEST(Binding, FunctionsThatADialectDoesNotHave) {
@@ -182,30 +271,34 @@ send = [
 ]
 )")
                   .errors,
-              ElementsAre("m.map:4:3: send: found function B, which the dialect technol does not have; remove the "
-                          "table, and connect its signals in [in] and [out]",
-                          "m.map:5:3: send: found M100, a code that the signals of the dialect technol do not hold; "
-                          "write another code",
-                          "m.map:8:3: send: found channel 2, expected 1: a control of the dialect technol has one "
-                          "channel",
-                          "m.map:2:14: high-speed: this dialect has no such handshake; remove the line"));
-  EXPECT_THAT(boundTo(testing::technolProgram(), "[m-groups]\n70 = 10\n71 = 15\n100 = 10\n").errors,
-              ElementsAre("m.map:3:1: m-groups: found M71 in group 15, which a control of the dialect technol cannot "
-                          "have; remove the line",
-                          "m.map:4:1: m-groups: found M100 in group 10, which a control of the dialect technol cannot "
-                          "have; remove the line"));
-  EXPECT_THAT(boundTo(testing::nctProgram(), "[m-groups]\n70 = 10\n").errors,
-              ElementsAre("m.map:2:1: m-groups: found M70 in group 10, which a control of the dialect nct cannot "
-                          "have; remove the line"));
-  EXPECT_THAT(boundTo(testing::nctProgram(), R"(
+              ElementsAre("m.map:4:3: send.function: found \"B\", expected \"M\", \"S\", \"T\", the functions of the "
+                          "dialect technol; remove the table, and connect its signals in [in] and [out]",
+                          "m.map:5:3: send.code: found M100, expected a code that the signals of the dialect technol "
+                          "hold; write another code",
+                          "m.map:8:3: send.channel: found 2, expected 1, the only channel of a control of the dialect "
+                          "technol; write for example channel = 1",
+                          "m.map:2:14: high-speed: found true, expected false, because the dialect technol has no such "
+                          "handshake; remove the line"));
+  EXPECT_THAT(
+      boundTo(testing::technolProgram(), "[m-groups]\n70 = 10\n71 = 15\n100 = 10\n").errors,
+      ElementsAre("m.map:3:1: m-groups: found M71 in group 15, expected what a machine can choose with the dialect "
+                  "technol; write another group, or remove the line",
+                  "m.map:4:1: m-groups: found M100 in group 10, expected what a machine can choose with the "
+                  "dialect technol; write another group, or remove the line"));
+  EXPECT_THAT(
+      boundTo(testing::nctProgram(), "[m-groups]\n70 = 10\n").errors,
+      ElementsAre("m.map:2:1: m-groups: found M70 in group 10, expected what a machine can choose with the dialect "
+                  "nct; write another group, or remove the line"));
+  EXPECT_THAT(
+      boundTo(testing::nctProgram(), R"(
 send = [
   { pin = "a", edge = "rise", function = "B", code = -1, channel = 8 },
   { pin = "a", edge = "rise", function = "M", code = 3, channel = 9 },
 ]
 )")
-                  .errors,
-              ElementsAre("m.map:4:3: send: found channel 9, expected 1 to 8, the channels of a control of the dialect "
-                          "nct"));
+          .errors,
+      ElementsAre("m.map:4:3: send.channel: found 9, expected 1 to 8, the channels of a control of the dialect nct; "
+                  "write for example channel = 1"));
 }
 
 } // namespace

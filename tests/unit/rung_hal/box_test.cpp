@@ -414,7 +414,8 @@ TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
   EXPECT_THAT(Bench(testing::gskProgram(), "in.a = { type = \"bit\", name = \"Y0.0\" }\ntimeout = 0").errors,
               ElementsAre("m.map:2:11: timeout: found 0, expected seconds, above 0 and at most 1000000; write for "
                           "example timeout = 30",
-                          "m.map:1:31: Y0.0 is an output of the program; it cannot be written"));
+                          "m.map:1:31: in.a.name: found Y0.0, an output of the program, expected a name that HAL may "
+                          "write; move the pin to [out]"));
   Bench timeless(testing::timelessProgram(), "");
   EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));
   EXPECT_EQ(timeless.box, nullptr);
@@ -705,6 +706,84 @@ TEST(Functions, NoAcknowledgeWhenTheCauseHasGone) {
   b["change"].bit = false;
   b.scans(6);
   EXPECT_FALSE(b["changed"].bit);
+}
+
+// A restart is a start: what is on already is an edge, whatever the pins were when the program stopped.
+class RestartedFunctions : public ::testing::Test {
+protected:
+  void restart() {
+    b["bad"].bit = true;
+    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+    b["bad"].bit = false;
+    b.box->step(0, true);
+    std::vector<std::string> reports;
+    EXPECT_TRUE(b.box->serve(reports));
+  }
+
+  Bench b{testing::gskProgram(), std::string(kFunctions) + R"(in.bad = { type = "bit", name = "X1.0" })"};
+};
+
+TEST_F(RestartedFunctions, AreHandedOverAgain) {
+  ASSERT_THAT(b.errors, IsEmpty());
+  b["change"].bit = true;
+  b.scans(5);
+  EXPECT_TRUE(b["changed"].bit);
+  restart();
+  EXPECT_FALSE(b["changed"].bit);
+  b.scans(1);
+  EXPECT_EQ(b["m"].s32, 6);
+  b.scans(4);
+  EXPECT_TRUE(b["changed"].bit);
+}
+
+TEST_F(RestartedFunctions, AreNewWithoutTheirPins) {
+  b["cw"].bit = true;
+  b.scans(5);
+  b["held"].bit = true;
+  b["prepare"].bit = true;
+  b.scans(200);
+  EXPECT_TRUE(b.box->functions().late());
+  b["cw"].bit = b["prepare"].bit = false;
+  restart();
+  EXPECT_FALSE(b.box->functions().late());
+  b.scans(3);
+  EXPECT_EQ(b["m"].s32, 0); // nor has "cw", which is off, fallen
+  EXPECT_FALSE(b.box->functions().busy());
+}
+
+// One that only counts the aborts.
+class CountingControl : public nc::Control, public nc::Functions {
+public:
+  nc::Functions* functions(uint32_t) override { return this; }
+  bool carries(nc::FunctionKind, uint32_t) const override { return true; }
+  std::optional<uint32_t> start(nc::FunctionKind, uint32_t) override { return std::nullopt; }
+  using nc::Control::start;
+  void step() override {}
+  bool busy(uint32_t) const override { return false; }
+  void abort() override { ++aborts; }
+
+  int aborts = 0;
+};
+
+TEST(Functions, PinsOfAbortsAreEdgesAfterARestart) {
+  std::vector<std::string> errors;
+  const MapFile map = parseMap(R"(
+send = [{ pin = "a", edge = "rise", function = "M", code = 3 }]
+abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
+)",
+                               "m.map", errors);
+  ASSERT_THAT(errors, IsEmpty());
+  bool a = false, on = true, off = false;
+  const PinCell cells[] = {{.bit = &a}, {.bit = &on}, {.bit = &off}};
+  CountingControl control;
+  FunctionQueue functions(map, control);
+  for (int aborts = 1; aborts <= 2; ++aborts) {
+    functions.sample(cells, kMs);
+    EXPECT_EQ(control.aborts, aborts);
+    functions.sample(cells, kMs);
+    EXPECT_EQ(control.aborts, aborts);
+    functions.restart();
+  }
 }
 
 TEST(Functions, WhatFindsTheQueueFullIsCounted) {

@@ -262,6 +262,7 @@ B = "1"
 C = nan
 D = 1979-05-27
 X0.0 = true
+"" = 1
 )"),
               ElementsAre("m.map:2:10: const.D0:4: found 4294967296" + expected + "\"D0:4\" = 1",
                           "m.map:3:5: const.A: found -2147483649" + expected + "\"A\" = 1",
@@ -269,7 +270,9 @@ X0.0 = true
                           "m.map:5:5: const.C: found nan" + expected + "\"C\" = 1",
                           "m.map:6:5: const.D: found a date or a time" + expected + "\"D\" = 1",
                           "m.map:7:1: const.X0: found a name with a dot, expected quotes around it; write for example "
-                          "\"X0.1\" = true"));
+                          "\"X0.1\" = true",
+                          "m.map:8:1: const: found \"\", expected a name of the program; write for example \"X0.0\" = "
+                          "true"));
 }
 
 TEST(MapFile, BadTimesAndModes) {
@@ -323,6 +326,12 @@ TEST(MapFile, BadGroups) {
                           "= 10",
                           "m.map:4:6: m-groups.72: found -1, expected the number of a group; write for example 70 = "
                           "10"));
+  // Other keys for TOML, which orders them by their characters: the first is the first in the file.
+  EXPECT_THAT(errorsOf("[m-groups]\n71 = 9\n70 = 10\n070 = 11\n0070 = 10\n"),
+              ElementsAre("m.map:4:1: m-groups: found M70, which is in line 3 already, expected one group for each "
+                          "function; remove one of the lines",
+                          "m.map:5:1: m-groups: found M70, which is in line 3 already, expected one group for each "
+                          "function; remove one of the lines"));
 }
 
 TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {

@@ -495,8 +495,7 @@ out.ready = { type = "bit", name = "N_NCREADY" }
   EXPECT_TRUE(b["ready"].bit);
 }
 
-// ---- M, S and T functions
-// --------------------------------------------------------------------------------------------
+// ---- M, S and T functions -----------------------------------------------------------------------------------------
 
 constexpr std::string_view kFunctions = R"(
 in.held = { type = "bit", name = "X1.3" }
@@ -740,14 +739,17 @@ TEST_F(RestartedFunctions, AreNewWithoutTheirPins) {
   b["cw"].bit = true;
   b.scans(5);
   b["held"].bit = true;
-  b["prepare"].bit = true;
+  b["change"].bit = b["prepare"].bit = true;
   b.scans(200);
   EXPECT_TRUE(b.box->functions().late());
-  b["cw"].bit = b["prepare"].bit = false;
+  EXPECT_EQ(b["m"].s32, 6);
+  EXPECT_TRUE(b["tf"].bit);
+  b["cw"].bit = b["change"].bit = b["prepare"].bit = false;
   restart();
   EXPECT_FALSE(b.box->functions().late());
   b.scans(3);
   EXPECT_EQ(b["m"].s32, 0); // nor has "cw", which is off, fallen
+  EXPECT_FALSE(b["tf"].bit);
   EXPECT_FALSE(b.box->functions().busy());
 }
 

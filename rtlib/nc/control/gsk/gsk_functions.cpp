@@ -67,6 +67,7 @@ bool GskFunctions::start(const gsk::SignalsIo& io, Line line, uint32_t code) {
   if (index != kExternal) io.setFDword(kSignals[index].code, code);
   if (index < kManyM) setDecoded(io, code);
   running_[index] = {Phase::Code, fast, false};
+  handedOver_ = true;
   return true;
 }
 

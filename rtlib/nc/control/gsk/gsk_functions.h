@@ -23,10 +23,10 @@ public:
   enum class Answer : uint8_t { ByLevel, AfterAbsence };
   explicit GskFunctions(Answer counts = Answer::AfterAbsence) : counts_(counts) {}
 
-  // At power-on: where the signals are.
+  // At power-on: where the signals are. F outlasts it, so what was handed over before is taken back.
   void locate(host::Instance& instance) {
     io_.emplace(instance);
-    running_ = {};
+    if (handedOver_) abort(*io_);
   }
 
   // Takes effect with functions handed over from now on.
@@ -63,6 +63,7 @@ private:
   std::array<Running, kLines> running_ = {}; // by Line
   std::optional<gsk::SignalsIo> io_;
   Answer counts_;
+  bool handedOver_ = false; // a function, since the object was made
   bool highSpeed_ = false;
 };
 

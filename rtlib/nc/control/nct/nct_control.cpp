@@ -90,6 +90,7 @@ std::optional<host::Ref> NctControl::signal(const host::Instance& instance, std:
   const Signal* found = findSignal(nctSignals(), name);
   if (found == nullptr) return std::nullopt;
   const uint32_t memory = host::findSpace(instance.program(), "M");
+  if (memory == RUNG_NONE) return std::nullopt;
   if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
   host::Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)
                                                     : host::intRef(memory, found->byteOffset, 32);

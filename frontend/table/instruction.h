@@ -19,7 +19,8 @@ struct FixedList {
   constexpr FixedList() = default;
   template <class... Args>
     requires(sizeof...(Args) > 0 && sizeof...(Args) <= N)
-  constexpr FixedList(Args... args) : items{T(args)...}, count(sizeof...(Args)) {}
+  constexpr FixedList(Args... args) // NOLINT(google-explicit-constructor)
+      : items{T(args)...}, count(sizeof...(Args)) {}
   constexpr std::span<const T> all() const { return {items.data(), count}; }
   constexpr size_t size() const { return count; }
   constexpr const T& operator[](size_t i) const { return items[i]; }

@@ -17,7 +17,7 @@ enum class OpCode : uint8_t {
 };
 
 inline constexpr int kOpCount = 0
-#define RUNG_OP(name, text) +1
+#define RUNG_OP(name, text) +1 // NOLINT(bugprone-macro-parentheses): a sum is made of them
 #include "ir/core/ops.def"
 #undef RUNG_OP
     ;

@@ -20,8 +20,8 @@ inline Failure failure(std::string message) { return Failure{std::move(message)}
 template <typename T>
 class [[nodiscard]] Result {
 public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
-  Result(Failure error) : state_(std::in_place_index<1>, std::move(error)) {}
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}       // NOLINT(google-explicit-constructor)
+  Result(Failure error) : state_(std::in_place_index<1>, std::move(error)) {} // NOLINT(google-explicit-constructor)
 
   bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
@@ -54,7 +54,7 @@ template <>
 class [[nodiscard]] Result<void> {
 public:
   Result() = default;
-  Result(Failure error) : state_(std::in_place_index<1>, std::move(error)) {}
+  Result(Failure error) : state_(std::in_place_index<1>, std::move(error)) {} // NOLINT(google-explicit-constructor)
 
   bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }

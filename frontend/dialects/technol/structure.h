@@ -68,10 +68,10 @@ private:
   std::array<bool, kModuleKinds> seen_{};
   struct OpenBlock {
     Token label;
-    uint32_t unit;
+    uint32_t unit = kNone;
   };
   struct InnerBlock {
-    uint32_t outer; // unit
+    uint32_t outer = kNone; // unit
     SourceRange at;
   };
   std::vector<InnerBlock> innerBlocks_; // timed blocks inside one

@@ -1,7 +1,6 @@
 // Look-up and checks of the names in a mapping file.
 #include "tools/rung-hal/binding.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -9,6 +8,7 @@
 
 #include "ir/support/similar.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/names/names.h"
 #include "rtlib/text/number.h"
 
 namespace rung::hal {
@@ -258,17 +258,16 @@ private:
   std::string meantBy(const Entry& entry) {
     if (suggestions_++ >= kMostSuggestions) return {};
     const rung_program& program = instance_.program();
-    const size_t begin = entry.name.starts_with('!') ? 1 : 0;
-    const size_t end = std::min(entry.name.find_first_of(".,[:+", begin), entry.name.size());
-    const bool isWhole = begin == 0 && end == entry.name.size();
-    Similar similar(std::string_view(entry.name).substr(begin, end - begin));
+    const std::string_view head = nc::headOf(entry.name);
+    const bool isWhole = head.size() == entry.name.size();
+    Similar similar(head);
     for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
       if ((symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) != 0) continue;
       if (!isWhole || misfitOf(host::refOf(symbol), entry) == Misfit::None) similar.offer(symbol.name);
     }
     if (similar.best().empty()) return {};
     std::string meant = entry.name;
-    meant.replace(begin, end - begin, similar.best());
+    meant.replace(static_cast<size_t>(head.data() - entry.name.data()), head.size(), similar.best());
     // A bit, an index or a length may take the place out of the cell.
     const std::optional<host::Ref> place = control_.writePlace(instance_, meant);
     return place && misfitOf(*place, entry) == Misfit::None ? meant : std::string();

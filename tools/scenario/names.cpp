@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ir/support/similar.h"
+#include "rtlib/nc/names/names.h"
 #include "rtlib/nc/signals.h"
 
 namespace rung::scenario {
@@ -16,12 +17,6 @@ namespace {
 constexpr std::string_view kQuantity = "NC.";
 
 bool namesValue(Kind kind) { return kind == Kind::Set || kind == Kind::Expect || kind == Kind::ExpectRange; }
-
-// Without the bit, the index or the width: SYMBOL.3, SYM,#2, NAME[2], D10:4.
-std::string_view headOf(std::string_view name) {
-  if (name.starts_with('!')) name.remove_prefix(1);
-  return name.substr(0, name.find_first_of(".,[:+"));
-}
 
 } // namespace
 
@@ -63,7 +58,7 @@ std::vector<std::string> namesOf(const host::Instance& instance, const sim::Simu
 }
 
 std::string unknownName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name) {
-  Similar similar(headOf(name));
+  Similar similar(nc::headOf(name));
   const std::vector<std::string> names = namesOf(instance, nc);
   for (const std::string& known : names) similar.offer(known);
   return fmt::format("'{}' is not a name of this program{}", name,

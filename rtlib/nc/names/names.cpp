@@ -152,6 +152,11 @@ std::optional<Ref> resolve(const rung_program& program, std::string_view name, c
   return grammar.ignoresCase() ? search.find(text::upper(name)) : search.find(name);
 }
 
+std::string_view headOf(std::string_view name) {
+  if (name.starts_with('!')) name.remove_prefix(1);
+  return name.substr(0, name.find_first_of(".,[:+"));
+}
+
 std::string placeName(const rung_program& program, const Ref& place) {
   if (place.kind == RefKind::Constant) return std::to_string(place.constant);
   return grammarOf(program).placeName(program, place);

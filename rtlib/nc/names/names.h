@@ -20,6 +20,9 @@ using NameFallback = std::function<std::optional<host::Ref>(std::string_view)>;
 // Nothing when the name is unknown, or its place lies outside the program's spaces.
 std::optional<host::Ref> resolve(const rung_program& program, std::string_view name, const NameFallback& fallback = {});
 
+// What a name is a part of: the name without its bit, index, width or distance, SYM of SYM.3, SYM,#2, SYM[2], !SYM.
+std::string_view headOf(std::string_view name);
+
 // A short name of the place that `resolve` finds again: a symbol of its own, else the dialect's address.
 std::string placeName(const rung_program& program, const host::Ref& place);
 

@@ -86,7 +86,7 @@ void RungWriter::endLine() {
 }
 
 void RungWriter::statement(std::string_view text, std::string_view comment) {
-  out_.append(static_cast<size_t>(2 + 2 * indent_), ' ');
+  out_.append(2 + 2 * indent_, ' ');
   out_ += text;
   if (!comment.empty()) {
     out_ += " // ";
@@ -173,6 +173,7 @@ void RungWriter::storeAt(const Op& op) {
 }
 
 // The expression of an operation that has a value and no region.
+// NOLINTNEXTLINE(readability-function-size): a case for every operation
 std::string RungWriter::pure(const Op& op) {
   const auto infix = [&](std::string_view sign) { return fmt::format("{} {} {}", a(op, 0), sign, a(op, 1)); };
   const auto call = [&](std::string_view name) {

@@ -67,7 +67,7 @@ private:
   std::string_view file_;
   uint32_t line_ = 0; // of the open RUNG_LINE
   bool open_ = false;
-  int indent_ = 0;
+  size_t indent_ = 0;
   struct Region {
     size_t opener;     // index of the If or Loop
     const ir::Op* end; // its EndIf or EndLoop

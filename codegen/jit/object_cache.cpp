@@ -54,7 +54,7 @@ std::optional<PieceIdentity> identityIn(std::string_view object, const std::stri
     const auto offset = valueOf(symbol.getValue());
     if (!section || *section == (*file)->section_end() || !offset) return std::nullopt;
     const auto contents = valueOf((*section)->getContents());
-    PieceIdentity identity;
+    PieceIdentity identity{};
     if (!contents || *offset > contents->size() || contents->size() - *offset < sizeof identity) return std::nullopt;
     std::memcpy(&identity, contents->data() + *offset, sizeof identity);
     return identity;

@@ -23,7 +23,7 @@ public:
 
 private:
   const ir::Layout& layout_;
-  CacheKey whole_; // all that the pieces share
+  CacheKey whole_ = {}; // all that the pieces share
 };
 
 // What follows an object's bytes in its file; a file that does not end in it was cut or changed.

@@ -15,6 +15,7 @@ llvm::Type* ChunkEmitter::type(Type type) const {
   return type == Type::F64 ? llvm::Type::getDoubleTy(context) : llvm::Type::getIntNTy(context, bitWidth(type));
 }
 
+// NOLINTNEXTLINE(readability-function-size): a case for every operation
 ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   switch (op.code) {
   case OpCode::Const:
@@ -227,7 +228,7 @@ ChunkEmitter::Element ChunkEmitter::element(const Op& op, bool isBit) {
   const uint32_t unit = module_.spaces[op.ref].unitBytes;
   const uint32_t base = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
   Value* inside = builder_.CreateICmpULT(arg(op, 0), num(op.count));
-  if (isBit) inside = builder_.CreateAnd(inside, builder_.CreateICmpULT(arg(op, 1), num(unit * 8)));
+  if (isBit) inside = builder_.CreateAnd(inside, builder_.CreateICmpULT(arg(op, 1), num(uint64_t{unit} * 8)));
   const auto legal = [&](Value* index) {
     return builder_.CreateZExt(builder_.CreateSelect(inside, index, num(0)), builder_.getInt64Ty());
   };

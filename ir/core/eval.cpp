@@ -31,6 +31,7 @@ int64_t signedValue(Type type, uint64_t value) {
 
 } // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a case for every operation
 uint64_t evalPure(OpCode code, Type type, Type first, const uint64_t* args) {
   const uint64_t a = args[0];
   const auto b = [&] { return args[1]; };

@@ -171,6 +171,7 @@ void RungRun::evaluate(const Op& op) {
 }
 
 // The number of the operation that comes next.
+// NOLINTNEXTLINE(readability-function-size): a case for every operation
 size_t RungRun::step(const Op& op, size_t index) {
   switch (op.code) {
   case OpCode::Const: give(op, static_cast<uint64_t>(op.imm)); break;

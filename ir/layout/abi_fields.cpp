@@ -12,7 +12,7 @@ namespace {
 #define RUNG_ARRAY(st, member, counter, kind)                                                                          \
   FieldInfo { #member, FieldKind::kind, offsetof(st, member), offsetof(st, counter) }
 #define RUNG_STRUCTS(st, member, counter, info)                                                                        \
-  FieldInfo { #member, FieldKind::Structs, offsetof(st, member), offsetof(st, counter), &info }
+  FieldInfo { #member, FieldKind::Structs, offsetof(st, member), offsetof(st, counter), &(info) }
 
 constexpr FieldInfo kRangeFields[] = {RUNG_FIELD(rung_range, first_byte, U32), RUNG_FIELD(rung_range, byte_count, U32),
                                       RUNG_FIELD(rung_range, offset, U32), RUNG_FIELD(rung_range, repr, U32)};

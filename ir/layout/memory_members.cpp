@@ -163,7 +163,7 @@ private:
   std::string addressName(const Address& address) const {
     const Space& space = module_.at(address.space);
     const uint64_t unitBits = uint64_t{space.unitBytes} * 8;
-    const std::string unit = identifier(fmt::format("{}{}", space.name, address.bit / unitBits));
+    std::string unit = identifier(fmt::format("{}{}", space.name, address.bit / unitBits));
     const uint64_t rest = address.bit % unitBits;
     if (address.type == Type::Bit) return fmt::format("{}_{}", unit, rest);
     const std::string byte = rest == 0 ? "" : fmt::format("_byte{}", rest / 8);

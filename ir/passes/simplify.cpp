@@ -220,6 +220,7 @@ bool Simplifier::window() {
   return true;
 }
 
+// NOLINTNEXTLINE(readability-function-size): a case for every operation
 bool Simplifier::run() {
   if (isEvaluable(opInfo(op_.code)) && evaluate()) return true;
   switch (op_.code) {

@@ -47,7 +47,7 @@ uint8_t Memory::readByte(uint32_t space, uint32_t byte) const noexcept {
   const rung_range* range = rangeOf(space, byte);
   if (range == nullptr) return 0;
   const uint32_t index = byte - range->first_byte;
-  if (range->repr == RUNG_REPR_BYTE_PER_BIT) return gather(block_ + range->offset + 8 * index);
+  if (range->repr == RUNG_REPR_BYTE_PER_BIT) return gather(block_ + range->offset + size_t{8} * index);
   return block_[range->offset + index];
 }
 
@@ -56,7 +56,7 @@ void Memory::writeByte(uint32_t space, uint32_t byte, uint8_t value) const noexc
   if (range == nullptr) return;
   const uint32_t index = byte - range->first_byte;
   if (range->repr == RUNG_REPR_BYTE_PER_BIT) {
-    scatter(block_ + range->offset + 8 * index, value);
+    scatter(block_ + range->offset + size_t{8} * index, value);
   } else {
     block_[range->offset + index] = value;
   }

@@ -21,9 +21,9 @@ constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RU
 // A word or a number of a message. One function puts all messages together: code for each of them would be half of
 // this file's.
 struct Part {
-  Part(const char* word) : text(word) {}
+  explicit Part(const char* word) : text(word) {}
   template <std::unsigned_integral T>
-  Part(T value) : number(value) {}
+  explicit Part(T value) : number(value) {}
   const char* text = nullptr; // null: the number
   uint64_t number = 0;
 };
@@ -71,12 +71,12 @@ private:
   // The first error stays.
   template <class... Parts>
   void fail(const Parts&... parts) {
-    if (error_.empty()) error_ = textOf({parts...});
+    if (error_.empty()) error_ = textOf({Part(parts)...});
   }
   // An entry of a table, and what is wrong with it.
   template <class... Parts>
   void failAt(const char* table, uint32_t number, const Parts&... parts) {
-    if (error_.empty()) error_ = textOf({table, " ", number, " ", parts...});
+    if (error_.empty()) error_ = textOf({Part(table), Part(" "), Part(number), Part(" "), Part(parts)...});
   }
   void index(const char* table, uint32_t number, const char* field, uint32_t value, uint32_t count) {
     if (value >= count) failAt(table, number, "has ", field, " ", value, ", there are ", count);

@@ -65,7 +65,7 @@ private:
   template <class T>
   std::optional<T> at(uint64_t offset) const {
     if (offset > file_.size() || file_.size() - offset < sizeof(T)) return std::nullopt;
-    T value;
+    T value{};
     std::memcpy(&value, file_.data() + offset, sizeof(T));
     return value;
   }

@@ -82,7 +82,7 @@ std::string rungText(const rung_program& program, uint32_t rung, uint32_t line) 
 
 std::string faultText(const rung_program& program, const rung_fault& fault) {
   if (fault.code == RUNG_NONE) return {};
-  const std::string reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
+  std::string reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
   if (fault.task == RUNG_NONE) return reason; // the host stopped it
   return reason + " (" + rungText(program, fault.rung, fault.line) + ")";
 }

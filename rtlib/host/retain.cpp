@@ -154,7 +154,7 @@ RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize,
   thread_ = std::thread([this] { work(); });
 }
 
-RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, RetainMap map, std::chrono::milliseconds period)
+RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, const RetainMap& map, std::chrono::milliseconds period)
     : RetainSaver(
           std::move(target), map.rawSize(), map.size(),
           [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, period) {}
@@ -169,7 +169,7 @@ RetainSaver::~RetainSaver() {
 }
 
 std::string RetainSaver::problem() const {
-  std::array<char, PublishedText::kMost> text;
+  std::array<char, PublishedText::kMost> text{};
   return {text.data(), problem(text)};
 }
 

@@ -71,7 +71,7 @@ public:
   RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize, uint32_t imageSize, Pack pack,
               std::chrono::milliseconds period);
   // For the retained memory of an instance.
-  RetainSaver(std::unique_ptr<RetainTarget> target, RetainMap map, std::chrono::milliseconds period);
+  RetainSaver(std::unique_ptr<RetainTarget> target, const RetainMap& map, std::chrono::milliseconds period);
   ~RetainSaver(); // tries to save what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;

@@ -2,11 +2,12 @@
 #include "rtlib/profile/collector.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rung::profile {
 namespace {
 
-uint64_t roundedAbove0(double value) { return value <= 0 ? 0 : static_cast<uint64_t>(value + 0.5); }
+uint64_t roundedAbove0(double value) { return value <= 0 ? 0 : static_cast<uint64_t>(std::llround(value)); }
 
 } // namespace
 

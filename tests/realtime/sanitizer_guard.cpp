@@ -1,10 +1,13 @@
 // The guard by clang's real-time sanitizer: the process ends, with a stack trace, when it notices something.
 #include "tests/realtime/guard.h"
 
+// Of the sanitizer, which has no header for them.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" {
 void __rtsan_realtime_enter();
 void __rtsan_realtime_exit();
 }
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 namespace rung::test {
 

@@ -45,19 +45,21 @@ using ReadClock = int (*)(clockid_t, timespec*);
 using SleepOnClock = int (*)(clockid_t, int, const timespec*, timespec*);
 
 // The C library's, which reads most clocks without a system call; found before the tests begin.
-const auto realReadClock = reinterpret_cast<ReadClock>(dlsym(RTLD_NEXT, "clock_gettime"));
-const auto realSleepOnClock = reinterpret_cast<SleepOnClock>(dlsym(RTLD_NEXT, "clock_nanosleep"));
+const auto kRealReadClock = reinterpret_cast<ReadClock>(dlsym(RTLD_NEXT, "clock_gettime"));
+const auto kRealSleepOnClock = reinterpret_cast<SleepOnClock>(dlsym(RTLD_NEXT, "clock_nanosleep"));
 
 } // namespace
 
+// NOLINTBEGIN(misc-definitions-in-headers): for one source, as said above
 extern "C" int clock_gettime(clockid_t clock, timespec* time) {
   if (fakeClock != nullptr && clock == CLOCK_MONOTONIC) return *time = fakeClock->now(), 0;
-  if (realReadClock != nullptr) return realReadClock(clock, time);
+  if (kRealReadClock != nullptr) return kRealReadClock(clock, time);
   return static_cast<int>(syscall(SYS_clock_gettime, clock, time));
 }
 
 extern "C" int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* rest) {
   if (fakeClock != nullptr && clock == CLOCK_MONOTONIC && flags == TIMER_ABSTIME)
     return fakeClock->sleepUntil(*time), 0;
-  return realSleepOnClock(clock, flags, time, rest);
+  return kRealSleepOnClock(clock, flags, time, rest);
 }
+// NOLINTEND(misc-definitions-in-headers)

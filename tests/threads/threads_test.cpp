@@ -104,7 +104,7 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
     }
     done = true;
   });
-  std::array<char, 100> problem;
+  std::array<char, 100> problem{};
   while (!done) {
     EXPECT_FALSE(retained.failing());
     EXPECT_EQ(retained.problem(problem), 0u);

@@ -33,7 +33,6 @@ public:
     emit("FUNC END1\n", 1);
     const uint32_t subprograms = limit_ / 5 / kSubprogramSteps;
     const uint32_t level2 = limit_ - steps_ - subprograms * (kSubprogramSteps + 8);
-    std::string calls;
     openUnit("level2");
     for (uint32_t s = 0; s < subprograms; ++s) {
       while (used_ < (s + 1) * level2 / (subprograms + 1)) element();
@@ -65,7 +64,7 @@ private:
   // A signed word in the hand-written form.
   std::string value(uint32_t w) const { return fmt::format("w[{}]", w); }
 
-  void emit(std::string text, uint32_t steps) {
+  void emit(const std::string& text, uint32_t steps) {
     text_ += text;
     steps_ += steps;
     used_ += steps;

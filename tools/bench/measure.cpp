@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "codegen/cpp/cpp_emitter.h"
+#include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/file.h"
@@ -91,12 +92,16 @@ Result<void> settle(host::Instance& instance, const Workload& work, std::vector<
                     RunHand runHand) {
   std::mt19937_64 random(kSeed + 1);
   instance.coldStart();
-  for (const std::string& name : work.ones)
-    host::writeRaw(instance.memory(), *nc::resolve(instance.program(), name), 1);
+  const auto placeOf = [&](const std::string& name) {
+    const std::optional<host::Ref> place = nc::resolve(instance.program(), name);
+    RUNG_CHECK(place.has_value(), "a workload names places of its own program");
+    return *place;
+  };
+  for (const std::string& name : work.ones) host::writeRaw(instance.memory(), placeOf(name), 1);
   std::vector<host::Ref> bits;
   std::vector<host::Ref> words;
-  for (const std::string& name : work.bits) bits.push_back(*nc::resolve(instance.program(), name));
-  for (const std::string& name : work.words) words.push_back(*nc::resolve(instance.program(), name));
+  for (const std::string& name : work.bits) bits.push_back(placeOf(name));
+  for (const std::string& name : work.words) words.push_back(placeOf(name));
   const auto wordAt = [&](size_t i) { return hand.data() + bits.size() + 2 * i; };
   for (uint32_t bit = 0; bit < work.inputs; ++bit) {
     hand[bit] = static_cast<uint8_t>(random() & 1);

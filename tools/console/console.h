@@ -36,8 +36,8 @@ public:
 private:
   struct Command {
     scenario::StatementForm form;
-    Names names; // of its words
-    Outcome (Console::*run)(std::span<const std::string> words);
+    Names names = Names::None; // of its words
+    Outcome (Console::*run)(std::span<const std::string> words) = nullptr;
   };
   static std::span<const Command> commands();
   static std::vector<std::string> words();

@@ -63,23 +63,23 @@ std::string withoutRung(std::string_view fault) { // the rung and the file in br
 
 void Recording::add(std::string statement) { statements_.push_back(std::move(statement)); }
 
-bool Recording::isProjectsOwn(const std::string& folder) const {
-  if (!start_.project || start_.programs != start_.project->files) return false;
+const project::Project* Recording::ownProject(const std::string& folder) const {
+  if (!start_.project || start_.programs != start_.project->files) return nullptr;
   const auto found = project::findUpwards(fs::absolute(folder).lexically_normal().string());
   std::error_code none;
-  return found && fs::equivalent(*found, start_.project->file, none);
+  return found && fs::equivalent(*found, start_.project->file, none) ? &*start_.project : nullptr;
 }
 
 void Recording::writeStart(const std::string& path, const std::string& dialect, std::string& text) const {
   const fs::path folder = folderOf(path);
-  const bool inProject = isProjectsOwn(folder.string());
-  if (!inProject) {
+  const project::Project* project = ownProject(folder.string());
+  if (project == nullptr) {
     text += "program";
     for (const std::string& program : start_.programs) text += " " + asWord(relativeTo(folder, program));
     text += fmt::format("\ndialect {}\n", dialect);
   }
   for (const auto& [key, value] : start_.config)
-    if (!inProject || !isSetting(*start_.project, key, value))
+    if (project == nullptr || !isSetting(*project, key, value))
       text += fmt::format("config {} {}\n", key, asWord(configValue(dialect, key, value, folder)));
   if (start_.periodUs > 0) text += fmt::format("period {}us\n", start_.periodUs);
   for (const std::string& connect : start_.connects) text += connect + "\n";
@@ -88,7 +88,7 @@ void Recording::writeStart(const std::string& path, const std::string& dialect, 
 Result<std::string> Recording::scenario(const std::string& path, const scenario::Session& session,
                                         const std::vector<std::string>& watched) const {
   if (!start_.notAScenario.empty()) return failure(start_.notAScenario);
-  if (start_.project && !start_.project->includePaths.empty() && !isProjectsOwn(folderOf(path).string()))
+  if (start_.project && !start_.project->includePaths.empty() && ownProject(folderOf(path).string()) == nullptr)
     return failure(fmt::format("the program needs the include folders of {}: save the scenario in the folder of the "
                                "project, and run the program of the project",
                                start_.project->file));

@@ -35,8 +35,8 @@ public:
                                const std::vector<std::string>& watched) const;
 
 private:
-  // Whether a scenario in this folder runs this program without naming it.
-  bool isProjectsOwn(const std::string& folder) const;
+  // The project that a scenario in this folder runs this program by, without naming it; null: it has to name it.
+  const project::Project* ownProject(const std::string& folder) const;
   void writeStart(const std::string& path, const std::string& dialect, std::string& text) const;
 
   Start start_;

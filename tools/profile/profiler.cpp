@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
 
 namespace rung::profile {
 namespace {
@@ -65,20 +64,19 @@ private:
 // Counters of rungs, whatever they count; remembers what each rung took in one scan.
 class RungMeasurement : public Measurement {
 public:
-  explicit RungMeasurement(double cost) : cost_(cost) {}
-  const Collector& collector() const { return *collector_; }
+  explicit RungMeasurement(double cost) : collector_(0, cost) {}
+  const Collector& collector() const { return collector_; }
   const Place& place() const { return place_; }
   const std::vector<uint64_t>& remembered() const { return remembered_; }
 
 protected:
   void begin(host::Instance& instance, bool fresh) override {
-    if (!collector_) collector_.emplace(instance.program().rung_count, cost_);
-    if (fresh) collector_->newInstance();
-    collector_->started(instance.profile());
+    if (collector_.rungs().empty()) collector_ = Collector(instance.program().rung_count, collector_.cost());
+    if (fresh) collector_.newInstance();
+    collector_.started(instance.profile());
   }
 
-  double cost_;
-  std::optional<Collector> collector_;
+  Collector collector_; // of no rungs before the first start
   Place place_;
   std::vector<uint64_t> remembered_;
 };
@@ -91,13 +89,13 @@ public:
 
 protected:
   void end(const host::Instance& instance, bool whole, const Place& place) override {
-    collector_->scanned(instance.profile());
+    collector_.scanned(instance.profile());
     if (!whole) return;
-    totals_.push_back(collector_->lastScanTotal());
+    totals_.push_back(collector_.lastScanTotal());
     if (totals_.size() > 1 && totals_.back() <= most_) return;
     most_ = totals_.back();
     place_ = place;
-    remembered_.assign(collector_->lastScan().begin(), collector_->lastScan().end());
+    remembered_.assign(collector_.lastScan().begin(), collector_.lastScan().end());
   }
 
 private:
@@ -146,11 +144,11 @@ protected:
     times_.started(instance);
   }
   void end(const host::Instance& instance, bool whole, const Place& place) override {
-    collector_->scanned(instance.profile());
+    collector_.scanned(instance.profile());
     times_.scanned(whole);
     if (!whole || scans() != which_) return;
     place_ = place;
-    const std::span<const uint64_t> last = collector_->lastScan();
+    const std::span<const uint64_t> last = collector_.lastScan();
     remembered_.resize(last.size(), UINT64_MAX);
     for (size_t i = 0; i < last.size(); ++i) remembered_[i] = std::min(remembered_[i], last[i]);
   }

@@ -2,6 +2,7 @@
 #include "tools/profile/scan_times.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 
@@ -24,7 +25,8 @@ Spread spreadOf(std::vector<uint64_t> values, double scale) {
   if (values.empty()) return spread;
   std::sort(values.begin(), values.end());
   const auto at = [&](double q) {
-    return static_cast<double>(values[static_cast<size_t>(q * static_cast<double>(values.size() - 1) + 0.5)]) * scale;
+    const auto nearest = static_cast<size_t>(std::llround(q * static_cast<double>(values.size() - 1)));
+    return static_cast<double>(values[nearest]) * scale;
   };
   spread.count = values.size();
   spread.min = at(0);

@@ -54,7 +54,7 @@ void FunctionQueue::queue(Call call) noexcept {
 void FunctionQueue::withdraw(uint32_t send, const PinCell* pins) noexcept {
   for (uint32_t i = 0; i < count_; ++i)
     if (calls_[i].send == send) calls_[i].wanted = false;
-  if (sends_[send].donePin) *pins[*sends_[send].donePin].bit = false;
+  if (const auto& done = sends_[send].donePin) *pins[*done].bit = false;
 }
 
 void FunctionQueue::abort() noexcept {

@@ -138,10 +138,10 @@ private:
   template <class Row>
   struct Key {
     std::string_view name;
-    bool needed;
+    bool needed = false;
     std::string_view expected;
     std::string_view example;
-    bool (Reader::*take)(const toml::node&, Row&); // false: it is not what is expected
+    bool (Reader::*take)(const toml::node&, Row&) = nullptr; // false: it is not what is expected
   };
 
   static const Key<MapFile> kFileKeys[8];
@@ -340,7 +340,7 @@ void Reader::readPin(const toml::key& key, const toml::node& node, bool output, 
     return fail(name.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
                              name.text + ".1\" = { … }");
   PinRow row;
-  if (!readKeys(*table, where, kPinKeys, row)) return;
+  if (!readKeys(*table, where, kPinKeys, row) || !row.type) return; // which is needed
   if (row.scale && row.type != PinType::Float)
     return fail(row.scaleAt, where + ".scale: found a scale of type " + std::string(pinTypeName(*row.type)) +
                                  ", expected one of type float only; remove it, or write type = \"float\"");

@@ -30,7 +30,7 @@ std::string normal(const fs::path& path) { return path.lexically_normal().string
 
 // One that stays pending would end the program once it is unblocked.
 void takeSignal(int signals) {
-  signalfd_siginfo taken;
+  signalfd_siginfo taken{};
   while (read(signals, &taken, sizeof taken) < 0 && errno == EINTR) {
   }
 }

@@ -134,7 +134,6 @@ private:
       explainer_.emplace(session_, *compiled_->uses);
       session_.addObserver(*explainer_);
     }
-    console_.emplace(session_, watch_, recording_, explainer_ ? &*explainer_ : nullptr, print_);
     return kOk;
   }
 
@@ -155,13 +154,14 @@ private:
   // Inputs, then the scenario, then what --scans and --for ask for, then the person.
   int drive() {
     catchSignals();
+    console::Console console(session_, watch_, recording_, explainer_ ? &*explainer_ : nullptr, print_);
     if (const int status = setInputs(); status != kOk) return status;
-    int status = runScenario();
-    if (status == kOk) status = runScans();
+    int status = runScenario(console);
+    if (status == kOk) status = runScans(console);
     if (!options_.prompt || gSignal == SIGTERM) return status;
     gSignal = 0;
     session_.setInterrupt([this] { return interrupted(); });
-    return console::runPrompt(*console_, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
+    return console::runPrompt(console, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
   }
 
   int setInputs() {
@@ -179,7 +179,7 @@ private:
     if (equals == std::string::npos || equals == 0) return failure("expected NAME=VALUE");
     const std::string name = pair.substr(0, equals);
     const std::string value = pair.substr(equals + 1);
-    const Result<std::string> plain = executeLine(fmt::format("set {} {}", name, value));
+    Result<std::string> plain = executeLine(fmt::format("set {} {}", name, value));
     if (plain.ok()) return plain;
     const Result<std::string> quoted = executeLine(fmt::format("set {} \"{}\"", name, value));
     return quoted.ok() || !session_.nc().writePlace(session_.instance(), name) ? quoted : plain;
@@ -192,17 +192,17 @@ private:
     return statement.value().text;
   }
 
-  int runScenario() {
+  int runScenario(console::Console& console) {
     session_.setInterrupt([this] { return interrupted(); });
     for (const scenario::Statement& s : options_.scenario.statements) {
-      const console::Outcome outcome = console_->execute(s);
+      const console::Outcome outcome = console.execute(s);
       if (outcome == console::Outcome::Interrupted) print_(fmt::format("interrupted at {}:{}", s.file, s.line));
       if (outcome != console::Outcome::Done) return kWrong;
     }
     return kOk;
   }
 
-  int runScans() {
+  int runScans(console::Console& console) {
     if (!options_.prompt) session_.setUnattended();
     session_.setInterrupt([this] { return interrupted() || session_.instance().faulted(); });
     const bool driven = options_.prompt || !options_.scenarioFile.empty();
@@ -213,7 +213,7 @@ private:
     advance.text = options_.duration.empty() ? fmt::format("scan {}", advance.count) : "run " + options_.duration;
     if (options_.realtime) return runRealTime(advance);
     if (advance.count > 0 || advance.kind == scenario::Kind::Run) {
-      return console_->execute(advance) == console::Outcome::Failed ? kWrong : kOk;
+      return console.execute(advance) == console::Outcome::Failed ? kWrong : kOk;
     }
     return kOk;
   }
@@ -279,7 +279,6 @@ private:
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<scenario::Trace> trace_;
   std::optional<scenario::Explainer> explainer_; // once the session has started
-  std::optional<console::Console> console_;
 };
 
 int runSharedObject(const RunOptions& options) {

@@ -45,7 +45,7 @@ Result<host::SecretKey> readKey(const std::string& path) {
   if (!key)
     return failure(
         fmt::format("{} is not a secret key; rungc key new makes one, and the file without .pub is it", path));
-  return std::move(*key);
+  return *key;
 }
 
 // Why these bytes are not to be sealed.

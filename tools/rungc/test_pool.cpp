@@ -45,12 +45,16 @@ private:
 
   TestCase take(size_t i, const PoolCalls& calls) {
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, kTick, [&] { return results_[i].has_value(); })) {
+    std::optional<TestCase>& result = results_[i];
+    while (!result) {
+      if (changed_.wait_for(lock, kTick, [&] { return result.has_value(); })) continue;
       lock.unlock();
       calls.waiting(files_[i]);
       lock.lock();
     }
-    return std::move(*std::exchange(results_[i], std::nullopt));
+    TestCase taken = std::move(*result);
+    result.reset();
+    return taken;
   }
 
   const std::vector<std::string>& files_;

@@ -140,7 +140,8 @@ private:
       std::optional<Problem> problem = session_.execute(s);
       result_.scans = session_.scans();
       if (!problem) continue;
-      if (s.kind == Kind::Expect || s.kind == Kind::ExpectRange) problem->message += explainer_->why(s.name);
+      const bool expectation = s.kind == Kind::Expect || s.kind == Kind::ExpectRange;
+      if (expectation && explainer_) problem->message += explainer_->why(s.name);
       result_.problems.push_back(std::move(*problem));
       return; // what follows would only repeat it
     }

@@ -158,8 +158,8 @@ private:
 
   struct Row {
     StatementForm form;
-    Kind kind;
-    bool (LineParser::*read)();
+    Kind kind = Kind::Program;
+    bool (LineParser::*read)() = nullptr;
   };
   static const Row* find(std::string_view word);
   static const Row kRows[];

@@ -11,8 +11,6 @@
 
 namespace rung::scenario {
 
-using host::Ref;
-
 namespace {
 
 bool isQuantity(std::string_view name) { return name.starts_with("NC."); }
@@ -39,6 +37,11 @@ std::vector<ir::Use> usedPlaces(const rung_program& program, const ir::Uses& use
   const auto same = [&](const ir::Use& a, const ir::Use& b) { return order(a) == order(b); };
   places.erase(std::unique(places.begin(), places.end(), same), places.end());
   return places;
+}
+
+// The area of the place; "NC" for what lies in no memory.
+const char* areaOf(const rung_program& program, const std::optional<host::Ref>& place) {
+  return place && place->kind != host::RefKind::Constant ? program.spaces[place->space].name : "NC";
 }
 
 } // namespace
@@ -81,8 +84,7 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
   for (const std::string& name : names) {
     NamedValue source(name, instance, nc);
     const Reading reading = source.read(instance, nc);
-    const bool inMemory = source.place() && source.place()->kind != host::RefKind::Constant;
-    traced.push_back({name, inMemory ? program.spaces[source.place()->space].name : "NC", reading.kind, reading.width});
+    traced.push_back({name, areaOf(program, source.place()), reading.kind, reading.width});
     sources.push_back(std::move(source));
   }
   std::unique_ptr<Trace> trace(new Trace(path));

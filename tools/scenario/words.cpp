@@ -147,7 +147,7 @@ Result<int64_t> parseDuration(std::string_view text) {
   for (const TimeUnit& known : kTimeUnits) {
     if (unit != known.name) continue;
     if (!(*number * known.us <= kLongestUs)) return failure(fmt::format("'{}' is longer than a program can run", text));
-    return static_cast<int64_t>(*number * known.us + 0.5);
+    return std::llround(*number * known.us);
   }
   return failure(fmt::format("'{}' is not a unit of time: expected us, ms, s or min", unit));
 }

@@ -22,7 +22,7 @@ ConstantWord constantWord(Context& context, const Word& word, std::string_view w
     if (constant->bad) return {std::nullopt, true};
     return {constant->value};
   }
-  if (const auto value = parseConstant(word.text)) return {*value};
+  if (const auto value = parseConstant(word.text)) return {value};
   context.diagnostics.report(Diag::BadOperand, word.range) << word.text << what;
   return {std::nullopt, true};
 }

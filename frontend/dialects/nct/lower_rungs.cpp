@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/lowering.h"
+#include "ir/support/check.h"
 #include "ir/support/hash.h"
 
 namespace rung::nct {
@@ -27,6 +28,12 @@ struct OpenJump {
   uint32_t number;
 };
 
+// Of a label or subroutine.
+uint32_t existing(const std::optional<uint32_t>& target) {
+  RUNG_CHECK(target.has_value(), "a module with a jump or call to nowhere is not lowered");
+  return *target;
+}
+
 class BodyLowering {
 public:
   BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines,
@@ -44,7 +51,7 @@ public:
     // A module may be empty; a routine is not.
     if (routine_.rungs.empty()) routine_.rungs.emplace_back().key = hashBytes(routine_.name);
     for (const OpenJump& jump : jumps_)
-      routine_.rungs[jump.rung].transfer.target = place_[*source_.labels[jump.number] - body_.first];
+      routine_.rungs[jump.rung].transfer.target = place_[existing(source_.labels[jump.number]) - body_.first];
   }
 
 private:
@@ -184,7 +191,7 @@ void BodyLowering::leave(ir::RungBuilder& b, const Leave& leave) {
   case Flow::Jump:
     jumps_.push_back({static_cast<uint32_t>(routine_.rungs.size() - 1), leave.number});
     return b.gotoRung(0, leave.cond);
-  case Flow::Call: return b.call(routines_[*source_.subroutines[leave.number]], leave.cond);
+  case Flow::Call: return b.call(routines_[existing(source_.subroutines[leave.number])], leave.cond);
   case Flow::Return: return b.ret(leave.cond);
   case Flow::None:
   case Flow::End:

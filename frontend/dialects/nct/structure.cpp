@@ -233,29 +233,30 @@ private:
 
   void reportCircle(const std::vector<uint32_t>& path, uint32_t callee, const Reference& call) {
     std::string through;
-    for (size_t i = path.size(); i-- > 0 && path[i] != callee;)
-      through = fmt::format("{}{}", *module_.bodies[path[i]].number, through.empty() ? "" : ", ") + through;
-    diagnostics_.report(Diag::RecursiveCall, call.range) << fmt::format("subroutine {}", *module_.bodies[callee].number)
-                                                         << (through.empty() ? "" : " through " + through);
+    for (auto body = std::ranges::find(path, callee) + 1; body != path.end(); ++body)
+      through += fmt::format("{}{}", through.empty() ? " through " : ", ", numberOf(module_.bodies[*body]));
+    diagnostics_.report(Diag::RecursiveCall, call.range)
+        << fmt::format("subroutine {}", numberOf(module_.bodies[callee])) << through;
   }
+
+  // Of a body that is called: the main part, which has none, is not.
+  static uint32_t numberOf(const Body& body) { return body.number.value_or(0); }
 
   // A body that is reached by several calls, or from such a body, has its boxes' states once.
   void warnShared() {
     std::vector<const Reference*> second(module_.bodies.size(), nullptr);
     std::vector<uint32_t> callers(module_.bodies.size(), 0);
     for (const Reference& call : calls_) {
-      if (!module_.subroutines[call.number]) continue;
-      const uint32_t callee = *module_.subroutines[call.number];
-      if (++callers[callee] == 2) second[callee] = &call;
+      const std::optional<uint32_t>& callee = module_.subroutines[call.number];
+      if (callee && ++callers[*callee] == 2) second[*callee] = &call;
     }
     // Calls of a shared body share what they call; each round reaches one level further.
     for (bool changed = true; changed;) {
       changed = false;
       for (const Reference& call : calls_) {
-        if (!module_.subroutines[call.number]) continue;
-        const uint32_t caller = bodyOf(call.rung), callee = *module_.subroutines[call.number];
-        if (second[caller] == nullptr || second[callee] != nullptr) continue;
-        second[callee] = &call;
+        const std::optional<uint32_t>& callee = module_.subroutines[call.number];
+        if (!callee || second[bodyOf(call.rung)] == nullptr || second[*callee] != nullptr) continue;
+        second[*callee] = &call;
         changed = true;
       }
     }
@@ -272,7 +273,7 @@ private:
         const bool edge = element.row->shape == Shape::Contact;
         if (edge ? rung.operandsOf(element)[0].edge == 0 : !element.row->info.stateful) continue;
         diagnostics_.report(Diag::SharedState, element.element->range).note(call.range, "one of the calls")
-            << (edge ? "the edge" : element.row->info.mnemonic) << *body.number;
+            << (edge ? "the edge" : element.row->info.mnemonic) << numberOf(body);
         return;
       }
     }

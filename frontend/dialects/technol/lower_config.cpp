@@ -88,7 +88,7 @@ void putParts(Lowering& l, const Text& target, Kind kind, const Words& id, Value
   const uint32_t words = parts > 1 ? kWords : target.most / 8 + 1;
   for (uint32_t w = 0; w < words; ++w) {
     const ValueId word = b.serviceResult(ticket, kHead + w);
-    const ValueId first = b.add(b.mul(part, b.i32(kBytes)), b.i32(w * 8));
+    const ValueId first = b.add(b.mul(part, b.i32(kBytes)), b.i32(int64_t{w} * 8));
     const auto in = b.loop(8, std::array{word});
     const ValueId number = b.add(first, in[0]);
     b.if_(b.ltU(number, count));

@@ -60,7 +60,7 @@ bool identifierFits(Lowering& l, const Operand& id, bool defined) {
   }
   const size_t bracket = id.text.rfind('[');
   const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
-  if (!defined || !index || id.text.find_first_not_of("0", bracket + 1) == id.text.size() - 1) return true;
+  if (!defined || !index || id.text.find_first_not_of('0', bracket + 1) == id.text.size() - 1) return true;
   l.program().diagnostics.report(Diag::WrongOperandKind, id.range)
       << id.text << "an identifier with an index at its end" << "an identifier without one";
   return false;

@@ -147,7 +147,7 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
   }
   message.capacity = varies ? kMostEntries : 1;
   const ValueId word = l.b().zextOrTrunc(Type::I16, l.value(o[2]));
-  l.addBitMessage(std::move(message), l.b().zextOrTrunc(Type::I32, word), valueOr0(l, o[3], Type::I32));
+  l.addBitMessage(message, l.b().zextOrTrunc(Type::I32, word), valueOr0(l, o[3], Type::I32));
 }
 
 // The bit is sampled when it is tied: what comes later is an edge.
@@ -190,7 +190,7 @@ void Lowering::addBitMessage(BitMessage message, ValueId number, ValueId subId) 
   entries.store(kOldField, count, builder.zextOrTrunc(Type::I8, now));
   builder.store(entries.count(), builder.add(count, builder.i32(1)));
   builder.endIf();
-  bitMessages_.push_back(std::move(message));
+  bitMessages_.push_back(message);
 }
 
 // At each start the bits are tied anew.

@@ -224,9 +224,11 @@ void Lowering::checkRecursion() {
       if (state[call.callee] == Open) {
         const std::string by = at == call.callee ? "" : ", by way of " + std::string(procedures[at].name);
         program_.diagnostics.report(Diag::RecursiveProcedure, call.range) << procedures[call.callee].name << by;
-      } else if ((depth[at] = std::max(depth[at], depth[call.callee] + 1)) == kMaxDepth) {
-        program_.diagnostics.report(Diag::TooDeep, call.range) << "procedure calls" << kMaxDepth;
+        continue;
       }
+      depth[at] = std::max(depth[at], depth[call.callee] + 1);
+      if (depth[at] == kMaxDepth)
+        program_.diagnostics.report(Diag::TooDeep, call.range) << "procedure calls" << kMaxDepth;
     }
   }
 }

@@ -90,7 +90,7 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
           << "'" + std::string(head.text) + "'" << "a text" << "a value or one character";
       return false;
     }
-    out.byte += sign * *character;
+    out.byte += int64_t{sign} * *character;
   } else if (head.kind == TokenKind::Name) {
     if (!addSymbol(head, sign, out)) return false;
   } else {

@@ -21,13 +21,13 @@ std::string folderOf(std::string_view path) {
 
 // Around the statements of a macro that has its own effect on the stack.
 const Row* markRow(Role role, MacroStack stack) {
-  constexpr int kStacks = 5;
+  constexpr size_t kStacks = 5;
   static constexpr auto kMarks = [] {
     std::array<Row, 2 * kStacks> rows{};
-    for (int i = 0; i < 2 * kStacks; ++i)
-      rows[static_cast<size_t>(i)] = {.info = {.mnemonic = "macro"},
-                                      .role = i < kStacks ? Role::MacroBegin : Role::MacroEnd,
-                                      .variant = i % kStacks};
+    for (size_t i = 0; i < rows.size(); ++i)
+      rows[i] = {.info = {.mnemonic = "macro"},
+                 .role = i < kStacks ? Role::MacroBegin : Role::MacroEnd,
+                 .variant = static_cast<int>(i % kStacks)};
     return rows;
   }();
   return &kMarks[static_cast<size_t>(stack) + (role == Role::MacroBegin ? 0 : kStacks)];

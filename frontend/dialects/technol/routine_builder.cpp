@@ -22,17 +22,16 @@ std::string_view trimmed(std::string_view text) {
 } // namespace
 
 ir::RungBuilder& RoutineBuilder::b() {
-  if (open_) return *builder_;
+  if (builder_) return *builder_;
   rung_ = ir::Rung{};
-  builder_.emplace(module_, rung_);
-  registers_.begin(*builder_);
-  open_ = true;
+  ir::RungBuilder& builder = builder_.emplace(module_, rung_);
+  registers_.begin(builder);
   statements_ = 0;
   first_ = current_;
   lastLine_ = current_.line;
   rung_.begin = {.file = current_.index, .line = current_.line, .column = current_.column};
-  builder_->setLine(current_.line);
-  return *builder_;
+  builder.setLine(current_.line);
+  return builder;
 }
 
 void RoutineBuilder::statement(const RungSource& source) {
@@ -55,7 +54,7 @@ void RoutineBuilder::bind(uint32_t label) {
 }
 
 void RoutineBuilder::cut() {
-  if (!open_) return;
+  if (!builder_) return;
   registers_.flush();
   close();
 }
@@ -81,28 +80,29 @@ void RoutineBuilder::close() {
   rung_.weight = std::max(1u, statements_);
   weight_ += rung_.weight;
   module_.routines[routine_.index].rungs.push_back(std::move(rung_));
-  open_ = false;
+  builder_.reset();
   endIsLabelled_ = false;
 }
 
 void RoutineBuilder::jump(uint32_t label, ir::ValueId cond) {
-  b();
+  ir::RungBuilder& builder = b();
   registers_.flush();
-  builder_->gotoRung(0, cond);
+  builder.gotoRung(0, cond);
   fixups_.push_back({static_cast<uint32_t>(module_.routines[routine_.index].rungs.size()), {label}});
   close();
 }
 
 void RoutineBuilder::call(ir::RoutineId callee, ir::ValueId cond) {
-  b();
+  ir::RungBuilder& builder = b();
   registers_.flush();
-  builder_->call(callee, cond);
+  builder.call(callee, cond);
   close();
 }
 
 uint32_t RoutineBuilder::selectLater(ir::ValueId value) {
+  ir::RungBuilder& builder = b();
   registers_.flush();
-  builder_->switchTo(value, {});
+  builder.switchTo(value, {});
   fixups_.push_back({static_cast<uint32_t>(module_.routines[routine_.index].rungs.size()), {}});
   close();
   return static_cast<uint32_t>(fixups_.size()) - 1;

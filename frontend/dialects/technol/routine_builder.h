@@ -36,9 +36,9 @@ public:
   void statement(const RungSource& source);
   // Number of the rung in the routine that is open or comes next.
   uint32_t openRung() const { return static_cast<uint32_t>(module_.routines[routine_.index].rungs.size()); }
-  bool isOpen() const { return open_; }
+  bool isOpen() const { return builder_.has_value(); }
   // Statements in the open rung.
-  uint32_t length() const { return open_ ? statements_ : 0; }
+  uint32_t length() const { return builder_ ? statements_ : 0; }
 
   uint32_t newLabel();
   // The next rung is the label's.
@@ -69,10 +69,9 @@ private:
   ir::RoutineId routine_;
   Registers registers_;
   ir::Rung rung_;
-  std::optional<ir::RungBuilder> builder_;
-  bool open_ = false;
-  RungSource current_; // of the statement that is being lowered
-  RungSource first_;   // of the open rung's first
+  std::optional<ir::RungBuilder> builder_; // while the rung is open
+  RungSource current_;                     // of the statement that is being lowered
+  RungSource first_;                       // of the open rung's first
   uint32_t statements_ = 0;
   uint32_t lastLine_ = 0;
   std::vector<uint32_t> labels_; // the rung of each

@@ -18,11 +18,7 @@ constexpr size_t kLongestNumber = 310 + 2 + kMostDecimals;
 class Writer {
 public:
   explicit Writer(std::span<char> out) : out_(out) {}
-  void add(std::string_view text) {
-    const size_t count = std::min(text.size(), out_.size() - used_);
-    std::copy_n(text.data(), count, out_.data() + used_);
-    used_ += count;
-  }
+  void add(std::string_view text) { used_ += text.copy(out_.data() + used_, out_.size() - used_); }
   void add(const Placeholder& place, const rung_message& message) {
     char digits[kLongestNumber];
     const auto written = [&] {

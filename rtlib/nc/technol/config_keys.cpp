@@ -4,52 +4,52 @@
 
 namespace rung::nc {
 
-std::span<const ConfigKey> technolConfigKeys() {
-  using enum ConfigForm;
-  constexpr auto kCompiler = ConfigReader::Compiler;
-  static constexpr ConfigKey kKeys[] = {
-      {.key = "encoding",
-       .reader = kCompiler,
-       .takes = "UTF-8, Windows-1250 or CP852",
-       .otherwise = "found out",
-       .doc = "of the source files"},
-      {.key = "period_us",
-       .reader = kCompiler,
-       .form = Whole,
-       .least = 1,
-       .most = UINT32_MAX,
-       .otherwise = "20000",
-       .doc = "period of a scan in microseconds, in a scenario `period`"},
-      {.key = "system_folder",
-       .reader = kCompiler,
-       .form = File,
-       .takes = "a folder",
-       .doc = "where a file lies that T_INCLUDE names in apostrophes without a path"},
-      {.key = "PlcErrors",
-       .form = File,
-       .doc = "the control's own file of messages: kind, validity, texts. UTF-8 or Windows-1250, relative to the "
-              "scenario or the project"},
-      {.key = "PlcConstants", .form = File, .doc = "the control's own file of constants"},
-      {.key = "PlcConfig", .form = File, .doc = "the control's own file of the channel: parameters and connections"},
-      {.key = "const.<ID>",
-       .takes = "a number, SA0INT, SA0REAL or PLCCOMMAND",
-       .doc = "constant for CONST_GET; SA0INT, SA0REAL, PLCCOMMAND number in order (l.16262-16393)"},
-      {.key = "licence.<NAME>",
-       .form = Choice,
-       .takes = "0 1",
-       .otherwise = "0",
-       .doc = "1: LDR_LIC finds it (l.7631)"},
-      {.key = "CAN[1].INOUT08[<i>].CONTROL",
-       .takes = "0 to 255",
-       .doc = "control byte of a unit, 0 to 31, whose IO_DIS_ERPIS ends that outputs in ERRLI are held at 0 "
-              "(l.3526-3609)"},
-      {.key = "<ID>.Invert",
-       .takes = "a number",
-       .doc = "attribute of a variable of MAP_* or DEF_*, also `.Scale`, `.Offset`, `.MinVal`, `.MaxVal`, `.Default` "
-              "(l.5572-5760)"},
-      {.key = "<ID>", .takes = "a text or a number", .doc = "parameter that CNF_GET_* reads, as text (l.16073-16262)"},
-  };
-  return kKeys;
-}
+namespace {
+
+using enum ConfigForm;
+constexpr auto kCompiler = ConfigReader::Compiler;
+
+constexpr ConfigKey kKeys[] = {
+    {.key = "encoding",
+     .reader = kCompiler,
+     .takes = "UTF-8, Windows-1250 or CP852",
+     .otherwise = "found out",
+     .doc = "of the source files"},
+    {.key = "period_us",
+     .reader = kCompiler,
+     .form = Whole,
+     .least = 1,
+     .most = UINT32_MAX,
+     .otherwise = "20000",
+     .doc = "period of a scan in microseconds, in a scenario `period`"},
+    {.key = "system_folder",
+     .reader = kCompiler,
+     .form = File,
+     .takes = "a folder",
+     .doc = "where a file lies that T_INCLUDE names in apostrophes without a path"},
+    {.key = "PlcErrors",
+     .form = File,
+     .doc = "the control's own file of messages: kind, validity, texts. UTF-8 or Windows-1250, relative to the "
+            "scenario or the project"},
+    {.key = "PlcConstants", .form = File, .doc = "the control's own file of constants"},
+    {.key = "PlcConfig", .form = File, .doc = "the control's own file of the channel: parameters and connections"},
+    {.key = "const.<ID>",
+     .takes = "a number, SA0INT, SA0REAL or PLCCOMMAND",
+     .doc = "constant for CONST_GET; SA0INT, SA0REAL, PLCCOMMAND number in order (l.16262-16393)"},
+    {.key = "licence.<NAME>", .form = Choice, .takes = "0 1", .otherwise = "0", .doc = "1: LDR_LIC finds it (l.7631)"},
+    {.key = "CAN[1].INOUT08[<i>].CONTROL",
+     .takes = "0 to 255",
+     .doc = "control byte of a unit, 0 to 31, whose IO_DIS_ERPIS ends that outputs in ERRLI are held at 0 "
+            "(l.3526-3609)"},
+    {.key = "<ID>.Invert",
+     .takes = "a number",
+     .doc = "attribute of a variable of MAP_* or DEF_*, also `.Scale`, `.Offset`, `.MinVal`, `.MaxVal`, `.Default` "
+            "(l.5572-5760)"},
+    {.key = "<ID>", .takes = "a text or a number", .doc = "parameter that CNF_GET_* reads, as text (l.16073-16262)"},
+};
+
+} // namespace
+
+std::span<const ConfigKey> technolConfigKeys() { return kKeys; }
 
 } // namespace rung::nc

@@ -211,7 +211,7 @@ protected:
     made.ops = {{.code = ir::OpCode::Load, .type = ir::Type::Bit, .resultCount = 1, .result = ir::ValueId{0}}};
     return made;
   }
-  void add(uint32_t routine, ir::Rung code, std::string name) {
+  void add(uint32_t routine, ir::Rung code, const std::string& name) {
     std::vector<ir::Rung>& rungs = module_.routines[routine].rungs;
     const auto index = static_cast<uint32_t>(rungs.size());
     if (!name.empty()) {

@@ -12,8 +12,8 @@ namespace rung::sem {
 namespace {
 
 struct Case {
-  u64 operand;
-  u64 result;
+  u64 operand = 0;
+  u64 result = 0;
   u64 exponent = 0;
 };
 

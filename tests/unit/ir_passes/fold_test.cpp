@@ -14,7 +14,7 @@ namespace {
 std::string folded(std::string_view type, std::string_view lines, std::string_view resultType) {
   std::string text = fmt::format(
       "%0:{0} = load D[0]\n%1:{0} = load D[4]\n%2:bit = load B[0.0]\n%3:bit = load B[0.1]\n{1}\n", type, lines);
-  const std::string_view last = std::string_view(text).substr(text.rfind('%', text.rfind(":")));
+  const std::string_view last = std::string_view(text).substr(text.rfind('%', text.rfind(':')));
   text += fmt::format("store.{0} D[8{1}], {2}\n", resultType, resultType == "bit" ? ".0" : "",
                       last.substr(0, last.find(':')));
   Module module = moduleOf(text);

@@ -71,7 +71,7 @@ TEST(Pipeline, Instrument) {
 
 TEST(PipelineDeathTest, VerifiesEachPass) {
   Module module = moduleOf("%0:bit = load B[0.0]\nstore.bit B[0.1], %0");
-  module.routines[0].rungs[0].ops[1].imm = 64 * 8;
+  module.routines[0].rungs[0].ops[1].imm = int64_t{64} * 8;
   EXPECT_DEATH(runPasses(module, {.optimise = true, .instrument = false, .verifyEach = true}), "outside its space");
 }
 
@@ -89,7 +89,7 @@ public:
     reply.state = RUNG_SERVICE_DONE;
     reply.resultCount = 3;
     for (uint32_t i = 0; i < reply.resultCount; ++i)
-      reply.results[i] = (1000 * (i + 1)) ^ (request.argCount > 0 ? request.args[0] : 0);
+      reply.results[i] = (int64_t{1000} * (i + 1)) ^ (request.argCount > 0 ? request.args[0] : 0);
     return true;
   }
 };
@@ -111,9 +111,9 @@ struct Running {
 void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
   const uint32_t bytes = std::min(8u, instance.program().spaces[0].byte_count);
   for (uint32_t byte = 0; byte < bytes; ++byte)
-    EXPECT_EQ(
-        instance.write(host::intRef(0, byte, 8), (seed * 31 + byte * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255),
-        std::nullopt);
+    EXPECT_EQ(instance.write(host::intRef(0, byte, 8),
+                             (seed * 31 + uint64_t{byte} * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255),
+              std::nullopt);
 }
 
 std::string slotDifference(const Running& a, const Running& b) {

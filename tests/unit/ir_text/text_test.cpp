@@ -47,8 +47,7 @@ TEST(TextRoundTrip, StrangeTexts) {
                                  "line\nline\r\n",
                                  "tab\tbell\x07",
                                  "; no comment",
-                                 "Stra\xC3\x9F"
-                                 "e",
+                                 "Straße",
                                  "@hidden",
                                  "-",
                                  "#1",

@@ -34,13 +34,13 @@ TEST(Scale, ManyOneWordBoxesBelowEachOther) {
 
 TEST(Scale, NestedBranches) {
   // A staircase: branch i begins in column of the i-th '+' and every one ends in a coil.
-  constexpr int kDepth = 1'500;
+  constexpr size_t kDepth = 1'500;
   std::string drawing = "|--[A]";
-  for (int i = 0; i < kDepth; ++i) drawing += "-+-[B]";
+  for (size_t i = 0; i < kDepth; ++i) drawing += "-+-[B]";
   drawing += "-(X)\n";
-  for (int i = kDepth - 1; i >= 0; --i) {
-    std::string line(static_cast<size_t>(7 + 6 * i), ' ');
-    for (int j = 0; j < i; ++j) line[static_cast<size_t>(7 + 6 * j)] = '|';
+  for (size_t i = kDepth; i-- > 0;) {
+    std::string line(7 + 6 * i, ' ');
+    for (size_t j = 0; j < i; ++j) line[7 + 6 * j] = '|';
     drawing += line + "+-[C]-(Y)\n";
   }
   const Parsed parsed = parseDrawing(drawing);

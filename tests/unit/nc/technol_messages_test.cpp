@@ -20,7 +20,7 @@ rung_message messageOf(uint32_t number, uint32_t subId, uint32_t par1, uint32_t 
 }
 
 std::string line(const technol::Messages& messages, const rung_message& message, size_t room) {
-  std::array<char, 100> out;
+  std::array<char, 100> out{};
   out.fill('#');
   const size_t length = messages.describe(message, std::span(out).first(room));
   EXPECT_EQ(out[room], '#');

@@ -49,7 +49,7 @@ void Machine::run() { RUNG_CHECK(instance_->runTask("MAIN"), "MAIN stopped with 
 void Machine::scan() { instance_->scan(); }
 void Machine::fast() { instance_->fast(); }
 
-Machines::Machines(const std::string& body, std::vector<EngineKind> kinds) {
+Machines::Machines(const std::string& body, const std::vector<EngineKind>& kinds) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer("test.lad", "dialect nct\nmodule MAIN\n" + body);

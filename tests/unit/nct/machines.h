@@ -40,7 +40,7 @@ inline constexpr uint32_t kNcEnd = 4000; // PLCNVRAM by default
 // `body` stands in module MAIN. The first machine is the interpreter.
 class Machines {
 public:
-  explicit Machines(const std::string& body, std::vector<driver::EngineKind> kinds = everyEngine());
+  explicit Machines(const std::string& body, const std::vector<driver::EngineKind>& kinds = everyEngine());
   static std::vector<driver::EngineKind> everyEngine();
   static std::vector<driver::EngineKind> interpreterAndJit();
   std::vector<Machine>& all() { return machines_; }

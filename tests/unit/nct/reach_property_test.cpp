@@ -23,9 +23,9 @@ constexpr uint32_t kBase[] = {7100, 7110, 7120}; // operand i is kBase[i] with i
 enum class Kind : uint8_t { None, Word, Real, Bit };
 enum class Result : uint8_t { Nothing, First, User, Array };
 struct Form {
-  const char* text; // operands as 0, 1, 2 in braces
-  Kind operands[3];
-  Result result;
+  const char* text = ""; // operands as 0, 1, 2 in braces
+  Kind operands[3] = {};
+  Result result = Result::Nothing;
   bool enabled = true; // does nothing without power
   int pins = 1;
   const char* pinNames[4] = {};

@@ -16,8 +16,6 @@
 namespace rung::nct::test {
 namespace {
 
-using nc::nct::kBlockWords;
-
 constexpr uint32_t kEnables = 7000; // bit n: EN of box n
 constexpr uint32_t kOutputs = 7001;
 constexpr uint32_t kFirstIndex = 7010; // register of box n

@@ -24,15 +24,15 @@ std::vector<std::string> Compiled::codes() const {
 
 std::string Compiled::rendered() const { return renderText(diagnostics, sources); }
 
-Compiled compileFile(std::string text, Options options) {
+Compiled compileFile(std::string text, const Options& options) {
   Compiled result;
   const FileId file = result.sources.addBuffer("test.lad", std::move(text));
   result.module = kNct.compile(result.sources, {&file, 1}, options, result.diagnostics);
   return result;
 }
 
-Compiled compileMain(std::string_view body, Options options) {
-  return compileFile("dialect nct\nmodule MAIN\n" + std::string(body), std::move(options));
+Compiled compileMain(std::string_view body, const Options& options) {
+  return compileFile("dialect nct\nmodule MAIN\n" + std::string(body), options);
 }
 
 } // namespace rung::nct::test

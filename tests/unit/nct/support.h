@@ -20,9 +20,9 @@ struct Compiled {
 using Options = frontend::CompileOptions;
 
 // A whole file.
-Compiled compileFile(std::string text, Options options = {});
+Compiled compileFile(std::string text, const Options& options = {});
 // Rungs and declarations in module MAIN: line 1 of `body` is line 3 of the file.
-Compiled compileMain(std::string_view body, Options options = {});
+Compiled compileMain(std::string_view body, const Options& options = {});
 inline constexpr int kBodyLine = 3;
 
 } // namespace rung::nct::test

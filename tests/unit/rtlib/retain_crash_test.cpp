@@ -27,7 +27,7 @@ constexpr uint32_t kSize = 2492; // K, C, T and D of a GSK program
 Bytes imageOf(uint64_t generation) {
   Bytes bytes(kSize);
   for (uint32_t i = 0; i < kSize; ++i)
-    bytes[i] = static_cast<uint8_t>((generation * 0x9E3779B97F4A7C15u >> 20) + i * 31);
+    bytes[i] = static_cast<uint8_t>((generation * 0x9E3779B97F4A7C15u >> 20) + uint64_t{i} * 31);
   return bytes;
 }
 

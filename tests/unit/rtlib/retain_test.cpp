@@ -141,7 +141,7 @@ TEST_F(RetainTest, AnImageWithTheLastGenerationIsNotTaken) {
   ASSERT_EQ(bytes.size(), 35u);
   std::fill_n(bytes.begin() + 16, 8, uint8_t{0xFF});
   const uLong sum = crc32(crc32(0, bytes.data(), 28), bytes.data() + 32, 3);
-  for (int i = 0; i < 4; ++i) bytes[static_cast<size_t>(28 + i)] = static_cast<uint8_t>(sum >> (8 * i));
+  for (size_t i = 0; i < 4; ++i) bytes[28 + i] = static_cast<uint8_t>(sum >> (8 * i));
   file.clear();
   file.seekp(0);
   file.write(reinterpret_cast<const char*>(bytes.data()), 35);

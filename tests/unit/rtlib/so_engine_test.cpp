@@ -285,7 +285,8 @@ TEST_F(Privileged, LoadsNoFurtherLibraries) {
 TEST_F(Privileged, TakesKeysOfRootsFolderAlone) {
   const std::string file = putNobodys(sealed(contentsOf(RUNG_TEST_SO_GOOD), &key_));
   EXPECT_THAT(load(file), HasSubstr("is not among the known keys")) << "though the option names the key's folder";
-  if (run("unshare --mount mount -t tmpfs none /mnt") != "") GTEST_SKIP() << "this system does not allow name spaces";
+  if (!run("unshare --mount mount -t tmpfs none /mnt").empty())
+    GTEST_SKIP() << "this system does not allow name spaces";
   EXPECT_EQ(loadWithKey(file), "loaded\n");
   EXPECT_THAT(loadWithKey(file, "chmod 666 /etc/rung/keys.d/key.pub"), HasSubstr("is not among the known keys"));
   EXPECT_THAT(loadWithKey(file, "chown 65534 /etc/rung/keys.d/key.pub"), HasSubstr("is not among the known keys"));

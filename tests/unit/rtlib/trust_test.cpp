@@ -32,11 +32,11 @@ TEST(Trust, IsPrivilegedWhoHasRootsRightsForAnother) {
 }
 
 struct Row {
-  const char* what;
+  const char* what = "";
   ProcessIds process;
   FileFacts file;
-  SealState seal;
-  const char* verdict; // part of it; empty: may be loaded
+  SealState seal = SealState::Missing;
+  const char* verdict = ""; // part of it; empty: may be loaded
 };
 
 constexpr FileFacts facts(uint32_t uid, uint32_t gid, uint32_t mode) { return {.uid = uid, .gid = gid, .mode = mode}; }

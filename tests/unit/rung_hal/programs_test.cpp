@@ -21,7 +21,6 @@ namespace {
 
 using rung::testing::CompiledProgram;
 using testing::Bench;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

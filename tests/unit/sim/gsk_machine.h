@@ -10,7 +10,7 @@ namespace rung::sim::test {
 
 class GskMachine {
 public:
-  explicit GskMachine(std::vector<std::pair<std::string, std::string>> config) : model_(makeSimulatedGsk()) {
+  explicit GskMachine(const std::vector<std::pair<std::string, std::string>>& config) : model_(makeSimulatedGsk()) {
     program_.dialect = "gsk";
     program_.memorySize = 1024;
     program_.services = {"windr function length number attribute -> end data",

@@ -149,7 +149,7 @@ TEST(NctControl, WrongConfigurationIsToldAsSuch) {
 
 TEST(NctControl, WrongEventsAreToldAsSuch) {
   NctMachine machine;
-  const auto event = [&](const char* name, std::vector<NcArgument> keys) {
+  const auto event = [&](const char* name, const std::vector<NcArgument>& keys) {
     return machine.nc().event(machine.instance(), name, keys);
   };
   EXPECT_NE(event("nothing", {}), "");

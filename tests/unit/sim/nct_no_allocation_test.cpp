@@ -59,7 +59,7 @@ TEST(NctNoAllocation, Scans) {
 // Part programs with motion, functions and interruptions beside the tables of tools and pallets.
 TEST(NctNoAllocation, Programs) {
   NctMachine machine({{"axes", "XYZ"}, {"cartridge.3", "9x9"}});
-  const auto event = [&](std::string_view name, std::vector<NcArgument> keys) {
+  const auto event = [&](std::string_view name, const std::vector<NcArgument>& keys) {
     EXPECT_EQ(machine.nc().event(machine.instance(), name, keys), "") << name;
   };
   const auto key = [](const char* name, int64_t value) { return NcArgument{.key = name, .integer = value}; };

@@ -118,10 +118,11 @@ void Operation::prepareMotion(Run& run, const std::array<std::optional<double>, 
   bool any = false;
   for (uint32_t i = 0; i < kAxes; ++i) move.start[i] = move.target[i] = m.axes[i].commanded;
   for (uint32_t i = 0; i < m.axes.count(); ++i) {
-    if (!words[i]) continue;
+    const std::optional<double>& word = words[i];
+    if (!word) continue;
     any = true;
     if (m.isPlcAxis(i)) m.alarms.raise(kAlarmPlcAxis);
-    const int64_t units = std::llround(modal_.path.length(*words[i] * kUnitsPerMm));
+    const int64_t units = std::llround(modal_.path.length(*word * kUnitsPerMm));
     move.target[i] = special == kInMachine ? units : modal_.path.target(units, move.start[i], shift(m, i));
   }
   if (!any) return;

@@ -41,10 +41,10 @@ private:
 
   std::string take(const Word& word, Block& block) {
     const double code = word.value.number;
-    const std::string noSuchNumber = std::string(1, word.letter) + " takes no such number";
+    const auto noSuchNumber = [&] { return word.letter + std::string(" takes no such number"); };
     const bool whole = word.value.variable != 0 || (code >= 0 && code <= 4294967295.0);
     if (word.letter == 'O' || word.letter == 'N') {
-      if (!whole) return noSuchNumber;
+      if (!whole) return noSuchNumber();
       (word.letter == 'O' ? program_.number : block.sequence) = static_cast<uint32_t>(code);
       return {};
     }
@@ -54,7 +54,8 @@ private:
     const bool axis = axes_.find(word.letter) != std::string_view::npos;
     if (!axis && std::string_view("GMSTBFHDPR#").find(word.letter) == std::string_view::npos)
       return std::string("unknown word ") + word.letter + "; the axes are " + std::string(axes_);
-    if (!axis && !whole && std::string_view("MSTBHDP").find(word.letter) != std::string_view::npos) return noSuchNumber;
+    if (!axis && !whole && std::string_view("MSTBHDP").find(word.letter) != std::string_view::npos)
+      return noSuchNumber();
     block.words.push_back(word);
     return {};
   }

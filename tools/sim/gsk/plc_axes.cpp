@@ -134,9 +134,9 @@ void PlcAxes::take(Step& step) {
   group.ebsy = !group.ebsy;
 }
 
-void PlcAxes::shift(Step& step) {
+void PlcAxes::shift(Step& step, const Command& ended) {
   Group& group = step.group;
-  group.blockStop = step.control(nc::gsk::kEsbkBit) && !group.executing->noStop; // l.7915-7919
+  group.blockStop = step.control(nc::gsk::kEsbkBit) && !ended.noStop; // l.7915-7919
   group.executing = group.waiting;
   group.waiting = group.input;
   group.input.reset();
@@ -148,23 +148,22 @@ void PlcAxes::execute(Step& step) {
   if (!step.control(nc::gsk::kEsbkBit)) group.blockStop = false;
   group.pausing = step.control(nc::gsk::kEstpBit) || step.control(nc::gsk::kEsofBit);
   if (!group.executing || group.blockStop || group.alarm) return;
-  const uint8_t code = group.executing->code;
-  if (isAuxiliary(code)) {
-    if (runAuxiliary(step)) shift(step);
+  const Command command = *group.executing;
+  if (isAuxiliary(command.code)) {
+    if (runAuxiliary(step, command)) shift(step, command);
     return;
   }
   if (group.pausing) {
     step.forAxes([&](uint32_t i) { step.machine.axes[i].moving = false; });
     return;
   }
-  if (!group.begun) begin(step);
+  if (!group.begun) begin(step, command);
   if (group.alarm) return;
-  if (isContinuous(code) ? runContinuous(step) : runMotion(step)) shift(step);
+  if (isContinuous(command.code) ? runContinuous(step, command) : runMotion(step, command)) shift(step, command);
 }
 
-void PlcAxes::begin(Step& step) {
+void PlcAxes::begin(Step& step, const Command& command) {
   Group& group = step.group;
-  const Command& command = *group.executing;
   group.begun = true;
   group.dwellMs = command.code == kDwell ? std::max(command.data2, 0) : 0;
   step.forAxes([&](uint32_t i) {
@@ -193,9 +192,8 @@ double PlcAxes::cuttingOverride(const Step& step) const {
   return percent == 255 ? 0 : percent / 100.0;
 }
 
-// mm/min (deg/min) of the executing command with its override, within parameter 7122 (l.8277).
-double PlcAxes::speed(const Step& step, uint32_t axis) const {
-  const Command& command = *step.group.executing;
+// mm/min (deg/min) of the command with its override, within parameter 7122 (l.8277).
+double PlcAxes::speed(const Step& step, const Command& command, uint32_t axis) const {
   const Tables& tables = step.machine.tables;
   const double most = tables.parameterReal(kParamPlcMaxSpeed, axis);
   double speed = command.data1;
@@ -217,9 +215,9 @@ double PlcAxes::speed(const Step& step, uint32_t axis) const {
   }
 }
 
-bool PlcAxes::runMotion(Step& step) {
+bool PlcAxes::runMotion(Step& step, const Command& command) {
   Group& group = step.group;
-  const uint8_t code = group.executing->code;
+  const uint8_t code = command.code;
   if (code == kDwell) {
     group.dwellMs -= kSlotMs;
     return group.dwellMs <= 0;
@@ -230,7 +228,7 @@ bool PlcAxes::runMotion(Step& step) {
   }
   bool done = true;
   step.forAxes([&](uint32_t i) {
-    const bool there = step.machine.axes.moveTowards(i, group.target[i], unitsPerSlot(speed(step, i)));
+    const bool there = step.machine.axes.moveTowards(i, group.target[i], unitsPerSlot(speed(step, command, i)));
     done = done && there;
   });
   if (!done) return false;
@@ -243,12 +241,11 @@ bool PlcAxes::runMotion(Step& step) {
 }
 
 // Ended by ECLR only. A speed in r/min turns a rotary axis by 360 degrees a turn.
-bool PlcAxes::runContinuous(Step& step) {
-  const Command& command = *step.group.executing;
+bool PlcAxes::runContinuous(Step& step, const Command& command) {
   step.forAxes([&](uint32_t i) {
     const double turns = static_cast<int16_t>(command.data1);
     const bool negative = command.code == kContinuous ? (command.data2 & 1) != 0 : turns < 0;
-    const double units = unitsPerSlot(command.code == kContinuous ? speed(step, i) : std::fabs(turns) * 360);
+    const double units = unitsPerSlot(command.code == kContinuous ? speed(step, command, i) : std::fabs(turns) * 360);
     const int64_t far = static_cast<int64_t>(units) + 1000;
     step.machine.axes.moveTowards(i, step.machine.axes[i].commanded + (negative ? -far : far), units);
   });
@@ -256,9 +253,8 @@ bool PlcAxes::runContinuous(Step& step) {
 }
 
 // As with M (l.7970): code, strobe, EFIN, strobe away, EFIN away, code away.
-bool PlcAxes::runAuxiliary(Step& step) {
+bool PlcAxes::runAuxiliary(Step& step, const Command& command) {
   Group& group = step.group;
-  const Command& command = *group.executing;
   const uint8_t strobe = strobeOf(command.code);
   switch (group.aux) {
   case AuxPhase::None:

@@ -68,9 +68,9 @@ public:
     if (!window) return false;
     const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
     if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
-    reply =
-        replyOf(request, window->write,
-                simulated_ ? simulator_.answer(*window, *signals_) : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
+    reply = replyOf(request, window->write,
+                    simulated_ && signals_ ? simulator_.answer(*window, *signals_)
+                                           : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
     return true;
   }
 
@@ -91,9 +91,9 @@ public:
 
 protected:
   void beginSlice(host::Instance& instance) override {
-    if (simulated_ && !instance.faulted()) {
+    if (simulated_ && signals_ && !instance.faulted()) {
       simulator_.step(*signals_);
-      answerLowSpeed(instance);
+      answerLowSpeed(instance, *signals_);
     }
     writePositions(instance);
   }
@@ -129,12 +129,12 @@ private:
       waiting_.push_back({request, gsk::kLowSpeedSlots});
   }
 
-  void answerLowSpeed(host::Instance& instance) {
+  void answerLowSpeed(host::Instance& instance, const nc::gsk::SignalsIo& signals) {
     for (Waiting& waiting : waiting_) --waiting.slots;
     while (!waiting_.empty() && waiting_.front().slots == 0) {
       const rt::ServiceRequest& next = waiting_.front().request;
       const auto window = windowRequest(instance, next);
-      instance.services().complete(window ? replyOf(next, window->write, simulator_.answer(*window, *signals_))
+      instance.services().complete(window ? replyOf(next, window->write, simulator_.answer(*window, signals))
                                           : nc::refuse(instance.program(), next));
       waiting_.erase(waiting_.begin());
     }

@@ -9,6 +9,7 @@
 namespace rung::sim::nct {
 
 inline constexpr uint32_t kMostNetworkWords = 350; // of a message (l.4029)
+inline constexpr size_t kMostNetworkBytes = size_t{kMostNetworkWords} * 4;
 
 // An IPv4 address, the first byte the highest, as a program writes it: 192.168.1.12 is 0xC0A8010C.
 struct Endpoint {

@@ -85,7 +85,7 @@ void MemoryLine::close() {
 Received MemoryLine::receiveDatagram(std::span<uint8_t> to, bool peek) {
   Inbox& inbox = current().inbox;
   DatagramHeader header;
-  std::array<uint8_t, sizeof header + size_t{kMostNetworkWords} * 4> message{};
+  std::array<uint8_t, sizeof header + kMostNetworkBytes> message{};
   if (inbox.used() == 0) return {.nothing = true};
   inbox.copy(message);
   std::memcpy(&header, message.data(), sizeof header);

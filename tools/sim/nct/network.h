@@ -27,7 +27,7 @@ public:
 
 private:
   enum class Protocol : uint8_t { None, Udp, Server, Client };
-  using Buffer = std::array<uint8_t, kMostNetworkWords * 4>;
+  using Buffer = std::array<uint8_t, kMostNetworkBytes>;
 
   std::optional<int32_t> open(Block& block);
   std::optional<int32_t> connecting(Block& block);

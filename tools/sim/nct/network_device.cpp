@@ -18,7 +18,7 @@ std::string NetworkDevice::open(std::string_view role, uint16_t port) {
 std::string NetworkDevice::send(const std::vector<NcArgument>& keys, uint16_t control) {
   const int64_t words = integerKey(keys, "send", 0);
   if (words < 1 || words > kMostNetworkWords) return "event device: send=1 to 350 words";
-  std::array<uint8_t, kMostNetworkWords * 4> bytes{};
+  std::array<uint8_t, kMostNetworkBytes> bytes{};
   for (const NcArgument& key : keys) {
     if (key.key == "send" || key.key == "port") continue;
     const auto number = numbersAfter(key.key, "w");
@@ -49,7 +49,7 @@ std::string NetworkDevice::event(const std::vector<NcArgument>& keys, uint16_t c
 
 void NetworkDevice::poll() {
   line_.accept();
-  std::array<uint8_t, kMostNetworkWords * 4> bytes;
+  std::array<uint8_t, kMostNetworkBytes> bytes{};
   while (line_.isOpen()) {
     const Received received = line_.receive(bytes, false);
     if (received.nothing) return;

@@ -32,7 +32,7 @@ private:
 
   MemoryLine& line_;
   bool udp_ = false; // what was opened last
-  std::array<uint8_t, kMostNetworkWords * 4> message_{};
+  std::array<uint8_t, kMostNetworkBytes> message_{};
   size_t messageBytes_ = 0;
 };
 

@@ -30,13 +30,13 @@ std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
   if (count < 1 || count > kNvramWords - first) return 12;
   if (!memory.contains(address, count)) return 11;
   if (function == kRead && sumOf(words_) != checksum_) return 4;
-  for (int32_t i = 0; i < count; ++i) {
-    int32_t& word = words_[static_cast<size_t>(first + i)];
-    const auto place = static_cast<uint32_t>(address + i);
+  auto place = static_cast<uint32_t>(address);
+  for (int32_t& word : std::span(words_).subspan(static_cast<size_t>(first), static_cast<size_t>(count))) {
     if (function == kRead)
       memory.setWord(place, word);
     else
       word = memory.word(place);
+    ++place;
   }
   if (function == kWrite) checksum_ = sumOf(words_); // l.3606: the code follows the new checksum
   return 0;

@@ -40,7 +40,7 @@ ParameterPlace::ParameterPlace(uint32_t number) {
 
 Parameters::Parameters(Links& links) : Topic(links) {
   for (const nc::nct::ParameterRow& row : nc::nct::parameterRows())
-    initial_.insert(initial_.end(), row.numbers * valuesOf(row.index), row.initial);
+    initial_.insert(initial_.end(), size_t{row.numbers} * valuesOf(row.index), row.initial);
   for (char i = '0'; i < '8'; ++i)
     for (char j = '0'; j < '8'; ++j) constantBits_.emplace_back(std::string("N_P") + i + j);
   values_ = initial_;

@@ -126,7 +126,7 @@ private:
     if (!wrong.empty()) return wrong;
     exchange_.take(added(files.connections, files_.connections), added(files.terminals, files_.terminals));
     files_ = std::move(files);
-    for (const control_files::PlacedMessage& message : files_.messages) control_.list().define(message);
+    for (const nc::technol::MessageDefinition& message : files_.messages) control_.list().define(message);
     return {};
   }
 

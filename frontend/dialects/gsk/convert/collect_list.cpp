@@ -52,7 +52,7 @@ void ListCollector::comment() {
 
 // Statements inside a network go in front of everything that stands there: behind a title they would take it away.
 void ListCollector::read(std::span<const Word> words) {
-  const Command command = *findCommand(words[0].text);
+  const std::optional<Command> command = findCommand(words[0].text);
   const bool inside = !commands_.empty();
   if (command == Command::Dialect) return out_.statement(Item::Kind::Dialect, {}, words_.comment, inside);
   if (command == Command::Symbol) return out_.statement(Item::Kind::Symbol, words, words_.comment, inside);

@@ -125,6 +125,7 @@ void GskFunctions::abort(const gsk::SignalsIo& io) {
 }
 
 std::optional<uint32_t> GskFunctions::start(FunctionKind kind, uint32_t code) {
+  if (!io_) return std::nullopt;
   const Line line = lineOf(kind);
   // A code of M that stayed beside a function of another kind gives way to the new one.
   if (line == Line::M && running_[0].phase == Phase::Idle && highSpeed_) dropCodes(*io_);

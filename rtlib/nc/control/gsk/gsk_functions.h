@@ -43,10 +43,15 @@ public:
     return true;
   }
   bool carries(FunctionKind, uint32_t) const override { return true; }
+  // Before the first power-on nothing is taken.
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
-  void step() override { step(*io_); }
+  void step() override {
+    if (io_) step(*io_);
+  }
   bool busy(uint32_t line) const override { return running_[line].phase != Phase::Idle; }
-  void abort() override { abort(*io_); }
+  void abort() override {
+    if (io_) abort(*io_);
+  }
 
 private:
   enum class Phase : uint8_t { Idle, Code, Strobe, Release };

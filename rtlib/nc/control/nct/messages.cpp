@@ -63,13 +63,13 @@ void Messages::powerOn(host::Instance& instance) {
 
 uint32_t Messages::cell(uint32_t box, uint32_t word) const {
   uint32_t value = 0;
-  std::memcpy(&value, cells_.data() + (box * kMessageWords + word) * 4, sizeof value);
+  std::memcpy(&value, cells_.data() + (size_t{box} * kMessageWords + word) * 4, sizeof value);
   return value;
 }
 
 void Messages::setShown(uint32_t box, bool shown) {
   const uint32_t value = shown ? 1 : 0;
-  std::memcpy(cells_.data() + (box * kMessageWords + kShownWord) * 4, &value, sizeof value);
+  std::memcpy(cells_.data() + (size_t{box} * kMessageWords + kShownWord) * 4, &value, sizeof value);
 }
 
 // ---- list --------------------------------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ private:
     bool clearing; // goes at the end of this cycle
     rung_message message;
   };
-  uint32_t cells() const { return static_cast<uint32_t>(cells_.size() / (kMessageWords * 4)); }
+  uint32_t cells() const { return static_cast<uint32_t>(cells_.size() / (size_t{kMessageWords} * 4)); }
   uint32_t cell(uint32_t box, uint32_t word) const;
   void setShown(uint32_t box, bool shown);
   bool isShown(uint32_t code) const;

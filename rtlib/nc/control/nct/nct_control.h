@@ -47,7 +47,7 @@ private:
   // Clock signals with their periods, 50 % duty (man. 7.12, l.7892-7896).
   struct Clock {
     nct::BitSignal signal;
-    int64_t periodUs;
+    int64_t periodUs = 0;
   };
 
   void writeConstants();

@@ -30,13 +30,13 @@ SignalMemory::SignalMemory(host::Instance& instance) {
 
 int32_t SignalMemory::word(uint32_t address) const {
   int32_t value = 0;
-  if (address < size_ / 4) std::memcpy(&value, area_ + address * 4, sizeof value);
+  if (address < size_ / 4) std::memcpy(&value, area_ + size_t{address} * 4, sizeof value);
   return value;
 }
 
 double SignalMemory::real(uint32_t address) const {
   double value = 0;
-  if (address + 1 < size_ / 4) std::memcpy(&value, area_ + address * 4, sizeof value);
+  if (address + 1 < size_ / 4) std::memcpy(&value, area_ + size_t{address} * 4, sizeof value);
   return value;
 }
 

@@ -64,7 +64,7 @@ public:
     const uint32_t mask = uint32_t{1} << bit;
     const uint32_t before = static_cast<uint32_t>(word(address));
     const uint32_t after = value ? before | mask : before & ~mask;
-    std::memcpy(area_ + address * 4, &after, sizeof after);
+    std::memcpy(area_ + size_t{address} * 4, &after, sizeof after);
   }
 
   uint32_t words() const { return size_ / 4; } // of the NC area: PLCNVRAM

@@ -55,8 +55,8 @@ private:
 
   technol::Blocks& blocks_;
   host::Instance* instance_ = nullptr;
-  std::array<uint8_t, kMostM + 1> groupOfM_; // by code
-  rt::Place automatic_;                      // AUTPI
+  std::array<uint8_t, kMostM + 1> groupOfM_ = {}; // by code
+  rt::Place automatic_;                           // AUTPI
   std::array<Group, kGroups + 1> groups_;
   std::array<rt::Place, kDecoded> decoded_;
   rt::Place speedChanged_, speed_;

@@ -43,7 +43,7 @@ private:
   uint32_t current_ = kLevel1;               // kNone: behind END2, in no subprogram
   struct Open {
     uint32_t unit = kNone;
-    uint32_t outside = kNone; // where a misplaced or nested subprogram stands
+    uint32_t outside = kNone; // the unit around a misplaced or nested subprogram
     bool closedInner = false; // the last thing in it was a nested subprogram
   };
   std::vector<Open> open_; // subprograms, the innermost last

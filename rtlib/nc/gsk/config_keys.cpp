@@ -49,7 +49,8 @@ constexpr ConfigKey kKeys[] = {
     {.key = "axes",
      .takes = "1 to 8 letters of XYZABCUVW",
      .otherwise = "XYZ",
-     .doc = "axes of the simulated CNC, axis 1 first; with B an axis there is no second auxiliary function"},
+     .doc =
+         "axes of the simulated CNC, axis 1 first; where B is an axis, the second auxiliary function is not available"},
     {.key = "param.<N>",
      .form = Number,
      .doc = "parameter N; `param.N.A` of axis A, 1 the first. The first axis' value holds for axes without one of "

@@ -55,8 +55,8 @@ Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOp
     words.push_back(std::move(word));
   const std::string log = (folder / "log").string();
   const auto logged = [&folder] {
-    const std::string text = folder.contentsOf("log").value_or("");
-    return text.empty() ? text : "\n" + text;
+    const std::string lines = folder.contentsOf("log").value_or("");
+    return lines.empty() ? lines : "\n" + lines;
   };
   const Result<int> code = runProgram(words, {.out = log, .error = log});
   if (!code.ok()) return failure(fmt::format("cannot run the C++ compiler: {}{}", code.error(), logged()));

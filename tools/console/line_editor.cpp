@@ -47,7 +47,7 @@ std::string inColumns(const std::vector<std::string>& words) {
 } // namespace
 
 struct LineEditor::State {
-  State(Complete complete, Signal& signal) : complete(std::move(complete)), signal(signal) {}
+  State(Complete completion, Signal& stop) : complete(std::move(completion)), signal(stop) {}
 
   Complete complete;
   Signal& signal;

@@ -86,15 +86,14 @@ void Declarations::constant(const Statement& statement) {
     noName(name, "the name of a constant", statement);
     return;
   }
-  std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
-  if (value && (*value < INT32_MIN || *value > int64_t{UINT32_MAX})) { // a constant is 32 bits wide (man. l.712)
+  const std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
+  const bool fits = value && *value >= INT32_MIN && *value <= int64_t{UINT32_MAX}; // 32 bits (man. l.712)
+  if (value && !fits)
     program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, operands[1], statement.range()))
         << *value << "-80000000h to 0FFFFFFFFh";
-    value.reset();
-  }
   Symbol symbol = made(name[0], SymbolKind::Constant);
-  symbol.value = value.value_or(0);
-  symbol.broken = !value;
+  symbol.value = fits ? *value : 0;
+  symbol.broken = !fits;
   program_.symbols.declare(symbol);
 }
 

@@ -17,16 +17,7 @@
 namespace rung::sim {
 namespace {
 
-// The events and their keys.
-struct EventKeys {
-  std::string_view event;
-  std::initializer_list<std::string_view> keys;
-};
-constexpr EventKeys kEvents[] = {{"program", {"blocks", "block"}},
-                                 {"mdi", {"blocks", "block"}},
-                                 {"reset", {}},
-                                 {"handwheel", {"pulses", "wheel"}},
-                                 {"alarm", {"number"}}};
+constexpr std::string_view kEvents[] = {"program", "mdi", "reset", "handwheel", "alarm"};
 
 class SimulatedGsk final : public SimulatedNc {
 public:
@@ -199,25 +190,27 @@ std::string SimulatedGsk::config(std::string_view key, std::string_view value) {
 }
 
 std::string SimulatedGsk::event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) {
-  const auto known = std::ranges::find(kEvents, name, &EventKeys::event);
-  if (known == std::end(kEvents)) return SimulatedNc::event(instance, name, keys);
+  if (std::ranges::find(kEvents, name) == std::end(kEvents)) return SimulatedNc::event(instance, name, keys);
   if (!simulated_) return "event " + std::string(name) + " needs 'config nc simulated'";
-  if (std::string wrong = unknownKey(name, keys, known->keys); !wrong.empty()) return wrong;
   if (name == "program" || name == "mdi") {
+    if (std::string wrong = unknownKey(name, keys, {"blocks", "block"}); !wrong.empty()) return wrong;
     const NcArgument* blocks = findKey(keys, findKey(keys, "blocks") != nullptr ? "blocks" : "block");
     if (blocks == nullptr || !blocks->isText) return "event " + std::string(name) + " takes blocks=\"...\"";
     return simulator_.loadProgram(blocks->text, name == "mdi");
   }
   if (name == "reset") {
+    if (std::string wrong = unknownKey(name, keys, {}); !wrong.empty()) return wrong;
     simulator_.pressReset();
     return {};
   }
   if (name == "alarm") {
+    if (std::string wrong = unknownKey(name, keys, {"number"}); !wrong.empty()) return wrong;
     const NcArgument* alarm = findKey(keys, "number");
     if (alarm == nullptr || alarm->integer <= 0) return "event alarm takes number=N";
     simulator_.raiseAlarm(static_cast<uint32_t>(alarm->integer));
     return {};
   }
+  if (std::string wrong = unknownKey(name, keys, {"pulses", "wheel"}); !wrong.empty()) return wrong;
   const NcArgument* pulses = findKey(keys, "pulses");
   const NcArgument* wheel = findKey(keys, "wheel");
   const int64_t which = wheel == nullptr ? 1 : wheel->integer;

@@ -105,8 +105,8 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 0u) << "outputs go to their safe state";
 }
 
-INSTANTIATE_TEST_SUITE_P(Compilers, BuiltWith, testing::Values("g++", "clang++-19"), [](const auto& info) {
-  return std::string(info.param).substr(0, 1) == "g" ? "Gcc" : "Clang";
+INSTANTIATE_TEST_SUITE_P(Compilers, BuiltWith, testing::Values("g++", "clang++-19"), [](const auto& tested) {
+  return std::string(tested.param).substr(0, 1) == "g" ? "Gcc" : "Clang";
 });
 
 TEST(CppEmitter, TextIsReadable) {

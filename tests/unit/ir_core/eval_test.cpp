@@ -8,7 +8,7 @@
 namespace rung::ir {
 namespace {
 
-using Wide = __int128;
+__extension__ using Wide = __int128;
 
 uint64_t eval(OpCode code, Type type, Type first, std::initializer_list<uint64_t> args) {
   uint64_t operands[4] = {};
@@ -36,8 +36,7 @@ TEST(Eval, IntegersOfEveryWidth) {
         };
         is(OpCode::Add, wrap(type, sa + sb));
         is(OpCode::Sub, wrap(type, sa - sb));
-        is(OpCode::Mul,
-           wrap(type, static_cast<Wide>(static_cast<unsigned __int128>(sa) * static_cast<unsigned __int128>(sb))));
+        is(OpCode::Mul, wrap(type, sa * sb));
         is(OpCode::DivS, b == 0 ? 0 : wrap(type, sa / sb));
         is(OpCode::RemS, b == 0 ? 0 : wrap(type, sa % sb));
         is(OpCode::DivU, b == 0 ? 0 : a / b);

@@ -121,7 +121,7 @@ TEST_P(HostReads, WhatTheProgramHasStored) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, HostReads, ::testing::ValuesIn(kVariants),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 } // namespace
 } // namespace rung

@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, ProgramFile,
                          testing::Values("examples/gsk-mill", "examples/gsk-panel", "examples/nct-lathe",
                                          "examples/nct-turning-centre", "examples/technol-machining-centre",
                                          "examples/technol-mill"),
-                         [](const auto& info) {
-                           std::string name = fs::path(info.param).filename();
+                         [](const auto& tested) {
+                           std::string name = fs::path(tested.param).filename();
                            std::erase(name, '-');
                            return name;
                          });

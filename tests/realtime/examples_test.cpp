@@ -73,8 +73,8 @@ TEST_P(Example, IsCleanInRealTime) {
   EXPECT_EXIT(exitWith("clock", runOnClock(program, retain("clock"))), testing::ExitedWithCode(0), "clock: ");
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, Example, testing::ValuesIn(exampleNames()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(Examples, Example, testing::ValuesIn(exampleNames()), [](const auto& tested) {
+  std::string name = tested.param;
   std::ranges::replace(name, '-', '_');
   return name;
 });

@@ -89,8 +89,8 @@ std::string hostName(Host host) { return host == Host::Box ? "Box" : host == Hos
 INSTANTIATE_TEST_SUITE_P(Guard, Noticed,
                          testing::Combine(testing::Values(Host::Box, Host::Bare, Host::Clock),
                                           testing::ValuesIn(Guard::seen())),
-                         [](const auto& info) {
-                           return hostName(std::get<0>(info.param)) + std::string(name(std::get<1>(info.param)));
+                         [](const auto& tested) {
+                           return hostName(std::get<0>(tested.param)) + std::string(name(std::get<1>(tested.param)));
                          });
 
 // Its messages are taken, too.
@@ -107,7 +107,7 @@ TEST_P(Clean, Program) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Guard, Clean, testing::Values(Host::Box, Host::Bare, Host::Clock),
-                         [](const auto& info) { return hostName(info.param); });
+                         [](const auto& tested) { return hostName(tested.param); });
 
 } // namespace
 } // namespace rung::test

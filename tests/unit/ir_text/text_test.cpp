@@ -325,7 +325,9 @@ TEST(TextParse, TruncatedTexts) {
   const std::string text = print(randomModule(3, {.routines = 1, .rungs = 2, .ops = 12}));
   for (size_t length = 0; length < text.size(); ++length) {
     const ParseOutcome parsed = parse(std::string_view(text).substr(0, length));
-    if (!parsed.module) EXPECT_FALSE(parsed.error.message.empty());
+    if (!parsed.module) {
+      EXPECT_FALSE(parsed.error.message.empty());
+    }
   }
 }
 

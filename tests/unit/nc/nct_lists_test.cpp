@@ -30,7 +30,9 @@ TEST(NctServiceFunctions, AreThoseOfTheManual) {
 TEST(NctServiceFunctions, CodesHaveAMeaning) {
   for (const ServiceFunction& f : serviceFunctions()) {
     for (uint32_t code = 0; code < 400; ++code)
-      if (f.hasCode(code)) EXPECT_NE(findExecutionCode(code), nullptr) << f.code << ": " << code;
+      if (f.hasCode(code)) {
+        EXPECT_NE(findExecutionCode(code), nullptr) << f.code << ": " << code;
+      }
     for (const uint32_t always : {kExecuted, kBadFunction, kBadAmount}) EXPECT_TRUE(f.hasCode(always)) << f.code;
     EXPECT_EQ(f.hasCode(400), false) << f.code;
   }

@@ -250,7 +250,9 @@ void Protocol::step() {
   for (Machine& machine : machines_.all()) machine.instance().scan();
   const Machine& first = machines_.all().front();
   for (uint32_t word = 0; word < kMemoryEnd; ++word)
-    if (word == 0 || word >= kFirstOutput) ASSERT_EQ(first.word(word), memory_[word]) << word;
+    if (word == 0 || word >= kFirstOutput) {
+      ASSERT_EQ(first.word(word), memory_[word]) << word;
+    }
   ASSERT_EQ(machines_.difference(), "");
   checkRequests(expected);
 }

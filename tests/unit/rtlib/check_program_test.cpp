@@ -221,6 +221,6 @@ const Case kCases[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, CheckProgram, testing::ValuesIn(kCases),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 } // namespace

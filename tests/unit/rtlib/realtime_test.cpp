@@ -190,8 +190,9 @@ TEST(RealTimeThread, SaysWhatIsNotGranted) {
     std::exit(policy() == SCHED_OTHER ? 0 : 1);
   };
   EXPECT_EXIT(refused({.priority = 10}), testing::ExitedWithCode(0), "^real-time priority 10: .*ulimit -r");
-  if (!locksArePretended())
+  if (!locksArePretended()) {
     EXPECT_EXIT(refused({.lockMemory = true}), testing::ExitedWithCode(0), "^memory cannot be locked: .*ulimit -l");
+  }
   EXPECT_EXIT(refused({.priority = 100}), testing::ExitedWithCode(0), "^real-time priority 100: ");
 }
 

@@ -11,8 +11,9 @@ namespace rung::sim::test {
 
 class NctMachine {
 public:
-  explicit NctMachine(const std::vector<std::pair<std::string, std::string>>& config = {})
-      : model_(makeSimulatedNct()) {
+  using Config = std::vector<std::pair<std::string, std::string>>; // keys and values
+
+  explicit NctMachine(const Config& config = {}) : model_(makeSimulatedNct()) {
     program_.dialect = "nct";
     program_.services = {"MR function address block -> code",    "MW function address block -> code",
                          "MACR variable channel -> value:f",     "MACW variable channel value:f ->",

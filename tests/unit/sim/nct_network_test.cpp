@@ -11,6 +11,7 @@ using namespace rung::sim;
 using nct::Socket;
 using test::NctMachine;
 
+const NctMachine::Config kLoopback = {{"network", "loopback"}};
 constexpr uint32_t kHome = 0x7F000001;
 constexpr int32_t kOutside = static_cast<int32_t>(0xC0A8010C);
 constexpr int kPatienceMs = 1000;
@@ -138,7 +139,7 @@ TEST(NctNetwork, AStreamThatTheDeviceHasClosedTakesNothing) {
 }
 
 TEST(NctNetwork, LoopbackReachesOtherPrograms) {
-  NctMachine machine({{"network", "loopback"}});
+  NctMachine machine(kLoopback);
   Socket partner;
   ASSERT_EQ(partner.openUdp({kHome, 0}), 0);
   const uint16_t own = freePort();
@@ -163,7 +164,7 @@ TEST(NctNetwork, LoopbackReachesOtherPrograms) {
 }
 
 TEST(NctNetwork, LoopbackReachesNothingElse) {
-  NctMachine machine({{"network", "loopback"}});
+  NctMachine machine(kLoopback);
   EXPECT_EQ(machine.ask(true, 60, {5, 1, 0, 3, kOutside, 49202}), 61);
   EXPECT_EQ(machine.blockWord(3), nct::kWindowsUnreachable);
   ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 1, kOutside, freePort()}), 0);
@@ -172,7 +173,7 @@ TEST(NctNetwork, LoopbackReachesNothingElse) {
 }
 
 TEST(NctNetwork, APortThatIsTakenFailsTheOpening) {
-  NctMachine machine({{"network", "loopback"}});
+  NctMachine machine(kLoopback);
   Socket taken;
   ASSERT_EQ(taken.listen({kHome, 0}), 0);
   EXPECT_EQ(machine.ask(true, 60, {5, 1, 0, 2, static_cast<int32_t>(kHome), taken.port()}), 61);
@@ -182,7 +183,7 @@ TEST(NctNetwork, APortThatIsTakenFailsTheOpening) {
 
 // A partner that resets the connection: closed with data unread.
 TEST(NctNetwork, ABrokenStreamIsAnErrorAndClosed) {
-  NctMachine machine({{"network", "loopback"}});
+  NctMachine machine(kLoopback);
   Socket listener;
   ASSERT_EQ(listener.listen({kHome, 0}), 0);
   ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 3, static_cast<int32_t>(kHome), listener.port()}, 2), 0);
@@ -200,7 +201,7 @@ TEST(NctNetwork, ABrokenStreamIsAnErrorAndClosed) {
 
 // A stream that nobody reads: what has no room waits, the requests behind it too, and nothing is lost.
 TEST(NctNetwork, AFullStreamHoldsUpOnlyItself) {
-  NctMachine machine({{"network", "loopback"}});
+  NctMachine machine(kLoopback);
   Socket listener;
   ASSERT_EQ(listener.listen({kHome, 0}), 0);
   ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 3, static_cast<int32_t>(kHome), listener.port()}, 2), 0);

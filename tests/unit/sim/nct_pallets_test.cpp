@@ -450,11 +450,16 @@ TEST_P(RandomPallets, TablesStayConsistent) {
     const int32_t code = ask(function, block);
     const Ids now = ids();
     for (const auto& [id, count] : now) EXPECT_EQ(count, 1) << "pallet " << id << " after " << function;
-    if (code != 0 || nc::nct::findServiceFunction(function)->access == nc::nct::FunctionAccess::Read)
+    if (code != 0 || nc::nct::findServiceFunction(function)->access == nc::nct::FunctionAccess::Read) {
       EXPECT_EQ(contents(), before);
-    if (function == 300) EXPECT_EQ(now, idsBefore);
+    }
+    if (function == 300) {
+      EXPECT_EQ(now, idsBefore);
+    }
     const bool named = function == 303 || (function == 306 && block[4] == 1);
-    if (!named) EXPECT_EQ(now, idsBefore) << function;
+    if (!named) {
+      EXPECT_EQ(now, idsBefore) << function;
+    }
     if (named && code == 0) {
       EXPECT_EQ(now.contains(function == 303 ? block[4] : block[5]), true);
       EXPECT_GE(now.size(), idsBefore.size());

@@ -325,7 +325,9 @@ TEST_F(Tools, PlacesAndToolsMustExist) {
   for (uint32_t function : {102u, 103u, 104u}) {
     EXPECT_EQ(ask(function, {3, 5, 1, 1}), 100);
     EXPECT_EQ(ask(function, {3, 2, 17, 1}), 101);
-    if (function != 102) EXPECT_EQ(ask(function, {3, 2, 16, 1}), 139);
+    if (function != 102) {
+      EXPECT_EQ(ask(function, {3, 2, 16, 1}), 139);
+    }
   }
   for (uint32_t function : {106u, 107u}) {
     EXPECT_EQ(ask(function, {4, 5, 1, 1, 1}), 100);
@@ -668,7 +670,9 @@ protected:
       EXPECT_EQ(tables().cartridges.placeOf(tool), place);
     }
     for (uint32_t i = 1; i <= tables().tools.size(); ++i)
-      if (!seen.contains(i)) EXPECT_EQ(tables().cartridges.placeOf(i), std::nullopt);
+      if (!seen.contains(i)) {
+        EXPECT_EQ(tables().cartridges.placeOf(i), std::nullopt);
+      }
   }
 
   std::mt19937 random_{GetParam()};
@@ -698,7 +702,9 @@ TEST_P(RandomTools, TablesStayConsistent) {
         return std::multiset<uint32_t>(now.begin(), now.end());
       }());
     }
-    if (function == 102) EXPECT_EQ(valid(), validBefore + 1);
+    if (function == 102) {
+      EXPECT_EQ(valid(), validBefore + 1);
+    }
     if (function == 101) {
       const PotPlace found{static_cast<uint32_t>(block[2]), static_cast<uint32_t>(block[7])};
       const PotPlace source{static_cast<uint32_t>(block[5]), static_cast<uint32_t>(block[6])};

@@ -112,7 +112,7 @@ TEST_P(TechnolErrors, AreReportedAtTheirLines) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Codes, TechnolErrors, testing::ValuesIn(kCases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 Lines errorsOf(const std::vector<std::string>& files) { return compile(files).errors(); }
 

@@ -148,7 +148,7 @@ TEST_P(TechnolMacroErrors, AreReportedAtTheirLines) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Codes, TechnolMacroErrors, testing::ValuesIn(kCases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 } // namespace
 } // namespace rung::technol_test

@@ -1,6 +1,6 @@
 // What a rung asks and what it decides, as its author wrote it: which value is a contact and which is the power into a
 // coil. Front ends note it where coverage asks for it (frontend::CompileOptions::marks), beside the module: no
-// operation is added. A pass that changes rungs makes marks meaningless, so they go with a module as it was built.
+// operation is added. Passes that change rungs make marks meaningless, so they go with a module as it was built (and put in order).
 #pragma once
 #include <map>
 #include <span>
@@ -35,6 +35,11 @@ public:
   std::span<const Mark> of(RoutineId routine, uint32_t rung) const {
     const auto at = marks_.find({routine.index, rung});
     return at == marks_.end() ? std::span<const Mark>() : std::span(at->second);
+  }
+
+  std::span<Mark> of(RoutineId routine, uint32_t rung) {
+    const auto at = marks_.find({routine.index, rung});
+    return at == marks_.end() ? std::span<Mark>() : std::span(at->second);
   }
 
 private:

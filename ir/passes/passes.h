@@ -1,9 +1,13 @@
 // The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does is said in its
 // file.
 #pragma once
+#include "ir/core/marks.h"
 #include "ir/core/module.h"
 
 namespace rung::ir {
+
+// Not in the pipeline: for a module as its front end built it. `marks` (or null) go along.
+void orderOperations(Module& module, Marks* marks = nullptr);
 
 void foldConstants(Module& module);         // constants, algebra, branches that are known
 void reuseValues(Module& module);           // an equal operation, load or stored value above is used again

@@ -442,6 +442,8 @@ class OnATerminal(Folder):
         terminal.until("> $")
         terminal.type("nothing\t")
         terminal.line("", "unknown statement 'nothing'")
+        terminal.type("quit\r")
+        self.assertEqual(terminal.end(), OK)
 
     def test_control_c_gives_a_line_up(self):
         terminal = self.start()

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "frontend/ladder/ladder.h"
+#include "ir/passes/passes.h"
 #include "ir/passes/pipeline.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
@@ -66,6 +67,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (request.marks) options.marks = &out.marks;
   out.module = out.dialect->compile(sources, files, options, diagnostics);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
+  ir::orderOperations(*out.module, options.marks);
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   checkModule(*out.module, ir::Mode::Built);
   out.uses = std::make_unique<ir::Uses>(*out.module);

@@ -2,6 +2,7 @@
 // compiler says).
 #include <gtest/gtest.h>
 
+#include "ir/passes/passes.h"
 #include "ir/text/text.h"
 #include "tests/support/golden.h"
 #include "tests/unit/gsk/compile.h"
@@ -13,10 +14,12 @@ TEST(GskGolden, AllPrograms) {
   rung::test::Golden golden("tests/golden/gsk", {".pmc", ".lad"});
   for (const std::filesystem::path& program : golden.inputs()) {
     const auto result = compileFiles({{program.filename(), golden.read(program)}});
-    if (result->module)
-      golden.expect(program, ".ir", ir::print(*result->module));
-    else
+    if (!result->module) {
       golden.expect(program, ".diag", result->text());
+      continue;
+    }
+    ir::orderOperations(*result->module);
+    golden.expect(program, ".ir", ir::print(*result->module));
   }
 }
 

@@ -162,7 +162,8 @@ TEST_F(PrintedRung, LooksLikeThis) {
   const ValueId minus = b_.constant(Type::I16, -7);
   const ValueId both = b_.endIf(std::vector{minus})[0];
   const ValueId large = b_.ltS(both, b_.constant(Type::I16, 100));
-  b_.storeAt({SpaceId{0}, 40, 5}, b_.i32(2), b_.i32(3));
+  const ValueId index = b_.i32(2);
+  b_.storeAt({SpaceId{0}, 40, 5}, index, b_.i32(3));
   b_.slotStore(SlotId{0}, large);
   b_.trap(large, FaultId{0});
   rung_.transferLine = 14;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/nct/nct.h"
+#include "ir/passes/passes.h"
 #include "ir/support/diag_render.h"
 #include "ir/text/text.h"
 #include "tests/support/golden.h"
@@ -21,6 +22,7 @@ TEST(NctGolden, AllPrograms) {
       golden.expect(program, ".diag", renderText(diagnostics, sources));
       continue;
     }
+    ir::orderOperations(*module);
     const std::string text = ir::print(*module);
     golden.expect(program, ".ir", text);
     const ir::ParseOutcome again = ir::parse(text);

@@ -55,8 +55,8 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
   const Routine& routine = module.at(chunk.routine);
   // Its own lines belong to no source.
   fmt::format_to(std::back_inserter(out),
-                 "\n#line 1 \"rung_chunk\"\nstatic uint32_t chunk_{}(uint8_t *{}block, rung_ctx *ctx) {{\n", number,
-                 hostReadsMemory(layout, chunk) ? "" : "__restrict ");
+                 "\n#line 1 \"rung_chunk\"\nstatic uint32_t chunk_{}(uint8_t *{}block, rung_ctx *ctx, uint32_t) {{\n",
+                 number, hostReadsMemory(layout, chunk) ? "" : "__restrict ");
   if (options.debugInfo) out += "RUNG_SHOW_MEMORY\n";
   const std::vector<Exit> exits = exitsOf(layout, chunk);
   const bool extraWeight = hasExtraWeight(exits);

@@ -58,7 +58,6 @@ private:
                    [&](uint32_t i) { return structText(*field.element, first + i * field.element->size); });
     }
     case FieldKind::ChunkFns: return std::string(chunkTable_);
-    case FieldKind::Null: return "nullptr";
     }
     return {};
   }

@@ -26,7 +26,8 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   const Routine& routine = module_.at(place.routine);
   const Rung& first = routine.rungs[place.firstRung];
   const std::string name = fmt::format("{}.{}", routine.name, place.firstRung);
-  auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(), {builder_.getPtrTy(), builder_.getPtrTy()}, false);
+  auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(),
+                                            {builder_.getPtrTy(), builder_.getPtrTy(), builder_.getInt32Ty()}, false);
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "all");
@@ -36,6 +37,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   mem_->setName("mem");
   ctx_ = function_->getArg(1);
   ctx_->setName("ctx");
+  function_->getArg(2)->setName("chunk");
   messageSpace_ = argsSpace_ = nullptr;
   if (debug_ != nullptr) debug_->beginFunction(*function_, name, first.begin.file, first.begin.line);
   builder_.SetInsertPoint(block("entry"));

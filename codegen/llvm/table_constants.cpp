@@ -60,8 +60,7 @@ private:
     case FieldKind::U32s:
     case FieldKind::Texts:
     case FieldKind::Structs:
-    case FieldKind::ChunkFns:
-    case FieldKind::Null: break;
+    case FieldKind::ChunkFns: break;
     }
     return ptr_;
   }
@@ -128,7 +127,6 @@ private:
                    [&](uint32_t i) { return structConstant(element, first + i * element.size); });
     }
     case FieldKind::ChunkFns: return chunkTable_;
-    case FieldKind::Null: return null_;
     }
     return null_;
   }

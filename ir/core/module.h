@@ -93,6 +93,24 @@ struct Slot {
   std::string key;
 };
 
+// A cell of 32 bits that says where a mechanism continues: a slot, or a hidden symbol's. Its value v means points[v]; 0
+// is the beginning. Keys are those of the slot or the symbol, and of the places in the program; these stay the same as
+// long as the instruction does.
+struct Continuation {
+  std::string key;
+  SlotId slot; // invalid: in the space
+  SpaceId space;
+  uint32_t byte = 0;
+  std::vector<std::string> points; // unlike each other
+};
+
+// The enum rung_type of a type; None is the byte that a name without a type names.
+constexpr uint32_t abiType(Type type) {
+  constexpr uint32_t kTypes[kTypeCount] = {RUNG_TYPE_I8,  RUNG_TYPE_BIT, RUNG_TYPE_I8, RUNG_TYPE_I16,
+                                           RUNG_TYPE_I32, RUNG_TYPE_I64, RUNG_TYPE_F64};
+  return kTypes[static_cast<int>(type)];
+}
+
 struct Symbol {
   std::string name;
   std::string comment;
@@ -158,6 +176,7 @@ struct Module {
   std::vector<std::string> files;
   std::vector<Space> spaces;
   std::vector<Slot> slots;
+  std::vector<Continuation> continuations;
   std::vector<Symbol> symbols;
   std::vector<Init> inits;
   std::vector<SpaceSpan> retains;

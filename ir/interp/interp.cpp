@@ -51,8 +51,8 @@ Destination leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ct
 } // namespace
 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
-    : layout_(layout), counting_(counting), image_(layout, codeHash) {
-  image_.program().run_chunk = runChunk;
+    : layout_(layout), counting_(counting), image_(layout, codeHash), functions_(layout.chunks().size(), &runChunk) {
+  image_.program().chunk_fns = functions_.data();
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {

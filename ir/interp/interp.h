@@ -1,7 +1,7 @@
 // The reference interpreter: what an operation means, written as plainly as possible. It runs on the same memory block,
 // tables and chunks as compiled code, so every other engine can be compared with it byte for byte.
 //
-// The host sets rung_ctx::engine of each instance to `context()` before its first run.
+// Its chunks need it in the context of each instance: a host makes instances of the engine, not of its program.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -39,8 +39,7 @@ public:
 
   const rung_program& program() const override { return image_.program(); }
   std::string_view name() const override { return "interp"; }
-  // What its chunks find in rung_ctx::engine.
-  void* context() { return this; }
+  void* context() override { return this; }
   // Null: none. The instances of an observed engine must not run at the same time.
   void setObserver(std::unique_ptr<RungObserver> observer) { observer_ = std::move(observer); }
 
@@ -51,6 +50,7 @@ private:
   const Layout& layout_;
   Counting counting_;
   ProgramImage image_;
+  std::vector<rung_chunk_fn> functions_; // by chunk: one for all
   std::unique_ptr<RungObserver> observer_;
   std::vector<Exit> exits_; // by rung number
   // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:

@@ -30,6 +30,16 @@ constexpr FieldInfo kSymbolFields[] = {
     RUNG_FIELD(rung_symbol, count, U32), RUNG_FIELD(rung_symbol, flags, U32),    RUNG_FIELD(rung_symbol, value, I64)};
 constexpr StructInfo kSymbol{"rung_symbol", sizeof(rung_symbol), kSymbolFields};
 
+constexpr FieldInfo kSlotFields[] = {RUNG_FIELD(rung_slot, key, Text), RUNG_FIELD(rung_slot, offset, U32),
+                                     RUNG_FIELD(rung_slot, type, U32), RUNG_FIELD(rung_slot, rung, U32),
+                                     RUNG_FIELD(rung_slot, reserved, U32)};
+constexpr StructInfo kSlot{"rung_slot", sizeof(rung_slot), kSlotFields};
+
+constexpr FieldInfo kContinuationFields[] = {
+    RUNG_FIELD(rung_continuation, key, Text), RUNG_FIELD(rung_continuation, offset, U32),
+    RUNG_FIELD(rung_continuation, point_count, U32), RUNG_ARRAY(rung_continuation, points, point_count, Texts)};
+constexpr StructInfo kContinuation{"rung_continuation", sizeof(rung_continuation), kContinuationFields};
+
 constexpr FieldInfo kInitFields[] = {RUNG_FIELD(rung_init, offset, U32), RUNG_FIELD(rung_init, size, U32),
                                      RUNG_ARRAY(rung_init, data, size, Bytes)};
 constexpr StructInfo kInit{"rung_init", sizeof(rung_init), kInitFields};
@@ -95,9 +105,13 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, fault_count, U32),
                                         RUNG_FIELD(rung_program, service_count, U32),
                                         RUNG_FIELD(rung_program, text_count, U32),
+                                        RUNG_FIELD(rung_program, slot_count, U32),
+                                        RUNG_FIELD(rung_program, continuation_count, U32),
                                         RUNG_FIELD(rung_program, reserved, U32),
                                         RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
                                         RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
+                                        RUNG_STRUCTS(rung_program, slots, slot_count, kSlot),
+                                        RUNG_STRUCTS(rung_program, continuations, continuation_count, kContinuation),
                                         RUNG_STRUCTS(rung_program, inits, init_count, kInit),
                                         RUNG_STRUCTS(rung_program, retains, retain_count, kSpan),
                                         RUNG_STRUCTS(rung_program, safe_spans, safe_count, kSpan),
@@ -114,8 +128,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_ARRAY(rung_program, faults, fault_count, Texts),
                                         RUNG_ARRAY(rung_program, services, service_count, Texts),
                                         RUNG_ARRAY(rung_program, texts, text_count, Texts),
-                                        RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
-                                        RUNG_FIELD(rung_program, run_chunk, Null)};
+                                        RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

@@ -22,7 +22,6 @@ enum class FieldKind : uint8_t {
   Texts,    // const char *const *
   Structs,  // pointer to an array of `element` structs
   ChunkFns, // the table of chunk functions
-  Null,     // a pointer that compiled programs leave null
 };
 
 struct StructInfo;

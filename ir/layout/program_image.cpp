@@ -29,6 +29,8 @@ public:
     p.fast_task = module_.fastTask.index;
     addSpaces();
     addSymbols();
+    addSlots();
+    addContinuations();
     addInits();
     addSpans(module_.retains, image_.retains_);
     addSpans(module_.safeSpans, image_.safeSpans_);
@@ -77,6 +79,38 @@ private:
       const int order = std::string_view(a.name).compare(b.name);
       return order != 0 ? order < 0 : a.byte < b.byte;
     });
+  }
+
+  // In the order of the program, each rung's first operation counts.
+  std::vector<uint32_t> firstRungsOfSlots() const {
+    std::vector<uint32_t> first(module_.slots.size(), RUNG_NONE);
+    for (uint32_t r = 0; r < module_.routines.size(); ++r)
+      for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
+        for (const Op& op : module_.routines[r].rungs[i].ops)
+          if ((op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore) && first[op.ref] == RUNG_NONE)
+            first[op.ref] = layout_.rungNumber(RoutineId{r}, i);
+    return first;
+  }
+
+  void addSlots() {
+    const std::vector<uint32_t> rungs = firstRungsOfSlots();
+    for (uint32_t i = 0; i < module_.slots.size(); ++i) {
+      const Slot& slot = module_.slots[i];
+      if (!slot.transient)
+        image_.slots_.push_back({text(slot.key), layout_.slot(SlotId{i}), abiType(slot.type), rungs[i], 0});
+    }
+    std::ranges::sort(image_.slots_, {}, [](const rung_slot& slot) { return std::string_view(slot.key); });
+  }
+
+  void addContinuations() {
+    for (const Continuation& c : module_.continuations) {
+      std::vector<const char*>& points = image_.points_.emplace_back();
+      for (const std::string& point : c.points) points.push_back(text(point));
+      image_.continuations_.push_back({text(c.key),
+                                       c.slot.valid() ? layout_.slot(c.slot) : layout_.byte(c.space, c.byte),
+                                       static_cast<uint32_t>(points.size()), points.data()});
+    }
+    std::ranges::sort(image_.continuations_, {}, [](const rung_continuation& c) { return std::string_view(c.key); });
   }
 
   void addInits() {
@@ -195,6 +229,8 @@ private:
     rung_program& p = image_.program_;
     point(image_.spaces_, p.spaces, p.space_count);
     point(image_.symbols_, p.symbols, p.symbol_count);
+    point(image_.slots_, p.slots, p.slot_count);
+    point(image_.continuations_, p.continuations, p.continuation_count);
     point(image_.inits_, p.inits, p.init_count);
     point(image_.retains_, p.retains, p.retain_count);
     point(image_.safeSpans_, p.safe_spans, p.safe_count);

@@ -1,6 +1,6 @@
 // The tables of a rung_program, made from a module and its layout, with their storage. The interpreter and the JIT use
-// the image as it is; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns and
-// run_chunk are null here: whoever owns code fills them in.
+// the image as it is; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns is
+// null here: whoever owns code fills it in.
 #pragma once
 #include <deque>
 #include <memory>
@@ -29,6 +29,9 @@ private:
   std::deque<std::vector<uint8_t>> initData_;
   std::vector<rung_space> spaces_;
   std::vector<rung_symbol> symbols_;
+  std::vector<rung_slot> slots_;
+  std::deque<std::vector<const char*>> points_;
+  std::vector<rung_continuation> continuations_;
   std::vector<rung_init> inits_;
   std::vector<rung_span> retains_;
   std::vector<rung_span> safeSpans_;

@@ -147,6 +147,21 @@ private:
     module_.symbols.push_back(std::move(symbol));
   }
 
+  void parseContinuation() {
+    Continuation c;
+    c.key = scanner_.text();
+    if (scanner_.accept('$')) {
+      c.slot = SlotId{scanner_.u32()};
+    } else {
+      const ParsedPlace place = parsePlaceAs(PlaceForm::Byte);
+      c.space = SpaceId{place.space};
+      c.byte = byteOf(place);
+    }
+    scanner_.expectWord("points");
+    while (scanner_.peekName()) c.points.push_back(scanner_.text());
+    module_.continuations.push_back(std::move(c));
+  }
+
   void parseInit() {
     const ParsedPlace place = parsePlaceAs(PlaceForm::Byte);
     Init init{.space = SpaceId{place.space}, .byte = byteOf(place), .data = {}};
@@ -280,7 +295,7 @@ private:
     std::string_view keyword;
     void (Parser::*parse)();
   };
-  static const Declaration kDeclarations[14];
+  static const Declaration kDeclarations[15];
 
   Scanner scanner_;
   Module module_;
@@ -288,12 +303,21 @@ private:
   std::vector<Call> calls_;
 };
 
-const Parser::Declaration Parser::kDeclarations[14] = {
-    {"file", &Parser::parseFile},         {"space", &Parser::parseSpace},     {"slot", &Parser::parseSlot},
-    {"symbol", &Parser::parseSymbol},     {"init", &Parser::parseInit},       {"retain", &Parser::parseRetain},
-    {"safe", &Parser::parseSafe},         {"fault", &Parser::parseFault},     {"service", &Parser::parseService},
-    {"message", &Parser::parseMessage},   {"routine", &Parser::parseRoutine}, {"task", &Parser::parseTask},
-    {"schedule", &Parser::parseSchedule}, {"step", &Parser::parseStep}};
+const Parser::Declaration Parser::kDeclarations[15] = {{"file", &Parser::parseFile},
+                                                       {"space", &Parser::parseSpace},
+                                                       {"slot", &Parser::parseSlot},
+                                                       {"symbol", &Parser::parseSymbol},
+                                                       {"init", &Parser::parseInit},
+                                                       {"retain", &Parser::parseRetain},
+                                                       {"safe", &Parser::parseSafe},
+                                                       {"fault", &Parser::parseFault},
+                                                       {"service", &Parser::parseService},
+                                                       {"message", &Parser::parseMessage},
+                                                       {"routine", &Parser::parseRoutine},
+                                                       {"task", &Parser::parseTask},
+                                                       {"schedule", &Parser::parseSchedule},
+                                                       {"step", &Parser::parseStep},
+                                                       {"continuation", &Parser::parseContinuation}};
 
 } // namespace
 

@@ -83,9 +83,10 @@ public:
     for (const std::string& service : module.services) services_.add(service);
     for (const Routine& routine : module.routines) routines_.add(routine.name);
     for (const Task& task : module.tasks) tasks_.add(task.name);
-    for (const Symbol& s : module.symbols)
-      if ((s.flags & RUNG_SYMBOL_CONST) == 0)
-        symbols_.try_emplace({s.space.index, int64_t{s.byte} * 8 + s.bit, s.type == RUNG_TYPE_BIT}, s.name);
+    for (const bool hidden : {false, true}) // the author's names first
+      for (const Symbol& s : module.symbols)
+        if ((s.flags & RUNG_SYMBOL_CONST) == 0 && ((s.flags & RUNG_SYMBOL_HIDDEN) != 0) == hidden)
+          symbols_.try_emplace({s.space.index, int64_t{s.byte} * 8 + s.bit, s.type == RUNG_TYPE_BIT}, s.name);
   }
 
   void printModule() {
@@ -181,6 +182,12 @@ void Printer::printMemory() {
     const Slot& slot = module_.slots[i];
     put("slot ${} {} init {}{} {}\n", i, typeName(slot.type), literal(slot.type, slot.init),
         slot.transient ? " transient" : "", inQuotes(slot.key));
+  }
+  for (const Continuation& c : module_.continuations) {
+    put("continuation {} {} points", inQuotes(c.key),
+        c.slot.valid() ? fmt::format("${}", c.slot.index) : bytePlace(c.space.index, c.byte));
+    for (const std::string& point : c.points) put(" {}", inQuotes(point));
+    put("\n");
   }
   for (const Symbol& s : module_.symbols) {
     const Keyword* type = findKeyword(kSymbolTypes, s.type);

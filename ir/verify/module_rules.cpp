@@ -19,7 +19,7 @@ bool ModuleCheck::inside(SpaceId space, uint64_t byte, uint64_t size) const {
 namespace {
 
 constexpr uint64_t kMaxBytes = 1ull << 30;
-constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
+constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
 template <class Items, class NameOf>
@@ -72,6 +72,23 @@ void checkSlots(ModuleCheck& check) {
       check.fail(Rule::Slots, fmt::format("slot \"{}\" has no type", slot.key));
     else if ((static_cast<uint64_t>(slot.init) & ~valueMask(slot.type)) != 0)
       check.fail(Rule::Slots, fmt::format("slot \"{}\" cannot hold its initial value", slot.key));
+  }
+}
+
+void checkContinuations(ModuleCheck& check) {
+  const Module& m = check.module;
+  checkUnique(check, "continuation", m.continuations, [](const Continuation& c) { return std::string_view(c.key); });
+  for (const Continuation& c : m.continuations) {
+    const auto fail = [&](std::string_view what) {
+      check.fail(Rule::Slots, fmt::format("continuation \"{}\" {}", c.key, what));
+    };
+    const auto fits = [&](const Slot& slot) { return slot.type == Type::I32 && !slot.transient; };
+    if (c.slot.valid() ? c.slot.index >= m.slots.size() || !fits(m.slots[c.slot.index])
+                       : !check.inside(c.space, c.byte, 4))
+      fail("is not in a cell of 32 bits");
+    if (c.points.empty()) fail("has no points");
+    if (std::unordered_set<std::string_view>(c.points.begin(), c.points.end()).size() != c.points.size())
+      fail("has two points with one key");
   }
 }
 
@@ -271,8 +288,8 @@ private:
 } // namespace
 
 bool checkModule(ModuleCheck& check) {
-  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkSymbols, checkSpans, checkCopies,
-                                     checkTasks, checkSchedule, checkRoutines})
+  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkContinuations, checkSymbols, checkSpans,
+                                     checkCopies, checkTasks, checkSchedule, checkRoutines})
     rule(check);
   return check.errorCount() == 0;
 }

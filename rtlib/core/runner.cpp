@@ -9,17 +9,29 @@ namespace rung::rt {
 
 Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept
     : program_(&program), memory_(memory), ctx_(&ctx), parts_(parts) {
-  bool timed = false;
-  for (uint32_t i = 0; i < program.scan_count; ++i) timed = timed || program.scan[i].op == RUNG_STEP_ADVANCE;
-  if (!timed && program.main_task < program.task_count) untimedPeriodUs_ = program.tasks[program.main_task].period_us;
   reset();
 }
 
-void Runner::reset() noexcept {
+void Runner::setProgram(const rung_program& program, uint8_t* memory, PartState* parts) noexcept {
+  program_ = &program;
+  memory_ = memory;
+  parts_ = parts;
+  beginProgram();
+}
+
+void Runner::beginProgram() noexcept {
+  bool timed = false;
+  for (uint32_t i = 0; i < program_->scan_count; ++i) timed = timed || program_->scan[i].op == RUNG_STEP_ADVANCE;
+  const bool hasPeriod = !timed && program_->main_task < program_->task_count;
+  untimedPeriodUs_ = hasPeriod ? program_->tasks[program_->main_task].period_us : 0;
   for (uint32_t t = 0; t < program_->task_count; ++t) parts_[t] = {};
-  ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
   ctx_->extra_weight = 0;
   position_ = 0;
+}
+
+void Runner::reset() noexcept {
+  beginProgram();
+  ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
   faulted_ = false;
   stopped_ = false;
 }
@@ -83,7 +95,7 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     const rung_chunk& chunk = chunks[pc];
     if (chunk.weight > budget) return overrun(task, chunk);
     budget -= chunk.weight;
-    pc = functions != nullptr ? functions[pc](memory_, ctx_) : program_->run_chunk(memory_, ctx_, pc);
+    pc = functions[pc](memory_, ctx_, pc);
     if constexpr (Timed)
       if (isLate()) return overrun(task, chunk);
     if (ctx_->extra_weight == 0) continue;

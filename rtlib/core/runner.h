@@ -51,6 +51,9 @@ public:
   void setHooks(RunnerHooks hooks) noexcept { hooks_ = hooks; }
   // What runs longer ends as if its budget were used up.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
+  // Another program takes over, between two passes: its memory and part states; the clock continues, a fault stays.
+  // From then on the caller keeps the new ones alive, and no longer those of before.
+  void setProgram(const rung_program& program, uint8_t* memory, PartState* parts) noexcept;
   // Forgets the fault, all runs under way and the place in the schedule; the clock continues.
   void reset() noexcept;
 
@@ -105,6 +108,8 @@ private:
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
   std::span<const rung_step> pass(bool realClock) const noexcept;
   bool stepOnce() noexcept;
+
+  void beginProgram() noexcept;
 
   const rung_program* program_;
   uint8_t* memory_;

@@ -15,7 +15,7 @@ namespace rung::host {
 namespace {
 
 constexpr uint32_t kMaxAlign = 4096;
-constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN;
+constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
 // A word or a number of a message. One function puts all messages together: code for each of them would be half of
@@ -59,8 +59,8 @@ public:
   std::string run() {
     for (void (Checker::*check)() :
          {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
-          &Checker::checkMemory, &Checker::checkCopies, &Checker::checkCode, &Checker::checkTasks,
-          &Checker::checkSchedule, &Checker::checkTexts}) {
+          &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
+          &Checker::checkCode, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
       (this->*check)();
       if (!error_.empty()) break; // what follows relies on it
     }
@@ -107,8 +107,7 @@ private:
       fail("the memory block has alignment ", p_.memory_align, ", expected a power of two up to ", kMaxAlign);
     if (p_.instrumented > 1) fail("`instrumented` is ", p_.instrumented, ", expected 0 or 1");
     if (p_.chunk_count > RUNG_PC_FAULT) fail("there are too many chunks: ", p_.chunk_count);
-    if (p_.chunk_count != 0 && (p_.chunk_fns == nullptr) == (p_.run_chunk == nullptr))
-      fail(p_.chunk_fns == nullptr ? "the program has no code" : "the program has both chunk functions and run_chunk");
+    if (p_.chunk_count != 0 && p_.chunk_fns == nullptr) fail("the program has no code");
   }
 
   void present(const char* what, uint32_t count, const void* table) {
@@ -118,6 +117,8 @@ private:
   void checkPresence() {
     present("spaces", p_.space_count, p_.spaces);
     present("symbols", p_.symbol_count, p_.symbols);
+    present("slots", p_.slot_count, p_.slots);
+    present("continuations", p_.continuation_count, p_.continuations);
     present("initial contents", p_.init_count, p_.inits);
     present("retained spans", p_.retain_count, p_.retains);
     present("safe spans", p_.safe_count, p_.safe_spans);
@@ -213,6 +214,46 @@ private:
     if (s.byte + bytes > p_.spaces[s.space].byte_count) failAt("symbol", number, "lies outside space ", s.space);
   }
 
+  // So that a new program finds the state of an old one, and nothing else.
+  void checkSlots() {
+    std::vector<rung_span> taken;
+    for (uint32_t i = 0; i < p_.slot_count && error_.empty(); ++i) {
+      const rung_slot& s = p_.slots[i];
+      named("slot", i, s.key);
+      if (!error_.empty()) return;
+      if (i > 0 && std::strcmp(p_.slots[i - 1].key, s.key) >= 0) failAt("slot", i, "is not sorted by its key");
+      const uint32_t bits = s.type == RUNG_TYPE_TEXT ? 0 : elementBits(s.type);
+      if (bits == 0) return failAt("slot", i, "has the unknown type ", s.type);
+      taken.push_back({s.offset, std::max(1u, bits / 8)}); // a bit has a byte
+      inBlock("slot", i, s.offset, taken.back().size);
+      if (s.rung != RUNG_NONE) index("slot", i, "rung", s.rung, p_.rung_count);
+      if (error_.empty() && touchesSpace(taken.back())) failAt("slot", i, "lies in a space");
+    }
+    std::ranges::sort(taken, {}, &rung_span::offset);
+    for (size_t i = 1; i < taken.size() && error_.empty(); ++i)
+      if (taken[i].offset < taken[i - 1].offset + taken[i - 1].size)
+        fail("two slots lie at offset ", taken[i].offset, " of the memory block");
+  }
+
+  void checkContinuations() {
+    for (uint32_t i = 0; i < p_.continuation_count && error_.empty(); ++i) {
+      const rung_continuation& c = p_.continuations[i];
+      named("continuation", i, c.key);
+      if (!error_.empty()) return;
+      if (i > 0 && std::strcmp(p_.continuations[i - 1].key, c.key) >= 0)
+        failAt("continuation", i, "is not sorted by its key");
+      inBlock("continuation", i, c.offset, 4);
+      if (c.point_count == 0 || c.points == nullptr) return failAt("continuation", i, "has no points");
+      for (uint32_t k = 0; k < c.point_count; ++k)
+        if (c.points[k] == nullptr) return failAt("continuation", i, "has a point without a key");
+    }
+  }
+
+  bool touchesSpace(const rung_span& span) const {
+    const auto after = firstAfter(span.offset + span.size - 1);
+    return after != stretches_.begin() && std::prev(after)->end > span.offset;
+  }
+
   void checkMemory() {
     for (uint32_t i = 0; i < p_.init_count && error_.empty(); ++i) checkInit(i);
     uint64_t kept = 0;
@@ -286,7 +327,7 @@ private:
       piece("chunk", i, "rungs", c.first_rung, c.rung_count, p_.rung_count);
       if (c.rung_count == 0) failAt("chunk", i, "has no rungs");
       if (c.weight == 0) failAt("chunk", i, "has weight 0, expected at least 1");
-      if (p_.chunk_fns != nullptr && p_.chunk_fns[i] == nullptr) failAt("chunk", i, "has no code");
+      if (p_.chunk_fns[i] == nullptr) failAt("chunk", i, "has no code");
     }
     for (uint32_t i = 0; i < p_.rung_count; ++i) {
       const rung_rung_info& r = p_.rungs[i];

@@ -16,6 +16,8 @@ public:
   // Valid while the engine lives, as is every instance of it.
   virtual const rung_program& program() const = 0;
   virtual std::string_view name() const = 0; // "so", "jit", "interp"
+  // What the program's chunks find in rung_ctx::engine.
+  virtual void* context() { return nullptr; }
 };
 
 } // namespace rung::host

@@ -7,54 +7,39 @@
 
 namespace rung::host {
 
-namespace {
-
-uint32_t blockBytes(const rung_program& program) { return std::max(program.memory_size, rt::Memory::kLeastBlock); }
-
-// At least a cache line.
-uint32_t alignOf(const rung_program& program) { return std::max(program.memory_align, 64u); }
-
-uint32_t retainedBytes(const rung_program& program) {
-  uint32_t sum = 0;
-  for (uint32_t i = 0; i < program.retain_count; ++i) sum += program.retains[i].size;
-  return sum;
-}
-
-} // namespace
-
-void Instance::FreeBlock::operator()(uint8_t* block) const { ::operator delete(block, std::align_val_t{align}); }
-
-Instance::Instance(const rung_program& program, ScheduleHooks* hooks)
-    : program_(&program), hooks_(hooks),
-      block_(static_cast<uint8_t*>(::operator new(blockBytes(program), std::align_val_t{alignOf(program)})),
-             FreeBlock{alignOf(program)}),
-      ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<rt::HostPort>()),
-      profile_(program.instrumented != 0 ? program.rung_count : 0), parts_(program.task_count),
-      retained_(retainedBytes(program)), runner_(program, block_.get(), *ctx_, parts_.data()), overwritten_(program) {
+Instance::Instance(const rung_program& program, void* engine, ScheduleHooks* hooks)
+    : loaded_(program, engine), hooks_(hooks), ctx_(std::make_unique<rung_ctx>()),
+      port_(std::make_unique<rt::HostPort>()), runner_(program, loaded_.block.get(), *ctx_, loaded_.parts.data()) {
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
-  ctx_->prof = profile_.empty() ? nullptr : profile_.data();
+  enter();
   setTaskWatch(nullptr);
   port_->services.setResponder({&respondHook, this});
   coldStart();
 }
 
+// The context of its code.
+void Instance::enter() {
+  ctx_->prof = loaded_.profile.empty() ? nullptr : loaded_.profile.data();
+  ctx_->engine = loaded_.engine;
+}
+
 // ---- writing -----------------------------------------------------------------------------------------------------
 
 std::optional<Ref> Instance::write(const Ref& ref, uint64_t value) {
-  const std::optional<Ref> copied = overwritten_.source(ref);
+  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
   if (!copied) writeRaw(memory(), ref, value);
   return copied;
 }
 
 std::optional<Ref> Instance::writeReal(const Ref& ref, double value) {
-  const std::optional<Ref> copied = overwritten_.source(ref);
+  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
   if (!copied) host::writeReal(memory(), ref, value);
   return copied;
 }
 
 std::optional<Ref> Instance::writeText(const Ref& ref, std::string_view text) {
-  const std::optional<Ref> copied = overwritten_.source(ref);
+  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
   if (!copied) host::writeText(memory(), ref, text);
   return copied;
 }
@@ -91,12 +76,6 @@ bool Instance::respondHook(void* self, const rt::ServiceRequest& request, rt::Se
 
 // ---- start -------------------------------------------------------------------------------------------------------
 
-void Instance::resetMemory() {
-  std::memset(block_.get(), 0, program_->memory_size);
-  for (uint32_t i = 0; i < program_->init_count; ++i)
-    std::memcpy(block_.get() + program_->inits[i].offset, program_->inits[i].data, program_->inits[i].size);
-}
-
 void Instance::resetRun() {
   runner_.reset();
   port_->messages.drop();
@@ -104,36 +83,81 @@ void Instance::resetRun() {
 }
 
 void Instance::coldStart() {
-  resetMemory();
+  loaded_.clear();
   resetRun();
 }
 
 void Instance::warmStart() {
-  copyRetained(retained_);
-  resetMemory();
+  copyRetained(loaded_.retained);
+  loaded_.clear();
   resetRun();
-  restoreRetained(retained_);
+  restoreRetained(loaded_.retained);
 }
 
 void Instance::copyRetained(std::span<uint8_t> to) const {
   size_t at = 0;
-  for (uint32_t i = 0; i < program_->retain_count && at + program_->retains[i].size <= to.size(); ++i) {
-    std::memcpy(to.data() + at, block_.get() + program_->retains[i].offset, program_->retains[i].size);
-    at += program_->retains[i].size;
+  for (uint32_t i = 0; i < program().retain_count && at + program().retains[i].size <= to.size(); ++i) {
+    std::memcpy(to.data() + at, loaded_.block.get() + program().retains[i].offset, program().retains[i].size);
+    at += program().retains[i].size;
   }
 }
 
 bool Instance::restoreRetained(std::span<const uint8_t> from) {
-  if (from.size() != retained_.size()) return false;
+  if (from.size() != loaded_.retained.size()) return false;
   size_t at = 0;
-  for (uint32_t i = 0; i < program_->retain_count; ++i) {
-    std::memcpy(block_.get() + program_->retains[i].offset, from.data() + at, program_->retains[i].size);
-    at += program_->retains[i].size;
+  for (uint32_t i = 0; i < program().retain_count; ++i) {
+    std::memcpy(loaded_.block.get() + program().retains[i].offset, from.data() + at, program().retains[i].size);
+    at += program().retains[i].size;
   }
   return true;
 }
 
-void Instance::clearProfile() { std::fill(profile_.begin(), profile_.end(), rung_prof{}); }
+void Instance::clearProfile() { std::fill(loaded_.profile.begin(), loaded_.profile.end(), rung_prof{}); }
+
+// ---- another program ---------------------------------------------------------------------------------------------
+
+namespace {
+
+// The same fault in the tables of another program. What that does not have is left open.
+rung_fault translated(const rung_fault& fault, const rung_program& from, const rung_program& to) {
+  if (fault.code == RUNG_NONE) return fault;
+  rung_fault out = {rt::kUndescribedFault, RUNG_NONE, fault.line, RUNG_NONE};
+  for (uint32_t i = 0; fault.code < from.fault_count && i < to.fault_count; ++i)
+    if (std::strcmp(from.faults[fault.code], to.faults[i]) == 0) out.code = i;
+  for (uint32_t i = 0; fault.rung < from.rung_count && i < to.rung_count; ++i)
+    if (from.rungs[fault.rung].key == to.rungs[i].key) out.rung = i;
+  if (fault.task < from.task_count) out.task = findTask(to, from.tasks[fault.task].name);
+  return out;
+}
+
+} // namespace
+
+bool Instance::servicesAgree(const rung_program& next) const {
+  if (port_->services.waiting() == 0) return true;
+  const rung_program& now = program();
+  if (now.service_count > next.service_count) return false;
+  for (uint32_t i = 0; i < now.service_count; ++i)
+    if (std::strcmp(now.services[i], next.services[i]) != 0) return false;
+  return true;
+}
+
+ReplaceResult Instance::replace(Replacement& replacement) {
+  const rung_program& former = program();
+  if (&replacement.there_.from() != &former) return ReplaceResult::OtherProgram;
+  if (!atListStart() && !faulted()) return ReplaceResult::WithinPass;
+  if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
+  if (replacement.there_.waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
+  replacement.there_.run(loaded_.block.get(), replacement.loaded_.block.get());
+  std::swap(loaded_, replacement.loaded_);
+  std::swap(replacement.there_, replacement.back_);
+  runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data());
+  ctx_->fault = translated(ctx_->fault, former, program());
+  enter();
+  clearProfile();
+  ++generation_;
+  if (hooks_ != nullptr) hooks_->onReplace(*this);
+  return ReplaceResult::Replaced;
+}
 
 // ---- run ---------------------------------------------------------------------------------------------------------
 
@@ -168,11 +192,11 @@ void Instance::runFor(int64_t us) {
 
 bool Instance::runTask(uint32_t task) { return runner_.runTask(task); }
 
-bool Instance::runTask(std::string_view name) { return runner_.runTask(findTask(*program_, name)); }
+bool Instance::runTask(std::string_view name) { return runner_.runTask(findTask(program(), name)); }
 
 bool Instance::halt(std::string_view fault) {
-  for (uint32_t i = 0; i < program_->fault_count; ++i)
-    if (fault == program_->faults[i]) return runner_.halt(i);
+  for (uint32_t i = 0; i < program().fault_count; ++i)
+    if (fault == program().faults[i]) return runner_.halt(i);
   return false;
 }
 

@@ -13,9 +13,10 @@
 
 #include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
-#include "rtlib/host/overwritten.h"
+#include "rtlib/host/engine.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/host/ref.h"
+#include "rtlib/host/replacement.h"
 
 namespace rung::host {
 
@@ -29,6 +30,8 @@ public:
   virtual void onHook(Instance& instance, uint32_t work) { (void)instance, (void)work; }
   // The fault is recorded and the outputs are safe. Tasks run here a last time; faults of theirs are ignored.
   virtual void onFault(Instance& instance) { (void)instance; }
+  // Another program has taken over, of the same dialect: places that were looked up in the former one mean nothing now.
+  virtual void onReplace(Instance& instance) { (void)instance; }
   // True: the reply is filled in and the request does not enter the queue.
   virtual bool respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
     (void)instance, (void)request, (void)reply;
@@ -47,11 +50,14 @@ public:
 class Instance {
 public:
   // The program (checkProgram finds nothing wrong with it) and the hooks outlive the instance. It starts cold.
-  explicit Instance(const rung_program& program, ScheduleHooks* hooks = nullptr);
+  explicit Instance(const rung_program& program, ScheduleHooks* hooks = nullptr) : Instance(program, nullptr, hooks) {}
+  // The same of an engine, which outlives the instance; an interpreter's program needs it.
+  explicit Instance(Engine& engine, ScheduleHooks* hooks = nullptr)
+      : Instance(engine.program(), engine.context(), hooks) {}
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  const rung_program& program() const { return *program_; }
+  const rung_program& program() const { return *loaded_.program; }
   void setHooks(ScheduleHooks* hooks) { hooks_ = hooks; }
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
 
@@ -60,6 +66,14 @@ public:
   void coldStart();
   // The same, but the retained spans keep their contents.
   void warmStart();
+
+  // Another program takes over, with the state that it has in common with this one (Replacement::transfer). Clock,
+  // queues and tickets continue, profile counters start at 0, and a program that had stopped on a fault stays stopped,
+  // as the new one. The replacement then holds the former program as it was: given again, it puts that back. If the
+  // result is not Replaced, nothing has happened. Allocates nothing, but for what onReplace does.
+  ReplaceResult replace(Replacement& replacement);
+  // How many programs have taken over: what was looked up under another number is to be looked up again.
+  uint32_t generation() const { return generation_; }
 
   // From the present place of the schedule: to its end, to the end of a slot; one run of the fast list. Nothing after a
   // fault.
@@ -86,11 +100,11 @@ public:
 
   bool faulted() const { return runner_.faulted(); }
   const rung_fault& fault() const { return ctx_->fault; }
-  std::string faultText() const { return host::faultText(*program_, ctx_->fault); }
+  std::string faultText() const { return host::faultText(program(), ctx_->fault); }
 
-  rt::Memory memory() const { return {*program_, block_.get()}; }
-  std::span<uint8_t> block() { return {block_.get(), program_->memory_size}; }
-  std::span<const uint8_t> block() const { return {block_.get(), program_->memory_size}; }
+  rt::Memory memory() const { return {program(), loaded_.block.get()}; }
+  std::span<uint8_t> block() { return {loaded_.block.get(), program().memory_size}; }
+  std::span<const uint8_t> block() const { return {loaded_.block.get(), program().memory_size}; }
   uint64_t read(const Ref& ref) const { return readRaw(memory(), ref); }
   double readReal(const Ref& ref) const { return host::readReal(memory(), ref); }
   std::string readText(const Ref& ref) const { return host::readText(memory(), ref); }
@@ -107,39 +121,33 @@ public:
   const rt::ServiceQueue& services() const { return port_->services; }
 
   // One entry a rung; empty when the program is not instrumented.
-  std::span<const rung_prof> profile() const { return profile_; }
+  std::span<const rung_prof> profile() const { return loaded_.profile; }
   void clearProfile();
 
   // The retained spans, one after the other: what RetainStore keeps. restoreRetained is false when the size is wrong.
-  uint32_t retainedSize() const { return static_cast<uint32_t>(retained_.size()); }
+  uint32_t retainedSize() const { return static_cast<uint32_t>(loaded_.retained.size()); }
   void copyRetained(std::span<uint8_t> to) const; // of retainedSize()
   bool restoreRetained(std::span<const uint8_t> from);
 
-  rung_ctx& context() { return *ctx_; } // for an interpreter: rung_ctx::engine
+  const rung_ctx& context() const { return *ctx_; }
 
 private:
-  struct FreeBlock {
-    size_t align;
-    void operator()(uint8_t* block) const;
-  };
-  void resetMemory();
+  Instance(const rung_program& program, void* engine, ScheduleHooks* hooks);
+  void enter();
+  bool servicesAgree(const rung_program& next) const;
   void resetRun();
   static void stepHook(void* self, uint32_t work);
   static void faultHook(void* self);
   static void taskHook(void* self, uint32_t task, bool begins);
   static bool respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply);
 
-  const rung_program* program_;
+  LoadedProgram loaded_;
   ScheduleHooks* hooks_;
   TaskWatch* taskWatch_ = nullptr;
-  std::unique_ptr<uint8_t, FreeBlock> block_;
   std::unique_ptr<rung_ctx> ctx_;
   std::unique_ptr<rt::HostPort> port_;
-  std::vector<rung_prof> profile_;
-  std::vector<rt::PartState> parts_;
-  std::vector<uint8_t> retained_; // room for warmStart
   rt::Runner runner_;
-  Overwritten overwritten_;
+  uint32_t generation_ = 0;
 };
 
 } // namespace rung::host

@@ -107,7 +107,7 @@ TEST_P(HostReads, WhatTheProgramHasStored) {
   auto engine = driver::makeEngine(GetParam().kind, compiled, options);
   ASSERT_TRUE(engine.ok()) << engine.error();
   Reader reader;
-  const auto instance = driver::makeInstance(*engine.value(), &reader);
+  const auto instance = std::make_unique<host::Instance>(*engine.value(), &reader);
   instance->scan();
   ASSERT_FALSE(instance->faulted()) << instance->faultText();
   const auto word = [&](uint32_t byte) { return instance->memory().read(0, byte, 4); };

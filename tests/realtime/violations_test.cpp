@@ -20,7 +20,7 @@ void* volatile block = nullptr; // else the compiler leaves the allocation out
 std::mutex mutex;
 
 // In its hundredth scan.
-uint32_t offend(uint8_t* mem, rung_ctx*) {
+uint32_t offend(uint8_t* mem, rung_ctx*, uint32_t) {
   if (++mem[16] != 100) return RUNG_PC_DONE;
   switch (asked) {
   case Offence::Allocation: block = std::malloc(10); break;
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Guard, Noticed,
 class Clean : public testing::TestWithParam<Host> {};
 
 TEST_P(Clean, Program) {
-  const auto harmless = [](uint8_t* mem, rung_ctx* ctx) {
+  const auto harmless = [](uint8_t* mem, rung_ctx* ctx, uint32_t) {
     const rung_message message = {RUNG_MESSAGE_SHOW, 20, 0, 0, 0, 0, 0};
     if (++mem[16] % 10 == 0) ctx->host->message(ctx, &message);
     return RUNG_PC_DONE;

@@ -37,8 +37,8 @@ std::optional<std::string> firstCountDifference(const host::Instance& a, const h
 
 std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& second, int scans) {
   Responder answers;
-  const auto a = driver::makeInstance(first, &answers);
-  const auto b = driver::makeInstance(second, &answers);
+  const auto a = std::make_unique<host::Instance>(first, &answers);
+  const auto b = std::make_unique<host::Instance>(second, &answers);
   for (int scan = 1; scan <= scans; ++scan) {
     a->scan();
     b->scan();

@@ -125,7 +125,7 @@ constexpr int64_t kLast = 2'000; // requests
 
 // A program that asks for the double of a number, again and again, and shows a message for each answer that is right.
 // Memory: 0 the ticket, 8 the number.
-uint32_t askAgain(uint8_t* mem, rung_ctx* ctx) {
+uint32_t askAgain(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   uint32_t ticket = 0;
   int64_t number = 0;
   std::memcpy(&ticket, mem, sizeof ticket);

@@ -197,7 +197,7 @@ Result<Measured> measure(const Case& which) {
   engineOptions.cppCompiler = which.compiler;
   Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
   if (!engine.ok()) return engine.failure();
-  const std::unique_ptr<host::Instance> instance = driver::makeInstance(*engine.value(), nullptr);
+  const auto instance = std::make_unique<host::Instance>(*engine.value());
   instance->scan();
   out.backMs = nsSince(start) / 1e6;
   out.residentMb = residentMb();

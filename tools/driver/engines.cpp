@@ -128,10 +128,4 @@ std::string cacheTrouble(const host::Engine& engine) {
   return jit != nullptr ? jit->report().cacheTrouble : "";
 }
 
-std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks) {
-  auto instance = std::make_unique<host::Instance>(engine.program(), hooks);
-  if (auto* interpreter = dynamic_cast<ir::InterpEngine*>(&engine)) instance->context().engine = interpreter->context();
-  return instance;
-}
-
 } // namespace rung::driver

@@ -45,9 +45,6 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
 // when no folder was given. The engine works either way.
 std::string cacheTrouble(const host::Engine& engine);
 
-// An instance of the engine's program, with what an interpreter needs in its context.
-std::unique_ptr<host::Instance> makeInstance(host::Engine& engine, host::ScheduleHooks* hooks);
-
 // The C++ compiler to use when none is named: $CXX, else the first installed of clang++-19, g++, c++.
 std::string defaultCppCompiler();
 

@@ -16,7 +16,7 @@ constexpr ptrdiff_t kMostUnread = 50'000; // entries of the log; a session of ho
 
 Lane::Lane(host::Engine& engine, std::string folder)
     : engine_(engine), nc_(sim::makeSimulatedNc(engine.program().dialect)),
-      instance_(driver::makeInstance(engine, this)) {
+      instance_(std::make_unique<host::Instance>(engine, this)) {
   nc_->setFolder(std::move(folder));
 }
 

@@ -115,14 +115,22 @@ void ModuleLowering::addPresets() {
   }
 }
 
-// Keys are made of the text alone; equal networks of one unit are told apart by their order.
+// Keys are made of the text alone; equal networks of one unit are told apart by their order. The state of a function
+// belongs to the function, whatever its conditions are.
 void ModuleLowering::makeKeys() {
   for (const Unit& unit : program_.units) {
     std::unordered_map<uint64_t, uint32_t> seen;
+    std::unordered_map<std::string, uint32_t> alike;
     std::vector<uint64_t>& keys = keys_.emplace_back();
+    std::vector<std::string>& prefixes = slotPrefixes_.emplace_back();
     for (const Network& network : unit.networks) {
       const uint64_t text = hashBytes(commandText(network), hashBytes(nameOf(unit)));
       keys.push_back(hashBytes(fmt::format("#{}", seen[text]++), text));
+      std::string& prefix = prefixes.emplace_back();
+      if (network.function.row == nullptr) continue;
+      prefix = identityOf(network.function);
+      if (const uint32_t number = alike[prefix]++; number != 0) prefix += fmt::format("#{}", number);
+      prefix = fmt::format("{}/{}/", nameOf(unit), prefix);
     }
   }
 }
@@ -134,10 +142,6 @@ void ModuleLowering::makeNumbers() {
     for (size_t i = 0; i + 1 < unit.networks.size(); ++i) drawn.push_back(&unit.networks[i]);
   std::ranges::sort(drawn, {}, [](const Network* network) { return network->range.begin; });
   for (const Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
-}
-
-std::string ModuleLowering::slotPrefix(uint32_t unit, uint32_t network) const {
-  return fmt::format("{}/{:016x}/", nameOf(program_.units[unit]), keys_[unit][network]);
 }
 
 void ModuleLowering::planRoutines(LevelState& level) {

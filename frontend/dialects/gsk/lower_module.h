@@ -64,7 +64,6 @@ public:
   ir::SpaceId machinePositions();
   std::span<const LevelState, 2> levels() const { return levels_; }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
-  std::string slotPrefix(uint32_t unit, uint32_t network) const;
   const Program& program() const { return program_; }
   void use(LevelState& level, const Address& address, uint32_t bytes);
 
@@ -105,6 +104,7 @@ private:
   std::unordered_map<std::string, ir::SpaceId> constants_;
   ir::SpaceId positions_;
   std::vector<std::vector<uint64_t>> keys_;              // by unit and network
+  std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network; of networks with a function
   std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
   LevelState levels_[2];
   uint32_t parts_ = 1;

@@ -84,7 +84,7 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
 void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
                                 const RungMarks& marks) {
   if (network.com != kNone) {
-    const ir::ValueId line = b.slotLoad(slot(slotPrefix(routine.unit, network.com) + "com", ir::Type::Bit, 0, true));
+    const ir::ValueId line = b.slotLoad(slot(slotPrefixes_[routine.unit][network.com] + "com", ir::Type::Bit, 0, true));
     marks.function(ir::MarkKind::Result, line, program_.units[routine.unit].networks[network.com].function);
     value = b.and_(value, line);
   }
@@ -112,8 +112,7 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
     marks.function(ir::MarkKind::Input, conditions[i], network.function,
                    one ? std::string() : fmt::format(" {}", row.info.pins[i].name));
   }
-  const std::string prefix = slotPrefix(routine.unit, index);
-  FunctionLowering f(*this, routine, b, network, conditions, prefix);
+  FunctionLowering f(*this, routine, b, network, conditions, slotPrefixes_[routine.unit][index]);
   b.setLine(network.function.line);
   if (row.control == Control::Plain) b.note(row.info.mnemonic);
   row.lower(f);

@@ -100,4 +100,13 @@ std::string commandText(const Network& network) {
   return text;
 }
 
+std::string identityOf(const Function& function) {
+  std::string text(function.row->info.mnemonic);
+  for (const Param& param : function.params) {
+    (text += ' ') += textOf(param);
+    if (function.row->numbers != Row::Numbers::Free) break;
+  }
+  return text;
+}
+
 } // namespace rung::gsk

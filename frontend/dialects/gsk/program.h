@@ -126,5 +126,8 @@ struct Program {
 
 // The network as a command list, one command a line, operands without leading zeros: the text that keys are made of.
 std::string commandText(const Network& network);
+// What an instruction is known by while its network changes around it: mnemonic and parameters; of a timer, a counter
+// or an edge its number alone.
+std::string identityOf(const Function& function);
 
 } // namespace rung::gsk

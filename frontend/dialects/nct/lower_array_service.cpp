@@ -27,15 +27,24 @@ ir::ServiceId Shared::service(std::string_view signature) {
   return {index};
 }
 
-SharedWords Shared::words(std::string_view space, uint32_t count) {
+SharedWords Shared::words(std::string_view space, uint32_t count, const std::string& key) {
   ir::SpaceId id = ir::findSpace(module_, space);
   if (!id.valid()) {
     id = {static_cast<uint32_t>(module_.spaces.size())};
-    module_.spaces.push_back(
-        {.name = std::string(space), .unitBytes = 4, .units = 0, .flags = RUNG_SPACE_HIDDEN, .packedOnly = true});
+    module_.spaces.push_back({.name = std::string(space),
+                              .unitBytes = 4,
+                              .units = 0,
+                              .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED,
+                              .packedOnly = true});
   }
   const SharedWords words{.space = id, .first = module_.spaces[id.index].units};
   module_.spaces[id.index].units += count;
+  module_.symbols.push_back({.name = "@" + key,
+                             .space = id,
+                             .byte = words.first * 4,
+                             .type = RUNG_TYPE_I32,
+                             .count = count,
+                             .flags = RUNG_SYMBOL_HIDDEN});
   return words;
 }
 
@@ -57,7 +66,8 @@ class ArrayServiceLowering {
 public:
   explicit ArrayServiceLowering(Lowering& box)
       : box_(box), b_(box.b), state_(box.slots.make("state", Type::I8)), ticket_(box.slots.make("ticket", Type::I32)),
-        buffer_(box.shared.words(nc::nct::kBlockSpace, nc::nct::kBlockStride)), function_(box.operands[1]) {}
+        buffer_(box.shared.words(nc::nct::kBlockSpace, nc::nct::kBlockStride, box.slots.key("block"))),
+        function_(box.operands[1]) {}
 
   ValueId run();
 

@@ -10,12 +10,21 @@ using ir::SlotId;
 using ir::Type;
 using ir::ValueId;
 
+void SlotMaker::setElement(std::string text) {
+  element_ = std::move(text);
+  numbered_ = false;
+}
+
+std::string SlotMaker::key(std::string_view role) {
+  if (!numbered_)
+    if (const uint32_t number = alike_[element_]++; number != 0) element_ += fmt::format("#{}", number);
+  numbered_ = true;
+  return fmt::format("{}/{}/{}", routine_, element_, role);
+}
+
 SlotId SlotMaker::make(std::string_view role, Type type, int64_t init, bool transient) {
   const SlotId id{static_cast<uint32_t>(module_.slots.size())};
-  module_.slots.push_back({.type = type,
-                           .init = init,
-                           .transient = transient,
-                           .key = fmt::format("{}/{:016x}/{}.{}", routine_, key_, element_, role)});
+  module_.slots.push_back({.type = type, .init = init, .transient = transient, .key = key(role)});
   return id;
 }
 

@@ -32,7 +32,7 @@ class MessageLowering {
 public:
   explicit MessageLowering(Lowering& box)
       : box_(box), b_(box.b), before_(box.slots.make("before", Type::Bit)),
-        words_(box.shared.words(nc::nct::kMessageSpace, nc::nct::kMessageWords)) {}
+        words_(box.shared.words(nc::nct::kMessageSpace, nc::nct::kMessageWords, box.slots.key("shown"))) {}
 
   ValueId run() {
     const ValueId input = box_.power();

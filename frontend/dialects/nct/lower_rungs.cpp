@@ -34,6 +34,19 @@ uint32_t existing(const std::optional<uint32_t>& target) {
   return *target;
 }
 
+// What an element is known by while its rung changes around it: instruction and operands; of what may stand only once
+// for its first operand, that one alone.
+std::string identityOf(const NctInstruction& row, std::span<const Operand> operands) {
+  std::string text(row.info.mnemonic);
+  for (const Operand& operand : operands) {
+    text += ' ';
+    if (operand.edge != 0) text += operand.edge;
+    text += operand.source->text;
+    if (row.claim == Claim::Once) break;
+  }
+  return text;
+}
+
 class BodyLowering {
 public:
   BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines,
@@ -129,8 +142,8 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
   ValueId output;
   if (row.lower != nullptr) {
     if (element.kind == ladder::ElementKind::Box) b.note(row.info.mnemonic);
-    slots_.setElement(index);
     const std::span<const Operand> operands = typed.operandsOf(typedElement);
+    slots_.setElement(identityOf(row, operands));
     Lowering box{.b = b,
                  .memory = memory,
                  .slots = slots_,
@@ -153,7 +166,6 @@ void BodyLowering::lowerRung(const TypedRung& typed) {
   ir::Rung& rung = routine_.rungs.emplace_back();
   describe(rung, typed);
   const uint64_t key = rung.key;
-  slots_.setRung(key);
   ir::RungBuilder b(context_.module, rung);
   Memory memory(b, context_.config, context_.spaces, context_.written);
   power_.assign(typed.rung->nets.size(), ValueId{});
@@ -162,9 +174,9 @@ void BodyLowering::lowerRung(const TypedRung& typed) {
   if (leaves_.empty()) return;
   // The conditions of all but the first wait in registers for the rungs that follow.
   std::vector<ir::SlotId> conditions;
+  slots_.setElement("leave");
   for (size_t i = 1; i < leaves_.size(); ++i) {
-    slots_.setElement(typed.elements.size());
-    conditions.push_back(slots_.make(fmt::format("leave{}", i), ir::Type::Bit, 0, true));
+    conditions.push_back(slots_.make(fmt::format("{}", i), ir::Type::Bit, 0, true));
     b.slotStore(conditions.back(), leaves_[i].cond);
   }
   leave(b, leaves_[0]);

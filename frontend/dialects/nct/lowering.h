@@ -1,6 +1,8 @@
 // What a lowering function works with: the builder, the memory of the dialect, its operands and the power at its pins.
 #pragma once
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "frontend/dialects/nct/instructions.h"
@@ -9,20 +11,22 @@
 
 namespace rung::nct {
 
-// Makes the state slots of the elements of one rung. Their keys stay the same while the rung's text does.
+// Makes the state slots of a routine's elements. Their keys name the element itself, so that they stay the same
+// whatever changes around it: routine, instruction and operands, with a number where several are alike.
 class SlotMaker {
 public:
   SlotMaker(ir::Module& module, std::string_view routine) : module_(module), routine_(routine) {}
-  void setRung(uint64_t key) { key_ = key; }
-  void setElement(size_t element) { element_ = element; }
-  // `role` tells the slots of one element apart.
+  void setElement(std::string text);
+  // `role` tells the slots of one element apart. Elements without a slot have no number.
+  std::string key(std::string_view role);
   ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
 
 private:
   ir::Module& module_;
   std::string_view routine_;
-  uint64_t key_ = 0;
-  size_t element_ = 0;
+  std::string element_;
+  bool numbered_ = false;                 // element_ has its number
+  std::map<std::string, uint32_t> alike_; // elements with a slot so far, by their text
 };
 
 // Words of a hidden space, unit 4.
@@ -41,8 +45,9 @@ public:
   explicit Shared(ir::Module& module) : module_(module) {}
   // "NAME arguments -> results", see docs/scenario-format.md.
   ir::ServiceId service(std::string_view signature);
-  // Words of this box alone. The space is made when it is asked for first.
-  SharedWords words(std::string_view space, uint32_t count);
+  // Words of this box alone, under its key: a hidden symbol, so that they are found again in a changed program. The
+  // space is made when it is asked for first.
+  SharedWords words(std::string_view space, uint32_t count, const std::string& key);
 
 private:
   ir::Module& module_;

@@ -44,19 +44,6 @@ void addPresets(const nc::SignalTable& signals, ir::Module& module) {
   }
 }
 
-uint32_t abiType(Type type) {
-  switch (type) {
-  case Type::None:
-  case Type::I8: return RUNG_TYPE_I8;
-  case Type::Bit: return RUNG_TYPE_BIT;
-  case Type::I16: return RUNG_TYPE_I16;
-  case Type::I32: return RUNG_TYPE_I32;
-  case Type::I64: return RUNG_TYPE_I64;
-  case Type::F64: return RUNG_TYPE_F64;
-  }
-  return RUNG_TYPE_I8;
-}
-
 // DS 8 holds a QWORD or a REAL, DS n is bytes; a text has room for its terminator.
 ir::Symbol madeSymbol(const Symbol& symbol) {
   ir::Symbol made;
@@ -64,7 +51,7 @@ ir::Symbol madeSymbol(const Symbol& symbol) {
   made.space = symbol.space;
   made.byte = symbol.byte;
   made.bit = symbol.bit;
-  made.type = abiType(symbol.type);
+  made.type = ir::abiType(symbol.type);
   switch (symbol.kind) {
   case SymbolKind::Text:
     made.type = RUNG_TYPE_TEXT;
@@ -111,11 +98,11 @@ void addSpaces(const Program& program, ir::Module& module) {
     module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = std::max(1u, bytes), .flags = flags});
   };
   add("NCI", nc::areaBytes(signals, "I"), 0);
-  add("DATA", program.dataBytes, 0);
-  add("MECH", static_cast<uint32_t>(program.mechanisms.size()) * kMechanismBytes, 0);
+  add("DATA", program.dataBytes, RUNG_SPACE_ALLOCATED);
+  add("MECH", static_cast<uint32_t>(program.mechanisms.size()) * kMechanismBytes, RUNG_SPACE_ALLOCATED);
   add("@REG", kRegisterBytes, RUNG_SPACE_HIDDEN);
   add("BLK", nc::areaBytes(signals, "BLK") * kQueuedBlocks, RUNG_SPACE_INPUT);
-  add("IO", program.exchangedBytes, 0);
+  add("IO", program.exchangedBytes, RUNG_SPACE_ALLOCATED);
   module.inits = program.inits;
   addPresets(signals, module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).
@@ -159,7 +146,7 @@ void addSymbols(const Program& program, ir::Module& module) {
     module.symbols.push_back({.name = std::string(cell.name),
                               .space = kRegisterSpace,
                               .byte = cell.byte,
-                              .type = abiType(cell.type),
+                              .type = ir::abiType(cell.type),
                               .flags = RUNG_SYMBOL_HIDDEN});
   }
   std::sort(module.symbols.begin(), module.symbols.end(),

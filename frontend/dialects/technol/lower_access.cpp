@@ -52,16 +52,31 @@ ValueId Lowering::value(const Operand& operand, ValueId guard) {
   return load(reach(operand, guard), operand.type);
 }
 
-// The key names module, instruction and operands, with a number where several are alike.
-ir::SlotId Lowering::newSlot(Type type, std::string_view what) {
-  std::string key = std::string(program_.units[statement_->unit].name) + "." + std::string(what);
+std::string Lowering::instructionKey(std::string_view mnemonic) const {
+  std::string key(mnemonic);
   for (const Token& token : program_.operandTokens(*statement_))
     key += token.is(',') ? ',' : ' ', key += symbolKey(token.text);
+  return key;
+}
+
+// The key names module, instruction and operands, with a number where several are alike.
+ir::SlotId Lowering::newSlot(Type type, std::string_view what) {
+  std::string key = std::string(program_.units[statement_->unit].name) + "." + instructionKey(what);
   const uint32_t number = slotNames_[key]++;
   if (number != 0) key += "#" + std::to_string(number);
   module_.slots.push_back({.type = type, .key = std::move(key)});
   automatic_.push_back({static_cast<uint32_t>(module_.slots.size()) - 1});
   return automatic_.back();
+}
+
+void Lowering::nameCells(std::string key, ir::SpaceId space, uint32_t byte, Type type, uint32_t count) {
+  if (const uint32_t number = slotNames_[key]++; number != 0) key += "#" + std::to_string(number);
+  module_.symbols.push_back({.name = std::move(key),
+                             .space = space,
+                             .byte = byte,
+                             .type = ir::abiType(type),
+                             .count = count,
+                             .flags = RUNG_SYMBOL_HIDDEN});
 }
 
 void Lowering::protect(ValueId bad) { b().trap(bad, fault(nc::kTechnolProtection)); }

@@ -91,7 +91,7 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   if (s == nullptr) return;
   const CountCell arriving = l.countCell(o[0]);
   if (!arriving.access.indexed) s->cells.push_back(arriving);
-  const uint32_t waiting = l.newState(*s), next = l.newState(*s);
+  const uint32_t waiting = l.newState(*s, "waiting"), next = l.newState(*s, "next");
   l.storeCount(arriving, l.b().constant(arriving.type, 0));
   l.storeCont(*s, l.b().i32(waiting));
   l.storeLine(*s, l.statement().line);

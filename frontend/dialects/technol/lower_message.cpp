@@ -154,11 +154,14 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
 void Lowering::addBitMessage(BitMessage message, ValueId number, ValueId subId) {
   if (!bitMessageSpace_.valid()) {
     bitMessageSpace_ = {static_cast<uint32_t>(module_.spaces.size())};
-    module_.spaces.push_back({.name = "@EDEF", .unitBytes = 1, .units = 0, .flags = RUNG_SPACE_HIDDEN});
+    module_.spaces.push_back(
+        {.name = "@EDEF", .unitBytes = 1, .units = 0, .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED});
   }
   uint32_t& bytes = module_.spaces[bitMessageSpace_.index].units;
+  const uint32_t tableBytes = kCountBytes + message.capacity * kEntryBytes;
   message.table = bytes;
-  bytes += kCountBytes + message.capacity * kEntryBytes;
+  bytes += tableBytes;
+  nameCells("@" + instructionKey("EDEF"), bitMessageSpace_, message.table, Type::I8, tableBytes);
 
   ir::RungBuilder& builder = b();
   const Entries entries(builder, bitMessageSpace_, message);

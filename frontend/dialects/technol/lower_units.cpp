@@ -1,6 +1,8 @@
 // Mechanisms, block modules, procedures and timed blocks: where control enters and leaves them.
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "frontend/dialects/technol/lowering.h"
 
 namespace rung::frontend::technol {
@@ -48,8 +50,18 @@ void Lowering::beginSequence(uint32_t mechanism, uint32_t unit) {
   sequence.unit = unit;
   sequence.routine = out_->routine();
   sequence.mechanism = mechanism;
-  if (mechanism == kNone)
-    sequence.moduleCont = place(kind_ == ModuleKind::BlockInit ? HostCell::BlockInitCont : HostCell::BlockDoneCont);
+  ir::Continuation& continuation = sequence.continuation;
+  continuation.points = {"beginning"};
+  if (mechanism == kNone) {
+    const HostCell cell = kind_ == ModuleKind::BlockInit ? HostCell::BlockInitCont : HostCell::BlockDoneCont;
+    sequence.moduleCont = place(cell);
+    continuation.key = hostCell(cell).name;
+    continuation.space = sequence.moduleCont.space;
+    continuation.byte = sequence.moduleCont.byte;
+  } else {
+    continuation.slot = contSlots_[mechanism];
+    continuation.key = module_.at(continuation.slot).key;
+  }
   sequence.leave = out_->newLabel();
   sequence.dispatch = out_->selectLater(loadCont(sequence));
   sequence.states.push_back(out_->newLabel());
@@ -72,6 +84,7 @@ void Lowering::endSequence() {
   out_->setLabels(sequence.dispatch, sequence.states);
   out_->bind(sequence.leave);
   if (sequence.mechanism != kNone) resetCells_[sequence.mechanism] = std::move(sequence.cells);
+  module_.continuations.push_back(std::move(sequence.continuation));
   sequences_.pop_back();
 }
 
@@ -110,14 +123,28 @@ Sequence* Lowering::sequence() {
                                                                                                     : nullptr;
 }
 
-uint32_t Lowering::newState(Sequence& sequence) {
+uint32_t Lowering::newState(Sequence& sequence, std::string_view role) {
+  addPoint(sequence, role);
   sequence.states.push_back(out_->newLabel());
   return static_cast<uint32_t>(sequence.states.size()) - 1;
 }
 
+// A point is known by what leads to it: waiting there goes on in a new program as long as that is the same.
+void Lowering::addPoint(Sequence& sequence, std::string_view role) {
+  std::string key = fmt::format("{}@{:016x}", instructionKey(statement_->row->info.mnemonic), sequence.section);
+  sequence.sectionEnds = true;
+  if (const uint32_t number = sequence.alike[key + std::string(role)]++; number != 0)
+    key += "#" + std::to_string(number);
+  if (!role.empty()) (key += '/') += role;
+  sequence.continuation.points.push_back(std::move(key));
+}
+
 uint32_t Lowering::stateOf(Sequence& sequence, uint32_t label) {
   const auto [entry, isNew] = sequence.stateOfLabel.emplace(label, static_cast<uint32_t>(sequence.states.size()));
-  if (isNew) sequence.states.push_back(label);
+  if (isNew) {
+    addPoint(sequence, "error");
+    sequence.states.push_back(label);
+  }
   return entry->second;
 }
 

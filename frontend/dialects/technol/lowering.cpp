@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/dialects/technol/lower.h"
+#include "ir/support/hash.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
@@ -53,6 +54,9 @@ Lowering::Lowering(Program& program, ir::Module& module, uint32_t periodUs, ir::
     const uint32_t index = static_cast<uint32_t>(module.slots.size());
     module.slots.push_back({.type = Type::I32, .key = "MECH." + symbolKey(mechanism.name) + ".CONT"});
     contSlots_.push_back({index});
+    const uint32_t byte = static_cast<uint32_t>(contSlots_.size() - 1) * kMechanismBytes;
+    nameCells("@MECH." + symbolKey(mechanism.name), kMechanismSpace, byte, Type::Bit);
+    nameCells("@MECH." + symbolKey(mechanism.name) + ".LINE", kMechanismSpace, byte + 1, Type::I16);
   }
   resets_.resize(program.mechanisms.size());
   resetCells_.resize(program.mechanisms.size());
@@ -192,6 +196,10 @@ void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   if (statement.row == nullptr) { // reported already; it may have been what ends the equation
     spoiled_ = true;
     return;
+  }
+  if (Sequence* s = sequence()) {
+    s->section = hashBytes(instructionKey(statement.row->info.mnemonic), s->sectionEnds ? 0 : s->section);
+    s->sectionEnds = false;
   }
   switch (statement.row->role) {
   case Role::Code:

@@ -39,11 +39,15 @@ struct CountCell {
 struct Sequence {
   uint32_t unit = kNone;
   ir::RoutineId routine;
-  uint32_t mechanism = kNone;   // kNone: a module
-  ir::Place moduleCont;         // of a module: i32 for the host
-  uint32_t leave = kNone;       // label behind its end
-  uint32_t dispatch = kNone;    // handle of the switch at its beginning
-  std::vector<uint32_t> states; // labels by number; 0 is the beginning
+  uint32_t mechanism = kNone;                      // kNone: a module
+  ir::Place moduleCont;                            // of a module: i32 for the host
+  uint32_t leave = kNone;                          // label behind its end
+  uint32_t dispatch = kNone;                       // handle of the switch at its beginning
+  std::vector<uint32_t> states;                    // labels by number; 0 is the beginning
+  ir::Continuation continuation;                   // has a point for each of them
+  uint64_t section = 0;                            // hash of the instructions from the last point to this one
+  bool sectionEnds = false;                        // this one has a point
+  std::unordered_map<std::string, uint32_t> alike; // points so far, by their keys
   std::unordered_map<uint32_t, uint32_t> stateOfLabel;
   std::vector<CountCell> cells; // cleared when the unit ends or is initialised
 };
@@ -110,6 +114,10 @@ public:
 
   // State of this statement alone, e.g. the former value of an edge.
   ir::SlotId newSlot(ir::Type type, std::string_view what);
+  // Names cells of an allocated space, so that they are found again in a changed program.
+  void nameCells(std::string key, ir::SpaceId space, uint32_t byte, ir::Type type, uint32_t count = 1);
+  // The instruction at hand with its operands: what its state is known by.
+  std::string instructionKey(std::string_view mnemonic) const;
   // EDGE: forgotten at every start.
   void forgetAtStart(ir::SlotId slot) { forgotten_.push_back(slot); }
   CountCell countCell(const Operand& operand);
@@ -120,7 +128,9 @@ public:
   uint32_t jumpTarget(const Operand& label);
   // The unit that waits where the statement waits; null where it may not wait (reported while reading).
   Sequence* sequence();
-  uint32_t newState(Sequence& sequence);
+  // `role` tells the states of one instruction apart.
+  uint32_t newState(Sequence& sequence, std::string_view role = {});
+  void addPoint(Sequence& sequence, std::string_view role);
   uint32_t stateOf(Sequence& sequence, uint32_t label);
   void storeCont(const Sequence& sequence, ir::ValueId state);
   ir::ValueId loadCont(const Sequence& sequence);

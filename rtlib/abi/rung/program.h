@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define RUNG_ABI_VERSION 3u
+#define RUNG_ABI_VERSION 4u
 #define RUNG_PROGRAM_SYMBOL "rung_program_v1"
 #define RUNG_NONE 0xFFFFFFFFu     /* "not there" in every index field */
 #define RUNG_PC_DONE 0xFFFFFFFFu  /* a chunk returns this when the task's run has ended */
@@ -26,8 +26,9 @@ extern "C" {
 
 typedef struct rung_ctx rung_ctx;
 
-/* Runs one chunk on the memory block; returns the next chunk, RUNG_PC_DONE or RUNG_PC_FAULT. */
-typedef uint32_t (*rung_chunk_fn)(uint8_t* mem, rung_ctx* ctx);
+/* Runs a chunk on the memory block; returns the next chunk, RUNG_PC_DONE or RUNG_PC_FAULT. `chunk` is its own number:
+ * compiled code leaves it alone, an interpreter has one function for all chunks. */
+typedef uint32_t (*rung_chunk_fn)(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 
 /* ---- memory -------------------------------------------------------------------------------------------------- */
 
@@ -49,6 +50,9 @@ enum rung_space_flags {
   RUNG_SPACE_INPUT = 1,  /* the machine or the NC writes it */
   RUNG_SPACE_OUTPUT = 2, /* the program writes it for the machine or the NC */
   RUNG_SPACE_HIDDEN = 4, /* no name a user would write: latches, registers, masks */
+  /* The compiler gave its addresses out, and may do so otherwise when the program changes: what lies there is known by
+   * its symbol alone. */
+  RUNG_SPACE_ALLOCATED = 8,
 };
 
 /* An address space of the dialect. Multi-byte values are little-endian in every space. */
@@ -89,6 +93,26 @@ typedef struct rung_symbol {
   uint32_t flags; /* enum rung_symbol_flags */
   int64_t value;  /* of a constant */
 } rung_symbol;
+
+/* State that the compiler made: the last value of an edge, what a timer has counted. Sorted by strcmp of `key`, which
+ * stays the same as long as the instruction does, whatever changes around it. What means nothing between two scans has
+ * no entry. Slots share no byte with a range of a space. */
+typedef struct rung_slot {
+  const char* key;
+  uint32_t offset; /* in the memory block */
+  uint32_t type;   /* enum rung_type, no text; a bit has a byte, 0 or 1 */
+  uint32_t rung;   /* the first that uses it; RUNG_NONE: none does */
+  uint32_t reserved;
+} rung_slot;
+
+/* A cell of 32 bits, of a slot or of a space, that says where a mechanism continues. Its value v means points[v], a key
+ * that stays the same as long as the instruction there does; 0 is the beginning. Sorted by strcmp of `key`. */
+typedef struct rung_continuation {
+  const char* key;
+  uint32_t offset; /* in the memory block */
+  uint32_t point_count;
+  const char* const* points;
+} rung_continuation;
 
 /* Bytes of the memory block. A retained span is made of whole logical bytes of spaces. */
 typedef struct rung_span {
@@ -269,10 +293,14 @@ typedef struct rung_program {
   uint32_t fault_count;
   uint32_t service_count;
   uint32_t text_count;
+  uint32_t slot_count;
+  uint32_t continuation_count;
   uint32_t reserved;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
+  const rung_slot* slots;
+  const rung_continuation* continuations;
   const rung_init* inits;
   const rung_span* retains;    /* kept through power-off */
   const rung_span* safe_spans; /* cleared when a fault stops the program */
@@ -290,9 +318,7 @@ typedef struct rung_program {
   const char* const* services;
   const char* const* texts; /* message texts: pairs of number (decimal) and text */
 
-  const rung_chunk_fn* chunk_fns; /* by chunk; null when, and only when, `run_chunk` is there */
-  /* How an interpreter runs a chunk; null in compiled programs. */
-  uint32_t (*run_chunk)(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
+  const rung_chunk_fn* chunk_fns; /* by chunk */
 } rung_program;
 
 #ifdef __cplusplus

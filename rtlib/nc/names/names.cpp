@@ -46,6 +46,13 @@ bool liesAt(const rung_symbol& symbol, const Ref& place) {
   return place.kind == RefKind::Bit && symbol.bit == place.bit;
 }
 
+// A hidden name says something of a hidden space only; elsewhere it is a second one, for the compiler's own use.
+bool isShown(const rung_program& program, const rung_symbol& symbol) {
+  const bool hidden = (symbol.flags & RUNG_SYMBOL_HIDDEN) != 0;
+  return !hidden ||
+         (symbol.space < program.space_count && (program.spaces[symbol.space].flags & RUNG_SPACE_HIDDEN) != 0);
+}
+
 std::string addressBy(const NameGrammar& grammar, const rung_program& program, const Ref& place) {
   return place.space < program.space_count ? grammar.address(program, place) : "no space";
 }
@@ -89,7 +96,7 @@ std::string NameGrammar::placeName(const rung_program& program, const Ref& place
   for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
     Ref own = host::refOf(symbol);
     own.readonly = place.readonly;
-    if (own == place) return symbol.name;
+    if (own == place && isShown(program, symbol)) return symbol.name;
   }
   return addressBy(*this, program, place);
 }
@@ -177,7 +184,7 @@ std::string describe(const rung_program& program, const Ref& place) {
   std::string names;
   int found = 0;
   for (uint32_t i = 0; i < program.symbol_count && found < kMostNames; ++i) {
-    if (!liesAt(program.symbols[i], place)) continue;
+    if (!liesAt(program.symbols[i], place) || !isShown(program, program.symbols[i])) continue;
     names += (found++ == 0 ? "" : ", ") + std::string(program.symbols[i].name);
   }
   return address(program, place) + (found == 0 ? "" : " (" + names + ")");

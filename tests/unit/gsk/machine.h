@@ -22,8 +22,7 @@ public:
     EXPECT_TRUE(errors.empty()) << ir::render(*program_->module, errors);
     layout_ = std::make_unique<ir::Layout>(*program_->module, ir::LayoutOptions{});
     engine_ = std::make_unique<ir::InterpEngine>(*layout_, 0);
-    instance_ = std::make_unique<host::Instance>(engine_->program());
-    instance_->context().engine = engine_->context();
+    instance_ = std::make_unique<host::Instance>(*engine_);
   }
 
   uint64_t get(const std::string& name) const { return instance_->read(ref(name)); }

@@ -469,8 +469,7 @@ TEST(InterpHost, CountsOperations) {
   Module module = moduleFromText(text);
   const Layout layout(module, {});
   InterpEngine engine(layout, 1, Counting::Operations);
-  host::Instance instance(engine.program());
-  instance.context().engine = engine.context();
+  host::Instance instance(engine);
   instance.scan();
   EXPECT_EQ(instance.profile()[0].total, 4u) << "load, if, store, goto";
   EXPECT_EQ(instance.profile()[1].total, 7u) << "loop, and three times add and endloop";

@@ -26,10 +26,7 @@ inline Module moduleFromText(std::string_view text, Mode mode = Mode::Final) {
 class Machine {
 public:
   explicit Machine(Module module, const LayoutOptions& options = {}, host::ScheduleHooks* hooks = nullptr)
-      : module_(std::move(module)), layout_(module_, options), engine_(layout_, 1),
-        instance_(engine_.program(), hooks) {
-    instance_.context().engine = engine_.context();
-  }
+      : module_(std::move(module)), layout_(module_, options), engine_(layout_, 1), instance_(engine_, hooks) {}
 
   host::Instance& operator*() { return instance_; }
   host::Instance* operator->() { return &instance_; }

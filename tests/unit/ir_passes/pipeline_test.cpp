@@ -97,9 +97,7 @@ public:
 // A module that runs in the interpreter.
 struct Running {
   explicit Running(Module from)
-      : module(std::move(from)), layout(module, {}), engine(layout, 0), instance(engine.program(), &answers) {
-    instance.context().engine = engine.context();
-  }
+      : module(std::move(from)), layout(module, {}), engine(layout, 0), instance(engine, &answers) {}
   Module module;
   Layout layout;
   Answers answers;

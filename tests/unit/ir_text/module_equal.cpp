@@ -72,6 +72,11 @@ bool equal(const Copy& a, const Copy& b) {
          maskByte == b.maskByte;
 }
 
+bool equal(const Continuation& a, const Continuation& b) {
+  const auto& [key, slot, space, byte, points] = a;
+  return key == b.key && slot == b.slot && space == b.space && byte == b.byte && points == b.points;
+}
+
 bool equal(const Init& a, const Init& b) {
   const auto& [space, byte, data] = a;
   return space == b.space && byte == b.byte && data == b.data;
@@ -95,14 +100,15 @@ bool equal(const MessageText& a, const MessageText& b) {
 }
 
 bool equal(const Module& a, const Module& b) {
-  const auto& [name, dialect, files, spaces, slots, symbols, inits, retains, safeSpans, faults, services, messages,
-               routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = a;
+  const auto& [name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults, services,
+               messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = a;
   return name == b.name && dialect == b.dialect && files == b.files && equalAll(spaces, b.spaces) &&
-         equalAll(slots, b.slots) && equalAll(symbols, b.symbols) && equalAll(inits, b.inits) &&
-         equalAll(retains, b.retains) && equalAll(safeSpans, b.safeSpans) && faults == b.faults &&
-         services == b.services && equalAll(messages, b.messages) && equalAll(routines, b.routines) &&
-         equalAll(tasks, b.tasks) && mainTask == b.mainTask && fastTask == b.fastTask && equalAll(scan, b.scan) &&
-         equalAll(fast, b.fast) && equalAll(slices, b.slices) && instrumented == b.instrumented;
+         equalAll(slots, b.slots) && equalAll(continuations, b.continuations) && equalAll(symbols, b.symbols) &&
+         equalAll(inits, b.inits) && equalAll(retains, b.retains) && equalAll(safeSpans, b.safeSpans) &&
+         faults == b.faults && services == b.services && equalAll(messages, b.messages) &&
+         equalAll(routines, b.routines) && equalAll(tasks, b.tasks) && mainTask == b.mainTask &&
+         fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) && equalAll(slices, b.slices) &&
+         instrumented == b.instrumented;
 }
 
 } // namespace rung::ir

@@ -97,6 +97,8 @@ TEST(TextRoundTrip, FieldsAtTheirLimits) {
   module.slots = {{.type = Type::I64, .init = INT64_MIN, .transient = true, .key = "a"},
                   {.type = Type::F64, .init = static_cast<int64_t>(0xFFF0000000000000), .key = "b"},
                   {.type = Type::I8, .init = 0x80, .key = "c"}};
+  module.continuations = {{.key = "", .slot = SlotId{7}, .points = {}},
+                          {.key = "\"", .space = SpaceId{0}, .byte = UINT32_MAX, .points = {"", "a b", "\n"}}};
   module.symbols = {{.name = "S",
                      .space = SpaceId{},
                      .byte = 3,

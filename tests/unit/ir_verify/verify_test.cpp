@@ -120,7 +120,7 @@ TEST(VerifyModule, Names) {
 TEST(VerifyModule, Spaces) {
   expectBroken([](Module& m) { m.spaces[1].unitBytes = 3, m.spaces[1].units = 32; }, Rule::Spaces, "units of 3 bytes");
   expectBroken([](Module& m) { m.spaces[1].units = (1u << 30) + 1; }, Rule::Spaces, "larger");
-  expectBroken([](Module& m) { m.spaces[1].flags = 8; }, Rule::Spaces, "unknown flags");
+  expectBroken([](Module& m) { m.spaces[1].flags = 16; }, Rule::Spaces, "unknown flags");
   expectBroken(
       [](Module& m) {
         for (const char* name : {"BIG", "BIGGER"})
@@ -133,6 +133,12 @@ TEST(VerifyModule, Slots) {
   expectBroken([](Module& m) { m.slots[0].type = Type::None; }, Rule::Slots, "no type");
   expectBroken([](Module& m) { m.slots[0].init = 0x10000; }, Rule::Slots, "cannot hold");
   expectBroken([](Module& m) { m.slots[1].init = -1; }, Rule::Slots, "cannot hold");
+  const auto continuation = [](Continuation c) { return [c](Module& m) { m.continuations = {c}; }; };
+  expectBroken(continuation({.key = "C", .slot = SlotId{99}, .points = {"0"}}), Rule::Slots, "not in a cell");
+  expectBroken(continuation({.key = "C", .space = SpaceId{0}, .byte = 1000000, .points = {"0"}}), Rule::Slots,
+               "not in a cell");
+  expectBroken(continuation({.key = "C", .space = SpaceId{0}}), Rule::Slots, "no points");
+  expectBroken(continuation({.key = "C", .space = SpaceId{0}, .points = {"0", "1", "0"}}), Rule::Slots, "two points");
 }
 
 TEST(VerifyModule, Symbols) {

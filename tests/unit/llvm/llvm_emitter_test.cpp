@@ -58,7 +58,7 @@ TEST(LlvmEmitter, FastTextIsTheRungsAsTheyStand) {
   ASSERT_TRUE(ir.ok()) << ir.error();
   const std::string place = "i64 " + std::to_string(layout.byte(SpaceId{2}, 4));
   EXPECT_EQ(replaced(functionText(ir.value(), "COUNT.0"), place, "i64 COUNT_PLACE"),
-            R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx) #0 {
+            R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx, i32 %chunk) #0 {
 entry:
   %0 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
   %1 = load i16, ptr %0, align 1

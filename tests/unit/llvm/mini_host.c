@@ -57,7 +57,7 @@ static void runMain(const rung_program* p, rung_ctx* ctx) {
   ctx->stack[0] = RUNG_PC_DONE;
   ctx->sp = 1;
   uint32_t pc = task->entry;
-  while (pc < p->chunk_count) pc = p->chunk_fns ? p->chunk_fns[pc](memory, ctx) : p->run_chunk(memory, ctx, pc);
+  while (pc < p->chunk_count) pc = p->chunk_fns[pc](memory, ctx, pc);
   copySpans(p, task->end_first, task->end_count);
 }
 

@@ -29,7 +29,7 @@ protected:
     program_.memorySize = 2 * kBytes;
     program_.addPacked("M", 4, kBytes, 0);
     program_.addPacked("TS", 4, kBytes, kBytes);
-    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx) { return test::popChunk(ctx); }));
+    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
     for (uint32_t i = 0; i < kSlices; ++i) {
       program_.scan.push_back({RUNG_STEP_ADVANCE, RUNG_NONE, 2000});
       program_.scan.push_back({RUNG_STEP_HOOK, RUNG_NONE, 0});

@@ -16,8 +16,8 @@ protected:
   WrittenByName() {
     test.dialect = "nct";
     const uint32_t m = test.addPacked("M", 4, 8, 0), ts = test.addPacked("TS", 4, 8, 32);
-    const uint32_t task =
-        test.addTask("MAIN", test.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
+    const uint32_t task = test.addTask(
+        "MAIN", test.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
     test.addSymbol("BUTTON", m, 4, RUNG_TYPE_BIT, 3);
     test.addSymbol("FREE", m, 0, RUNG_TYPE_I32);
     test.addBeginCopy(task, {RUNG_COPY_ALL, 36, 4, 0, 4});

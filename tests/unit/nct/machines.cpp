@@ -16,7 +16,7 @@ Machine::Machine(const driver::Compiled& compiled, EngineKind kind) : name_(driv
   auto engine = driver::makeEngine(kind, compiled, {});
   RUNG_CHECK(engine.ok(), engine.error().c_str());
   engine_ = std::move(engine.value());
-  instance_ = driver::makeInstance(*engine_, nullptr);
+  instance_ = std::make_unique<host::Instance>(*engine_);
   memory_ = host::findSpace(instance_->program(), "M");
   slice_ = host::findSpace(instance_->program(), "TS");
 }

@@ -75,7 +75,7 @@ public:
     compiled_ = std::move(*compiled);
     engine_ = std::move(driver::makeEngine(driver::EngineKind::Interp, compiled_, {}).value());
     nc_ = sim::makeSimulatedNc("nct");
-    instance_ = driver::makeInstance(*engine_, nc_.get());
+    instance_ = std::make_unique<host::Instance>(*engine_, nc_.get());
     nc_->powerOn(*instance_, nc::PowerOn::Cold);
   }
   void set(std::string_view bit, bool value) {

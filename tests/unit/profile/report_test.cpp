@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class ProfileReport : public testing::Test {
 protected:
   ProfileReport() {
-    for (int i = 0; i < 5; ++i) test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+    for (int i = 0; i < 5; ++i) test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
     test.routines = {"MAIN", "MAIN.SBN5", "LEVEL1"};
     test.link();
     test.rungs[1].routine = 1;

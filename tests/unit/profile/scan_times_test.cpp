@@ -43,11 +43,11 @@ void busy(uint64_t ticks) {
 class ProfileScanTimes : public testing::Test {
 protected:
   ProfileScanTimes() {
-    test.addChunk([](uint8_t*, rung_ctx*) {
+    test.addChunk([](uint8_t*, rung_ctx*, uint32_t) {
       busy(20'000);
       return RUNG_PC_DONE;
     });
-    test.addChunk([](uint8_t*, rung_ctx*) {
+    test.addChunk([](uint8_t*, rung_ctx*, uint32_t) {
       busy(2'000'000);
       return RUNG_PC_DONE;
     });

@@ -27,12 +27,16 @@ TestProgram soundProgram() {
   test.addSymbol("A", 0, 1, RUNG_TYPE_I8);
   test.addSymbol("B", 0, 2, RUNG_TYPE_BIT, 3);
   test.addConstant("C", 5);
+  test.addSlot("edge", 32, RUNG_TYPE_BIT);
+  test.addSlot("since", 40, RUNG_TYPE_I64);
+  test.addContinuation("MECH", 48, {"beginning", "open"});
+  test.addContinuation("TURN", 52, {"beginning"});
   static const uint8_t kData[] = {1, 0, 1, 1, 0, 1, 1, 1, 2};
   test.inits = {{0, 1, kData}, {64, 8, kData}};
   test.retains = {{0, 4}, {72, 16}};
   test.safeSpans = {{0, 4}};
-  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
-  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
+  test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
   const uint32_t task = test.addTask("MAIN", 0, 1000, {1, RUNG_PC_DONE});
   test.addBeginCopy(task, {RUNG_COPY_MASKED, 0, 128, 130, 2});
   test.addBeginCopy(task, {RUNG_COPY_ALL, 64, 72, 0, 8});
@@ -53,7 +57,7 @@ TEST(CheckProgram, RetainedSpansTogether) {
   TestProgram test;
   test.memorySize = 0x80000000;
   test.addPacked("K", 1, 0x80000000, 0);
-  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
   test.addTask("MAIN", 0);
   test.retains = {{0, 0x80000000}};
   EXPECT_EQ(checkProgram(test.link()), "");
@@ -73,7 +77,7 @@ TEST(CheckProgram, FiftyThousandRungs) {
   test.addPacked("Y", 1, kCount, 32 * kCount);
   static const uint8_t kByte = 1;
   for (uint32_t i = 0; i < kCount; ++i) {
-    test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+    test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
     test.retains.push_back({16 * i, i % 2 == 0 ? 1u : 8u});
     test.inits.push_back({16 * i, 1, &kByte});
   }
@@ -103,9 +107,6 @@ const Case kCases[] = {
     {"MainTask", [](TestProgram& t) { t.program.main_task = 4; }, "the main task is 4, there are 1"},
     {"FastTask", [](TestProgram& t) { t.program.fast_task = 1; }, "the fast task is 1, there are 1"},
     {"NoCode", [](TestProgram& t) { t.program.chunk_fns = nullptr; }, "no code"},
-    {"BothCodes",
-     [](TestProgram& t) { t.program.run_chunk = [](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; }; },
-     "both chunk functions and run_chunk"},
     {"ManyChunks", [](TestProgram& t) { t.program.chunk_count = 0xFFFFFFFF; }, "too many chunks"},
 
     {"NoSpaces", [](TestProgram& t) { t.program.spaces = nullptr; }, "table of spaces is missing, it has 2"},
@@ -130,7 +131,7 @@ const Case kCases[] = {
     {"SpaceUnit", [](TestProgram& t) { t.spaces[0].unit_bytes = 3; }, "space 0 has units of 3 bytes"},
     {"SpaceUnitZero", [](TestProgram& t) { t.spaces[0].unit_bytes = 0; }, "space 0 has units of 0 bytes"},
     {"SpacePartOfUnit", [](TestProgram& t) { t.spaces[1].byte_count = 7; }, "space 1 has 7 bytes, part of a unit"},
-    {"SpaceFlags", [](TestProgram& t) { t.spaces[1].flags = 8; }, "space 1 has unknown flags 8"},
+    {"SpaceFlags", [](TestProgram& t) { t.spaces[1].flags = 16; }, "space 1 has unknown flags 16"},
     {"SpaceRanges", [](TestProgram& t) { t.spaces[1].ranges = nullptr; }, "space 1 has no table of ranges"},
     {"RangeRepr", [](TestProgram& t) { t.ranges[0][1].repr = 2; }, "space 0 has a range of unknown representation 2"},
     {"RangeOutside", [](TestProgram& t) { t.ranges[0][1].offset = 250; }, "space 0 lies outside the memory block"},
@@ -150,6 +151,24 @@ const Case kCases[] = {
     {"SymbolBitOfByte", [](TestProgram& t) { t.symbols[0].bit = 1; }, "symbol 0 begins at bit 1"},
     {"SymbolCount", [](TestProgram& t) { t.symbols[0].count = 0; }, "symbol 0 has no elements"},
     {"SymbolSpace", [](TestProgram& t) { t.symbols[0].space = 3; }, "symbol 0 has space 3, there are 2"},
+    {"NoSlots", [](TestProgram& t) { t.program.slots = nullptr; }, "table of slots is missing"},
+    {"SlotKey", [](TestProgram& t) { t.slots[0].key = nullptr; }, "slot 0 has no name"},
+    {"SlotOrder", [](TestProgram& t) { std::swap(t.slots[0], t.slots[1]); }, "slot 1 is not sorted"},
+    {"SlotTwice", [](TestProgram& t) { t.slots[1].key = "edge"; }, "slot 1 is not sorted"},
+    {"SlotType", [](TestProgram& t) { t.slots[0].type = 9; }, "slot 0 has the unknown type 9"},
+    {"SlotText", [](TestProgram& t) { t.slots[0].type = RUNG_TYPE_TEXT; }, "slot 0 has the unknown type 7"},
+    {"SlotOutside", [](TestProgram& t) { t.slots[1].offset = 250; }, "slot 1 lies outside the memory block"},
+    {"SlotRung", [](TestProgram& t) { t.slots[0].rung = 2; }, "slot 0 has rung 2, there are 2"},
+    {"SlotInSpace", [](TestProgram& t) { t.slots[0].offset = 131; }, "slot 0 lies in a space"},
+    {"SlotReachesSpace", [](TestProgram& t) { t.slots[1].offset = 57; }, "slot 1 lies in a space"},
+    {"SlotsTogether", [](TestProgram& t) { t.slots[0].offset = 47; }, "two slots lie at offset 47"},
+    {"NoContinuations", [](TestProgram& t) { t.program.continuations = nullptr; }, "table of continuations is missing"},
+    {"ContinuationKey", [](TestProgram& t) { t.continuations[1].key = nullptr; }, "continuation 1 has no name"},
+    {"ContinuationOrder", [](TestProgram& t) { t.continuations[1].key = "A"; }, "continuation 1 is not sorted"},
+    {"ContinuationOutside", [](TestProgram& t) { t.continuations[0].offset = 253; }, "continuation 0 lies outside"},
+    {"ContinuationEmpty", [](TestProgram& t) { t.continuations[0].point_count = 0; }, "continuation 0 has no points"},
+    {"ContinuationPoint", [](TestProgram& t) { t.points[0][1] = nullptr; }, "continuation 0 has a point without a key"},
+
     {"SymbolByte", [](TestProgram& t) { t.symbols[0].byte = 8; }, "symbol 0 lies outside space 0"},
     {"SymbolLong", [](TestProgram& t) { t.symbols[0].count = 0xFFFFFFFF; }, "symbol 0 lies outside space 0"},
     {"SymbolBits", [](TestProgram& t) { t.symbols[1].count = 46; }, "symbol 1 lies outside space 0"},

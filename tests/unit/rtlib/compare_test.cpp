@@ -21,7 +21,7 @@ protected:
   CompareTest() { make(test); }
   static void make(TestProgram& program) {
     program.addSpace("R", 1, {{0, 8, 0, RUNG_REPR_PACKED}, {8, 4, 64, RUNG_REPR_BYTE_PER_BIT}});
-    program.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_FAULT; });
+    program.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_FAULT; });
     program.addTask("MAIN", 0);
     program.link();
   }

@@ -22,14 +22,14 @@ protected:
     test.inits = {{2, 1, &kInit}};
     test.retains = {{1, 1}, {40, 2}};
     test.safeSpans = {{3, 1}};
-    test.addChunk([](uint8_t* mem, rung_ctx* ctx) {
+    test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) {
       ++mem[0];
       mem[3] = 1;
       if (mem[0] < 100) return RUNG_PC_DONE;
       ctx->fault = {1, 0, 12, RUNG_NONE};
       return RUNG_PC_FAULT;
     });
-    test.addChunk([](uint8_t* mem, rung_ctx* ctx) { // asks once, takes what comes
+    test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { // asks once, takes what comes
       int64_t arg = 5;
       if (mem[8] == 0) mem[8] = static_cast<uint8_t>(ctx->host->service_request(ctx, 1, &arg, 1));
       mem[9] = static_cast<uint8_t>(ctx->host->service_poll(ctx, mem[8]));

@@ -30,14 +30,14 @@ class Model : public ScheduleHooks {
 // A program that uses all there is: copies, parts, messages, services of both kinds, and in the end a fault.
 void build(TestProgram& test) {
   test.addPacked("R", 1, 64, 0);
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) {
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) {
     rung_message message{};
     ctx->host->message(ctx, &message);
     int64_t arg = 0;
     ctx->host->service_poll(ctx, ctx->host->service_request(ctx, mem[0] & 1u, &arg, 1));
     return ++mem[0] == 200 ? RUNG_PC_FAULT : 1u;
   });
-  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
   const uint32_t main = test.addTask("MAIN", 0, 1000, {1, RUNG_PC_DONE});
   test.addTask("EXTRA", 1);
   test.addBeginCopy(main, {RUNG_COPY_ALL, 8, 16, 0, 4});
@@ -65,6 +65,23 @@ TEST(NoAllocation, CounterCounts) {
               ::operator delete(kept);
             }),
             2);
+}
+
+TEST(NoAllocation, NorAReplacement) {
+  TestProgram one, two;
+  build(one);
+  build(two);
+  Instance instance(one.program);
+  Replacement replacement(one.program, two.program);
+  bool replaced = true;
+  EXPECT_EQ(allocationsOf([&] {
+              for (int i = 0; i < 10; ++i) {
+                instance.scan();
+                replaced = replaced && instance.replace(replacement) == ReplaceResult::Replaced;
+              }
+            }),
+            0);
+  EXPECT_TRUE(replaced);
 }
 
 TEST(NoAllocation, NeitherStartNorScan) {

@@ -16,7 +16,8 @@ protected:
   OverwrittenPlaces() {
     m = test.addSpace("M", 4, {{0, 8, 0, RUNG_REPR_PACKED}, {8, 2, 8, RUNG_REPR_BYTE_PER_BIT}});
     ts = test.addSpace("TS", 4, {{0, 8, 32, RUNG_REPR_PACKED}, {8, 2, 40, RUNG_REPR_BYTE_PER_BIT}});
-    task = test.addTask("MAIN", test.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
+    task = test.addTask("MAIN",
+                        test.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
   }
   uint32_t m, ts, task;
   TestProgram test;

@@ -13,7 +13,7 @@ using rung::test::TestProgram;
 TEST(ProgramInfo, LookUps) {
   TestProgram test;
   test.addPacked("D", 1, 4, 0);
-  test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
   test.addTask("MAIN", 0);
   test.link();
   EXPECT_EQ(findSpace(test.program, "D"), 0u);
@@ -45,7 +45,7 @@ TEST(ProgramInfo, Symbols) {
 
 TEST(ProgramInfo, FaultTexts) {
   TestProgram test;
-  for (int i = 0; i < 4; ++i) test.addChunk([](uint8_t*, rung_ctx*) { return RUNG_PC_DONE; });
+  for (int i = 0; i < 4; ++i) test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
   test.link();
   EXPECT_EQ(faultText(test.program, {0, 3, 12, 0}), "dead-loop (rung 4 \"title\", main.pmc:12)");
   EXPECT_EQ(faultText(test.program, {1, 0, 0, 0}), "division by zero (rung 1, main.pmc:10)");

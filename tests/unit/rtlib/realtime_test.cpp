@@ -25,7 +25,8 @@ class RealTimeTest : public testing::Test {
 protected:
   RealTimeTest() {
     test.addPacked("R", 1, 8, 0);
-    test.addChunk([](uint8_t* mem, rung_ctx*) { return ++mem[0], mem[1] == 0 ? RUNG_PC_DONE : RUNG_PC_FAULT; });
+    test.addChunk(
+        [](uint8_t* mem, rung_ctx*, uint32_t) { return ++mem[0], mem[1] == 0 ? RUNG_PC_DONE : RUNG_PC_FAULT; });
     test.addTask("MAIN", 0);
     test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000}, {RUNG_STEP_RUN, 0, 1}};
     test.link();
@@ -114,7 +115,7 @@ TEST_F(RealTimeTest, TheLongestSliceIsMeasured) {
   static FakeClock* running = nullptr;
   TestProgram slow;
   slow.addPacked("R", 1, 8, 0);
-  slow.addChunk([](uint8_t* mem, rung_ctx*) {
+  slow.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
     running->advance(++mem[0] == 3 ? 700'000 : 100'000);
     return RUNG_PC_DONE;
   });

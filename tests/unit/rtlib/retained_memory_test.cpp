@@ -29,11 +29,11 @@ protected:
     folder = pattern;
     file = (folder / "plc").string();
     test.addPacked("R", 1, 64, 0);
-    test.addChunk([](uint8_t* mem, rung_ctx*) {
+    test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
       mem[4] = mem[5] = ++mem[0];
       return mem[8] != 0 && mem[0] == mem[8] ? RUNG_PC_FAULT : RUNG_PC_DONE;
     });
-    test.addChunk([](uint8_t* mem, rung_ctx*) {
+    test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
       mem[6] = mem[0];
       return mem[9] != 0 && mem[0] == mem[9] ? RUNG_PC_FAULT : RUNG_PC_DONE;
     });

@@ -42,7 +42,7 @@ protected:
 };
 
 template <uint8_t N, uint32_t Next>
-uint32_t step(uint8_t* mem, rung_ctx*) {
+uint32_t step(uint8_t* mem, rung_ctx*, uint32_t) {
   trace(mem, N);
   return Next;
 }
@@ -56,7 +56,7 @@ int64_t tickingNs() {
 // A chunk that stays within its budget of steps can still take too long.
 TEST_F(RunnerTest, ATimeLimitStopsBetweenChunks) {
   for (uint32_t i = 0; i < 20; ++i)
-    test.addChunk([](uint8_t* mem, rung_ctx*) { return ++mem[0] == 20 ? RUNG_PC_DONE : uint32_t{mem[0]}; });
+    test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return ++mem[0] == 20 ? RUNG_PC_DONE : uint32_t{mem[0]}; });
   test.addTask("MAIN", 0);
   Runner& r = start();
   EXPECT_TRUE(r.runTask(0)); // without a limit
@@ -75,7 +75,7 @@ TEST_F(RunnerTest, ATimeLimitStopsBetweenChunks) {
 
 // A host may calculate otherwise; programs do not, and the host has its settings back.
 TEST_F(RunnerTest, FloatingPointAsProgramsAreCompiledFor) {
-  test.addChunk([](uint8_t* mem, rung_ctx*) {
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
     const volatile double one = 1;
     const volatile double tiny = 1e-300;
     mem[0] = one + tiny == 1 ? 1 : 2;         // rounded to nearest
@@ -105,11 +105,11 @@ TEST_F(RunnerTest, FloatingPointAsProgramsAreCompiledFor) {
 
 TEST_F(RunnerTest, RunsCallsAndReturns) {
   // 0 calls 3, 3 calls 2, both return; 1 ends the run.
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 0), callChunk(ctx, 3, 1); });
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 1), popChunk(ctx); });
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 2), popChunk(ctx); });
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 3), callChunk(ctx, 2, 4); });
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 4), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 0), callChunk(ctx, 3, 1); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 1), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 2), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 3), callChunk(ctx, 2, 4); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 4), popChunk(ctx); });
   const uint32_t task = test.addTask("MAIN", 0);
   EXPECT_TRUE(start().runTask(task));
   EXPECT_EQ(takeTrace(), (Trace{0, 3, 2, 4, 1}));
@@ -118,22 +118,20 @@ TEST_F(RunnerTest, RunsCallsAndReturns) {
 }
 
 TEST_F(RunnerTest, RunsChunksOfAnInterpreter) {
-  test.addChunk(nullptr);
-  test.addChunk(nullptr);
-  const uint32_t task = test.addTask("MAIN", 0);
-  start();
-  test.program.chunk_fns = nullptr;
-  test.program.run_chunk = [](uint8_t* mem, rung_ctx*, uint32_t chunk) {
+  const auto interpret = [](uint8_t* mem, rung_ctx*, uint32_t chunk) {
     trace(mem, static_cast<uint8_t>(chunk));
     return chunk == 0 ? 1u : RUNG_PC_DONE;
   };
-  EXPECT_TRUE(runner->runTask(task));
+  test.addChunk(interpret);
+  test.addChunk(interpret);
+  const uint32_t task = test.addTask("MAIN", 0);
+  EXPECT_TRUE(start().runTask(task));
   EXPECT_EQ(takeTrace(), (Trace{0, 1}));
 }
 
 TEST_F(RunnerTest, BudgetStopsAnEndlessLoopAndNamesItsRung) {
   test.addChunk(step<0, 1>);
-  test.addChunk([](uint8_t* mem, rung_ctx*) { return ++mem[0], 1u; }, 10);
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return ++mem[0], 1u; }, 10);
   test.safeSpans = {{16, 4}};
   const uint32_t task = test.addTask("MAIN", 0, 100);
   start();
@@ -165,7 +163,7 @@ TEST_F(RunnerTest, BudgetThatIsExactlyUsedUpIsEnough) {
 }
 
 TEST_F(RunnerTest, ExtraWeightIsTakenOffTheBudget) {
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 0), ctx->extra_weight = 5, 1u; }, 3);
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 0), ctx->extra_weight = 5, 1u; }, 3);
   test.addChunk(step<1, RUNG_PC_DONE>, 4);
   const uint32_t enough = test.addTask("A", 0, 12);
   const uint32_t less = test.addTask("B", 0, 11);
@@ -181,7 +179,7 @@ TEST_F(RunnerTest, ExtraWeightIsTakenOffTheBudget) {
 }
 
 TEST_F(RunnerTest, FaultOfAChunkIsKept) {
-  test.addChunk([](uint8_t*, rung_ctx* ctx) {
+  test.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) {
     ctx->fault = {1, 0, 12, RUNG_NONE};
     return RUNG_PC_FAULT;
   });
@@ -202,7 +200,7 @@ TEST_F(RunnerTest, ChunkThatDoesNotExistIsAFault) {
 }
 
 TEST_F(RunnerTest, CopiesAtTheBorders) {
-  test.addChunk([](uint8_t* mem, rung_ctx*) {
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
     mem[8] = static_cast<uint8_t>(mem[4] + 1); // from the latch
     mem[16] = 0x0F;                            // a masked store of the low half
     mem[20] = 0x0F;
@@ -227,7 +225,7 @@ TEST_F(RunnerTest, CopiesAtTheBorders) {
 }
 
 TEST_F(RunnerTest, FaultLeavesTheEndCopiesOut) {
-  test.addChunk([](uint8_t* mem, rung_ctx*) { return mem[8] = 1, RUNG_PC_FAULT; });
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return mem[8] = 1, RUNG_PC_FAULT; });
   const uint32_t task = test.addTask("MAIN", 0);
   test.addEndCopy(task, {RUNG_COPY_ALL, 8, 12, 0, 1});
   EXPECT_FALSE(start().runTask(task));
@@ -258,10 +256,10 @@ TEST_F(RunnerTest, PartsRunOneAStepWithBeginOnceAndEndAlways) {
 
 TEST_F(RunnerTest, PartNeverEndsInsideASubroutine) {
   // The subroutine's chunk 3 lies behind the border 1, and is run inside part 0.
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 0), callChunk(ctx, 3, 1); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 0), callChunk(ctx, 3, 1); });
   test.addChunk(step<1, 2>);
   test.addChunk(step<2, RUNG_PC_DONE>);
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 3), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 3), popChunk(ctx); });
   const uint32_t task = test.addTask("L2", 0, 1000, {1, RUNG_PC_DONE});
   start().runPart(task);
   EXPECT_EQ(takeTrace(), (Trace{0, 3}));
@@ -300,7 +298,7 @@ TEST_F(RunnerTest, RunThatEndsEarlyIdlesThroughItsParts) {
 TEST_F(RunnerTest, BackwardJumpOverABorderStaysInItsPart) {
   // 1 jumps back to 0 once: the rest of the part runs on to its own border.
   test.addChunk(step<0, 1>);
-  test.addChunk([](uint8_t* mem, rung_ctx*) { return trace(mem, 1), mem[0]++ == 0 ? 0u : 2u; });
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return trace(mem, 1), mem[0]++ == 0 ? 0u : 2u; });
   test.addChunk(step<2, RUNG_PC_DONE>);
   const uint32_t task = test.addTask("L2", 0, 1000, {1, 2, RUNG_PC_DONE});
   start().runPart(task);
@@ -322,8 +320,8 @@ TEST_F(RunnerTest, BudgetIsOneRunsOverAllItsParts) {
 TEST_F(RunnerTest, AnotherTaskRunsBetweenParts) {
   test.addChunk(step<0, 1>);
   test.addChunk(step<1, RUNG_PC_DONE>);
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 2), callChunk(ctx, 3, 4); });
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return trace(mem, 3), popChunk(ctx); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 2), callChunk(ctx, 3, 4); });
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 3), popChunk(ctx); });
   test.addChunk(step<4, RUNG_PC_DONE>);
   const uint32_t slow = test.addTask("L2", 0, 1000, {1, RUNG_PC_DONE});
   const uint32_t fast = test.addTask("L1", 2);
@@ -431,7 +429,7 @@ TEST_F(RunnerTest, SlicesEndBeforeTheClockMovesOn) {
 
 TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
   test.addChunk(step<0, RUNG_PC_DONE>);
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { // misbehaves: a task that starts a task
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { // misbehaves: a task that starts a task
     trace(mem, 1);
     EXPECT_FALSE(static_cast<Runner*>(ctx->host_data)->runTask(0));
     return RUNG_PC_DONE;
@@ -451,13 +449,13 @@ TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
 }
 
 TEST_F(RunnerTest, FaultHookRunsOnceBehindTheSafeState) {
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) {
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) {
     trace(mem, 0);
     mem[16] = 1;
     ctx->fault = {1, 0, 5, RUNG_NONE};
     return RUNG_PC_FAULT;
   });
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { // MODULE_HALT with a fault of its own
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { // MODULE_HALT with a fault of its own
     trace(mem, 1);
     EXPECT_EQ(mem[16], 0);
     mem[17] = 1;
@@ -499,7 +497,8 @@ TEST_F(RunnerTest, StoppedProgramOnlyLetsTheClockGoOn) {
 }
 
 TEST_F(RunnerTest, ClockIsFixedInsideATask) {
-  test.addChunk([](uint8_t* mem, rung_ctx* ctx) { return mem[0] = static_cast<uint8_t>(ctx->now_us), RUNG_PC_DONE; });
+  test.addChunk(
+      [](uint8_t* mem, rung_ctx* ctx, uint32_t) { return mem[0] = static_cast<uint8_t>(ctx->now_us), RUNG_PC_DONE; });
   test.addTask("MAIN", 0);
   test.scan = {{RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_ADVANCE, RUNG_NONE, 20}};
   start().scan();

@@ -2,7 +2,9 @@
 #pragma once
 #include <algorithm>
 #include <cstring>
+#include <deque>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rung/program.h"
@@ -22,6 +24,9 @@ struct TestProgram {
   std::vector<std::vector<rung_range>> ranges; // one list a space
   std::vector<rung_space> spaces;
   std::vector<rung_symbol> symbols;
+  std::vector<rung_slot> slots;
+  std::deque<std::vector<const char*>> points; // one list a continuation
+  std::vector<rung_continuation> continuations;
   std::vector<rung_init> inits;
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
@@ -56,6 +61,11 @@ struct TestProgram {
   void addSymbol(const char* name, uint32_t space, uint32_t byte, uint32_t type, uint32_t bit = 0, uint32_t count = 1) {
     symbols.push_back({name, "", space, byte, bit, type, count, 0, 0});
   }
+  void addSlot(const char* key, uint32_t offset, uint32_t type) { slots.push_back({key, offset, type, RUNG_NONE, 0}); }
+  void addContinuation(const char* key, uint32_t offset, std::vector<const char*> list) {
+    points.push_back(std::move(list));
+    continuations.push_back({key, offset, static_cast<uint32_t>(points.back().size()), points.back().data()});
+  }
   void addConstant(const char* name, int64_t value) {
     symbols.push_back({name, "", RUNG_NONE, 0, 0, RUNG_TYPE_I64, 1, RUNG_SYMBOL_CONST, value});
   }
@@ -87,6 +97,7 @@ struct TestProgram {
     }
     std::sort(symbols.begin(), symbols.end(),
               [](const rung_symbol& a, const rung_symbol& b) { return std::strcmp(a.name, b.name) < 0; });
+    std::ranges::sort(slots, {}, [](const rung_slot& slot) { return std::string_view(slot.key); });
     chunks.clear();
     for (uint32_t i = 0; i < functions.size(); ++i) {
       chunks.push_back({i, 1, weights[i]});
@@ -103,6 +114,8 @@ struct TestProgram {
     program.fast_task = RUNG_NONE;
     point(spaces, program.spaces, program.space_count);
     point(symbols, program.symbols, program.symbol_count);
+    point(slots, program.slots, program.slot_count);
+    point(continuations, program.continuations, program.continuation_count);
     point(inits, program.inits, program.init_count);
     point(retains, program.retains, program.retain_count);
     point(safeSpans, program.safe_spans, program.safe_count);

@@ -218,7 +218,7 @@ TEST_F(BoxRetained, AFaultLeavesTheLastScan) {
   program.dialect = "gsk";
   program.addSpace("X", 1, {{0, 16, 0, RUNG_REPR_PACKED}}, RUNG_SPACE_INPUT);
   program.addPacked("D", 1, 16, 16);
-  program.addChunk([](uint8_t* mem, rung_ctx*) {
+  program.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
     mem[17] = ++mem[16];
     return (mem[0] & 1) != 0 ? RUNG_PC_FAULT : RUNG_PC_DONE;
   });
@@ -292,7 +292,7 @@ void buildBackup(test::TestProgram& program) {
   program.addSpace("NCI", 1, {{0, cells, 0, RUNG_REPR_PACKED}}, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT);
   program.addPacked("DATA", 1, 8, cells);
   program.addSymbol("ASK", 1, 0, RUNG_TYPE_BIT);
-  program.addChunk([](uint8_t* mem, rung_ctx*) {
+  program.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) {
     ++mem[places.count];
     uint8_t* ask = mem + places.ask;
     if ((ask[0] & 1) != 0 && ask[1] == 0) mem[places.request] |= places.mask;

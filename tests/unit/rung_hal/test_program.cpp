@@ -24,7 +24,7 @@ void answerFunctions(uint8_t* mem) {
   if (bit(mem, kX + 2, 1)) setBit(mem, kG + 5, 3, bit(mem, kF + 7, 3));
 }
 
-uint32_t gskScan(uint8_t* mem, rung_ctx* ctx) {
+uint32_t gskScan(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   if (bit(mem, kX + 1, 0)) {
     ctx->fault.code = 0;
     ctx->fault.rung = 0;
@@ -66,7 +66,7 @@ void nctMessage(uint8_t* mem, rung_ctx* ctx, bool input) {
   setBit(mem, 400 * 4, 1, box[1] != 0);
 }
 
-uint32_t nctScan(uint8_t* mem, rung_ctx* ctx) {
+uint32_t nctScan(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   std::memcpy(mem, mem + kSlice, kSlice);
   setBit(mem, 400 * 4, 0, bit(mem, 56 * 4 + 2, 1)); // bit 17 of word 56
   nctMessage(mem, ctx, bit(mem, 56 * 4 + 2, 2));
@@ -74,7 +74,7 @@ uint32_t nctScan(uint8_t* mem, rung_ctx* ctx) {
   return RUNG_PC_DONE;
 }
 
-uint32_t technolScan(uint8_t*, rung_ctx*) { return RUNG_PC_DONE; }
+uint32_t technolScan(uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; }
 
 constexpr rung_range packed(const uint32_t bytes, const uint32_t offset) {
   return {0, bytes, offset, RUNG_REPR_PACKED};

@@ -58,7 +58,7 @@ protected:
     compiled_ = driver::compile(sources_, std::span(&file, 1), request, diagnostics);
     ASSERT_TRUE(compiled_) << renderText(diagnostics, sources_);
     engine_ = driver::makeEngine(driver::EngineKind::Interp, *compiled_, {}).value();
-    instance_ = driver::makeInstance(*engine_, nullptr);
+    instance_ = std::make_unique<host::Instance>(*engine_);
   }
   host::Ref at(std::string_view name) const { return nc::resolve(instance_->program(), name).value(); }
   uint64_t read(std::string_view name) const { return instance_->read(at(name)); }

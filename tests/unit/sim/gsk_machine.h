@@ -19,7 +19,8 @@ public:
     program_.addPacked("F", 1, 256, 128);
     program_.addPacked("G", 1, 256, 384);
     program_.addPacked("@MPOS", 1, 32, 640);
-    program_.addTask("LEVEL1", program_.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
+    program_.addTask("LEVEL1",
+                     program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
     program_.scan = {{RUNG_STEP_ADVANCE, 0, 8000}, {RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_SLOT, 0, 0}};
     program_.fast = program_.scan;
     for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "");

@@ -26,7 +26,8 @@ public:
     program_.addPacked("TS", 4, kSlice, kMemory);
     blocks_ = program_.addPacked(nc::nct::kBlockSpace, 4, kBlocks, kMemory + kSlice);
     program_.retains = {{16000, 4096}};
-    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx) { return rung::test::popChunk(ctx); }));
+    program_.addTask("MAIN",
+                     program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
     program_.addBeginCopy(0, {RUNG_COPY_ALL, kMemory + 4, 4, 0, kSlice - 4});
     program_.scan.clear();
     for (int i = 0; i < 5; ++i) {

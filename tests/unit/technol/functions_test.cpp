@@ -31,8 +31,7 @@ protected:
     if (!compilation_.module) throw std::runtime_error(compilation_.text());
     layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
     engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
-    instance_ = std::make_unique<host::Instance>(engine_->program(), &control_);
-    instance_->context().engine = engine_->context();
+    instance_ = std::make_unique<host::Instance>(*engine_, &control_);
     control_.powerOn(*instance_, PowerOn::Cold);
   }
 
@@ -83,6 +82,33 @@ TEST_F(TechnolHandshake, AFunctionIsABlockWithoutMotion) {
   scan();
   EXPECT_FALSE(functions().busy(0));
   EXPECT_EQ(get("PO_F"), 0u);
+}
+
+// A program with other cells before its own takes over while MODULE_BLOCK_INIT waits.
+TEST_F(TechnolHandshake, AnotherProgramFinishesTheBlock) {
+  const technol_test::Compilation other = technol_test::compile(
+      {technol_test::programText({.data = "FIRST:  DS 8\n        DFM  A0,A1,,,,,,\n" + std::string(kData),
+                                  .blockInit = kInit,
+                                  .blockDone = kDone})});
+  ASSERT_TRUE(other.module) << other.text();
+  const ir::Layout layout(*other.module, ir::LayoutOptions{});
+  ir::InterpEngine engine(layout, 2);
+  EXPECT_THAT(functions().start(M, 3), Optional(0u));
+  scan(3);
+  host::Replacement replacement(engine_->program(), engine.program(), engine.context());
+  ASSERT_EQ(instance_->replace(replacement), host::ReplaceResult::Replaced);
+  EXPECT_EQ(get("STATUS_RESTART"), 1u);
+  EXPECT_EQ(get("INITS"), 1u);
+  scan(3);
+  EXPECT_EQ(get("INITS"), 1u) << "it waits where it was";
+  set("GO", 1);
+  scan(3);
+  EXPECT_EQ(get("DONES"), 1u);
+  set("GO2", 1);
+  scan();
+  EXPECT_FALSE(functions().busy(0));
+  ASSERT_EQ(instance_->replace(replacement), host::ReplaceResult::Replaced); // the engine of the other one ends
+  EXPECT_EQ(get("DONES"), 1u);
 }
 
 TEST_F(TechnolHandshake, BlocksFollowEachOther) {

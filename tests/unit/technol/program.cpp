@@ -73,8 +73,7 @@ Machine::Machine(const std::vector<std::string>& files, const frontend::CompileO
   RUNG_CHECK(compilation_.module != nullptr, "the program of a test does not compile");
   layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
   engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
-  instance_ = std::make_unique<host::Instance>(engine_->program(), this);
-  instance_->context().engine = engine_->context();
+  instance_ = std::make_unique<host::Instance>(*engine_, this);
   start();
 }
 

@@ -27,7 +27,7 @@ void GskControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   writeArea(instance, "X", machine);
   writeArea(instance, "F", cnc);
-  functions_.locate(instance);
+  functions_.powerOn(instance);
 }
 
 std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) const {

@@ -23,11 +23,13 @@ public:
   enum class Answer : uint8_t { ByLevel, AfterAbsence };
   explicit GskFunctions(Answer counts = Answer::AfterAbsence) : counts_(counts) {}
 
-  // At power-on: where the signals are. F outlasts it, so what was handed over before is taken back.
-  void locate(host::Instance& instance) {
-    io_.emplace(instance);
+  // At power-on. F outlasts it, so what was handed over before is taken back.
+  void powerOn(host::Instance& instance) {
+    locate(instance);
     if (handedOver_) abort(*io_);
   }
+  // Where the signals are in the program that runs now.
+  void locate(host::Instance& instance) { io_.emplace(instance); }
 
   // Takes effect with functions handed over from now on.
   void setHighSpeed(bool on) { highSpeed_ = on; }

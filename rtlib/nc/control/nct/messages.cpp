@@ -42,6 +42,15 @@ size_t logLine(const rung_program& program, const rung_message& message, std::sp
 // ---- cells -------------------------------------------------------------------------------------------------------
 
 void Messages::powerOn(host::Instance& instance) {
+  list_.clear();
+  cleared_.clear();
+  lost_ = 0;
+  cancel_ = pressed_ = ownSignal_ = false;
+  changed_ = true;
+  locate(instance);
+}
+
+void Messages::locate(host::Instance& instance) {
   cells_ = {};
   const uint32_t space = host::findSpace(instance.program(), kMessageSpace);
   if (space != RUNG_NONE) {
@@ -51,14 +60,9 @@ void Messages::powerOn(host::Instance& instance) {
   }
   // More than one a box only between a loss in the queue and its discovery.
   const size_t room = cells() + rt::kMessageCapacity;
-  list_.clear();
   list_.reserve(room);
-  cleared_.clear();
   cleared_.reserve(room);
   sorted_.reserve(room);
-  lost_ = 0;
-  cancel_ = pressed_ = ownSignal_ = false;
-  changed_ = true;
 }
 
 uint32_t Messages::cell(uint32_t box, uint32_t word) const {

@@ -21,6 +21,8 @@ class Messages {
 public:
   // The program's memory has been started.
   void powerOn(host::Instance& instance);
+  // Where the cells are in the program that runs now.
+  void locate(host::Instance& instance);
   // What the program sent.
   void accept(const rung_message& message);
   // The operator's buttons: CANCEL takes the message on top, others the selected one or all of them. False: the

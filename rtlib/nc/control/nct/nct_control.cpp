@@ -22,13 +22,25 @@ uint32_t hooksOf(const rung_program& program) {
 // N_SIMU stays 0: the software does not run on the manufacturer's simulator (man. l.7927).
 void NctControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
-  ts_ = nct::SignalMemory(instance);
-  slicesOfCycle_ = std::max(hooksOf(instance.program()), 1u);
+  locate(instance);
   timeSlices_ = cycles_ = slice_ = 0;
   messages_.powerOn(instance);
-  for (NctFunctions& channel : functions_) channel.locate(instance);
+  for (NctFunctions& channel : functions_) channel.powerOn(instance);
   writeConstants();
   retainedLost_ = false;
+}
+
+void NctControl::locate(host::Instance& instance) {
+  ts_ = nct::SignalMemory(instance);
+  slicesOfCycle_ = std::max(hooksOf(instance.program()), 1u);
+}
+
+// Between two passes, so the next time slice is the first of a cycle.
+void NctControl::onReplace(host::Instance& instance) {
+  locate(instance);
+  slice_ = 0;
+  messages_.locate(instance);
+  for (NctFunctions& channel : functions_) channel.locate(instance);
 }
 
 void NctControl::writeConstants() {

@@ -11,6 +11,7 @@ namespace rung::nc {
 class NctControl final : public Control {
 public:
   void prepare(host::Instance& instance, PowerOn kind) override;
+  void onReplace(host::Instance& instance) override;
   // At power-on both memories hold what the NC says.
   void start(host::Instance& instance) override;
 
@@ -50,6 +51,7 @@ private:
     int64_t periodUs = 0;
   };
 
+  void locate(host::Instance& instance);
   void writeConstants();
   void beginCycle();
 

@@ -10,9 +10,9 @@ constexpr int32_t kFirstSpindle = 1; // CN_SSEL, 1 to 16 (man. l.10592)
 
 } // namespace
 
-void NctFunctions::locate(host::Instance& instance) {
+void NctFunctions::powerOn(host::Instance& instance) {
   instance_ = &instance;
-  signals_ = nct::SignalMemory(instance);
+  locate(instance);
   phases_ = {};
   strobes_ = 0;
 }

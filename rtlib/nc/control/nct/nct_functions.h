@@ -27,7 +27,9 @@ public:
   explicit NctFunctions(uint32_t channel) : channel_(channel) {} // from 0
 
   // At power-on: the instance outlives the calls of Functions.
-  void locate(host::Instance& instance);
+  void powerOn(host::Instance& instance);
+  // Where the signals are in the program that runs now.
+  void locate(host::Instance& instance) { signals_ = nct::SignalMemory(instance); }
 
   // The signals themselves, for an NC that keeps account of its blocks. At the beginning of a PLC cycle:
   void dropStrobes(const nct::SignalMemory& signals); // those of the last one

@@ -5,7 +5,7 @@
 
 namespace rung::nc::technol {
 
-void Backup::powerOn(const host::Instance& instance) {
+void Backup::locate(const host::Instance& instance) {
   const std::optional<host::Ref> place = signalPlace(instance, "REQ_BACKUP_MEM");
   request_ = place ? host::locate(instance.memory(), *place) : rt::Place();
 }

@@ -9,7 +9,8 @@ class Backup {
 public:
   // Whether the host keeps the memory on disk; without it there is nothing to wait for.
   void setStored(bool stored) { stored_ = stored; }
-  void powerOn(const host::Instance& instance);
+  // Where the cell is in the program that runs now.
+  void locate(const host::Instance& instance);
   void afterMain(host::Instance& instance);
   bool asked(const host::Instance& instance) const { return instance.memory().read(request_) != 0; }
   void saved(host::Instance& instance) { instance.memory().write(request_, 0); }

@@ -34,9 +34,12 @@ std::optional<host::Ref> commandCell(const host::Instance& instance, std::string
   return place ? place : cellPlace(instance, name);
 }
 
-void Blocks::reset(const host::Instance& instance) {
+void Blocks::reset() {
   phase_ = Phase::Idle;
   reached_ = first_ = false;
+}
+
+void Blocks::locate(const host::Instance& instance) {
   lastOneBlock_.clear();
   motionBits_.clear();
   untilNextStart_.clear();

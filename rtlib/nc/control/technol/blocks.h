@@ -24,8 +24,10 @@ struct CommandValue {
 
 class Blocks {
 public:
-  // After power-on.
-  void reset(const host::Instance& instance);
+  // At power-on: no block is under way.
+  void reset();
+  // Where the cells are in the program that runs now.
+  void locate(const host::Instance& instance);
 
   // False: a block is under way already.
   bool start(host::Instance& instance, std::span<const CommandValue> values);

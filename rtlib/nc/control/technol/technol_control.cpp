@@ -12,9 +12,14 @@ namespace rung::nc {
 void TechnolControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   messages_.clear();
-  blocks_.reset(instance);
+  blocks_.reset();
+  locate(instance);
+}
+
+void TechnolControl::locate(host::Instance& instance) {
+  blocks_.locate(instance);
   functions_.locate(instance);
-  backup_.powerOn(instance);
+  backup_.locate(instance);
 }
 
 void TechnolControl::onHook(host::Instance& instance, uint32_t work) {

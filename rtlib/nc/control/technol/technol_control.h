@@ -17,6 +17,7 @@ public:
 
   void onHook(host::Instance& instance, uint32_t work) override;
   void onFault(host::Instance& instance) override;
+  void onReplace(host::Instance& instance) override { locate(instance); }
   void afterSlice(host::Instance& instance) override;
 
   void accept(const rung_message& message) override { messages_.accept(message); }
@@ -49,6 +50,8 @@ protected:
   std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
 
 private:
+  void locate(host::Instance& instance);
+
   technol::Blocks blocks_;
   TechnolFunctions functions_{blocks_};
   technol::ProgramLife life_;

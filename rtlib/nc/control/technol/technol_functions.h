@@ -15,7 +15,7 @@ public:
   // The blocks outlive it.
   explicit TechnolFunctions(technol::Blocks& blocks);
 
-  // At power-on: the instance outlives the calls of Functions.
+  // Where the cells are in the program that runs now; the instance outlives the calls of Functions.
   void locate(host::Instance& instance);
 
   // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has

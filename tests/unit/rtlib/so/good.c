@@ -10,8 +10,8 @@
 #define RUNG_TEST_STEP 1
 #endif
 
-static uint32_t count(uint8_t* mem, rung_ctx* ctx) {
-  (void)ctx;
+static uint32_t count(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
+  (void)ctx, (void)chunk;
   mem[0] += RUNG_TEST_STEP;
   return RUNG_PC_DONE;
 }

@@ -1,0 +1,97 @@
+// How the state of a running program goes over to another program of its dialect that takes its place. Cells of spaces
+// keep their contents by address; a cell with a name keeps them where the name has gone; what the compiler made (edges,
+// times) is found by its key. What the new program has and the old one had not starts with its initial contents. So
+// does what has no name in a space whose addresses the compiler gives out (RUNG_SPACE_ALLOCATED).
+//
+// A plan is made outside real time and reports what it will do. Running it copies bytes, and nothing else: its time is
+// in proportion to the bytes of state.
+//
+// A name whose cell was elsewhere takes its contents along, but for inputs, which the machine writes. Its former place
+// starts anew, unless another name stays there. A name that is new starts anew where other names were before; where
+// none was, or one of the same extent that is gone (it was renamed), it keeps what is there.
+//
+// A mechanism continues at the same instruction. While it waits at one that the new program does not have, the new
+// program cannot take over.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rung/program.h"
+
+namespace rung::host {
+
+enum class ChangeKind : uint8_t {
+  New,     // starts with its initial contents
+  Removed, // its contents are lost
+  Moved,   // a cell that is elsewhere now: keeps its contents; of an array or text that is shorter now, those that fit
+  Renamed, // a cell that had another name: keeps its contents
+  Retyped, // of another type now: its contents are lost, it starts with its initial contents
+};
+
+struct StateChange {
+  ChangeKind kind = ChangeKind::New;
+  bool slot = false;      // made by the compiler; else a cell with a name
+  std::string name;       // in the new program; of what is removed, in the old one
+  std::string formerName; // Renamed
+};
+
+class StateTransfer {
+public:
+  // Both have passed checkProgram and outlive the plan. Throws std::length_error when the spaces of one have 512 MB or
+  // more.
+  StateTransfer(const rung_program& from, const rung_program& to);
+
+  const rung_program& from() const { return *from_; }
+
+  // Cells in the order of their names, then slots; what keeps its contents and its place is not among them.
+  std::span<const StateChange> changes() const { return changes_; }
+  uint32_t keptCells() const { return keptCells_; } // names that stay where they are
+  uint32_t keptSlots() const { return keptSlots_; }
+
+  // The key of a mechanism of the old program that waits where the new one has no place for it; null: there is none.
+  const char* waiting(const uint8_t* from) const noexcept;
+  // From the block of the old program to that of the new one, which holds its initial contents. Between two passes of
+  // the schedule; nothing waits. Allocates nothing.
+  void run(const uint8_t* from, uint8_t* to) const noexcept;
+  // What `run` writes.
+  uint64_t bytes() const { return bytes_; }
+
+private:
+  friend class TransferPlanner;
+  enum class MoveKind : uint8_t {
+    Copy,   // `count` bytes
+    Pack,   // `count` logical bytes, from eight bytes each
+    Unpack, // `count` logical bytes, to eight bytes each
+    Bit,    // bit `fromBit` of a byte to bit `toBit` of a byte, alone
+  };
+  struct Move {
+    MoveKind kind = MoveKind::Copy;
+    uint8_t fromBit = 0;
+    uint8_t toBit = 0;
+    uint32_t from = 0; // offsets in the memory blocks
+    uint32_t to = 0;
+    uint32_t count = 0;
+  };
+
+  // By what the number in a continuation's cell is replaced.
+  struct Points {
+    const char* key = nullptr;
+    uint32_t from = 0; // offsets in the memory blocks; to: RUNG_NONE when the new program has no such mechanism
+    uint32_t to = 0;
+    uint32_t first = 0; // in numbers_
+    uint32_t count = 0;
+  };
+
+  const rung_program* from_;
+  std::vector<Points> points_;
+  std::vector<uint32_t> numbers_; // of points in the new program; RUNG_NONE: it has none like it
+  std::vector<Move> moves_;
+  std::vector<StateChange> changes_;
+  uint32_t keptCells_ = 0;
+  uint32_t keptSlots_ = 0;
+  uint64_t bytes_ = 0;
+};
+
+} // namespace rung::host

@@ -1,0 +1,333 @@
+// The plan: from two programs' tables to a list of copies (see state_transfer.h).
+#include "rtlib/host/state_transfer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+
+#include "rtlib/core/memory.h"
+#include "rtlib/host/program_info.h"
+
+namespace rung::host {
+namespace {
+
+constexpr uint32_t kInitial = RUNG_NONE; // a bit starts with its initial contents
+
+bool hasPlace(const rung_symbol& symbol) { return (symbol.flags & RUNG_SYMBOL_CONST) == 0; }
+
+uint32_t bitsOf(uint32_t type) {
+  switch (static_cast<rung_type>(type)) {
+  case RUNG_TYPE_BIT: return 1;
+  case RUNG_TYPE_I8:
+  case RUNG_TYPE_TEXT: return 8;
+  case RUNG_TYPE_I16: return 16;
+  case RUNG_TYPE_I32: return 32;
+  case RUNG_TYPE_I64:
+  case RUNG_TYPE_F64: return 64;
+  }
+  return 0;
+}
+
+// Bits of all spaces of a program, numbered one after the other.
+class BitNumbers {
+public:
+  explicit BitNumbers(const rung_program& program) : program_(program) {
+    for (uint32_t i = 0; i < program.space_count; ++i) {
+      const uint64_t end = count_ + uint64_t{8} * program.spaces[i].byte_count;
+      if (end >= kInitial) throw std::length_error("the spaces of a program have 512 MB or more");
+      first_.push_back(count_);
+      count_ = static_cast<uint32_t>(end);
+    }
+  }
+  uint32_t count() const { return count_; }
+  uint32_t first(uint32_t space) const { return first_[space]; }
+  uint32_t first(const rung_symbol& symbol) const { return first_[symbol.space] + 8 * symbol.byte + symbol.bit; }
+  // Where a bit lies in the memory block: the byte that holds it, the bit in it, and whether it is a byte of its own.
+  struct Location {
+    uint32_t offset;
+    uint8_t bit;
+    bool expanded;
+  };
+  Location locate(uint32_t number) const {
+    const auto space =
+        static_cast<uint32_t>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
+    const uint32_t byte = (number - first_[space]) / 8;
+    const auto bit = static_cast<uint8_t>(number % 8);
+    const rung_space& s = program_.spaces[space];
+    const rung_range& range =
+        *std::prev(std::upper_bound(s.ranges, s.ranges + s.range_count, byte,
+                                    [](uint32_t wanted, const rung_range& r) { return wanted < r.first_byte; }));
+    const uint32_t into = byte - range.first_byte;
+    if (range.repr == RUNG_REPR_BYTE_PER_BIT) return {range.offset + 8 * into + bit, 0, true};
+    return {range.offset + into, bit, false};
+  }
+
+private:
+  const rung_program& program_;
+  std::vector<uint32_t> first_;
+  uint32_t count_ = 0;
+};
+
+} // namespace
+
+class TransferPlanner {
+public:
+  TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to)
+      : plan_(plan), from_(from), to_(to), old_(from), new_(to), source_(new_.count(), kInitial),
+        stays_(new_.count(), false) {}
+
+  void run() {
+    keepAddresses();
+    matchNames();
+    findGone();
+    vacate();
+    for (const Match& match : matches_)
+      if (match.former == nullptr) placeNew(*match.symbol);
+    for (const Match& match : matches_)
+      if (match.former != nullptr) placeFormer(*match.symbol, *match.former);
+    for (const auto& [cell, name] : gone_) plan_.changes_.push_back({ChangeKind::Removed, false, name, {}});
+    std::ranges::sort(plan_.changes_, {}, &StateChange::name);
+    addMoves();
+    addSlots();
+    addContinuations();
+    for (const StateTransfer::Move& move : plan_.moves_)
+      plan_.bytes_ += move.kind == MoveKind::Unpack ? 8 * uint64_t{move.count} : move.count;
+  }
+
+private:
+  using MoveKind = StateTransfer::MoveKind;
+
+  using Cell = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>; // space, byte, bit, type, count
+
+  // A name of the new program, and what it was in the old one; null: it is new.
+  struct Match {
+    const rung_symbol* symbol;
+    const rung_symbol* former;
+  };
+
+  static uint32_t extent(const rung_symbol& symbol) { return bitsOf(symbol.type) * symbol.count; }
+  // The spaces are of one name: the number of the same place in the new program; kInitial: there is none.
+  uint32_t sameSpace(uint32_t space) const { return findSpace(to_, from_.spaces[space].name); }
+
+  bool samePlace(const rung_symbol& former, const rung_symbol& symbol) const {
+    return sameSpace(former.space) == symbol.space && former.byte == symbol.byte && former.bit == symbol.bit;
+  }
+  bool sameCell(const rung_symbol& former, const rung_symbol& symbol) const {
+    return samePlace(former, symbol) && former.type == symbol.type && former.count == symbol.count;
+  }
+
+  void keepAddresses() {
+    for (uint32_t s = 0; s < from_.space_count; ++s) {
+      const uint32_t space = sameSpace(s);
+      if (space == RUNG_NONE || isAllocated(from_.spaces[s]) || isAllocated(to_.spaces[space])) continue;
+      const uint32_t bits = 8 * std::min(from_.spaces[s].byte_count, to_.spaces[space].byte_count);
+      for (uint32_t i = 0; i < bits; ++i) source_[new_.first(space) + i] = old_.first(s) + i;
+    }
+  }
+
+  void matchNames() {
+    for (uint32_t i = 0; i < to_.symbol_count; ++i) {
+      const rung_symbol& symbol = to_.symbols[i];
+      if (!hasPlace(symbol)) continue;
+      const rung_symbol* former = findSymbol(from_, symbol.name);
+      if (former != nullptr && !hasPlace(*former)) former = nullptr;
+      matches_.push_back({&symbol, former});
+      if (former == nullptr || !sameCell(*former, symbol)) continue;
+      ++plan_.keptCells_;
+      keep(symbol, *former);
+      for (uint32_t b = 0; b < extent(symbol); ++b) stays_[new_.first(symbol) + b] = true;
+    }
+  }
+
+  // Names that the new program does not have; its addresses, where it has the space.
+  void findGone() {
+    named_.assign(old_.count(), false);
+    for (uint32_t i = 0; i < from_.symbol_count; ++i) {
+      const rung_symbol& former = from_.symbols[i];
+      if (!hasPlace(former)) continue;
+      for (uint32_t b = 0; b < extent(former); ++b) named_[old_.first(former) + b] = true;
+      const rung_symbol* symbol = findSymbol(to_, former.name);
+      if (symbol != nullptr && hasPlace(*symbol)) continue;
+      gone_.emplace(Cell{sameSpace(former.space), former.byte, former.bit, former.type, former.count}, former.name);
+    }
+  }
+
+  // The former places of names that are elsewhere now, or of another type, start anew.
+  void vacate() {
+    for (const Match& match : matches_) {
+      if (match.former == nullptr || sameCell(*match.former, *match.symbol)) continue;
+      const uint32_t space = sameSpace(match.former->space);
+      if (space == RUNG_NONE || isInput(space)) continue;
+      const uint32_t begin = 8 * match.former->byte + match.former->bit;
+      const uint32_t end = std::min(begin + extent(*match.former), 8 * to_.spaces[space].byte_count);
+      for (uint32_t b = begin; b < end; ++b) start(new_.first(space) + b);
+    }
+  }
+
+  static bool isAllocated(const rung_space& space) { return (space.flags & RUNG_SPACE_ALLOCATED) != 0; }
+  bool isInput(uint32_t space) const { return (to_.spaces[space].flags & RUNG_SPACE_INPUT) != 0; }
+
+  void start(uint32_t bit) {
+    if (!stays_[bit]) source_[bit] = kInitial;
+  }
+  void start(const rung_symbol& symbol) {
+    for (uint32_t b = 0; b < extent(symbol); ++b) start(new_.first(symbol) + b);
+  }
+
+  void placeFormer(const rung_symbol& symbol, const rung_symbol& former) {
+    if (sameCell(former, symbol) || isInput(symbol.space)) return;
+    start(symbol);
+    if (former.type != symbol.type) return report(ChangeKind::Retyped, symbol);
+    report(ChangeKind::Moved, symbol);
+    keep(symbol, former);
+  }
+
+  // As far as it fits, and where no name has stayed.
+  void keep(const rung_symbol& symbol, const rung_symbol& former) {
+    const uint32_t bits = std::min(extent(former), extent(symbol));
+    for (uint32_t b = 0; b < bits; ++b)
+      if (const uint32_t to = new_.first(symbol) + b; !stays_[to]) source_[to] = old_.first(former) + b;
+  }
+
+  void placeNew(const rung_symbol& symbol) {
+    if (isInput(symbol.space)) return;
+    const bool fixed = !isAllocated(to_.spaces[symbol.space]);
+    if (const auto former = gone_.find({symbol.space, symbol.byte, symbol.bit, symbol.type, symbol.count});
+        fixed && former != gone_.end()) {
+      report(ChangeKind::Renamed, symbol, former->second);
+      gone_.erase(former);
+      return;
+    }
+    const uint32_t first = new_.first(symbol);
+    bool named = false; // where other names were, some of which are elsewhere now
+    for (uint32_t b = first; b < first + extent(symbol); ++b)
+      named = named || (!stays_[b] && (source_[b] == kInitial || named_[source_[b]]));
+    if (!named) return; // the cell had no name, or has another one as well
+    start(symbol);
+    report(ChangeKind::New, symbol);
+  }
+
+  void report(ChangeKind kind, const rung_symbol& symbol, std::string formerName = {}) {
+    plan_.changes_.push_back({kind, false, symbol.name, std::move(formerName)});
+  }
+
+  // ---- the moves ---------------------------------------------------------------------------------------------------
+
+  // As few as possible: bytes that keep together are one.
+  void addMoves() {
+    for (uint32_t number = 0; number < new_.count(); number += 8) {
+      if (!addByte(number))
+        for (uint32_t b = number; b < number + 8; ++b)
+          if (source_[b] != kInitial) addBit(source_[b], b);
+    }
+  }
+
+  bool addByte(uint32_t number) {
+    const uint32_t source = source_[number];
+    if (source == kInitial || source % 8 != 0) return false;
+    for (uint32_t b = 1; b < 8; ++b)
+      if (source_[number + b] != source + b) return false;
+    const BitNumbers::Location from = old_.locate(source);
+    const BitNumbers::Location to = new_.locate(number);
+    if (from.expanded == to.expanded)
+      addCopy(from.offset, to.offset, from.expanded ? 8 : 1);
+    else
+      add({.kind = to.expanded ? MoveKind::Unpack : MoveKind::Pack, .from = from.offset, .to = to.offset, .count = 1});
+    return true;
+  }
+
+  void addBit(uint32_t source, uint32_t number) {
+    const BitNumbers::Location from = old_.locate(source);
+    const BitNumbers::Location to = new_.locate(number);
+    if (from.expanded && to.expanded) return addCopy(from.offset, to.offset, 1);
+    add({MoveKind::Bit, from.bit, to.bit, from.offset, to.offset, 1});
+  }
+
+  void addCopy(uint32_t from, uint32_t to, uint32_t bytes) { add({.from = from, .to = to, .count = bytes}); }
+
+  // Joins it with the last one where it continues that.
+  void add(const StateTransfer::Move& move) {
+    if (!plan_.moves_.empty() && move.kind != MoveKind::Bit) {
+      StateTransfer::Move& last = plan_.moves_.back();
+      const uint32_t fromStep = last.count * (last.kind == MoveKind::Pack ? 8 : 1);
+      const uint32_t toStep = last.count * (last.kind == MoveKind::Unpack ? 8 : 1);
+      if (last.kind == move.kind && last.from + fromStep == move.from && last.to + toStep == move.to) {
+        last.count += move.count;
+        return;
+      }
+    }
+    plan_.moves_.push_back(move);
+  }
+
+  void addSlots() {
+    std::vector<StateTransfer::Move> found;
+    uint32_t o = 0;
+    for (uint32_t n = 0; n < to_.slot_count; ++n) {
+      const rung_slot& slot = to_.slots[n];
+      for (; o < from_.slot_count && std::strcmp(from_.slots[o].key, slot.key) < 0; ++o)
+        report(ChangeKind::Removed, from_.slots[o]);
+      if (o == from_.slot_count || std::strcmp(from_.slots[o].key, slot.key) != 0) {
+        report(ChangeKind::New, slot);
+        continue;
+      }
+      const rung_slot& former = from_.slots[o++];
+      if (former.type != slot.type) {
+        report(ChangeKind::Retyped, slot);
+        continue;
+      }
+      ++plan_.keptSlots_;
+      found.push_back({.from = former.offset, .to = slot.offset, .count = std::max(1u, bitsOf(slot.type) / 8)});
+    }
+    for (; o < from_.slot_count; ++o) report(ChangeKind::Removed, from_.slots[o]);
+    std::ranges::sort(found, {}, &StateTransfer::Move::to);
+    for (const StateTransfer::Move& move : found) add(move);
+  }
+
+  // The cells are moved as slots and cells with a name are; then their numbers are replaced.
+  void addContinuations() {
+    for (uint32_t i = 0; i < from_.continuation_count; ++i) {
+      const rung_continuation& former = from_.continuations[i];
+      const rung_continuation* end = to_.continuations + to_.continuation_count;
+      const rung_continuation* now = std::find_if(
+          to_.continuations, end, [&](const rung_continuation& c) { return std::strcmp(c.key, former.key) == 0; });
+      plan_.points_.push_back({.key = former.key,
+                               .from = former.offset,
+                               .to = now == end ? RUNG_NONE : now->offset,
+                               .first = static_cast<uint32_t>(plan_.numbers_.size()),
+                               .count = former.point_count});
+      for (uint32_t p = 0; p < former.point_count; ++p) {
+        plan_.numbers_.push_back(now == end ? RUNG_NONE : numberOf(*now, former.points[p]));
+        if (plan_.numbers_.back() == RUNG_NONE && now != end)
+          plan_.changes_.push_back({ChangeKind::Removed, true, std::string(former.key) + ": " + former.points[p], {}});
+      }
+    }
+  }
+
+  static uint32_t numberOf(const rung_continuation& c, const char* point) {
+    for (uint32_t i = 0; i < c.point_count; ++i)
+      if (std::strcmp(c.points[i], point) == 0) return i;
+    return RUNG_NONE;
+  }
+
+  void report(ChangeKind kind, const rung_slot& slot) { plan_.changes_.push_back({kind, true, slot.key, {}}); }
+
+  StateTransfer& plan_;
+  const rung_program& from_;
+  const rung_program& to_;
+  BitNumbers old_;
+  BitNumbers new_;
+  std::vector<uint32_t> source_; // by bit of the new program: the bit of the old one, or kInitial
+  std::vector<bool> stays_;      // by bit of the new program: it has a name that has stayed
+  std::vector<bool> named_;      // by bit of the old program: it had a name
+  std::vector<Match> matches_;
+  std::multimap<Cell, std::string> gone_; // names that the new program does not have, by their cell in it
+};
+
+StateTransfer::StateTransfer(const rung_program& from, const rung_program& to) : from_(&from) {
+  TransferPlanner(*this, from, to).run();
+}
+
+} // namespace rung::host

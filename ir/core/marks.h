@@ -1,6 +1,7 @@
 // What a rung asks and what it decides, as its author wrote it: which value is a contact and which is the power into a
 // coil. Front ends note it where coverage asks for it (frontend::CompileOptions::marks), beside the module: no
-// operation is added. Passes that change rungs make marks meaningless, so they go with a module as it was built (and put in order).
+// operation is added. Passes that change rungs make marks meaningless, so they go with a module as it was built (and
+// put in order).
 #pragma once
 #include <map>
 #include <span>

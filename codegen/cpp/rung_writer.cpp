@@ -57,13 +57,9 @@ std::string_view cppType(Type type) {
 std::string rungLabel(uint32_t rung) { return fmt::format("rung_{}", rung); }
 
 PlaceNames::PlaceNames(const Module& module) {
-  for (const bool hidden : {false, true}) // the author's names first
-    for (const Symbol& symbol : module.symbols)
-      if (symbol.space.valid() && (symbol.flags & RUNG_SYMBOL_CONST) == 0 &&
-          ((symbol.flags & RUNG_SYMBOL_HIDDEN) != 0) == hidden)
-        names_.try_emplace(
-            placeKey(symbol.space.index, int64_t{symbol.byte} * 8 + symbol.bit, symbol.type == RUNG_TYPE_BIT),
-            &symbol.name);
+  for (const Symbol* s : placedSymbols(module))
+    if (s->space.valid())
+      names_.try_emplace(placeKey(s->space.index, int64_t{s->byte} * 8 + s->bit, s->type == RUNG_TYPE_BIT), &s->name);
 }
 
 std::string_view PlaceNames::at(uint32_t space, int64_t bitOffset, bool bit) const {

@@ -1,5 +1,7 @@
-// Look-ups by name in a module.
+// Look-ups in a module.
 #include "ir/core/module.h"
+
+#include <algorithm>
 
 namespace rung::ir {
 namespace {
@@ -18,5 +20,13 @@ RoutineId findRoutine(const Module& module, std::string_view name) {
   return findByName<RoutineId>(module.routines, name);
 }
 TaskId findTask(const Module& module, std::string_view name) { return findByName<TaskId>(module.tasks, name); }
+
+std::vector<const Symbol*> placedSymbols(const Module& module) {
+  std::vector<const Symbol*> placed;
+  for (const Symbol& symbol : module.symbols)
+    if ((symbol.flags & RUNG_SYMBOL_CONST) == 0) placed.push_back(&symbol);
+  std::ranges::stable_partition(placed, [](const Symbol* s) { return (s->flags & RUNG_SYMBOL_HIDDEN) == 0; });
+  return placed;
+}
 
 } // namespace rung::ir

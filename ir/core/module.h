@@ -202,6 +202,8 @@ struct Module {
 SpaceId findSpace(const Module& module, std::string_view name);
 RoutineId findRoutine(const Module& module, std::string_view name);
 TaskId findTask(const Module& module, std::string_view name);
+// Symbols of places in memory, not of constants: the author's first, then hidden ones.
+std::vector<const Symbol*> placedSymbols(const Module& module);
 
 // The operands of an operation.
 inline const ValueId* argsOf(const Rung& rung, const Op& op) { return rung.args.data() + op.firstArg; }

@@ -96,5 +96,7 @@ Type resultType(Constraint constraint, Type own);
 // Whether the host may look at memory meanwhile: every store above must have been done, and none below.
 constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
+// Nothing but reading to do for the result.
+constexpr bool onlyReads(const OpInfo& info) { return isPure(info) || info.effects == kReads; }
 
 } // namespace rung::ir

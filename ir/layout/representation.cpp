@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rung/types.hpp"
+
 namespace rung::ir {
 namespace {
 
@@ -32,17 +34,6 @@ void markOp(const Module& module, const Op& op, Uses& uses) {
   mark(space, first, (op.count - 1) * unit + last, kWhole);
 }
 
-uint32_t symbolBytes(const Symbol& symbol) {
-  switch (symbol.type) {
-  case RUNG_TYPE_BIT: return 0;
-  case RUNG_TYPE_I16: return 2 * symbol.count;
-  case RUNG_TYPE_I32: return 4 * symbol.count;
-  case RUNG_TYPE_I64:
-  case RUNG_TYPE_F64: return 8 * symbol.count;
-  default: return symbol.count;
-  }
-}
-
 Uses collectUses(const Module& module) {
   Uses uses;
   for (const Space& space : module.spaces)
@@ -51,7 +42,8 @@ Uses collectUses(const Module& module) {
     for (const Rung& rung : routine.rungs)
       for (const Op& op : rung.ops) markOp(module, op, uses);
   for (const Symbol& symbol : module.symbols)
-    if (symbol.space.valid()) mark(uses[symbol.space.index], symbol.byte, symbolBytes(symbol), kWhole);
+    if (symbol.space.valid())
+      mark(uses[symbol.space.index], symbol.byte, elementBits(symbol.type) / 8 * symbol.count, kWhole);
   for (const Continuation& c : module.continuations)
     if (c.space.valid()) mark(uses[c.space.index], c.byte, 4, kWhole);
   for (const Init& init : module.inits) mark(uses[init.space.index], init.byte, init.data.size(), kWhole);

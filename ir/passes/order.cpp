@@ -11,11 +11,7 @@
 namespace rung::ir {
 namespace {
 
-// One result, and nothing but reading to do for it.
-bool mayMove(const Op& op) {
-  const OpInfo& info = opInfo(op.code);
-  return op.resultCount == 1 && (isPure(info) || info.effects == kReads);
-}
+bool mayMove(const Op& op) { return op.resultCount == 1 && onlyReads(opInfo(op.code)); }
 
 class RungOrder {
 public:

@@ -40,7 +40,7 @@ private:
     const Op& op = rung_->ops[i];
     const OpInfo& info = opInfo(op.code);
     const uint32_t time = i + 1;
-    if (isPure(info) || info.effects == kReads) return reuse(op, time);
+    if (onlyReads(info)) return reuse(op, time);
     if (op.code == OpCode::Else || op.code == OpCode::EndIf || op.code == OpCode::EndLoop) table_.close();
     if (op.code == OpCode::If || op.code == OpCode::Else || op.code == OpCode::Loop) table_.open();
     if (op.code == OpCode::Loop && writingLoop_[i]) writes_.writeAll(time);

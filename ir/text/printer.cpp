@@ -83,10 +83,8 @@ public:
     for (const std::string& service : module.services) services_.add(service);
     for (const Routine& routine : module.routines) routines_.add(routine.name);
     for (const Task& task : module.tasks) tasks_.add(task.name);
-    for (const bool hidden : {false, true}) // the author's names first
-      for (const Symbol& s : module.symbols)
-        if ((s.flags & RUNG_SYMBOL_CONST) == 0 && ((s.flags & RUNG_SYMBOL_HIDDEN) != 0) == hidden)
-          symbols_.try_emplace({s.space.index, int64_t{s.byte} * 8 + s.bit, s.type == RUNG_TYPE_BIT}, s.name);
+    for (const Symbol* s : placedSymbols(module))
+      symbols_.try_emplace({s->space.index, int64_t{s->byte} * 8 + s->bit, s->type == RUNG_TYPE_BIT}, s->name);
   }
 
   void printModule() {

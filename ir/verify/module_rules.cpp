@@ -5,6 +5,7 @@
 
 #include "ir/core/eval.h"
 #include "ir/verify/rules.h"
+#include "rung/types.hpp"
 
 namespace rung::ir {
 
@@ -89,20 +90,6 @@ void checkContinuations(ModuleCheck& check) {
     if (c.points.empty()) fail("has no points");
     if (std::unordered_set<std::string_view>(c.points.begin(), c.points.end()).size() != c.points.size())
       fail("has two points with one key");
-  }
-}
-
-// Bits of one element; 0 for an unknown type.
-uint64_t elementBits(uint32_t symbolType) {
-  switch (symbolType) {
-  case RUNG_TYPE_BIT: return 1;
-  case RUNG_TYPE_I8:
-  case RUNG_TYPE_TEXT: return 8;
-  case RUNG_TYPE_I16: return 16;
-  case RUNG_TYPE_I32: return 32;
-  case RUNG_TYPE_I64:
-  case RUNG_TYPE_F64: return 64;
-  default: return 0;
   }
 }
 

@@ -19,6 +19,8 @@ public:
   uint8_t* block() const noexcept { return block_; }
 
   bool contains(uint32_t space, uint32_t byte, uint32_t size) const noexcept;
+  // How the byte is represented, and where its range lies in the block. Null: it is outside the space.
+  const rung_range* rangeOf(uint32_t space, uint32_t byte) const noexcept;
 
   // Outside the space reads give 0 and writes do nothing.
   uint8_t readByte(uint32_t space, uint32_t byte) const noexcept;
@@ -59,7 +61,6 @@ public:
 private:
   static_assert(std::endian::native == std::endian::little, "the memory of programs is little-endian");
 
-  const rung_range* rangeOf(uint32_t space, uint32_t byte) const noexcept;
   bool together(const rung_range* range, uint32_t byte, uint32_t size) const noexcept;
   Place inWindow(uint32_t offset, uint32_t bit, uint32_t width) const noexcept;
   uint64_t load(const Place& place) const noexcept {

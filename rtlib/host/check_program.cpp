@@ -9,6 +9,7 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/number.h"
+#include "rung/types.hpp"
 
 namespace rung::host {
 
@@ -37,20 +38,6 @@ std::string textOf(std::initializer_list<Part> parts) {
 uint32_t scaleOf(uint32_t repr) { return repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1; }
 
 bool overlap(uint32_t a, uint32_t b, uint32_t size) { return a < uint64_t{b} + size && b < uint64_t{a} + size; }
-
-// Bits of one element; 0 for an unknown type.
-uint32_t elementBits(uint32_t type) {
-  switch (type) {
-  case RUNG_TYPE_BIT: return 1;
-  case RUNG_TYPE_I8:
-  case RUNG_TYPE_TEXT: return 8;
-  case RUNG_TYPE_I16: return 16;
-  case RUNG_TYPE_I32: return 32;
-  case RUNG_TYPE_I64:
-  case RUNG_TYPE_F64: return 64;
-  default: return 0;
-  }
-}
 
 class Checker {
 public:

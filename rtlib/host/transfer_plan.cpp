@@ -10,6 +10,7 @@
 
 #include "rtlib/core/memory.h"
 #include "rtlib/host/program_info.h"
+#include "rung/types.hpp"
 
 namespace rung::host {
 namespace {
@@ -18,23 +19,10 @@ constexpr uint32_t kInitial = RUNG_NONE; // a bit starts with its initial conten
 
 bool hasPlace(const rung_symbol& symbol) { return (symbol.flags & RUNG_SYMBOL_CONST) == 0; }
 
-uint32_t bitsOf(uint32_t type) {
-  switch (static_cast<rung_type>(type)) {
-  case RUNG_TYPE_BIT: return 1;
-  case RUNG_TYPE_I8:
-  case RUNG_TYPE_TEXT: return 8;
-  case RUNG_TYPE_I16: return 16;
-  case RUNG_TYPE_I32: return 32;
-  case RUNG_TYPE_I64:
-  case RUNG_TYPE_F64: return 64;
-  }
-  return 0;
-}
-
 // Bits of all spaces of a program, numbered one after the other.
 class BitNumbers {
 public:
-  explicit BitNumbers(const rung_program& program) : program_(program) {
+  explicit BitNumbers(const rung_program& program) : memory_(program, nullptr) {
     for (uint32_t i = 0; i < program.space_count; ++i) {
       const uint64_t end = count_ + uint64_t{8} * program.spaces[i].byte_count;
       if (end >= kInitial) throw std::length_error("the spaces of a program have 512 MB or more");
@@ -56,17 +44,14 @@ public:
         static_cast<uint32_t>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
     const uint32_t byte = (number - first_[space]) / 8;
     const auto bit = static_cast<uint8_t>(number % 8);
-    const rung_space& s = program_.spaces[space];
-    const rung_range& range =
-        *std::prev(std::upper_bound(s.ranges, s.ranges + s.range_count, byte,
-                                    [](uint32_t wanted, const rung_range& r) { return wanted < r.first_byte; }));
+    const rung_range& range = *memory_.rangeOf(space, byte);
     const uint32_t into = byte - range.first_byte;
     if (range.repr == RUNG_REPR_BYTE_PER_BIT) return {range.offset + 8 * into + bit, 0, true};
     return {range.offset + into, bit, false};
   }
 
 private:
-  const rung_program& program_;
+  rt::Memory memory_; // where ranges lie; no block
   std::vector<uint32_t> first_;
   uint32_t count_ = 0;
 };
@@ -77,7 +62,9 @@ class TransferPlanner {
 public:
   TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to)
       : plan_(plan), from_(from), to_(to), old_(from), new_(to), source_(new_.count(), kInitial),
-        stays_(new_.count(), false) {}
+        stays_(new_.count(), false) {
+    for (uint32_t s = 0; s < from.space_count; ++s) sameSpaces_.push_back(findSpace(to, from.spaces[s].name));
+  }
 
   void run() {
     keepAddresses();
@@ -108,12 +95,10 @@ private:
     const rung_symbol* former;
   };
 
-  static uint32_t extent(const rung_symbol& symbol) { return bitsOf(symbol.type) * symbol.count; }
-  // The spaces are of one name: the number of the same place in the new program; kInitial: there is none.
-  uint32_t sameSpace(uint32_t space) const { return findSpace(to_, from_.spaces[space].name); }
+  static uint32_t extent(const rung_symbol& symbol) { return elementBits(symbol.type) * symbol.count; }
 
   bool samePlace(const rung_symbol& former, const rung_symbol& symbol) const {
-    return sameSpace(former.space) == symbol.space && former.byte == symbol.byte && former.bit == symbol.bit;
+    return sameSpaces_[former.space] == symbol.space && former.byte == symbol.byte && former.bit == symbol.bit;
   }
   bool sameCell(const rung_symbol& former, const rung_symbol& symbol) const {
     return samePlace(former, symbol) && former.type == symbol.type && former.count == symbol.count;
@@ -121,7 +106,7 @@ private:
 
   void keepAddresses() {
     for (uint32_t s = 0; s < from_.space_count; ++s) {
-      const uint32_t space = sameSpace(s);
+      const uint32_t space = sameSpaces_[s];
       if (space == RUNG_NONE || isAllocated(from_.spaces[s]) || isAllocated(to_.spaces[space])) continue;
       const uint32_t bits = 8 * std::min(from_.spaces[s].byte_count, to_.spaces[space].byte_count);
       for (uint32_t i = 0; i < bits; ++i) source_[new_.first(space) + i] = old_.first(s) + i;
@@ -151,7 +136,7 @@ private:
       for (uint32_t b = 0; b < extent(former); ++b) named_[old_.first(former) + b] = true;
       const rung_symbol* symbol = findSymbol(to_, former.name);
       if (symbol != nullptr && hasPlace(*symbol)) continue;
-      gone_.emplace(Cell{sameSpace(former.space), former.byte, former.bit, former.type, former.count}, former.name);
+      gone_.emplace(Cell{sameSpaces_[former.space], former.byte, former.bit, former.type, former.count}, former.name);
     }
   }
 
@@ -159,7 +144,7 @@ private:
   void vacate() {
     for (const Match& match : matches_) {
       if (match.former == nullptr || sameCell(*match.former, *match.symbol)) continue;
-      const uint32_t space = sameSpace(match.former->space);
+      const uint32_t space = sameSpaces_[match.former->space];
       if (space == RUNG_NONE || isInput(space)) continue;
       const uint32_t begin = 8 * match.former->byte + match.former->bit;
       const uint32_t end = std::min(begin + extent(*match.former), 8 * to_.spaces[space].byte_count);
@@ -279,7 +264,7 @@ private:
         continue;
       }
       ++plan_.keptSlots_;
-      found.push_back({.from = former.offset, .to = slot.offset, .count = std::max(1u, bitsOf(slot.type) / 8)});
+      found.push_back({.from = former.offset, .to = slot.offset, .count = std::max(1u, elementBits(slot.type) / 8)});
     }
     for (; o < from_.slot_count; ++o) report(ChangeKind::Removed, from_.slots[o]);
     std::ranges::sort(found, {}, &StateTransfer::Move::to);
@@ -319,9 +304,10 @@ private:
   const rung_program& to_;
   BitNumbers old_;
   BitNumbers new_;
-  std::vector<uint32_t> source_; // by bit of the new program: the bit of the old one, or kInitial
-  std::vector<bool> stays_;      // by bit of the new program: it has a name that has stayed
-  std::vector<bool> named_;      // by bit of the old program: it had a name
+  std::vector<uint32_t> sameSpaces_; // by space of the old program: that of the new one with its name; or RUNG_NONE
+  std::vector<uint32_t> source_;     // by bit of the new program: the bit of the old one, or kInitial
+  std::vector<bool> stays_;          // by bit of the new program: it has a name that has stayed
+  std::vector<bool> named_;          // by bit of the old program: it had a name
   std::vector<Match> matches_;
   std::multimap<Cell, std::string> gone_; // names that the new program does not have, by their cell in it
 };

@@ -34,8 +34,8 @@ uint32_t existing(const std::optional<uint32_t>& target) {
   return *target;
 }
 
-// What an element is known by while its rung changes around it: instruction and operands; of what may stand only once
-// for its first operand, that one alone.
+// An element's name within its rung, the same in the next version of the program: instruction and operands. Where the
+// first operand tells it from all others (one instance of each), that one alone.
 std::string identityOf(const NctInstruction& row, std::span<const Operand> operands) {
   std::string text(row.info.mnemonic);
   for (const Operand& operand : operands) {

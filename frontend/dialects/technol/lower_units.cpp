@@ -129,7 +129,7 @@ uint32_t Lowering::newState(Sequence& sequence, std::string_view role) {
   return static_cast<uint32_t>(sequence.states.size()) - 1;
 }
 
-// A point is known by what leads to it: waiting there goes on in a new program as long as that is the same.
+// A point is known by what leads to it: waiting there continues in a new program as long as that is the same.
 void Lowering::addPoint(Sequence& sequence, std::string_view role) {
   std::string key = fmt::format("{}@{:016x}", instructionKey(statement_->row->info.mnemonic), sequence.section);
   sequence.sectionEnds = true;

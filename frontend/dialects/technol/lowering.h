@@ -41,7 +41,7 @@ struct Sequence {
   ir::RoutineId routine;
   uint32_t mechanism = kNone;                      // kNone: a module
   ir::Place moduleCont;                            // of a module: i32 for the host
-  uint32_t leave = kNone;                          // label behind its end
+  uint32_t leave = kNone;                          // label after its end
   uint32_t dispatch = kNone;                       // handle of the switch at its beginning
   std::vector<uint32_t> states;                    // labels by number; 0 is the beginning
   ir::Continuation continuation;                   // has a point for each of them

@@ -31,7 +31,7 @@ struct Operand {
   uint32_t scale = 1;             // bytes that BX counts
   ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
   ir::Place place;
-  // Of a text or an array at an address: bytes from there to its end, with a text's terminator; 0 behind the end. Where
+  // Of a text or an array at an address: bytes from there to its end, with a text's terminator; 0 past the end. Where
   // indexed, from `value` on: BX takes off more.
   uint32_t size = 0;
   int64_t begin = 0; // of that text or array, in its space

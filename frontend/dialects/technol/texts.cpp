@@ -60,7 +60,7 @@ std::vector<ValueId> countPasses(Lowering& l, const Text& text, uint32_t passes,
 
 } // namespace
 
-// Blocks behind the end are passed over.
+// Blocks after the end are passed over.
 Length lengthOf(Lowering& l, const Text& text) {
   ir::RungBuilder& b = l.b();
   if (text.literal || text.most == 0) return fixedCount(l, text.most);

@@ -99,7 +99,7 @@ void shuffle(Rung& rung, RandomSource& random) {
   std::vector<uint32_t> order;
   const auto moves = [&](uint32_t i) {
     const Op& op = rung.ops[i];
-    return op.resultCount == 1 && (isPure(opInfo(op.code)) || opInfo(op.code).effects == kReads);
+    return op.resultCount == 1 && onlyReads(opInfo(op.code));
   };
   for (uint32_t begin = 0; begin < rung.ops.size();) {
     uint32_t end = begin;

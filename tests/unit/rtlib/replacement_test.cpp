@@ -53,7 +53,7 @@ protected:
   TestProgram one, two;
 };
 
-TEST_F(ReplacementTest, TheNewProgramGoesOnWithTheState) {
+TEST_F(ReplacementTest, TheNewProgramContinuesWithTheState) {
   Instance instance(one.program);
   instance.scan();
   instance.scan();

@@ -43,7 +43,7 @@ Uses collectUses(const Module& module) {
       for (const Op& op : rung.ops) markOp(module, op, uses);
   for (const Symbol& symbol : module.symbols)
     if (symbol.space.valid())
-      mark(uses[symbol.space.index], symbol.byte, elementBits(symbol.type) / 8 * symbol.count, kWhole);
+      mark(uses[symbol.space.index], symbol.byte, uint64_t{elementBits(symbol.type)} / 8 * symbol.count, kWhole);
   for (const Continuation& c : module.continuations)
     if (c.space.valid()) mark(uses[c.space.index], c.byte, 4, kWhole);
   for (const Init& init : module.inits) mark(uses[init.space.index], init.byte, init.data.size(), kWhole);

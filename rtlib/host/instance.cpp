@@ -7,9 +7,9 @@
 
 namespace rung::host {
 
-Instance::Instance(const rung_program& program, void* engine, ScheduleHooks* hooks)
-    : loaded_(program, engine), hooks_(hooks), ctx_(std::make_unique<rung_ctx>()),
-      port_(std::make_unique<rt::HostPort>()), runner_(program, loaded_.block.get(), *ctx_, loaded_.parts.data()) {
+Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
+    : loaded_(runnable), hooks_(hooks), ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<rt::HostPort>()),
+      runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data()) {
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
   enter();

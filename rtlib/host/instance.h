@@ -49,11 +49,13 @@ public:
 
 class Instance {
 public:
-  // The program (checkProgram finds nothing wrong with it) and the hooks outlive the instance. It starts cold.
-  explicit Instance(const rung_program& program, ScheduleHooks* hooks = nullptr) : Instance(program, nullptr, hooks) {}
+  // What it runs and the hooks outlive the instance. It starts cold.
+  explicit Instance(const Runnable& runnable, ScheduleHooks* hooks = nullptr);
+  // A program without an engine of its own.
+  explicit Instance(const rung_program& program, ScheduleHooks* hooks = nullptr) : Instance(Runnable{program}, hooks) {}
   // The same of an engine, which outlives the instance; an interpreter's program needs it.
   explicit Instance(Engine& engine, ScheduleHooks* hooks = nullptr)
-      : Instance(engine.program(), engine.context(), hooks) {}
+      : Instance(Runnable{engine.program(), engine.context()}, hooks) {}
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
@@ -132,7 +134,6 @@ public:
   const rung_ctx& context() const { return *ctx_; }
 
 private:
-  Instance(const rung_program& program, void* engine, ScheduleHooks* hooks);
   void enter();
   bool servicesAgree(const rung_program& next) const;
   void resetRun();

@@ -14,6 +14,14 @@ uint32_t blockBytes(const rung_program& program) { return std::max(program.memor
 // At least a cache line.
 uint32_t alignOf(const rung_program& program) { return std::max(program.memory_align, 64u); }
 
+std::unique_ptr<uint8_t, LoadedProgram::FreeBlock> blockFor(const Runnable& runnable) {
+  using FreeBlock = LoadedProgram::FreeBlock;
+  if (runnable.memory != nullptr) return {runnable.memory, FreeBlock{0}};
+  const uint32_t align = alignOf(runnable.program);
+  return {static_cast<uint8_t*>(::operator new(blockBytes(runnable.program), std::align_val_t{align})),
+          FreeBlock{align}};
+}
+
 uint32_t retainedBytes(const rung_program& program) {
   uint32_t sum = 0;
   for (uint32_t i = 0; i < program.retain_count; ++i) sum += program.retains[i].size;
@@ -22,14 +30,14 @@ uint32_t retainedBytes(const rung_program& program) {
 
 } // namespace
 
-void LoadedProgram::FreeBlock::operator()(uint8_t* bytes) const { ::operator delete(bytes, std::align_val_t{align}); }
+void LoadedProgram::FreeBlock::operator()(uint8_t* bytes) const {
+  if (align != 0) ::operator delete(bytes, std::align_val_t{align});
+}
 
-LoadedProgram::LoadedProgram(const rung_program& loaded, void* context)
-    : program(&loaded), engine(context),
-      block(static_cast<uint8_t*>(::operator new(blockBytes(loaded), std::align_val_t{alignOf(loaded)})),
-            FreeBlock{alignOf(loaded)}),
-      profile(loaded.instrumented != 0 ? loaded.rung_count : 0), parts(loaded.task_count),
-      retained(retainedBytes(loaded)), overwritten(loaded) {
+LoadedProgram::LoadedProgram(const Runnable& runnable)
+    : program(&runnable.program), engine(runnable.engine), block(blockFor(runnable)),
+      profile(program->instrumented != 0 ? program->rung_count : 0), parts(program->task_count),
+      retained(retainedBytes(*program)), overwritten(*program) {
   clear();
 }
 

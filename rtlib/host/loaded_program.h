@@ -9,14 +9,20 @@
 
 namespace rung::host {
 
+// What an instance runs. All outlive it; the program has passed checkProgram.
+struct Runnable {
+  const rung_program& program;
+  void* engine = nullptr;    // what the chunks find in rung_ctx::engine
+  uint8_t* memory = nullptr; // the memory block, of rt::Memory::kLeastBlock bytes at least; null: of the instance's own
+};
+
 // A program with all the memory that one instance of it needs; its memory block holds the initial contents.
 struct LoadedProgram {
-  // `engine`: what its chunks find in rung_ctx::engine.
-  LoadedProgram(const rung_program& loaded, void* engine);
+  explicit LoadedProgram(const Runnable& runnable);
   void clear() noexcept; // memory as the program's tables say
 
   struct FreeBlock {
-    size_t align;
+    size_t align; // 0: of somebody else
     void operator()(uint8_t* block) const;
   };
   const rung_program* program;

@@ -12,8 +12,12 @@ class Pace {
 public:
   static constexpr int64_t kMostLate = 10; // passes
 
-  // The instance outlives it; its schedule takes time (scanPeriodUs).
+  // The instance outlives it.
   explicit Pace(Instance& instance);
+  // Another program has taken over.
+  void programChanged() noexcept;
+  // The schedule takes time (scanPeriodUs); without it nothing is ever due.
+  bool hasPeriod() const noexcept { return passUs_ > 0; }
 
   // The other clock has advanced by `ns`.
   void elapse(int64_t ns) noexcept { lagNs_ += ns; }
@@ -31,7 +35,7 @@ private:
   int64_t delayNs() const noexcept { return int64_t{instance_.sliceDelayUs()} * 1000; }
 
   Instance& instance_;
-  int64_t passUs_;
+  int64_t passUs_ = 0;
   int64_t lagNs_ = 0; // of the program's clock
   uint64_t missed_ = 0;
 };

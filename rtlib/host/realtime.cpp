@@ -54,6 +54,11 @@ int64_t monotonicNs() {
   return int64_t{now.tv_sec} * kNsPerSecond + now.tv_nsec;
 }
 
+void runOrdinary() noexcept {
+  const sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
+}
+
 RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepGoing) {
   RealTimeStats stats;
   Pace pace(instance);

@@ -39,6 +39,9 @@ private:
   bool raised_ = false;
 };
 
+// The calling thread has no real-time priority from now on: a helper inherits that of the thread that starts it.
+void runOrdinary() noexcept;
+
 struct RealTimeStats {
   uint64_t slices = 0;
   uint64_t missed = 0;   // passes of the schedule that were left out

@@ -3,7 +3,7 @@
 
 namespace rung::host {
 
-Replacement::Replacement(const rung_program& running, const rung_program& next, void* engine)
-    : loaded_(next, engine), there_(running, next), back_(next, running) {}
+Replacement::Replacement(const rung_program& running, const Runnable& next)
+    : loaded_(next), there_(running, next.program), back_(next.program, running) {}
 
 } // namespace rung::host

@@ -18,9 +18,8 @@ enum class ReplaceResult : uint8_t {
 
 class Replacement {
 public:
-  // `next` has passed checkProgram and is of `running`'s dialect; both outlive this object and the instance's use of
-  // them. `engine`: what the chunks of `next` find in rung_ctx::engine.
-  Replacement(const rung_program& running, const rung_program& next, void* engine = nullptr);
+  // `next` is of `running`'s dialect; both outlive this object and the instance's use of them.
+  Replacement(const rung_program& running, const Runnable& next);
 
   const rung_program& next() const { return *loaded_.program; }
   // What becomes of the state.

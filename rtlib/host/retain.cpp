@@ -11,6 +11,8 @@
 #include <exception>
 #include <utility>
 
+#include "rtlib/host/realtime.h"
+
 namespace rung::host {
 
 namespace {
@@ -125,8 +127,8 @@ RetainImage RetainStore::load() {
   return image;
 }
 
-bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
-  if (bytes.size() != size_) {
+bool RetainStore::save(std::span<const uint8_t> bytes, uint64_t layoutHash, std::string& error) {
+  if (layoutHash == layoutHash_ && bytes.size() != size_) {
     error = "the retained image has the wrong size";
     return false;
   }
@@ -134,7 +136,7 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
   if (!looked_) load(); // the generation must be above those on disk
   std::vector<uint8_t> file(kHeaderSize + bytes.size());
   std::memcpy(file.data(), kMagic, 8);
-  put(file, 8, layoutHash_, 8);
+  put(file, 8, layoutHash, 8);
   put(file, 16, generation_ + 1, 8);
   put(file, 24, bytes.size(), 4);
   if (!bytes.empty()) std::memcpy(file.data() + kHeaderSize, bytes.data(), bytes.size());
@@ -147,17 +149,28 @@ bool RetainStore::save(std::span<const uint8_t> bytes, std::string& error) {
 
 // ---- saver -------------------------------------------------------------------------------------------------------
 
-RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize, uint32_t imageSize, Pack pack,
-                         std::chrono::milliseconds period)
-    : target_(std::move(target)), pack_(std::move(pack)), image_(imageSize), onDisk_(imageSize), period_(period) {
+RetainLane::RetainLane(uint64_t layoutHash, uint32_t rawSize, uint32_t imageSize, Pack pack)
+    : layoutHash_(layoutHash), imageSize_(imageSize), pack_(std::move(pack)) {
   for (Offer& offer : offers_) offer.raw.resize(rawSize);
-  thread_ = std::thread([this] { work(); });
 }
 
-RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, const RetainMap& map, std::chrono::milliseconds period)
-    : RetainSaver(
-          std::move(target), map.rawSize(), map.size(),
-          [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }, period) {}
+RetainLane::RetainLane(const RetainMap& map)
+    : RetainLane(map.hash(), map.rawSize(), map.size(),
+                 [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }) {}
+
+void RetainLane::enter(int64_t saver) noexcept {
+  if (saver_ == saver) return;
+  saver_ = saver;
+  for (Offer& offer : offers_) offer.ticket = 0;
+}
+
+RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainLane> lane,
+                         std::chrono::milliseconds period)
+    : target_(std::move(target)), begun_(monotonicNs()), lane_(std::move(lane)), current_(lane_.get()),
+      period_(period) {
+  lane_->enter(begun_);
+  thread_ = std::thread([this] { work(); });
+}
 
 RetainSaver::~RetainSaver() {
   {
@@ -182,11 +195,14 @@ bool RetainSaver::flush() {
 }
 
 // A failed save may have replaced the file all the same: what is on disk is not known then.
-bool RetainSaver::save(std::string& error) try {
-  if (onDiskKnown_ && image_ == onDisk_) return true;
+bool RetainSaver::save(const RetainLane& lane, const RetainLane::Offer& offer, std::string& error) try {
+  image_.assign(lane.imageSize_, 0);
+  lane.pack_(offer.raw, image_);
+  if (onDiskKnown_ && onDiskLayout_ == lane.layoutHash_ && image_ == onDisk_) return true;
   onDiskKnown_ = false;
-  if (!target_->save(image_, error)) return false;
+  if (!target_->save(image_, lane.layoutHash_, error)) return false;
   onDisk_ = image_;
+  onDiskLayout_ = lane.layoutHash_;
   onDiskKnown_ = true;
   saved_.fetch_add(1, std::memory_order_relaxed);
   return true;
@@ -196,12 +212,14 @@ bool RetainSaver::save(std::string& error) try {
 }
 
 void RetainSaver::saveOffered() noexcept {
-  if (!taken()) front_ = shared_.exchange(front_, std::memory_order_acq_rel) & ~kFresh;
-  const Offer& offer = offers_[front_];
-  if (offer.ticket == stored()) return;
-  pack_(offer.raw, image_);
+  const std::lock_guard lock(inLane_);
+  RetainLane& lane = *current_.load(std::memory_order_acquire);
+  if ((lane.shared_.load(std::memory_order_acquire) & RetainLane::kFresh) != 0)
+    lane.front_ = lane.shared_.exchange(lane.front_, std::memory_order_acq_rel) & ~RetainLane::kFresh;
+  const RetainLane::Offer& offer = lane.offers_[lane.front_];
+  if (offer.ticket <= stored()) return;
   std::string error;
-  const bool good = save(error);
+  const bool good = save(lane, offer, error);
   if (good) {
     stored_.store(offer.ticket, std::memory_order_release);
   } else {
@@ -212,6 +230,7 @@ void RetainSaver::saveOffered() noexcept {
 }
 
 void RetainSaver::work() {
+  runOrdinary();
   for (bool stop = false; !stop;) {
     uint64_t asked = 0;
     {

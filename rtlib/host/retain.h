@@ -33,20 +33,22 @@ struct RetainImage {
 class RetainTarget {
 public:
   virtual ~RetainTarget() = default;
-  // True: the image is kept, whatever happens now. False: `error` says what was not written and why.
-  virtual bool save(std::span<const uint8_t> bytes, std::string& error) = 0;
+  // True: the image, of a program with this layout, is kept, whatever happens now. False: `error` says what was not
+  // written and why.
+  virtual bool save(std::span<const uint8_t> bytes, uint64_t layoutHash, std::string& error) = 0;
 };
 
 class RetainStore final : public RetainTarget {
 public:
-  // `base` is a path without ending; bytes saved under another layout hash or size are not taken.
+  // `base` is a path without ending; bytes saved under another layout hash or size are not loaded.
   RetainStore(std::string base, uint64_t layoutHash, uint32_t size);
 
   // From now until this store ends no other one saves here, in no process. Whoever loads in order to save later locks
   // first; `save` does it too. False: `error` says why.
   bool lock(std::string& error);
   RetainImage load();
-  bool save(std::span<const uint8_t> bytes, std::string& error) override;
+  bool save(std::span<const uint8_t> bytes, std::string& error) { return save(bytes, layoutHash_, error); }
+  bool save(std::span<const uint8_t> bytes, uint64_t layoutHash, std::string& error) override;
 
 private:
   std::string base_;
@@ -59,19 +61,45 @@ private:
   bool looked_ = false; // generation_ and newestIsB_ are known
 };
 
+// What the scan thread copies for the saver, of one program: its bytes, and how they become an image.
+class RetainLane {
+public:
+  // How the bytes that were copied in the scan become the image; runs on the saver's thread.
+  using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
+
+  RetainLane(uint64_t layoutHash, uint32_t rawSize, uint32_t imageSize, Pack pack);
+  // Of the retained memory of an instance.
+  explicit RetainLane(const RetainMap& map);
+
+private:
+  friend class RetainSaver;
+  // Forgets what was offered to another saver.
+  void enter(int64_t saver) noexcept;
+
+  static constexpr uint32_t kFresh = 4; // of shared: the saver has not seen this one
+  struct Offer {
+    std::vector<uint8_t> raw;
+    uint64_t ticket = 0; // 0: nothing was offered
+  };
+
+  uint64_t layoutHash_;
+  uint32_t imageSize_;
+  Pack pack_;
+  // One belongs to the scan thread, one to the saver, and the third is what they exchange.
+  std::array<Offer, 3> offers_;
+  uint32_t back_ = 0;  // the scan thread's
+  uint32_t front_ = 1; // the saver's
+  std::atomic<uint32_t> shared_{2};
+  int64_t saver_ = 0; // RetainSaver::begun_
+};
+
 // Takes images from the scan thread and saves them on its own. `offer` copies and returns at once, whatever the saver
 // is doing; of several images the newest is saved. An image like the last one is not written again. One that could not
 // be saved is tried again until it is, or a newer one comes.
 class RetainSaver {
 public:
-  // How the bytes that were copied in the scan become the image; runs on the saver's thread.
-  using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
-
   // Looks for images once a `period`, because waking it would cost the scan thread a system call.
-  RetainSaver(std::unique_ptr<RetainTarget> target, uint32_t rawSize, uint32_t imageSize, Pack pack,
-              std::chrono::milliseconds period);
-  // For the retained memory of an instance.
-  RetainSaver(std::unique_ptr<RetainTarget> target, const RetainMap& map, std::chrono::milliseconds period);
+  RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainLane> lane, std::chrono::milliseconds period);
   ~RetainSaver(); // tries to save what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
@@ -80,17 +108,25 @@ public:
   // they grow from 1.
   template <class Copy>
   uint64_t offerFrom(Copy copy) noexcept {
-    Offer& offer = offers_[back_];
+    RetainLane::Offer& offer = lane_->offers_[lane_->back_];
     copy(std::span<uint8_t>(offer.raw));
     offer.ticket = ++lastTicket_;
-    back_ = shared_.exchange(back_ | kFresh, std::memory_order_acq_rel) & ~kFresh;
+    lane_->back_ =
+        lane_->shared_.exchange(lane_->back_ | RetainLane::kFresh, std::memory_order_acq_rel) & ~RetainLane::kFresh;
     return lastTicket_;
   }
   uint64_t offer(const Instance& instance) noexcept {
     return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
   // The saver has seen what was offered last: a copy is worth its time again.
-  bool taken() const noexcept { return (shared_.load(std::memory_order_acquire) & kFresh) == 0; }
+  bool taken() const noexcept { return (lane_->shared_.load(std::memory_order_acquire) & RetainLane::kFresh) == 0; }
+  // Another program has taken over: what is offered from now on goes through its lane. What was offered last of the
+  // former one may never be saved. `lane` gets the former lane; it must not end before `settle` has returned.
+  void swapLane(std::unique_ptr<RetainLane>& lane) noexcept {
+    lane->enter(begun_);
+    lane_.swap(lane);
+    current_.store(lane_.get(), std::memory_order_release);
+  }
 
   // Any thread, without a lock.
   uint64_t stored() const noexcept { return stored_.load(std::memory_order_acquire); } // ticket of the newest on disk
@@ -100,32 +136,27 @@ public:
   // Why the last failed try failed; the number of characters, 0 while it changes.
   size_t problem(std::span<char> to) const noexcept { return problem_.read(to); }
 
+  // Not in a scan: the saver uses no lane of before any more.
+  void settle() { const std::lock_guard lock(inLane_); }
   // Not in a scan: waits until what was offered last is on disk, or was tried once more and could not be saved; then
   // false.
   bool flush();
   std::string problem() const;
 
 private:
-  static constexpr uint32_t kFresh = 4; // of shared_: the saver has not seen this one
-  struct Offer {
-    std::vector<uint8_t> raw;
-    uint64_t ticket = 0;
-  };
-
   void work();
   void saveOffered() noexcept;
-  bool save(std::string& error);
+  bool save(const RetainLane& lane, const RetainLane::Offer& offer, std::string& error);
 
   std::unique_ptr<RetainTarget> target_;
-  Pack pack_;
-  // One belongs to the scan thread, one to the saver, and the third is what they exchange.
-  std::array<Offer, 3> offers_;
-  uint32_t back_ = 0;  // the scan thread's
-  uint32_t front_ = 1; // the saver's
-  std::atomic<uint32_t> shared_{2};
+  int64_t begun_;                    // in ns: no other saver of the process has the same
+  std::unique_ptr<RetainLane> lane_; // the scan thread's
+  std::atomic<RetainLane*> current_; // the same, for the saver
+  std::mutex inLane_;                // held while the saver uses a lane
   uint64_t lastTicket_ = 0;
   std::vector<uint8_t> image_;  // of the saver's
   std::vector<uint8_t> onDisk_; // where it is known
+  uint64_t onDiskLayout_ = 0;
   bool onDiskKnown_ = false;
   std::atomic<uint64_t> stored_{0};
   std::atomic<uint64_t> saved_{0};

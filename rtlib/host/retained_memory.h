@@ -32,6 +32,14 @@ public:
   // asks for it. True, once for each request: what was copied after it began is on disk.
   bool offer(const Instance& instance, bool asked) noexcept;
 
+  // Scan thread: another program has taken over, of which `lane` is; it gets that of the former program, which must not
+  // end before `settle` has returned. A request of the former program is asked again by the new one.
+  void programChanged(std::unique_ptr<RetainLane>& lane) noexcept {
+    saver_->swapLane(lane);
+    request_ = 0;
+  }
+  void settle() { saver_->settle(); }
+
   // Any thread, without a lock: see RetainSaver.
   bool failing() const noexcept { return saver_->failing(); }
   uint64_t saved() const noexcept { return saver_->saved(); }

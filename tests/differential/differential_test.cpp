@@ -10,8 +10,8 @@
 namespace rung {
 namespace {
 
-using driver::EngineKind;
-using driver::EngineOptions;
+using compiler::EngineKind;
+using compiler::EngineOptions;
 using ir::OpCode;
 
 constexpr int kScans = 4;
@@ -31,15 +31,15 @@ constexpr Variant kVariants[] = {
     {EngineKind::Llvm, true, "", "LlvmSo"},
 };
 
-std::optional<std::string> disagreement(const driver::Compiled& compiled, const Variant& variant,
+std::optional<std::string> disagreement(const compiler::Compiled& compiled, const Variant& variant,
                                         std::optional<OpCode> sabotage = {}, bool debugger = false) {
   EngineOptions options;
   options.debugger = debugger;
   options.optimise = variant.optimise;
   options.cppCompiler = variant.compiler;
   options.sabotage = sabotage;
-  auto reference = driver::makeEngine(EngineKind::Interp, compiled, {});
-  auto engine = driver::makeEngine(variant.kind, compiled, options);
+  auto reference = compiler::makeEngine(EngineKind::Interp, compiled, {});
+  auto engine = compiler::makeEngine(variant.kind, compiled, options);
   if (!reference.ok()) return reference.error();
   if (!engine.ok()) return engine.error();
   return testing::firstDisagreement(*reference.value(), *engine.value(), kScans);

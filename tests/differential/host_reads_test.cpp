@@ -10,7 +10,7 @@
 namespace rung {
 namespace {
 
-using driver::EngineKind;
+using compiler::EngineKind;
 using namespace ir;
 
 constexpr SpaceId kWords{0};
@@ -99,12 +99,12 @@ constexpr Variant kVariants[] = {
 class HostReads : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(HostReads, WhatTheProgramHasStored) {
-  const driver::Compiled compiled = testing::compiledFrom(askingModule());
+  const compiler::Compiled compiled = testing::compiledFrom(askingModule());
   ASSERT_EQ(compiled.layout->chunks().size(), 1u);
-  driver::EngineOptions options;
+  compiler::EngineOptions options;
   options.optimise = GetParam().optimise;
   options.cppCompiler = GetParam().compiler;
-  auto engine = driver::makeEngine(GetParam().kind, compiled, options);
+  auto engine = compiler::makeEngine(GetParam().kind, compiled, options);
   ASSERT_TRUE(engine.ok()) << engine.error();
   Reader reader;
   const auto instance = std::make_unique<host::Instance>(*engine.value(), &reader);

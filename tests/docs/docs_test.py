@@ -21,7 +21,7 @@ RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Pages whose commands are run, in the order in which a newcomer reads them; all write into the scratch folder alone.
-RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "linuxcnc.md", "security.md"))]
+RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "linuxcnc.md", "embedding.md", "security.md"))]
 SCRATCH = "out"
 # Not run: what builds, what is interactive, and what tests/debug runs.
 SKIPPED_COMMANDS = ("./dev", "gdb", "valgrind", "callgrind_annotate", "perf")
@@ -29,6 +29,8 @@ SKIPPED_COMMANDS = ("./dev", "gdb", "valgrind", "callgrind_annotate", "perf")
 WALL_CLOCK = (
     # rungc test
     (re.compile(r"(?<= scans, )[\d.]+ m?s(?=\)$)|(?<= failed in )[\d.]+ m?s$"), "TIME"),
+    # the hosts of embedding.md
+    (re.compile(r"(?<=the worst rung is ).*"), "RUNG"),
     # rungc profile: tables of times, of sums, of rungs
     (re.compile(r"(?<=\d)( +[\d.e+]+ [num]?s){4}( +[\d.]+%(?= of ))?"), " TIMES"),
     (re.compile(r"(?<=% ) *[\d.]+(?=  [^\d\s])"), "TIME"),

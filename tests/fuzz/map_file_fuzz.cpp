@@ -79,7 +79,7 @@ void checkMap(const MapFile& map) {
 // Binding reads the instance only.
 struct Bound {
   explicit Bound(const fuzz::MappedProgram& source)
-      : compiled(source.file, source.text, driver::EngineKind::Interp), instance(compiled.program()) {}
+      : compiled(source.file, source.text, compiler::EngineKind::Interp), instance(compiled.program()) {}
 
   testing::CompiledProgram compiled;
   host::Instance instance;

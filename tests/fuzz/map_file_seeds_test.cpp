@@ -21,7 +21,7 @@ TEST(MapFileSeeds, BindWithoutErrors) {
     std::ifstream file(path, std::ios::binary);
     const std::string text(std::istreambuf_iterator<char>(file), {});
     ASSERT_NE(text, "") << path;
-    const testing::CompiledProgram program(source.file, source.text, driver::EngineKind::Interp);
+    const testing::CompiledProgram program(source.file, source.text, compiler::EngineKind::Interp);
     const host::Instance instance(program.program());
     const std::unique_ptr<nc::Control> control = nc::makeControl(instance.program().dialect);
     std::vector<std::string> errors;

@@ -23,6 +23,7 @@ MODULES = {
     "rtlib/nc/names": {"rtlib/abi", "rtlib/core", "rtlib/host"},  # without the signal tables
     "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/nc/names", "rtlib/host"},
     "rtlib/profile": {"rtlib/abi", "rtlib/core", "rtlib/host"},
+    "rtlib/runtime": {"rtlib/abi", "rtlib/core", "rtlib/nc/control", "rtlib/nc/names", "rtlib/host", "rtlib/profile"},
     "ir/support": set(),
     "ir/core": IR,
     "ir/idioms": IR,
@@ -47,7 +48,7 @@ MODULES = {
     "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
     "codegen/clang": ALL_IR | {"codegen/cpp"},
 }
-NOT_ON_A_MACHINE = ("tools/sim/", "tools/driver/", "tools/scenario/", "frontend/", "codegen/", "ir/")
+NOT_ON_A_MACHINE = ("tools/sim/", "tools/compiler/", "tools/scenario/", "frontend/", "codegen/", "ir/")
 ON_A_MACHINE_TOO = {"ir/support/similar.h"}  # spelling suggestions: a library of its own
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 

@@ -41,7 +41,7 @@ void thin(std::vector<std::string>& names) {
 Names namesOf(const host::Instance& instance, const nc::Control& control) {
   Names names;
   for (const std::string& name : candidates(instance.program())) {
-    const uint32_t flags = spaceFlags(instance, control.writePlace(instance, name));
+    const uint32_t flags = spaceFlags(instance, control.writePlace(instance.program(), name));
     if ((flags & RUNG_SPACE_INPUT) != 0) names.inputs.push_back(name);
     if ((flags & RUNG_SPACE_OUTPUT) != 0) names.outputs.push_back(name);
   }
@@ -65,7 +65,7 @@ hal::MapFile mapOf(const Names& names) {
 
 Inputs::Inputs(const host::Instance& instance, const nc::Control& control, const std::vector<std::string>& names) {
   for (const std::string& name : names)
-    places_.push_back({host::locate(instance.memory(), *control.writePlace(instance, name))});
+    places_.push_back({host::locate(instance.memory(), *control.writePlace(instance.program(), name))});
   values_.resize(places_.size());
 }
 

@@ -26,7 +26,8 @@ int main(int argc, char** argv) {
   std::puts(report.c_str());
   if (!kind) return std::puts(error.c_str()), 1;
   control->powerOn(instance, *kind);
-  const std::optional<host::Ref> ready = control->readPlace(instance, "READY"); // as it names all that it exchanges
+  const std::optional<host::Ref> ready =
+      control->readPlace(instance.program(), "READY"); // as it names all that it exchanges
   const auto scan = [&] {
     do { // the machine's own thread would wait for sliceDelayUs() here
       instance.slice();

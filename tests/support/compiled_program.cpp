@@ -6,14 +6,14 @@
 
 namespace rung::testing {
 
-CompiledProgram::CompiledProgram(const std::string& file, const std::string& text, driver::EngineKind engine) {
+CompiledProgram::CompiledProgram(const std::string& file, const std::string& text, compiler::EngineKind engine) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId id = sources.addBuffer(file, text);
-  std::optional<driver::Compiled> compiled = driver::compile(sources, {&id, 1}, {}, diagnostics);
+  std::optional<compiler::Compiled> compiled = compiler::compile(sources, {&id, 1}, {}, diagnostics);
   RUNG_CHECK(compiled.has_value(), renderText(diagnostics, sources).c_str());
   compiled_ = std::move(*compiled);
-  auto made = driver::makeEngine(engine, compiled_, {});
+  auto made = compiler::makeEngine(engine, compiled_, {});
   RUNG_CHECK(made.ok(), made.error().c_str());
   engine_ = std::move(made.value());
 }

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 namespace rung::testing {
 
@@ -12,13 +12,13 @@ public:
   // `file` names the text in messages; its ending and contents say the dialect. A program that does not compile ends
   // the test.
   CompiledProgram(const std::string& file, const std::string& text,
-                  driver::EngineKind engine = driver::EngineKind::Jit);
+                  compiler::EngineKind engine = compiler::EngineKind::Jit);
 
   // Valid as long as this object.
   const rung_program& program() const { return engine_->program(); }
 
 private:
-  driver::Compiled compiled_;
+  compiler::Compiled compiled_;
   std::unique_ptr<host::Engine> engine_;
 };
 

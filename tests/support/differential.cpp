@@ -49,8 +49,8 @@ std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& 
   return std::nullopt;
 }
 
-driver::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options) {
-  driver::Compiled out;
+compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options) {
+  compiler::Compiled out;
   out.module = std::make_unique<ir::Module>(std::move(module));
   out.layout = std::make_unique<ir::Layout>(*out.module, options);
   out.codeHash = hashBytes(ir::print(*out.module));

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "rtlib/host/engine.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 namespace rung::testing {
 
@@ -12,6 +12,6 @@ namespace rung::testing {
 std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& second, int scans);
 
 // A module with its layout in the form that makeEngine takes.
-driver::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options = {});
+compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options = {});
 
 } // namespace rung::testing

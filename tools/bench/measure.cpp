@@ -21,7 +21,7 @@
 #include "rtlib/nc/names/names.h"
 #include "tools/bench/gsk_workload.h"
 #include "tools/bench/technol_workload.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 #include "tools/sim/simulated_nc.h"
 
 namespace rung::bench {
@@ -131,14 +131,14 @@ Result<void> settle(host::Instance& instance, const Workload& work, std::vector<
 }
 
 // Of a shared object the file, of the JIT what its cache keeps of the same program.
-Result<double> codeKb(driver::EngineKind kind, const driver::Compiled& compiled, driver::EngineOptions options,
+Result<double> codeKb(compiler::EngineKind kind, const compiler::Compiled& compiled, compiler::EngineOptions options,
                       const rung_program& program) {
-  if (kind == driver::EngineKind::Interp) return 0.0;
+  if (kind == compiler::EngineKind::Interp) return 0.0;
   uintmax_t bytes = 0;
-  if (kind == driver::EngineKind::Jit) {
+  if (kind == compiler::EngineKind::Jit) {
     const TemporaryFolder folder;
     options.cacheFolder = (folder / "cache").string();
-    const auto engine = driver::makeEngine(kind, compiled, options);
+    const auto engine = compiler::makeEngine(kind, compiled, options);
     if (!engine.ok()) return engine.failure();
     for (const auto& entry : std::filesystem::recursive_directory_iterator(options.cacheFolder))
       if (entry.is_regular_file()) bytes += entry.file_size();
@@ -177,7 +177,7 @@ Result<void> buildHandWritten(const Case& which, const std::string& compiler, co
 std::string sourceOf(const Case& which) { return workloadOf(which).text; }
 
 Result<Measured> measure(const Case& which) {
-  const auto kind = driver::engineFromName(which.engine);
+  const auto kind = compiler::engineFromName(which.engine);
   if (!kind) return failure(fmt::format("unknown engine '{}'", which.engine));
   const Workload work = workloadOf(which);
 
@@ -186,16 +186,16 @@ Result<Measured> measure(const Case& which) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer(work.file, work.text);
-  driver::CompileRequest request;
+  compiler::CompileRequest request;
   request.optimise = which.optimise;
-  const auto compiled = driver::compile(sources, {&file, 1}, request, diagnostics);
+  const auto compiled = compiler::compile(sources, {&file, 1}, request, diagnostics);
   if (!compiled) return failure("the generated program has errors:\n" + renderText(diagnostics, sources));
   out.frontMs = nsSince(start) / 1e6;
   start = Clock::now();
-  driver::EngineOptions engineOptions;
+  compiler::EngineOptions engineOptions;
   engineOptions.optimise = which.optimise;
   engineOptions.cppCompiler = which.compiler;
-  Result<std::unique_ptr<host::Engine>> engine = driver::makeEngine(*kind, *compiled, engineOptions);
+  Result<std::unique_ptr<host::Engine>> engine = compiler::makeEngine(*kind, *compiled, engineOptions);
   if (!engine.ok()) return engine.failure();
   const auto instance = std::make_unique<host::Instance>(*engine.value());
   instance->scan();

@@ -210,7 +210,7 @@ std::vector<std::string> Console::completions(std::string_view line) {
 Outcome Console::toggle(std::span<const std::string> words) {
   if (words.size() != 1) return fail("expected one name (the command is: toggle NAME)");
   const std::string& name = words[0];
-  const std::optional<host::Ref> place = session_.nc().writePlace(session_.instance(), name);
+  const std::optional<host::Ref> place = session_.nc().writePlace(session_.instance().program(), name);
   if (!place) return fail(scenario::unknownName(session_.instance(), session_.nc(), name));
   if (place->kind != host::RefKind::Bit) return fail(fmt::format("{0} is not a bit; write: set {0} VALUE", name));
   return executeLine(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));

@@ -187,9 +187,9 @@ public:
 
   Outcome run() {
     CountOperations operations;
-    driver::EngineOptions counting;
+    compiler::EngineOptions counting;
     counting.countOperations = true;
-    if (!measure("counting operations", operations, 1, driver::EngineKind::Interp, counting, true))
+    if (!measure("counting operations", operations, 1, compiler::EngineKind::Interp, counting, true))
       return std::move(outcome_);
     TimeScans scans;
     if (!measure("timing scans", scans, request_.repeat, request_.engine, {}, false)) return std::move(outcome_);
@@ -210,15 +210,15 @@ private:
   }
 
   // Runs all scenarios `repeat` times.
-  bool measure(const char* what, Measurement& measurement, uint32_t repeat, driver::EngineKind engine,
-               const driver::EngineOptions& options, bool instrument) {
+  bool measure(const char* what, Measurement& measurement, uint32_t repeat, compiler::EngineKind engine,
+               const compiler::EngineOptions& options, bool instrument) {
     scenario::RunOptions run;
     run.engines = {engine};
     run.engine = options;
     run.instrument = instrument;
     run.programs = request_.programs;
     run.store = stores_.emplace_back(std::make_unique<scenario::EngineStore>()).get();
-    run.started = [&measurement](scenario::Session& session, const driver::Compiled&) {
+    run.started = [&measurement](scenario::Session& session, const compiler::Compiled&) {
       session.addObserver(measurement);
       return std::string();
     };
@@ -252,7 +252,7 @@ private:
         return fail(request_.scenarios[0].path,
                     fmt::format("its runs differ: rung {} ran {} times in one run on interp and {} times in {} runs on "
                                 "{}",
-                                i, once, all, request_.repeat, driver::engineName(request_.engine)));
+                                i, once, all, request_.repeat, compiler::engineName(request_.engine)));
     }
     return true;
   }
@@ -263,7 +263,7 @@ private:
     Profile profile;
     profile.report =
         makeReport(program, &operations.collector(), &rungs.collector(), calibratedClock(), request_.order);
-    profile.engine = driver::engineName(request_.engine);
+    profile.engine = compiler::engineName(request_.engine);
     for (const scenario::Scenario& scenario : request_.scenarios) profile.scenarios.push_back(scenario.path);
     profile.codeHash = scans.program()->code_hash;
     profile.scans = operations.scans();

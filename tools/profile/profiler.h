@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rtlib/profile/profile.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 #include "tools/profile/scan_times.h"
 #include "tools/scenario/runner.h"
 
@@ -20,7 +20,7 @@ namespace rung::profile {
 struct Request {
   std::vector<scenario::Scenario> scenarios; // all of one program
   std::vector<std::string> programs;         // instead of the files that the scenarios name, when not empty
-  driver::EngineKind engine = driver::EngineKind::Jit;
+  compiler::EngineKind engine = compiler::EngineKind::Jit;
   Order order = Order::Operations;
   uint32_t repeat = 5;                              // N
   std::function<void(const std::string&)> progress; // what is being done; may be empty

@@ -225,7 +225,7 @@ private:
   std::optional<host::Ref> lookUp(const Entry& entry) {
     if (isPosition(entry.name)) return position(entry);
     // What the NC and the machine write is also what they see: for NCT both are the time-slice copy.
-    std::optional<host::Ref> place = control_.writePlace(instance_, entry.name);
+    std::optional<host::Ref> place = control_.writePlace(instance_.program(), entry.name);
     if (place) return place;
     const std::string meant = meantBy(entry);
     return fail(entry.at, entry.where,
@@ -269,7 +269,7 @@ private:
     std::string meant = entry.name;
     meant.replace(static_cast<size_t>(head.data() - entry.name.data()), head.size(), similar.best());
     // A bit, an index or a length may take the place out of the cell.
-    const std::optional<host::Ref> place = control_.writePlace(instance_, meant);
+    const std::optional<host::Ref> place = control_.writePlace(instance_.program(), meant);
     return place && misfitOf(*place, entry) == Misfit::None ? meant : std::string();
   }
 

@@ -7,8 +7,8 @@
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/text/text.h"
 #include "rtlib/host/sealing.h"
+#include "tools/compiler/engines.h"
 #include "tools/console/working.h"
-#include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -36,8 +36,8 @@ void addCodeOptions(CLI::App& command, BuildOptions& options) {
                      "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
 }
 
-driver::CompileRequest requestOf(const BuildOptions& options) {
-  driver::CompileRequest request;
+compiler::CompileRequest requestOf(const BuildOptions& options) {
+  compiler::CompileRequest request;
   request.instrument = options.profile;
   request.optimise = options.level != "0";
   return request;
@@ -51,13 +51,13 @@ codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
   return llvm;
 }
 
-Result<std::string> objectOf(const driver::Compiled& compiled, const BuildOptions& options) {
+Result<std::string> objectOf(const compiler::Compiled& compiled, const BuildOptions& options) {
   const console::Working working("making machine code");
   if (options.via == "llvm")
     return codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   codegen::CppBuildOptions cpp;
   cpp.compiler = !options.cxx.empty()     ? options.cxx
-                 : options.target.empty() ? driver::defaultCppCompiler()
+                 : options.target.empty() ? compiler::defaultCppCompiler()
                                           : options.target + "-g++";
   cpp.optimisation = options.level == "0" ? "-O0" : "-O2";
   cpp.debugInfo = options.debugInfo;
@@ -65,12 +65,12 @@ Result<std::string> objectOf(const driver::Compiled& compiled, const BuildOption
   return codegen::buildCppSharedObject(text, cpp);
 }
 
-int buildObject(const driver::Compiled& compiled, const BuildOptions& options) {
+int buildObject(const compiler::Compiled& compiled, const BuildOptions& options) {
   const Result<std::string> object = objectOf(compiled, options);
   return object.ok() ? writeProgram(options.out, host::sealed(object.value())) : environmentError(object.error());
 }
 
-int writeListing(const SourceManager& sources, const driver::Compiled& compiled, const std::string& name) {
+int writeListing(const SourceManager& sources, const compiler::Compiled& compiled, const std::string& name) {
   if (compiled.dialect->listing == nullptr) {
     return usageError(fmt::format("programs of {} have no listing", compiled.dialect->name));
   }
@@ -86,7 +86,7 @@ std::string writtenBy(const BuildOptions& options) {
   return options.listing.empty() ? text : text + " and " + options.listing;
 }
 
-Result<std::string> textOf(const driver::Compiled& compiled, const BuildOptions& options) {
+Result<std::string> textOf(const compiler::Compiled& compiled, const BuildOptions& options) {
   const console::Working working("writing the " + options.what);
   Result<std::string> text = failure("");
   if (options.what == "cpp")
@@ -102,7 +102,7 @@ Result<std::string> textOf(const driver::Compiled& compiled, const BuildOptions&
   return text;
 }
 
-int emitText(const driver::Compiled& compiled, const BuildOptions& options) {
+int emitText(const compiler::Compiled& compiled, const BuildOptions& options) {
   const Result<std::string> text = textOf(compiled, options);
   if (!text.ok()) return environmentError(text.error());
   if (!options.out.empty() && options.out != "-")

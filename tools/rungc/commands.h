@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/driver/compile.h"
+#include "tools/compiler/compile.h"
 #include "tools/project/project.h"
 
 namespace rung::rungc {
@@ -43,8 +43,8 @@ bool wantsColor(const std::string& color, int file);
 // -O0 compiles fast, -O2 runs fast.
 void addLevelOption(CLI::App& command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
-std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
-                                               driver::CompileRequest request, int& status);
+std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
+                                                 compiler::CompileRequest request, int& status);
 using ConfigPairs = std::vector<std::pair<std::string, std::string>>;
 // Nothing, and `status` says why, where one is not KEY=VALUE.
 std::optional<ConfigPairs> configPairs(const std::vector<std::string>& config, int& status);
@@ -58,7 +58,7 @@ int usageError(const std::string& message);
 // Prints "rungc: MESSAGE" and gives kEnvironment.
 int environmentError(const std::string& message);
 // "mill.pmc, 540 rungs, no warnings" on standard output, with what was written; nothing with --quiet or --json.
-void printSummary(const driver::Compiled& compiled, const SourceOptions& options, const std::string& written);
+void printSummary(const compiler::Compiled& compiled, const SourceOptions& options, const std::string& written);
 // "wrote mill.html" when the status is good; nothing with --quiet or --json. Gives the status.
 int sayWrote(int status, const std::string& out, const SourceOptions& options);
 // The whole text or, as the exit status and a message say, nothing (see host::replaceFile).

@@ -26,7 +26,7 @@ int write(const std::string& text, const std::string& out) {
 
 std::optional<std::string> convert(SourceManager& sources, std::span<const FileId> files, const ConvertOptions& options,
                                    const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
-  const frontend::Dialect* dialect = driver::chooseDialect(sources, files, options.source.dialect, diagnostics);
+  const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
   if (dialect != &gsk::kGsk) {
     diagnostics.report(Diag::NoConversion, sources.range(files[0], 0, 0)) << dialect->title;

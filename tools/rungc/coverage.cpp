@@ -63,7 +63,7 @@ Result<std::string> pageOf(const coverage::Program& program, const frontend::Dia
     return view::renderTable(fmt::format("{}", fmt::join(program.files, ", ")), dialect.title, rows, overlay);
   }
   SourceManager sources;
-  const Result<std::vector<FileId>> files = driver::addFiles(sources, program.files);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, program.files);
   if (!files.ok()) return files.failure();
   Diagnostics diagnostics;
   std::optional<view::Program> drawing = drawingOf(sources, files.value(), dialect, options, diagnostics);
@@ -98,9 +98,9 @@ void addCoverageOptions(CLI::App& command, CoverageOptions& options) {
 }
 
 void CoverageRun::observe(scenario::RunOptions& run) {
-  run.engines = {driver::EngineKind::Interp};
+  run.engines = {compiler::EngineKind::Interp};
   run.store = nullptr; // an engine of its own for each scenario: threads count apart
-  run.engine.observer = [this](const driver::Compiled& compiled) {
+  run.engine.observer = [this](const compiler::Compiled& compiled) {
     const std::lock_guard lock(mutex_);
     Origin origin{std::string(compiled.dialect->name), compiled.options};
     origin.options.configPlaces.clear(); // they are places in the sources of this compilation

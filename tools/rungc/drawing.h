@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "tools/driver/compile.h"
+#include "tools/compiler/compile.h"
 #include "tools/view/program.h"
 
 namespace rung::rungc {

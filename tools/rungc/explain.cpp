@@ -6,7 +6,7 @@
 
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
-#include "tools/driver/reference.h"
+#include "tools/compiler/reference.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/plain_text.h"
 
@@ -16,9 +16,9 @@ namespace {
 constexpr size_t kShown = 40; // of what a search finds
 
 // Names first, then titles.
-std::vector<driver::ReferenceEntry> search(const std::vector<driver::ReferenceEntry>& entries,
-                                           const std::string& word) {
-  std::vector<driver::ReferenceEntry> found;
+std::vector<compiler::ReferenceEntry> search(const std::vector<compiler::ReferenceEntry>& entries,
+                                             const std::string& word) {
+  std::vector<compiler::ReferenceEntry> found;
   const auto contains = [&](const std::string& text) {
     return text::lower(text).find(text::lower(word)) != std::string::npos;
   };
@@ -30,7 +30,7 @@ std::vector<driver::ReferenceEntry> search(const std::vector<driver::ReferenceEn
   return found;
 }
 
-std::string listed(const std::vector<driver::ReferenceEntry>& found) {
+std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
   std::string text = "| name | kind | |\n| --- | --- | --- |\n";
   for (size_t i = 0; i < std::min(found.size(), kShown); ++i) {
     std::string title = found[i].title.substr(0, found[i].title.find_first_of(".\n"));
@@ -41,9 +41,9 @@ std::string listed(const std::vector<driver::ReferenceEntry>& found) {
   return text;
 }
 
-int reportUnknown(const std::vector<driver::ReferenceEntry>& entries, const std::string& word) {
+int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word) {
   Similar similar(word);
-  for (const driver::ReferenceEntry& entry : entries) similar.offer(entry.name);
+  for (const compiler::ReferenceEntry& entry : entries) similar.offer(entry.name);
   const std::string meant = similar.best().empty() ? "" : fmt::format("; did you mean {}?", similar.best());
   fmt::print(stderr, "rungc: nothing is called '{}', and no name or title contains it{}{}\n", word, meant,
              meant.empty() ? "; `rungc explain` lists the topics" : "");
@@ -51,14 +51,14 @@ int reportUnknown(const std::vector<driver::ReferenceEntry>& entries, const std:
 }
 
 int explainWord(const std::string& word) {
-  std::optional<std::string> text = driver::explainTopic(word);
-  if (!text) text = driver::explain(word);
+  std::optional<std::string> text = compiler::explainTopic(word);
+  if (!text) text = compiler::explain(word);
   if (text) {
     std::cout << plainText(*text);
     return kOk;
   }
-  const std::vector<driver::ReferenceEntry> entries = driver::referenceEntries();
-  const std::vector<driver::ReferenceEntry> found = search(entries, word);
+  const std::vector<compiler::ReferenceEntry> entries = compiler::referenceEntries();
+  const std::vector<compiler::ReferenceEntry> found = search(entries, word);
   if (found.empty()) return reportUnknown(entries, word);
   std::cout << plainText(listed(found));
   return kOk;
@@ -76,7 +76,7 @@ void addExplain(CLI::App& app, int& status) {
       "as dead-loop, a key such as slot_steps, or a part of a word; without it the topics are listed");
   command->callback([word, &status] {
     if (word->empty())
-      std::cout << plainText(driver::explainTopics());
+      std::cout << plainText(compiler::explainTopics());
     else
       status = explainWord(*word);
   });
@@ -88,11 +88,11 @@ void addDoc(CLI::App& app, int& status) {
   command->add_option("PAGE", *page, "gsk, nct, technol, diagnostics or ir")->required();
   command->callback([page, &status] {
     if (*page == "diagnostics")
-      std::cout << driver::diagnosticReference();
+      std::cout << compiler::diagnosticReference();
     else if (*page == "ir")
-      std::cout << driver::operationReference();
+      std::cout << compiler::operationReference();
     else if (const frontend::Dialect* dialect = frontend::findDialect(*page))
-      std::cout << driver::dialectReference(*dialect);
+      std::cout << compiler::dialectReference(*dialect);
     else {
       fmt::print(stderr, "rungc: no such page: '{}'; there are gsk, nct, technol, diagnostics and ir\n", *page);
       status = kUsage;

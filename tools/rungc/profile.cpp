@@ -61,7 +61,7 @@ Result<profile::Baseline> openBaseline(const std::string& path) {
 
 int runProfile(const ProfileOptions& options) {
   profile::Request request;
-  const auto engine = driver::engineFromName(options.engine);
+  const auto engine = compiler::engineFromName(options.engine);
   if (!engine) return usageError("--engine takes one of interp, cpp, llvm and jit");
   request.engine = *engine;
   request.order = options.by == "time" ? profile::Order::Time : profile::Order::Operations;

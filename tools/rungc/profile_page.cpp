@@ -51,14 +51,14 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
   const scenario::CompileStep step =
       scenario::compileProgram(request.scenarios[0], request.programs, false, false, false);
   if (!step.program) return failure("the program has changed while its scenarios ran");
-  const driver::Compiled& compiled = *step.program;
+  const compiler::Compiled& compiled = *step.program;
   const view::Overlay overlay = overlayOf(profile);
   const std::vector<std::string>& names = compiled.module->files;
   if (!hasDrawing(*compiled.dialect))
     return view::renderTable(fmt::format("{}", fmt::join(names, ", ")), compiled.dialect->title,
                              view::rowsOf(*compiled.module), overlay);
   SourceManager sources;
-  const Result<std::vector<FileId>> files = driver::addFiles(sources, names);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, names);
   if (!files.ok()) return failure(files.error());
   Diagnostics diagnostics;
   std::optional<view::Program> drawing =

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "tools/driver/configuration.h"
+#include "tools/compiler/configuration.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -22,10 +22,10 @@ void checkSettings(const project::Project& project, const SourceManager& sources
   std::vector<std::pair<std::string, std::string>> pairs;
   for (const project::Setting& setting : project.config) pairs.emplace_back(setting.key, setting.value);
   const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
-  for (const driver::ConfigProblem& problem : driver::checkConfiguration(dialect, pairs, "")) {
+  for (const compiler::ConfigProblem& problem : compiler::checkConfiguration(dialect, pairs, "")) {
     const auto setting = std::find_if(project.config.begin(), project.config.end(),
                                       [&](const project::Setting& s) { return s.key == problem.key; });
-    driver::report(problem, dialect, sources.range(FileId{0}, setting->begin, setting->end), diagnostics);
+    compiler::report(problem, dialect, sources.range(FileId{0}, setting->begin, setting->end), diagnostics);
   }
 }
 

@@ -9,11 +9,11 @@
 
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/config_key.h"
+#include "tools/compiler/engines.h"
 #include "tools/console/console.h"
 #include "tools/console/progress.h"
 #include "tools/console/prompt.h"
 #include "tools/console/working.h"
-#include "tools/driver/engines.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/run_scenario.h"
@@ -60,7 +60,7 @@ void catchSignals() {
 class Run {
 public:
   // `compiled` is null for a shared object. All outlive the run.
-  Run(const RunOptions& options, host::Engine& engine, const driver::Compiled* compiled)
+  Run(const RunOptions& options, host::Engine& engine, const compiler::Compiled* compiled)
       : options_(options), engine_(engine), compiled_(compiled), recording_(startOf(options, compiled)) {
     session_.addEngine(engine);
   }
@@ -72,7 +72,7 @@ public:
   }
 
 private:
-  static console::Start startOf(const RunOptions& options, const driver::Compiled* compiled) {
+  static console::Start startOf(const RunOptions& options, const compiler::Compiled* compiled) {
     console::Start start;
     start.programs = options.source.files;
     start.project = options.source.project;
@@ -182,7 +182,7 @@ private:
     Result<std::string> plain = executeLine(fmt::format("set {} {}", name, value));
     if (plain.ok()) return plain;
     const Result<std::string> quoted = executeLine(fmt::format("set {} \"{}\"", name, value));
-    return quoted.ok() || !session_.nc().writePlace(session_.instance(), name) ? quoted : plain;
+    return quoted.ok() || !session_.nc().writePlace(session_.instance().program(), name) ? quoted : plain;
   }
 
   Result<std::string> executeLine(const std::string& line) {
@@ -261,7 +261,7 @@ private:
 
   const RunOptions& options_;
   host::Engine& engine_;
-  const driver::Compiled* compiled_;
+  const compiler::Compiled* compiled_;
   scenario::Session session_{""};
   console::Recording recording_;
   std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json nothing but that is on standard output
@@ -289,24 +289,24 @@ int runSharedObject(const RunOptions& options) {
 }
 
 int runSource(const RunOptions& options) {
-  const auto kind = driver::engineFromName(options.engine);
+  const auto kind = compiler::engineFromName(options.engine);
   if (!kind) return usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm and jit", options.engine));
   int status = kOk;
   SourceManager sources;
-  driver::CompileRequest request;
+  compiler::CompileRequest request;
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   const auto compiled = compileSources(sources, options.source, request, status);
   if (!compiled) return status;
-  driver::EngineOptions engineOptions;
+  compiler::EngineOptions engineOptions;
   engineOptions.debugger = options.debugger;
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
   const Result<std::unique_ptr<host::Engine>> engine = [&] {
     const console::Working working("making machine code");
-    return driver::makeEngine(*kind, *compiled, engineOptions);
+    return compiler::makeEngine(*kind, *compiled, engineOptions);
   }();
   if (!engine.ok()) return environmentError(engine.error());
-  if (const std::string trouble = driver::cacheTrouble(*engine.value()); !trouble.empty())
+  if (const std::string trouble = compiler::cacheTrouble(*engine.value()); !trouble.empty())
     fmt::print(stderr, "rungc: nothing is taken from or kept in --cache: {}\n", trouble);
   return Run(options, *engine.value(), &*compiled).run();
 }

@@ -24,10 +24,12 @@ std::string ScenarioTrace::problem(size_t scenarios) const {
 void ScenarioTrace::attach(scenario::RunOptions& run) {
   if (!wanted()) return;
   refused_ = false;
-  run.started = [this](scenario::Session& session, const driver::Compiled& program) { return begin(session, program); };
+  run.started = [this](scenario::Session& session, const compiler::Compiled& program) {
+    return begin(session, program);
+  };
 }
 
-std::string ScenarioTrace::begin(scenario::Session& session, const driver::Compiled& program) {
+std::string ScenarioTrace::begin(scenario::Session& session, const compiler::Compiled& program) {
   const rung_program& tables = session.instance().program();
   const std::vector<std::string> names =
       names_.empty() ? scenario::defaultTraceNames(tables, program.uses.get()) : names_;

@@ -25,7 +25,7 @@ public:
   std::string finish();
 
 private:
-  std::string begin(scenario::Session& session, const driver::Compiled& program);
+  std::string begin(scenario::Session& session, const compiler::Compiled& program);
 
   std::string path_;
   std::vector<std::string> names_;

@@ -7,15 +7,15 @@
 
 namespace rung::rungc {
 
-Result<std::vector<driver::EngineKind>> enginesOf(const std::string& names) {
-  std::vector<driver::EngineKind> engines;
+Result<std::vector<compiler::EngineKind>> enginesOf(const std::string& names) {
+  std::vector<compiler::EngineKind> engines;
   std::istringstream in(names);
   for (std::string name; std::getline(in, name, ',');) {
     if (name == "all") {
-      engines.assign(driver::allEngines().begin(), driver::allEngines().end());
+      engines.assign(compiler::allEngines().begin(), compiler::allEngines().end());
       continue;
     }
-    const auto kind = driver::engineFromName(name);
+    const auto kind = compiler::engineFromName(name);
     if (!kind) return failure(fmt::format("unknown engine '{}'; there are interp, cpp, llvm, jit and all", name));
     engines.push_back(*kind);
   }

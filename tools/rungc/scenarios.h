@@ -9,7 +9,7 @@
 namespace rung::rungc {
 
 // "interp,jit", "all": fails with a text for the user.
-Result<std::vector<driver::EngineKind>> enginesOf(const std::string& names);
+Result<std::vector<compiler::EngineKind>> enginesOf(const std::string& names);
 // Reads, parses and runs one file.
 TestCase runOne(const std::string& path, const scenario::RunOptions& options);
 // "ok" or "FAILED" with the path, then what it printed and what is wrong.

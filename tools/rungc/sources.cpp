@@ -8,8 +8,8 @@
 
 #include "ir/support/diag_render.h"
 #include "rtlib/host/file.h"
+#include "tools/compiler/configuration.h"
 #include "tools/console/working.h"
-#include "tools/driver/configuration.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -106,7 +106,7 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
   if (diagnostics.hasErrors()) std::cerr << closingLine(diagnostics);
 }
 
-void printSummary(const driver::Compiled& compiled, const SourceOptions& options, const std::string& written) {
+void printSummary(const compiler::Compiled& compiled, const SourceOptions& options, const std::string& written) {
   if (options.quiet || options.json) return;
   const std::string what = options.project             ? options.project->file
                            : options.files.size() == 1 ? options.files[0]
@@ -147,22 +147,22 @@ std::map<std::string, SourceRange> placesOf(const project::Project& project,
 const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const FileId> files,
                                    const SourceOptions& options) {
   Diagnostics unheard; // who compiles reports it
-  return files.empty() ? nullptr : driver::chooseDialect(sources, files, options.dialect, unheard);
+  return files.empty() ? nullptr : compiler::chooseDialect(sources, files, options.dialect, unheard);
 }
 
 // Those of --config; the project's have been checked with their places.
 int checkNamedConfig(const frontend::Dialect& dialect, const ConfigPairs& config) {
   int status = kOk;
-  for (const driver::ConfigProblem& problem : driver::checkConfiguration(dialect, config, ""))
+  for (const compiler::ConfigProblem& problem : compiler::checkConfiguration(dialect, config, ""))
     status = usageError("--config " + problem.text);
   return status;
 }
 
-void checkNames(const driver::Compiled& compiled, const SourceManager& sources, const frontend::CompileOptions& compile,
-                Diagnostics& diagnostics) {
+void checkNames(const compiler::Compiled& compiled, const SourceManager& sources,
+                const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
   const ConfigPairs pairs(compile.config.begin(), compile.config.end());
-  for (const driver::ConfigProblem& problem : driver::checkNamesOfProgram(*compiled.dialect, sources, pairs))
-    driver::report(problem, *compiled.dialect, compile.placeOf(problem.key), diagnostics);
+  for (const compiler::ConfigProblem& problem : compiler::checkNamesOfProgram(*compiled.dialect, sources, pairs))
+    compiler::report(problem, *compiled.dialect, compile.placeOf(problem.key), diagnostics);
 }
 
 } // namespace
@@ -173,7 +173,7 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
   const auto pairs = configPairs(options.config, status);
   if (!pairs) return std::nullopt;
   for (const auto& [key, value] : *pairs) compile.config[key] = value;
-  const Result<std::vector<FileId>> files = driver::addFiles(sources, options.files);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, options.files);
   if (!files.ok()) {
     status = environmentError(files.error());
     return std::nullopt;
@@ -187,15 +187,15 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
   return status == kOk ? std::optional(files.value()) : std::nullopt;
 }
 
-std::optional<driver::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
-                                               driver::CompileRequest request, int& status) {
+std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
+                                                 compiler::CompileRequest request, int& status) {
   request.dialect = options.dialect;
   const auto files = addSources(sources, options, request.options, status);
   if (!files) return std::nullopt;
   Diagnostics diagnostics;
-  std::optional<driver::Compiled> compiled = [&] {
+  std::optional<compiler::Compiled> compiled = [&] {
     const console::Working working("compiling");
-    return driver::compile(sources, *files, request, diagnostics);
+    return compiler::compile(sources, *files, request, diagnostics);
   }();
   if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
   if (diagnostics.hasErrors()) compiled.reset();

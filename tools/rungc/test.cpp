@@ -116,7 +116,7 @@ bool waitForChange(const TestOptions& options, const std::vector<TestCase>& test
 }
 
 int runTests(TestOptions& options) {
-  Result<std::vector<driver::EngineKind>> engines = enginesOf(options.engines);
+  Result<std::vector<compiler::EngineKind>> engines = enginesOf(options.engines);
   if (!engines.ok()) return usageError(engines.error());
   if (options.coverage.wanted() && options.enginesGiven && options.engines != "interp")
     return usageError(fmt::format("coverage is counted by the interpreter; leave out --engine {}", options.engines));

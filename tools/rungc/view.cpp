@@ -24,7 +24,7 @@ struct ViewOptions {
 
 std::optional<view::Program> read(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
                                   const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
-  const frontend::Dialect* dialect = driver::chooseDialect(sources, files, options.source.dialect, diagnostics);
+  const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
   if (hasDrawing(*dialect)) return drawingOf(sources, files, *dialect, compile, diagnostics);
   diagnostics.report(Diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;

@@ -7,7 +7,7 @@
 
 #include "ir/support/diag_render.h"
 #include "ir/support/similar.h"
-#include "tools/driver/configuration.h"
+#include "tools/compiler/configuration.h"
 
 namespace rung::scenario {
 namespace {
@@ -88,12 +88,12 @@ void checkOthers(const Scenario& scenario, const std::vector<Reported>& reported
                               renderText(others, sources)));
 }
 
-void checkNames(const Scenario& scenario, const driver::Compiled& compiled, const SourceManager& sources,
+void checkNames(const Scenario& scenario, const compiler::Compiled& compiled, const SourceManager& sources,
                 std::vector<Problem>& problems) {
   for (const Statement& s : scenario.statements) {
     if (s.kind != Kind::Config) continue;
     const std::pair<std::string, std::string> config[] = {{s.name, s.value.text}};
-    for (const driver::ConfigProblem& problem : driver::checkNamesOfProgram(*compiled.dialect, sources, config))
+    for (const compiler::ConfigProblem& problem : compiler::checkNamesOfProgram(*compiled.dialect, sources, config))
       problems.push_back(problemAt(s, problem.text));
   }
 }
@@ -108,7 +108,7 @@ bool readsKey(const frontend::Dialect& dialect, std::string_view key) {
 CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
                            bool instrument, bool marks) {
   CompileStep step;
-  driver::CompileRequest request;
+  compiler::CompileRequest request;
   request.options.strict = strict;
   request.instrument = instrument;
   request.marks = marks;
@@ -122,14 +122,14 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
   }
   request.options.includePaths = scenario.includePaths;
   SourceManager sources;
-  Result<std::vector<FileId>> files = driver::addFiles(sources, names);
+  Result<std::vector<FileId>> files = compiler::addFiles(sources, names);
   if (!files.ok()) {
     step.files = names; // one that is missing may come
     step.environment = files.error();
     return step;
   }
   Diagnostics diagnostics;
-  step.program = driver::compile(sources, files.value(), request, diagnostics);
+  step.program = compiler::compile(sources, files.value(), request, diagnostics);
   for (uint32_t i = 0; i < sources.fileCount(); ++i) step.files.emplace_back(sources.name(FileId{i}));
   std::vector<Reported> reported = reportedOf(diagnostics, sources);
   checkExpected(scenario, reported, step.problems);

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "tools/driver/compile.h"
+#include "tools/compiler/compile.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {
 
 struct CompileStep {
-  std::optional<driver::Compiled> program; // nothing when there is nothing to run: errors, expected or not
+  std::optional<compiler::Compiled> program; // nothing when there is nothing to run: errors, expected or not
   std::vector<Problem> problems;
   std::vector<std::string> files; // of the sources, with those that they include
   std::string environment;        // a file that cannot be read

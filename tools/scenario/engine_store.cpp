@@ -5,18 +5,18 @@
 
 namespace rung::scenario {
 
-Result<host::Engine*> StoredProgram::engine(driver::EngineKind kind, const driver::EngineOptions& options) {
+Result<host::Engine*> StoredProgram::engine(compiler::EngineKind kind, const compiler::EngineOptions& options) {
   const std::lock_guard lock(mutex_);
   auto found = engines_.find(kind);
   if (found == engines_.end()) {
-    Result<std::unique_ptr<host::Engine>> made = driver::makeEngine(kind, compiled_, options);
+    Result<std::unique_ptr<host::Engine>> made = compiler::makeEngine(kind, compiled_, options);
     if (!made.ok()) return made.failure();
     found = engines_.emplace(kind, std::move(made).value()).first;
   }
   return found->second.get();
 }
 
-std::shared_ptr<StoredProgram> EngineStore::enter(driver::Compiled compiled) {
+std::shared_ptr<StoredProgram> EngineStore::enter(compiler::Compiled compiled) {
   const std::lock_guard lock(mutex_);
   const auto found =
       std::find_if(programs_.begin(), programs_.end(), [&](const std::shared_ptr<StoredProgram>& stored) {

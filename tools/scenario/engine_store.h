@@ -6,30 +6,30 @@
 #include <memory>
 #include <mutex>
 
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 namespace rung::scenario {
 
 // A program and the engines that were made of it; several threads may ask for them.
 class StoredProgram {
 public:
-  explicit StoredProgram(driver::Compiled compiled) : compiled_(std::move(compiled)) {}
+  explicit StoredProgram(compiler::Compiled compiled) : compiled_(std::move(compiled)) {}
 
-  const driver::Compiled& compiled() const { return compiled_; }
+  const compiler::Compiled& compiled() const { return compiled_; }
   // Makes the engine when it is asked for first.
-  Result<host::Engine*> engine(driver::EngineKind kind, const driver::EngineOptions& options);
+  Result<host::Engine*> engine(compiler::EngineKind kind, const compiler::EngineOptions& options);
 
 private:
-  driver::Compiled compiled_;
+  compiler::Compiled compiled_;
   std::mutex mutex_; // of what follows: the others wait while one makes the engine that they need, too
-  std::map<driver::EngineKind, std::unique_ptr<host::Engine>> engines_;
+  std::map<compiler::EngineKind, std::unique_ptr<host::Engine>> engines_;
 };
 
 // All programs in it are run with the same EngineOptions.
 class EngineStore {
 public:
   // The stored program with the same code (Compiled::codeHash), or this one, stored.
-  std::shared_ptr<StoredProgram> enter(driver::Compiled compiled);
+  std::shared_ptr<StoredProgram> enter(compiler::Compiled compiled);
 
   static constexpr size_t kPrograms = 4;
 

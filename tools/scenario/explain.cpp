@@ -184,7 +184,7 @@ std::optional<std::string> Explanation::nameLine(const Use& use) const {
 } // namespace
 
 std::string Explainer::why(std::string_view name) const {
-  const std::optional<Ref> place = session_.nc().readPlace(session_.instance(), name);
+  const std::optional<Ref> place = session_.nc().readPlace(session_.instance().program(), name);
   if (!place || place->kind == host::RefKind::Constant) return {};
   return Explanation(session_, uses_, changes_).of(*place);
 }

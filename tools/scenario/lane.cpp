@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "rtlib/nc/control/refuse.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 namespace rung::scenario {
 namespace {

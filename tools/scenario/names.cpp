@@ -26,14 +26,14 @@ Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc&
     if (const auto quantity = nc.quantity(name.substr(kQuantity.size()))) return realReading(*quantity);
     return failure(fmt::format("the simulated NC has no quantity '{}'", name));
   }
-  if (const std::optional<host::Ref> place = nc.readPlace(instance, name))
+  if (const std::optional<host::Ref> place = nc.readPlace(instance.program(), name))
     return readValue(instance, nc.control(), *place, wantReal);
   if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
   return failure(unknownName(instance, nc, name));
 }
 
 NamedValue::NamedValue(std::string name, const host::Instance& instance, const sim::SimulatedNc& nc)
-    : name_(std::move(name)), place_(nc.readPlace(instance, name_)) {}
+    : name_(std::move(name)), place_(nc.readPlace(instance.program(), name_)) {}
 
 Reading NamedValue::read(const host::Instance& instance, const sim::SimulatedNc& nc) const {
   if (place_) return readValue(instance, nc.control(), *place_, false);
@@ -53,7 +53,8 @@ std::vector<std::string> namesOf(const host::Instance& instance, const sim::Simu
   const nc::SignalTable* signals = nc::signalsOf(program.dialect);
   if (signals == nullptr) return names;
   for (const nc::Signal& signal : *signals) // not of every area, nor of every structure, a program names the rows
-    if (seen.insert(signal.symbol).second && nc.readPlace(instance, signal.symbol)) names.emplace_back(signal.symbol);
+    if (seen.insert(signal.symbol).second && nc.readPlace(instance.program(), signal.symbol))
+      names.emplace_back(signal.symbol);
   return names;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "tools/driver/configuration.h"
+#include "tools/compiler/configuration.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
@@ -82,12 +82,12 @@ private:
   EngineStore& store() { return options_.store != nullptr ? *options_.store : ownStore_; }
 
   // In the program of a scenario that cannot run only names are looked up.
-  std::vector<driver::EngineKind> engines() const {
-    return scenario_.problems.empty() ? options_.engines : std::vector{driver::EngineKind::Interp};
+  std::vector<compiler::EngineKind> engines() const {
+    return scenario_.problems.empty() ? options_.engines : std::vector{compiler::EngineKind::Interp};
   }
 
   bool start() {
-    for (driver::EngineKind kind : engines()) {
+    for (compiler::EngineKind kind : engines()) {
       Result<host::Engine*> engine = program_->engine(kind, options_.engine);
       if (!engine.ok()) {
         result_.environment = engine.error();
@@ -99,7 +99,7 @@ private:
   }
 
   std::string configure(const frontend::Dialect& dialect, const Statement& s) {
-    if (nc::findConfigKey(dialect.configKeys, s.name) == nullptr) return driver::unknownKeyText(dialect, s.name);
+    if (nc::findConfigKey(dialect.configKeys, s.name) == nullptr) return compiler::unknownKeyText(dialect, s.name);
     return session_.config(s.name, s.value.text);
   }
 
@@ -126,7 +126,7 @@ private:
     return problems.empty();
   }
 
-  bool observe(const driver::Compiled& program) {
+  bool observe(const compiler::Compiled& program) {
     session_.addObserver(printer_);
     explainer_.emplace(session_, *program.uses);
     session_.addObserver(*explainer_);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 #include "tools/scenario/engine_store.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/session.h"
@@ -13,15 +13,15 @@
 namespace rung::scenario {
 
 struct RunOptions {
-  std::vector<driver::EngineKind> engines; // at least one
-  driver::EngineOptions engine;
+  std::vector<compiler::EngineKind> engines; // at least one
+  compiler::EngineOptions engine;
   bool instrument = false; // the program has profile counters
   bool strict = false;
   std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
   EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run
   // Called between the start and the first statement, to attach observers, which outlive the run. A text says why the
   // scenario cannot be run.
-  std::function<std::string(Session&, const driver::Compiled&)> started;
+  std::function<std::string(Session&, const compiler::Compiled&)> started;
 };
 
 struct RunResult {

@@ -24,7 +24,8 @@ bool RetainedTables::load(std::string& report, std::string& error) {
   model_->copyKept(now);
   if (!store_->save(now, error)) return false;
   const auto pack = [](std::span<const uint8_t> raw, std::span<uint8_t> to) { std::ranges::copy(raw, to.begin()); };
-  saver_ = std::make_unique<host::RetainSaver>(std::move(store_), size_, size_, pack, period_);
+  saver_ = std::make_unique<host::RetainSaver>(
+      std::move(store_), std::make_unique<host::RetainLane>(kFormat, size_, size_, pack), period_);
   return image.found;
 }
 

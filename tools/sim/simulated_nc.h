@@ -75,11 +75,11 @@ public:
   virtual void betweenSlices(host::Instance& instance) { control().afterSlice(instance); }
 
   // The place that `expect` reads and the one that `set` writes.
-  virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const {
-    return control().readPlace(instance, name);
+  virtual std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const {
+    return control().readPlace(program, name);
   }
-  virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const {
-    return control().writePlace(instance, name);
+  virtual std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const {
+    return control().writePlace(program, name);
   }
   // The machine or a user is going to write there: what the control has put over the real value gives way to it.
   virtual void beforeWrite(host::Instance& instance, const host::Ref& place) { (void)instance, (void)place; }

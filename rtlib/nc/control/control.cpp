@@ -25,8 +25,8 @@ bool Control::respond(host::Instance& instance, const rt::ServiceRequest& reques
   return true;
 }
 
-std::optional<host::Ref> Control::readPlace(const host::Instance& instance, std::string_view name) const {
-  return resolve(instance.program(), name, [&](std::string_view unknown) { return signal(instance, unknown); });
+std::optional<host::Ref> Control::readPlace(const rung_program& program, std::string_view name) const {
+  return resolve(program, name, [&](std::string_view unknown) { return signal(program, unknown); });
 }
 
 size_t Control::describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept {

@@ -49,9 +49,9 @@ public:
 
   // The place that a name of the program or of the NC's interface refers to for somebody who reads it, and for the NC
   // or the machine that writes it. Nothing when the name is unknown.
-  virtual std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const;
-  virtual std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const {
-    return readPlace(instance, name);
+  virtual std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const;
+  virtual std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const {
+    return readPlace(program, name);
   }
 
   // A message that the host has taken from the program's queue, and those that the operator sees now.
@@ -94,8 +94,8 @@ protected:
   virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
 
   // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
-  virtual std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const {
-    return (void)instance, (void)name, std::nullopt;
+  virtual std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const {
+    return (void)program, (void)name, std::nullopt;
   }
 
 private:

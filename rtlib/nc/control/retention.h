@@ -25,6 +25,9 @@ public:
 
   // How saving goes: for any thread, without a lock.
   const host::RetainedMemory& memory() const { return memory_; }
+  // As RetainedMemory has them.
+  void programChanged(std::unique_ptr<host::RetainLane>& lane) noexcept { memory_.programChanged(lane); }
+  void settle() { memory_.settle(); }
   // Not in a scan: waits for what was offered.
   bool flush() { return memory_.flush(); }
 

@@ -133,7 +133,7 @@ TEST(VerifyModule, Slots) {
   expectBroken([](Module& m) { m.slots[0].type = Type::None; }, Rule::Slots, "no type");
   expectBroken([](Module& m) { m.slots[0].init = 0x10000; }, Rule::Slots, "cannot hold");
   expectBroken([](Module& m) { m.slots[1].init = -1; }, Rule::Slots, "cannot hold");
-  const auto continuation = [](Continuation c) { return [c](Module& m) { m.continuations = {c}; }; };
+  const auto continuation = [](const Continuation& c) { return [c](Module& m) { m.continuations = {c}; }; };
   expectBroken(continuation({.key = "C", .slot = SlotId{99}, .points = {"0"}}), Rule::Slots, "not in a cell");
   expectBroken(continuation({.key = "C", .space = SpaceId{0}, .byte = 1000000, .points = {"0"}}), Rule::Slots,
                "not in a cell");

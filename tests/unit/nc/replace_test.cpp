@@ -42,7 +42,7 @@ TEST(ControlReplace, GskFinishesItsFunction) {
   };
   ASSERT_TRUE(functions.start(FunctionKind::M, 5));
   functions.step();
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(byte("F", 10), 5);
   EXPECT_EQ(byte("F", 7) & 1, 1) << "the strobe MF";
@@ -80,7 +80,7 @@ TEST(ControlReplace, NctFinishesItsFunction) {
   signals().set(acknowledge, true);
   signals().set(finished, true);
   ASSERT_TRUE(functions.start(FunctionKind::M, 5));
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_TRUE(signals().get(strobe));
   EXPECT_TRUE(signals().get(on));

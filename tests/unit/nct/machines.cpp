@@ -10,10 +10,10 @@
 
 namespace rung::nct::test {
 
-using driver::EngineKind;
+using compiler::EngineKind;
 
-Machine::Machine(const driver::Compiled& compiled, EngineKind kind) : name_(driver::engineName(kind)) {
-  auto engine = driver::makeEngine(kind, compiled, {});
+Machine::Machine(const compiler::Compiled& compiled, EngineKind kind) : name_(compiler::engineName(kind)) {
+  auto engine = compiler::makeEngine(kind, compiled, {});
   RUNG_CHECK(engine.ok(), engine.error().c_str());
   engine_ = std::move(engine.value());
   instance_ = std::make_unique<host::Instance>(*engine_);
@@ -53,14 +53,14 @@ Machines::Machines(const std::string& body, const std::vector<EngineKind>& kinds
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer("test.lad", "dialect nct\nmodule MAIN\n" + body);
-  auto compiled = driver::compile(sources, {&file, 1}, {}, diagnostics);
+  auto compiled = compiler::compile(sources, {&file, 1}, {}, diagnostics);
   RUNG_CHECK(compiled.has_value(), renderText(diagnostics, sources).c_str());
   compiled_ = std::move(*compiled);
   for (EngineKind kind : kinds) machines_.emplace_back(compiled_, kind);
 }
 
 std::vector<EngineKind> Machines::everyEngine() {
-  const auto kinds = driver::allEngines();
+  const auto kinds = compiler::allEngines();
   return {kinds.begin(), kinds.end()};
 }
 

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 namespace rung::nct::test {
 
 class Machine {
 public:
-  Machine(const driver::Compiled& compiled, driver::EngineKind kind);
+  Machine(const compiler::Compiled& compiled, compiler::EngineKind kind);
   uint32_t word(uint32_t number) const;
   // What a program finds there: in the NC area the time-slice memory comes first.
   void setWord(uint32_t number, uint32_t value);
@@ -40,15 +40,15 @@ inline constexpr uint32_t kNcEnd = 4000; // PLCNVRAM by default
 // `body` stands in module MAIN. The first machine is the interpreter.
 class Machines {
 public:
-  explicit Machines(const std::string& body, const std::vector<driver::EngineKind>& kinds = everyEngine());
-  static std::vector<driver::EngineKind> everyEngine();
-  static std::vector<driver::EngineKind> interpreterAndJit();
+  explicit Machines(const std::string& body, const std::vector<compiler::EngineKind>& kinds = everyEngine());
+  static std::vector<compiler::EngineKind> everyEngine();
+  static std::vector<compiler::EngineKind> interpreterAndJit();
   std::vector<Machine>& all() { return machines_; }
   // A difference between the interpreter and another engine; empty: none.
   std::string difference() const;
 
 private:
-  driver::Compiled compiled_;
+  compiler::Compiled compiled_;
   std::vector<Machine> machines_;
 };
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/diag_render.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 #include "tools/sim/simulated_nc.h"
 
 namespace rung::nct::test {
@@ -70,18 +70,18 @@ public:
     SourceManager sources;
     Diagnostics diagnostics;
     const FileId file = sources.addBuffer("test.lad", "dialect nct\nmodule MAIN\n" + body);
-    auto compiled = driver::compile(sources, {&file, 1}, {}, diagnostics);
+    auto compiled = compiler::compile(sources, {&file, 1}, {}, diagnostics);
     EXPECT_TRUE(compiled.has_value()) << renderText(diagnostics, sources);
     compiled_ = std::move(*compiled);
-    engine_ = std::move(driver::makeEngine(driver::EngineKind::Interp, compiled_, {}).value());
+    engine_ = std::move(compiler::makeEngine(compiler::EngineKind::Interp, compiled_, {}).value());
     nc_ = sim::makeSimulatedNc("nct");
     instance_ = std::make_unique<host::Instance>(*engine_, nc_.get());
     nc_->powerOn(*instance_, nc::PowerOn::Cold);
   }
   void set(std::string_view bit, bool value) {
-    EXPECT_EQ(instance_->write(*nc_->writePlace(*instance_, bit), value ? 1 : 0), std::nullopt);
+    EXPECT_EQ(instance_->write(*nc_->writePlace(instance_->program(), bit), value ? 1 : 0), std::nullopt);
   }
-  uint64_t read(const std::string& name) { return instance_->read(*nc_->readPlace(*instance_, name)); }
+  uint64_t read(const std::string& name) { return instance_->read(*nc_->readPlace(instance_->program(), name)); }
   void scan() { nc_->scan(*instance_); }
   // The bits that are 1 among `count` from word `first` on.
   uint32_t ones(uint32_t first, uint32_t count) {
@@ -95,7 +95,7 @@ public:
   uint32_t lost() { return instance_->messages().lost(); }
 
 private:
-  driver::Compiled compiled_;
+  compiler::Compiled compiled_;
   std::unique_ptr<host::Engine> engine_;
   std::unique_ptr<sim::SimulatedNc> nc_;
   std::unique_ptr<host::Instance> instance_;

@@ -72,7 +72,7 @@ TEST(NoAllocation, NorAReplacement) {
   build(one);
   build(two);
   Instance instance(one.program);
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   bool replaced = true;
   EXPECT_EQ(allocationsOf([&] {
               for (int i = 0; i < 10; ++i) {
@@ -158,7 +158,7 @@ struct Disk {
 class SlowTarget final : public RetainTarget {
 public:
   explicit SlowTarget(Disk& disk) : disk_(&disk) {}
-  bool save(std::span<const uint8_t> bytes, std::string&) override {
+  bool save(std::span<const uint8_t> bytes, uint64_t, std::string&) override {
     if (disk_->gate != nullptr) disk_->gate->pass();
     disk_->last.assign(bytes.begin(), bytes.end());
     return true;
@@ -187,7 +187,8 @@ TEST(NoAllocation, NorOfferingRetainedMemory) {
       if (!whileWriting) gate.pass();
       std::copy(raw.begin(), raw.end(), image.begin());
     };
-    RetainSaver saver(std::make_unique<SlowTarget>(disk), 8, 8, pack, std::chrono::milliseconds(1));
+    RetainSaver saver(std::make_unique<SlowTarget>(disk), std::make_unique<RetainLane>(1, 8, 8, pack),
+                      std::chrono::milliseconds(1));
     uint64_t taken = 0;
     const auto offer = [&](uint64_t value) {
       taken = saver.offerFrom([&](std::span<uint8_t> to) { std::memcpy(to.data(), &value, sizeof value); });

@@ -57,7 +57,7 @@ TEST_F(ReplacementTest, TheNewProgramContinuesWithTheState) {
   Instance instance(one.program);
   instance.scan();
   instance.scan();
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   EXPECT_EQ(replacement.transfer().changes().size(), 3u) << "COUNT and KEPT moved, SUM removed";
   EXPECT_EQ(instance.generation(), 0u);
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
@@ -75,7 +75,7 @@ TEST_F(ReplacementTest, TheNewProgramContinuesWithTheState) {
 TEST_F(ReplacementTest, TheFormerProgramCanBePutBack) {
   Instance instance(one.program);
   instance.scan();
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   instance.scan();
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
@@ -89,7 +89,7 @@ TEST_F(ReplacementTest, TheFormerProgramCanBePutBack) {
 
 TEST_F(ReplacementTest, NotWithinAPass) {
   Instance instance(one.program);
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   instance.slot();
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::WithinPass);
   EXPECT_EQ(&instance.program(), &one.program);
@@ -99,13 +99,13 @@ TEST_F(ReplacementTest, NotWithinAPass) {
 
 TEST_F(ReplacementTest, NotForAnotherProgram) {
   Instance instance(two.program);
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::OtherProgram);
 }
 
 TEST_F(ReplacementTest, RequestsThatWaitKeepTheirMeaning) {
   Instance instance(one.program);
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   instance.runTask("ASK");
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::RequestsWait) << "its READ would be a WRITE";
   rt::ServiceRequest request;
@@ -119,7 +119,7 @@ TEST_F(ReplacementTest, AStoppedProgramStaysStopped) {
   EXPECT_EQ(instance.write(refOf(*findSymbol(two.program, "COUNT")), 200), std::nullopt);
   instance.scan();
   ASSERT_TRUE(instance.faulted());
-  Replacement replacement(two.program, one.program);
+  Replacement replacement(two.program, {one.program});
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced) << "a pass that ended in a fault is over";
   EXPECT_TRUE(instance.faulted());
   instance.scan();
@@ -134,7 +134,7 @@ TEST_F(ReplacementTest, AFaultIsTheSameInTheOtherTables) {
   two.rungs[0].key = 5;
   Instance instance(one.program);
   ASSERT_TRUE(instance.halt("dead-loop"));
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_STREQ(two.program.faults[instance.fault().code], "dead-loop");
   EXPECT_EQ(instance.fault().rung, RUNG_NONE);
@@ -146,7 +146,7 @@ TEST_F(ReplacementTest, AMechanismThatWaitsElsewhereIsWaitedFor) {
   one.link();
   two.link();
   Instance instance(one.program);
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   instance.block()[8] = 1;
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::MechanismWaits);
   instance.block()[8] = 2;
@@ -163,7 +163,7 @@ public:
 TEST_F(ReplacementTest, TheControlHears) {
   Hooks hooks;
   Instance instance(one.program, &hooks);
-  Replacement replacement(one.program, two.program);
+  Replacement replacement(one.program, {two.program});
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(hooks.programs, std::vector<const rung_program*>{&two.program});
 }

@@ -424,8 +424,13 @@ protected:
     test.link();
     instance = std::make_unique<Instance>(test.program);
   }
+  std::unique_ptr<RetainLane> lane() {
+    const RetainMap map(test.program);
+    return std::make_unique<RetainLane>(kLayout, map.rawSize(), map.size(),
+                                        [map](auto raw, auto image) { map.pack(raw, image); });
+  }
   std::unique_ptr<RetainSaver> saver(int periodMs) {
-    return std::make_unique<RetainSaver>(std::make_unique<RetainStore>(store()), RetainMap(test.program),
+    return std::make_unique<RetainSaver>(std::make_unique<RetainStore>(store()), lane(),
                                          std::chrono::milliseconds(periodMs));
   }
   uint64_t offer(RetainSaver& to, uint32_t value) {
@@ -501,11 +506,48 @@ TEST_F(SaverTest, AFailureIsPublishedAndTriedAgain) {
   EXPECT_EQ(load().bytes, (Bytes{2, 0, 0}));
 }
 
+// Another program takes over, and the former one again.
+TEST_F(SaverTest, WhatIsOfferedGoesThroughTheLaneOfTheProgram) {
+  std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
+  const auto one = [](std::span<const uint8_t> raw, std::span<uint8_t> image) { image[0] = raw[0]; };
+  auto other = std::make_unique<RetainLane>(kLayout + 1, 2, 1, one);
+  const auto offerOther = [&](uint8_t value) { s->offerFrom([=](std::span<uint8_t> to) { to[0] = value; }); };
+  offer(*s, 1);
+  EXPECT_TRUE(s->flush());
+  offer(*s, 2);
+  s->swapLane(other);
+  EXPECT_TRUE(s->flush()) << "nothing was offered by the new program";
+  EXPECT_EQ(s->saved(), 1u);
+  offerOther(3);
+  EXPECT_TRUE(s->flush());
+  EXPECT_EQ(store(kLayout + 1, 1).load().bytes, (Bytes{3}));
+  s->swapLane(other);
+  EXPECT_TRUE(s->flush());
+  EXPECT_EQ(s->saved(), 2u) << "what the former program offered last is older";
+  offer(*s, 4);
+  EXPECT_TRUE(s->flush());
+  EXPECT_EQ(load().bytes, (Bytes{4, 0, 0}));
+  s->settle();
+}
+
+TEST_F(SaverTest, ALaneOfASaverBeforeHoldsNothingNew) {
+  std::unique_ptr<RetainLane> former = lane();
+  {
+    std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
+    for (uint32_t i = 0; i < 100; ++i) offer(*s, 9);
+    s->swapLane(former);
+  }
+  std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
+  s->swapLane(former);
+  EXPECT_TRUE(s->flush());
+  EXPECT_EQ(s->saved(), 0u);
+}
+
 // Fails, although what it was given is on disk then.
 class FailsAfterWriting final : public RetainTarget {
 public:
   FailsAfterWriting(std::vector<Bytes>& written, bool& fails) : written_(&written), fails_(&fails) {}
-  bool save(std::span<const uint8_t> bytes, std::string& error) override {
+  bool save(std::span<const uint8_t> bytes, uint64_t, std::string& error) override {
     written_->emplace_back(bytes.begin(), bytes.end());
     error = "fsync";
     return !*fails_;
@@ -519,7 +561,7 @@ private:
 TEST_F(SaverTest, AfterAFailureTheOldImageIsWrittenAgain) {
   std::vector<Bytes> written;
   bool fails = false;
-  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), RetainMap(test.program), std::chrono::hours(1));
+  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), lane(), std::chrono::hours(1));
   offer(s, 1);
   EXPECT_TRUE(s.flush());
   fails = true;
@@ -534,11 +576,11 @@ TEST_F(SaverTest, AfterAFailureTheOldImageIsWrittenAgain) {
 
 class Throws final : public RetainTarget {
 public:
-  bool save(std::span<const uint8_t>, std::string&) override { throw std::bad_alloc(); }
+  bool save(std::span<const uint8_t>, uint64_t, std::string&) override { throw std::bad_alloc(); }
 };
 
 TEST_F(SaverTest, NothingThrownLeavesTheThread) {
-  RetainSaver s(std::make_unique<Throws>(), RetainMap(test.program), std::chrono::milliseconds(1));
+  RetainSaver s(std::make_unique<Throws>(), lane(), std::chrono::milliseconds(1));
   offer(s, 1);
   EXPECT_FALSE(s.flush());
   EXPECT_EQ(s.problem(), std::bad_alloc().what());

@@ -14,7 +14,6 @@
 namespace {
 
 using namespace rung;
-using host::ChangeKind;
 using host::StateChange;
 using host::StateTransfer;
 using test::TestProgram;

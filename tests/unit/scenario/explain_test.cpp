@@ -27,7 +27,8 @@ protected:
   std::string failure(const std::string& file, const std::string& program, const std::string& statements) {
     std::ofstream(folder_ / file) << program;
     const std::string text = "program " + file + "\n" + statements;
-    const RunResult result = run(parse((folder_ / "t.scn").string(), text), {.engines = {driver::EngineKind::Interp}});
+    const RunResult result =
+        run(parse((folder_ / "t.scn").string(), text), {.engines = {compiler::EngineKind::Interp}});
     if (result.problems.empty()) return result.environment.empty() ? "passed" : result.environment;
     std::string message = result.problems[0].message;
     const std::string prefix = folder_.string() + "/";

@@ -4,7 +4,7 @@
 #include "ir/support/diag_render.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/names/write.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 namespace rung {
 namespace {
@@ -51,13 +51,13 @@ STOP
 class HostWrite : public testing::Test {
 protected:
   void start(const std::string& dialect, const char* text) {
-    driver::CompileRequest request;
+    compiler::CompileRequest request;
     request.dialect = dialect;
     const FileId file = sources_.addBuffer("program", text);
     Diagnostics diagnostics;
-    compiled_ = driver::compile(sources_, std::span(&file, 1), request, diagnostics);
+    compiled_ = compiler::compile(sources_, std::span(&file, 1), request, diagnostics);
     ASSERT_TRUE(compiled_) << renderText(diagnostics, sources_);
-    engine_ = driver::makeEngine(driver::EngineKind::Interp, *compiled_, {}).value();
+    engine_ = compiler::makeEngine(compiler::EngineKind::Interp, *compiled_, {}).value();
     instance_ = std::make_unique<host::Instance>(*engine_);
   }
   host::Ref at(std::string_view name) const { return nc::resolve(instance_->program(), name).value(); }
@@ -65,7 +65,7 @@ protected:
   std::string write(std::string_view name, uint64_t value) { return nc::write(*instance_, at(name), value); }
 
   SourceManager sources_;
-  std::optional<driver::Compiled> compiled_;
+  std::optional<compiler::Compiled> compiled_;
   std::unique_ptr<host::Engine> engine_;
   std::unique_ptr<host::Instance> instance_;
 };

@@ -12,7 +12,7 @@
 namespace rung::scenario {
 namespace {
 
-using driver::EngineKind;
+using compiler::EngineKind;
 
 constexpr const char* kLamp = R"(dialect nct
 module MAIN
@@ -227,7 +227,7 @@ TEST_F(ScenarioRunner, ObserversReadTheCountersOfAnInstrumentedProgram) {
   RunOptions options;
   options.engines = {EngineKind::Jit};
   options.instrument = true;
-  options.started = [&](Session& session, const driver::Compiled&) {
+  options.started = [&](Session& session, const compiler::Compiled&) {
     session.addObserver(observer);
     return std::string();
   };

@@ -1,8 +1,8 @@
 // The session: it goes on after a statement that failed, calls its observers, and can be interrupted.
 #include <gtest/gtest.h>
 
-#include "tools/driver/compile.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/compile.h"
+#include "tools/compiler/engines.h"
 #include "tools/scenario/session.h"
 
 namespace rung::scenario {
@@ -21,11 +21,11 @@ protected:
     SourceManager sources;
     Diagnostics diagnostics;
     const std::vector<FileId> files = {sources.addBuffer("lamp.lad", kLamp)};
-    std::optional<driver::Compiled> compiled = driver::compile(sources, files, {}, diagnostics);
+    std::optional<compiler::Compiled> compiled = compiler::compile(sources, files, {}, diagnostics);
     ASSERT_TRUE(compiled);
     compiled_ = std::move(*compiled);
-    for (driver::EngineKind kind : {driver::EngineKind::Interp, driver::EngineKind::Jit}) {
-      engines_.push_back(driver::makeEngine(kind, compiled_, {}).value());
+    for (compiler::EngineKind kind : {compiler::EngineKind::Interp, compiler::EngineKind::Jit}) {
+      engines_.push_back(compiler::makeEngine(kind, compiled_, {}).value());
       session_.addEngine(*engines_.back());
     }
     ASSERT_TRUE(session_.start().empty());
@@ -37,7 +37,7 @@ protected:
     return problem ? problem->message : "";
   }
 
-  driver::Compiled compiled_;
+  compiler::Compiled compiled_;
   std::vector<std::unique_ptr<host::Engine>> engines_;
   Session session_{"."};
 };

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <unistd.h>
 
-#include "tools/driver/compile.h"
-#include "tools/driver/engines.h"
+#include "tools/compiler/compile.h"
+#include "tools/compiler/engines.h"
 #include "tools/scenario/trace.h"
 
 namespace rung::scenario {
@@ -40,10 +40,10 @@ protected:
     SourceManager sources;
     Diagnostics diagnostics;
     const std::vector<FileId> files = {sources.addBuffer("lamp.lad", kProgram)};
-    std::optional<driver::Compiled> compiled = driver::compile(sources, files, {}, diagnostics);
+    std::optional<compiler::Compiled> compiled = compiler::compile(sources, files, {}, diagnostics);
     ASSERT_TRUE(compiled);
     compiled_ = std::move(*compiled);
-    engine_ = driver::makeEngine(driver::EngineKind::Interp, compiled_, {}).value();
+    engine_ = compiler::makeEngine(compiler::EngineKind::Interp, compiled_, {}).value();
     session_.addEngine(*engine_);
     ASSERT_TRUE(session_.start().empty());
   }
@@ -73,7 +73,7 @@ protected:
   }
 
   std::filesystem::path folder_;
-  driver::Compiled compiled_;
+  compiler::Compiled compiled_;
   std::unique_ptr<host::Engine> engine_;
   Session session_{"."};
 };

@@ -78,7 +78,8 @@ public:
 
 private:
   host::Ref place(const char* name, bool write) {
-    const auto found = write ? model_->writePlace(*instance_, name) : model_->readPlace(*instance_, name);
+    const auto found =
+        write ? model_->writePlace(instance_->program(), name) : model_->readPlace(instance_->program(), name);
     EXPECT_TRUE(found) << name;
     return found.value_or(host::Ref{});
   }

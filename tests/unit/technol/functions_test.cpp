@@ -37,7 +37,7 @@ protected:
 
   Functions& functions() { return *control_.functions(0); }
   host::Ref place(std::string_view name) {
-    const auto found = control_.readPlace(*instance_, name);
+    const auto found = control_.readPlace(instance_->program(), name);
     EXPECT_TRUE(found) << name;
     return found.value_or(host::Ref{});
   }
@@ -95,7 +95,7 @@ TEST_F(TechnolHandshake, AnotherProgramFinishesTheBlock) {
   ir::InterpEngine engine(layout, 2);
   EXPECT_THAT(functions().start(M, 3), Optional(0u));
   scan(3);
-  host::Replacement replacement(engine_->program(), engine.program(), engine.context());
+  host::Replacement replacement(engine_->program(), {engine.program(), engine.context()});
   ASSERT_EQ(instance_->replace(replacement), host::ReplaceResult::Replaced);
   EXPECT_EQ(get("STATUS_RESTART"), 1u);
   EXPECT_EQ(get("INITS"), 1u);

@@ -88,8 +88,8 @@ public:
     return simulated_ ? simulator_.quantity(name) : SimulatedNc::quantity(name);
   }
 
-  std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override {
-    const std::optional<host::Ref> place = control_.writePlace(instance, name);
+  std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const override {
+    const std::optional<host::Ref> place = control_.writePlace(program, name);
     if (place) noteWritten(*place);
     return place;
   }

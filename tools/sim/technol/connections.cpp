@@ -170,8 +170,8 @@ private:
   }
 
   std::optional<End> port(bool input, uint32_t number, std::optional<uint32_t> bit, std::string& problem) {
-    const auto place = nc::technol::signalPlace(instance_, input ? "P" + std::to_string(number) + "IN"
-                                                                 : "P" + std::to_string(number) + "OUT");
+    const auto place = nc::technol::signalPlace(instance_.program(), input ? "P" + std::to_string(number) + "IN"
+                                                                           : "P" + std::to_string(number) + "OUT");
     const bool there = input ? number >= 1 && number <= Ports::kInputs : number < Ports::kOutputs;
     if (!place || !there)
       return no(problem, input ? "input ports are P1IN to P128IN" : "output ports are P0OUT to P95OUT");
@@ -234,7 +234,7 @@ private:
     for (const std::string_view array : {kAnalogueIn, kAnalogueOut}) {
       const nc::technol::Reference element = withoutIndex(reference);
       if (element.base != array || reference.bit) continue;
-      const auto place = nc::technol::signalPlace(instance_, array);
+      const auto place = nc::technol::signalPlace(instance_.program(), array);
       const auto at = place ? host::element(*place, element.element) : std::nullopt;
       if (!at) return no(problem, "channels are 0 to 99");
       End made{.pin = pinAt(instance_.program(), *at, nc::ExchangeType::Real)};
@@ -427,7 +427,7 @@ namespace {
 
 // The weight bits of ANALOG_CONNECTED (man. l.5898).
 void mark(host::Instance& instance, uint32_t channel, bool input) {
-  const auto array = nc::technol::signalPlace(instance, "ANALOG_CONNECTED");
+  const auto array = nc::technol::signalPlace(instance.program(), "ANALOG_CONNECTED");
   const auto cell = array ? host::element(*array, channel) : std::nullopt;
   const nc::Signal* weight = findSignal(nc::technolSignals(), input ? "AIN_CONNECTED" : "AOUT_CONNECTED", "W");
   if (cell && weight) host::writeRaw(instance.memory(), host::bitRef(cell->space, cell->byte, weight->bit), 1);
@@ -454,7 +454,7 @@ void Connections::preset(host::Instance& instance) const {
 
 void Connections::markAnalogue(host::Instance& instance, const Wire& wire) {
   const auto channelOf = [&](const Pin& pin, std::string_view name) -> std::optional<uint32_t> {
-    const auto array = nc::technol::signalPlace(instance, name);
+    const auto array = nc::technol::signalPlace(instance.program(), name);
     if (!array || pin.place.space != array->space || pin.place.byte < array->byte) return std::nullopt;
     const uint32_t channel = (pin.place.byte - array->byte) / 8;
     return channel < array->count ? std::optional(channel) : std::nullopt;

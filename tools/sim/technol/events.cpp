@@ -51,7 +51,7 @@ std::optional<std::string> callEvent(host::Instance& instance, std::string_view 
     if (!text::equalsIgnoringCase(name, event.name)) continue;
     // The procedure may set it again, and the start waits (man. l.6463-6467).
     if (event.code == kStartRequest.code)
-      if (const auto suspend = nc::technol::signalPlace(instance, "START_SUSPEND"))
+      if (const auto suspend = nc::technol::signalPlace(instance.program(), "START_SUSPEND"))
         host::writeRaw(instance.memory(), *suspend, 0);
     call(instance, "_ON_EVENT", event.code, false);
     return std::string();

@@ -32,7 +32,8 @@ bool Ports::configure(std::string_view key, std::string_view value, std::string&
 }
 
 Ports::Family Ports::familyOf(const host::Instance& instance, const char* first, const char* second) {
-  const auto a = nc::technol::signalPlace(instance, first), b = nc::technol::signalPlace(instance, second);
+  const auto a = nc::technol::signalPlace(instance.program(), first),
+             b = nc::technol::signalPlace(instance.program(), second);
   return a && b ? Family{a->space, a->byte, b->byte - a->byte} : Family{};
 }
 

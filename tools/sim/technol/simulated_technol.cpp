@@ -56,12 +56,12 @@ public:
   std::vector<NcProblem> connectionProblems() const override { return exchange_.problems(); }
 
   // Shared variables have their names beside the program's own; screens write inputs only (man. l.13609).
-  std::optional<host::Ref> readPlace(const host::Instance& instance, std::string_view name) const override {
-    const auto place = control_.readPlace(instance, name);
+  std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const override {
+    const auto place = control_.readPlace(program, name);
     return place ? place : exchange_.shared().find(name, false);
   }
-  std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override {
-    const auto place = control_.readPlace(instance, name);
+  std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const override {
+    const auto place = control_.readPlace(program, name);
     return place ? place : exchange_.shared().find(name, true);
   }
   void beforeWrite(host::Instance& instance, const host::Ref& place) override {

@@ -45,10 +45,10 @@ std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) c
   return shown;
 }
 
-std::optional<host::Ref> GskControl::signal(const host::Instance& instance, std::string_view name) const {
+std::optional<host::Ref> GskControl::signal(const rung_program& program, std::string_view name) const {
   const Signal* found = findSignal(gskSignals(), name);
   if (found == nullptr) return std::nullopt;
-  const uint32_t space = host::findSpace(instance.program(), found->area);
+  const uint32_t space = host::findSpace(program, found->area);
   if (space == RUNG_NONE) return std::nullopt;
   if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
   const uint32_t bytes = elementBytes(found->type);

@@ -18,7 +18,7 @@ public:
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 
 protected:
-  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+  std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
   GskFunctions functions_;

@@ -26,7 +26,7 @@ public:
   // At power-on. F outlasts it, so what was handed over before is taken back.
   void powerOn(host::Instance& instance) {
     locate(instance);
-    if (handedOver_) abort(*io_);
+    if (handedOver_ && io_) abort(*io_);
   }
   // Where the signals are in the program that runs now.
   void locate(host::Instance& instance) { io_.emplace(instance); }

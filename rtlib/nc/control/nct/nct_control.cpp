@@ -83,12 +83,12 @@ void NctControl::afterSlice(host::Instance& instance) {
   if (instance.atListStart()) messages_.endCycle();
 }
 
-std::optional<host::Ref> NctControl::writePlace(const host::Instance& instance, std::string_view name) const {
-  std::optional<host::Ref> place = readPlace(instance, name);
-  const uint32_t memory = host::findSpace(instance.program(), "M");
-  const uint32_t slice = host::findSpace(instance.program(), "TS");
+std::optional<host::Ref> NctControl::writePlace(const rung_program& program, std::string_view name) const {
+  std::optional<host::Ref> place = readPlace(program, name);
+  const uint32_t memory = host::findSpace(program, "M");
+  const uint32_t slice = host::findSpace(program, "TS");
   if (place && slice != RUNG_NONE && place->space == memory && place->byte >= kFirstNcByte &&
-      place->byte < instance.program().spaces[slice].byte_count)
+      place->byte < program.spaces[slice].byte_count)
     place->space = slice;
   return place;
 }
@@ -98,10 +98,10 @@ size_t NctControl::describe(const rung_program& program, const rung_message& mes
   return nct::logLine(program, message, out);
 }
 
-std::optional<host::Ref> NctControl::signal(const host::Instance& instance, std::string_view name) const {
+std::optional<host::Ref> NctControl::signal(const rung_program& program, std::string_view name) const {
   const Signal* found = findSignal(nctSignals(), name);
   if (found == nullptr) return std::nullopt;
-  const uint32_t memory = host::findSpace(instance.program(), "M");
+  const uint32_t memory = host::findSpace(program, "M");
   if (memory == RUNG_NONE) return std::nullopt;
   if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
   host::Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)

@@ -22,7 +22,7 @@ public:
   nct::Messages::Slice slice() const { return now_; }
 
   // The NC and the hardware write the time-slice memory; the program sees it at the next synchronisation.
-  std::optional<host::Ref> writePlace(const host::Instance& instance, std::string_view name) const override;
+  std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const override;
 
   void accept(const rung_message& message) override { messages_.accept(message); }
   std::vector<ShownMessage> messages(const host::Instance& instance) const override {
@@ -42,7 +42,7 @@ public:
   void reportRetainedLost() override { retainedLost_ = true; }
 
 protected:
-  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+  std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
   // Clock signals with their periods, 50 % duty (man. 7.12, l.7892-7896).

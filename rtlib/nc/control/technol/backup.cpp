@@ -6,7 +6,7 @@
 namespace rung::nc::technol {
 
 void Backup::locate(const host::Instance& instance) {
-  const std::optional<host::Ref> place = signalPlace(instance, "REQ_BACKUP_MEM");
+  const std::optional<host::Ref> place = signalPlace(instance.program(), "REQ_BACKUP_MEM");
   request_ = place ? host::locate(instance.memory(), *place) : rt::Place();
 }
 

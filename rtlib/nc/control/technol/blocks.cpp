@@ -19,10 +19,10 @@ constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI
 
 // Every program has these cells. A program's own cell of the same name is not the interface's.
 rt::Place hostCell(const host::Instance& instance, std::string_view name) {
-  return host::locate(instance.memory(), cellPlace(instance, name).value_or(host::Ref{}));
+  return host::locate(instance.memory(), cellPlace(instance.program(), name).value_or(host::Ref{}));
 }
 rt::Place interfaceCell(const host::Instance& instance, std::string_view name) {
-  return host::locate(instance.memory(), signalPlace(instance, name).value_or(host::Ref{}));
+  return host::locate(instance.memory(), signalPlace(instance.program(), name).value_or(host::Ref{}));
 }
 uint64_t get(const host::Instance& instance, const rt::Place& place) { return instance.memory().read(place); }
 void put(host::Instance& instance, const rt::Place& place, uint64_t value) { instance.memory().write(place, value); }
@@ -30,8 +30,8 @@ void put(host::Instance& instance, const rt::Place& place, uint64_t value) { ins
 } // namespace
 
 std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name) {
-  const std::optional<host::Ref> place = signalPlace(instance, name);
-  return place ? place : cellPlace(instance, name);
+  const std::optional<host::Ref> place = signalPlace(instance.program(), name);
+  return place ? place : cellPlace(instance.program(), name);
 }
 
 void Blocks::reset() {
@@ -59,7 +59,7 @@ void Blocks::locate(const host::Instance& instance) {
     const std::string_view name = signal.symbol;
     if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
       continue;
-    const auto place = placeOf(instance, signal);
+    const auto place = placeOf(instance.program(), signal);
     if (!place) continue;
     if (lastsOneBlock(name)) lastOneBlock_.push_back(host::locate(instance.memory(), *place));
     if (name.starts_with("PO_OS")) motionBits_.push_back(host::locate(instance.memory(), *place));

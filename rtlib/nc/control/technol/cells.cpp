@@ -24,10 +24,10 @@ std::string_view withoutType(std::string_view element) {
   return element;
 }
 
-std::optional<host::Ref> blockElement(const host::Instance& instance, std::string_view name) {
+std::optional<host::Ref> blockElement(const rung_program& program, std::string_view name) {
   name.remove_prefix(std::string_view(kBlocks).size());
   const std::optional<uint32_t> block = takeIndex(name);
-  const uint32_t space = host::findSpace(instance.program(), kBlocks);
+  const uint32_t space = host::findSpace(program, kBlocks);
   if (!block || space == RUNG_NONE || name.empty() || name.front() != '.') return std::nullopt;
   std::string_view element = withoutType(name.substr(1));
   const size_t bracket = std::min(element.find('['), element.size());
@@ -36,7 +36,7 @@ std::optional<host::Ref> blockElement(const host::Instance& instance, std::strin
   const Signal* found = findSignal(technolSignals(), "BLK[]." + std::string(element.substr(0, bracket)), kBlocks);
   if (found == nullptr || !index || !rest.empty() || *index >= found->count) return std::nullopt;
   const uint32_t blockBytes = areaBytes(technolSignals(), kBlocks);
-  if (*block >= instance.program().spaces[space].byte_count / blockBytes) return std::nullopt;
+  if (*block >= program.spaces[space].byte_count / blockBytes) return std::nullopt;
   const uint32_t byte = *block * blockBytes + found->byteOffset + *index * found->strideBytes;
   if (found->type == SignalType::Bit) return host::bitRef(space, byte, found->bit);
   if (found->type == SignalType::Real) return host::realRef(space, byte);
@@ -45,8 +45,8 @@ std::optional<host::Ref> blockElement(const host::Instance& instance, std::strin
 
 } // namespace
 
-std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& signal) {
-  const uint32_t space = host::findSpace(instance.program(), "NCI");
+std::optional<host::Ref> placeOf(const rung_program& program, const Signal& signal) {
+  const uint32_t space = host::findSpace(program, "NCI");
   if (space == RUNG_NONE) return std::nullopt;
   if (signal.type == SignalType::Bit) return host::bitRef(space, signal.byteOffset, signal.bit);
   const uint32_t bytes = elementBytes(signal.type);
@@ -58,12 +58,12 @@ std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& s
 }
 
 // STRUCTURE.MEMBER, and CELL.WEIGHT with a weight of the interface.
-static std::optional<host::Ref> partPlace(const host::Instance& instance, std::string_view name) {
+static std::optional<host::Ref> partPlace(const rung_program& program, std::string_view name) {
   const size_t point = name.rfind('.');
   if (point == std::string_view::npos) return std::nullopt;
   const std::string_view whole = name.substr(0, point), part = name.substr(point + 1);
   if (const Signal* weight = findSignal(technolSignals(), part, "W")) {
-    const std::optional<host::Ref> cell = cellPlace(instance, whole);
+    const std::optional<host::Ref> cell = cellPlace(program, whole);
     if (!cell || cell->kind != host::RefKind::Int) return std::nullopt;
     return host::bitRef(cell->space, cell->byte, weight->bit);
   }
@@ -74,26 +74,26 @@ static std::optional<host::Ref> partPlace(const host::Instance& instance, std::s
   if (member == nullptr) return std::nullopt;
   Signal inside = *member;
   inside.byteOffset += found->byteOffset;
-  return placeOf(instance, inside);
+  return placeOf(program, inside);
 }
 
-std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name) {
-  if (name.size() > 4 && text::equalsIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(instance, name);
+std::optional<host::Ref> signalPlace(const rung_program& program, std::string_view name) {
+  if (name.size() > 4 && text::equalsIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(program, name);
   const Signal* found = findSignal(technolSignals(), name, kCells);
-  return found == nullptr ? partPlace(instance, name) : placeOf(instance, *found);
+  return found == nullptr ? partPlace(program, name) : placeOf(program, *found);
 }
 
-std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name) {
-  return resolve(instance.program(), name, [&](std::string_view unknown) { return signalPlace(instance, unknown); });
+std::optional<host::Ref> cellPlace(const rung_program& program, std::string_view name) {
+  return resolve(program, name, [&](std::string_view unknown) { return signalPlace(program, unknown); });
 }
 
 uint64_t readCell(const host::Instance& instance, std::string_view name) {
-  const auto place = cellPlace(instance, name);
+  const auto place = cellPlace(instance.program(), name);
   return place ? instance.read(*place) : 0;
 }
 
 void writeCell(host::Instance& instance, std::string_view name, uint64_t value) {
-  if (const auto place = cellPlace(instance, name)) host::writeRaw(instance.memory(), *place, value);
+  if (const auto place = cellPlace(instance.program(), name)) host::writeRaw(instance.memory(), *place, value);
 }
 
 bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo) {

@@ -12,9 +12,9 @@ namespace rung::nc::technol {
 
 // The interface's own names: a cell, `STRUCTURE.MEMBER`, `CELL.WEIGHT`, `BLK[n].ELEMENT`, `BLK[n].ELEMENT[k]`, a type
 // before the element or not.
-std::optional<host::Ref> signalPlace(const host::Instance& instance, std::string_view name);
-std::optional<host::Ref> cellPlace(const host::Instance& instance, std::string_view name);
-std::optional<host::Ref> placeOf(const host::Instance& instance, const Signal& signal);
+std::optional<host::Ref> signalPlace(const rung_program& program, std::string_view name);
+std::optional<host::Ref> cellPlace(const rung_program& program, std::string_view name);
+std::optional<host::Ref> placeOf(const rung_program& program, const Signal& signal);
 
 // 0 where there is no such cell.
 uint64_t readCell(const host::Instance& instance, std::string_view name);

@@ -53,8 +53,8 @@ std::string TechnolControl::memoryText(std::string_view shown, uint32_t bytes) c
   return nc::memoryText(shown).substr(0, bytes - 1u);
 }
 
-std::optional<host::Ref> TechnolControl::signal(const host::Instance& instance, std::string_view name) const {
-  return technol::signalPlace(instance, name);
+std::optional<host::Ref> TechnolControl::signal(const rung_program& program, std::string_view name) const {
+  return technol::signalPlace(program, name);
 }
 
 } // namespace rung::nc

@@ -47,7 +47,7 @@ public:
 protected:
   bool beginPowerOff(host::Instance& instance) override { return life_.powerOff(instance); }
   bool endsLater(const host::Instance& instance) const override { return life_.donePending(instance); }
-  std::optional<host::Ref> signal(const host::Instance& instance, std::string_view name) const override;
+  std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
   void locate(host::Instance& instance);

@@ -54,7 +54,7 @@ int64_t bcd(uint32_t number) {
 }
 
 rt::Place cell(const host::Instance& instance, std::string_view name) {
-  return host::locate(instance.memory(), technol::signalPlace(instance, name).value_or(host::Ref{}));
+  return host::locate(instance.memory(), technol::signalPlace(instance.program(), name).value_or(host::Ref{}));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Files to a laid-out program (see compile.h).
-#include "tools/driver/compile.h"
+#include "tools/compiler/compile.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 namespace {
 
 // An invalid module is an error of the compiler, never of the user's program.
@@ -82,4 +82,4 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   return out;
 }
 
-} // namespace rung::driver
+} // namespace rung::compiler

@@ -1,5 +1,5 @@
 // The checks (see configuration.h).
-#include "tools/driver/configuration.h"
+#include "tools/compiler/configuration.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "rtlib/text/letters.h"
 #include "tools/sim/simulated_nc.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 namespace {
 
 std::string_view firstPart(std::string_view key) { return key.substr(0, key.find('.')); }
@@ -96,4 +96,4 @@ std::vector<ConfigProblem> checkNamesOfProgram(const frontend::Dialect& dialect,
   return problems;
 }
 
-} // namespace rung::driver
+} // namespace rung::compiler

@@ -1,5 +1,5 @@
 // The engines (see engines.h).
-#include "tools/driver/engines.h"
+#include "tools/compiler/engines.h"
 
 #include <array>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 namespace {
 
 struct NamedEngine {
@@ -85,6 +85,10 @@ std::string defaultCppCompiler() {
   return "c++";
 }
 
+Result<std::string> sharedObject(const Compiled& compiled, const EngineOptions& options) {
+  return codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptions(options));
+}
+
 Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled,
                                                  const EngineOptions& options) {
   const ir::Layout& layout = *compiled.layout;
@@ -106,10 +110,7 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
       build.debugInfo = options.debugger;
       return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build);
     });
-  case EngineKind::Llvm:
-    return buildAndLoad(engineName(kind), [&] {
-      return codegen::buildLlvmSharedObject(layout, compiled.codeHash, llvmOptions(options));
-    });
+  case EngineKind::Llvm: return buildAndLoad(engineName(kind), [&] { return sharedObject(compiled, options); });
   case EngineKind::Jit: {
     codegen::JitOptions jit;
     jit.code = llvmOptions(options);
@@ -128,4 +129,4 @@ std::string cacheTrouble(const host::Engine& engine) {
   return jit != nullptr ? jit->report().cacheTrouble : "";
 }
 
-} // namespace rung::driver
+} // namespace rung::compiler

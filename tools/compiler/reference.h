@@ -8,7 +8,7 @@
 
 #include "frontend/dialects/dialect.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 
 // Markdown of a dialect's instructions, operand kinds and configuration keys.
 std::string dialectReference(const frontend::Dialect& dialect);
@@ -32,4 +32,4 @@ struct ReferenceEntry {
 };
 std::vector<ReferenceEntry> referenceEntries();
 
-} // namespace rung::driver
+} // namespace rung::compiler

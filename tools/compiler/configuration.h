@@ -11,7 +11,7 @@
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 
 struct ConfigProblem {
   std::string key;
@@ -36,4 +36,4 @@ void report(const ConfigProblem& problem, const frontend::Dialect& dialect, Sour
 // "'slot_step' is not a configuration key of gsk programs; did you mean slot_steps? …"
 std::string unknownKeyText(const frontend::Dialect& dialect, std::string_view key);
 
-} // namespace rung::driver
+} // namespace rung::compiler

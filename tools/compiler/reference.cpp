@@ -1,5 +1,5 @@
 // Reference pages (see reference.h).
-#include "tools/driver/reference.h"
+#include "tools/compiler/reference.h"
 
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,7 @@
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 
 using frontend::Access;
 using frontend::Dialect;
@@ -362,4 +362,4 @@ std::vector<ReferenceEntry> referenceEntries() {
   return entries;
 }
 
-} // namespace rung::driver
+} // namespace rung::compiler

@@ -12,7 +12,7 @@
 #include "ir/support/source.h"
 #include "ir/uses/uses.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 
 struct CompileRequest {
   std::string dialect;              // empty: the files say it
@@ -47,4 +47,4 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics);
 
-} // namespace rung::driver
+} // namespace rung::compiler

@@ -11,9 +11,9 @@
 #include "ir/support/result.h"
 #include "rtlib/host/engine.h"
 #include "rtlib/host/instance.h"
-#include "tools/driver/compile.h"
+#include "tools/compiler/compile.h"
 
-namespace rung::driver {
+namespace rung::compiler {
 
 enum class EngineKind : uint8_t {
   Interp, // the reference interpreter
@@ -41,6 +41,9 @@ struct EngineOptions {
 Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled& compiled,
                                                  const EngineOptions& options);
 
+// The program as a shared object, not sealed.
+Result<std::string> sharedObject(const Compiled& compiled, const EngineOptions& options);
+
 // Why the JIT could not keep its code in the cache folder, or must not take any from there; empty when it could, or
 // when no folder was given. The engine works either way.
 std::string cacheTrouble(const host::Engine& engine);
@@ -48,4 +51,4 @@ std::string cacheTrouble(const host::Engine& engine);
 // The C++ compiler to use when none is named: $CXX, else the first installed of clang++-19, g++, c++.
 std::string defaultCppCompiler();
 
-} // namespace rung::driver
+} // namespace rung::compiler

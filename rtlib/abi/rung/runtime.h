@@ -1,0 +1,504 @@
+/* The runtime of compiled PLC programs as a library of C11: librung-runtime.
+ *
+ *   rung_image* image;                                     rung_instance* plc;
+ *   rung_image_open("mill.so", NULL, &image);              rung_instance_new(image, NULL, &plc);
+ *   rung_instance_power_on(plc, RUNG_WARM);                rung_instance_run_due(plc, 1000000); // every millisecond
+ *
+ * An image is a compiled program, an instance is one that runs: its memory, clock, queues, and the part of the control
+ * that belongs to its dialect (power-on, clocks, names of the NC's interface, handshake of functions).
+ *
+ * Results. A function that can fail gives an enum rung_status: 0, above 0 where there is nothing to report, below 0 an
+ * error, in which case it has done nothing; rung_error_text says in a sentence what was wrong. What a function writes
+ * through its last parameters is unspecified after an error. No call aborts the process, and no exception leaves one.
+ *
+ * Threads. An image may be used by all threads. An instance is used by one thread at a time, which need not always be
+ * the same; a call that finds another thread inside gives RUNG_WRONG_THREAD. [any] marks what one further thread may
+ * call at the same time. In a callback its instance may be read, and nothing else.
+ *
+ * Real time. [rt] marks what allocates nothing, takes no lock, does not block and makes no system call, as long as the
+ * callbacks do not; its time is bounded by what the program does. The rest is for start, end and other threads.
+ *
+ * Structs with a `size` grow at their end: the caller sets it to sizeof, and gets or gives what both sides know.
+ * Texts are UTF-8. Times are in microseconds of the program's clock (_us) or nanoseconds of the machine's (_ns). */
+#ifndef RUNG_RUNTIME_H
+#define RUNG_RUNTIME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "rung/program.h"
+
+#if defined(RUNG_BUILDS_RUNTIME)
+#define RUNG_API __attribute__((visibility("default")))
+#else
+#define RUNG_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- results --------------------------------------------------------------------------------------------------- */
+
+enum rung_status {
+  RUNG_OK = 0,
+  RUNG_EMPTY = 1,         /* there is no (further) message, request, entry */
+  RUNG_LATER = 2,         /* not at this moment of the schedule: try again after the next slice */
+  RUNG_FAULTED = 3,       /* a fault has stopped the program, now or before: see rung_instance_fault */
+  RUNG_BAD_HANDLE = -1,   /* null, of another kind, or freed where that can be seen */
+  RUNG_BAD_ARGUMENT = -2, /* null, out of range, or a wrong `size` */
+  RUNG_WRONG_THREAD = -3, /* another thread is inside a call for this instance */
+  RUNG_WRONG_STATE = -4,  /* not before the power-on, not in a callback, not a second time, ... */
+  RUNG_NOT_FOUND = -5,    /* no such name, or the program that runs now does not have it any more */
+  RUNG_WRONG_TYPE = -6,   /* a text for a number, a cell found for reading that is written, ... */
+  RUNG_OVERWRITTEN = -7,  /* the program would never see the value: another place is copied over the cell */
+  RUNG_REFUSED = -8,      /* the file is damaged, may not be trusted, or is not a program of this version */
+  RUNG_OUT_OF_MEMORY = -9,
+  RUNG_FAILED = -10, /* the system: a file that cannot be written, a thread that cannot be started */
+};
+
+/* The sentence for the last error that a call gave in this thread; "" before the first. Until the thread's next call.
+ * [any] [rt] */
+RUNG_API const char* rung_error_text(void);
+
+/* Of this header. */
+#define RUNG_RUNTIME_MAJOR 0u
+#define RUNG_RUNTIME_MINOR 1u
+/* Of the library: major << 16 | minor. A library of the same major version and no lower minor version serves a host
+ * that was built with this header. [any] [rt] */
+RUNG_API uint32_t rung_runtime_version(void);
+
+/* ---- images ---------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_image rung_image;
+
+typedef struct rung_image_options {
+  uint32_t size;
+  uint32_t allow_unsealed; /* 1: take a shared object that no `rungc build` or `rungc seal` has sealed; a process with
+                              more privileges than its user never does */
+  const char* keys_folder; /* of public keys for signed programs; null: the system's. Not for a privileged process */
+} rung_image_options;
+
+/* Loads a compiled program. Its seal is checked before anything of it is loaded, and whose file it is (docs/security).
+ * `options` may be null. RUNG_REFUSED, RUNG_OUT_OF_MEMORY. */
+RUNG_API int32_t rung_image_open(const char* path, const rung_image_options* options, rung_image** image);
+
+/* An image over a program that is in memory already: linked into the host, or made by a compiler. `engine` is what its
+ * chunks find in rung_ctx::engine. `release`, which may be null, is called with `owner` when nothing uses the image any
+ * more. RUNG_REFUSED: its tables are not those of a program of this version; then `release` is not called. */
+RUNG_API int32_t rung_image_adopt(const rung_program* program, void* engine, void (*release)(void* owner), void* owner,
+                                  rung_image** image);
+
+/* The program's tables, valid until the image is closed; null for a handle that is not an image's. [rt] */
+RUNG_API const rung_program* rung_image_program(const rung_image* image);
+
+/* The image is not used any more; what instances and replacements use of it stays until they are freed. Null is
+ * allowed. */
+RUNG_API int32_t rung_image_close(rung_image* image);
+
+/* ---- instances ------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_instance rung_instance;
+
+enum rung_log_level { RUNG_LOG_INFO = 0, RUNG_LOG_WARNING = 1, RUNG_LOG_ERROR = 2 };
+
+/* What becomes of a service request of the program (a window function, a macro variable, a block of movement). */
+enum rung_answer {
+  RUNG_REFUSE = 0, /* the control answers at once, as where no CNC is there to serve it */
+  RUNG_ANSWER = 1, /* the reply is filled in */
+  RUNG_QUEUE = 2,  /* it waits for rung_instance_next_request */
+};
+
+typedef struct rung_request {
+  uint32_t size;
+  uint32_t ticket;
+  const char* service; /* its name, valid as long as the image */
+  uint32_t arg_count;
+  uint32_t reserved;
+  int64_t args[RUNG_MAX_SERVICE_ARGS];
+} rung_request;
+
+typedef struct rung_reply {
+  uint32_t size;
+  uint32_t ticket;       /* of the request */
+  uint32_t error;        /* 0: the service is done; 1: it failed */
+  uint32_t result_count; /* at most RUNG_MAX_SERVICE_ARGS */
+  int64_t results[RUNG_MAX_SERVICE_ARGS];
+} rung_reply;
+
+enum rung_instance_flags {
+  RUNG_MEASURE = 1,        /* the times of passes are measured: two looks at the clock a slice */
+  RUNG_QUEUE_REQUESTS = 2, /* without a `request` callback: requests wait for rung_instance_next_request */
+};
+
+typedef struct rung_instance_options {
+  uint32_t size;
+  uint32_t flags; /* enum rung_instance_flags */
+  /* The memory block: memory_size bytes at least, aligned as memory_align says (rung_image_program), for the life of
+   * the instance. Null: the library allocates it. */
+  void* memory;
+  size_t memory_bytes;
+  void* user; /* for the callbacks, each of which may be null */
+  /* What an operator should know: retained memory that was lost, a file that cannot be written. Never within a call
+   * that is marked [rt]. */
+  void (*log)(void* user, int32_t level, const char* text);
+  /* The program asks for a service, within a scan. An enum rung_answer. */
+  int32_t (*request)(void* user, rung_instance* instance, const rung_request* request, rung_reply* reply);
+  /* A fault has stopped the program, within a scan: its outputs are safe. */
+  void (*fault)(void* user, rung_instance* instance);
+} rung_instance_options;
+
+/* One program that runs, not switched on yet. `options` may be null. RUNG_OUT_OF_MEMORY. */
+RUNG_API int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance);
+
+/* Ends it; does not switch it off (rung_instance_power_off). What was to be saved is on disk when it returns, or has
+ * been tried. Null is allowed. Its watches and replacements are freed before. */
+RUNG_API int32_t rung_instance_free(rung_instance* instance);
+
+/* ---- power ----------------------------------------------------------------------------------------------------- */
+
+enum rung_power {
+  RUNG_COLD = 0, /* memory as a new machine has it */
+  RUNG_WARM = 1, /* retained memory keeps its contents: those on disk (rung_instance_keep), else the instance's own */
+};
+
+/* Switches the program on, or off and on again, after a fault too. */
+RUNG_API int32_t rung_instance_power_on(rung_instance* instance, int32_t power);
+
+/* A regular power-off: the scans that the dialect still needs run, and what is retained is on disk. RUNG_FAILED: it is
+ * not, and rung_error_text says why; the program is switched off all the same. */
+RUNG_API int32_t rung_instance_power_off(rung_instance* instance);
+
+/* The operator's stop and start: a stopped program lets its clock advance, and does nothing. [rt] */
+RUNG_API int32_t rung_instance_stop(rung_instance* instance);
+RUNG_API int32_t rung_instance_start(rung_instance* instance);
+
+/* ---- running --------------------------------------------------------------------------------------------------- */
+
+/* The clock of the host has advanced by `elapsed_ns` (0 to one hour): what is due of the schedule runs now, slice by
+ * slice. What is late is caught up, up to ten passes; of more, whole passes are left out, and timers stay right.
+ * RUNG_FAULTED. [rt] */
+RUNG_API int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns);
+
+/* One slice of the schedule: the clock advances to its time, and what belongs there runs (see `due_us` of rung_state).
+ * The rest of a pass, whatever the time; the rest of a slot, for dialects that have slots; one run of the fast task by
+ * itself. RUNG_FAULTED. [rt] */
+RUNG_API int32_t rung_instance_slice(rung_instance* instance);
+RUNG_API int32_t rung_instance_scan(rung_instance* instance);
+RUNG_API int32_t rung_instance_slot(rung_instance* instance);
+RUNG_API int32_t rung_instance_fast(rung_instance* instance);
+
+/* How long the program may run in one of these calls before that counts as a fault, in nanoseconds; 0: the budgets of
+ * its tasks alone count. [rt] */
+RUNG_API int32_t rung_instance_limit(rung_instance* instance, int64_t ns);
+
+enum rung_state_flags {
+  RUNG_STATE_ON = 1,       /* switched on */
+  RUNG_STATE_STOPPED = 2,  /* by rung_instance_stop */
+  RUNG_STATE_FAULTED = 4,  /* by a fault */
+  RUNG_STATE_AT_START = 8, /* between two passes of the schedule */
+  RUNG_STATE_UNSAVED = 16, /* the last try to write retained memory has failed */
+};
+
+typedef struct rung_state {
+  uint32_t size;
+  uint32_t flags;            /* enum rung_state_flags */
+  uint32_t generation;       /* how many programs have taken over: offsets and tables looked up before are old */
+  uint32_t due_us;           /* from now on the program's clock to the next slice */
+  int64_t now_us;            /* the program's clock */
+  int64_t wait_ns;           /* of rung_instance_run_due: until the next slice is due; 0 or less: it is */
+  uint64_t passes;           /* of the schedule, since the power-on */
+  uint64_t missed;           /* passes that rung_instance_run_due has left out */
+  int64_t last_ns;           /* time of the last pass that is over, with RUNG_MEASURE */
+  int64_t worst_ns;          /* the longest since the power-on, with RUNG_MEASURE */
+  uint32_t lost_messages;    /* nobody took them in time */
+  uint32_t refused_requests; /* of services: too many were unanswered */
+  uint32_t stray_replies;    /* to tickets that nothing waited for */
+  uint32_t reserved;
+  uint64_t saves;        /* images of retained memory that were written */
+  uint64_t failed_saves; /* tries that went wrong */
+} rung_state;
+
+/* [rt] */
+RUNG_API int32_t rung_instance_state(const rung_instance* instance, rung_state* state);
+
+typedef struct rung_fault_info {
+  uint32_t size;
+  uint32_t rung; /* as drawn, from 1; 0: none */
+  uint32_t line; /* 0: unknown */
+  uint32_t reserved;
+  const char* code; /* "dead-loop"; valid as long as the image; so are the next two */
+  const char* file; /* "" where it is unknown */
+  const char* task;
+  char text[256]; /* all of it, for people */
+} rung_fault_info;
+
+/* RUNG_EMPTY: there is none. */
+RUNG_API int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* fault);
+
+/* ---- names and values ------------------------------------------------------------------------------------------ */
+
+/* A cell that was found by its name. It stays good for the life of the instance: when another program takes over, it is
+ * the cell of that name there. */
+typedef uint32_t rung_cell;
+
+enum rung_access {
+  RUNG_READ = 0,
+  RUNG_WRITE = 1, /* by the machine or a person; reading is included, of the place that is written */
+};
+
+/* Finds a cell by a name of the program, an address of the dialect or a signal of the NC's interface, with index, bit
+ * or width as the dialect writes them. The same name gives the same cell. RUNG_NOT_FOUND; RUNG_OVERWRITTEN for
+ * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE. */
+RUNG_API int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell);
+
+typedef struct rung_cell_info {
+  uint32_t size;
+  uint32_t type;   /* enum rung_type */
+  uint32_t count;  /* elements; bytes of a text */
+  uint32_t access; /* enum rung_access, as it was found */
+  uint32_t space;  /* in rung_program::spaces; RUNG_NONE: a constant */
+  uint32_t byte;   /* in the space */
+  uint32_t bit;    /* of `byte` */
+  uint32_t reserved;
+  char address[64]; /* as the dialect writes it; cut off where it is longer */
+} rung_cell_info;
+
+RUNG_API int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info);
+
+/* The value of an element. Cells of a real have a double; all others an integer, extended by its sign: cast it to an
+ * unsigned type of the cell's width to read it without one. A bit is 0 or 1; of a value for a narrower cell the lowest
+ * bits are written. */
+typedef union rung_value {
+  int64_t integer;
+  double real;
+} rung_value;
+
+/* `count` elements of a cell from the first-th on; 0 and 1 for all but arrays. RUNG_BAD_ARGUMENT: there are not so
+ * many; RUNG_WRONG_TYPE: a text, or a cell found for reading. [rt] */
+RUNG_API int32_t rung_instance_read(const rung_instance* instance, rung_cell cell, uint32_t first, uint32_t count,
+                                    rung_value* values);
+RUNG_API int32_t rung_instance_write(rung_instance* instance, rung_cell cell, uint32_t first, uint32_t count,
+                                     const rung_value* values);
+
+/* The first elements of `count` cells in one call, all of one moment. All or nothing is written. [rt] */
+RUNG_API int32_t rung_instance_read_all(const rung_instance* instance, const rung_cell* cells, uint32_t count,
+                                        rung_value* values);
+RUNG_API int32_t rung_instance_write_all(rung_instance* instance, const rung_cell* cells, uint32_t count,
+                                         const rung_value* values);
+
+/* A text of the program's memory, ended by 0 and cut off where `bytes` does not hold it; and one into memory, cut off
+ * where the cell does not hold it. RUNG_WRONG_TYPE. */
+RUNG_API int32_t rung_instance_read_text(const rung_instance* instance, rung_cell cell, char* text, size_t bytes);
+RUNG_API int32_t rung_instance_write_text(rung_instance* instance, rung_cell cell, const char* text);
+
+/* The author's names, in the order of their bytes, constants included: the index-th of them. The name is valid as long
+ * as the image. RUNG_EMPTY: there are not so many. [any] [rt] */
+typedef struct rung_symbol_info {
+  uint32_t size;
+  uint32_t type;  /* enum rung_type */
+  uint32_t count; /* elements; bytes of a text */
+  uint32_t flags; /* enum rung_symbol_flags */
+  uint32_t space; /* in rung_program::spaces; RUNG_NONE: a constant */
+  uint32_t byte;  /* in the space */
+  uint32_t bit;   /* of `byte` */
+  uint32_t reserved;
+  int64_t value; /* of a constant */
+  const char* name;
+  const char* comment;
+} rung_symbol_info;
+
+RUNG_API int32_t rung_image_symbol(const rung_image* image, uint32_t index, rung_symbol_info* symbol);
+
+/* ---- host variables -------------------------------------------------------------------------------------------- */
+
+enum rung_host_type {
+  RUNG_HOST_BOOL = 1, /* a byte: 0, or not */
+  RUNG_HOST_I8 = 2,
+  RUNG_HOST_U8 = 3,
+  RUNG_HOST_I16 = 4,
+  RUNG_HOST_U16 = 5,
+  RUNG_HOST_I32 = 6,
+  RUNG_HOST_U32 = 7,
+  RUNG_HOST_I64 = 8,
+  RUNG_HOST_F32 = 9,
+  RUNG_HOST_F64 = 10,
+};
+
+enum rung_direction {
+  RUNG_TO_PROGRAM = 0,   /* before every slice */
+  RUNG_FROM_PROGRAM = 1, /* after every slice; 0 after a fault and after the power-off */
+};
+
+typedef struct rung_variable {
+  const char* name;   /* as for rung_instance_find */
+  void* address;      /* of the host's variable, aligned for its type, for the life of the instance */
+  uint32_t type;      /* enum rung_host_type */
+  uint32_t direction; /* enum rung_direction */
+  double scale;       /* of RUNG_HOST_F32 and F64: units of the program in one of the host's; 0: 1 */
+} rung_variable;
+
+/* Binds variables of the host to cells, in addition to those that are bound: from now on they are copied at the borders
+ * of slices. An integer that a narrower cell does not hold loses its upper bits; a real is rounded to an integer cell
+ * and held in its range. All or none; errors as of rung_instance_find. */
+RUNG_API int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variables, uint32_t count);
+
+/* ---- messages -------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_message_info {
+  uint32_t size;
+  uint32_t op; /* enum rung_message_op */
+  uint32_t number;
+  int32_t channel;
+  int32_t index;
+  uint32_t real; /* 1: `value` is a real */
+  rung_value value;
+  char text[400]; /* its number as the dialect writes it, and its text */
+} rung_message_info;
+
+/* The next message that the program has shown, cleared or logged. RUNG_EMPTY. [any] [rt] */
+RUNG_API int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* message);
+
+/* What the operator sees now: the index-th message. RUNG_EMPTY: there are not so many. */
+RUNG_API int32_t rung_instance_shown(const rung_instance* instance, uint32_t index, rung_message_info* message);
+
+/* ---- services -------------------------------------------------------------------------------------------------- */
+
+/* The next request that waits (RUNG_QUEUE). It stays pending in the program until it is answered. RUNG_EMPTY.
+ * [any] [rt] */
+RUNG_API int32_t rung_instance_next_request(rung_instance* instance, rung_request* request);
+
+/* The program sees the answer before its next slice. The same thread as rung_instance_next_request. RUNG_LATER: there
+ * are more answers than the program can have asked for. [any] [rt] */
+RUNG_API int32_t rung_instance_answer(rung_instance* instance, const rung_reply* reply);
+
+/* ---- functions of a part program -------------------------------------------------------------------------------- */
+
+enum rung_function_kind { RUNG_FUNCTION_M = 0, RUNG_FUNCTION_S = 1, RUNG_FUNCTION_T = 2, RUNG_FUNCTION_B = 3 };
+
+/* Hands an M, S, T or B function of a channel (from 0) over to the program, by the handshake of its dialect; `line` is
+ * its own until it is finished. RUNG_LATER: the signals that it needs are in use; RUNG_NOT_FOUND: the control has no
+ * such channel, or no signals for this function. [rt] */
+RUNG_API int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code,
+                                              uint32_t* line);
+/* RUNG_OK: the program has finished it; RUNG_LATER: not yet. [rt] */
+RUNG_API int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line);
+/* Reset, emergency stop: what is under way in the channel ends at once, unanswered. [rt] */
+RUNG_API int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel);
+
+/* ---- retained memory -------------------------------------------------------------------------------------------- */
+
+/* Keeps retained memory in FILE.a and FILE.b, written in turn, so that a crash at any moment leaves a good one; FILE is
+ * `path`. Before the first power-on; a warm one then takes the contents from there. Saving is done by a thread of the
+ * library. RUNG_FAILED: the place cannot be written, or another process uses it. */
+RUNG_API int32_t rung_instance_keep(rung_instance* instance, const char* path);
+
+/* Waits until what the program has left so far is on disk. RUNG_FAILED: it is not. Not while the scan thread must not
+ * wait. */
+RUNG_API int32_t rung_instance_flush(rung_instance* instance);
+
+/* ---- profile ---------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_profile {
+  uint32_t size;
+  uint32_t rung; /* as drawn, from 1; 0: made by the compiler */
+  uint32_t line; /* the first */
+  uint32_t reserved;
+  const char* file; /* valid as long as the image; so is `title` */
+  const char* title;
+  uint64_t runs;
+  double total_ns; /* without what measuring costs */
+  double max_ns;
+} rung_profile;
+
+/* Of the index-th rung of the program's tables, since the power-on. RUNG_EMPTY: there are not so many;
+ * RUNG_WRONG_STATE: the program was not built for it (rungc build --profile). */
+RUNG_API int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, rung_profile* profile);
+
+/* The rung whose longest run took longest. RUNG_EMPTY: none has run. */
+RUNG_API int32_t rung_instance_worst_rung(const rung_instance* instance, rung_profile* profile);
+
+/* ---- watching --------------------------------------------------------------------------------------------------- */
+
+/* Cells that other threads look at while the program runs: their values at the end of a pass, all of one pass. Looking
+ * does not disturb the scan, which never waits for it. */
+typedef struct rung_watch rung_watch;
+
+#define RUNG_MOST_WATCHES 16u /* of an instance */
+
+typedef struct rung_sample {
+  uint32_t size;
+  uint32_t generation; /* see rung_state */
+  uint64_t pass;       /* of the schedule, since the power-on */
+  int64_t now_us;      /* the program's clock */
+  uint64_t lost;       /* passes since the power-on of the watch that rung_watch_next could not keep */
+} rung_sample;
+
+/* Watches the first elements of `count` cells, from the end of this pass on. `depth`: how many passes are kept for
+ * rung_watch_next, at most 1000000; 0: none. RUNG_WRONG_TYPE: a text; RUNG_WRONG_STATE: there are RUNG_MOST_WATCHES.
+ * Any thread. */
+RUNG_API int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells, uint32_t count, uint32_t depth,
+                                rung_watch** watch);
+/* Null is allowed. Any thread; before its instance. */
+RUNG_API int32_t rung_watch_free(rung_watch* watch);
+
+/* The values of the last pass that is over, or of the moment of a fault. RUNG_EMPTY: none has ended since the watch
+ * began. A cell that the program no longer has is 0. Any thread, and several at a time. [rt] */
+RUNG_API int32_t rung_watch_newest(const rung_watch* watch, rung_value* values, rung_sample* sample);
+
+/* The values of every pass, one after the other. RUNG_EMPTY: none waits. Any thread, one at a time. [rt] */
+RUNG_API int32_t rung_watch_next(rung_watch* watch, rung_value* values, rung_sample* sample);
+
+/* ---- another program while it runs ------------------------------------------------------------------------------ */
+
+typedef struct rung_replacement rung_replacement;
+
+/* Prepares another program of the same dialect to take over from the one that runs, and finds out what becomes of its
+ * state. `memory`: as in rung_instance_options, of the new program; null: the library's. The instance may be scanned by
+ * its thread meanwhile, but must neither be given another program nor be freed. RUNG_REFUSED: of another dialect. */
+RUNG_API int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,
+                                      rung_replacement** replacement);
+/* Null is allowed. */
+RUNG_API int32_t rung_replacement_free(rung_replacement* replacement);
+
+typedef struct rung_replacement_info {
+  uint32_t size;
+  uint32_t kept_cells;  /* names that stay where they are, with their contents */
+  uint32_t kept_states; /* of edges, timers, counters */
+  uint32_t changes;     /* see rung_replacement_change */
+  uint64_t bytes;       /* that the change copies: its time is in proportion to them */
+} rung_replacement_info;
+
+RUNG_API int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info);
+
+enum rung_change_kind {
+  RUNG_CHANGE_NEW = 0,     /* starts with its initial contents */
+  RUNG_CHANGE_REMOVED = 1, /* its contents are lost */
+  RUNG_CHANGE_MOVED = 2,   /* is elsewhere now; keeps its contents */
+  RUNG_CHANGE_RENAMED = 3, /* a cell that had another name; keeps its contents */
+  RUNG_CHANGE_RETYPED = 4, /* of another type now: starts with its initial contents */
+};
+
+typedef struct rung_change {
+  uint32_t size;
+  uint32_t kind;     /* enum rung_change_kind */
+  uint32_t is_state; /* 1: of an edge, timer or counter, which the compiler made; 0: a cell with a name */
+  uint32_t reserved;
+  const char* name;   /* in the new program; of what is removed, in the old one. Valid as long as the replacement */
+  const char* former; /* RUNG_CHANGE_RENAMED: the old name; else "" */
+} rung_change;
+
+/* The index-th change, cells before states, each in the order of their names. RUNG_EMPTY: there are not so many. */
+RUNG_API int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t index, rung_change* change);
+
+/* The program of the replacement takes over, with its state; the clock, queues and bound variables continue. The
+ * replacement then holds the former program as it was: given again, it puts that back. RUNG_LATER: within a pass of the
+ * schedule, or a mechanism or a service request waits that the new program does not know; RUNG_WRONG_STATE: it was made
+ * for another program than the one that runs. [rt] */
+RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,233 @@
+// rung/runtime.h for C++20: handles that end themselves, values by their C++ type, errors as exceptions. What is called
+// in a scan throws nothing and gives the status. What is not here is called through handle().
+#ifndef RUNG_RUNTIME_HPP
+#define RUNG_RUNTIME_HPP
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "rung/runtime.h"
+
+namespace rung {
+
+class Error : public std::runtime_error {
+public:
+  Error(int32_t status, const char* text) : std::runtime_error(text), status_(status) {}
+  int32_t status() const noexcept { return status_; } // enum rung_status, below 0
+
+private:
+  int32_t status_;
+};
+
+// The status, where it is not an error.
+inline int32_t check(int32_t status) {
+  if (status < 0) throw Error(status, rung_error_text());
+  return status;
+}
+
+// A struct of rung/runtime.h with its size.
+template <class Struct>
+Struct sized() {
+  Struct out{};
+  out.size = sizeof out;
+  return out;
+}
+
+template <class Handle, int32_t (*End)(Handle*)>
+struct Ends {
+  void operator()(Handle* handle) const noexcept { End(handle); }
+};
+
+class Image {
+public:
+  explicit Image(const std::string& path, const rung_image_options* options = nullptr) {
+    rung_image* image = nullptr;
+    check(rung_image_open(path.c_str(), options, &image));
+    image_.reset(image);
+  }
+  explicit Image(rung_image* image) : image_(image) {} // which it ends
+  rung_image* handle() const noexcept { return image_.get(); }
+  const rung_program& program() const noexcept { return *rung_image_program(image_.get()); }
+
+private:
+  std::unique_ptr<rung_image, Ends<rung_image, rung_image_close>> image_;
+};
+
+enum class Access : int32_t { Read = RUNG_READ, Write = RUNG_WRITE };
+enum class Power : int32_t { Cold = RUNG_COLD, Warm = RUNG_WARM };
+
+class Instance {
+public:
+  explicit Instance(const Image& image, const rung_instance_options* options = nullptr) {
+    rung_instance* instance = nullptr;
+    check(rung_instance_new(image.handle(), options, &instance));
+    instance_.reset(instance);
+  }
+  rung_instance* handle() const noexcept { return instance_.get(); }
+
+  void keep(const std::string& path) { check(rung_instance_keep(handle(), path.c_str())); }
+  void powerOn(Power power = Power::Warm) { check(rung_instance_power_on(handle(), static_cast<int32_t>(power))); }
+  void powerOff() { check(rung_instance_power_off(handle())); }
+
+  int32_t runDue(int64_t elapsedNs) noexcept { return rung_instance_run_due(handle(), elapsedNs); }
+  int32_t slice() noexcept { return rung_instance_slice(handle()); }
+  int32_t scan() noexcept { return rung_instance_scan(handle()); }
+
+  rung_state state() const {
+    auto out = sized<rung_state>();
+    check(rung_instance_state(handle(), &out));
+    return out;
+  }
+  std::optional<rung_fault_info> fault() const {
+    auto out = sized<rung_fault_info>();
+    return check(rung_instance_fault(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
+  }
+
+  rung_cell find(const std::string& name, Access access = Access::Read) {
+    rung_cell cell = 0;
+    check(rung_instance_find(handle(), name.c_str(), static_cast<int32_t>(access), &cell));
+    return cell;
+  }
+  rung_cell_info describe(rung_cell cell) const {
+    auto out = sized<rung_cell_info>();
+    check(rung_instance_cell(handle(), cell, &out));
+    return out;
+  }
+  // An arithmetic type: double or float for a cell of a real, an integer or bool for all others.
+  template <class T>
+  T read(rung_cell cell, uint32_t element = 0) const {
+    rung_value value{};
+    check(rung_instance_read(handle(), cell, element, 1, &value));
+    if constexpr (std::is_floating_point_v<T>)
+      return static_cast<T>(value.real);
+    else
+      return static_cast<T>(value.integer);
+  }
+  template <class T>
+  void write(rung_cell cell, T value, uint32_t element = 0) {
+    rung_value out{};
+    if constexpr (std::is_floating_point_v<T>)
+      out.real = value;
+    else
+      out.integer = static_cast<int64_t>(value);
+    check(rung_instance_write(handle(), cell, element, 1, &out));
+  }
+  std::string text(rung_cell cell) const {
+    std::string out(4 * size_t{describe(cell).count} + 1, 0); // a byte of memory has at most four in UTF-8
+    check(rung_instance_read_text(handle(), cell, out.data(), out.size()));
+    out.resize(out.find('\0'));
+    return out;
+  }
+  void setText(rung_cell cell, const std::string& text) {
+    check(rung_instance_write_text(handle(), cell, text.c_str()));
+  }
+
+  // A variable of the host, which outlives the instance, before or after every slice.
+  template <class T>
+  void bindInput(const std::string& name, const T& variable, double scale = 1) {
+    bind(name, const_cast<T*>(&variable), hostType<T>(), RUNG_TO_PROGRAM, scale);
+  }
+  template <class T>
+  void bindOutput(const std::string& name, T& variable, double scale = 1) {
+    bind(name, &variable, hostType<T>(), RUNG_FROM_PROGRAM, scale);
+  }
+
+  std::optional<rung_message_info> nextMessage() {
+    auto out = sized<rung_message_info>();
+    return check(rung_instance_next_message(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
+  }
+  std::optional<rung_profile> worstRung() const {
+    auto out = sized<rung_profile>();
+    return check(rung_instance_worst_rung(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
+  }
+
+private:
+  template <class T>
+  static constexpr rung_host_type hostType() {
+    if constexpr (std::is_same_v<T, bool>)
+      return RUNG_HOST_BOOL;
+    else if constexpr (std::is_same_v<T, float>)
+      return RUNG_HOST_F32;
+    else if constexpr (std::is_same_v<T, double>)
+      return RUNG_HOST_F64;
+    else {
+      static_assert(std::is_integral_v<T>, "a bound variable is a bool, an integer, a float or a double");
+      constexpr rung_host_type kSigned[] = {RUNG_HOST_I8, RUNG_HOST_I16, RUNG_HOST_I32, RUNG_HOST_I64};
+      constexpr rung_host_type kUnsigned[] = {RUNG_HOST_U8, RUNG_HOST_U16, RUNG_HOST_U32, RUNG_HOST_I64};
+      constexpr int kWidth = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
+      return std::is_signed_v<T> ? kSigned[kWidth] : kUnsigned[kWidth];
+    }
+  }
+  void bind(const std::string& name, void* address, rung_host_type type, rung_direction direction, double scale) {
+    const rung_variable variable{name.c_str(), address, static_cast<uint32_t>(type), static_cast<uint32_t>(direction),
+                                 scale};
+    check(rung_instance_bind(handle(), &variable, 1));
+  }
+
+  std::unique_ptr<rung_instance, Ends<rung_instance, rung_instance_free>> instance_;
+};
+
+// Another program for an instance (rung_replacement_new); it ends before the instance does.
+class Replacement {
+public:
+  Replacement(Instance& instance, const Image& image) {
+    rung_replacement* replacement = nullptr;
+    check(rung_replacement_new(instance.handle(), image.handle(), nullptr, 0, &replacement));
+    replacement_.reset(replacement);
+  }
+  rung_replacement* handle() const noexcept { return replacement_.get(); }
+
+  rung_replacement_info report() const {
+    auto out = sized<rung_replacement_info>();
+    check(rung_replacement_report(handle(), &out));
+    return out;
+  }
+  std::vector<rung_change> changes() const {
+    std::vector<rung_change> all;
+    auto change = sized<rung_change>();
+    for (uint32_t i = 0; check(rung_replacement_change(handle(), i, &change)) == RUNG_OK; ++i) all.push_back(change);
+    return all;
+  }
+
+private:
+  std::unique_ptr<rung_replacement, Ends<rung_replacement, rung_replacement_free>> replacement_;
+};
+
+// Cells that other threads look at (rung_watch_new); it ends before the instance does.
+class Watch {
+public:
+  struct Sample {
+    rung_sample head;
+    std::vector<rung_value> values; // in the order of the cells
+  };
+
+  Watch(Instance& instance, std::span<const rung_cell> cells, uint32_t depth = 0) : count_(cells.size()) {
+    rung_watch* watch = nullptr;
+    check(rung_watch_new(instance.handle(), cells.data(), static_cast<uint32_t>(cells.size()), depth, &watch));
+    watch_.reset(watch);
+  }
+  rung_watch* handle() const noexcept { return watch_.get(); }
+
+  std::optional<Sample> newest() const { return taken(&rung_watch_newest); }
+  std::optional<Sample> next() { return taken(&rung_watch_next); }
+
+private:
+  template <class Take>
+  std::optional<Sample> taken(Take take) const {
+    Sample sample{sized<rung_sample>(), std::vector<rung_value>(count_)};
+    if (check(take(handle(), sample.values.data(), &sample.head)) != RUNG_OK) return std::nullopt;
+    return sample;
+  }
+
+  size_t count_;
+  std::unique_ptr<rung_watch, Ends<rung_watch, rung_watch_free>> watch_;
+};
+
+} // namespace rung
+
+#endif

@@ -1,0 +1,92 @@
+// Names to places, in every program that an instance has or may get (see cells.h).
+#include "rtlib/runtime/cells.h"
+
+#include <algorithm>
+
+#include "rtlib/host/overwritten.h"
+
+namespace rung::runtime {
+namespace {
+
+rung_type typeOf(const host::Ref& ref) {
+  switch (ref.kind) {
+  case host::RefKind::Bit: return RUNG_TYPE_BIT;
+  case host::RefKind::Real: return RUNG_TYPE_F64;
+  case host::RefKind::Text: return RUNG_TYPE_TEXT;
+  case host::RefKind::Constant: return RUNG_TYPE_I64;
+  case host::RefKind::Int: break;
+  }
+  return ref.width == 8    ? RUNG_TYPE_I8
+         : ref.width == 16 ? RUNG_TYPE_I16
+         : ref.width == 32 ? RUNG_TYPE_I32
+                           : RUNG_TYPE_I64;
+}
+
+// What a host holds for a value of this type.
+int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYPE_TEXT ? 2 : 0; }
+
+} // namespace
+
+LocatedCell locateCell(const nc::Control& control, const rung_program& program, const CellName& name,
+                       const rung_type* as) {
+  LocatedCell cell;
+  cell.writes = name.access == RUNG_WRITE;
+  const std::optional<host::Ref> ref =
+      cell.writes ? control.writePlace(program, name.name) : control.readPlace(program, name.name);
+  if (!ref) return cell;
+  cell.ref = *ref;
+  cell.type = typeOf(*ref);
+  cell.place = host::locate(rt::Memory(program, nullptr), *ref);
+  cell.state = CellState::Good;
+  if (as != nullptr && formOf(*as) != formOf(cell.type)) cell.state = CellState::Retyped;
+  if (!cell.writes) return cell;
+  if (ref->kind == host::RefKind::Constant) cell.state = CellState::Constant;
+  if (host::Overwritten(program).source(*ref)) cell.state = CellState::Overwritten;
+  return cell;
+}
+
+void CellTable::add(const LocatedCell& cell) {
+  const uint32_t number = count_.load(std::memory_order_relaxed);
+  std::unique_ptr<Block>& block = blocks_[number / kBlock];
+  if (block == nullptr) block = std::make_unique<Block>();
+  (*block)[number % kBlock] = cell;
+  count_.store(number + 1, std::memory_order_release);
+}
+
+bool CellNames::find(const nc::Control& control, const CellTable& table, const CellName& name, CellState& state,
+                     rung_cell& cell) {
+  const std::lock_guard lock(mutex_);
+  if (const auto known = numbers_.find(name); known != numbers_.end()) {
+    cell = known->second;
+    state = table.at(cell)->state;
+    return true;
+  }
+  const LocatedCell found = locateCell(control, table.program(), name);
+  state = found.state;
+  if (state != CellState::Good) return true;
+  if (names_.size() == CellTable::kMostCells) return false;
+  cell = static_cast<rung_cell>(names_.size());
+  names_.push_back(&numbers_.emplace(name, cell).first->first);
+  types_.push_back(found.type);
+  for (CellTable* other : tables_)
+    other->add(other == &table ? found : locateCell(control, other->program(), name, &found.type));
+  return true;
+}
+
+std::optional<rung_type> CellNames::typeOf(rung_cell cell) {
+  const std::lock_guard lock(mutex_);
+  return cell < types_.size() ? std::optional(types_[cell]) : std::nullopt;
+}
+
+void CellNames::join(const nc::Control& control, CellTable& table) {
+  const std::lock_guard lock(mutex_);
+  for (uint32_t i = 0; i < names_.size(); ++i) table.add(locateCell(control, table.program(), *names_[i], &types_[i]));
+  tables_.push_back(&table);
+}
+
+void CellNames::leave(CellTable& table) {
+  const std::lock_guard lock(mutex_);
+  std::erase(tables_, &table);
+}
+
+} // namespace rung::runtime

@@ -1,0 +1,94 @@
+// The cells of an instance that its host has found by name: a number for each, and where it lies in the program that
+// runs. A replacement has a second table for its program, made outside real time; what is found later is entered in
+// both.
+#pragma once
+#include <array>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtlib/core/place_list.h"
+#include "rtlib/nc/control/control.h"
+#include "rung/runtime.h"
+
+namespace rung::runtime {
+
+// How a cell is used in the program that runs.
+enum class CellState : uint8_t {
+  Good,
+  Gone,        // there is no such name
+  Overwritten, // for writing: another place is copied over it
+  Constant,    // for writing
+  Retyped,     // it was a real, a text or neither when it was found, and is not any more
+};
+
+struct LocatedCell {
+  CellState state = CellState::Gone;
+  bool writes = false; // as it was found
+  rung_type type = RUNG_TYPE_BIT;
+  host::Ref ref;
+  rt::Place place; // of the first element
+};
+
+struct CellName {
+  std::string name;
+  int32_t access = RUNG_READ;
+  auto operator<=>(const CellName&) const = default;
+};
+
+// Where the cells of one program lie. Read by the scan thread while others are entered.
+class CellTable {
+public:
+  static constexpr uint32_t kMostCells = 1 << 16;
+
+  explicit CellTable(const rung_program& program) : program_(&program) {}
+  const rung_program& program() const { return *program_; }
+
+  // Null: there is no such number.
+  const LocatedCell* at(rung_cell cell) const noexcept {
+    if (cell >= count_.load(std::memory_order_acquire)) return nullptr;
+    return &(*blocks_[cell / kBlock])[cell % kBlock];
+  }
+  uint32_t count() const noexcept { return count_.load(std::memory_order_acquire); }
+  void add(const LocatedCell& cell);
+
+private:
+  static constexpr uint32_t kBlock = 256;
+  using Block = std::array<LocatedCell, kBlock>;
+
+  const rung_program* program_;
+  std::array<std::unique_ptr<Block>, kMostCells / kBlock> blocks_;
+  std::atomic<uint32_t> count_{0};
+};
+
+// The names, and every table that has their places. Any thread but the scan thread; none but the first waits for long.
+class CellNames {
+public:
+  // The cell of this name; it is located in every table. `state` says what of it is wrong in `table`'s program, where
+  // it is not entered then. False: there are too many cells.
+  bool find(const nc::Control& control, const CellTable& table, const CellName& name, CellState& state,
+            rung_cell& cell);
+  // As it was found; nothing: there is no such cell.
+  std::optional<rung_type> typeOf(rung_cell cell);
+  // From now on the table has all cells.
+  void join(const nc::Control& control, CellTable& table);
+  void leave(CellTable& table);
+
+private:
+  std::mutex mutex_;
+  std::map<CellName, rung_cell> numbers_;
+  std::vector<const CellName*> names_; // by number; keys of numbers_
+  std::vector<rung_type> types_;       // by number: as it was found
+  std::vector<CellTable*> tables_;
+};
+
+// Where the name lies in a program; `as`: what it was when it was found.
+LocatedCell locateCell(const nc::Control& control, const rung_program& program, const CellName& name,
+                       const rung_type* as = nullptr);
+
+} // namespace rung::runtime

@@ -1,0 +1,25 @@
+// The sentence of each thread (see error.h).
+#include "rtlib/runtime/error.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace rung::runtime {
+namespace {
+
+// Within the memory that the dynamic linker reserves for every thread: the first use allocates nothing.
+[[gnu::tls_model("initial-exec")]] thread_local char sentence[320];
+
+} // namespace
+
+int32_t fail(rung_status status, const char* format, ...) noexcept {
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(sentence, sizeof sentence, format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+const char* errorText() noexcept { return sentence; }
+
+} // namespace rung::runtime

@@ -1,0 +1,131 @@
+// Messages, service requests, and functions of a part program.
+#include <span>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/running.h"
+#include "rtlib/runtime/structs.h"
+
+namespace rung::runtime {
+
+rung_request shown(const rt::ServiceRequest& request, const rung_program& program) noexcept {
+  rung_request out{.size = sizeof out, .ticket = request.ticket, .service = "", .arg_count = request.argCount};
+  if (request.service < program.service_count) out.service = program.services[request.service];
+  std::memcpy(out.args, request.args, sizeof out.args);
+  return out;
+}
+
+rt::ServiceReply taken(const rung_reply& reply) noexcept {
+  rt::ServiceReply out{.ticket = reply.ticket,
+                       .state = reply.error != 0 ? RUNG_SERVICE_ERROR : RUNG_SERVICE_DONE,
+                       .resultCount = std::min(reply.result_count, RUNG_MAX_SERVICE_ARGS)};
+  std::memcpy(out.results, reply.results, sizeof out.results);
+  return out;
+}
+
+namespace {
+
+nc::Functions* functionsOf(rung_instance& instance, uint32_t channel) noexcept {
+  return channel < 32 ? instance.control->functions(channel) : nullptr;
+}
+
+int32_t failChannel(uint32_t channel) noexcept {
+  return fail(RUNG_NOT_FOUND, "the control has no functions in a channel %u", channel);
+}
+
+} // namespace
+} // namespace rung::runtime
+
+using namespace rung;
+using namespace rung::runtime;
+
+int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* message) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  rung_message next;
+  if (message == nullptr || !hasSize(message)) return failSize("rung_message_info");
+  if (!handle->messages.pop(next)) return RUNG_EMPTY;
+  rung_message_info out{.op = next.op,
+                        .number = next.number,
+                        .channel = next.channel,
+                        .index = next.index,
+                        .real = next.real,
+                        .value = {.integer = next.value}};
+  const rung_program& program = *handle->program.load(std::memory_order_acquire);
+  out.text[handle->control->describe(program, next, std::span(out.text, sizeof out.text - 1))] = 0;
+  return giveStruct(message, out);
+}
+
+int32_t rung_instance_shown(const rung_instance* instance, uint32_t index, rung_message_info* message) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  return contained([&] {
+    const std::vector<nc::ShownMessage> all = call->control->messages(call->running);
+    if (index >= all.size()) return int32_t{RUNG_EMPTY};
+    const nc::ShownMessage& shownNow = all[index];
+    rung_message_info out{.op = RUNG_MESSAGE_SHOW,
+                          .number = shownNow.number,
+                          .channel = shownNow.channel,
+                          .index = shownNow.index,
+                          .real = shownNow.real ? 1u : 0u,
+                          .value = {.integer = shownNow.value}};
+    const std::string text = call->control->text(shownNow);
+    putText(out.text, text.data(), text.size());
+    return giveStruct(message, out);
+  });
+}
+
+int32_t rung_instance_next_request(rung_instance* instance, rung_request* request) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  if (request == nullptr || !hasSize(request)) return failSize("rung_request");
+  rt::ServiceRequest next;
+  if (!handle->running.services().take(next)) return RUNG_EMPTY;
+  return giveStruct(request, shown(next, *handle->program.load(std::memory_order_acquire)));
+}
+
+int32_t rung_instance_answer(rung_instance* instance, const rung_reply* reply) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  rung_reply given{};
+  if (reply == nullptr || !takeStruct(reply, given)) return failSize("rung_reply");
+  if (given.result_count > RUNG_MAX_SERVICE_ARGS)
+    return fail(RUNG_BAD_ARGUMENT, "a reply has at most %u results, not %u", RUNG_MAX_SERVICE_ARGS, given.result_count);
+  return handle->running.services().complete(taken(given)) ? RUNG_OK : RUNG_LATER;
+}
+
+int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code,
+                                     uint32_t* line) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (!call->on) return failOff();
+  if (kind < RUNG_FUNCTION_M || kind > RUNG_FUNCTION_B || line == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "a function has a kind of enum rung_function_kind, and a place for its line");
+  nc::Functions* functions = functionsOf(*call, channel);
+  if (functions == nullptr) return failChannel(channel);
+  const auto of = static_cast<nc::FunctionKind>(kind);
+  if (!functions->carries(of, code))
+    return fail(RUNG_NOT_FOUND, "the dialect has no signals for %c%u", nc::kFunctionKinds[kind][0], code);
+  const std::optional<uint32_t> started = functions->start(of, code);
+  if (!started) return RUNG_LATER;
+  call->functionChannels |= 1u << channel;
+  *line = *started;
+  return RUNG_OK;
+}
+
+int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  nc::Functions* functions = functionsOf(*call, channel);
+  if (functions == nullptr) return failChannel(channel);
+  return functions->busy(line) ? RUNG_LATER : RUNG_OK;
+}
+
+int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  nc::Functions* functions = functionsOf(*call, channel);
+  if (functions == nullptr) return failChannel(channel);
+  functions->abort();
+  return RUNG_OK;
+}

@@ -1,0 +1,95 @@
+// Programs from files and from memory.
+#include "rtlib/runtime/image.h"
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/structs.h"
+
+namespace rung::runtime {
+namespace {
+
+std::vector<uint32_t> authorsSymbols(const rung_program& program) {
+  std::vector<uint32_t> symbols;
+  for (uint32_t i = 0; i < program.symbol_count; ++i)
+    if ((program.symbols[i].flags & RUNG_SYMBOL_HIDDEN) == 0) symbols.push_back(i);
+  return symbols;
+}
+
+} // namespace
+
+Image::Image(std::unique_ptr<host::SoEngine> file)
+    : loaded(std::move(file)), program(loaded->program()), symbols(authorsSymbols(program)) {}
+
+Image::Image(const rung_program& inMemory, void* context, void (*releases)(void*), void* ownedBy)
+    : program(inMemory), engine(context), release(releases), owner(ownedBy), symbols(authorsSymbols(program)) {}
+
+Image::~Image() {
+  if (release != nullptr) release(owner);
+}
+
+} // namespace rung::runtime
+
+using namespace rung;
+using namespace rung::runtime;
+
+int32_t rung_image_open(const char* path, const rung_image_options* options, rung_image** image) {
+  if (path == nullptr || image == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "rung_image_open needs a path and a place for the image");
+  return contained([&] {
+    rung_image_options given{};
+    if (!takeStruct(options, given)) return failSize("rung_image_options");
+    host::SoOptions how;
+    how.mayLackSeal = given.allow_unsealed != 0;
+    if (given.keys_folder != nullptr) how.keysFolder = given.keys_folder;
+    std::string error;
+    std::unique_ptr<host::SoEngine> loaded = host::SoEngine::open(path, error, how);
+    if (loaded == nullptr) return fail(RUNG_REFUSED, "%s", error.c_str());
+    *image = new rung_image{.image = std::make_shared<const Image>(std::move(loaded))};
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_image_adopt(const rung_program* program, void* engine, void (*release)(void* owner), void* owner,
+                         rung_image** image) {
+  if (program == nullptr || image == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "rung_image_adopt needs a program and a place for the image");
+  return contained([&] {
+    if (const std::string wrong = host::checkProgram(*program); !wrong.empty())
+      return fail(RUNG_REFUSED, "%s", wrong.c_str());
+    auto handle = std::make_unique<rung_image>();
+    handle->image = std::make_shared<const Image>(*program, engine, release, owner);
+    *image = handle.release();
+    return int32_t{RUNG_OK};
+  });
+}
+
+const rung_program* rung_image_program(const rung_image* image) {
+  const rung_image* handle = checked(image, kImageMark);
+  return handle == nullptr ? nullptr : &handle->image->program;
+}
+
+int32_t rung_image_symbol(const rung_image* image, uint32_t index, rung_symbol_info* symbol) {
+  const rung_image* handle = checked(image, kImageMark);
+  if (handle == nullptr) return failHandle("an image");
+  const Image& content = *handle->image;
+  if (index >= content.symbols.size()) return RUNG_EMPTY;
+  const rung_symbol& s = content.program.symbols[content.symbols[index]];
+  const bool constant = (s.flags & RUNG_SYMBOL_CONST) != 0;
+  return giveStruct(symbol, rung_symbol_info{.type = s.type,
+                                             .count = s.count,
+                                             .flags = s.flags,
+                                             .space = constant ? RUNG_NONE : s.space,
+                                             .byte = s.byte,
+                                             .bit = s.bit,
+                                             .value = s.value,
+                                             .name = s.name,
+                                             .comment = s.comment});
+}
+
+int32_t rung_image_close(rung_image* image) {
+  if (image == nullptr) return RUNG_OK;
+  rung_image* handle = checked(image, kImageMark);
+  if (handle == nullptr) return failHandle("an image");
+  release(handle);
+  return RUNG_OK;
+}

@@ -1,0 +1,195 @@
+// Making, ending and switching on and off; who is inside; what the schedule calls (see instance.h).
+#include "rtlib/runtime/instance.h"
+
+#include <pthread.h>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/running.h"
+#include "rtlib/runtime/structs.h"
+
+namespace rung::runtime {
+
+// ---- who is inside -----------------------------------------------------------------------------------------------
+
+rung_instance* instanceOf(const rung_instance* handle) noexcept {
+  return const_cast<rung_instance*>(checked(handle, kInstanceMark));
+}
+
+Call::Call(const rung_instance* handle, From from) noexcept : instance_(instanceOf(handle)) {
+  if (instance_ == nullptr) {
+    status_ = failHandle("an instance");
+    return;
+  }
+  const auto self = static_cast<uintptr_t>(pthread_self());
+  uintptr_t other = 0;
+  if (instance_->inside.compare_exchange_strong(other, self, std::memory_order_acquire)) {
+    entered_ = true;
+  } else if (other != self) {
+    status_ = fail(RUNG_WRONG_THREAD, "another thread is inside a call for this instance");
+  } else if (from == From::HostOnly) {
+    status_ = fail(RUNG_WRONG_STATE, "a callback of the instance may only read it");
+  }
+}
+
+// ---- the schedule ------------------------------------------------------------------------------------------------
+
+void Hooks::onHook(host::Instance& running, uint32_t work) { instance_.control->onHook(running, work); }
+
+void Hooks::onFault(host::Instance& running) {
+  instance_.control->onFault(running);
+  if (instance_.options.fault != nullptr) instance_.options.fault(instance_.options.user, &instance_);
+}
+
+void Hooks::onReplace(host::Instance& running) { instance_.control->onReplace(running); }
+
+bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  const rung_instance_options& options = instance_.options;
+  int32_t answer = (options.flags & RUNG_QUEUE_REQUESTS) != 0 ? RUNG_QUEUE : RUNG_REFUSE;
+  if (options.request != nullptr) {
+    const rung_request asked = shown(request, running.program());
+    rung_reply given{.size = sizeof given, .ticket = request.ticket};
+    answer = options.request(options.user, &instance_, &asked, &given);
+    if (answer == RUNG_ANSWER) reply = taken(given);
+    reply.ticket = request.ticket;
+  }
+  if (answer == RUNG_ANSWER) return true;
+  return answer != RUNG_QUEUE && instance_.control->respond(running, request, reply);
+}
+
+// ---- power -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+void log(const rung_instance& instance, rung_log_level level, const std::string& text) {
+  if (instance.options.log != nullptr && !text.empty())
+    instance.options.log(instance.options.user, level, text.c_str());
+}
+
+// What is on disk of the time before comes first: after a fault that is the last whole scan.
+int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
+  const std::lock_guard lock(instance.retentionChanges);
+  if (instance.retention)
+    if (const std::string error = instance.retention->finish(); !error.empty()) log(instance, RUNG_LOG_ERROR, error);
+  instance.retention.reset();
+  instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile);
+  std::string report;
+  std::string error;
+  const std::optional<nc::PowerOn> found = instance.retention->load(report, error);
+  log(instance, RUNG_LOG_WARNING, report);
+  if (!found) {
+    instance.retention.reset();
+    return fail(RUNG_FAILED, "%s", error.c_str());
+  }
+  if (kind == nc::PowerOn::Warm) kind = *found;
+  return RUNG_OK;
+}
+
+int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
+  instance.on = false;
+  if (!instance.keptFile.empty()) {
+    if (const int32_t status = takeKept(instance, kind); status != RUNG_OK) return status;
+  } else if (!instance.wasOn) {
+    kind = nc::PowerOn::Cold;
+  }
+  instance.control->powerOn(instance.running, kind);
+  instance.running.setStopped(false);
+  instance.running.clearProfile();
+  instance.pace.restart();
+  instance.functionChannels = 0;
+  instance.passes = 0;
+  instance.passNs = instance.lastPassNs = instance.worstPassNs = 0;
+  instance.on = instance.wasOn = true;
+  return RUNG_OK;
+}
+
+int32_t powerOff(rung_instance& instance) {
+  // A fault in the last scans spoils what is retained.
+  if (instance.retention && !instance.running.faulted()) (void)instance.retention->finish();
+  instance.control->powerOff(instance.running, [&] {
+    do runPart(instance, [&] { instance.running.slice(); });
+    while (!instance.running.atListStart() && !instance.running.faulted());
+  });
+  instance.on = false;
+  clearOutputs(instance);
+  const std::string error = instance.retention ? instance.retention->finish() : std::string();
+  return error.empty() ? int32_t{RUNG_OK} : fail(RUNG_FAILED, "%s", error.c_str());
+}
+
+} // namespace
+} // namespace rung::runtime
+
+using namespace rung;
+using namespace rung::runtime;
+
+rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given)
+    : options(given), image(std::move(from)), program(&image->program),
+      control(nc::makeControl(image->program.dialect)), hooks(*this),
+      running({image->program, image->engine, static_cast<uint8_t*>(given.memory)}, &hooks), pace(running),
+      cells(std::make_unique<CellTable>(image->program)) {
+  names.join(*control, *cells);
+  if (image->program.instrumented != 0) clock = profile::calibratedClock();
+}
+
+rung_instance::~rung_instance() = default;
+
+int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance) {
+  const rung_image* handle = checked(image, kImageMark);
+  if (handle == nullptr) return failHandle("an image");
+  if (instance == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no place for the instance");
+  rung_instance_options given{};
+  if (!takeStruct(options, given)) return failSize("rung_instance_options");
+  if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
+    return status;
+  return contained([&] {
+    *instance = new rung_instance(handle->image, given);
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_instance_free(rung_instance* instance) {
+  if (instance == nullptr) return RUNG_OK;
+  {
+    const Call call(instance);
+    if (!call.ok()) return call.status();
+  }
+  release(instance);
+  return RUNG_OK;
+}
+
+int32_t rung_instance_power_on(rung_instance* instance, int32_t power) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (power != RUNG_COLD && power != RUNG_WARM)
+    return fail(RUNG_BAD_ARGUMENT, "the power-on is RUNG_COLD or RUNG_WARM, not %d", power);
+  return contained([&] { return powerOn(*call, power == RUNG_WARM ? nc::PowerOn::Warm : nc::PowerOn::Cold); });
+}
+
+int32_t rung_instance_power_off(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (!call->on) return failOff();
+  return contained([&] { return powerOff(*call); });
+}
+
+int32_t rung_instance_keep(rung_instance* instance, const char* path) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (path == nullptr || *path == 0) return fail(RUNG_BAD_ARGUMENT, "retained memory needs the name of a file");
+  if (call->wasOn || !call->keptFile.empty())
+    return fail(RUNG_WRONG_STATE, "where retained memory is kept is said once, before the first power-on");
+  return contained([&] {
+    call->keptFile = path;
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_instance_flush(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (!call->retention) return fail(RUNG_WRONG_STATE, "no retained memory is kept: see rung_instance_keep");
+  return contained([&] {
+    if (call->retention->flush()) return int32_t{RUNG_OK};
+    return fail(RUNG_FAILED, "%s", call->retention->memory().problem().c_str());
+  });
+}

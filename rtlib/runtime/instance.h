@@ -1,0 +1,106 @@
+// What a rung_instance is: the running program, the control of its dialect, and what its host has bound to it.
+#pragma once
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rtlib/core/ring.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/host/pace.h"
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/retention.h"
+#include "rtlib/profile/clock.h"
+#include "rtlib/runtime/cells.h"
+#include "rtlib/runtime/image.h"
+#include "rtlib/runtime/watch.h"
+
+namespace rung::runtime {
+
+struct BoundVariable {
+  rung_cell cell = 0;
+  rung_host_type type = RUNG_HOST_BOOL;
+  void* address = nullptr;
+  double scale = 1;
+};
+
+// The control's place in the schedule, with what the host wants to hear of it.
+class Hooks final : public host::ScheduleHooks {
+public:
+  explicit Hooks(rung_instance& instance) : instance_(instance) {}
+  void onHook(host::Instance& running, uint32_t work) override;
+  void onFault(host::Instance& running) override;
+  void onReplace(host::Instance& running) override;
+  bool respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
+
+private:
+  rung_instance& instance_;
+};
+
+} // namespace rung::runtime
+
+struct rung_instance {
+  rung_instance(std::shared_ptr<const rung::runtime::Image> program, const rung_instance_options& given);
+  ~rung_instance();
+
+  uint32_t mark = rung::runtime::kInstanceMark;
+  // The thread that is inside a call; 0: none.
+  mutable std::atomic<uintptr_t> inside{0};
+
+  rung_instance_options options;
+  std::shared_ptr<const rung::runtime::Image> image;
+  std::atomic<const rung_program*> program; // of `image`, for other threads
+  std::unique_ptr<rung::nc::Control> control;
+  rung::runtime::Hooks hooks;
+  rung::host::Instance running;
+  rung::host::Pace pace;
+  std::optional<rung::profile::Clock> clock; // of a program that counts and times its rungs
+  rung::runtime::CellNames names;
+  std::unique_ptr<rung::runtime::CellTable> cells;
+  std::vector<rung::runtime::BoundVariable> inputs, outputs;
+  rung::runtime::Watches watches;
+  rung::rt::FixedRing<rung_message, rung::rt::kMessageCapacity> messages;
+  std::string keptFile;                           // "": nothing is kept
+  std::unique_ptr<rung::nc::Retention> retention; // from the first power-on, where something is kept
+  std::mutex retentionChanges;                    // held while that is made anew
+  uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
+  bool on = false;
+  bool wasOn = false; // its memory holds something to be retained
+  uint64_t passes = 0;
+  int64_t passNs = 0;
+  int64_t lastPassNs = 0;
+  int64_t worstPassNs = 0;
+};
+
+namespace rung::runtime {
+
+// Whether a call may come from a callback of the same instance.
+enum class From : uint8_t { HostOnly, CallbackToo };
+
+// One call of the host: the handle is good, and no other thread is inside.
+class Call {
+public:
+  explicit Call(const rung_instance* handle, From from = From::HostOnly) noexcept;
+  ~Call() {
+    if (entered_) instance_->inside.store(0, std::memory_order_release);
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  bool ok() const noexcept { return status_ == RUNG_OK; }
+  int32_t status() const noexcept { return status_; }
+  rung_instance& operator*() const noexcept { return *instance_; }
+  rung_instance* operator->() const noexcept { return instance_; }
+
+private:
+  rung_instance* instance_;
+  bool entered_ = false;
+  int32_t status_ = RUNG_OK;
+};
+
+// The same for what may be called at any time.
+rung_instance* instanceOf(const rung_instance* handle) noexcept;
+
+} // namespace rung::runtime

@@ -1,0 +1,106 @@
+// Another program for an instance: prepared outside real time, put in its place between two passes.
+#include <cstring>
+#include <utility>
+
+#include "rtlib/host/replacement.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/running.h"
+#include "rtlib/runtime/structs.h"
+
+using namespace rung;
+using namespace rung::runtime;
+
+struct rung_replacement {
+  rung_replacement(rung_instance& of, std::shared_ptr<const Image> next, uint8_t* memory)
+      : instance(of), image(std::move(next)),
+        replacement(of.running.program(), {image->program, image->engine, memory}),
+        cells(std::make_unique<CellTable>(image->program)),
+        lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
+    instance.names.join(*instance.control, *cells);
+    if (image->program.instrumented != 0) clock = profile::calibratedClock();
+  }
+  ~rung_replacement() {
+    instance.names.leave(*cells);
+    const std::lock_guard lock(instance.retentionChanges);
+    if (instance.retention) instance.retention->settle();
+  }
+
+  uint32_t mark = kReplacementMark;
+  rung_instance& instance;
+  std::shared_ptr<const Image> image;
+  host::Replacement replacement;
+  std::unique_ptr<CellTable> cells;
+  std::unique_ptr<host::RetainLane> lane; // what is kept of the program
+  std::optional<profile::Clock> clock;
+};
+
+int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,
+                             rung_replacement** replacement) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  const rung_image* next = checked(image, kImageMark);
+  if (next == nullptr) return failHandle("an image");
+  if (replacement == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no place for the replacement");
+  const rung_program& program = next->image->program;
+  if (const char* dialect = handle->running.program().dialect; std::strcmp(dialect, program.dialect) != 0)
+    return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
+                dialect);
+  if (const int32_t status = checkMemory(program, memory, memory_bytes); status != RUNG_OK) return status;
+  return contained([&] {
+    *replacement = new rung_replacement(*handle, next->image, static_cast<uint8_t*>(memory));
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_replacement_free(rung_replacement* replacement) {
+  if (replacement == nullptr) return RUNG_OK;
+  rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  release(handle);
+  return RUNG_OK;
+}
+
+int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info) {
+  const rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  const host::StateTransfer& transfer = handle->replacement.transfer();
+  return giveStruct(info, rung_replacement_info{.kept_cells = transfer.keptCells(),
+                                                .kept_states = transfer.keptSlots(),
+                                                .changes = static_cast<uint32_t>(transfer.changes().size()),
+                                                .bytes = transfer.bytes()});
+}
+
+int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t index, rung_change* change) {
+  const rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  const std::span<const host::StateChange> changes = handle->replacement.transfer().changes();
+  if (index >= changes.size()) return RUNG_EMPTY;
+  const host::StateChange& c = changes[index];
+  return giveStruct(change, rung_change{.kind = static_cast<uint32_t>(c.kind),
+                                        .is_state = c.slot ? 1u : 0u,
+                                        .name = c.name.c_str(),
+                                        .former = c.formerName.c_str()});
+}
+
+int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  if (&handle->instance != &*call) return fail(RUNG_BAD_ARGUMENT, "the replacement was made for another instance");
+  switch (call->running.replace(handle->replacement)) {
+  case host::ReplaceResult::Replaced: break;
+  case host::ReplaceResult::OtherProgram:
+    return fail(RUNG_WRONG_STATE, "the replacement was made for another program than the one that runs");
+  case host::ReplaceResult::WithinPass:
+  case host::ReplaceResult::RequestsWait:
+  case host::ReplaceResult::MechanismWaits: return RUNG_LATER;
+  }
+  std::swap(call->image, handle->image);
+  std::swap(call->cells, handle->cells);
+  std::swap(call->clock, handle->clock);
+  if (call->retention) call->retention->programChanged(handle->lane);
+  call->program.store(&call->image->program, std::memory_order_release);
+  call->pace.programChanged();
+  return RUNG_OK;
+}

@@ -1,0 +1,170 @@
+// The schedule by its parts, and its state (see running.h).
+#include "rtlib/runtime/running.h"
+
+#include <algorithm>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/structs.h"
+#include "rtlib/runtime/variables.h"
+
+namespace rung::runtime {
+
+void beforePart(rung_instance& instance) noexcept {
+  for (uint32_t channel = 0; channel < 32; ++channel)
+    if ((instance.functionChannels >> channel & 1) != 0) instance.control->functions(channel)->step();
+  readInputs(instance);
+}
+
+void afterPart(rung_instance& instance) noexcept {
+  host::Instance& running = instance.running;
+  instance.control->afterSlice(running);
+  if (instance.retention) instance.retention->afterSlice();
+  rung_message message;
+  for (uint32_t i = 0; i < rt::kMessageCapacity && running.messages().pop(message); ++i) {
+    instance.control->accept(message);
+    (void)instance.messages.push(message);
+  }
+  if (running.faulted()) {
+    clearOutputs(instance);
+    return instance.watches.sample(instance);
+  }
+  writeOutputs(instance);
+  if (!running.atListStart()) return;
+  ++instance.passes;
+  instance.watches.sample(instance);
+  instance.lastPassNs = instance.passNs;
+  instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
+  instance.passNs = 0;
+}
+
+int32_t failOff() noexcept {
+  return fail(RUNG_WRONG_STATE, "the program is not switched on: call rung_instance_power_on");
+}
+
+int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept {
+  if (memory == nullptr) return RUNG_OK;
+  const uint32_t needed = std::max(program.memory_size, rt::Memory::kLeastBlock);
+  if (bytes < needed)
+    return fail(RUNG_BAD_ARGUMENT, "the memory block has %zu bytes, the program needs %u", bytes, needed);
+  if (reinterpret_cast<uintptr_t>(memory) % program.memory_align != 0)
+    return fail(RUNG_BAD_ARGUMENT, "the memory block is not aligned to %u bytes", program.memory_align);
+  return RUNG_OK;
+}
+
+namespace {
+
+constexpr int64_t kHourNs = 3'600'000'000'000;
+
+int32_t statusOf(const rung_instance& instance) noexcept { return instance.running.faulted() ? RUNG_FAULTED : RUNG_OK; }
+
+template <class Part>
+int32_t runCall(rung_instance* handle, Part part) noexcept {
+  const Call call(handle);
+  if (!call.ok()) return call.status();
+  if (!call->on) return failOff();
+  if (!call->running.faulted()) runPart(*call, [&] { part(call->running); });
+  return statusOf(*call);
+}
+
+} // namespace
+} // namespace rung::runtime
+
+using namespace rung;
+using namespace rung::runtime;
+
+int32_t rung_instance_slice(rung_instance* instance) {
+  return runCall(instance, [](host::Instance& running) { running.slice(); });
+}
+int32_t rung_instance_scan(rung_instance* instance) {
+  return runCall(instance, [](host::Instance& running) { running.scan(); });
+}
+int32_t rung_instance_slot(rung_instance* instance) {
+  return runCall(instance, [](host::Instance& running) { running.slot(); });
+}
+int32_t rung_instance_fast(rung_instance* instance) {
+  return runCall(instance, [](host::Instance& running) { running.fast(); });
+}
+
+int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (!call->on) return failOff();
+  if (elapsed_ns < 0 || elapsed_ns > kHourNs)
+    return fail(RUNG_BAD_ARGUMENT, "the elapsed time is 0 to 3600000000000 ns, not %lld",
+                static_cast<long long>(elapsed_ns));
+  if (!call->pace.hasPeriod())
+    return fail(RUNG_WRONG_STATE, "the program's schedule has no period: run it by rung_instance_scan");
+  call->pace.elapse(elapsed_ns);
+  while (!call->running.faulted() && call->pace.take()) runPart(*call, [&] { call->running.slice(); });
+  return statusOf(*call);
+}
+
+int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (ns < 0 || ns > kHourNs)
+    return fail(RUNG_BAD_ARGUMENT, "the limit is 0 to 3600000000000 ns, not %lld", static_cast<long long>(ns));
+  call->running.setTimeLimit({.ns = ns, .nowNs = &host::monotonicNs});
+  return RUNG_OK;
+}
+
+int32_t rung_instance_stop(rung_instance* instance) {
+  const Call call(instance);
+  if (call.ok()) call->running.setStopped(true);
+  return call.status();
+}
+
+int32_t rung_instance_start(rung_instance* instance) {
+  const Call call(instance);
+  if (call.ok()) call->running.setStopped(false);
+  return call.status();
+}
+
+int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  const host::Instance& running = call->running;
+  const host::RetainedMemory* kept = call->retention ? &call->retention->memory() : nullptr;
+  const bool unsaved = kept != nullptr && kept->failing();
+  return giveStruct(
+      state,
+      rung_state{.flags = (call->on ? RUNG_STATE_ON : 0u) | (running.stopped() ? RUNG_STATE_STOPPED : 0u) |
+                          (running.faulted() ? RUNG_STATE_FAULTED : 0u) |
+                          (running.atListStart() ? RUNG_STATE_AT_START : 0u) | (unsaved ? RUNG_STATE_UNSAVED : 0u),
+                 .generation = running.generation(),
+                 .due_us = running.sliceDelayUs(),
+                 .now_us = running.nowUs(),
+                 .wait_ns = call->pace.untilNextNs(),
+                 .passes = call->passes,
+                 .missed = call->pace.missed(),
+                 .last_ns = call->lastPassNs,
+                 .worst_ns = call->worstPassNs,
+                 .lost_messages = static_cast<uint32_t>(running.messages().lost() + call->messages.lost()),
+                 .refused_requests = running.services().refused(),
+                 .stray_replies = running.services().stray(),
+                 .saves = kept != nullptr ? kept->saved() : 0,
+                 .failed_saves = kept != nullptr ? kept->failed() : 0});
+}
+
+int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  if (!call->running.faulted()) return RUNG_EMPTY;
+  return contained([&] {
+    const rung_program& program = call->running.program();
+    const rung_fault& fault = call->running.fault();
+    rung_fault_info out{.line = fault.line, .code = "", .file = "", .task = ""};
+    if (fault.code < program.fault_count) out.code = program.faults[fault.code];
+    if (fault.task < program.task_count) out.task = program.tasks[fault.task].name;
+    if (fault.rung < program.rung_count) {
+      const rung_rung_info& rung = program.rungs[fault.rung];
+      out.rung = rung.number;
+      if (rung.file < program.file_count) out.file = program.files[rung.file];
+      if (out.line == 0) out.line = rung.first_line;
+    }
+    const std::string text = call->running.faultText();
+    putText(out.text, text.data(), text.size());
+    return giveStruct(info, out);
+  });
+}

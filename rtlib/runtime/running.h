@@ -1,0 +1,33 @@
+// The parts of a scan as an instance's host asks for them, and what is around each: functions, bound variables, saving,
+// messages, times. Nothing here allocates, locks or throws.
+#pragma once
+#include "rtlib/host/realtime.h"
+#include "rtlib/runtime/instance.h"
+
+namespace rung::runtime {
+
+void beforePart(rung_instance& instance) noexcept;
+void afterPart(rung_instance& instance) noexcept;
+// What the program has written means nothing any more: bound variables become 0.
+void clearOutputs(rung_instance& instance) noexcept;
+
+// `part` runs a slice, a slot, a scan or the fast task.
+template <class Part>
+void runPart(rung_instance& instance, Part part) noexcept {
+  const bool measures = (instance.options.flags & RUNG_MEASURE) != 0;
+  beforePart(instance);
+  const int64_t begin = measures ? host::monotonicNs() : 0;
+  part();
+  if (measures) instance.passNs += host::monotonicNs() - begin;
+  afterPart(instance);
+}
+
+// Of a program that is off.
+int32_t failOff() noexcept;
+// Whether a program can have this memory block; null: the library allocates one.
+int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept;
+
+rung_request shown(const rt::ServiceRequest& request, const rung_program& program) noexcept;
+rt::ServiceReply taken(const rung_reply& reply) noexcept;
+
+} // namespace rung::runtime

@@ -1,0 +1,50 @@
+// The structs of rung/runtime.h between a host and a library of different age: `size` says what the host knows.
+#pragma once
+#include <algorithm>
+#include <cstring>
+
+#include "rtlib/runtime/error.h"
+
+namespace rung::runtime {
+
+inline int32_t failSize(const char* name) noexcept {
+  return fail(RUNG_BAD_ARGUMENT, "%s is null, or its field `size` is not set to the size of the struct", name);
+}
+
+// A host knows no field, or knows them up to one of them.
+template <class Struct>
+bool hasSize(const Struct* host) noexcept {
+  constexpr uint32_t kMost = 1 << 16;
+  return host->size >= 2 * sizeof(uint32_t) && host->size <= kMost;
+}
+
+// What the host gives; null: as `to` has it. False: its size cannot be right.
+template <class Struct>
+bool takeStruct(const Struct* host, Struct& to) noexcept {
+  if (host == nullptr) return true;
+  if (!hasSize(host)) return false;
+  std::memcpy(&to, host, std::min<size_t>(host->size, sizeof to));
+  return true;
+}
+
+// What the host gets: as much of it as it knows, and zeros where it knows more.
+template <class Struct>
+int32_t giveStruct(Struct* host, const Struct& from) noexcept {
+  if (host == nullptr || !hasSize(host)) return failSize("the struct for the result");
+  const uint32_t size = host->size;
+  const size_t known = std::min<size_t>(size, sizeof from);
+  std::memcpy(host, &from, known);
+  std::memset(reinterpret_cast<char*>(host) + known, 0, size - known);
+  host->size = size;
+  return RUNG_OK;
+}
+
+// The characters that fit, ended by 0.
+template <size_t N>
+void putText(char (&to)[N], const char* from, size_t length) noexcept {
+  const size_t count = std::min(length, N - 1);
+  std::memcpy(to, from, count);
+  to[count] = 0;
+}
+
+} // namespace rung::runtime

@@ -1,0 +1,218 @@
+// Cells by name, their values and texts (see values.h).
+#include "rtlib/runtime/values.h"
+
+#include "rtlib/host/overwritten.h"
+#include "rtlib/nc/names/names.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/structs.h"
+
+namespace rung::runtime {
+namespace {
+
+int32_t failState(CellState state) noexcept {
+  switch (state) {
+  case CellState::Gone: return fail(RUNG_NOT_FOUND, "the program that runs now does not have this cell");
+  case CellState::Overwritten:
+    return fail(RUNG_OVERWRITTEN,
+                "the program that runs now would never see the value: another place is copied over it");
+  case CellState::Retyped: return fail(RUNG_WRONG_TYPE, "the cell has another type in the program that runs now");
+  case CellState::Constant: return fail(RUNG_WRONG_TYPE, "the cell is a constant in the program that runs now");
+  case CellState::Good: break;
+  }
+  return RUNG_OK;
+}
+
+// The sentence for a name that is not entered.
+int32_t failName(const rung_instance& instance, const char* name, CellState state) {
+  const rung_program& program = instance.running.program();
+  if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
+  if (state != CellState::Overwritten)
+    return fail(RUNG_NOT_FOUND,
+                "%s is not a name of the program %s, an address of its dialect or a signal of the NC's interface", name,
+                program.name);
+  const auto source = host::Overwritten(program).source(*instance.control->writePlace(program, name));
+  return fail(RUNG_OVERWRITTEN, "%s is copied from %s before the program reads it: write there", name,
+              nc::describe(program, *source).c_str());
+}
+
+// The cell as it can be used now; null: `status` says what is wrong.
+const LocatedCell* usable(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {
+  const LocatedCell* found = instance.cells->at(cell);
+  if (found == nullptr)
+    status = fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell);
+  else if (found->state != CellState::Good)
+    status = failState(found->state);
+  else if (writes && !found->writes)
+    status = fail(RUNG_WRONG_TYPE, "the cell was found for reading: find it with RUNG_WRITE");
+  else
+    return found;
+  return nullptr;
+}
+
+const LocatedCell* numberCell(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {
+  const LocatedCell* found = usable(instance, cell, writes, status);
+  if (found == nullptr || found->type != RUNG_TYPE_TEXT) return found;
+  status = fail(RUNG_WRONG_TYPE, "the cell is a text: use rung_instance_read_text and rung_instance_write_text");
+  return nullptr;
+}
+
+void writeAt(const rt::Memory& memory, const rt::Place& place, rung_value value) noexcept {
+  if (place.real)
+    memory.writeReal(place, value.real);
+  else
+    memory.write(place, static_cast<uint64_t>(value.integer));
+}
+
+rt::Place elementPlace(const rt::Memory& memory, const LocatedCell& cell, uint32_t index) noexcept {
+  return index == 0 ? cell.place : host::locate(memory, *host::element(cell.ref, index));
+}
+
+int32_t checkElements(const LocatedCell& cell, uint32_t first, uint32_t count) noexcept {
+  if (first <= cell.ref.count && count <= cell.ref.count - first) return RUNG_OK;
+  return fail(RUNG_BAD_ARGUMENT, "the cell has %u elements: there are none from %u to %llu", cell.ref.count, first,
+              static_cast<unsigned long long>(first) + count);
+}
+
+} // namespace
+
+int32_t findCell(rung_instance& instance, const char* name, int32_t access, rung_cell& cell) {
+  CellState state = CellState::Good;
+  if (!instance.names.find(*instance.control, *instance.cells, {name, access}, state, cell))
+    return fail(RUNG_OUT_OF_MEMORY, "an instance has no more than %u cells", CellTable::kMostCells);
+  return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, name, state);
+}
+
+} // namespace rung::runtime
+
+using namespace rung;
+using namespace rung::runtime;
+
+int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (name == nullptr || cell == nullptr) return fail(RUNG_BAD_ARGUMENT, "a name and a place for the cell are needed");
+  if (access != RUNG_READ && access != RUNG_WRITE)
+    return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, not %d", access);
+  return contained([&] { return findCell(*call, name, access, *cell); });
+}
+
+int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  int32_t status = RUNG_OK;
+  const LocatedCell* found = usable(*call, cell, false, status);
+  if (found == nullptr) return status;
+  return contained([&] {
+    const bool constant = found->ref.kind == host::RefKind::Constant;
+    rung_cell_info out{.type = found->type,
+                       .count = found->ref.count,
+                       .access = found->writes ? uint32_t{RUNG_WRITE} : uint32_t{RUNG_READ},
+                       .space = found->ref.space,
+                       .byte = found->ref.byte,
+                       .bit = found->ref.bit};
+    const std::string address = constant ? std::string() : nc::cellAddress(call->running.program(), found->ref);
+    putText(out.address, address.data(), address.size());
+    return giveStruct(info, out);
+  });
+}
+
+int32_t rung_instance_read(const rung_instance* instance, rung_cell cell, uint32_t first, uint32_t count,
+                           rung_value* values) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  int32_t status = RUNG_OK;
+  const LocatedCell* found = numberCell(*call, cell, false, status);
+  if (found == nullptr) return status;
+  if (status = checkElements(*found, first, count); status != RUNG_OK) return status;
+  if (values == nullptr && count != 0) return fail(RUNG_BAD_ARGUMENT, "there is no place for the values");
+  const rt::Memory memory = call->running.memory();
+  for (uint32_t i = 0; i < count; ++i)
+    values[i] = first + i == 0 ? firstValue(memory, *found) : valueAt(memory, elementPlace(memory, *found, first + i));
+  return RUNG_OK;
+}
+
+int32_t rung_instance_write(rung_instance* instance, rung_cell cell, uint32_t first, uint32_t count,
+                            const rung_value* values) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  int32_t status = RUNG_OK;
+  const LocatedCell* found = numberCell(*call, cell, true, status);
+  if (found == nullptr) return status;
+  if (status = checkElements(*found, first, count); status != RUNG_OK) return status;
+  if (values == nullptr && count != 0) return fail(RUNG_BAD_ARGUMENT, "there are no values");
+  const rt::Memory memory = call->running.memory();
+  for (uint32_t i = 0; i < count; ++i) writeAt(memory, elementPlace(memory, *found, first + i), values[i]);
+  return RUNG_OK;
+}
+
+int32_t rung_instance_read_all(const rung_instance* instance, const rung_cell* cells, uint32_t count,
+                               rung_value* values) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  if ((cells == nullptr || values == nullptr) && count != 0)
+    return fail(RUNG_BAD_ARGUMENT, "cells or values are missing");
+  const rt::Memory memory = call->running.memory();
+  int32_t status = RUNG_OK;
+  for (uint32_t i = 0; i < count; ++i) {
+    const LocatedCell* found = numberCell(*call, cells[i], false, status);
+    if (found == nullptr) return status;
+    values[i] = firstValue(memory, *found);
+  }
+  return RUNG_OK;
+}
+
+int32_t rung_instance_write_all(rung_instance* instance, const rung_cell* cells, uint32_t count,
+                                const rung_value* values) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if ((cells == nullptr || values == nullptr) && count != 0)
+    return fail(RUNG_BAD_ARGUMENT, "cells or values are missing");
+  int32_t status = RUNG_OK;
+  for (uint32_t i = 0; i < count; ++i)
+    if (numberCell(*call, cells[i], true, status) == nullptr) return status;
+  const rt::Memory memory = call->running.memory();
+  for (uint32_t i = 0; i < count; ++i) writeAt(memory, call->cells->at(cells[i])->place, values[i]);
+  return RUNG_OK;
+}
+
+namespace {
+
+const LocatedCell* textCell(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {
+  const LocatedCell* found = usable(instance, cell, writes, status);
+  if (found == nullptr || found->type == RUNG_TYPE_TEXT) return found;
+  status = fail(RUNG_WRONG_TYPE, "the cell is not a text: use rung_instance_read and rung_instance_write");
+  return nullptr;
+}
+
+} // namespace
+
+int32_t rung_instance_read_text(const rung_instance* instance, rung_cell cell, char* text, size_t bytes) {
+  const Call call(instance, From::CallbackToo);
+  if (!call.ok()) return call.status();
+  if (text == nullptr || bytes == 0) return fail(RUNG_BAD_ARGUMENT, "there is no place for the text");
+  int32_t status = RUNG_OK;
+  const LocatedCell* found = textCell(*call, cell, false, status);
+  if (found == nullptr) return status;
+  return contained([&] {
+    const std::string shown = call->control->shownText(call->running.readText(found->ref));
+    size_t count = std::min(shown.size(), bytes - 1);
+    while (count < shown.size() && count > 0 && (static_cast<uint8_t>(shown[count]) & 0xC0) == 0x80)
+      --count; // whole characters
+    std::memcpy(text, shown.data(), count);
+    text[count] = 0;
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_instance_write_text(rung_instance* instance, rung_cell cell, const char* text) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (text == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no text");
+  int32_t status = RUNG_OK;
+  const LocatedCell* found = textCell(*call, cell, true, status);
+  if (found == nullptr) return status;
+  return contained([&] {
+    host::writeText(call->running.memory(), found->ref, call->control->memoryText(text, found->ref.count));
+    return int32_t{RUNG_OK};
+  });
+}

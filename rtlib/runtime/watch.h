@@ -1,0 +1,70 @@
+// Cells that other threads look at: what the scan thread leaves for them at the end of a pass, without waiting.
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "rtlib/runtime/handles.h"
+
+namespace rung::runtime {
+
+// What is known of a sample, beside its values.
+struct SampleHead {
+  uint64_t generation = 0;
+  uint64_t pass = 0;
+  uint64_t nowUs = 0;
+};
+
+// The watches of an instance.
+class Watches {
+public:
+  // Any thread. False: there are too many.
+  bool add(rung_watch& watch);
+  void remove(rung_watch& watch); // the scan thread does not touch it any more
+
+  // Scan thread, at the end of a pass.
+  void sample(const rung_instance& instance) noexcept {
+    if (count_.load(std::memory_order_relaxed) != 0) sampleAll(instance);
+  }
+
+private:
+  void sampleAll(const rung_instance& instance) noexcept;
+
+  std::mutex changes_;
+  std::atomic<uint32_t> count_{0};
+  std::atomic<bool> sampling_{false};
+  std::array<std::atomic<rung_watch*>, RUNG_MOST_WATCHES> watches_{};
+};
+
+} // namespace rung::runtime
+
+struct rung_watch {
+  rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth);
+
+  // Scan thread.
+  void take(const rung_instance& from, const rung::runtime::SampleHead& head) noexcept;
+  // Any thread; false: there is none yet, or none that waits.
+  bool newest(rung_value* values, rung_sample& sample) const noexcept;
+  bool next(rung_value* values, rung_sample& sample) noexcept;
+
+  uint32_t mark = rung::runtime::kWatchMark;
+  rung_instance& instance;
+  std::vector<rung_cell> cells;
+
+private:
+  static constexpr size_t kHeadWords = 3;
+  size_t words() const noexcept { return kHeadWords + cells.size(); }
+
+  std::vector<uint64_t> scratch_; // the scan thread's: head and values of this pass
+  // The newest sample. Odd while it is written.
+  std::atomic<uint32_t> sequence_{0};
+  std::vector<std::atomic<uint64_t>> newest_;
+  // Samples that wait, of one writer and one reader.
+  uint32_t depth_;
+  std::vector<uint64_t> ring_;
+  std::atomic<uint64_t> written_{0};
+  std::atomic<uint64_t> taken_{0};
+  std::atomic<uint64_t> lost_{0};
+};

@@ -1,0 +1,170 @@
+// librung-compiler: sources to diagnostics, and to images that librung-runtime runs.
+#include "rung/compiler.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "rung/runtime.hpp"
+
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::string_view kLatch = "dialect gsk\n"
+                                    "module LEVEL1\n"
+                                    "rung \"latch\"\n"
+                                    "|--[X10.0]--+--[/X10.1]--(Y0.0)\n"
+                                    "|--[Y0.0]---+\n";
+
+class Compilation {
+public:
+  explicit Compilation(std::string_view text, rung_compile_options options = {}) {
+    options.size = sizeof options;
+    const rung_source source{"latch.lad", text.data(), text.size()};
+    status_ = rung_compile(&source, 1, &options, &compilation_);
+  }
+  ~Compilation() { rung_compilation_free(compilation_); }
+  Compilation(const Compilation&) = delete;
+  Compilation& operator=(const Compilation&) = delete;
+
+  int32_t status() const { return status_; }
+  rung_compilation* handle() const { return compilation_; }
+  rung::Image image() const {
+    rung_image* image = nullptr;
+    if (rung_compilation_image(compilation_, &image) != RUNG_OK) throw std::runtime_error(rung_compiler_error_text());
+    return rung::Image(image);
+  }
+
+private:
+  rung_compilation* compilation_ = nullptr;
+  int32_t status_;
+};
+
+void expectLatch(const rung::Image& image) {
+  rung::Instance plc(image);
+  plc.powerOn();
+  plc.write(plc.find("X10.0", rung::Access::Write), 1);
+  plc.scan();
+  plc.write(plc.find("X10.0", rung::Access::Write), 0);
+  plc.scan();
+  EXPECT_TRUE(plc.read<bool>(plc.find("Y0.0")));
+  plc.write(plc.find("X10.1", rung::Access::Write), 1);
+  plc.scan();
+  EXPECT_FALSE(plc.read<bool>(plc.find("Y0.0")));
+}
+
+TEST(Compiler, EveryEngineRunsTheProgram) {
+  for (const rung_engine engine : {RUNG_ENGINE_JIT, RUNG_ENGINE_FAST, RUNG_ENGINE_INTERP}) {
+    SCOPED_TRACE(engine);
+    const Compilation compilation(kLatch, {.engine = static_cast<uint32_t>(engine)});
+    ASSERT_EQ(compilation.status(), RUNG_OK) << rung_compiler_error_text();
+    expectLatch(compilation.image());
+  }
+}
+
+TEST(Compiler, AnImageOutlivesItsCompilation) {
+  auto compilation = std::make_unique<Compilation>(kLatch, rung_compile_options{.engine = RUNG_ENGINE_INTERP});
+  const rung::Image image = compilation->image();
+  const rung::Image another = compilation->image();
+  compilation.reset();
+  expectLatch(image);
+  expectLatch(another);
+}
+
+TEST(Compiler, AProgramIsChangedFromItsSource) {
+  const Compilation first(kLatch);
+  const rung::Image image = first.image();
+  rung::Instance plc(image);
+  plc.powerOn();
+  plc.write(plc.find("X10.0", rung::Access::Write), 1);
+  plc.scan();
+  std::string text(kLatch);
+  text.replace(text.find("(Y0.0)"), 6, "(Y0.1)");
+  const Compilation second(text);
+  const rung::Image next = second.image();
+  const rung::Replacement change(plc, next);
+  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  plc.scan();
+  EXPECT_TRUE(plc.read<bool>(plc.find("Y0.1")));
+}
+
+TEST(Compiler, ASharedObjectIsWritten) {
+  const std::string path = testing::TempDir() + "rung_compiler_test.so";
+  const Compilation compilation(kLatch);
+  ASSERT_EQ(rung_compilation_write(compilation.handle(), path.c_str()), RUNG_OK) << rung_compiler_error_text();
+  expectLatch(rung::Image(path));
+  std::filesystem::remove(path);
+  EXPECT_EQ(rung_compilation_write(compilation.handle(), "/nowhere/latch.so"), RUNG_FAILED);
+  EXPECT_THAT(rung_compiler_error_text(), HasSubstr("/nowhere/latch.so"));
+}
+
+TEST(Compiler, MistakesAreDiagnostics) {
+  const Compilation compilation("dialect gsk\nmodule LEVEL1\nrung\n|--[NOBODY]--(Y0.0)\nrung\n|--[X0.0]--(NOTHING)\n");
+  EXPECT_EQ(compilation.status(), RUNG_REFUSED);
+  auto first = rung::sized<rung_diagnostic>(), second = first;
+  ASSERT_EQ(rung_compilation_diagnostic(compilation.handle(), 0, &first), RUNG_OK);
+  ASSERT_EQ(rung_compilation_diagnostic(compilation.handle(), 1, &second), RUNG_OK);
+  EXPECT_EQ(rung_compilation_diagnostic(compilation.handle(), 2, &second), RUNG_EMPTY);
+  EXPECT_EQ(first.severity, uint32_t{RUNG_SEVERITY_ERROR});
+  EXPECT_STREQ(first.file, "latch.lad");
+  EXPECT_EQ(first.line, 4u);
+  EXPECT_EQ(first.column, 5u);
+  EXPECT_STREQ(first.code, "bad-operand");
+  EXPECT_THAT(first.message, HasSubstr("NOBODY"));
+  EXPECT_EQ(second.line, 6u);
+  EXPECT_THAT(rung_compilation_report(compilation.handle()), HasSubstr("latch.lad:4:5: error:"));
+  rung_image* image = nullptr;
+  EXPECT_EQ(rung_compilation_image(compilation.handle(), &image), RUNG_WRONG_STATE);
+  EXPECT_EQ(rung_compilation_write(compilation.handle(), "x.so"), RUNG_WRONG_STATE);
+}
+
+TEST(Compiler, BadArguments) {
+  rung_compilation* compilation = nullptr;
+  rung_source source{"latch.lad", kLatch.data(), kLatch.size()};
+  EXPECT_EQ(rung_compile(nullptr, 1, nullptr, &compilation), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(rung_compile(&source, 0, nullptr, &compilation), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(rung_compile(&source, 1, nullptr, nullptr), RUNG_BAD_ARGUMENT);
+  rung_compile_options options{};
+  EXPECT_EQ(rung_compile(&source, 1, &options, &compilation), RUNG_BAD_ARGUMENT) << "no size";
+  options.size = sizeof options;
+  options.engine = 7;
+  EXPECT_EQ(rung_compile(&source, 1, &options, &compilation), RUNG_BAD_ARGUMENT);
+  options.engine = 0;
+  const rung_setting unknown{"slot_step", "3"};
+  options.settings = &unknown;
+  options.setting_count = 1;
+  EXPECT_EQ(rung_compile(&source, 1, &options, &compilation), RUNG_BAD_ARGUMENT);
+  EXPECT_THAT(rung_compiler_error_text(), HasSubstr("slot_steps"));
+  source = {"/nowhere/latch.lad", nullptr, 0};
+  EXPECT_EQ(rung_compile(&source, 1, nullptr, &compilation), RUNG_NOT_FOUND);
+  source.name = nullptr;
+  EXPECT_EQ(rung_compile(&source, 1, nullptr, &compilation), RUNG_BAD_ARGUMENT);
+
+  std::array<uint64_t, 16> none{};
+  auto* wrong = reinterpret_cast<rung_compilation*>(none.data());
+  rung_image* image = nullptr;
+  auto diagnostic = rung::sized<rung_diagnostic>();
+  for (rung_compilation* handle : {wrong, static_cast<rung_compilation*>(nullptr)}) {
+    EXPECT_EQ(rung_compilation_image(handle, &image), RUNG_BAD_HANDLE);
+    EXPECT_EQ(rung_compilation_write(handle, "x.so"), RUNG_BAD_HANDLE);
+    EXPECT_EQ(rung_compilation_diagnostic(handle, 0, &diagnostic), RUNG_BAD_HANDLE);
+    EXPECT_EQ(rung_compilation_report(handle), nullptr);
+  }
+  EXPECT_EQ(rung_compilation_free(wrong), RUNG_BAD_HANDLE);
+  EXPECT_EQ(rung_compilation_free(nullptr), RUNG_OK);
+  const Compilation good(kLatch, {.engine = RUNG_ENGINE_INTERP});
+  EXPECT_EQ(rung_compilation_image(good.handle(), nullptr), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(rung_compilation_write(good.handle(), nullptr), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(rung_compilation_diagnostic(good.handle(), 0, &diagnostic), RUNG_EMPTY);
+  const Compilation bad("dialect gsk\nmodule LEVEL1\nrung\n|--[NOBODY]--(Y0.0)\n");
+  diagnostic.size = 0;
+  EXPECT_EQ(rung_compilation_diagnostic(bad.handle(), 0, &diagnostic), RUNG_BAD_ARGUMENT);
+}
+
+} // namespace

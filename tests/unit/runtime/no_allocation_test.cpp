@@ -1,0 +1,86 @@
+// What rung/runtime.h marks with [rt] neither allocates nor enters the kernel, errors included.
+#include <gtest/gtest.h>
+
+#include "rung/runtime.hpp"
+#include "tests/support/count_allocations.h"
+#include "tests/support/count_system_calls.h"
+#include "tests/unit/rtlib/test_program.h"
+
+namespace {
+
+uint32_t work(uint8_t* mem, rung_ctx* ctx, uint32_t) {
+  const rung_message message{RUNG_MESSAGE_SHOW, 20, 0, 0, mem[0], 0, 0};
+  ctx->host->message(ctx, &message);
+  const int64_t argument = 1;
+  ctx->host->service_request(ctx, 0, &argument, 1);
+  return ++mem[0] == 50 ? RUNG_PC_FAULT : rung::test::popChunk(ctx);
+}
+
+void build(rung::test::TestProgram& program, uint32_t byte) {
+  program.addPacked("R", 1, 64, 0);
+  program.addSymbol("COUNT", 0, 0, RUNG_TYPE_I8);
+  program.addSymbol("WORDS", 0, byte, RUNG_TYPE_I16, 0, 3);
+  program.addSymbol("DOOR", 0, 20, RUNG_TYPE_BIT);
+  program.retains = {{8, 8}};
+  program.addTask("MAIN", program.addChunk(&work));
+  program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
+  program.link();
+}
+
+rung::Image adopted(const rung::test::TestProgram& program) {
+  rung_image* image = nullptr;
+  rung::check(rung_image_adopt(&program.program, nullptr, nullptr, nullptr, &image));
+  return rung::Image(image);
+}
+
+TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
+  rung::test::TestProgram one, two;
+  build(one, 8);
+  build(two, 10);
+  const rung::Image first = adopted(one), second = adopted(two);
+  auto options = rung::sized<rung_instance_options>();
+  options.flags = RUNG_QUEUE_REQUESTS;
+  rung::Instance plc(first, &options);
+  bool input = true;
+  uint8_t output = 0;
+  plc.bindInput("DOOR", input);
+  plc.bindOutput("COUNT", output);
+  plc.keep(testing::TempDir() + "rung_runtime_no_allocation");
+  plc.powerOn();
+  const rung_cell cells[] = {plc.find("COUNT"), plc.find("WORDS", rung::Access::Write)};
+  rung::Replacement change(plc, second);
+  auto message = rung::sized<rung_message_info>();
+  auto request = rung::sized<rung_request>();
+  auto reply = rung::sized<rung_reply>();
+  auto state = rung::sized<rung_state>();
+  const auto use = [&] {
+    rung_instance* p = plc.handle();
+    rung_value values[3] = {};
+    for (int i = 0; i < 100; ++i) { // to the fault, and after it
+      rung_instance_run_due(p, 8'000'000);
+      rung_instance_slice(p), rung_instance_scan(p), rung_instance_slot(p), rung_instance_fast(p);
+      rung_instance_read(p, cells[1], 0, 3, values), rung_instance_write(p, cells[1], 0, 3, values);
+      rung_instance_read_all(p, cells, 2, values), rung_instance_write_all(p, cells + 1, 1, values);
+      rung_instance_write_all(p, cells, 2, values); // COUNT was found for reading
+      rung_instance_state(p, &state), rung_instance_limit(p, 0);
+      rung_instance_stop(p), rung_instance_start(p);
+      while (rung_instance_next_message(p, &message) == RUNG_OK) {
+      }
+      while (rung_instance_next_request(p, &request) == RUNG_OK) {
+        reply.ticket = request.ticket;
+        rung_instance_answer(p, &reply);
+      }
+      rung_instance_begin_function(p, 0, RUNG_FUNCTION_M, 3, &reply.ticket);
+      rung_instance_function_done(p, 0, 0), rung_instance_abort_functions(p, 0);
+      rung_instance_replace(p, change.handle());
+    }
+  };
+  int calls = 0;
+  const int counted = allocationsOf([&] { calls = systemCallsOf(use).value_or(0); });
+  EXPECT_EQ(counted, 0);
+  EXPECT_EQ(calls, 0);
+  EXPECT_TRUE(plc.fault());
+  EXPECT_GT(plc.state().generation, 10u);
+}
+
+} // namespace

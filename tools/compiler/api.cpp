@@ -1,0 +1,230 @@
+// The functions of rung/compiler.h: sources to diagnostics, an image, a file.
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ir/support/check.h"
+#include "ir/support/diag_render.h"
+#include "rtlib/host/file.h"
+#include "rtlib/host/sealing.h"
+#include "rtlib/runtime/handles.h"
+#include "rtlib/runtime/structs.h"
+#include "rung/compiler.h"
+#include "tools/compiler/compile.h"
+#include "tools/compiler/configuration.h"
+#include "tools/compiler/engines.h"
+
+namespace rung::compiler {
+namespace {
+
+// A diagnostic with the texts that rung_diagnostic points to.
+struct Shown {
+  Severity severity;
+  LineCol place;
+  std::string file, code, message;
+};
+
+// What an image needs after its compilation has been freed.
+struct Program {
+  SourceManager sources;
+  std::optional<Compiled> compiled;
+};
+
+struct Running {
+  std::shared_ptr<const Program> program;
+  std::unique_ptr<host::Engine> engine;
+};
+
+} // namespace
+} // namespace rung::compiler
+
+using namespace rung;
+using namespace rung::compiler;
+using runtime::checked;
+using runtime::fail;
+using runtime::failHandle;
+
+struct rung_compilation {
+  uint32_t mark = runtime::kCompilationMark;
+  std::shared_ptr<Program> program = std::make_shared<Program>();
+  EngineKind kind = EngineKind::Jit;
+  EngineOptions engine;
+  std::vector<Shown> diagnostics;
+  std::string report;
+};
+
+namespace {
+
+rung_compilation* compilationOf(const rung_compilation* handle) noexcept {
+  return const_cast<rung_compilation*>(checked(handle, runtime::kCompilationMark));
+}
+
+// What the compiler finds wrong with itself does not end the process.
+template <class Body>
+int32_t contained(Body body) noexcept {
+  return runtime::contained([&] {
+    const ThrowingChecks throwing;
+    return body();
+  });
+}
+
+int32_t addSources(const rung_source* sources, uint32_t count, SourceManager& to, std::vector<FileId>& files) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const rung_source& source = sources[i];
+    if (source.name == nullptr) return fail(RUNG_BAD_ARGUMENT, "source %u has no name", i);
+    if (source.text != nullptr) {
+      files.push_back(to.addBuffer(source.name, std::string(source.text, source.bytes)));
+      continue;
+    }
+    const Result<FileId> file = to.addFile(source.name);
+    if (!file.ok()) return fail(RUNG_NOT_FOUND, "%s cannot be read: %s", source.name, file.error().c_str());
+    files.push_back(file.value());
+  }
+  return RUNG_OK;
+}
+
+int32_t takeSettings(const rung_compile_options& options, CompileRequest& request) {
+  if (options.settings == nullptr && options.setting_count != 0)
+    return fail(RUNG_BAD_ARGUMENT, "there are no settings");
+  for (uint32_t i = 0; i < options.setting_count; ++i) {
+    const rung_setting& setting = options.settings[i];
+    if (setting.key == nullptr || setting.value == nullptr)
+      return fail(RUNG_BAD_ARGUMENT, "setting %u has no key or no value", i);
+    request.options.config[setting.key] = setting.value;
+  }
+  return RUNG_OK;
+}
+
+int32_t checkSettings(const SourceManager& sources, std::span<const FileId> files, const CompileRequest& request) {
+  Diagnostics unheard; // the compilation reports it
+  const frontend::Dialect* dialect = chooseDialect(sources, files, request.dialect, unheard);
+  if (dialect == nullptr) return RUNG_OK;
+  const std::vector<std::pair<std::string, std::string>> pairs(request.options.config.begin(),
+                                                               request.options.config.end());
+  for (const ConfigProblem& problem : checkConfiguration(*dialect, pairs, ""))
+    return fail(RUNG_BAD_ARGUMENT, "%s", problem.text.c_str());
+  return RUNG_OK;
+}
+
+void takeDiagnostics(const Diagnostics& diagnostics, rung_compilation& to) {
+  const SourceManager& sources = to.program->sources;
+  for (const Diagnostic* d : diagnostics.sorted()) {
+    Shown shown{.severity = d->severity, .code = std::string(diagInfo(d->id).code), .message = messageOf(*d)};
+    if (d->range.valid()) {
+      shown.place = sources.lineCol(d->range.begin);
+      shown.file = sources.name(sources.fileOf(d->range.begin));
+    }
+    to.diagnostics.push_back(std::move(shown));
+  }
+  to.report = renderText(diagnostics, sources);
+}
+
+int32_t compileInto(const rung_source* sources, uint32_t count, const rung_compile_options& options,
+                    rung_compilation& to) {
+  CompileRequest request;
+  request.dialect = options.dialect != nullptr ? options.dialect : "";
+  request.options.strict = (options.flags & RUNG_COMPILE_STRICT) != 0;
+  request.instrument = (options.flags & RUNG_COMPILE_PROFILE) != 0;
+  constexpr EngineKind kKinds[] = {EngineKind::Jit, EngineKind::Jit, EngineKind::Interp}; // by rung_engine
+  to.kind = kKinds[options.engine];
+  to.engine.optimise = options.engine != RUNG_ENGINE_FAST;
+  to.engine.debugger = (options.flags & RUNG_COMPILE_DEBUG) != 0;
+  to.engine.cacheFolder = options.cache_folder != nullptr ? options.cache_folder : "";
+  Program& program = *to.program;
+  std::vector<FileId> files;
+  if (const int32_t status = takeSettings(options, request); status != RUNG_OK) return status;
+  if (const int32_t status = addSources(sources, count, program.sources, files); status != RUNG_OK) return status;
+  if (const int32_t status = checkSettings(program.sources, files, request); status != RUNG_OK) return status;
+  Diagnostics diagnostics;
+  program.compiled = compile(program.sources, files, request, diagnostics);
+  takeDiagnostics(diagnostics, to);
+  if (program.compiled) return RUNG_OK;
+  return fail(RUNG_REFUSED, "%s has %zu errors: rung_compilation_report has them", sources[0].name,
+              diagnostics.errorCount());
+}
+
+} // namespace
+
+const char* rung_compiler_error_text(void) { return runtime::errorText(); }
+
+int32_t rung_compile(const rung_source* sources, uint32_t count, const rung_compile_options* options,
+                     rung_compilation** compilation) {
+  if (sources == nullptr || count == 0 || compilation == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "rung_compile needs a source at least, and a place for the compilation");
+  rung_compile_options given{};
+  if (!runtime::takeStruct(options, given)) return runtime::failSize("rung_compile_options");
+  if (given.engine > RUNG_ENGINE_INTERP) return fail(RUNG_BAD_ARGUMENT, "%u is not an enum rung_engine", given.engine);
+  return contained([&] {
+    auto made = std::make_unique<rung_compilation>();
+    const int32_t status = compileInto(sources, count, given, *made);
+    if (status == RUNG_OK || status == RUNG_REFUSED) *compilation = made.release();
+    return status;
+  });
+}
+
+int32_t rung_compilation_free(rung_compilation* compilation) {
+  if (compilation == nullptr) return RUNG_OK;
+  rung_compilation* handle = compilationOf(compilation);
+  if (handle == nullptr) return failHandle("a compilation");
+  runtime::release(handle);
+  return RUNG_OK;
+}
+
+int32_t rung_compilation_diagnostic(const rung_compilation* compilation, uint32_t index, rung_diagnostic* diagnostic) {
+  const rung_compilation* handle = compilationOf(compilation);
+  if (handle == nullptr) return failHandle("a compilation");
+  if (index >= handle->diagnostics.size()) return RUNG_EMPTY;
+  const Shown& shown = handle->diagnostics[index];
+  return runtime::giveStruct(diagnostic, rung_diagnostic{.severity = shown.severity == Severity::Error
+                                                                         ? uint32_t{RUNG_SEVERITY_ERROR}
+                                                                         : uint32_t{RUNG_SEVERITY_WARNING},
+                                                         .line = shown.place.line,
+                                                         .column = shown.place.column,
+                                                         .file = shown.file.c_str(),
+                                                         .code = shown.code.c_str(),
+                                                         .message = shown.message.c_str()});
+}
+
+const char* rung_compilation_report(const rung_compilation* compilation) {
+  const rung_compilation* handle = compilationOf(compilation);
+  return handle != nullptr ? handle->report.c_str() : nullptr;
+}
+
+namespace {
+
+int32_t failErrors() noexcept { return fail(RUNG_WRONG_STATE, "the program has errors: see its diagnostics"); }
+
+} // namespace
+
+int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image) {
+  const rung_compilation* handle = compilationOf(compilation);
+  if (handle == nullptr) return failHandle("a compilation");
+  if (image == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no place for the image");
+  if (!handle->program->compiled) return failErrors();
+  return contained([&] {
+    Result<std::unique_ptr<host::Engine>> made = makeEngine(handle->kind, *handle->program->compiled, handle->engine);
+    if (!made.ok()) return fail(RUNG_FAILED, "%s", made.error().c_str());
+    auto running = std::make_unique<Running>(handle->program, std::move(made).value());
+    const auto release = [](void* owner) { delete static_cast<Running*>(owner); };
+    host::Engine& engine = *running->engine;
+    const int32_t status = rung_image_adopt(&engine.program(), engine.context(), release, running.get(), image);
+    if (status != RUNG_OK) return fail(static_cast<rung_status>(status), "%s", rung_error_text());
+    (void)running.release(); // the image's now
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_compilation_write(rung_compilation* compilation, const char* path) {
+  const rung_compilation* handle = compilationOf(compilation);
+  if (handle == nullptr) return failHandle("a compilation");
+  if (path == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no name of a file");
+  if (!handle->program->compiled) return failErrors();
+  return contained([&] {
+    const Result<std::string> object = sharedObject(*handle->program->compiled, handle->engine);
+    if (!object.ok()) return fail(RUNG_FAILED, "%s", object.error().c_str());
+    const std::string error = host::replaceFile(path, host::sealed(object.value()), {.mode = host::kProgramMode});
+    return error.empty() ? int32_t{RUNG_OK} : fail(RUNG_FAILED, "%s", error.c_str());
+  });
+}

@@ -31,6 +31,16 @@ function(rung_add_library name)
   endif()
 endfunction()
 
+# A shared library has no symbols for others but those of a version script, and lacks none. (The runtime of a sanitizer is
+# the program's.)
+function(rung_export_only target script)
+  target_link_options(${target} PRIVATE "LINKER:--version-script,${script}")
+  set_target_properties(${target} PROPERTIES LINK_DEPENDS "${script}")
+  if(NOT RUNG_SANITIZE)
+    target_link_options(${target} PRIVATE LINKER:-z,defs)
+  endif()
+endfunction()
+
 # rung_add_program(NAME SOURCES file... LIBS target...): a command in build/bin.
 function(rung_add_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")

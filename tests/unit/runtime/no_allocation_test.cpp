@@ -4,9 +4,11 @@
 #include "rung/runtime.hpp"
 #include "tests/support/count_allocations.h"
 #include "tests/support/count_system_calls.h"
-#include "tests/unit/rtlib/test_program.h"
+#include "tests/unit/runtime/test_image.h"
 
 namespace {
+
+using rung::test::adopted;
 
 uint32_t work(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   const rung_message message{RUNG_MESSAGE_SHOW, 20, 0, 0, mem[0], 0, 0};
@@ -25,12 +27,6 @@ void build(rung::test::TestProgram& program, uint32_t byte) {
   program.addTask("MAIN", program.addChunk(&work));
   program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
   program.link();
-}
-
-rung::Image adopted(const rung::test::TestProgram& program) {
-  rung_image* image = nullptr;
-  rung::check(rung_image_adopt(&program.program, nullptr, nullptr, nullptr, &image));
-  return rung::Image(image);
 }
 
 TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {

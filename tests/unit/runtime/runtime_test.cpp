@@ -14,11 +14,13 @@
 #include <set>
 #include <thread>
 
-#include "tests/unit/rtlib/test_program.h"
+#include "tests/unit/runtime/test_image.h"
 
 extern "C" int every_function(void* no_handle);
 
 namespace {
+
+using rung::test::adopted;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -65,12 +67,6 @@ void build(rung::test::TestProgram& program, uint32_t shift = 0) {
   program.addBeginCopy(0, {RUNG_COPY_ALL, 32, kLatched, 0, 16});
   program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 4000}, {RUNG_STEP_ADVANCE, RUNG_NONE, 4000}, {RUNG_STEP_RUN, 0, 1}};
   program.link();
-}
-
-rung::Image adopted(const rung::test::TestProgram& program) {
-  rung_image* image = nullptr;
-  rung::check(rung_image_adopt(&program.program, nullptr, nullptr, nullptr, &image));
-  return rung::Image(image);
 }
 
 template <class Call>
@@ -632,6 +628,54 @@ TEST_F(Runtime, ASampleIsOfOnePass) {
   }
   stop = true;
   scanning.join();
+}
+
+// A scan thread that is given one program after the other, while others look on and look up names.
+TEST_F(Runtime, ProgramsAreChangedWhileOthersLookOn) {
+  constexpr int kChanges = 2000;
+  std::array<rung::test::TestProgram, 4> programs;
+  std::vector<rung::Image> images;
+  for (uint32_t i = 0; i < programs.size(); ++i) {
+    build(programs[i], 2 * i);
+    programs[i].functions[0] = [](uint8_t* mem, rung_ctx* ctx, uint32_t) {
+      return ++mem[0], rung::test::popChunk(ctx);
+    };
+    programs[i].link();
+    images.push_back(adopted(programs[i]));
+  }
+  rung::Instance plc(images[0]);
+  const rung_cell words = plc.find("WORDS", rung::Access::Write), count = plc.find("COUNT");
+  plc.powerOn();
+  plc.write(words, 4711);
+  std::atomic<rung_replacement*> next{nullptr};
+  std::atomic<int> changes{0};
+  std::thread scanning([&] {
+    for (uint8_t passes = 1; changes < kChanges; ++passes) {
+      plc.scan();
+      EXPECT_EQ(plc.read<uint8_t>(count), passes);
+      EXPECT_EQ(plc.read<int>(words), 4711);
+      rung_replacement* change = next.exchange(nullptr);
+      if (change == nullptr) continue;
+      EXPECT_EQ(rung_instance_replace(plc.handle(), change), RUNG_OK);
+      ++changes;
+    }
+  });
+  std::thread looking([&] {
+    const rung_cell cells[] = {words, count};
+    while (changes < kChanges) {
+      rung::Watch watch(plc, cells, 4);
+      for (int seen = 0; seen < 10 && changes < kChanges;)
+        if (const auto sample = watch.next()) EXPECT_EQ(sample->values[0].integer, 4711), ++seen;
+    }
+  });
+  for (int i = 1; i <= kChanges; ++i) {
+    const rung::Replacement change(plc, images[static_cast<size_t>(i) % images.size()]);
+    next = change.handle();
+    while (changes < i) std::this_thread::yield();
+  }
+  scanning.join();
+  looking.join();
+  EXPECT_EQ(plc.state().generation, static_cast<uint32_t>(kChanges));
 }
 
 TEST_F(Runtime, RungsAreProfiled) {

@@ -9,7 +9,7 @@
 static struct {
   bool start, jam, enable;
   int32_t position; /* 0.001 mm */
-  uint16_t strokes;
+  uint8_t strokes;
 } axis;
 
 static const rung_variable variables[] = {
@@ -17,7 +17,7 @@ static const rung_variable variables[] = {
     {"JAM", &axis.jam, RUNG_HOST_BOOL, RUNG_TO_PROGRAM, 0},
     {"D0:4", &axis.position, RUNG_HOST_I32, RUNG_TO_PROGRAM, 0},
     {"ENABLE", &axis.enable, RUNG_HOST_BOOL, RUNG_FROM_PROGRAM, 0},
-    {"STROKES:2", &axis.strokes, RUNG_HOST_U16, RUNG_FROM_PROGRAM, 0},
+    {"STROKES", &axis.strokes, RUNG_HOST_U8, RUNG_FROM_PROGRAM, 0},
 };
 
 static bool failed(int32_t status) {
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   }
   rung_profile worst = {.size = sizeof worst};
   if (rung_instance_worst_rung(plc, &worst) == RUNG_OK)
-    printf("%" PRIu16 " strokes; the worst rung is %s, %s:%u\n", axis.strokes, worst.title, worst.file, worst.line);
+    printf("%" PRIu8 " strokes; the worst rung is %s, %s:%u\n", axis.strokes, worst.title, worst.file, worst.line);
   if (failed(rung_instance_power_off(plc))) return 1;
   rung_replacement_free(change), rung_instance_free(plc), rung_image_close(next), rung_image_close(image);
   return 0;

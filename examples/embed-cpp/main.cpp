@@ -11,7 +11,7 @@ namespace {
 struct Axis {
   bool start = false, jam = false, enable = false;
   int32_t position = 0; // 0.001 mm
-  uint16_t strokes = 0;
+  uint8_t strokes = 0;
 
   // The machine, a millisecond further on.
   void move() {
@@ -29,7 +29,7 @@ void run(const char* program, const char* nextProgram) {
   plc.bindInput("JAM", axis.jam);
   plc.bindInput("D0:4", axis.position);
   plc.bindOutput("ENABLE", axis.enable);
-  plc.bindOutput("STROKES:2", axis.strokes);
+  plc.bindOutput("STROKES", axis.strokes);
   plc.powerOn();
   rung::Replacement change(plc, next);
   for (const rung_change& c : change.changes()) std::printf("the new program: %s changes\n", c.name);

@@ -1,6 +1,7 @@
 // How the functions of a library of C report what was wrong: a status, and a sentence for the thread. Each library has
 // sentences of its own.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <new>
@@ -11,6 +12,8 @@ namespace rung::runtime {
 
 // Keeps the sentence and gives the status. Allocates nothing.
 [[gnu::format(printf, 2, 3)]] int32_t fail(rung_status status, const char* format, ...) noexcept;
+// How many of the first `length` bytes are whole characters of UTF-8: for texts that are cut.
+size_t wholeCharacters(const char* text, size_t length) noexcept;
 // The sentence of the thread's last error, "" before the first.
 const char* errorText() noexcept;
 

@@ -52,7 +52,8 @@ int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* m
                         .real = next.real,
                         .value = {.integer = next.value}};
   const rung_program& program = *handle->program.load(std::memory_order_acquire);
-  out.text[handle->control->describe(program, next, std::span(out.text, sizeof out.text - 1))] = 0;
+  if (next.op != RUNG_MESSAGE_CLEAR) // which names no values
+    out.text[handle->control->describe(program, next, std::span(out.text, sizeof out.text - 1))] = 0;
   return giveStruct(message, out);
 }
 
@@ -69,8 +70,7 @@ int32_t rung_instance_shown(const rung_instance* instance, uint32_t index, rung_
                           .index = shownNow.index,
                           .real = shownNow.real ? 1u : 0u,
                           .value = {.integer = shownNow.value}};
-    const std::string text = call->control->text(shownNow);
-    putText(out.text, text.data(), text.size());
+    putText(out.text, call->control->text(shownNow));
     return giveStruct(message, out);
   });
 }
@@ -116,6 +116,7 @@ int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, 
 int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line) {
   const Call call(instance);
   if (!call.ok()) return call.status();
+  if (!call->on) return failOff();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
   return functions->busy(line) ? RUNG_LATER : RUNG_OK;
@@ -124,6 +125,7 @@ int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, u
 int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel) {
   const Call call(instance);
   if (!call.ok()) return call.status();
+  if (!call->on) return failOff();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
   functions->abort();

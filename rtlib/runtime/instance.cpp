@@ -36,10 +36,7 @@ Call::Call(const rung_instance* handle, From from) noexcept : instance_(instance
 
 void Hooks::onHook(host::Instance& running, uint32_t work) { instance_.control->onHook(running, work); }
 
-void Hooks::onFault(host::Instance& running) {
-  instance_.control->onFault(running);
-  if (instance_.options.fault != nullptr) instance_.options.fault(instance_.options.user, &instance_);
-}
+void Hooks::onFault(host::Instance& running) { instance_.control->onFault(running); }
 
 void Hooks::onReplace(host::Instance& running) { instance_.control->onReplace(running); }
 
@@ -68,19 +65,19 @@ void log(const rung_instance& instance, rung_log_level level, const std::string&
 
 // What is on disk of the time before comes first: after a fault that is the last whole scan.
 int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
-  const std::lock_guard lock(instance.retentionChanges);
-  if (instance.retention)
-    if (const std::string error = instance.retention->finish(); !error.empty()) log(instance, RUNG_LOG_ERROR, error);
-  instance.retention.reset();
-  instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile);
-  std::string report;
-  std::string error;
-  const std::optional<nc::PowerOn> found = instance.retention->load(report, error);
-  log(instance, RUNG_LOG_WARNING, report);
-  if (!found) {
+  std::string unsaved, report, error;
+  std::optional<nc::PowerOn> found;
+  {
+    const std::lock_guard lock(instance.retentionChanges);
+    if (instance.retention) unsaved = instance.retention->finish();
     instance.retention.reset();
-    return fail(RUNG_FAILED, "%s", error.c_str());
+    instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile);
+    found = instance.retention->load(report, error);
+    if (!found) instance.retention.reset();
   }
+  log(instance, RUNG_LOG_ERROR, unsaved);
+  log(instance, RUNG_LOG_WARNING, report);
+  if (!found) return fail(RUNG_FAILED, "%s", error.c_str());
   if (kind == nc::PowerOn::Warm) kind = *found;
   return RUNG_OK;
 }
@@ -100,7 +97,8 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.passes = 0;
   instance.passNs = instance.lastPassNs = instance.worstPassNs = 0;
   instance.on = instance.wasOn = true;
-  return RUNG_OK;
+  instance.faultReported = false;
+  return reportFault(instance);
 }
 
 int32_t powerOff(rung_instance& instance) {
@@ -176,8 +174,7 @@ int32_t rung_instance_keep(rung_instance* instance, const char* path) {
   const Call call(instance);
   if (!call.ok()) return call.status();
   if (path == nullptr || *path == 0) return fail(RUNG_BAD_ARGUMENT, "retained memory needs the name of a file");
-  if (call->wasOn || !call->keptFile.empty())
-    return fail(RUNG_WRONG_STATE, "where retained memory is kept is said once, before the first power-on");
+  if (call->wasOn) return fail(RUNG_WRONG_STATE, "where retained memory is kept is said before the first power-on");
   return contained([&] {
     call->keptFile = path;
     return int32_t{RUNG_OK};

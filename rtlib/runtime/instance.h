@@ -67,7 +67,8 @@ struct rung_instance {
   std::mutex retentionChanges;                    // held while that is made anew
   uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
   bool on = false;
-  bool wasOn = false; // its memory holds something to be retained
+  bool faultReported = false; // to the host's callback
+  bool wasOn = false;         // its memory holds something to be retained
   uint64_t passes = 0;
   int64_t passNs = 0;
   int64_t lastPassNs = 0;

@@ -27,7 +27,9 @@ void afterPart(rung_instance& instance) noexcept {
   }
   if (running.faulted()) {
     clearOutputs(instance);
-    return instance.watches.sample(instance);
+    instance.watches.sample(instance);
+    reportFault(instance);
+    return;
   }
   writeOutputs(instance);
   if (!running.atListStart()) return;
@@ -36,6 +38,14 @@ void afterPart(rung_instance& instance) noexcept {
   instance.lastPassNs = instance.passNs;
   instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
   instance.passNs = 0;
+}
+
+int32_t reportFault(rung_instance& instance) noexcept {
+  if (!instance.running.faulted()) return RUNG_OK;
+  if (!instance.faultReported && instance.options.fault != nullptr)
+    instance.options.fault(instance.options.user, &instance);
+  instance.faultReported = true;
+  return RUNG_FAULTED;
 }
 
 int32_t failOff() noexcept {
@@ -163,8 +173,7 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
       if (rung.file < program.file_count) out.file = program.files[rung.file];
       if (out.line == 0) out.line = rung.first_line;
     }
-    const std::string text = call->running.faultText();
-    putText(out.text, text.data(), text.size());
+    putText(out.text, call->running.faultText());
     return giveStruct(info, out);
   });
 }

@@ -22,6 +22,9 @@ void runPart(rung_instance& instance, Part part) noexcept {
   afterPart(instance);
 }
 
+// A fault goes to the host's callback, once. RUNG_FAULTED, or RUNG_OK where there is none.
+int32_t reportFault(rung_instance& instance) noexcept;
+
 // Of a program that is off.
 int32_t failOff() noexcept;
 // Whether a program can have this memory block; null: the library allocates one.

@@ -2,6 +2,8 @@
 #pragma once
 #include <algorithm>
 #include <cstring>
+#include <span>
+#include <string_view>
 
 #include "rtlib/runtime/error.h"
 
@@ -40,10 +42,10 @@ int32_t giveStruct(Struct* host, const Struct& from) noexcept {
 }
 
 // The characters that fit, ended by 0.
-template <size_t N>
-void putText(char (&to)[N], const char* from, size_t length) noexcept {
-  const size_t count = std::min(length, N - 1);
-  std::memcpy(to, from, count);
+inline void putText(std::span<char> to, std::string_view text) noexcept {
+  const size_t room = to.size() - 1;
+  const size_t count = text.size() <= room ? text.size() : wholeCharacters(text.data(), room);
+  std::memcpy(to.data(), text.data(), count);
   to[count] = 0;
 }
 

@@ -69,8 +69,8 @@ rt::Place elementPlace(const rt::Memory& memory, const LocatedCell& cell, uint32
 
 int32_t checkElements(const LocatedCell& cell, uint32_t first, uint32_t count) noexcept {
   if (first <= cell.ref.count && count <= cell.ref.count - first) return RUNG_OK;
-  return fail(RUNG_BAD_ARGUMENT, "the cell has %u elements: there are none from %u to %llu", cell.ref.count, first,
-              static_cast<unsigned long long>(first) + count);
+  return fail(RUNG_BAD_ARGUMENT, "%u elements from number %u on were asked for; the cell has %u, from number 0 on",
+              count, first, cell.ref.count);
 }
 
 } // namespace
@@ -110,8 +110,7 @@ int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_c
                        .space = found->ref.space,
                        .byte = found->ref.byte,
                        .bit = found->ref.bit};
-    const std::string address = constant ? std::string() : nc::cellAddress(call->running.program(), found->ref);
-    putText(out.address, address.data(), address.size());
+    if (!constant) putText(out.address, nc::cellAddress(call->running.program(), found->ref));
     return giveStruct(info, out);
   });
 }
@@ -194,12 +193,7 @@ int32_t rung_instance_read_text(const rung_instance* instance, rung_cell cell, c
   const LocatedCell* found = textCell(*call, cell, false, status);
   if (found == nullptr) return status;
   return contained([&] {
-    const std::string shown = call->control->shownText(call->running.readText(found->ref));
-    size_t count = std::min(shown.size(), bytes - 1);
-    while (count < shown.size() && count > 0 && (static_cast<uint8_t>(shown[count]) & 0xC0) == 0x80)
-      --count; // whole characters
-    std::memcpy(text, shown.data(), count);
-    text[count] = 0;
+    putText({text, bytes}, call->control->shownText(call->running.readText(found->ref)));
     return int32_t{RUNG_OK};
   });
 }

@@ -13,7 +13,8 @@
  *
  * Threads. An image may be used by all threads. An instance is used by one thread at a time, which need not always be
  * the same; a call that finds another thread inside gives RUNG_WRONG_THREAD. [any] marks what one further thread may
- * call at the same time. In a callback its instance may be read, and nothing else.
+ * call at the same time. In a callback the cells of its instance that were found before may be read, its state and
+ * fault looked at, and nothing else.
  *
  * Real time. [rt] marks what allocates nothing, takes no lock, does not block and makes no system call, as long as the
  * callbacks do not; its time is bounded by what the program does. The rest is for start, end and other threads.
@@ -112,7 +113,7 @@ enum rung_answer {
 typedef struct rung_request {
   uint32_t size;
   uint32_t ticket;
-  const char* service; /* its name, valid as long as the image */
+  const char* service; /* as rung_program::services has it: name, arguments, results; valid as long as the image */
   uint32_t arg_count;
   uint32_t reserved;
   int64_t args[RUNG_MAX_SERVICE_ARGS];
@@ -144,7 +145,8 @@ typedef struct rung_instance_options {
   void (*log)(void* user, int32_t level, const char* text);
   /* The program asks for a service, within a scan. An enum rung_answer. */
   int32_t (*request)(void* user, rung_instance* instance, const rung_request* request, rung_reply* reply);
-  /* A fault has stopped the program, within a scan: its outputs are safe. */
+  /* A fault has stopped the program, within a scan or the power-on: what its dialect clears is 0, and so are the bound
+   * variables that the program writes. */
   void (*fault)(void* user, rung_instance* instance);
 } rung_instance_options;
 
@@ -162,7 +164,8 @@ enum rung_power {
   RUNG_WARM = 1, /* retained memory keeps its contents: those on disk (rung_instance_keep), else the instance's own */
 };
 
-/* Switches the program on, or off and on again, after a fault too. */
+/* Switches the program on, or off and on again, after a fault too. RUNG_FAULTED: what runs at a power-on has faulted;
+ * RUNG_FAILED: the retained memory cannot be taken or saved (rung_instance_keep), and the program is off. */
 RUNG_API int32_t rung_instance_power_on(rung_instance* instance, int32_t power);
 
 /* A regular power-off: the scans that the dialect still needs run, and what is retained is on disk. RUNG_FAILED: it is
@@ -353,7 +356,7 @@ typedef struct rung_message_info {
   int32_t index;
   uint32_t real; /* 1: `value` is a real */
   rung_value value;
-  char text[400]; /* its number as the dialect writes it, and its text */
+  char text[400]; /* its number as the dialect writes it, and its text; "" for RUNG_MESSAGE_CLEAR */
 } rung_message_info;
 
 /* The next message that the program has shown, cleared or logged. RUNG_EMPTY. [any] [rt] */
@@ -389,8 +392,8 @@ RUNG_API int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t
 /* ---- retained memory -------------------------------------------------------------------------------------------- */
 
 /* Keeps retained memory in FILE.a and FILE.b, written in turn, so that a crash at any moment leaves a good one; FILE is
- * `path`. Before the first power-on; a warm one then takes the contents from there. Saving is done by a thread of the
- * library. RUNG_FAILED: the place cannot be written, or another process uses it. */
+ * `path`. Before the first power-on, which looks at the place; a warm one then takes the contents from there. Saving is
+ * done by a thread of the library. */
 RUNG_API int32_t rung_instance_keep(rung_instance* instance, const char* path);
 
 /* Waits until what the program has left so far is on disk. RUNG_FAILED: it is not. Not while the scan thread must not
@@ -492,9 +495,9 @@ typedef struct rung_change {
 RUNG_API int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t index, rung_change* change);
 
 /* The program of the replacement takes over, with its state; the clock, queues and bound variables continue. The
- * replacement then holds the former program as it was: given again, it puts that back. RUNG_LATER: within a pass of the
- * schedule, or a mechanism or a service request waits that the new program does not know; RUNG_WRONG_STATE: it was made
- * for another program than the one that runs. [rt] */
+ * replacement then holds the former program as it was, and reports the way back: given again, it puts that back.
+ * RUNG_LATER: within a pass of the schedule, or a mechanism or a service request waits that the new program does not
+ * know; RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
 RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);
 
 #ifdef __cplusplus

@@ -71,7 +71,10 @@ public:
   rung_instance* handle() const noexcept { return instance_.get(); }
 
   void keep(const std::string& path) { check(rung_instance_keep(handle(), path.c_str())); }
-  void powerOn(Power power = Power::Warm) { check(rung_instance_power_on(handle(), static_cast<int32_t>(power))); }
+  // RUNG_FAULTED: what runs at a power-on has faulted.
+  int32_t powerOn(Power power = Power::Warm) {
+    return check(rung_instance_power_on(handle(), static_cast<int32_t>(power)));
+  }
   void powerOff() { check(rung_instance_power_off(handle())); }
 
   int32_t runDue(int64_t elapsedNs) noexcept { return rung_instance_run_due(handle(), elapsedNs); }

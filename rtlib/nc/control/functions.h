@@ -31,7 +31,7 @@ public:
   virtual std::optional<uint32_t> start(FunctionKind kind, uint32_t code) = 0;
   // Before every slice of the program.
   virtual void step() = 0;
-  // The program has not finished the function on this line.
+  // The program has not finished the function on this line, of which there may be none.
   virtual bool busy(uint32_t line) const = 0;
   // Reset, emergency stop: what is under way ends at once, unanswered.
   virtual void abort() = 0;

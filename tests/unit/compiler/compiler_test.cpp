@@ -124,6 +124,26 @@ TEST(Compiler, MistakesAreDiagnostics) {
   EXPECT_EQ(rung_compilation_write(compilation.handle(), "x.so"), RUNG_WRONG_STATE);
 }
 
+TEST(Compiler, FunctionsGoOverByTheHandshakeOfTheDialect) {
+  const Compilation compilation(kLatch, {.engine = RUNG_ENGINE_INTERP});
+  const rung::Image image = compilation.image();
+  rung::Instance plc(image);
+  uint32_t line = 0;
+  for (const int32_t status : {rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 5, &line),
+                               rung_instance_function_done(plc.handle(), 0, 0),
+                               rung_instance_abort_functions(plc.handle(), 0)})
+    EXPECT_EQ(status, RUNG_WRONG_STATE) << "off";
+  plc.powerOn();
+  ASSERT_EQ(rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 5, &line), RUNG_OK);
+  plc.scan();
+  EXPECT_EQ(plc.read<int>(plc.find("F10")), 5);
+  EXPECT_EQ(rung_instance_function_done(plc.handle(), 0, line), RUNG_LATER);
+  EXPECT_EQ(rung_instance_function_done(plc.handle(), 0, 1u << 31), RUNG_OK) << "not in use";
+  EXPECT_EQ(rung_instance_abort_functions(plc.handle(), 0), RUNG_OK);
+  EXPECT_EQ(rung_instance_function_done(plc.handle(), 0, line), RUNG_OK);
+  EXPECT_EQ(rung_instance_function_done(plc.handle(), 40, line), RUNG_NOT_FOUND);
+}
+
 TEST(Compiler, BadArguments) {
   rung_compilation* compilation = nullptr;
   rung_source source{"latch.lad", kLatch.data(), kLatch.size()};

@@ -305,7 +305,10 @@ struct Answering {
       reply->result_count = 1;
       return self.how;
     };
-    given.fault = [](void* user, rung_instance*) { ++static_cast<Answering*>(user)->faults; };
+    given.fault = [](void* user, rung_instance* plc) {
+      auto fault = rung::sized<rung_fault_info>();
+      if (rung_instance_fault(plc, &fault) == RUNG_OK) ++static_cast<Answering*>(user)->faults;
+    };
     return given;
   }
 };
@@ -499,6 +502,18 @@ TEST_F(Runtime, ImagesStayAsLongAsTheyAreUsed) {
 TEST_F(Runtime, FilesThatAreNoPrograms) {
   EXPECT_EQ(statusOf([] { rung::Image("/nowhere/program.so"); }), RUNG_REFUSED);
   EXPECT_THAT(rung_error_text(), HasSubstr("/nowhere/program.so"));
+}
+
+TEST_F(Runtime, TextsAreCutBetweenCharacters) {
+  rung::Instance plc = started();
+  std::string name;
+  while (name.size() < 400) name += "\u010d\u20ac"; // two and three bytes
+  for (const std::string before : {"", "a", "ab", "abc", "abcd"}) {
+    EXPECT_EQ(statusOf([&] { plc.find(before + name); }), RUNG_NOT_FOUND);
+    const std::string said = rung_error_text();
+    EXPECT_GT(said.size(), 310u);
+    EXPECT_TRUE(said.ends_with("\u010d") || said.ends_with("\u20ac")) << said;
+  }
 }
 
 TEST_F(Runtime, SizesOfStructs) {

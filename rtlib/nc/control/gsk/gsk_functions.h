@@ -50,7 +50,7 @@ public:
   void step() override {
     if (io_) step(*io_);
   }
-  bool busy(uint32_t line) const override { return running_[line].phase != Phase::Idle; }
+  bool busy(uint32_t line) const override { return line < kLines && running_[line].phase != Phase::Idle; }
   void abort() override {
     if (io_) abort(*io_);
   }

@@ -45,7 +45,7 @@ public:
   bool carries(FunctionKind, uint32_t) const override { return true; }
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override;
-  bool busy(uint32_t line) const override { return phases_[line] != Phase::Idle; }
+  bool busy(uint32_t line) const override { return line < kLines && phases_[line] != Phase::Idle; }
   void abort() override;
 
 private:

@@ -1,0 +1,1040 @@
+"""Compiled PLC programs in Python: librung-runtime by its C functions, without a build.
+
+    import rung
+    with rung.Image("mill.so") as image, rung.Instance(image) as plc:
+        plc.power_on(rung.WARM)
+        while plc.run_due(1_000_000):  # nanoseconds since the call before
+            plc["DOOR"] = door_is_closed()
+            lamp(plc["LAMP"])
+        print(plc.fault().text)
+
+rung/runtime.h describes what each call does. Where it has an error, the method raises Error; so does a number or text
+that is out of range or of another type, and the use of what is closed. Names of fields end in their unit: _us are
+microseconds of the program's clock, _ns nanoseconds of the machine's.
+
+An Image may be used by all threads; an Instance, its cells and replacements by one thread at a time. One further thread
+may meanwhile take messages, take and answer requests, and make a Replacement; any may look at a Watch. In a callback
+its Instance may be read, by names that were read before, and nothing else. Python is not real time: what is bounded in
+C is not here.
+
+The library is the file that the environment variable RUNG_RUNTIME names, else librung-runtime.so.0 beside this module,
+in ../lib or ../../lib, else the dynamic linker's. Without one of a fitting version the import is an ImportError.
+"""
+import ctypes
+import enum
+import itertools
+import operator
+import os
+import threading
+import weakref
+from collections import namedtuple
+from collections.abc import Iterable
+from ctypes import (CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32,
+                    c_uint64, c_void_p)
+from keyword import iskeyword
+
+__all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Direction", "Error", "Fault",
+           "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power", "Profile", "Replacement",
+           "Report", "Request", "Sample", "State", "StateFlags", "Status", "Symbol", "SymbolFlags", "Type", "Watch",
+           "version",
+           "COLD", "WARM", "READ", "WRITE", "TO_PROGRAM", "FROM_PROGRAM", "M", "S", "T", "B", "QUEUE"]
+
+_MAJOR, _MINOR = 0, 1  # of the header that this module was written for
+_NONE = 0xFFFFFFFF  # RUNG_NONE
+_MOST_ARGS = 16  # RUNG_MAX_SERVICE_ARGS
+
+
+# ---- enums of C ------------------------------------------------------------------------------------------------------
+
+class Status(enum.IntEnum):
+    """What a call gave: of Error.status those below 0."""
+    OK = 0
+    EMPTY = 1
+    LATER = 2
+    FAULTED = 3
+    BAD_HANDLE = -1
+    BAD_ARGUMENT = -2
+    WRONG_THREAD = -3
+    WRONG_STATE = -4
+    NOT_FOUND = -5
+    WRONG_TYPE = -6
+    OVERWRITTEN = -7
+    REFUSED = -8
+    OUT_OF_MEMORY = -9
+    FAILED = -10
+
+
+class Power(enum.IntEnum):
+    """COLD: memory as a new machine has it; WARM: retained memory keeps its contents."""
+    COLD = 0
+    WARM = 1
+
+
+class Access(enum.IntEnum):
+    """What a cell is found for. WRITE includes reading, of the place that is written."""
+    READ = 0
+    WRITE = 1
+
+
+class Direction(enum.IntEnum):
+    """When a bound variable is copied: before or after every slice."""
+    TO_PROGRAM = 0
+    FROM_PROGRAM = 1
+
+
+class FunctionKind(enum.IntEnum):
+    """Functions of a part program."""
+    M = 0
+    S = 1
+    T = 2
+    B = 3
+
+
+class LogLevel(enum.IntEnum):
+    """The first argument of a `log` callback."""
+    INFO = 0
+    WARNING = 1
+    ERROR = 2
+
+
+class StateFlags(enum.IntFlag):
+    """Of State.flags; AT_START: between two passes, UNSAVED: the last try to write retained memory has failed."""
+    ON = 1
+    STOPPED = 2
+    FAULTED = 4
+    AT_START = 8
+    UNSAVED = 16
+
+
+class Type(enum.IntEnum):
+    """Of cells and symbols."""
+    BIT = 1
+    I8 = 2
+    I16 = 3
+    I32 = 4
+    I64 = 5
+    F64 = 6
+    TEXT = 7
+
+
+class SymbolFlags(enum.IntFlag):
+    """Of Symbol.flags."""
+    READONLY = 1
+    HIDDEN = 2
+    CONST = 4
+
+
+class MessageOp(enum.IntEnum):
+    """What the program does with a message."""
+    CLEAR = 0
+    SHOW = 1
+    SHOW_LOG = 2
+    LOG = 3
+
+
+class ChangeKind(enum.IntEnum):
+    """What becomes of a cell or a state when another program takes over."""
+    NEW = 0
+    REMOVED = 1
+    MOVED = 2
+    RENAMED = 3
+    RETYPED = 4
+
+
+class _Answering(enum.IntEnum):
+    REFUSE = 0
+    ANSWER = 1
+    QUEUE = 2
+
+
+class _InstanceFlags(enum.IntFlag):
+    MEASURE = 1
+    QUEUE_REQUESTS = 2
+
+
+COLD, WARM = Power
+READ, WRITE = Access
+TO_PROGRAM, FROM_PROGRAM = Direction
+M, S, T, B = FunctionKind
+QUEUE = _Answering.QUEUE
+
+# enum rung_host_type. One of 64 bits without a sign has the bits of one with a sign.
+_HOST_TYPES = {kind: number for number, kind in enumerate(
+    (ctypes.c_bool, ctypes.c_int8, ctypes.c_uint8, ctypes.c_int16, ctypes.c_uint16, c_int32, c_uint32, c_int64,
+     ctypes.c_float, c_double), start=1)}
+_HOST_TYPES[c_uint64] = _HOST_TYPES[c_int64]
+
+
+def _member(kind, value):
+    """The member of an enum; of a later library it may be a number that is not known yet."""
+    try:
+        return kind(value)
+    except ValueError:
+        return value
+
+
+# ---- errors ----------------------------------------------------------------------------------------------------------
+
+class Error(Exception):
+    """A call that has done nothing: `status` is a Status below 0, the text a sentence."""
+
+    def __init__(self, status, text):
+        super().__init__(status, text)
+        self.status = _member(Status, status)
+
+    def __str__(self):
+        return self.args[1]
+
+
+# ---- structs of C ----------------------------------------------------------------------------------------------------
+
+class _Struct(ctypes.Structure):
+    """A struct that begins with its size."""
+
+    def __init__(self, **values):
+        super().__init__(size=ctypes.sizeof(self), **values)
+
+
+class rung_image_options(_Struct):
+    _fields_ = [("size", c_uint32), ("allow_unsealed", c_uint32), ("keys_folder", c_char_p)]
+
+
+class rung_request(_Struct):
+    _fields_ = [("size", c_uint32), ("ticket", c_uint32), ("service", c_char_p), ("arg_count", c_uint32),
+                ("reserved", c_uint32), ("args", c_int64 * _MOST_ARGS)]
+
+
+class rung_reply(_Struct):
+    _fields_ = [("size", c_uint32), ("ticket", c_uint32), ("error", c_uint32), ("result_count", c_uint32),
+                ("results", c_int64 * _MOST_ARGS)]
+
+
+_LogFunction = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
+_RequestFunction = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(rung_request), POINTER(rung_reply))
+_FaultFunction = CFUNCTYPE(None, c_void_p, c_void_p)
+
+
+class rung_instance_options(_Struct):
+    _fields_ = [("size", c_uint32), ("flags", c_uint32), ("memory", c_void_p), ("memory_bytes", c_size_t),
+                ("user", c_void_p), ("log", _LogFunction), ("request", _RequestFunction), ("fault", _FaultFunction)]
+
+
+class rung_state(_Struct):
+    _fields_ = [("size", c_uint32), ("flags", c_uint32), ("generation", c_uint32), ("due_us", c_uint32),
+                ("now_us", c_int64), ("wait_ns", c_int64), ("passes", c_uint64), ("missed", c_uint64),
+                ("last_ns", c_int64), ("worst_ns", c_int64), ("lost_messages", c_uint32),
+                ("refused_requests", c_uint32), ("stray_replies", c_uint32), ("reserved", c_uint32),
+                ("saves", c_uint64), ("failed_saves", c_uint64)]
+
+
+class rung_fault_info(_Struct):
+    _fields_ = [("size", c_uint32), ("rung", c_uint32), ("line", c_uint32), ("reserved", c_uint32), ("code", c_char_p),
+                ("file", c_char_p), ("task", c_char_p), ("text", c_char * 256)]
+
+
+class rung_cell_info(_Struct):
+    _fields_ = [("size", c_uint32), ("type", c_uint32), ("count", c_uint32), ("access", c_uint32), ("space", c_uint32),
+                ("byte", c_uint32), ("bit", c_uint32), ("reserved", c_uint32), ("address", c_char * 64)]
+
+
+class rung_value(ctypes.Union):
+    _fields_ = [("integer", c_int64), ("real", c_double)]
+
+
+class rung_symbol_info(_Struct):
+    _fields_ = [("size", c_uint32), ("type", c_uint32), ("count", c_uint32), ("flags", c_uint32), ("space", c_uint32),
+                ("byte", c_uint32), ("bit", c_uint32), ("reserved", c_uint32), ("value", c_int64), ("name", c_char_p),
+                ("comment", c_char_p)]
+
+
+class rung_variable(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("address", c_void_p), ("type", c_uint32), ("direction", c_uint32),
+                ("scale", c_double)]
+
+
+class rung_message_info(_Struct):
+    _fields_ = [("size", c_uint32), ("op", c_uint32), ("number", c_uint32), ("channel", c_int32), ("index", c_int32),
+                ("real", c_uint32), ("value", rung_value), ("text", c_char * 400)]
+
+
+class rung_profile(_Struct):
+    _fields_ = [("size", c_uint32), ("rung", c_uint32), ("line", c_uint32), ("reserved", c_uint32), ("file", c_char_p),
+                ("title", c_char_p), ("runs", c_uint64), ("total_ns", c_double), ("max_ns", c_double)]
+
+
+class rung_sample(_Struct):
+    _fields_ = [("size", c_uint32), ("generation", c_uint32), ("pass", c_uint64), ("now_us", c_int64),
+                ("lost", c_uint64)]
+
+
+class rung_replacement_info(_Struct):
+    _fields_ = [("size", c_uint32), ("kept_cells", c_uint32), ("kept_states", c_uint32), ("changes", c_uint32),
+                ("bytes", c_uint64)]
+
+
+class rung_change(_Struct):
+    _fields_ = [("size", c_uint32), ("kind", c_uint32), ("is_state", c_uint32), ("reserved", c_uint32),
+                ("name", c_char_p), ("former", c_char_p)]
+
+
+class rung_program(ctypes.Structure):
+    """As far as this module reads it."""
+    _fields_ = [("size", c_uint32), ("abi_version", c_uint32), ("name", c_char_p), ("dialect", c_char_p)]
+
+
+# ---- what Python gets of them ----------------------------------------------------------------------------------------
+
+def _decoded(text):
+    # The last character of a text that did not fit may be cut, and a name is as its source wrote it.
+    return text.decode(errors="replace")
+
+
+def _plain(value):
+    return _decoded(value) if isinstance(value, bytes) else value
+
+
+def _space(number):
+    return None if number == _NONE else number
+
+
+def _record(name, struct, doc, **means):
+    """A named tuple for the fields of a struct that mean something in Python, and the struct's method that makes it.
+    `means` has the functions for values that are more than a number or a text."""
+    fields = [field for field, _ in struct._fields_ if field not in ("size", "reserved", "real")]
+    record = namedtuple(name, [f"{field}_" if iskeyword(field) else field for field in fields], module=__name__)
+    record.__doc__ = f"{doc} The fields are those of {struct.__name__} in rung/runtime.h."
+    struct.shown = lambda self: record._make(means.get(field, _plain)(getattr(self, field)) for field in fields)
+    return record
+
+
+def _member_of(kind):
+    return lambda value: _member(kind, value)
+
+
+State = _record("State", rung_state, "Of Instance.state.", flags=StateFlags)
+Fault = _record("Fault", rung_fault_info, "Of Instance.fault. rung 0: none, line 0: unknown.")
+CellInfo = _record("CellInfo", rung_cell_info, "Of Cell.info. space None: a constant.",
+                   type=_member_of(Type), access=_member_of(Access), space=_space)
+Symbol = _record("Symbol", rung_symbol_info, "Of Image.symbols. space None: a constant, with its value.",
+                 type=_member_of(Type), flags=SymbolFlags, space=_space)
+Message = _record("Message", rung_message_info, "Of Instance.messages and .shown. value: a float or an int.",
+                  op=_member_of(MessageOp))
+Profile = _record("Profile", rung_profile, "Of Instance.profile: a rung, how often and how long it ran. rung 0: the "
+                  "compiler's.")
+Sample = _record("Sample", rung_sample, "Of a Watch: when its values were so.")
+Report = _record("Report", rung_replacement_info, "Of Replacement.report.")
+Change = _record("Change", rung_change, "Of Replacement.changes.", kind=_member_of(ChangeKind), is_state=bool)
+
+Request = namedtuple("Request", "ticket service args", module=__name__)
+Request.__doc__ = "A service that the program asks for: its number, name, and arguments as integers."
+
+Answer = namedtuple("Answer", "results error", defaults=((), False), module=__name__)
+Answer.__doc__ = "What a `request` callback answers at once: at most 16 integers, and whether the service has failed."
+
+
+def _message(info):
+    return info.shown()._replace(value=info.value.real if info.real else info.value.integer)
+
+
+def _request(asked):
+    return Request(asked.ticket, _decoded(asked.service), tuple(asked.args[:asked.arg_count]))
+
+
+# ---- arguments -------------------------------------------------------------------------------------------------------
+
+def _integer(value, low, high):
+    """An integer in a range: ctypes itself drops the upper bits of what does not fit."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise Error(Status.WRONG_TYPE, f"{value!r} is not an integer") from None
+    if not low <= number <= high:
+        raise Error(Status.BAD_ARGUMENT, f"{number} is not in the range of {low} to {high}")
+    return number
+
+
+def _real(value):
+    try:
+        return c_double(value).value
+    except (TypeError, OverflowError):
+        raise Error(Status.WRONG_TYPE, f"{value!r} is not a real number") from None
+
+
+def _text(value):
+    """The bytes of a text. C would take it to end at its first 0."""
+    try:
+        text = value.encode()
+    except (AttributeError, UnicodeEncodeError):
+        raise Error(Status.WRONG_TYPE, f"{value!r} is not a text") from None
+    if 0 in text:
+        raise Error(Status.BAD_ARGUMENT, f"{value!r} has a character 0")
+    return text
+
+
+def _path(value):
+    try:
+        path = os.fsencode(value)
+    except (TypeError, UnicodeEncodeError):
+        raise Error(Status.WRONG_TYPE, f"{value!r} is not a path") from None
+    if 0 in path:
+        raise Error(Status.BAD_ARGUMENT, f"{value!r} has a character 0")
+    return path
+
+
+class _Handle(c_void_p):
+    """What C knows an object of this module by; null: it is closed. `end` is the name of the function that frees it."""
+
+    def __init__(self, end=None):
+        super().__init__()
+        self._end = end
+
+    @classmethod
+    def from_param(cls, value):
+        """Of anything else the handle is null, which the library refuses."""
+        handle = getattr(value, "_handle", value)
+        return handle if isinstance(handle, cls) else cls()
+
+    def free(self):
+        _call(getattr(_library, self._end), self)
+        self.value = None
+
+
+def _argument(convert):
+    """An argument that ctypes converts by a function of ours."""
+    return type(convert.__name__, (), {"from_param": staticmethod(convert)})
+
+
+def _number(kind):
+    bits = 8 * ctypes.sizeof(kind)
+    low, high = (-1 << bits - 1, (1 << bits - 1) - 1) if kind(-1).value < 0 else (0, (1 << bits) - 1)
+    return _argument(lambda value: kind(_integer(value, low, high)))
+
+
+# ---- functions of C --------------------------------------------------------------------------------------------------
+
+_Text, _Path = _argument(_text), _argument(_path)
+_I32, _U32, _I64 = _number(c_int32), _number(c_uint32), _number(c_int64)
+_New = POINTER(c_void_p)
+_Values = POINTER(rung_value)
+_Cells = POINTER(c_uint32)
+
+# The result, and the arguments.
+_FUNCTIONS = {
+    "rung_error_text": (c_char_p,),
+    "rung_runtime_version": (c_uint32,),
+    "rung_image_open": (c_int32, _Path, POINTER(rung_image_options), _New),
+    "rung_image_adopt": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p, _New),
+    "rung_image_program": (POINTER(rung_program), _Handle),
+    "rung_image_close": (c_int32, _Handle),
+    "rung_image_symbol": (c_int32, _Handle, _U32, POINTER(rung_symbol_info)),
+    "rung_instance_new": (c_int32, _Handle, POINTER(rung_instance_options), _New),
+    "rung_instance_free": (c_int32, _Handle),
+    "rung_instance_power_on": (c_int32, _Handle, _I32),
+    "rung_instance_power_off": (c_int32, _Handle),
+    "rung_instance_stop": (c_int32, _Handle),
+    "rung_instance_start": (c_int32, _Handle),
+    "rung_instance_run_due": (c_int32, _Handle, _I64),
+    "rung_instance_slice": (c_int32, _Handle),
+    "rung_instance_scan": (c_int32, _Handle),
+    "rung_instance_slot": (c_int32, _Handle),
+    "rung_instance_fast": (c_int32, _Handle),
+    "rung_instance_limit": (c_int32, _Handle, _I64),
+    "rung_instance_state": (c_int32, _Handle, POINTER(rung_state)),
+    "rung_instance_fault": (c_int32, _Handle, POINTER(rung_fault_info)),
+    "rung_instance_find": (c_int32, _Handle, _Text, _I32, _Cells),
+    "rung_instance_cell": (c_int32, _Handle, _U32, POINTER(rung_cell_info)),
+    "rung_instance_read": (c_int32, _Handle, _U32, _U32, _U32, _Values),
+    "rung_instance_write": (c_int32, _Handle, _U32, _U32, _U32, _Values),
+    "rung_instance_read_all": (c_int32, _Handle, _Cells, _U32, _Values),
+    "rung_instance_write_all": (c_int32, _Handle, _Cells, _U32, _Values),
+    "rung_instance_read_text": (c_int32, _Handle, _U32, c_char_p, c_size_t),
+    "rung_instance_write_text": (c_int32, _Handle, _U32, c_char_p),
+    "rung_instance_bind": (c_int32, _Handle, POINTER(rung_variable), _U32),
+    "rung_instance_next_message": (c_int32, _Handle, POINTER(rung_message_info)),
+    "rung_instance_shown": (c_int32, _Handle, _U32, POINTER(rung_message_info)),
+    "rung_instance_next_request": (c_int32, _Handle, POINTER(rung_request)),
+    "rung_instance_answer": (c_int32, _Handle, POINTER(rung_reply)),
+    "rung_instance_begin_function": (c_int32, _Handle, _U32, _I32, _U32, POINTER(c_uint32)),
+    "rung_instance_function_done": (c_int32, _Handle, _U32, _U32),
+    "rung_instance_abort_functions": (c_int32, _Handle, _U32),
+    "rung_instance_keep": (c_int32, _Handle, _Path),
+    "rung_instance_flush": (c_int32, _Handle),
+    "rung_instance_profile": (c_int32, _Handle, _U32, POINTER(rung_profile)),
+    "rung_instance_worst_rung": (c_int32, _Handle, POINTER(rung_profile)),
+    "rung_watch_new": (c_int32, _Handle, _Cells, _U32, _U32, _New),
+    "rung_watch_free": (c_int32, _Handle),
+    "rung_watch_newest": (c_int32, _Handle, _Values, POINTER(rung_sample)),
+    "rung_watch_next": (c_int32, _Handle, _Values, POINTER(rung_sample)),
+    "rung_replacement_new": (c_int32, _Handle, _Handle, c_void_p, c_size_t, _New),
+    "rung_replacement_free": (c_int32, _Handle),
+    "rung_replacement_report": (c_int32, _Handle, POINTER(rung_replacement_info)),
+    "rung_replacement_change": (c_int32, _Handle, _U32, POINTER(rung_change)),
+    "rung_instance_replace": (c_int32, _Handle, _Handle),
+}
+
+
+def _find():
+    given = os.environ.get("RUNG_RUNTIME")
+    if given:
+        return os.path.abspath(given)
+    name = "librung-runtime.so.0"
+    here = os.path.dirname(os.path.abspath(__file__))
+    near = (os.path.join(here, *folders, name) for folders in ((), ("..", "lib"), ("..", "..", "lib")))
+    return next(filter(os.path.exists, near), name)
+
+
+def _declared(library, name):
+    function = getattr(library, name)
+    function.restype, *function.argtypes = _FUNCTIONS[name]
+    return function
+
+
+def _load():
+    """The library with its functions declared, of a version that serves this module."""
+    path = _find()
+    try:
+        library = ctypes.CDLL(path)
+        version_there = _declared(library, "rung_runtime_version")()
+        major, minor = version_there >> 16, version_there & 0xFFFF
+        if major != _MAJOR or minor < _MINOR:
+            raise ImportError(f"{path} is version {major}.{minor} of librung-runtime, but this module needs version "
+                              f"{_MAJOR}.{_MINOR}, or a later one of {_MAJOR}")
+        for name in _FUNCTIONS:
+            _declared(library, name)
+    except (OSError, AttributeError) as wrong:
+        raise ImportError(f"librung-runtime cannot be loaded: {wrong}; the environment variable RUNG_RUNTIME may name "
+                          "its file") from None
+    return library
+
+
+_library = _load()
+
+
+def _call(function, *arguments):
+    """The status of a call, where it is not an error."""
+    try:
+        status = function(*arguments)
+    except ctypes.ArgumentError as wrong:  # "argument 2: <class 'rung.Error'>: 'x' is not an integer"
+        raise Error(Status.BAD_ARGUMENT, f"{function.__name__}: {str(wrong).split(': ', 2)[-1]}") from None
+    if status < 0:
+        raise Error(status, _decoded(_library.rung_error_text()))
+    return status
+
+
+def _each(owner, function, struct):
+    """The entries of a list of C, which ends with EMPTY."""
+    for index in itertools.count():
+        entry = struct()
+        if _call(function, owner, index, byref(entry)) == Status.EMPTY:
+            return
+        yield entry
+
+
+def _free_instance(handle, parts):
+    while parts:
+        parts.pop().free()
+    handle.free()
+
+
+def version():
+    """(major, minor) of the library."""
+    there = _library.rung_runtime_version()
+    return there >> 16, there & 0xFFFF
+
+
+# ---- callbacks -------------------------------------------------------------------------------------------------------
+
+class _Raised(threading.local):
+    """The first exception of a callback within the call that this thread is in: none can pass through C."""
+    first = None
+
+
+_raised = _Raised()
+
+
+def _callback(kind, body, otherwise=None):
+    """A C function of a callback; gives `otherwise` after an exception."""
+    def called(*arguments):
+        try:
+            return body(*arguments)
+        except BaseException as raised:
+            if _raised.first is None:
+                _raised.first = raised
+            return otherwise
+    return kind(called)
+
+
+def _run(function, *arguments):
+    """_call for what runs callbacks, and raises what they have raised."""
+    outer, _raised.first = _raised.first, None  # a callback may run another instance
+    try:
+        return _call(function, *arguments)
+    finally:
+        first, _raised.first = _raised.first, outer
+        if first is not None:
+            raise first
+
+
+def _fill(reply, results, error):
+    results = list(results)
+    if len(results) > _MOST_ARGS:
+        raise Error(Status.BAD_ARGUMENT, f"a reply has at most {_MOST_ARGS} results, not {len(results)}")
+    for index, result in enumerate(results):
+        reply.results[index] = _integer(result, -1 << 63, (1 << 63) - 1)
+    reply.result_count = len(results)
+    reply.error = bool(error)
+
+
+def _answered(answer, reply):
+    """What a `request` callback has given, as enum rung_answer."""
+    if answer is None:
+        return _Answering.REFUSE
+    if answer is QUEUE:
+        return QUEUE
+    if not isinstance(answer, Answer):
+        raise Error(Status.WRONG_TYPE, f"a request callback gives an Answer, QUEUE or None, not {answer!r}")
+    _fill(reply, *answer)
+    return _Answering.ANSWER
+
+
+# ---- images ----------------------------------------------------------------------------------------------------------
+
+class _Closing:
+    """What ends with its `with`."""
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+class Image(_Closing):
+    """A compiled program.
+
+    `name` and `dialect` are its own. Instances and replacements may outlive it. It is closed by close, at the end of
+    its `with`, or when nobody uses it any more.
+    """
+
+    def __init__(self, path, *, allow_unsealed=False, keys_folder=None):
+        """Loads a program that `rungc build` has written. `allow_unsealed` takes one without a seal; `keys_folder` has
+        the public keys for signed programs, else the system's are taken. Error: REFUSED, OUT_OF_MEMORY."""
+        self._handle = _Handle("rung_image_close")
+        keys = None if keys_folder is None else _path(keys_folder)
+        options = rung_image_options(allow_unsealed=bool(allow_unsealed), keys_folder=keys)
+        _call(_library.rung_image_open, path, byref(options), byref(self._handle))
+        weakref.finalize(self, self._handle.free)
+        program = _library.rung_image_program(self).contents
+        self.name, self.dialect = _decoded(program.name), _decoded(program.dialect)
+
+    def close(self):
+        """Ends the use of the image. Closing again does nothing."""
+        self._handle.free()
+
+    def symbols(self):
+        """The author's names, constants included, one Symbol after the other in the order of their bytes."""
+        return (symbol.shown() for symbol in _each(self, _library.rung_image_symbol, rung_symbol_info))
+
+
+# ---- cells -----------------------------------------------------------------------------------------------------------
+
+class Cell:
+    """A cell of an instance that was found by its name, from Instance.cell. When another program takes over, it is the
+    cell of that name there; Error NOT_FOUND, WRONG_TYPE or OVERWRITTEN where there is none that serves."""
+
+    def __init__(self, handle, name, access):
+        # Not the instance: one that nobody uses any more ends, whoever keeps its cells.
+        self._handle, self.name = handle, name
+        number = c_uint32()
+        _call(_library.rung_instance_find, handle, name, access, byref(number))
+        self._number = number.value
+        self._type = self._look().type  # of another program its width may be another; a text or real it stays
+
+    @property
+    def info(self):
+        """Its CellInfo in the program that runs now."""
+        return self._look().shown()
+
+    def _look(self):
+        info = rung_cell_info()
+        _call(_library.rung_instance_cell, self._handle, self._number, byref(info))
+        return info
+
+    def read(self, first=0, count=1):
+        """The `first`-th element, from 0; a list, where `count` is not 1. A real is a float, everything else an int,
+        extended by its sign. A text is a str, read as a whole. Error: BAD_ARGUMENT, there are not so many elements."""
+        if self._type == Type.TEXT:
+            return self._read_text(first, count)
+        # The library refuses more elements than the cell has, so there is room for those alone.
+        room = _integer(count, 0, _NONE)
+        values = (rung_value * (room if room < 2 else min(room, self._look().count)))()
+        _call(_library.rung_instance_read, self._handle, self._number, first, count, values)
+        shown = [self._shown(value) for value in values]
+        return shown[0] if count == 1 else shown
+
+    def write(self, value, first=0):
+        """Writes the `first`-th element, from 0; several from there on, where `value` is a list or anything else that
+        iterates. Of an integer for a narrower cell the lowest bits are written. A text is a str, cut off where the cell
+        does not hold it. Error: BAD_ARGUMENT, there are not so many elements, or more than 64 bits; WRONG_TYPE, another
+        kind of value, or a cell that was found for reading."""
+        if self._type == Type.TEXT:
+            self._write_text(value, first)
+            return
+        several = isinstance(value, Iterable) and not isinstance(value, (str, bytes))
+        values = [self._given(element) for element in (value if several else [value])]
+        _call(_library.rung_instance_write, self._handle, self._number, first, len(values), _values(values))
+
+    def _shown(self, value):
+        return value.real if self._type == Type.F64 else value.integer
+
+    def _given(self, value):
+        try:
+            if self._type == Type.F64:
+                return rung_value(real=_real(value))
+            return rung_value(integer=_integer(value, -1 << 63, (1 << 64) - 1))
+        except Error as wrong:
+            raise Error(wrong.status, f"{self.name}: {wrong}") from None
+
+    def _read_text(self, first, count):
+        if (first, count) != (0, 1):
+            raise Error(Status.BAD_ARGUMENT, f"{self.name} is a text, which is read as a whole")
+        room = ctypes.create_string_buffer(4 * self._look().count + 1)  # a byte of memory has at most four in UTF-8
+        _call(_library.rung_instance_read_text, self._handle, self._number, room, len(room))
+        return _decoded(room.value)
+
+    def _write_text(self, value, first):
+        if first != 0:
+            raise Error(Status.BAD_ARGUMENT, f"{self.name} is a text, which is written as a whole")
+        try:
+            text = _text(value)
+        except Error as wrong:
+            raise Error(wrong.status, f"{self.name}: {wrong}") from None
+        _call(_library.rung_instance_write_text, self._handle, self._number, text)
+
+
+# ---- instances -------------------------------------------------------------------------------------------------------
+
+class Instance(_Closing):
+    """A program that runs: its memory, clock, queues, and the part of the control that belongs to its dialect.
+
+    It ends by close, at the end of its `with`, or when nobody uses it any more; nothing switches it off but power_off.
+
+    Methods that run the program give True, or False where a fault has stopped it, now or before (see fault). After an
+    exception in a callback the call that led to it runs to its end and then raises that exception, the first of them.
+    """
+
+    def __init__(self, image, *, request=None, fault=None, log=None, measure=False, queue_requests=False):
+        """One program that runs, not switched on yet.
+
+        request(plc, request): the program asks for a service, a Request, within a scan. Gives an Answer, or QUEUE: it
+            waits for next_request, or None: the control answers at once, as where no CNC is there to serve it. So it
+            does after an exception.
+        fault(plc): a fault has stopped the program, within a scan.
+        log(level, text): what an operator should know, with its LogLevel.
+        measure: the times of passes are measured, for State.last_ns and .worst_ns.
+        queue_requests: without `request`, all requests wait for next_request.
+
+        Error: OUT_OF_MEMORY.
+        """
+        me = weakref.ref(self)  # its callbacks do not keep it alive
+        options = rung_instance_options(flags=bool(measure) * _InstanceFlags.MEASURE
+                                        | bool(queue_requests) * _InstanceFlags.QUEUE_REQUESTS)
+        if log is not None:
+            options.log = _callback(_LogFunction, lambda _, level, text: log(_member(LogLevel, level), _decoded(text)))
+        if request is not None:
+            options.request = _callback(_RequestFunction, lambda _, __, asked, reply: _answered(
+                request(me(), _request(asked.contents)), reply.contents), _Answering.REFUSE)
+        if fault is not None:
+            options.fault = _callback(_FaultFunction, lambda *_: fault(me()))
+        self._handle = _Handle("rung_instance_free")
+        self._cells = {}
+        self._parts = []  # handles of what ends before it
+        self._used = [options]  # what C has addresses of: callbacks and bound variables
+        _call(_library.rung_instance_new, image, byref(options), byref(self._handle))
+        # Without `_used`: what a callback belongs to may hold the instance, which then would never end.
+        weakref.finalize(self, _free_instance, self._handle, self._parts)
+
+    def close(self):
+        """Ends it, after its watches and replacements. What was to be saved is on disk, or has been tried. Closing
+        again does nothing. Error: WRONG_THREAD, WRONG_STATE in a callback."""
+        _free_instance(self._handle, self._parts)
+        self._used.clear()
+
+    # -- power --
+
+    def power_on(self, power=WARM):
+        """Switches the program on, COLD or WARM, or off and on again, after a fault too. False: what runs at a power-on
+        has faulted. Error: FAILED, retained memory cannot be read or saved, or another process uses it; the program is
+        off then."""
+        return self._ran(_library.rung_instance_power_on, power)
+
+    def power_off(self):
+        """A regular power-off: the scans that the dialect still needs run, and what is retained is on disk. Error:
+        FAILED, it is not; the program is off all the same; WRONG_STATE, it was off."""
+        _run(_library.rung_instance_power_off, self)
+
+    def stop(self):
+        """The operator's stop: the program's clock advances, and nothing else is done."""
+        _call(_library.rung_instance_stop, self)
+
+    def start(self):
+        """Ends a stop."""
+        _call(_library.rung_instance_start, self)
+
+    # -- running --
+
+    def _ran(self, function, *arguments):
+        return _run(function, self, *arguments) != Status.FAULTED
+
+    def run_due(self, ns):
+        """Runs what is due once the host's clock has advanced by so many nanoseconds, 0 to one hour. What is late is
+        caught up, up to ten passes. Error: WRONG_STATE, the program is off, or its schedule has no period."""
+        return self._ran(_library.rung_instance_run_due, ns)
+
+    def slice(self):
+        """Runs one slice of the schedule, whatever the time. Error: WRONG_STATE, the program is off."""
+        return self._ran(_library.rung_instance_slice)
+
+    def scan(self, count=1):
+        """Runs the rest of a pass, and `count` - 1 more, as long as no fault stops them. Error: WRONG_STATE, the
+        program is off."""
+        return all(self._ran(_library.rung_instance_scan) for _ in range(_integer(count, 1, _NONE)))
+
+    def slot(self):
+        """Runs the rest of a slot, for dialects that have slots. Error: WRONG_STATE, the program is off."""
+        return self._ran(_library.rung_instance_slot)
+
+    def fast(self):
+        """Runs the fast task once. Error: WRONG_STATE, the program is off."""
+        return self._ran(_library.rung_instance_fast)
+
+    def limit(self, ns):
+        """How long one of these calls may run the program before that is a fault, in nanoseconds of 0 to one hour; 0:
+        the budgets of its tasks alone count. Error: BAD_ARGUMENT."""
+        _call(_library.rung_instance_limit, self, ns)
+
+    def state(self):
+        """A State: clocks, counters since the power-on, and flags, as in `StateFlags.ON in plc.state().flags`."""
+        state = rung_state()
+        _call(_library.rung_instance_state, self, byref(state))
+        return state.shown()
+
+    def fault(self):
+        """The Fault that has stopped the program; None: there is none."""
+        fault = rung_fault_info()
+        status = _call(_library.rung_instance_fault, self, byref(fault))
+        return None if status == Status.EMPTY else fault.shown()
+
+    # -- names and values --
+
+    def cell(self, name, access=READ):
+        """The Cell of a name of the program, an address of its dialect or a signal of the NC's interface, found for
+        READ or WRITE; looked up once. Error: NOT_FOUND; for WRITE also OVERWRITTEN, the sentence says where to write,
+        and WRONG_TYPE, a constant."""
+        if (name, access) not in self._cells:
+            self._cells[name, access] = Cell(self._handle, name, access)
+        return self._cells[name, access]
+
+    def __getitem__(self, name):
+        """The value of a name, as Cell.read gives it; of an array a list. Errors as of cell."""
+        cell = self.cell(name)
+        return cell.read() if cell._type == Type.TEXT else cell.read(0, cell._look().count)
+
+    def __setitem__(self, name, value):
+        """Writes the value of a name, as Cell.write takes it; of an array all its elements. Errors as of cell and
+        Cell.write."""
+        cell = self.cell(name, WRITE)
+        count = cell._look().count
+        if cell._type != Type.TEXT and count != 1:
+            if not isinstance(value, Iterable) or len(value := list(value)) != count:
+                raise Error(Status.BAD_ARGUMENT, f"{name} has {count} elements: its value is a list of so many")
+        cell.write(value)
+
+    def read_all(self, names):
+        """The values of names in one call, all of one moment: {name: value}; of an array its first element. Errors as
+        of cell; WRONG_TYPE, a text."""
+        names = list(names)
+        cells = [self.cell(name) for name in names]
+        values = (rung_value * len(cells))()
+        _call(_library.rung_instance_read_all, self, _cell_numbers(cells), len(cells), values)
+        return {name: cell._shown(value) for name, cell, value in zip(names, cells, values)}
+
+    def write_all(self, values):
+        """Writes {name: value} in one call, all or nothing; of an array its first element. Errors as of cell and
+        Cell.write; WRONG_TYPE, a text."""
+        cells = [self.cell(name, WRITE) for name in values]
+        given = [cell._given(value) for cell, value in zip(cells, values.values())]
+        _call(_library.rung_instance_write_all, self, _cell_numbers(cells), len(cells), _values(given))
+
+    def bind(self, name, variable, direction, scale=0):
+        """Binds a variable of ctypes, c_bool to c_uint64, c_float or c_double, to a name: from now on it is copied
+        TO_PROGRAM before every slice, or FROM_PROGRAM after every slice; then it is 0 after a fault and after the
+        power-off. `scale` is of reals: units of the program in one of the host's; 0: 1. Errors as of cell; WRONG_TYPE,
+        another variable, or a text of the program; BAD_ARGUMENT."""
+        if type(variable) not in _HOST_TYPES:
+            raise Error(Status.WRONG_TYPE, f"{name}: a bound variable is a bool, an integer, a float or a double of "
+                                           f"ctypes, not {variable!r}")
+        bound = rung_variable(_text(name), ctypes.addressof(variable), _HOST_TYPES[type(variable)],
+                              _integer(direction, 0, _NONE), _real(scale))
+        _call(_library.rung_instance_bind, self, byref(bound), 1)
+        self._used.append(variable)
+
+    # -- messages and services --
+
+    def messages(self):
+        """The messages that the program has shown, cleared or logged and nobody has taken yet, one Message after the
+        other."""
+        message = rung_message_info()
+        while _call(_library.rung_instance_next_message, self, byref(message)) != Status.EMPTY:
+            yield _message(message)
+
+    def shown(self):
+        """What the operator sees now: a list of Message."""
+        return [_message(message) for message in _each(self, _library.rung_instance_shown, rung_message_info)]
+
+    def next_request(self):
+        """The next Request that waits for an answer; None: there is none."""
+        asked = rung_request()
+        status = _call(_library.rung_instance_next_request, self, byref(asked))
+        return None if status == Status.EMPTY else _request(asked)
+
+    def answer(self, ticket, results=(), error=False):
+        """Answers a request of next_request, by the same thread: at most 16 integers, and whether the service has
+        failed. The program sees it before its next slice. False: there are more answers than it can have asked for; try
+        again after a slice. Error: BAD_ARGUMENT, WRONG_TYPE."""
+        reply = rung_reply(ticket=_integer(ticket, 0, _NONE))
+        _fill(reply, results, error)
+        return _call(_library.rung_instance_answer, self, byref(reply)) != Status.LATER
+
+    # -- functions of a part program --
+
+    def begin_function(self, channel, kind, code):
+        """Hands a function, M, S, T or B, of a channel (from 0) over to the program. Gives its line, for function_done;
+        None: the signals that it needs are in use, try again after the next slice. Error: NOT_FOUND, the control has no
+        such channel or no signals for it; WRONG_STATE, the program is off."""
+        line = c_uint32()
+        status = _call(_library.rung_instance_begin_function, self, channel, kind, code, byref(line))
+        return None if status == Status.LATER else line.value
+
+    def function_done(self, channel, line):
+        """Whether the program has finished the function of a line that begin_function gave. Error: NOT_FOUND, no such
+        channel."""
+        return _call(_library.rung_instance_function_done, self, channel, line) != Status.LATER
+
+    def abort_functions(self, channel):
+        """Reset, emergency stop: what is under way in the channel ends at once. Error: NOT_FOUND, no such channel."""
+        _call(_library.rung_instance_abort_functions, self, channel)
+
+    # -- retained memory --
+
+    def keep(self, path):
+        """Keeps retained memory in PATH.a and PATH.b, from the next power_on, which reports what is wrong with them.
+        Error: WRONG_STATE, not before the first power-on, or said before."""
+        _call(_library.rung_instance_keep, self, path)
+
+    def flush(self):
+        """Waits until what the program has left so far is on disk. Error: FAILED, it is not; WRONG_STATE, nothing is
+        kept."""
+        _call(_library.rung_instance_flush, self)
+
+    # -- profile --
+
+    def profile(self):
+        """How often and how long each rung ran since the power-on, one Profile after the other. Error: WRONG_STATE, the
+        program was not built with `rungc build --profile`."""
+        return (entry.shown() for entry in _each(self, _library.rung_instance_profile, rung_profile))
+
+    def worst_rung(self):
+        """The Profile of the rung whose longest run took longest; None: none has run. Errors as of profile."""
+        worst = rung_profile()
+        status = _call(_library.rung_instance_worst_rung, self, byref(worst))
+        return None if status == Status.EMPTY else worst.shown()
+
+    # -- another program --
+
+    def replace(self, replacement):
+        """The program of a Replacement takes over, with its state. The replacement then holds the former program as it
+        was: given again, it puts that back. False: not at this moment, try again after the next slice. Error:
+        WRONG_STATE, it was made for another program than the one that runs; BAD_ARGUMENT, for another instance."""
+        return _call(_library.rung_instance_replace, self, replacement) != Status.LATER
+
+
+def _values(values):
+    return (rung_value * len(values))(*values)
+
+
+def _cell_numbers(cells):
+    return (c_uint32 * len(cells))(*(cell._number for cell in cells))
+
+
+# ---- what belongs to an instance -------------------------------------------------------------------------------------
+
+class _Part(_Closing):
+    """What ends with its instance at the latest, and keeps it."""
+
+    def __init__(self, plc, end, new, *arguments):
+        self._handle = _Handle(end)
+        _call(new, plc, *arguments, byref(self._handle))
+        self._plc = plc
+        plc._parts.append(self._handle)
+
+    def close(self):
+        """Ends it. Closing again does nothing."""
+        self._handle.free()
+        if self._handle in self._plc._parts:
+            self._plc._parts.remove(self._handle)
+
+
+class Watch(_Part):
+    """Names that other threads look at while the program runs: their values at the end of a pass, all of one pass.
+
+    It ends by close, at the end of its `with`, or with its instance.
+    """
+
+    def __init__(self, plc, names, depth=0):
+        """Watches names, of an array its first element, from the end of this pass on; from any thread, where they were
+        read before. `depth`: how many passes are kept for samples, at most 1,000,000. Errors as of Instance.cell;
+        WRONG_TYPE, a text; WRONG_STATE, there are 16 already; BAD_ARGUMENT."""
+        self._names = list(names)
+        self._cells = [plc.cell(name) for name in self._names]
+        super().__init__(plc, "rung_watch_free", _library.rung_watch_new, _cell_numbers(self._cells),
+                         len(self._cells), depth)
+
+    def newest(self):
+        """(Sample, {name: value}) of the last pass that is over, or of the moment of a fault; None: none has ended
+        since the watch began. A name that the program no longer has is 0. Any thread, and several at a time."""
+        return self._sample(_library.rung_watch_newest)
+
+    def samples(self):
+        """(Sample, {name: value}) of every pass that waits, one after the other. Any thread, one at a time."""
+        return iter(lambda: self._sample(_library.rung_watch_next), None)
+
+    def _sample(self, function):
+        values, sample = (rung_value * len(self._cells))(), rung_sample()
+        if _call(function, self, values, byref(sample)) == Status.EMPTY:
+            return None
+        return sample.shown(), {name: cell._shown(value) for name, cell, value in zip(self._names, self._cells, values)}
+
+
+class Replacement(_Part):
+    """Another program of the same dialect, ready to take over from the one that runs in an instance (Instance.replace).
+
+    It ends by close, at the end of its `with`, or with its instance.
+    """
+
+    def __init__(self, plc, image):
+        """Finds out what becomes of the state of the program that runs in `plc`, which may be scanned meanwhile by its
+        thread, but neither closed nor given another program. Error: REFUSED, a program of another dialect;
+        OUT_OF_MEMORY."""
+        super().__init__(plc, "rung_replacement_free", _library.rung_replacement_new, image, None, 0)
+
+    def report(self):
+        """A Report of what replace would do now: how many names and states stay, how many change, and the bytes that
+        are copied."""
+        report = rung_replacement_info()
+        _call(_library.rung_replacement_report, self, byref(report))
+        return report.shown()
+
+    def changes(self):
+        """What replace would change now: a list of Change, cells before states, each in the order of their names."""
+        return [change.shown() for change in _each(self, _library.rung_replacement_change, rung_change)]

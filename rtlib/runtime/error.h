@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "rung/runtime.h"
 
@@ -12,8 +13,8 @@ namespace rung::runtime {
 
 // Keeps the sentence and gives the status. Allocates nothing.
 [[gnu::format(printf, 2, 3)]] int32_t fail(rung_status status, const char* format, ...) noexcept;
-// How many of the first `length` bytes are whole characters of UTF-8: for texts that are cut.
-size_t wholeCharacters(const char* text, size_t length) noexcept;
+// How many bytes of a text that was cut are whole characters of UTF-8.
+size_t wholeCharacters(std::string_view cut) noexcept;
 // The sentence of the thread's last error, "" before the first.
 const char* errorText() noexcept;
 

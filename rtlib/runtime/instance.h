@@ -56,7 +56,7 @@ struct rung_instance {
   rung::runtime::Hooks hooks;
   rung::host::Instance running;
   rung::host::Pace pace;
-  std::optional<rung::profile::Clock> clock; // of a program that counts and times its rungs
+  rung::profile::Clock clock; // of a program that counts and times its rungs
   rung::runtime::CellNames names;
   std::unique_ptr<rung::runtime::CellTable> cells;
   std::vector<rung::runtime::BoundVariable> inputs, outputs;

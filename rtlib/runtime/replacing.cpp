@@ -31,7 +31,7 @@ struct rung_replacement {
   host::Replacement replacement;
   std::unique_ptr<CellTable> cells;
   std::unique_ptr<host::RetainLane> lane; // what is kept of the program
-  std::optional<profile::Clock> clock;
+  profile::Clock clock;
 };
 
 int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,

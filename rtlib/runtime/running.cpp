@@ -131,30 +131,40 @@ int32_t rung_instance_start(rung_instance* instance) {
   return call.status();
 }
 
+namespace {
+
+uint32_t flagsOf(const rung_instance& instance) noexcept {
+  uint32_t flags = 0;
+  if (instance.on) flags |= RUNG_STATE_ON;
+  if (instance.running.stopped()) flags |= RUNG_STATE_STOPPED;
+  if (instance.running.faulted()) flags |= RUNG_STATE_FAULTED;
+  if (instance.running.atListStart()) flags |= RUNG_STATE_AT_START;
+  if (instance.retention && instance.retention->memory().failing()) flags |= RUNG_STATE_UNSAVED;
+  return flags;
+}
+
+} // namespace
+
 int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
   const Call call(instance, From::CallbackToo);
   if (!call.ok()) return call.status();
   const host::Instance& running = call->running;
   const host::RetainedMemory* kept = call->retention ? &call->retention->memory() : nullptr;
-  const bool unsaved = kept != nullptr && kept->failing();
   return giveStruct(
-      state,
-      rung_state{.flags = (call->on ? RUNG_STATE_ON : 0u) | (running.stopped() ? RUNG_STATE_STOPPED : 0u) |
-                          (running.faulted() ? RUNG_STATE_FAULTED : 0u) |
-                          (running.atListStart() ? RUNG_STATE_AT_START : 0u) | (unsaved ? RUNG_STATE_UNSAVED : 0u),
-                 .generation = running.generation(),
-                 .due_us = running.sliceDelayUs(),
-                 .now_us = running.nowUs(),
-                 .wait_ns = call->pace.untilNextNs(),
-                 .passes = call->passes,
-                 .missed = call->pace.missed(),
-                 .last_ns = call->lastPassNs,
-                 .worst_ns = call->worstPassNs,
-                 .lost_messages = static_cast<uint32_t>(running.messages().lost() + call->messages.lost()),
-                 .refused_requests = running.services().refused(),
-                 .stray_replies = running.services().stray(),
-                 .saves = kept != nullptr ? kept->saved() : 0,
-                 .failed_saves = kept != nullptr ? kept->failed() : 0});
+      state, rung_state{.flags = flagsOf(*call),
+                        .generation = running.generation(),
+                        .due_us = running.sliceDelayUs(),
+                        .now_us = running.nowUs(),
+                        .wait_ns = call->pace.untilNextNs(),
+                        .passes = call->passes,
+                        .missed = call->pace.missed(),
+                        .last_ns = call->lastPassNs,
+                        .worst_ns = call->worstPassNs,
+                        .lost_messages = static_cast<uint32_t>(running.messages().lost() + call->messages.lost()),
+                        .refused_requests = running.services().refused(),
+                        .stray_replies = running.services().stray(),
+                        .saves = kept != nullptr ? kept->saved() : 0,
+                        .failed_saves = kept != nullptr ? kept->failed() : 0});
 }
 
 int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info) {

@@ -44,9 +44,8 @@ int32_t giveStruct(Struct* host, const Struct& from) noexcept {
 // The characters that fit, ended by 0.
 inline void putText(std::span<char> to, std::string_view text) noexcept {
   const size_t room = to.size() - 1;
-  const size_t count = text.size() <= room ? text.size() : wholeCharacters(text.data(), room);
-  std::memcpy(to.data(), text.data(), count);
-  to[count] = 0;
+  if (text.size() > room) text = text.substr(0, wholeCharacters(text.substr(0, room)));
+  *std::ranges::copy(text, to.begin()).out = 0;
 }
 
 } // namespace rung::runtime

@@ -30,9 +30,10 @@ int32_t failName(const rung_instance& instance, const char* name, CellState stat
     return fail(RUNG_NOT_FOUND,
                 "%s is not a name of the program %s, an address of its dialect or a signal of the NC's interface", name,
                 program.name);
-  const auto source = host::Overwritten(program).source(*instance.control->writePlace(program, name));
+  const std::optional<host::Ref> place = instance.control->writePlace(program, name);
+  const std::optional<host::Ref> source = place ? host::Overwritten(program).source(*place) : std::nullopt;
   return fail(RUNG_OVERWRITTEN, "%s is copied from %s before the program reads it: write there", name,
-              nc::describe(program, *source).c_str());
+              source ? nc::describe(program, *source).c_str() : "another place");
 }
 
 // The cell as it can be used now; null: `status` says what is wrong.

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-int every_function(void* no_handle);
+int callEveryFunction(void* no_handle);
 
 static int wrong;
 
@@ -84,7 +84,7 @@ static void replacements(rung_replacement* replacement) {
   BAD_HANDLE(rung_replacement_change(replacement, 0, &change));
 }
 
-int every_function(void* no_handle) {
+int callEveryFunction(void* no_handle) {
   void* const handles[] = {NULL, no_handle, (char*)no_handle + 1};
   rung_image* image = NULL;
   rung_instance* plc = NULL;

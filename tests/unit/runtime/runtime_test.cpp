@@ -16,7 +16,7 @@
 
 #include "tests/unit/runtime/test_image.h"
 
-extern "C" int every_function(void* no_handle);
+extern "C" int callEveryFunction(void* no_handle);
 
 namespace {
 
@@ -100,7 +100,7 @@ protected:
 
 TEST_F(Runtime, CallsFromC) {
   std::array<uint64_t, 64> noHandle{};
-  EXPECT_EQ(every_function(noHandle.data()), 0);
+  EXPECT_EQ(callEveryFunction(noHandle.data()), 0);
   // A handle of another kind is none.
   const rung::Instance plc(*image_);
   EXPECT_EQ(rung_image_close(reinterpret_cast<rung_image*>(plc.handle())), RUNG_BAD_HANDLE);
@@ -134,7 +134,7 @@ TEST_F(Runtime, RunsByTheClockOfItsHost) {
   EXPECT_EQ(plc.read<int>(count), 2);
   EXPECT_EQ(plc.state().passes, 2u);
   EXPECT_EQ(plc.state().now_us, 16000);
-  EXPECT_EQ(plc.runDue(8'000'000 * 30), RUNG_OK) << "ten passes are caught up";
+  EXPECT_EQ(plc.runDue(240'000'000), RUNG_OK) << "ten passes are caught up";
   EXPECT_EQ(plc.state().missed, 20u - 1u);
   EXPECT_EQ(plc.state().now_us, 16000 + 240000) << "timers stay right";
   EXPECT_EQ(plc.runDue(-1), RUNG_BAD_ARGUMENT);
@@ -680,7 +680,10 @@ TEST_F(Runtime, ProgramsAreChangedWhileOthersLookOn) {
     while (changes < kChanges) {
       rung::Watch watch(plc, cells, 4);
       for (int seen = 0; seen < 10 && changes < kChanges;)
-        if (const auto sample = watch.next()) EXPECT_EQ(sample->values[0].integer, 4711), ++seen;
+        if (const auto sample = watch.next()) {
+          EXPECT_EQ(sample->values[0].integer, 4711);
+          ++seen;
+        }
     }
   });
   for (int i = 1; i <= kChanges; ++i) {

@@ -98,6 +98,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.passNs = instance.lastPassNs = instance.worstPassNs = 0;
   instance.on = instance.wasOn = true;
   instance.faultReported = false;
+  instance.faultImage.reset();
   return reportFault(instance);
 }
 

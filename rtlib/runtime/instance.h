@@ -66,6 +66,11 @@ struct rung_instance {
   std::unique_ptr<rung::nc::Retention> retention; // from the first power-on, where something is kept
   std::mutex retentionChanges;                    // held while that is made anew
   uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
+  // The replacement that holds the program before this one: a fault puts that back.
+  std::atomic<rung_replacement*> former{nullptr};
+  std::atomic<bool> puttingBack{false};
+  std::shared_ptr<const rung::runtime::Image> faultImage; // of the program that has faulted, where it runs no longer
+  rung_fault fault{};                                     // of that program
   bool on = false;
   bool faultReported = false; // to the host's callback
   bool wasOn = false;         // its memory holds something to be retained

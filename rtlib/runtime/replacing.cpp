@@ -1,5 +1,6 @@
 // Another program for an instance: prepared outside real time, put in its place between two passes.
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "rtlib/host/replacement.h"
@@ -20,6 +21,9 @@ struct rung_replacement {
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
   }
   ~rung_replacement() {
+    rung_replacement* self = this;
+    instance.former.compare_exchange_strong(self, nullptr);
+    while (instance.puttingBack.load()) std::this_thread::yield();
     instance.names.leave(*cells);
     const std::lock_guard lock(instance.retentionChanges);
     if (instance.retention) instance.retention->settle();
@@ -31,8 +35,41 @@ struct rung_replacement {
   host::Replacement replacement;
   std::unique_ptr<CellTable> cells;
   std::unique_ptr<host::RetainLane> lane; // what is kept of the program
+  bool holdsFormer = false;               // the program that it was made to replace
   profile::Clock clock;
 };
+
+namespace rung::runtime {
+namespace {
+
+host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacement) noexcept {
+  const host::ReplaceResult result = instance.running.replace(replacement.replacement);
+  if (result != host::ReplaceResult::Replaced) return result;
+  std::swap(instance.image, replacement.image);
+  std::swap(instance.cells, replacement.cells);
+  std::swap(instance.clock, replacement.clock);
+  if (instance.retention) instance.retention->programChanged(replacement.lane);
+  instance.program.store(&instance.image->program, std::memory_order_release);
+  instance.pace.programChanged();
+  replacement.holdsFormer = !replacement.holdsFormer;
+  instance.former.store(replacement.holdsFormer ? &replacement : nullptr);
+  return result;
+}
+
+} // namespace
+
+// Who ends the replacement takes it away first and looks then whether it is in use; here it is the other way round.
+void putFormerBack(rung_instance& instance) noexcept {
+  instance.puttingBack.store(true);
+  if (rung_replacement* former = instance.former.exchange(nullptr); former != nullptr) {
+    std::shared_ptr<const Image> faulty = instance.image;
+    instance.fault = instance.running.fault();
+    if (exchange(instance, *former) == host::ReplaceResult::Replaced) instance.faultImage.swap(faulty);
+  }
+  instance.puttingBack.store(false);
+}
+
+} // namespace rung::runtime
 
 int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,
                              rung_replacement** replacement) {
@@ -88,19 +125,13 @@ int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replace
   rung_replacement* handle = checked(replacement, kReplacementMark);
   if (handle == nullptr) return failHandle("a replacement");
   if (&handle->instance != &*call) return fail(RUNG_BAD_ARGUMENT, "the replacement was made for another instance");
-  switch (call->running.replace(handle->replacement)) {
-  case host::ReplaceResult::Replaced: break;
+  switch (exchange(*call, *handle)) {
+  case host::ReplaceResult::Replaced: return RUNG_OK;
   case host::ReplaceResult::OtherProgram:
     return fail(RUNG_WRONG_STATE, "the replacement was made for another program than the one that runs");
   case host::ReplaceResult::WithinPass:
   case host::ReplaceResult::RequestsWait:
-  case host::ReplaceResult::MechanismWaits: return RUNG_LATER;
+  case host::ReplaceResult::MechanismWaits: break;
   }
-  std::swap(call->image, handle->image);
-  std::swap(call->cells, handle->cells);
-  std::swap(call->clock, handle->clock);
-  if (call->retention) call->retention->programChanged(handle->lane);
-  call->program.store(&call->image->program, std::memory_order_release);
-  call->pace.programChanged();
-  return RUNG_OK;
+  return RUNG_LATER;
 }

@@ -28,6 +28,7 @@ void afterPart(rung_instance& instance) noexcept {
   if (running.faulted()) {
     clearOutputs(instance);
     instance.watches.sample(instance);
+    putFormerBack(instance);
     reportFault(instance);
     return;
   }
@@ -172,8 +173,9 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
   if (!call.ok()) return call.status();
   if (!call->running.faulted()) return RUNG_EMPTY;
   return contained([&] {
-    const rung_program& program = call->running.program();
-    const rung_fault& fault = call->running.fault();
+    const bool isFormers = call->faultImage != nullptr;
+    const rung_program& program = isFormers ? call->faultImage->program : call->running.program();
+    const rung_fault& fault = isFormers ? call->fault : call->running.fault();
     rung_fault_info out{.line = fault.line, .code = "", .file = "", .task = ""};
     if (fault.code < program.fault_count) out.code = program.faults[fault.code];
     if (fault.task < program.task_count) out.task = program.tasks[fault.task].name;
@@ -183,7 +185,7 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
       if (rung.file < program.file_count) out.file = program.files[rung.file];
       if (out.line == 0) out.line = rung.first_line;
     }
-    putText(out.text, call->running.faultText());
+    putText(out.text, host::faultText(program, fault));
     return giveStruct(info, out);
   });
 }

@@ -22,6 +22,8 @@ void runPart(rung_instance& instance, Part part) noexcept {
   afterPart(instance);
 }
 
+// After a fault: the program before this one, where there is one, with its state. It stays stopped.
+void putFormerBack(rung_instance& instance) noexcept;
 // A fault goes to the host's callback, once. RUNG_FAULTED, or RUNG_OK where there is none.
 int32_t reportFault(rung_instance& instance) noexcept;
 

@@ -461,7 +461,7 @@ typedef struct rung_replacement rung_replacement;
  * its thread meanwhile, but must neither be given another program nor be freed. RUNG_REFUSED: of another dialect. */
 RUNG_API int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,
                                       rung_replacement** replacement);
-/* Null is allowed. */
+/* Null is allowed. Any thread, but not while rung_instance_replace has it. */
 RUNG_API int32_t rung_replacement_free(rung_replacement* replacement);
 
 typedef struct rung_replacement_info {
@@ -495,9 +495,11 @@ typedef struct rung_change {
 RUNG_API int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t index, rung_change* change);
 
 /* The program of the replacement takes over, with its state; the clock, queues and bound variables continue. The
- * replacement then holds the former program as it was, and reports the way back: given again, it puts that back.
- * RUNG_LATER: within a pass of the schedule, or a mechanism or a service request waits that the new program does not
- * know; RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
+ * replacement then holds the former program as it was, and reports the way back: given again, it puts that back. So
+ * does, as long as the replacement exists, a fault of the new program: the former one then waits for the next power-on,
+ * and rung_instance_fault still says what happened; where RUNG_LATER would be given, the new program stays. RUNG_LATER:
+ * within a pass of the schedule, or a mechanism or a service request waits that the new program does not know;
+ * RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
 RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);
 
 #ifdef __cplusplus

@@ -645,6 +645,57 @@ TEST_F(Runtime, ASampleIsOfOnePass) {
   scanning.join();
 }
 
+TEST_F(Runtime, AfterAFaultTheFormerProgramIsPutBack) {
+  rung::test::TestProgram next;
+  build(next, 2);
+  next.faults = {"other", "dead-loop", "division by zero"};
+  next.files = {"new.pmc"};
+  next.functions[0] = [](uint8_t* mem, rung_ctx* ctx, uint32_t) -> uint32_t {
+    if (++mem[kCount] < 10) return rung::test::popChunk(ctx);
+    ctx->fault = {0, 0, 12, 0};
+    return RUNG_PC_FAULT;
+  };
+  next.link();
+  const rung::Image image = adopted(next);
+  for (const bool confirmed : {false, true}) {
+    SCOPED_TRACE(confirmed);
+    rung::Instance plc = started();
+    uint8_t count = 0;
+    plc.bindOutput("COUNT", count);
+    const rung_cell words = plc.find("WORDS", rung::Access::Write);
+    plc.write(words, 77);
+    scan(plc, 3);
+    std::optional<rung::Replacement> change;
+    change.emplace(plc, image);
+    ASSERT_EQ(rung_instance_replace(plc.handle(), change->handle()), RUNG_OK);
+    if (confirmed) change.reset();
+    scan(plc, 6);
+    EXPECT_EQ(count, 9);
+    EXPECT_EQ(plc.scan(), RUNG_FAULTED);
+    EXPECT_EQ(count, 0) << "safe";
+    EXPECT_EQ(plc.state().generation, confirmed ? 1u : 2u);
+    EXPECT_EQ(plc.describe(words).byte, confirmed ? 10u : 8u);
+    EXPECT_EQ(plc.read<int>(words), 77);
+    EXPECT_STREQ(plc.fault()->text, "other (rung 1, new.pmc:12)") << "of the new program";
+    EXPECT_EQ(plc.scan(), RUNG_FAULTED) << "it waits for the reset";
+    plc.powerOn(rung::Power::Cold);
+    scan(plc, 12);
+    EXPECT_EQ(plc.fault().has_value(), confirmed);
+  }
+}
+
+TEST_F(Runtime, WhatWasPutBackByHandIsNotReplacedByAFault) {
+  rung::test::TestProgram next;
+  build(next, 2);
+  const rung::Image image = adopted(next);
+  rung::Instance plc = started();
+  const rung::Replacement change(plc, image);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  scan(plc, 200);
+  EXPECT_TRUE(plc.fault());
+  EXPECT_EQ(plc.state().generation, 2u);
+}
+
 // A scan thread that is given one program after the other, while others look on and look up names.
 TEST_F(Runtime, ProgramsAreChangedWhileOthersLookOn) {
   constexpr int kChanges = 2000;

@@ -129,9 +129,9 @@ TEST(Compiler, FunctionsGoOverByTheHandshakeOfTheDialect) {
   const rung::Image image = compilation.image();
   rung::Instance plc(image);
   uint32_t line = 0;
-  for (const int32_t status : {rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 5, &line),
-                               rung_instance_function_done(plc.handle(), 0, 0),
-                               rung_instance_abort_functions(plc.handle(), 0)})
+  for (const int32_t status :
+       {rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 5, &line),
+        rung_instance_function_done(plc.handle(), 0, 0), rung_instance_abort_functions(plc.handle(), 0)})
     EXPECT_EQ(status, RUNG_WRONG_STATE) << "off";
   plc.powerOn();
   ASSERT_EQ(rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 5, &line), RUNG_OK);

@@ -172,10 +172,9 @@ private:
     rung_replacement* made = nullptr;
     const int32_t status = rung_replacement_new(one(instances_), image(), nullptr, 0, place(made));
     if (made != nullptr) replacements_.push_back(made);
-    auto report = sized<rung_replacement_info>();
-    auto changed = sized<rung_change>();
-    rung_replacement_report(one(replacements_), place(report));
-    rung_replacement_change(one(replacements_), number(), place(changed));
+    withStruct<rung_replacement_info>(
+        [&](rung_replacement_info* s) { return rung_replacement_report(one(replacements_), s); });
+    withStruct<rung_change>([&](rung_change* s) { return rung_replacement_change(one(replacements_), number(), s); });
     if (replacements_.size() > 6) {
       rung_replacement_free(replacements_.back());
       replacements_.pop_back();
@@ -185,13 +184,12 @@ private:
   int32_t watch() {
     std::array<rung_cell, 4> cells{number(), number(), number(), number()};
     std::array<rung_value, 4> values{};
-    auto sample = sized<rung_sample>();
     rung_watch* made = nullptr;
     const int32_t status =
         rung_watch_new(one(instances_), place(cells[0]), below(5), chance(90) ? below(5) : number(), place(made));
     if (made != nullptr) watches_.push_back(made);
-    rung_watch_newest(one(watches_), place(values[0]), place(sample));
-    rung_watch_next(one(watches_), place(values[0]), place(sample));
+    withStruct<rung_sample>([&](rung_sample* s) { return rung_watch_newest(one(watches_), place(values[0]), s); });
+    withStruct<rung_sample>([&](rung_sample* s) { return rung_watch_next(one(watches_), place(values[0]), s); });
     return status;
   }
   // Watches at any time, an instance with all that belongs to it seldom.

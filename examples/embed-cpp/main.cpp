@@ -38,7 +38,7 @@ void run(const char* program, const char* nextProgram) {
   for (int ms = 0; ms < 2000; ++ms) {
     if (ms == 700) axis.jam = true;
     if (plc.runDue(1'000'000) == RUNG_FAULTED) { // outputs are 0: the axis does not move
-      std::printf("%d ms: %s\n", ms, plc.fault()->text);
+      if (const auto fault = plc.fault()) std::printf("%d ms: %s\n", ms, fault->text);
       axis.jam = false;
       plc.powerOn();
     }

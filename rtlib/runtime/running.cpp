@@ -151,21 +151,20 @@ int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
   if (!call.ok()) return call.status();
   const host::Instance& running = call->running;
   const host::RetainedMemory* kept = call->retention ? &call->retention->memory() : nullptr;
-  return giveStruct(
-      state, rung_state{.flags = flagsOf(*call),
-                        .generation = running.generation(),
-                        .due_us = running.sliceDelayUs(),
-                        .now_us = running.nowUs(),
-                        .wait_ns = call->pace.untilNextNs(),
-                        .passes = call->passes,
-                        .missed = call->pace.missed(),
-                        .last_ns = call->lastPassNs,
-                        .worst_ns = call->worstPassNs,
-                        .lost_messages = static_cast<uint32_t>(running.messages().lost() + call->messages.lost()),
-                        .refused_requests = running.services().refused(),
-                        .stray_replies = running.services().stray(),
-                        .saves = kept != nullptr ? kept->saved() : 0,
-                        .failed_saves = kept != nullptr ? kept->failed() : 0});
+  return giveStruct(state, rung_state{.flags = flagsOf(*call),
+                                      .generation = running.generation(),
+                                      .due_us = running.sliceDelayUs(),
+                                      .now_us = running.nowUs(),
+                                      .wait_ns = call->pace.untilNextNs(),
+                                      .passes = call->passes,
+                                      .missed = call->pace.missed(),
+                                      .last_ns = call->lastPassNs,
+                                      .worst_ns = call->worstPassNs,
+                                      .lost_messages = running.messages().lost() + call->messages.lost(),
+                                      .refused_requests = running.services().refused(),
+                                      .stray_replies = running.services().stray(),
+                                      .saves = kept != nullptr ? kept->saved() : 0,
+                                      .failed_saves = kept != nullptr ? kept->failed() : 0});
 }
 
 int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info) {

@@ -65,7 +65,9 @@ void writeAt(const rt::Memory& memory, const rt::Place& place, rung_value value)
 }
 
 rt::Place elementPlace(const rt::Memory& memory, const LocatedCell& cell, uint32_t index) noexcept {
-  return index == 0 ? cell.place : host::locate(memory, *host::element(cell.ref, index));
+  if (index == 0) return cell.place;
+  const std::optional<host::Ref> element = host::element(cell.ref, index);
+  return element ? host::locate(memory, *element) : rt::Place{};
 }
 
 int32_t checkElements(const LocatedCell& cell, uint32_t first, uint32_t count) noexcept {

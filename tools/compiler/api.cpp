@@ -206,13 +206,13 @@ int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image
   return contained([&] {
     Result<std::unique_ptr<host::Engine>> made = makeEngine(handle->kind, *handle->program->compiled, handle->engine);
     if (!made.ok()) return fail(RUNG_FAILED, "%s", made.error().c_str());
-    auto running = std::make_unique<Running>(handle->program, std::move(made).value());
-    const auto release = [](void* owner) { delete static_cast<Running*>(owner); };
+    const auto end = [](void* owner) { delete static_cast<Running*>(owner); };
+    Running* running = std::make_unique<Running>(handle->program, std::move(made).value()).release();
     host::Engine& engine = *running->engine;
-    const int32_t status = rung_image_adopt(&engine.program(), engine.context(), release, running.get(), image);
-    if (status != RUNG_OK) return fail(static_cast<rung_status>(status), "%s", rung_error_text());
-    (void)running.release(); // the image's now
-    return int32_t{RUNG_OK};
+    const int32_t status = rung_image_adopt(&engine.program(), engine.context(), end, running, image);
+    if (status == RUNG_OK) return status; // it is the image's now
+    end(running);
+    return fail(static_cast<rung_status>(status), "%s", rung_error_text());
   });
 }
 

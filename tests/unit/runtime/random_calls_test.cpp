@@ -22,7 +22,7 @@ uint32_t work(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   ctx->host->message(ctx, &message);
   const int64_t argument = mem[0];
   ctx->host->service_request(ctx, mem[0] & 1u, &argument, 1);
-  return ++mem[0] == 0 ? RUNG_PC_FAULT : rung::test::popChunk(ctx);
+  return ++mem[0] == 20 ? RUNG_PC_FAULT : rung::test::popChunk(ctx);
 }
 
 void build(TestProgram& program, uint32_t byte) {

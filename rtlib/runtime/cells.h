@@ -54,7 +54,6 @@ public:
     if (cell >= count_.load(std::memory_order_acquire)) return nullptr;
     return &(*blocks_[cell / kBlock])[cell % kBlock];
   }
-  uint32_t count() const noexcept { return count_.load(std::memory_order_acquire); }
   void add(const LocatedCell& cell);
 
 private:
@@ -66,7 +65,8 @@ private:
   std::atomic<uint32_t> count_{0};
 };
 
-// The names, and every table that has their places. Any thread but the scan thread; none but the first waits for long.
+// The names, and every table that has their places. For any thread, but not in real time: names are looked up under a
+// lock.
 class CellNames {
 public:
   // The cell of this name; it is located in every table. `state` says what of it is wrong in `table`'s program, where

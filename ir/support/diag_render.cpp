@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/utf8.h"
+#include "rtlib/text/utf8.h"
 
 namespace rung {
 namespace {
@@ -25,7 +26,7 @@ struct Window {
 
 /// Moves an offset into the middle of a character back to its beginning.
 size_t characterStart(std::string_view line, size_t offset) {
-  while (offset > 0 && offset < line.size() && isUtf8Continuation(line[offset])) --offset;
+  while (offset > 0 && offset < line.size() && text::isUtf8Continuation(line[offset])) --offset;
   return offset;
 }
 

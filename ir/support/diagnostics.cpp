@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/check.h"
-#include "ir/support/utf8.h"
+#include "rtlib/text/utf8.h"
 
 namespace rung {
 namespace {
@@ -26,11 +26,9 @@ constexpr size_t kMaxArgs = 8;
 /// Longer arguments are cut: a word of a rubbish file may have megabytes.
 constexpr size_t kMaxArgLength = 200;
 
-std::string shorten(std::string_view text) {
-  if (text.size() <= kMaxArgLength) return std::string(text);
-  size_t end = kMaxArgLength;
-  while (end > 0 && isUtf8Continuation(text[end])) --end;
-  return std::string(text.substr(0, end)) + "...";
+std::string shorten(std::string_view argument) {
+  if (argument.size() <= kMaxArgLength) return std::string(argument);
+  return std::string(text::wholeCharacters(argument, kMaxArgLength)) + "...";
 }
 
 std::unordered_map<std::string_view, const DiagInfo*> makeCodeIndex() {

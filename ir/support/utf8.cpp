@@ -6,10 +6,12 @@
 
 #include <utf8proc.h>
 
+#include "rtlib/text/utf8.h"
+
 namespace rung {
 
 size_t countCodePoints(std::string_view text) {
-  return text.size() - static_cast<size_t>(std::count_if(text.begin(), text.end(), isUtf8Continuation));
+  return text.size() - static_cast<size_t>(std::count_if(text.begin(), text.end(), rung::text::isUtf8Continuation));
 }
 
 CodePoint decodeUtf8(std::string_view text, size_t offset) {

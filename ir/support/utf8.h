@@ -8,9 +8,6 @@
 
 namespace rung {
 
-/// Whether the byte continues a character (10xxxxxx).
-constexpr bool isUtf8Continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
 /// Number of characters; a stray byte of a damaged text counts with the character before it.
 size_t countCodePoints(std::string_view text);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <sodium.h>
 
+#include "rtlib/host/file.h"
+
 namespace rung::host {
 namespace {
 
@@ -55,6 +57,10 @@ std::string sealed(std::string_view file, const SecretKey* key) {
   Seal seal{.digest = digestOf(image), .signature = {}};
   if (key != nullptr) seal.signature = key->sign(seal.digest);
   return std::string(image) + bytesOf(seal);
+}
+
+std::string writeProgram(const std::string& path, std::string_view file) {
+  return replaceFile(path, file, {.mode = kProgramMode, .lasts = true});
 }
 
 } // namespace rung::host

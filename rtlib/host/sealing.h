@@ -33,4 +33,7 @@ inline constexpr unsigned kProgramMode = 0755;
 // The file with a seal, in place of the one that it may have.
 std::string sealed(std::string_view file, const SecretKey* key = nullptr);
 
+// A sealed program for those who load it: whole or not at all, and there after a power failure. "" or why it is not.
+std::string writeProgram(const std::string& path, std::string_view file);
+
 } // namespace rung::host

@@ -21,7 +21,7 @@ namespace rung::runtime {
 // How a cell is used in the program that runs.
 enum class CellState : uint8_t {
   Good,
-  Gone,        // there is no such name
+  Gone,        // the program does not have the name
   Overwritten, // for writing: another place is copied over it
   Constant,    // for writing
   Retyped,     // it was a real, a text or neither when it was found, and is not any more
@@ -49,7 +49,7 @@ public:
   explicit CellTable(const rung_program& program) : program_(&program) {}
   const rung_program& program() const { return *program_; }
 
-  // Null: there is no such number.
+  // Null: no cell has this number.
   const LocatedCell* at(rung_cell cell) const noexcept {
     if (cell >= count_.load(std::memory_order_acquire)) return nullptr;
     return &(*blocks_[cell / kBlock])[cell % kBlock];
@@ -73,7 +73,7 @@ public:
   // it is not entered then. False: there are too many cells.
   bool find(const nc::Control& control, const CellTable& table, const CellName& name, CellState& state,
             rung_cell& cell);
-  // As it was found; nothing: there is no such cell.
+  // As it was found; nothing where no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
   // From now on the table has all cells.
   void join(const nc::Control& control, CellTable& table);

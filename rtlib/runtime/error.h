@@ -1,11 +1,9 @@
 // How the functions of a library of C report what was wrong: a status, and a sentence for the thread. Each library has
 // sentences of its own.
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include "rung/runtime.h"
 
@@ -13,8 +11,6 @@ namespace rung::runtime {
 
 // Keeps the sentence and gives the status. Allocates nothing.
 [[gnu::format(printf, 2, 3)]] int32_t fail(rung_status status, const char* format, ...) noexcept;
-// How many bytes of a text that was cut are whole characters of UTF-8.
-size_t wholeCharacters(std::string_view cut) noexcept;
 // The sentence of the thread's last error, "" before the first.
 const char* errorText() noexcept;
 

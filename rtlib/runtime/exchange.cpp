@@ -58,7 +58,7 @@ int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* m
 }
 
 int32_t rung_instance_shown(const rung_instance* instance, uint32_t index, rung_message_info* message) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   return contained([&] {
     const std::vector<nc::ShownMessage> all = call->control->messages(call->running);
@@ -96,9 +96,8 @@ int32_t rung_instance_answer(rung_instance* instance, const rung_reply* reply) {
 
 int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code,
                                      uint32_t* line) {
-  const Call call(instance);
+  const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (!call->on) return failOff();
   if (kind < RUNG_FUNCTION_M || kind > RUNG_FUNCTION_B || line == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "a function has a kind of enum rung_function_kind, and a place for its line");
   nc::Functions* functions = functionsOf(*call, channel);
@@ -114,18 +113,16 @@ int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, 
 }
 
 int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line) {
-  const Call call(instance);
+  const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (!call->on) return failOff();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
   return functions->busy(line) ? RUNG_LATER : RUNG_OK;
 }
 
 int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel) {
-  const Call call(instance);
+  const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (!call->on) return failOff();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
   functions->abort();

@@ -30,4 +30,13 @@ inline int32_t failHandle(const char* name) noexcept {
   return fail(RUNG_BAD_HANDLE, "the handle is not that of %s: null, of another kind, or freed before", name);
 }
 
+// What the function that ends a handle does. Null is allowed.
+template <class Handle>
+int32_t endHandle(Handle* handle, uint32_t mark, const char* name) {
+  if (handle == nullptr) return RUNG_OK;
+  if (checked(handle, mark) == nullptr) return failHandle(name);
+  release(handle);
+  return RUNG_OK;
+}
+
 } // namespace rung::runtime

@@ -86,10 +86,4 @@ int32_t rung_image_symbol(const rung_image* image, uint32_t index, rung_symbol_i
                                              .comment = s.comment});
 }
 
-int32_t rung_image_close(rung_image* image) {
-  if (image == nullptr) return RUNG_OK;
-  rung_image* handle = checked(image, kImageMark);
-  if (handle == nullptr) return failHandle("an image");
-  release(handle);
-  return RUNG_OK;
-}
+int32_t rung_image_close(rung_image* image) { return endHandle(image, kImageMark, "an image"); }

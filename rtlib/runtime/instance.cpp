@@ -16,7 +16,7 @@ rung_instance* instanceOf(const rung_instance* handle) noexcept {
   return const_cast<rung_instance*>(checked(handle, kInstanceMark));
 }
 
-Call::Call(const rung_instance* handle, From from) noexcept : instance_(instanceOf(handle)) {
+Call::Call(const rung_instance* handle, When when) noexcept : instance_(instanceOf(handle)) {
   if (instance_ == nullptr) {
     status_ = failHandle("an instance");
     return;
@@ -25,9 +25,11 @@ Call::Call(const rung_instance* handle, From from) noexcept : instance_(instance
   uintptr_t other = 0;
   if (instance_->inside.compare_exchange_strong(other, self, std::memory_order_acquire)) {
     entered_ = true;
+    if (when == When::On && !instance_->on)
+      status_ = fail(RUNG_WRONG_STATE, "the program is not switched on: call rung_instance_power_on");
   } else if (other != self) {
     status_ = fail(RUNG_WRONG_THREAD, "another thread is inside a call for this instance");
-  } else if (from == From::HostOnly) {
+  } else if (when != When::Always) {
     status_ = fail(RUNG_WRONG_STATE, "a callback of the instance may only read it");
   }
 }
@@ -99,7 +101,8 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = instance.wasOn = true;
   instance.faultReported = false;
   instance.faultImage.reset();
-  return reportFault(instance);
+  reportFault(instance);
+  return statusOf(instance);
 }
 
 int32_t powerOff(rung_instance& instance) {
@@ -135,7 +138,7 @@ rung_instance::~rung_instance() = default;
 int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance) {
   const rung_image* handle = checked(image, kImageMark);
   if (handle == nullptr) return failHandle("an image");
-  if (instance == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no place for the instance");
+  if (instance == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the instance is null");
   rung_instance_options given{};
   if (!takeStruct(options, given)) return failSize("rung_instance_options");
   if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
@@ -165,9 +168,8 @@ int32_t rung_instance_power_on(rung_instance* instance, int32_t power) {
 }
 
 int32_t rung_instance_power_off(rung_instance* instance) {
-  const Call call(instance);
+  const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (!call->on) return failOff();
   return contained([&] { return powerOff(*call); });
 }
 

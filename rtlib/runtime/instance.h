@@ -15,6 +15,7 @@
 #include "rtlib/profile/clock.h"
 #include "rtlib/runtime/cells.h"
 #include "rtlib/runtime/image.h"
+#include "rtlib/runtime/scan_use.h"
 #include "rtlib/runtime/watch.h"
 
 namespace rung::runtime {
@@ -68,7 +69,7 @@ struct rung_instance {
   uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
   // The replacement that holds the program before this one: a fault puts that back.
   std::atomic<rung_replacement*> former{nullptr};
-  std::atomic<bool> puttingBack{false};
+  rung::runtime::ScanUse puttingBack;
   std::shared_ptr<const rung::runtime::Image> faultImage; // of the program that has faulted, where it runs no longer
   rung_fault fault{};                                     // of that program
   bool on = false;
@@ -82,13 +83,17 @@ struct rung_instance {
 
 namespace rung::runtime {
 
-// Whether a call may come from a callback of the same instance.
-enum class From : uint8_t { HostOnly, CallbackToo };
+// When a call is allowed.
+enum class When : uint8_t {
+  Always,  // in a callback of the same instance, too
+  Outside, // of its callbacks
+  On,      // outside, while the program is switched on
+};
 
 // One call of the host: the handle is good, and no other thread is inside.
 class Call {
 public:
-  explicit Call(const rung_instance* handle, From from = From::HostOnly) noexcept;
+  explicit Call(const rung_instance* handle, When when = When::Outside) noexcept;
   ~Call() {
     if (entered_) instance_->inside.store(0, std::memory_order_release);
   }

@@ -34,7 +34,7 @@ int32_t failProfile() noexcept {
 using namespace rung::runtime;
 
 int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, rung_profile* profile) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   if (call->running.profile().empty()) return failProfile();
   if (index >= call->running.profile().size()) return RUNG_EMPTY;
@@ -42,7 +42,7 @@ int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, run
 }
 
 int32_t rung_instance_worst_rung(const rung_instance* instance, rung_profile* profile) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   const std::span<const rung_prof> all = call->running.profile();
   if (all.empty()) return failProfile();

@@ -1,6 +1,5 @@
 // Another program for an instance: prepared outside real time, put in its place between two passes.
 #include <cstring>
-#include <thread>
 #include <utility>
 
 #include "rtlib/host/replacement.h"
@@ -23,7 +22,7 @@ struct rung_replacement {
   ~rung_replacement() {
     rung_replacement* self = this;
     instance.former.compare_exchange_strong(self, nullptr);
-    while (instance.puttingBack.load()) std::this_thread::yield();
+    instance.puttingBack.wait();
     instance.names.leave(*cells);
     const std::lock_guard lock(instance.retentionChanges);
     if (instance.retention) instance.retention->settle();
@@ -58,15 +57,14 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
 
 } // namespace
 
-// Who ends the replacement takes it away first and looks then whether it is in use; here it is the other way round.
 void putFormerBack(rung_instance& instance) noexcept {
-  instance.puttingBack.store(true);
+  instance.puttingBack.enter();
   if (rung_replacement* former = instance.former.exchange(nullptr); former != nullptr) {
     std::shared_ptr<const Image> faulty = instance.image;
     instance.fault = instance.running.fault();
     if (exchange(instance, *former) == host::ReplaceResult::Replaced) instance.faultImage.swap(faulty);
   }
-  instance.puttingBack.store(false);
+  instance.puttingBack.leave();
 }
 
 } // namespace rung::runtime
@@ -77,7 +75,7 @@ int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* m
   if (handle == nullptr) return failHandle("an instance");
   const rung_image* next = checked(image, kImageMark);
   if (next == nullptr) return failHandle("an image");
-  if (replacement == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no place for the replacement");
+  if (replacement == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the replacement is null");
   const rung_program& program = next->image->program;
   if (const char* dialect = handle->running.program().dialect; std::strcmp(dialect, program.dialect) != 0)
     return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
@@ -90,11 +88,7 @@ int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* m
 }
 
 int32_t rung_replacement_free(rung_replacement* replacement) {
-  if (replacement == nullptr) return RUNG_OK;
-  rung_replacement* handle = checked(replacement, kReplacementMark);
-  if (handle == nullptr) return failHandle("a replacement");
-  release(handle);
-  return RUNG_OK;
+  return endHandle(replacement, kReplacementMark, "a replacement");
 }
 
 int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info) {

@@ -2,6 +2,7 @@
 #include "rtlib/runtime/running.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/runtime/error.h"
@@ -11,8 +12,8 @@
 namespace rung::runtime {
 
 void beforePart(rung_instance& instance) noexcept {
-  for (uint32_t channel = 0; channel < 32; ++channel)
-    if ((instance.functionChannels >> channel & 1) != 0) instance.control->functions(channel)->step();
+  for (uint32_t left = instance.functionChannels; left != 0; left &= left - 1)
+    instance.control->functions(static_cast<uint32_t>(std::countr_zero(left)))->step();
   readInputs(instance);
 }
 
@@ -41,16 +42,10 @@ void afterPart(rung_instance& instance) noexcept {
   instance.passNs = 0;
 }
 
-int32_t reportFault(rung_instance& instance) noexcept {
-  if (!instance.running.faulted()) return RUNG_OK;
-  if (!instance.faultReported && instance.options.fault != nullptr)
-    instance.options.fault(instance.options.user, &instance);
+void reportFault(rung_instance& instance) noexcept {
+  if (!instance.running.faulted() || instance.faultReported) return;
   instance.faultReported = true;
-  return RUNG_FAULTED;
-}
-
-int32_t failOff() noexcept {
-  return fail(RUNG_WRONG_STATE, "the program is not switched on: call rung_instance_power_on");
+  if (instance.options.fault != nullptr) instance.options.fault(instance.options.user, &instance);
 }
 
 int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept {
@@ -67,13 +62,10 @@ namespace {
 
 constexpr int64_t kHourNs = 3'600'000'000'000;
 
-int32_t statusOf(const rung_instance& instance) noexcept { return instance.running.faulted() ? RUNG_FAULTED : RUNG_OK; }
-
 template <class Part>
 int32_t runCall(rung_instance* handle, Part part) noexcept {
-  const Call call(handle);
+  const Call call(handle, When::On);
   if (!call.ok()) return call.status();
-  if (!call->on) return failOff();
   if (!call->running.faulted()) runPart(*call, [&] { part(call->running); });
   return statusOf(*call);
 }
@@ -98,9 +90,8 @@ int32_t rung_instance_fast(rung_instance* instance) {
 }
 
 int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns) {
-  const Call call(instance);
+  const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (!call->on) return failOff();
   if (elapsed_ns < 0 || elapsed_ns > kHourNs)
     return fail(RUNG_BAD_ARGUMENT, "the elapsed time is 0 to 3600000000000 ns, not %lld",
                 static_cast<long long>(elapsed_ns));
@@ -147,7 +138,7 @@ uint32_t flagsOf(const rung_instance& instance) noexcept {
 } // namespace
 
 int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   const host::Instance& running = call->running;
   const host::RetainedMemory* kept = call->retention ? &call->retention->memory() : nullptr;
@@ -168,7 +159,7 @@ int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
 }
 
 int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   if (!call->running.faulted()) return RUNG_EMPTY;
   return contained([&] {

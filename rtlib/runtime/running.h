@@ -24,11 +24,12 @@ void runPart(rung_instance& instance, Part part) noexcept {
 
 // After a fault: the program before this one, where there is one, with its state. It stays stopped.
 void putFormerBack(rung_instance& instance) noexcept;
-// A fault goes to the host's callback, once. RUNG_FAULTED, or RUNG_OK where there is none.
-int32_t reportFault(rung_instance& instance) noexcept;
+// A fault goes to the host's callback, once.
+void reportFault(rung_instance& instance) noexcept;
+inline int32_t statusOf(const rung_instance& instance) noexcept {
+  return instance.running.faulted() ? RUNG_FAULTED : RUNG_OK;
+}
 
-// Of a program that is off.
-int32_t failOff() noexcept;
 // Whether a program can have this memory block; null: the library allocates one.
 int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept;
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rtlib/runtime/error.h"
+#include "rtlib/text/utf8.h"
 
 namespace rung::runtime {
 
@@ -42,10 +43,8 @@ int32_t giveStruct(Struct* host, const Struct& from) noexcept {
 }
 
 // The characters that fit, ended by 0.
-inline void putText(std::span<char> to, std::string_view text) noexcept {
-  const size_t room = to.size() - 1;
-  if (text.size() > room) text = text.substr(0, wholeCharacters(text.substr(0, room)));
-  *std::ranges::copy(text, to.begin()).out = 0;
+inline void putText(std::span<char> to, std::string_view from) noexcept {
+  *std::ranges::copy(text::wholeCharacters(from, to.size() - 1), to.begin()).out = 0;
 }
 
 } // namespace rung::runtime

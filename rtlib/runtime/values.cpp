@@ -70,10 +70,17 @@ rt::Place elementPlace(const rt::Memory& memory, const LocatedCell& cell, uint32
   return element ? host::locate(memory, *element) : rt::Place{};
 }
 
-int32_t checkElements(const LocatedCell& cell, uint32_t first, uint32_t count) noexcept {
-  if (first <= cell.ref.count && count <= cell.ref.count - first) return RUNG_OK;
-  return fail(RUNG_BAD_ARGUMENT, "%u elements from number %u on were asked for; the cell has %u, from number 0 on",
-              count, first, cell.ref.count);
+// The cell, where `count` elements of it from the first-th on can be given to or taken from `values`.
+const LocatedCell* elementsOf(const rung_instance& instance, rung_cell cell, bool writes, uint32_t first,
+                              uint32_t count, const rung_value* values, int32_t& status) noexcept {
+  const LocatedCell* found = numberCell(instance, cell, writes, status);
+  if (found == nullptr) return nullptr;
+  if (first > found->ref.count || count > found->ref.count - first)
+    status = fail(RUNG_BAD_ARGUMENT, "%u elements from number %u on were asked for; the cell has %u, from number 0 on",
+                  count, first, found->ref.count);
+  else if (values == nullptr && count != 0)
+    status = fail(RUNG_BAD_ARGUMENT, "the values are null, their number is not 0");
+  return status == RUNG_OK ? found : nullptr;
 }
 
 } // namespace
@@ -93,14 +100,15 @@ using namespace rung::runtime;
 int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell) {
   const Call call(instance);
   if (!call.ok()) return call.status();
-  if (name == nullptr || cell == nullptr) return fail(RUNG_BAD_ARGUMENT, "a name and a place for the cell are needed");
+  if (name == nullptr || cell == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "the name or the pointer that receives the cell is null");
   if (access != RUNG_READ && access != RUNG_WRITE)
     return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, not %d", access);
   return contained([&] { return findCell(*call, name, access, *cell); });
 }
 
 int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   int32_t status = RUNG_OK;
   const LocatedCell* found = usable(*call, cell, false, status);
@@ -120,13 +128,11 @@ int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_c
 
 int32_t rung_instance_read(const rung_instance* instance, rung_cell cell, uint32_t first, uint32_t count,
                            rung_value* values) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   int32_t status = RUNG_OK;
-  const LocatedCell* found = numberCell(*call, cell, false, status);
+  const LocatedCell* found = elementsOf(*call, cell, false, first, count, values, status);
   if (found == nullptr) return status;
-  if (status = checkElements(*found, first, count); status != RUNG_OK) return status;
-  if (values == nullptr && count != 0) return fail(RUNG_BAD_ARGUMENT, "there is no place for the values");
   const rt::Memory memory = call->running.memory();
   for (uint32_t i = 0; i < count; ++i)
     values[i] = first + i == 0 ? firstValue(memory, *found) : valueAt(memory, elementPlace(memory, *found, first + i));
@@ -138,10 +144,8 @@ int32_t rung_instance_write(rung_instance* instance, rung_cell cell, uint32_t fi
   const Call call(instance);
   if (!call.ok()) return call.status();
   int32_t status = RUNG_OK;
-  const LocatedCell* found = numberCell(*call, cell, true, status);
+  const LocatedCell* found = elementsOf(*call, cell, true, first, count, values, status);
   if (found == nullptr) return status;
-  if (status = checkElements(*found, first, count); status != RUNG_OK) return status;
-  if (values == nullptr && count != 0) return fail(RUNG_BAD_ARGUMENT, "there are no values");
   const rt::Memory memory = call->running.memory();
   for (uint32_t i = 0; i < count; ++i) writeAt(memory, elementPlace(memory, *found, first + i), values[i]);
   return RUNG_OK;
@@ -149,10 +153,10 @@ int32_t rung_instance_write(rung_instance* instance, rung_cell cell, uint32_t fi
 
 int32_t rung_instance_read_all(const rung_instance* instance, const rung_cell* cells, uint32_t count,
                                rung_value* values) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   if ((cells == nullptr || values == nullptr) && count != 0)
-    return fail(RUNG_BAD_ARGUMENT, "cells or values are missing");
+    return fail(RUNG_BAD_ARGUMENT, "the cells or the values are null, their number is not 0");
   const rt::Memory memory = call->running.memory();
   int32_t status = RUNG_OK;
   for (uint32_t i = 0; i < count; ++i) {
@@ -168,7 +172,7 @@ int32_t rung_instance_write_all(rung_instance* instance, const rung_cell* cells,
   const Call call(instance);
   if (!call.ok()) return call.status();
   if ((cells == nullptr || values == nullptr) && count != 0)
-    return fail(RUNG_BAD_ARGUMENT, "cells or values are missing");
+    return fail(RUNG_BAD_ARGUMENT, "the cells or the values are null, their number is not 0");
   int32_t status = RUNG_OK;
   for (uint32_t i = 0; i < count; ++i)
     if (numberCell(*call, cells[i], true, status) == nullptr) return status;
@@ -189,9 +193,9 @@ const LocatedCell* textCell(const rung_instance& instance, rung_cell cell, bool 
 } // namespace
 
 int32_t rung_instance_read_text(const rung_instance* instance, rung_cell cell, char* text, size_t bytes) {
-  const Call call(instance, From::CallbackToo);
+  const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
-  if (text == nullptr || bytes == 0) return fail(RUNG_BAD_ARGUMENT, "there is no place for the text");
+  if (text == nullptr || bytes == 0) return fail(RUNG_BAD_ARGUMENT, "the buffer for the text is null or has no bytes");
   int32_t status = RUNG_OK;
   const LocatedCell* found = textCell(*call, cell, false, status);
   if (found == nullptr) return status;
@@ -204,7 +208,7 @@ int32_t rung_instance_read_text(const rung_instance* instance, rung_cell cell, c
 int32_t rung_instance_write_text(rung_instance* instance, rung_cell cell, const char* text) {
   const Call call(instance);
   if (!call.ok()) return call.status();
-  if (text == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no text");
+  if (text == nullptr) return fail(RUNG_BAD_ARGUMENT, "the text is null");
   int32_t status = RUNG_OK;
   const LocatedCell* found = textCell(*call, cell, true, status);
   if (found == nullptr) return status;

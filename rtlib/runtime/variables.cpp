@@ -93,14 +93,16 @@ void writeOutputs(rung_instance& instance) noexcept {
   const rt::Memory memory = instance.running.memory();
   for (const BoundVariable& v : instance.outputs) {
     const LocatedCell& cell = *instance.cells->at(v.cell);
-    if (cell.state != CellState::Good)
+    if (cell.state != CellState::Good) {
       setInteger(v, 0);
-    else if (isReal(v.type))
-      setReal(v, memory.readReal(cell.place));
-    else if (cell.place.real)
-      setInteger(v, nearest(memory.readReal(cell.place)));
+      continue;
+    }
+    const rung_value value = firstValue(memory, cell);
+    const bool real = cell.place.real;
+    if (isReal(v.type))
+      setReal(v, real ? value.real : static_cast<double>(value.integer));
     else
-      setInteger(v, valueOf(memory, cell.place));
+      setInteger(v, real ? nearest(value.real) : value.integer);
   }
 }
 
@@ -134,7 +136,8 @@ using namespace rung::runtime;
 int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variables, uint32_t count) {
   const Call call(instance);
   if (!call.ok()) return call.status();
-  if (variables == nullptr && count != 0) return fail(RUNG_BAD_ARGUMENT, "there are no variables");
+  if (variables == nullptr && count != 0)
+    return fail(RUNG_BAD_ARGUMENT, "the variables are null, their number is not 0");
   return contained([&] {
     std::vector<BoundVariable> inputs = call->inputs;
     std::vector<BoundVariable> outputs = call->outputs;

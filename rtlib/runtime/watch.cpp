@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <thread>
 
 #include "rtlib/runtime/instance.h"
 #include "rtlib/runtime/structs.h"
@@ -28,8 +27,6 @@ void show(const uint64_t* head, rung_sample& sample) noexcept {
 
 } // namespace
 
-// A watch that is removed has left its place before the scan thread is asked whether it is sampling; that says so
-// before it looks at the places: in one order for all, one of the two sees the other.
 bool Watches::add(rung_watch& watch) {
   const std::lock_guard lock(changes_);
   const auto free = std::ranges::find(watches_, nullptr, [](const auto& place) { return place.load(); });
@@ -46,16 +43,16 @@ void Watches::remove(rung_watch& watch) {
     place.store(nullptr);
     count_.fetch_sub(1);
   }
-  while (sampling_.load()) std::this_thread::yield();
+  sampling_.wait();
 }
 
 void Watches::sampleAll(const rung_instance& instance) noexcept {
   const SampleHead head{instance.running.generation(), instance.passes,
                         static_cast<uint64_t>(instance.running.nowUs())};
-  sampling_.store(true);
+  sampling_.enter();
   for (const std::atomic<rung_watch*>& place : watches_)
     if (rung_watch* watch = place.load(); watch != nullptr) watch->take(instance, head);
-  sampling_.store(false);
+  sampling_.leave();
 }
 
 } // namespace rung::runtime
@@ -65,6 +62,8 @@ using namespace rung::runtime;
 rung_watch::rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth)
     : instance(of), cells(std::move(watched)), scratch_(words()), newest_(words()), depth_(depth),
       ring_(depth * words()) {}
+
+rung_watch::~rung_watch() { instance.watches.remove(*this); }
 
 void rung_watch::take(const rung_instance& from, const SampleHead& head) noexcept {
   scratch_[0] = head.generation;
@@ -157,14 +156,7 @@ int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells, uint32_t
   });
 }
 
-int32_t rung_watch_free(rung_watch* watch) {
-  if (watch == nullptr) return RUNG_OK;
-  rung_watch* handle = watchOf(watch);
-  if (handle == nullptr) return failHandle("a watch");
-  handle->instance.watches.remove(*handle);
-  release(handle);
-  return RUNG_OK;
-}
+int32_t rung_watch_free(rung_watch* watch) { return endHandle(watch, kWatchMark, "a watch"); }
 
 int32_t rung_watch_newest(const rung_watch* watch, rung_value* values, rung_sample* sample) {
   return giveSample(watch, values, sample,

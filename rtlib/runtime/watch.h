@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rtlib/runtime/handles.h"
+#include "rtlib/runtime/scan_use.h"
 
 namespace rung::runtime {
 
@@ -34,7 +35,7 @@ private:
 
   std::mutex changes_;
   std::atomic<uint32_t> count_{0};
-  std::atomic<bool> sampling_{false};
+  ScanUse sampling_;
   std::array<std::atomic<rung_watch*>, RUNG_MOST_WATCHES> watches_{};
 };
 
@@ -42,10 +43,11 @@ private:
 
 struct rung_watch {
   rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth);
+  ~rung_watch(); // no thread looks at it any more
 
   // Scan thread.
   void take(const rung_instance& from, const rung::runtime::SampleHead& head) noexcept;
-  // Any thread; false: there is none yet, or none that waits.
+  // Any thread; false: no sample yet, or none that waits.
   bool newest(rung_value* values, rung_sample& sample) const noexcept;
   bool next(rung_value* values, rung_sample& sample) noexcept;
 

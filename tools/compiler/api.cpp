@@ -7,7 +7,6 @@
 
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
-#include "rtlib/host/file.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/runtime/handles.h"
 #include "rtlib/runtime/structs.h"
@@ -87,7 +86,7 @@ int32_t addSources(const rung_source* sources, uint32_t count, SourceManager& to
 
 int32_t takeSettings(const rung_compile_options& options, CompileRequest& request) {
   if (options.settings == nullptr && options.setting_count != 0)
-    return fail(RUNG_BAD_ARGUMENT, "there are no settings");
+    return fail(RUNG_BAD_ARGUMENT, "the settings are null, their number is not 0");
   for (uint32_t i = 0; i < options.setting_count; ++i) {
     const rung_setting& setting = options.settings[i];
     if (setting.key == nullptr || setting.value == nullptr)
@@ -165,11 +164,7 @@ int32_t rung_compile(const rung_source* sources, uint32_t count, const rung_comp
 }
 
 int32_t rung_compilation_free(rung_compilation* compilation) {
-  if (compilation == nullptr) return RUNG_OK;
-  rung_compilation* handle = compilationOf(compilation);
-  if (handle == nullptr) return failHandle("a compilation");
-  runtime::release(handle);
-  return RUNG_OK;
+  return runtime::endHandle(compilation, runtime::kCompilationMark, "a compilation");
 }
 
 int32_t rung_compilation_diagnostic(const rung_compilation* compilation, uint32_t index, rung_diagnostic* diagnostic) {
@@ -201,7 +196,7 @@ int32_t failErrors() noexcept { return fail(RUNG_WRONG_STATE, "the program has e
 int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image) {
   const rung_compilation* handle = compilationOf(compilation);
   if (handle == nullptr) return failHandle("a compilation");
-  if (image == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no place for the image");
+  if (image == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the image is null");
   if (!handle->program->compiled) return failErrors();
   return contained([&] {
     Result<std::unique_ptr<host::Engine>> made = makeEngine(handle->kind, *handle->program->compiled, handle->engine);
@@ -219,12 +214,12 @@ int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image
 int32_t rung_compilation_write(rung_compilation* compilation, const char* path) {
   const rung_compilation* handle = compilationOf(compilation);
   if (handle == nullptr) return failHandle("a compilation");
-  if (path == nullptr) return fail(RUNG_BAD_ARGUMENT, "there is no name of a file");
+  if (path == nullptr) return fail(RUNG_BAD_ARGUMENT, "the name of the file is null");
   if (!handle->program->compiled) return failErrors();
   return contained([&] {
     const Result<std::string> object = sharedObject(*handle->program->compiled, handle->engine);
     if (!object.ok()) return fail(RUNG_FAILED, "%s", object.error().c_str());
-    const std::string error = host::replaceFile(path, host::sealed(object.value()), {.mode = host::kProgramMode});
+    const std::string error = host::writeProgram(path, host::sealed(object.value()));
     return error.empty() ? int32_t{RUNG_OK} : fail(RUNG_FAILED, "%s", error.c_str());
   });
 }

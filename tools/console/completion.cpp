@@ -6,6 +6,7 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/letters.h"
+#include "rtlib/text/utf8.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/services.h"
 
@@ -79,7 +80,7 @@ std::string commonStart(const std::vector<std::string>& words) {
   std::string common = words.empty() ? std::string() : words[0];
   for (const std::string& word : words) {
     size_t same = static_cast<size_t>(std::ranges::mismatch(common, word).in1 - common.begin());
-    while (same > 0 && same < word.size() && (word[same] & 0xC0) == 0x80) --same; // not within a character
+    while (same > 0 && same < word.size() && text::isUtf8Continuation(word[same])) --same; // not within a character
     common.resize(same);
   }
   return common;

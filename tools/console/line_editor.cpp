@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "rtlib/text/utf8.h"
 #include "tools/console/completion.h"
 
 namespace rung::console {
@@ -22,7 +23,7 @@ constexpr wchar_t kControlC = 3;
 constexpr size_t kGap = 2; // between two columns
 
 size_t characters(std::string_view utf8) {
-  return static_cast<size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<size_t>(std::ranges::count_if(utf8, [](char c) { return !text::isUtf8Continuation(c); }));
 }
 
 // In columns, as a shell lists files.

@@ -88,7 +88,7 @@ int sealFiles(const SealOptions& options) {
 } // namespace
 
 int writeProgram(const std::string& out, const std::string& file) {
-  const std::string wrong = host::replaceFile(out, file, {.mode = host::kProgramMode, .lasts = true});
+  const std::string wrong = host::writeProgram(out, file);
   return wrong.empty() ? kOk : environmentError(wrong);
 }
 

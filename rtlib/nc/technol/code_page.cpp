@@ -5,6 +5,8 @@
 #include <array>
 #include <iterator>
 
+#include "rtlib/text/utf8.h"
+
 namespace rung::nc {
 namespace {
 
@@ -82,12 +84,12 @@ void append(std::string& out, uint32_t c) {
 }
 
 // The character at `at`, which is moved behind it. A byte that begins none stands for itself.
-uint32_t nextCharacter(std::string_view text, size_t& at) {
-  const auto first = static_cast<unsigned char>(text[at++]);
+uint32_t nextCharacter(std::string_view from, size_t& at) {
+  const auto first = static_cast<unsigned char>(from[at++]);
   const size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC0 ? 1 : 0;
   uint32_t value = more == 0 ? first : first & (0x3Fu >> more);
-  for (size_t i = 0; i < more && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u; ++i)
-    value = value << 6 | (static_cast<unsigned char>(text[at++]) & 0x3Fu);
+  for (size_t i = 0; i < more && at < from.size() && text::isUtf8Continuation(from[at]); ++i)
+    value = value << 6 | (static_cast<unsigned char>(from[at++]) & 0x3Fu);
   return value;
 }
 

@@ -254,6 +254,8 @@ TEST_F(Runtime, BoundVariables) {
   plc.bindOutput("COUNT", passes);
   plc.bindOutput("SPEED", shown, 1000);
   plc.bindOutput("SPEED", rounded);
+  int64_t limit = 0;
+  plc.bindOutput("LIMIT", limit);
   plc.powerOn();
   scan(plc, 3);
   EXPECT_TRUE(plc.read<bool>(plc.find("LATCHED_DOOR")));
@@ -261,6 +263,7 @@ TEST_F(Runtime, BoundVariables) {
   EXPECT_EQ(passes, 3);
   EXPECT_EQ(shown, 2.5);
   EXPECT_EQ(rounded, 2500);
+  EXPECT_EQ(limit, -5) << "a constant";
   plc.powerOff();
   EXPECT_EQ(passes, 0) << "off";
   EXPECT_EQ(statusOf([&] { plc.bindInput("NOTE", door); }), RUNG_WRONG_TYPE);

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include <fmt/format.h>
@@ -37,16 +38,18 @@ constexpr uint32_t kRungsPerPiece = 2048;
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
 
-std::vector<ModulePart> cutPieces(const Layout& layout) {
+// Each of chunks that follow one another.
+std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t> chunks) {
   std::vector<ModulePart> pieces;
   uint32_t rungs = kRungsPerPiece;
-  for (uint32_t i = 0; i < layout.chunks().size(); ++i) {
-    if (rungs >= kRungsPerPiece) {
-      pieces.push_back({.firstChunk = i, .tableName = fmt::format("rung_chunks_{}", i)});
+  for (const uint32_t chunk : chunks) {
+    const bool follows = !pieces.empty() && pieces.back().firstChunk + pieces.back().chunkCount == chunk;
+    if (rungs >= kRungsPerPiece || !follows) {
+      pieces.push_back({.firstChunk = chunk, .tableName = fmt::format("rung_chunks_{}", chunk)});
       rungs = 0;
     }
     ++pieces.back().chunkCount;
-    rungs += layout.chunks()[i].rungCount;
+    rungs += layout.chunks()[chunk].rungCount;
   }
   return pieces;
 }
@@ -68,9 +71,9 @@ Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const 
 class Compiler {
 public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
-           JitReport& report)
-      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout)), objects_(pieces_.size()),
-        cache_(options.cacheFolder), report_(report) {
+           std::span<const uint32_t> chunks, JitReport& report)
+      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout, chunks)),
+        objects_(pieces_.size()), cache_(options.cacheFolder), report_(report) {
     if (options.cacheFolder.empty()) return;
     const CacheKeys keys(layout, codeHash, options.code, machine);
     for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
@@ -143,6 +146,31 @@ Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) 
   return std::move(*jit);
 }
 
+// Gives each chunk's number and function to `take`, in their order.
+template <class Take>
+Result<std::unique_ptr<llvm::orc::LLJIT>> compileAndLink(const Layout& layout, uint64_t codeHash,
+                                                         const JitOptions& options, std::span<const uint32_t> chunks,
+                                                         JitReport& report, Take take) {
+  if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
+  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
+  if (!machine.ok()) return machine.failure();
+  Compiler compiler(layout, codeHash, options, describeMachine(*machine.value()), chunks, report);
+  if (Result<void> compiled = compiler.run(); !compiled.ok()) return compiled.failure();
+  Result<std::unique_ptr<llvm::orc::LLJIT>> linker = makeLinker(options);
+  if (!linker.ok()) return linker.failure();
+  llvm::orc::LLJIT& jit = *linker.value();
+  for (size_t i = 0; i < compiler.pieces().size(); ++i) {
+    const ModulePart& piece = compiler.pieces()[i];
+    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(compiler.object(i), piece.tableName);
+    if (llvm::Error error = jit.addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
+    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(piece.tableName);
+    if (!table) return failure(textOf(table.takeError()));
+    const auto* functions = table->toPtr<const rung_chunk_fn*>();
+    for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
+  }
+  return linker;
+}
+
 } // namespace
 
 JitEngine::JitEngine(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -151,27 +179,39 @@ const rung_program& JitEngine::program() const { return state_->image.program();
 const JitReport& JitEngine::report() const { return state_->report; }
 
 Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t codeHash, const JitOptions& options) {
-  if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
   auto state = std::make_unique<JitEngine::State>(layout, codeHash);
-  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
-  if (!machine.ok()) return machine.failure();
-  Compiler compiler(layout, codeHash, options, describeMachine(*machine.value()), state->report);
-  if (Result<void> compiled = compiler.run(); !compiled.ok()) return compiled.failure();
-
-  Result<std::unique_ptr<llvm::orc::LLJIT>> linker = makeLinker(options);
-  if (!linker.ok()) return linker.failure();
-  state->jit = std::move(linker).value();
-  for (size_t i = 0; i < compiler.pieces().size(); ++i) {
-    const ModulePart& piece = compiler.pieces()[i];
-    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(compiler.object(i), piece.tableName);
-    if (llvm::Error error = state->jit->addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
-    llvm::Expected<llvm::orc::ExecutorAddr> table = state->jit->lookup(piece.tableName);
-    if (!table) return failure(textOf(table.takeError()));
-    const auto* functions = table->toPtr<const rung_chunk_fn*>();
-    state->functions.insert(state->functions.end(), functions, functions + piece.chunkCount);
-  }
+  std::vector<uint32_t> all(layout.chunks().size());
+  std::iota(all.begin(), all.end(), 0);
+  Result<std::unique_ptr<llvm::orc::LLJIT>> jit =
+      compileAndLink(layout, codeHash, options, all, state->report,
+                     [&](uint32_t, rung_chunk_fn function) { state->functions.push_back(function); });
+  if (!jit.ok()) return jit.failure();
+  state->jit = std::move(jit).value();
   state->image.program().chunk_fns = state->functions.data();
   return std::unique_ptr<JitEngine>(new JitEngine(std::move(state)));
+}
+
+struct JitChunks::State {
+  std::unique_ptr<llvm::orc::LLJIT> jit;
+};
+
+JitChunks::JitChunks(std::unique_ptr<State> state, std::vector<Chunk> chunks)
+    : state_(std::move(state)), chunks_(std::move(chunks)) {}
+JitChunks::~JitChunks() = default;
+
+Result<std::unique_ptr<JitChunks>> compileChunks(const Layout& layout, std::span<const uint32_t> chunks,
+                                                 const JitOptions& options) {
+  JitOptions uncached = options;
+  uncached.cacheFolder.clear();
+  JitReport report;
+  std::vector<JitChunks::Chunk> made;
+  Result<std::unique_ptr<llvm::orc::LLJIT>> jit =
+      compileAndLink(layout, 0, uncached, chunks, report, [&](uint32_t number, rung_chunk_fn function) {
+        made.push_back({.number = number, .function = function});
+      });
+  if (!jit.ok()) return jit.failure();
+  auto state = std::make_unique<JitChunks::State>(std::move(jit).value());
+  return std::unique_ptr<JitChunks>(new JitChunks(std::move(state), std::move(made)));
 }
 
 } // namespace rung::codegen

@@ -2,8 +2,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "codegen/llvm/llvm_emitter.h"
 #include "rtlib/host/engine.h"
@@ -38,6 +40,29 @@ private:
                                                        const JitOptions& options);
   std::unique_ptr<State> state_;
 };
+
+// Code of some chunks of a program, to run in the place of what the program has for them.
+class JitChunks {
+public:
+  ~JitChunks();
+  struct Chunk {
+    uint32_t number = 0;
+    rung_chunk_fn function = nullptr;
+  };
+  std::span<const Chunk> chunks() const { return chunks_; }
+
+private:
+  struct State;
+  explicit JitChunks(std::unique_ptr<State> state, std::vector<Chunk> chunks);
+  friend Result<std::unique_ptr<JitChunks>> compileChunks(const ir::Layout& layout, std::span<const uint32_t> chunks,
+                                                          const JitOptions& options);
+  std::unique_ptr<State> state_;
+  std::vector<Chunk> chunks_;
+};
+
+// `chunks`: ascending. Without a cache. The layout need not outlive the code.
+Result<std::unique_ptr<JitChunks>> compileChunks(const ir::Layout& layout, std::span<const uint32_t> chunks,
+                                                 const JitOptions& options);
 
 // `codeHash` goes into the program's tables. The layout need not outlive the engine.
 Result<std::unique_ptr<JitEngine>> compileJit(const ir::Layout& layout, uint64_t codeHash, const JitOptions& options);

@@ -34,6 +34,7 @@ struct Op {
   uint32_t count = 0;
   int64_t imm = 0;
   uint32_t line = 0; // in the rung's file; 0: the rung's first line
+  bool operator==(const Op&) const = default;
 };
 
 enum class TransferKind : uint8_t {
@@ -54,6 +55,7 @@ struct Transfer {
   uint32_t target = 0;
   RoutineId callee{};
   std::vector<uint32_t> targets{};
+  bool operator==(const Transfer&) const = default;
 };
 
 struct Rung {

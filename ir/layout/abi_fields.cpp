@@ -107,7 +107,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, text_count, U32),
                                         RUNG_FIELD(rung_program, slot_count, U32),
                                         RUNG_FIELD(rung_program, continuation_count, U32),
-                                        RUNG_FIELD(rung_program, reserved, U32),
+                                        RUNG_FIELD(rung_program, write_count, U32),
                                         RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
                                         RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
                                         RUNG_STRUCTS(rung_program, slots, slot_count, kSlot),
@@ -128,7 +128,8 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_ARRAY(rung_program, faults, fault_count, Texts),
                                         RUNG_ARRAY(rung_program, services, service_count, Texts),
                                         RUNG_ARRAY(rung_program, texts, text_count, Texts),
-                                        RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns)};
+                                        RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
+                                        RUNG_STRUCTS(rung_program, writes, write_count, kSpan)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

@@ -204,6 +204,12 @@ Layout::Layout(const Module& module, const LayoutOptions& options) : module_(&mo
   LayoutBuilder(*this, options).run();
 }
 
+Layout Layout::over(const Module& module) const {
+  Layout other = *this;
+  other.module_ = &module;
+  return other;
+}
+
 BitLocation Layout::bit(SpaceId space, uint64_t bitOffset) const {
   const uint32_t byte = static_cast<uint32_t>(bitOffset / 8);
   const uint32_t bit = static_cast<uint32_t>(bitOffset % 8);

@@ -55,6 +55,9 @@ public:
   // `module` has passed the verifier in mode Final and outlives the layout.
   Layout(const Module& module, const LayoutOptions& options);
 
+  // The same memory and the same chunks for another form of the module, whose rungs have the same ways out, or fewer.
+  Layout over(const Module& module) const;
+
   const Module& module() const { return *module_; }
   uint32_t memorySize() const { return memorySize_; }
 

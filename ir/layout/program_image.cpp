@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ir/core/memory_use.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {
@@ -41,6 +42,7 @@ public:
     addSteps(module_.fast, image_.fast_);
     addSteps(module_.slices, image_.slices_);
     addTexts();
+    addWrites();
     link();
   }
 
@@ -219,6 +221,36 @@ private:
     }
   }
 
+  // What the operation may write of a space; nothing where it writes none.
+  static SpaceSpan writtenBy(const Module& module, const Op& op) {
+    const OpInfo& info = opInfo(op.code);
+    const std::optional<Use> use = (info.effects & kWrites) != 0 ? useOf(module, op) : std::nullopt;
+    if (!use) return {};
+    const uint32_t first = use->place.first / 8;
+    return {use->place.space, first, (use->place.first + use->place.count + 7) / 8 - first};
+  }
+
+  void addWrites() {
+    std::vector<rung_span> all;
+    for (const Routine& routine : module_.routines)
+      for (const Rung& rung : routine.rungs)
+        for (const Op& op : rung.ops) {
+          if (op.code == OpCode::Store && op.type == Type::Bit)
+            all.push_back({layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm)).offset, 1});
+          else if (const SpaceSpan span = writtenBy(module_, op); span.size != 0)
+            forPieces(span, [&](const rung_span& piece) { all.push_back(piece); });
+        }
+    std::ranges::sort(all, {}, &rung_span::offset);
+    for (const rung_span& span : all) {
+      if (image_.writes_.empty() || image_.writes_.back().offset + image_.writes_.back().size < span.offset) {
+        image_.writes_.push_back(span);
+        continue;
+      }
+      rung_span& last = image_.writes_.back();
+      last.size = std::max(last.size, span.offset + span.size - last.offset);
+    }
+  }
+
   template <class T>
   static void point(const std::vector<T>& from, const T*& to, uint32_t& count) {
     to = from.empty() ? nullptr : from.data();
@@ -247,6 +279,7 @@ private:
     pointTexts(image_.faults_, p.faults, p.fault_count);
     pointTexts(image_.services_, p.services, p.service_count);
     pointTexts(image_.texts_, p.texts, p.text_count);
+    point(image_.writes_, p.writes, p.write_count);
   }
 
   static void pointTexts(const std::vector<const char*>& from, const char* const*& to, uint32_t& count) {

@@ -48,6 +48,7 @@ private:
   std::vector<const char*> faults_;
   std::vector<const char*> services_;
   std::vector<const char*> texts_;
+  std::vector<rung_span> writes_;
 };
 
 } // namespace rung::ir

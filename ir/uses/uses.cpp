@@ -2,7 +2,6 @@
 #include "ir/uses/uses.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace rung::ir {
 namespace {
@@ -17,34 +16,9 @@ void addOnce(std::vector<T>& list, const T& item) {
   if (!contains(list, item)) list.push_back(item);
 }
 
-uint32_t bytesOf(const Space& space) { return space.units * space.unitBytes; }
-
-// What an operation touches; nothing when it touches no memory.
-std::optional<Use> useOf(const Module& module, const Op& op) {
-  const OpInfo& info = opInfo(op.code);
-  if (info.attr != Attr::Place && info.attr != Attr::Window) return std::nullopt;
-  const Space& space = module.spaces[op.ref];
-  const auto first = static_cast<uint32_t>(op.imm);
-  const bool window = info.attr == Attr::Window;
-  const uint32_t one = std::max(bitWidth(op.type), window ? space.unitBytes * 8 : 1u);
-  // Elements begin a unit apart; the last one may reach over the next.
-  const uint64_t all = window && op.count > 1 ? one + uint64_t{op.count - 1} * space.unitBytes * 8 : one;
-  const uint64_t room = uint64_t{bytesOf(space)} * 8 - first;
-  Use use;
-  use.place = {SpaceId{op.ref}, first, static_cast<uint32_t>(std::min(all, room))};
-  use.type = op.type;
-  use.writes = (info.effects & kWrites) != 0;
-  use.computed = window;
-  return use;
-}
-
 BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
 
 } // namespace
-
-bool overlap(const BitRange& a, const BitRange& b) {
-  return a.space == b.space && a.first < b.first + b.count && b.first < a.first + a.count;
-}
 
 Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
   RungFacts facts;

@@ -5,26 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "ir/core/module.h"
+#include "ir/core/memory_use.h"
 
 namespace rung::ir {
-
-// Bits of a space, counted from its beginning.
-struct BitRange {
-  SpaceId space;
-  uint32_t first = 0;
-  uint32_t count = 1;
-  bool operator==(const BitRange&) const = default;
-};
-bool overlap(const BitRange& a, const BitRange& b);
-
-struct Use {
-  BitRange place; // computed: all that the address can reach
-  Type type = Type::Bit;
-  bool writes = false;
-  bool computed = false; // somewhere in `place`, at an address that is computed
-  bool operator==(const Use&) const = default;
-};
 
 class Uses {
 public:

@@ -7,19 +7,21 @@
 
 namespace rung::rt {
 
-Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept
-    : program_(&program), memory_(memory), ctx_(&ctx), parts_(parts) {
+Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine) noexcept
+    : program_(&program), memory_(memory), ctx_(&ctx), parts_(parts), own_{program.chunk_fns, engine} {
   reset();
 }
 
-void Runner::setProgram(const rung_program& program, uint8_t* memory, PartState* parts) noexcept {
+void Runner::setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine) noexcept {
   program_ = &program;
   memory_ = memory;
   parts_ = parts;
+  own_ = {program.chunk_fns, engine};
   beginProgram();
 }
 
 void Runner::beginProgram() noexcept {
+  endForces();
   bool timed = false;
   for (uint32_t i = 0; i < program_->scan_count; ++i) timed = timed || program_->scan[i].op == RUNG_STEP_ADVANCE;
   const bool hasPeriod = !timed && program_->main_task < program_->task_count;
@@ -34,6 +36,29 @@ void Runner::reset() noexcept {
   ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
   faulted_ = false;
   stopped_ = false;
+}
+
+// ---- forces ------------------------------------------------------------------------------------------------------
+
+void Runner::force(const Code& code, std::span<const ForcedBits> bits) noexcept {
+  if (faulted_) return;
+  code_ = code;
+  ctx_->engine = code.engine;
+  forced_ = bits;
+  hold();
+}
+
+void Runner::endForces() noexcept {
+  code_ = own_;
+  ctx_->engine = own_.engine;
+  forced_ = {};
+}
+
+void Runner::holdAll() noexcept {
+  for (const ForcedBits& bits : forced_) {
+    uint8_t& byte = memory_[bits.offset];
+    byte = static_cast<uint8_t>((byte & ~bits.mask) | bits.value);
+  }
 }
 
 // ---- tasks -------------------------------------------------------------------------------------------------------
@@ -75,6 +100,7 @@ void Runner::copy(uint32_t first, uint32_t count) noexcept {
     }
     copyMasked(memory_ + c.to, memory_ + c.from, memory_ + c.mask, c.size);
   }
+  hold();
 }
 
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
@@ -88,7 +114,7 @@ uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcep
 template <bool Timed>
 uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   const rung_chunk* chunks = program_->chunks;
-  const rung_chunk_fn* functions = program_->chunk_fns;
+  const rung_chunk_fn* functions = code_.functions;
   const uint32_t count = program_->chunk_count;
   while (pc < count) {
     if (pc >= limit && ctx_->sp == 1) return pc;
@@ -126,11 +152,13 @@ bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
 bool Runner::runTask(uint32_t task) noexcept {
   const FloatEnvironment environment(defaultFloats_);
   if (!inHook_) startTime();
+  hold();
   return runWhole(task);
 }
 
 bool Runner::runPart(uint32_t task) noexcept {
   const FloatEnvironment environment(defaultFloats_);
+  hold();
   return runNextPart(task);
 }
 
@@ -180,6 +208,7 @@ void Runner::stopOnFault(uint32_t task) noexcept {
   if (ctx_->fault.code == RUNG_NONE) ctx_->fault.code = kUndescribedFault;
   faulted_ = true;
   if (inFaultHook_) return; // a fault of the last run; the first one stays on record
+  endForces();              // before the outputs are safe
   clearSafes();
   if (hooks_.fault == nullptr) return;
   const rung_fault first = ctx_->fault;
@@ -215,6 +244,7 @@ void Runner::doStep(const rung_step& step) noexcept {
     inHook_ = true;
     hooks_.step(hooks_.data, step.arg);
     inHook_ = false;
+    hold();
     return;
   case RUNG_STEP_SLOT: return;
   }
@@ -242,6 +272,7 @@ bool Runner::stepOnce() noexcept {
 void Runner::scan() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  hold();
   list_ = pass(false);
   bool more = true;
   while (more && !faulted_) more = stepOnce();
@@ -250,6 +281,7 @@ void Runner::scan() noexcept {
 void Runner::slot() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  hold();
   list_ = pass(false);
   bool more = true;
   while (more && !faulted_) {
@@ -261,6 +293,7 @@ void Runner::slot() noexcept {
 void Runner::fast() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  hold();
   for (uint32_t i = 0; i < program_->fast_count && !faulted_; ++i) doStep(program_->fast[i]);
 }
 
@@ -274,6 +307,7 @@ uint32_t Runner::sliceDelayUs() const noexcept {
 void Runner::slice() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
+  hold();
   list_ = pass(true);
   bool more = true;
   while (more && !faulted_) more = stepOnce() && list_[position_].op != RUNG_STEP_ADVANCE;

@@ -43,17 +43,44 @@ struct TimeLimit {
   int64_t (*nowNs)() = nullptr;
 };
 
+// Code for all chunks of a program: its own, or other code that runs in its place.
+struct Code {
+  const rung_chunk_fn* functions = nullptr; // by chunk
+  void* engine = nullptr;                   // rung_ctx::engine
+};
+
+// Bits of a byte of the memory block that are held at a value.
+struct ForcedBits {
+  uint32_t offset = 0;
+  uint8_t mask = 0;
+  uint8_t value = 0;
+};
+
 class Runner {
 public:
-  // `parts` has an entry for each task. All outlive the runner.
-  Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts) noexcept;
+  // `parts` has an entry for each task; `engine`: what the program's own code needs in its context. All outlive the
+  // runner.
+  Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts,
+         void* engine = nullptr) noexcept;
 
   void setHooks(RunnerHooks hooks) noexcept { hooks_ = hooks; }
   // What runs longer ends as if its budget were used up.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Another program takes over, between two passes: its memory and part states; the clock continues, a fault stays.
   // From then on the caller keeps the new ones alive, and no longer those of before.
-  void setProgram(const rung_program& program, uint8_t* memory, PartState* parts) noexcept;
+  void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine) noexcept;
+
+  // From now on `bits` are as they say for all who read them within a scan, whatever copies and the control's work
+  // leave there; for what chunks write, `code` sees to that. Between two slices; until `endForces`, which a fault, a
+  // stop, `reset` and `setProgram` do as well. Both outlive their use. Nothing happens after a fault.
+  void force(const Code& code, std::span<const ForcedBits> bits) noexcept;
+  void endForces() noexcept;
+  std::span<const ForcedBits> forced() const noexcept { return forced_; }
+  // After others have written to the memory.
+  void hold() noexcept {
+    if (!forced_.empty()) holdAll();
+  }
+
   // Forgets the fault, all runs under way and the place in the schedule; the clock continues.
   void reset() noexcept;
 
@@ -84,7 +111,10 @@ public:
   bool faulted() const noexcept { return faulted_; }
   const rung_fault& fault() const noexcept { return ctx_->fault; }
   // A stopped program (the operator's stop) only lets the clock advance. Tasks can still be run by hand.
-  void setStopped(bool stopped) noexcept { stopped_ = stopped; }
+  void setStopped(bool stopped) noexcept {
+    stopped_ = stopped;
+    if (stopped) endForces();
+  }
   bool stopped() const noexcept { return stopped_; }
 
 private:
@@ -94,6 +124,7 @@ private:
   void startTime() noexcept {
     if (limit_.ns != 0) deadline_ = limit_.nowNs() + limit_.ns;
   }
+  void holdAll() noexcept;
   bool isLate() const noexcept { return limit_.nowNs() > deadline_; }
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
   void begin(uint32_t task) noexcept;
@@ -116,6 +147,9 @@ private:
   rung_ctx* ctx_;
   PartState* parts_;
   RunnerHooks hooks_;
+  Code own_;  // of the program
+  Code code_; // that runs
+  std::span<const ForcedBits> forced_;
   TimeLimit limit_;
   int64_t deadline_ = 0;
   std::span<const rung_step> list_; // the pass: rung_program::scan or ::slices

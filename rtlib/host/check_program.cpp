@@ -122,6 +122,7 @@ private:
     present("faults", p_.fault_count, p_.faults);
     present("services", p_.service_count, p_.services);
     present("texts", p_.text_count, p_.texts);
+    present("written spans", p_.write_count, p_.writes);
   }
 
   // ---- memory ------------------------------------------------------------------------------------------------------
@@ -253,6 +254,11 @@ private:
     if (kept > UINT32_MAX) fail("the retained spans have more than 4 GB together");
     for (uint32_t i = 0; i < p_.safe_count; ++i)
       inBlock("safe span", i, p_.safe_spans[i].offset, p_.safe_spans[i].size);
+    for (uint32_t i = 0; i < p_.write_count; ++i) {
+      inBlock("written span", i, p_.writes[i].offset, p_.writes[i].size);
+      if (i > 0 && p_.writes[i].offset <= uint64_t{p_.writes[i - 1].offset} + p_.writes[i - 1].size)
+        failAt("written span", i, "does not lie above the one before it");
+    }
   }
 
   // Code takes the byte of an expanded bit for 0 or 1.

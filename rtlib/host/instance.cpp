@@ -9,7 +9,7 @@ namespace rung::host {
 
 Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
     : loaded_(runnable), hooks_(hooks), ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<rt::HostPort>()),
-      runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data()) {
+      runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data(), runnable.engine) {
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
   enter();
@@ -18,29 +18,29 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
   coldStart();
 }
 
-// The context of its code.
-void Instance::enter() {
-  ctx_->prof = loaded_.profile.empty() ? nullptr : loaded_.profile.data();
-  ctx_->engine = loaded_.engine;
-}
+// Its counters in the context.
+void Instance::enter() { ctx_->prof = loaded_.profile.empty() ? nullptr : loaded_.profile.data(); }
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
 std::optional<Ref> Instance::write(const Ref& ref, uint64_t value) {
   const std::optional<Ref> copied = loaded_.overwritten.source(ref);
   if (!copied) writeRaw(memory(), ref, value);
+  hold();
   return copied;
 }
 
 std::optional<Ref> Instance::writeReal(const Ref& ref, double value) {
   const std::optional<Ref> copied = loaded_.overwritten.source(ref);
   if (!copied) host::writeReal(memory(), ref, value);
+  hold();
   return copied;
 }
 
 std::optional<Ref> Instance::writeText(const Ref& ref, std::string_view text) {
   const std::optional<Ref> copied = loaded_.overwritten.source(ref);
   if (!copied) host::writeText(memory(), ref, text);
+  hold();
   return copied;
 }
 
@@ -150,7 +150,7 @@ ReplaceResult Instance::replace(Replacement& replacement) {
   replacement.there_.run(loaded_.block.get(), replacement.loaded_.block.get());
   std::swap(loaded_, replacement.loaded_);
   std::swap(replacement.there_, replacement.back_);
-  runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data());
+  runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine);
   ctx_->fault = translated(ctx_->fault, former, program());
   enter();
   clearProfile();

@@ -14,6 +14,7 @@
 #include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
 #include "rtlib/host/engine.h"
+#include "rtlib/host/forcing.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/host/ref.h"
 #include "rtlib/host/replacement.h"
@@ -93,6 +94,15 @@ public:
   void setTimeLimit(rt::TimeLimit limit) { runner_.setTimeLimit(limit); }
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
   void slice();
+
+  // See rt::Runner. False: a fault has stopped the program.
+  bool force(const Forcing& forcing) {
+    runner_.force(forcing.code(), forcing.held());
+    return !faulted();
+  }
+  void endForces() { runner_.endForces(); }
+  bool forced() const { return !runner_.forced().empty(); }
+  void hold() { runner_.hold(); }
 
   bool atListStart() const { return runner_.atListStart(); }
   int64_t nowUs() const { return ctx_->now_us; }

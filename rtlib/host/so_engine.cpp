@@ -115,6 +115,18 @@ SoEngine::SoEngine(void* library, const rung_program* program, std::string path,
 
 SoEngine::~SoEngine() { dlclose(library_); }
 
+std::optional<size_t> SoEngine::readFile(uint64_t first, std::span<char> to) const {
+  size_t done = 0;
+  while (done < to.size()) {
+    const ssize_t got = ::pread(file_.fd(), to.data() + done, to.size() - done, static_cast<off_t>(first + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return std::nullopt;
+    if (got == 0) break;
+    done += static_cast<size_t>(got);
+  }
+  return done;
+}
+
 std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& error, const SoOptions& options) {
   std::string problem;
   File file = openTrusted(path, options, problem);

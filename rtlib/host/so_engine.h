@@ -45,6 +45,8 @@ public:
   const rung_program& program() const override { return *program_; }
   std::string_view name() const override { return "so"; }
   const std::string& path() const { return path_; }
+  // The file's bytes from `first` on, as it was loaded; gives how many there were. Nothing: it cannot be read.
+  std::optional<size_t> readFile(uint64_t first, std::span<char> to) const;
 
 private:
   SoEngine(void* library, const rung_program* program, std::string path, File file);

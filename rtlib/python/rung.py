@@ -277,6 +277,32 @@ class rung_change(_Struct):
                 ("name", c_char_p), ("former", c_char_p)]
 
 
+class rung_forced_cell(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("owner", c_char_p), ("value", rung_value)]
+
+
+class rung_force_info(_Struct):
+    _fields_ = [("size", c_uint32), ("type", c_uint32), ("value", rung_value), ("since_us", c_int64),
+                ("name", c_char_p), ("owner", c_char_p)]
+
+
+_ReleaseFunction = CFUNCTYPE(None, c_void_p)
+
+
+class rung_forced_code(ctypes.Structure):
+    _fields_ = [("chunk_fns", POINTER(c_void_p)), ("engine", c_void_p), ("release", _ReleaseFunction),
+                ("owner", c_void_p)]
+
+
+_ForceFunction = CFUNCTYPE(c_int32, c_void_p, c_void_p, c_void_p, c_void_p, c_uint32, POINTER(rung_forced_code),
+                           c_char_p, c_size_t)
+
+
+class rung_code_maker(_Struct):
+    _fields_ = [("size", c_uint32), ("reserved", c_uint32), ("force", _ForceFunction), ("release", _ReleaseFunction),
+                ("user", c_void_p)]
+
+
 class rung_program(ctypes.Structure):
     """As far as this module reads it."""
     _fields_ = [("size", c_uint32), ("abi_version", c_uint32), ("name", c_char_p), ("dialect", c_char_p)]
@@ -323,6 +349,8 @@ Profile = _record("Profile", rung_profile, "Of Instance.profile: a rung, how oft
                   "compiler's.")
 Sample = _record("Sample", rung_sample, "Of a Watch: when its values were so.")
 Report = _record("Report", rung_replacement_info, "Of Replacement.report.")
+Force = _record("Force", rung_force_info, "Of Instance.forced: a cell that is held at a value. value: a float or an int.",
+                type=_member_of(Type))
 Change = _record("Change", rung_change, "Of Replacement.changes.", kind=_member_of(ChangeKind), is_state=bool)
 
 Request = namedtuple("Request", "ticket service args", module=__name__)
@@ -413,7 +441,7 @@ def _number(kind):
 # ---- functions of C --------------------------------------------------------------------------------------------------
 
 _Text, _Path = _argument(_text), _argument(_path)
-_I32, _U32, _I64 = _number(c_int32), _number(c_uint32), _number(c_int64)
+_I32, _U32, _I64, _U64 = map(_number, (c_int32, c_uint32, c_int64, c_uint64))
 _New = POINTER(c_void_p)
 _Values = POINTER(rung_value)
 _Cells = POINTER(c_uint32)
@@ -465,11 +493,20 @@ _FUNCTIONS = {
     "rung_watch_free": (c_int32, _Handle),
     "rung_watch_newest": (c_int32, _Handle, _Values, POINTER(rung_sample)),
     "rung_watch_next": (c_int32, _Handle, _Values, POINTER(rung_sample)),
+    "rung_trace_new": (c_int32, _Handle, _Path, _New),
+    "rung_trace_write": (c_int32, _Handle),
+    "rung_trace_free": (c_int32, _Handle),
     "rung_replacement_new": (c_int32, _Handle, _Handle, c_void_p, c_size_t, _New),
     "rung_replacement_free": (c_int32, _Handle),
     "rung_replacement_report": (c_int32, _Handle, POINTER(rung_replacement_info)),
     "rung_replacement_change": (c_int32, _Handle, _U32, POINTER(rung_change)),
     "rung_instance_replace": (c_int32, _Handle, _Handle),
+    "rung_forces_new": (c_int32, _Handle, _Handle, POINTER(rung_forced_cell), _U32, _New),
+    "rung_forces_free": (c_int32, _Handle),
+    "rung_instance_force": (c_int32, _Handle, _Handle),
+    "rung_instance_forced": (c_int32, _Handle, _U32, POINTER(rung_force_info)),
+    "rung_image_serve": (c_int32, _Handle, POINTER(rung_code_maker)),
+    "rung_image_file": (c_int32, _Handle, _U64, c_void_p, POINTER(c_size_t)),
 }
 
 
@@ -958,6 +995,18 @@ class Instance(_Closing):
         WRONG_STATE, it was made for another program than the one that runs; BAD_ARGUMENT, for another instance."""
         return _call(_library.rung_instance_replace, self, replacement) != Status.LATER
 
+    # -- forcing --
+
+    def force(self, forces):
+        """Puts Forces in effect in the place of those before; None ends all. False: a fault has stopped the program.
+        Error: WRONG_STATE, the program is stopped, or the set is of another one; BAD_ARGUMENT, of another instance."""
+        return _call(_library.rung_instance_force, self, _Handle() if forces is None else forces) != Status.FAULTED
+
+    def forced(self):
+        """A list of Force: what is forced now, in the order of the names."""
+        return [force.shown()._replace(value=force.value.real if force.type == Type.F64 else force.value.integer)
+                for force in _each(self, _library.rung_instance_forced, rung_force_info)]
+
 
 def _values(values):
     return (rung_value * len(values))(*values)
@@ -1016,6 +1065,25 @@ class Watch(_Part):
         return sample.shown(), {name: cell._shown(value) for name, cell, value in zip(self._names, self._cells, values)}
 
 
+class Trace(_Part):
+    """The passes of a Watch as a file for wave viewers: it takes them in the place of Watch.samples.
+
+    It ends by close, at the end of its `with`, or with its instance.
+    """
+
+    def __init__(self, watch, path):
+        """Begins a file (value change dump). Error: BAD_ARGUMENT, the watch keeps no passes; FAILED."""
+        self._handle = _Handle("rung_trace_free")
+        _call(_library.rung_trace_new, watch, path, byref(self._handle))
+        self._plc, self._watch = watch._plc, watch
+        # Before the watch.
+        self._plc._parts.insert(self._plc._parts.index(watch._handle), self._handle)
+
+    def write(self):
+        """Writes all passes that wait. False: none waited. Error: FAILED."""
+        return _call(_library.rung_trace_write, self) != Status.EMPTY
+
+
 class Replacement(_Part):
     """Another program of the same dialect, ready to take over from the one that runs in an instance (Instance.replace).
 
@@ -1038,3 +1106,28 @@ class Replacement(_Part):
     def changes(self):
         """What replace would change now: a list of Change, cells before states, each in the order of their names."""
         return [change.shown() for change in _each(self, _library.rung_replacement_change, rung_change)]
+
+
+class Forces(_Part):
+    """Names that a person holds at a value: whoever reads one within a scan reads that value (Instance.force).
+
+    It ends by close, at the end of its `with`, or with its instance; one that is in effect ends then, too.
+    """
+
+    def __init__(self, plc, values, owner="", replacement=None):
+        """`values`: {name: value}, a float for a real and an int for all others; of an array its first element is
+        forced. With a Replacement for its program, else for the one that runs. Error: NOT_FOUND; WRONG_TYPE, a text or
+        a constant; REFUSED, the program writes a cell, and no compiler serves its image; BAD_ARGUMENT."""
+        cells = (rung_forced_cell * len(values))()
+        for cell, (name, value) in zip(cells, values.items()):
+            cell.name, cell.owner = _text(name), _text(owner)
+            cell.value = self._given(value) if replacement is not None else plc.cell(name)._given(value)
+        super().__init__(plc, "rung_forces_free", _library.rung_forces_new,
+                         _Handle() if replacement is None else replacement, cells, len(cells))
+
+    @staticmethod
+    def _given(value):
+        """For a program that does not run yet: its cells are not looked at here."""
+        if isinstance(value, float):
+            return rung_value(real=value)
+        return rung_value(integer=_integer(value, -1 << 63, (1 << 64) - 1))

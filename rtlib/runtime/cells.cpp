@@ -78,6 +78,11 @@ std::optional<rung_type> CellNames::typeOf(rung_cell cell) {
   return cell < types_.size() ? std::optional(types_[cell]) : std::nullopt;
 }
 
+std::string CellNames::nameOf(rung_cell cell) {
+  const std::lock_guard lock(mutex_);
+  return names_[cell]->name;
+}
+
 void CellNames::join(const nc::Control& control, CellTable& table) {
   const std::lock_guard lock(mutex_);
   for (uint32_t i = 0; i < names_.size(); ++i) table.add(locateCell(control, table.program(), *names_[i], &types_[i]));

@@ -75,6 +75,7 @@ public:
             rung_cell& cell);
   // As it was found; nothing where no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
+  std::string nameOf(rung_cell cell); // of a cell that there is
   // From now on the table has all cells.
   void join(const nc::Control& control, CellTable& table);
   void leave(CellTable& table);

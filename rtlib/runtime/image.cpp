@@ -24,6 +24,8 @@ Image::Image(const rung_program& inMemory, void* context, void (*releases)(void*
     : program(inMemory), engine(context), release(releases), owner(ownedBy), symbols(authorsSymbols(program)) {}
 
 Image::~Image() {
+  const std::unique_ptr<const rung_code_maker> serving(maker.load());
+  if (serving != nullptr && serving->release != nullptr) serving->release(serving->user);
   if (release != nullptr) release(owner);
 }
 
@@ -84,6 +86,34 @@ int32_t rung_image_symbol(const rung_image* image, uint32_t index, rung_symbol_i
                                              .value = s.value,
                                              .name = s.name,
                                              .comment = s.comment});
+}
+
+int32_t rung_image_serve(rung_image* image, const rung_code_maker* maker) {
+  const rung_image* handle = checked(image, kImageMark);
+  if (handle == nullptr) return failHandle("an image");
+  rung_code_maker given{};
+  if (maker == nullptr || !takeStruct(maker, given)) return failSize("rung_code_maker");
+  if (given.force == nullptr) return fail(RUNG_BAD_ARGUMENT, "the maker has no function `force`");
+  return contained([&] {
+    auto kept = std::make_unique<const rung_code_maker>(given);
+    const rung_code_maker* none = nullptr;
+    if (!handle->image->maker.compare_exchange_strong(none, kept.get()))
+      return fail(RUNG_WRONG_STATE, "a compiler serves the image already");
+    (void)kept.release();
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_image_file(const rung_image* image, uint64_t first, void* bytes, size_t* count) {
+  const rung_image* handle = checked(image, kImageMark);
+  if (handle == nullptr) return failHandle("an image");
+  if (bytes == nullptr || count == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "the bytes or the pointer to their number is null");
+  if (handle->image->loaded == nullptr) return RUNG_EMPTY;
+  const std::optional<size_t> read = handle->image->loaded->readFile(first, {static_cast<char*>(bytes), *count});
+  if (!read) return fail(RUNG_FAILED, "the file of the image cannot be read");
+  *count = *read;
+  return RUNG_OK;
 }
 
 int32_t rung_image_close(rung_image* image) { return endHandle(image, kImageMark, "an image"); }

@@ -1,5 +1,6 @@
 // A program that instances run, shared by the image's handle, instances and replacements.
 #pragma once
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Image {
   void (*release)(void* owner) = nullptr;
   void* owner = nullptr;
   std::vector<uint32_t> symbols; // the author's, in the program's table
+  // Entered once, by any thread; null: no compiler serves the image.
+  mutable std::atomic<const rung_code_maker*> maker{nullptr};
 };
 
 } // namespace rung::runtime

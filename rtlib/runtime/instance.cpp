@@ -92,6 +92,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
     kind = nc::PowerOn::Cold;
   }
   instance.control->powerOn(instance.running, kind);
+  settleForces(instance);
   instance.running.setStopped(false);
   instance.running.clearProfile();
   instance.pace.restart();

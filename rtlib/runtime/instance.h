@@ -72,6 +72,7 @@ struct rung_instance {
   rung::runtime::ScanUse puttingBack;
   std::shared_ptr<const rung::runtime::Image> faultImage; // of the program that has faulted, where it runs no longer
   rung_fault fault{};                                     // of that program
+  rung_forces* forces = nullptr;                          // in effect
   bool on = false;
   bool faultReported = false; // to the host's callback
   bool wasOn = false;         // its memory holds something to be retained

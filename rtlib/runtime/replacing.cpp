@@ -4,6 +4,7 @@
 
 #include "rtlib/host/replacement.h"
 #include "rtlib/runtime/error.h"
+#include "rtlib/runtime/replacing.h"
 #include "rtlib/runtime/running.h"
 #include "rtlib/runtime/structs.h"
 
@@ -41,12 +42,15 @@ struct rung_replacement {
 namespace rung::runtime {
 namespace {
 
+int32_t failOther() noexcept { return fail(RUNG_BAD_ARGUMENT, "the replacement was made for another instance"); }
+
 host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacement) noexcept {
   const host::ReplaceResult result = instance.running.replace(replacement.replacement);
   if (result != host::ReplaceResult::Replaced) return result;
   std::swap(instance.image, replacement.image);
   std::swap(instance.cells, replacement.cells);
   std::swap(instance.clock, replacement.clock);
+  settleForces(instance);
   if (instance.retention) instance.retention->programChanged(replacement.lane);
   instance.program.store(&instance.image->program, std::memory_order_release);
   instance.pace.programChanged();
@@ -56,6 +60,15 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
 }
 
 } // namespace
+
+int32_t imageOf(const rung_instance& instance, const rung_replacement* replacement,
+                std::shared_ptr<const Image>& image) {
+  const rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  if (&handle->instance != &instance) return failOther();
+  image = handle->image;
+  return RUNG_OK;
+}
 
 void putFormerBack(rung_instance& instance) noexcept {
   instance.puttingBack.enter();
@@ -118,7 +131,7 @@ int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replace
   if (!call.ok()) return call.status();
   rung_replacement* handle = checked(replacement, kReplacementMark);
   if (handle == nullptr) return failHandle("a replacement");
-  if (&handle->instance != &*call) return fail(RUNG_BAD_ARGUMENT, "the replacement was made for another instance");
+  if (&handle->instance != &*call) return failOther();
   switch (exchange(*call, *handle)) {
   case host::ReplaceResult::Replaced: return RUNG_OK;
   case host::ReplaceResult::OtherProgram:

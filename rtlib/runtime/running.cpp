@@ -20,6 +20,7 @@ void beforePart(rung_instance& instance) noexcept {
 void afterPart(rung_instance& instance) noexcept {
   host::Instance& running = instance.running;
   instance.control->afterSlice(running);
+  running.hold();
   if (instance.retention) instance.retention->afterSlice();
   rung_message message;
   for (uint32_t i = 0; i < rt::kMessageCapacity && running.messages().pop(message); ++i) {
@@ -27,6 +28,7 @@ void afterPart(rung_instance& instance) noexcept {
     (void)instance.messages.push(message);
   }
   if (running.faulted()) {
+    settleForces(instance);
     clearOutputs(instance);
     instance.watches.sample(instance);
     putFormerBack(instance);
@@ -113,8 +115,10 @@ int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
 
 int32_t rung_instance_stop(rung_instance* instance) {
   const Call call(instance);
-  if (call.ok()) call->running.setStopped(true);
-  return call.status();
+  if (!call.ok()) return call.status();
+  call->running.setStopped(true);
+  settleForces(*call);
+  return RUNG_OK;
 }
 
 int32_t rung_instance_start(rung_instance* instance) {

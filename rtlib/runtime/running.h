@@ -24,6 +24,8 @@ void runPart(rung_instance& instance, Part part) noexcept {
 
 // After a fault: the program before this one, where there is one, with its state. It stays stopped.
 void putFormerBack(rung_instance& instance) noexcept;
+// Forces may have ended by themselves.
+void settleForces(rung_instance& instance) noexcept;
 // A fault goes to the host's callback, once.
 void reportFault(rung_instance& instance) noexcept;
 inline int32_t statusOf(const rung_instance& instance) noexcept {

@@ -148,6 +148,7 @@ int32_t rung_instance_write(rung_instance* instance, rung_cell cell, uint32_t fi
   if (found == nullptr) return status;
   const rt::Memory memory = call->running.memory();
   for (uint32_t i = 0; i < count; ++i) writeAt(memory, elementPlace(memory, *found, first + i), values[i]);
+  call->running.hold();
   return RUNG_OK;
 }
 
@@ -178,6 +179,7 @@ int32_t rung_instance_write_all(rung_instance* instance, const rung_cell* cells,
     if (numberCell(*call, cells[i], true, status) == nullptr) return status;
   const rt::Memory memory = call->running.memory();
   for (uint32_t i = 0; i < count; ++i) writeAt(memory, call->cells->at(cells[i])->place, values[i]);
+  call->running.hold();
   return RUNG_OK;
 }
 
@@ -214,6 +216,7 @@ int32_t rung_instance_write_text(rung_instance* instance, rung_cell cell, const 
   if (found == nullptr) return status;
   return contained([&] {
     host::writeText(call->running.memory(), found->ref, call->control->memoryText(text, found->ref.count));
+    call->running.hold();
     return int32_t{RUNG_OK};
   });
 }

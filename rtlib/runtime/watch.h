@@ -51,6 +51,8 @@ struct rung_watch {
   bool newest(rung_value* values, rung_sample& sample) const noexcept;
   bool next(rung_value* values, rung_sample& sample) noexcept;
 
+  bool keepsPasses() const noexcept { return depth_ != 0; }
+
   uint32_t mark = rung::runtime::kWatchMark;
   rung_instance& instance;
   std::vector<rung_cell> cells;

@@ -200,10 +200,10 @@ class Header(unittest.TestCase):
         self.assertEqual({name for _, name, _ in declared}, set(rung._FUNCTIONS))
         results = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "const char*": ctypes.c_char_p,
                    "const rung_program*": ctypes.POINTER(rung.rung_program)}
-        handles = dict.fromkeys(("rung_image*", "rung_instance*", "rung_watch*", "rung_replacement*"), (rung._Handle,))
-        types = {"int32_t": (rung._I32,), "uint32_t": (rung._U32,), "rung_cell": (rung._U32,), "int64_t": (rung._I64,),
+        handles = dict.fromkeys(("rung_image*", "rung_instance*", "rung_watch*", "rung_replacement*", "rung_forces*", "rung_trace*"), (rung._Handle,))
+        types = {"int32_t": (rung._I32,), "uint32_t": (rung._U32,), "rung_cell": (rung._U32,), "int64_t": (rung._I64,), "uint64_t": (rung._U64,),
                  "size_t": (ctypes.c_size_t,), "char*": (rung._Text, rung._Path, ctypes.c_char_p), "rung_program*": (ctypes.c_void_p,),
-                 "void*": (ctypes.c_void_p,), "uint32_t*": (ctypes.POINTER(ctypes.c_uint32),), "rung_cell*": (rung._Cells,)}
+                 "void*": (ctypes.c_void_p,), "uint32_t*": (ctypes.POINTER(ctypes.c_uint32),), "size_t*": (ctypes.POINTER(ctypes.c_size_t),), "rung_cell*": (rung._Cells,)}
         types |= {f"{name}*": (ctypes.POINTER(kind),) for name, kind in self.structs().items() if name != "rung_program"}
         types |= handles | {f"{name}*": (rung._New,) for name in handles}
         for result, name, parameters in declared:

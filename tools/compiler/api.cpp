@@ -14,6 +14,8 @@
 #include "tools/compiler/compile.h"
 #include "tools/compiler/configuration.h"
 #include "tools/compiler/engines.h"
+#include "tools/compiler/kept_ir.h"
+#include "tools/compiler/recompiler.h"
 
 namespace rung::compiler {
 namespace {
@@ -34,6 +36,13 @@ struct Program {
 struct Running {
   std::shared_ptr<const Program> program;
   std::unique_ptr<host::Engine> engine;
+};
+
+// What serves an image.
+struct Maker {
+  std::shared_ptr<const Program> program;
+  EngineKind kind;
+  EngineOptions options;
 };
 
 } // namespace
@@ -137,6 +146,7 @@ int32_t compileInto(const rung_source* sources, uint32_t count, const rung_compi
   if (const int32_t status = addSources(sources, count, program.sources, files); status != RUNG_OK) return status;
   if (const int32_t status = checkSettings(program.sources, files, request); status != RUNG_OK) return status;
   Diagnostics diagnostics;
+  request.keepBuilt = true;
   program.compiled = compile(program.sources, files, request, diagnostics);
   takeDiagnostics(diagnostics, to);
   if (program.compiled) return RUNG_OK;
@@ -189,6 +199,54 @@ const char* rung_compilation_report(const rung_compilation* compilation) {
 
 namespace {
 
+int32_t makeForced(void* user, const rung_program* program, void* engine, const rung_forced_byte* forced,
+                   uint32_t count, rung_forced_code* code, char* problem, size_t problemBytes) {
+  const int32_t status = contained([&] {
+    const Maker& maker = *static_cast<const Maker*>(user);
+    Result<std::unique_ptr<ForcedCode>> made =
+        makeForcedCode(*maker.program->compiled, maker.kind, maker.options, *program, engine, {forced, count});
+    if (!made.ok()) return fail(RUNG_FAILED, "%s", made.error().c_str());
+    ForcedCode* owner = std::move(made).value().release();
+    *code = {.chunk_fns = owner->code().functions,
+             .engine = owner->code().engine,
+             .release = [](void* object) { delete static_cast<ForcedCode*>(object); },
+             .owner = owner};
+    return int32_t{RUNG_OK};
+  });
+  if (status != RUNG_OK) runtime::putText({problem, problemBytes}, runtime::errorText());
+  return status;
+}
+
+// The runtime's sentence, for a caller of this library.
+int32_t failAsRuntime(int32_t status) { return fail(static_cast<rung_status>(status), "%s", rung_error_text()); }
+
+int32_t serve(rung_image* image, std::shared_ptr<const Program> program, EngineKind kind,
+              const EngineOptions& options) {
+  auto maker = std::make_unique<Maker>(Maker{std::move(program), kind, options});
+  const rung_code_maker described{.size = sizeof described,
+                                  .force = &makeForced,
+                                  .release = [](void* user) { delete static_cast<Maker*>(user); },
+                                  .user = maker.get()};
+  const int32_t status = rung_image_serve(image, &described);
+  if (status != RUNG_OK) return failAsRuntime(status);
+  (void)maker.release(); // it is the image's now
+  return RUNG_OK;
+}
+
+// All of the file that the image was opened from; "" without one.
+std::string fileOf(const rung_image* image) {
+  constexpr size_t kPiece = size_t{1} << 20;
+  std::string bytes;
+  size_t got = kPiece;
+  while (got == kPiece) {
+    const size_t before = bytes.size();
+    bytes.resize(before + kPiece);
+    if (rung_image_file(image, before, bytes.data() + before, &got) != RUNG_OK) return {};
+    bytes.resize(before + got);
+  }
+  return bytes;
+}
+
 int32_t failErrors() noexcept { return fail(RUNG_WRONG_STATE, "the program has errors: see its diagnostics"); }
 
 } // namespace
@@ -205,9 +263,9 @@ int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image
     Running* running = std::make_unique<Running>(handle->program, std::move(made).value()).release();
     host::Engine& engine = *running->engine;
     const int32_t status = rung_image_adopt(&engine.program(), engine.context(), end, running, image);
-    if (status == RUNG_OK) return status; // it is the image's now
+    if (status == RUNG_OK) return serve(*image, handle->program, handle->kind, handle->engine);
     end(running);
-    return fail(static_cast<rung_status>(status), "%s", rung_error_text());
+    return failAsRuntime(status);
   });
 }
 
@@ -217,9 +275,25 @@ int32_t rung_compilation_write(rung_compilation* compilation, const char* path) 
   if (path == nullptr) return fail(RUNG_BAD_ARGUMENT, "the name of the file is null");
   if (!handle->program->compiled) return failErrors();
   return contained([&] {
-    const Result<std::string> object = sharedObject(*handle->program->compiled, handle->engine);
+    const Compiled& compiled = *handle->program->compiled;
+    Result<std::string> object = sharedObject(compiled, handle->engine);
+    if (object.ok()) object = withIr(object.value(), compiled);
     if (!object.ok()) return fail(RUNG_FAILED, "%s", object.error().c_str());
     const std::string error = host::writeProgram(path, host::sealed(object.value()));
     return error.empty() ? int32_t{RUNG_OK} : fail(RUNG_FAILED, "%s", error.c_str());
+  });
+}
+
+int32_t rung_compiler_serve(rung_image* image) {
+  const rung_program* program = rung_image_program(image);
+  if (program == nullptr) return failHandle("an image");
+  return contained([&] {
+    const std::string file = fileOf(image);
+    if (file.empty()) return fail(RUNG_REFUSED, "the image was not opened from a file: its maker serves it");
+    Result<Compiled> compiled = irOf(host::readSealed(file).image, *program);
+    if (!compiled.ok()) return fail(RUNG_REFUSED, "the file of %s: %s", program->name, compiled.error().c_str());
+    auto kept = std::make_shared<Program>();
+    kept->compiled = std::move(compiled).value();
+    return serve(image, std::move(kept), EngineKind::Jit, {});
   });
 }

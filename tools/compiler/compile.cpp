@@ -8,7 +8,6 @@
 
 #include "frontend/ladder/ladder.h"
 #include "ir/passes/passes.h"
-#include "ir/passes/pipeline.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 #include "ir/text/text.h"
@@ -71,10 +70,10 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   checkModule(*out.module, ir::Mode::Built);
   out.uses = std::make_unique<ir::Uses>(*out.module);
-  ir::PassOptions passes;
-  passes.optimise = request.optimise && !request.marks;
-  passes.instrument = request.instrument;
-  ir::runPasses(*out.module, passes);
+  if (request.keepBuilt) out.built = std::make_unique<ir::Module>(*out.module);
+  out.passes.optimise = request.optimise && !request.marks;
+  out.passes.instrument = request.instrument;
+  ir::runPasses(*out.module, out.passes);
   checkModule(*out.module, ir::Mode::Final);
   out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
   out.codeHash = hashBytes(ir::print(*out.module));

@@ -8,6 +8,7 @@
 
 #include "frontend/dialects/dialect.h"
 #include "ir/layout/layout.h"
+#include "ir/passes/pipeline.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 #include "ir/uses/uses.h"
@@ -20,13 +21,16 @@ struct CompileRequest {
   bool instrument = false;          // count and time rungs
   bool marks = false;               // note contacts and coils; the module stays as it was built
   bool optimise = true;
+  bool keepBuilt = false; // for those who make its code again (recompiler.h)
   ir::LayoutOptions layout;
 };
 
 struct Compiled {
   std::vector<FileId> files;
   const frontend::Dialect* dialect = nullptr;
+  std::unique_ptr<ir::Module> built;  // as the dialect made it, where that was asked for
   std::unique_ptr<ir::Module> module; // final, optimised
+  ir::PassOptions passes;             // between the two
   std::unique_ptr<ir::Layout> layout;
   ir::Marks marks;                  // where they were asked for
   frontend::CompileOptions options; // of the request

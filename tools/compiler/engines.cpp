@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 
 #include "codegen/cpp/cpp_emitter.h"
-#include "codegen/jit/jit_engine.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/process/process.h"
-#include "ir/interp/interp.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
@@ -61,6 +59,18 @@ codegen::LlvmOptions llvmOptions(const EngineOptions& options) {
 
 } // namespace
 
+codegen::JitOptions jitOptionsOf(const EngineOptions& options) {
+  codegen::JitOptions jit;
+  jit.code = llvmOptions(options);
+  jit.gdb = options.debugger;
+  jit.cacheFolder = options.cacheFolder;
+  return jit;
+}
+
+ir::Counting countingOf(const EngineOptions& options) {
+  return options.countOperations ? ir::Counting::Operations : ir::Counting::Ticks;
+}
+
 std::string_view engineName(EngineKind kind) { return kEngines[static_cast<size_t>(kind)].name; }
 
 std::optional<EngineKind> engineFromName(std::string_view name) {
@@ -94,8 +104,7 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
   const ir::Layout& layout = *compiled.layout;
   switch (kind) {
   case EngineKind::Interp: {
-    const auto counting = options.countOperations ? ir::Counting::Operations : ir::Counting::Ticks;
-    auto engine = std::make_unique<ir::InterpEngine>(layout, compiled.codeHash, counting);
+    auto engine = std::make_unique<ir::InterpEngine>(layout, compiled.codeHash, countingOf(options));
     if (options.observer) engine->setObserver(options.observer(compiled));
     return std::unique_ptr<host::Engine>(std::move(engine));
   }
@@ -112,11 +121,8 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     });
   case EngineKind::Llvm: return buildAndLoad(engineName(kind), [&] { return sharedObject(compiled, options); });
   case EngineKind::Jit: {
-    codegen::JitOptions jit;
-    jit.code = llvmOptions(options);
-    jit.gdb = options.debugger;
-    jit.cacheFolder = options.cacheFolder;
-    Result<std::unique_ptr<codegen::JitEngine>> engine = codegen::compileJit(layout, compiled.codeHash, jit);
+    Result<std::unique_ptr<codegen::JitEngine>> engine =
+        codegen::compileJit(layout, compiled.codeHash, jitOptionsOf(options));
     if (!engine.ok()) return engine.failure();
     return std::unique_ptr<host::Engine>(std::move(engine).value());
   }

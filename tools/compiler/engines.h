@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "codegen/jit/jit_engine.h"
 #include "ir/interp/interp.h"
 #include "ir/support/result.h"
 #include "rtlib/host/engine.h"
@@ -43,6 +44,10 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
 
 // The program as a shared object, not sealed.
 Result<std::string> sharedObject(const Compiled& compiled, const EngineOptions& options);
+
+// What the engines themselves are given.
+codegen::JitOptions jitOptionsOf(const EngineOptions& options);
+ir::Counting countingOf(const EngineOptions& options);
 
 // Why the JIT could not keep its code in the cache folder, or must not take any from there; empty when it could, or
 // when no folder was given. The engine works either way.

@@ -8,6 +8,7 @@
 #include "ir/text/text.h"
 #include "rtlib/host/sealing.h"
 #include "tools/compiler/engines.h"
+#include "tools/compiler/kept_ir.h"
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 
@@ -25,6 +26,7 @@ struct BuildOptions {
   std::string level = "2";
   bool debugInfo = false;
   bool profile = false;
+  bool noIr = false; // build only
 };
 
 void addCodeOptions(CLI::App& command, BuildOptions& options) {
@@ -66,7 +68,8 @@ Result<std::string> objectOf(const compiler::Compiled& compiled, const BuildOpti
 }
 
 int buildObject(const compiler::Compiled& compiled, const BuildOptions& options) {
-  const Result<std::string> object = objectOf(compiled, options);
+  Result<std::string> object = objectOf(compiled, options);
+  if (object.ok() && !options.noIr) object = compiler::withIr(object.value(), compiled);
   return object.ok() ? writeProgram(options.out, host::sealed(object.value())) : environmentError(object.error());
 }
 
@@ -122,6 +125,7 @@ void addBuild(CLI::App& app, int& status) {
   command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")
       ->check(CLI::IsMember({"llvm", "cpp"}));
   command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
+  command->add_flag("--no-ir", options->noIr, "Leave out the program's IR: cells that it writes cannot be forced then");
   command->add_option("--listing", options->listing,
                       "Write the program's numbered lines, to which name_LINE refers (technol)");
   command->callback([options, &status] {
@@ -131,7 +135,9 @@ void addBuild(CLI::App& app, int& status) {
     }
     if (options->out.empty()) options->out = project::productOf(*options->source.project, ".so");
     SourceManager sources;
-    auto compiled = compileSources(sources, options->source, requestOf(*options), status);
+    compiler::CompileRequest request = requestOf(*options);
+    request.keepBuilt = !options->noIr;
+    auto compiled = compileSources(sources, options->source, request, status);
     if (!compiled) return;
     if (!options->listing.empty()) status = writeListing(sources, *compiled, options->listing);
     if (status == kOk) status = buildObject(*compiled, *options);

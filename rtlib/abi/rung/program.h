@@ -142,6 +142,14 @@ typedef struct rung_copy {
   uint32_t size;
 } rung_copy;
 
+/* Bits of one byte of a space that a person holds at a value. */
+typedef struct rung_forced_byte {
+  uint32_t space;
+  uint32_t byte;  /* logical, within the space */
+  uint32_t mask;  /* its bits that are forced, 1 to 255 */
+  uint32_t value; /* what they are; 0 outside the mask */
+} rung_forced_byte;
+
 /* ---- code ---------------------------------------------------------------------------------------------------- */
 
 typedef struct rung_chunk {
@@ -295,7 +303,7 @@ typedef struct rung_program {
   uint32_t text_count;
   uint32_t slot_count;
   uint32_t continuation_count;
-  uint32_t reserved;
+  uint32_t write_count;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
@@ -319,6 +327,7 @@ typedef struct rung_program {
   const char* const* texts; /* message texts: pairs of number (decimal) and text */
 
   const rung_chunk_fn* chunk_fns; /* by chunk */
+  const rung_span* writes;        /* all of spaces that chunks may write, ascending; none touches the next */
 } rung_program;
 
 #ifdef __cplusplus

@@ -154,7 +154,7 @@ typedef struct rung_instance_options {
 RUNG_API int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance);
 
 /* Ends it; does not switch it off (rung_instance_power_off). What was to be saved is on disk when it returns, or has
- * been tried. Null is allowed. Its watches and replacements are freed before. */
+ * been tried. Null is allowed. Its watches, replacements and sets of forces are freed before. */
 RUNG_API int32_t rung_instance_free(rung_instance* instance);
 
 /* ---- power ----------------------------------------------------------------------------------------------------- */
@@ -452,6 +452,19 @@ RUNG_API int32_t rung_watch_newest(const rung_watch* watch, rung_value* values, 
 /* The values of every pass, one after the other. RUNG_EMPTY: none waits. Any thread, one at a time. [rt] */
 RUNG_API int32_t rung_watch_next(rung_watch* watch, rung_value* values, rung_sample* sample);
 
+/* The passes of a watch as a file for wave viewers (value change dump): it takes them in the place of
+ * rung_watch_next. */
+typedef struct rung_trace rung_trace;
+
+/* Begins a file. RUNG_FAILED: it cannot be written; RUNG_BAD_ARGUMENT: the watch keeps no passes. Any thread, while no
+ * other program takes over. */
+RUNG_API int32_t rung_trace_new(rung_watch* watch, const char* path, rung_trace** trace);
+/* Writes all passes that wait; where some were lost, a remark says so. RUNG_EMPTY: none waited; RUNG_FAILED. The thread
+ * that takes the watch's passes. */
+RUNG_API int32_t rung_trace_write(rung_trace* trace);
+/* Writes what waits, and ends the file. RUNG_FAILED: it could not be written. Null is allowed. Before its watch. */
+RUNG_API int32_t rung_trace_free(rung_trace* trace);
+
 /* ---- another program while it runs ------------------------------------------------------------------------------ */
 
 typedef struct rung_replacement rung_replacement;
@@ -501,6 +514,75 @@ RUNG_API int32_t rung_replacement_change(const rung_replacement* replacement, ui
  * within a pass of the schedule, or a mechanism or a service request waits that the new program does not know;
  * RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
 RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);
+
+/* ---- forcing ----------------------------------------------------------------------------------------------------- */
+
+/* Cells that a person holds at a value: whoever reads one within a scan reads that value, also after a rung has written
+ * it. A set is prepared, and then put in effect as a whole; one set is in effect at a time. */
+typedef struct rung_forces rung_forces;
+
+typedef struct rung_forced_cell {
+  const char* name;  /* as for rung_instance_find, for reading; of an array the first element is forced */
+  const char* owner; /* who forces it, for others to see; null: "" */
+  rung_value value;
+} rung_forced_cell;
+
+/* Prepares a set of forces: for the program that runs, or, with a replacement, for that of the replacement. Where
+ * chunks of the program write a cell, they are compiled anew, by the compiler that made the image or serves it
+ * (rung/compiler.h). The instance may be scanned by its thread meanwhile, but must neither be given another program nor
+ * be freed. RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text or a constant; RUNG_BAD_ARGUMENT: two cells want different values
+ * in one place; RUNG_REFUSED: the program writes a cell, and no compiler serves its image. */
+RUNG_API int32_t rung_forces_new(rung_instance* instance, rung_replacement* replacement, const rung_forced_cell* cells,
+                                 uint32_t count, rung_forces** forces);
+/* Null is allowed. Any thread, before its instance; one that is in effect ends, and is freed as a call for the instance
+ * is made. */
+RUNG_API int32_t rung_forces_free(rung_forces* forces);
+
+/* Puts a set in effect in the place of the one before, from this call on; null: ends all forces. A cell keeps its value
+ * when its force ends, until it is written. All forces end by themselves at a power-on, a stop and a fault, whose safe
+ * outputs are not forced, and when another program takes over: a set that was made with the replacement can be put in
+ * effect before its first scan. RUNG_FAULTED; RUNG_WRONG_STATE: the program is stopped, or the set is of another one.
+ * [rt] */
+RUNG_API int32_t rung_instance_force(rung_instance* instance, rung_forces* forces);
+
+typedef struct rung_force_info {
+  uint32_t size;
+  uint32_t type; /* enum rung_type */
+  rung_value value;
+  int64_t since_us; /* of the program's clock: since when it has been forced to this value by this owner */
+  const char* name; /* valid as long as its set; so is `owner` */
+  const char* owner;
+} rung_force_info;
+
+/* The index-th force in effect, in the order of the names. RUNG_EMPTY: there are not so many. [rt] */
+RUNG_API int32_t rung_instance_forced(const rung_instance* instance, uint32_t index, rung_force_info* force);
+
+/* For compilers: how code of an image is made anew. */
+typedef struct rung_forced_code {
+  const rung_chunk_fn* chunk_fns; /* by chunk */
+  void* engine;                   /* what they find in rung_ctx::engine */
+  void (*release)(void* owner);   /* called with `owner` when the code runs no longer */
+  void* owner;
+} rung_forced_code;
+
+typedef struct rung_code_maker {
+  uint32_t size;
+  uint32_t reserved;
+  /* Code for all chunks of `program`, which runs with `engine`, that leaves the forced bits as they are; `forced` is in
+   * the order of space and byte. An enum rung_status; after an error `problem` has a sentence of less than
+   * `problem_bytes`. By several threads at a time. */
+  int32_t (*force)(void* user, const rung_program* program, void* engine, const rung_forced_byte* forced,
+                   uint32_t count, rung_forced_code* code, char* problem, size_t problem_bytes);
+  void (*release)(void* user); /* called when nothing uses the image any more; may be null */
+  void* user;
+} rung_code_maker;
+
+/* From now on the maker serves the image. RUNG_WRONG_STATE: another one does. [any] */
+RUNG_API int32_t rung_image_serve(rung_image* image, const rung_code_maker* maker);
+
+/* The bytes of the file that the image was opened from, from `first` on: what a compiler has left there for itself.
+ * `count` is how many are wanted, and then how many there were. RUNG_EMPTY: it was not opened from a file. [any] */
+RUNG_API int32_t rung_image_file(const rung_image* image, uint64_t first, void* bytes, size_t* count);
 
 #ifdef __cplusplus
 }

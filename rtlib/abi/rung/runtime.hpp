@@ -201,6 +201,46 @@ private:
   std::unique_ptr<rung_replacement, Ends<rung_replacement, rung_replacement_free>> replacement_;
 };
 
+// The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does. Who wants to know
+// whether the file is whole ends it by rung_trace_free(release()).
+class Trace {
+public:
+  Trace(rung_watch* watch, const std::string& path) {
+    rung_trace* trace = nullptr;
+    check(rung_trace_new(watch, path.c_str(), &trace));
+    trace_.reset(trace);
+  }
+  rung_trace* handle() const noexcept { return trace_.get(); }
+  rung_trace* release() noexcept { return trace_.release(); }
+
+private:
+  std::unique_ptr<rung_trace, Ends<rung_trace, rung_trace_free>> trace_;
+};
+
+// A set of forced cells (rung_forces_new), for the program that runs or for that of a replacement. It ends before the
+// instance does; while it is in effect, in the instance's thread.
+class Forces {
+public:
+  Forces(Instance& instance, std::span<const rung_forced_cell> cells, Replacement* replacement = nullptr) {
+    rung_forces* forces = nullptr;
+    check(rung_forces_new(instance.handle(), replacement != nullptr ? replacement->handle() : nullptr, cells.data(),
+                          static_cast<uint32_t>(cells.size()), &forces));
+    forces_.reset(forces);
+  }
+  rung_forces* handle() const noexcept { return forces_.get(); }
+
+private:
+  std::unique_ptr<rung_forces, Ends<rung_forces, rung_forces_free>> forces_;
+};
+
+// What is forced now (rung_instance_forced).
+inline std::vector<rung_force_info> forcedCells(const Instance& instance) {
+  std::vector<rung_force_info> all;
+  auto force = sized<rung_force_info>();
+  for (uint32_t i = 0; check(rung_instance_forced(instance.handle(), i, &force)) == RUNG_OK; ++i) all.push_back(force);
+  return all;
+}
+
 // Cells that other threads look at (rung_watch_new); it ends before the instance does.
 class Watch {
 public:

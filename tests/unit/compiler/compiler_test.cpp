@@ -104,6 +104,56 @@ TEST(Compiler, ASharedObjectIsWritten) {
   EXPECT_THAT(rung_compiler_error_text(), HasSubstr("/nowhere/latch.so"));
 }
 
+// Y0.0 is held although nothing switches it on, and then although its rung switches it off.
+void expectForced(rung::Instance& plc) {
+  const rung_cell lamp = plc.find("Y0.0");
+  const rung_cell on = plc.find("X10.0", rung::Access::Write), off = plc.find("X10.1", rung::Access::Write);
+  const std::array<rung_forced_cell, 1> cells{{{"Y0.0", "test", {.integer = 1}}}};
+  {
+    const rung::Forces lit(plc, cells);
+    ASSERT_EQ(rung_instance_force(plc.handle(), lit.handle()), RUNG_OK) << rung_error_text();
+    plc.scan();
+    EXPECT_TRUE(plc.read<bool>(lamp));
+    plc.write(off, 1);
+    plc.scan();
+    EXPECT_TRUE(plc.read<bool>(lamp));
+  }
+  plc.scan();
+  EXPECT_FALSE(plc.read<bool>(lamp));
+  plc.write(off, 0);
+  plc.write(on, 1);
+  plc.scan();
+  EXPECT_TRUE(plc.read<bool>(lamp)) << "its own code again";
+}
+
+TEST(Compiler, ACellThatTheProgramWritesIsForced) {
+  for (const rung_engine engine : {RUNG_ENGINE_JIT, RUNG_ENGINE_FAST, RUNG_ENGINE_INTERP}) {
+    SCOPED_TRACE(engine);
+    const Compilation compilation(kLatch, {.engine = static_cast<uint32_t>(engine)});
+    const rung::Image image = compilation.image();
+    rung::Instance plc(image);
+    plc.powerOn();
+    expectForced(plc);
+  }
+}
+
+TEST(Compiler, AFileCarriesWhatForcingNeeds) {
+  const std::string path = testing::TempDir() + "rung_forced_test.so";
+  ASSERT_EQ(rung_compilation_write(Compilation(kLatch).handle(), path.c_str()), RUNG_OK) << rung_compiler_error_text();
+  const rung::Image image(path);
+  rung::Instance plc(image);
+  plc.powerOn();
+  const rung_forced_cell cell{"Y0.0", nullptr, {.integer = 1}};
+  rung_forces* none = nullptr;
+  EXPECT_EQ(rung_forces_new(plc.handle(), nullptr, &cell, 1, &none), RUNG_REFUSED);
+  ASSERT_EQ(rung_compiler_serve(image.handle()), RUNG_OK) << rung_compiler_error_text();
+  EXPECT_EQ(rung_compiler_serve(image.handle()), RUNG_WRONG_STATE);
+  expectForced(plc);
+  EXPECT_EQ(rung_compiler_serve(nullptr), RUNG_BAD_HANDLE);
+  EXPECT_EQ(rung_compiler_serve(Compilation(kLatch).image().handle()), RUNG_REFUSED) << "served by its own";
+  std::filesystem::remove(path);
+}
+
 TEST(Compiler, MistakesAreDiagnostics) {
   const Compilation compilation("dialect gsk\nmodule LEVEL1\nrung\n|--[NOBODY]--(Y0.0)\nrung\n|--[X0.0]--(NOTHING)\n");
   EXPECT_EQ(compilation.status(), RUNG_REFUSED);

@@ -18,7 +18,9 @@ std::string shown(const rung_program& program, const Ref& place) {
 
 class CompareTest : public testing::Test {
 protected:
-  CompareTest() { make(test); }
+  struct Made : TestProgram {
+    Made() { make(*this); }
+  };
   static void make(TestProgram& program) {
     program.addSpace("R", 1, {{0, 8, 0, RUNG_REPR_PACKED}, {8, 4, 64, RUNG_REPR_BYTE_PER_BIT}});
     program.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_FAULT; });
@@ -26,8 +28,8 @@ protected:
     program.link();
   }
   std::string difference() { return firstDifference(a, b, shown).value_or("none"); }
-  TestProgram test;
-  Instance a{(test.link())};
+  Made test;
+  Instance a{test.program};
   Instance b{test.program};
 };
 

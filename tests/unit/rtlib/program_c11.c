@@ -168,7 +168,7 @@ AT(rung_program, service_count, 132);
 AT(rung_program, text_count, 136);
 AT(rung_program, slot_count, 140);
 AT(rung_program, continuation_count, 144);
-AT(rung_program, reserved, 148);
+AT(rung_program, write_count, 148);
 AT(rung_program, spaces, 152);
 AT(rung_program, symbols, 160);
 AT(rung_program, slots, 168);
@@ -190,7 +190,8 @@ AT(rung_program, faults, 288);
 AT(rung_program, services, 296);
 AT(rung_program, texts, 304);
 AT(rung_program, chunk_fns, 312);
-SIZE(rung_program, 320);
+AT(rung_program, writes, 320);
+SIZE(rung_program, 328);
 
 #endif
 

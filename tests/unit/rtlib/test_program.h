@@ -30,6 +30,7 @@ struct TestProgram {
   std::vector<rung_init> inits;
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
+  std::vector<rung_span> writes;
   std::vector<rung_copy> copies;
   std::vector<rung_chunk_fn> functions;
   std::vector<uint32_t> weights; // of chunks; 1 where it is shorter
@@ -130,6 +131,7 @@ struct TestProgram {
     point(faults, program.faults, program.fault_count);
     point(services, program.services, program.service_count);
     point(texts, program.texts, program.text_count);
+    point(writes, program.writes, program.write_count);
     point(files, program.files, program.file_count);
     point(routines, program.routines, program.routine_count);
     program.chunk_fns = functions.data();

@@ -75,6 +75,8 @@ static void watches(rung_watch* watch) {
   rung_value value = {0};
   BAD_HANDLE(rung_watch_newest(watch, &value, &sample));
   BAD_HANDLE(rung_watch_next(watch, &value, &sample));
+  rung_trace* trace = NULL;
+  BAD_HANDLE(rung_trace_new(watch, "file.vcd", &trace));
 }
 
 static void replacements(rung_replacement* replacement) {
@@ -82,6 +84,20 @@ static void replacements(rung_replacement* replacement) {
   rung_change change = {.size = sizeof change};
   BAD_HANDLE(rung_replacement_report(replacement, &report));
   BAD_HANDLE(rung_replacement_change(replacement, 0, &change));
+}
+
+static void forces(rung_instance* plc, rung_image* image) {
+  const rung_forced_cell cell = {.name = "X"};
+  const rung_code_maker maker = {.size = sizeof maker};
+  rung_force_info info = {.size = sizeof info};
+  rung_forces* made = NULL;
+  char byte = 0;
+  size_t count = 1;
+  BAD_HANDLE(rung_forces_new(plc, NULL, &cell, 1, &made));
+  BAD_HANDLE(rung_instance_force(plc, NULL));
+  BAD_HANDLE(rung_instance_forced(plc, 0, &info));
+  BAD_HANDLE(rung_image_serve(image, &maker));
+  BAD_HANDLE(rung_image_file(image, 0, &byte, &count));
 }
 
 int callEveryFunction(void* no_handle) {
@@ -96,6 +112,7 @@ int callEveryFunction(void* no_handle) {
     instances(handles[i]);
     replacements(handles[i]);
     watches(handles[i]);
+    forces(handles[i], handles[i]);
     BAD_HANDLE(rung_instance_new(handles[i], NULL, &plc));
     BAD_HANDLE(rung_replacement_new(handles[i], NULL, NULL, 0, &replacement));
     BAD_HANDLE(rung_watch_new(handles[i], &cell, 1, 0, &watch));
@@ -104,12 +121,16 @@ int callEveryFunction(void* no_handle) {
     BAD_HANDLE(rung_instance_free(handles[i]));
     BAD_HANDLE(rung_replacement_free(handles[i]));
     BAD_HANDLE(rung_watch_free(handles[i]));
+    BAD_HANDLE(rung_forces_free(handles[i]));
+    BAD_HANDLE(rung_trace_write(handles[i]));
+    BAD_HANDLE(rung_trace_free(handles[i]));
   }
   BAD_ARGUMENT(rung_image_open(NULL, NULL, &image));
   BAD_ARGUMENT(rung_image_open("file.so", NULL, NULL));
   BAD_ARGUMENT(rung_image_adopt(NULL, NULL, NULL, NULL, &image));
   if (rung_image_close(NULL) != RUNG_OK || rung_instance_free(NULL) != RUNG_OK ||
-      rung_replacement_free(NULL) != RUNG_OK)
+      rung_replacement_free(NULL) != RUNG_OK || rung_forces_free(NULL) != RUNG_OK ||
+      rung_trace_free(NULL) != RUNG_OK)
     ++wrong;
   if (rung_runtime_version() != (RUNG_RUNTIME_MAJOR << 16 | RUNG_RUNTIME_MINOR)) ++wrong;
   return wrong;

@@ -1,6 +1,8 @@
 // What rung/runtime.h marks with [rt] neither allocates nor enters the kernel, errors included.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "rung/runtime.hpp"
 #include "tests/support/count_allocations.h"
 #include "tests/support/count_system_calls.h"
@@ -45,6 +47,10 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
   plc.powerOn();
   const rung_cell cells[] = {plc.find("COUNT"), plc.find("WORDS", rung::Access::Write)};
   rung::Replacement change(plc, second);
+  const std::array<rung_forced_cell, 2> cellsToForce{
+      {{"DOOR", nullptr, {.integer = 1}}, {"WORDS", "me", {.integer = 3}}}};
+  rung::Forces forces(plc, cellsToForce);
+  auto force = rung::sized<rung_force_info>();
   auto message = rung::sized<rung_message_info>();
   auto request = rung::sized<rung_request>();
   auto reply = rung::sized<rung_reply>();
@@ -58,6 +64,7 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
       rung_instance_read(p, cells[1], 0, 3, values), rung_instance_write(p, cells[1], 0, 3, values);
       rung_instance_read_all(p, cells, 2, values), rung_instance_write_all(p, cells + 1, 1, values);
       rung_instance_write_all(p, cells, 2, values); // COUNT was found for reading
+      rung_instance_force(p, i % 3 != 0 ? forces.handle() : nullptr), rung_instance_forced(p, 0, &force);
       rung_instance_state(p, &state), rung_instance_limit(p, 0);
       rung_instance_stop(p), rung_instance_start(p);
       while (rung_instance_next_message(p, &message) == RUNG_OK) {

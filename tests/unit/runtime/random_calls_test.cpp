@@ -37,6 +37,7 @@ void build(TestProgram& program, uint32_t byte) {
   program.addConstant("LIMIT", 4);
   program.addTask("MAIN", program.addChunk(&work));
   program.addBeginCopy(0, {RUNG_COPY_ALL, 32, 64, 0, 16});
+  program.writes = {{0, 1}};
   program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 1000}, {RUNG_STEP_ADVANCE, RUNG_NONE, 1000}, {RUNG_STEP_RUN, 0, 1}};
   program.link();
 }
@@ -47,7 +48,9 @@ public:
   RandomCalls(uint32_t seed, rung::Image& one, rung::Image& two, std::array<int, kStatuses>& counts)
       : random_(seed), images_{&one, &two}, statuses_(counts) {}
   ~RandomCalls() {
+    endTraces();
     for (rung_watch* watch : watches_) rung_watch_free(watch);
+    for (rung_forces* forces : forces_) rung_forces_free(forces);
     for (rung_replacement* replacement : replacements_) rung_replacement_free(replacement);
     for (rung_instance* instance : instances_) rung_instance_free(instance);
   }
@@ -96,7 +99,7 @@ private:
     values[0].integer = static_cast<int64_t>(random_());
     rung_cell cells[4] = {number(), number(), number(), number()};
     char text[16] = "text";
-    const uint32_t which = below(40);
+    const uint32_t which = below(44);
     last_ = which;
     switch (which) {
     case 0: return make();
@@ -148,6 +151,11 @@ private:
     case 38: return rung_instance_replace(plc, one(replacements_));
     case 39:
       return withStruct<rung_symbol_info>([&](rung_symbol_info* s) { return rung_image_symbol(image(), number(), s); });
+    case 40: return force();
+    case 41: return rung_instance_force(plc, one(forces_));
+    case 42:
+      return withStruct<rung_force_info>([&](rung_force_info* s) { return rung_instance_forced(plc, number(), s); });
+    case 43: return trace();
     default: return RUNG_OK;
     }
   }
@@ -181,6 +189,31 @@ private:
     }
     return status;
   }
+  int32_t trace() {
+    rung_trace* made = nullptr;
+    const int32_t status = rung_trace_new(one(watches_), chance(90) ? "/dev/null" : "/nowhere/x.vcd", place(made));
+    if (made != nullptr) traces_.push_back(made);
+    rung_trace_write(one(traces_));
+    return status;
+  }
+  void endTraces() {
+    while (!traces_.empty()) rung_trace_free(traces_.back()), traces_.pop_back();
+  }
+  int32_t force() {
+    std::array<rung_forced_cell, 4> cells{};
+    for (rung_forced_cell& cell : cells)
+      cell = {name(), chance(50) ? "me" : nullptr, {.integer = static_cast<int64_t>(random_())}};
+    rung_forces* made = nullptr;
+    rung_replacement* change = chance(70) ? nullptr : one(replacements_);
+    const int32_t status =
+        rung_forces_new(one(instances_), change, place(cells[0]), chance(60) ? 1 : below(5), place(made));
+    if (made != nullptr) forces_.push_back(made);
+    if (forces_.size() > 6) {
+      rung_forces_free(forces_.front());
+      forces_.erase(forces_.begin());
+    }
+    return status;
+  }
   int32_t watch() {
     std::array<rung_cell, 4> cells{number(), number(), number(), number()};
     std::array<rung_value, 4> values{};
@@ -194,12 +227,14 @@ private:
   }
   // Watches at any time, an instance with all that belongs to it seldom.
   int32_t end() {
+    endTraces();
     if (!watches_.empty()) {
       rung_watch_free(watches_.back());
       watches_.pop_back();
     }
     if (!chance(3)) return RUNG_OK;
     while (!watches_.empty()) rung_watch_free(watches_.back()), watches_.pop_back();
+    while (!forces_.empty()) rung_forces_free(forces_.back()), forces_.pop_back();
     while (!replacements_.empty()) rung_replacement_free(replacements_.back()), replacements_.pop_back();
     while (!instances_.empty()) rung_instance_free(instances_.back()), instances_.pop_back();
     return RUNG_OK;
@@ -215,6 +250,8 @@ private:
   std::vector<rung_instance*> instances_;
   std::vector<rung_replacement*> replacements_;
   std::vector<rung_watch*> watches_;
+  std::vector<rung_forces*> forces_;
+  std::vector<rung_trace*> traces_;
   std::array<uint64_t, 128> none_{};
   double bound_ = 0;
   uint32_t last_ = 0;
@@ -233,7 +270,7 @@ TEST(RuntimeCalls, InAnyOrderWithAnything) {
     for (int i = 0; i < kCalls && !testing::Test::HasFatalFailure(); ++i) calls.call();
   }
   for (const int32_t status : {RUNG_OK, RUNG_EMPTY, RUNG_LATER, RUNG_FAULTED, RUNG_BAD_HANDLE, RUNG_BAD_ARGUMENT,
-                               RUNG_WRONG_STATE, RUNG_NOT_FOUND, RUNG_WRONG_TYPE, RUNG_OVERWRITTEN})
+                               RUNG_WRONG_STATE, RUNG_NOT_FOUND, RUNG_WRONG_TYPE, RUNG_OVERWRITTEN, RUNG_REFUSED})
     EXPECT_GT(counts[static_cast<size_t>(status - RUNG_FAILED)], 0) << status;
 }
 

@@ -571,6 +571,53 @@ TEST_F(Runtime, OneThreadAtATime) {
   EXPECT_EQ(rung_instance_scan(plc.handle()), RUNG_OK);
 }
 
+TEST_F(Runtime, APassIsALineOfATrace) {
+  const std::string path = testing::TempDir() + "rung_runtime_trace.vcd";
+  rung::Instance plc = started();
+  const rung_cell cells[] = {plc.find("COUNT"), plc.find("SPEED", rung::Access::Write), plc.find("LATCHED_DOOR")};
+  rung::Watch watch(plc, cells, 2);
+  rung::Trace trace(watch.handle(), path);
+  EXPECT_EQ(rung_trace_write(trace.handle()), RUNG_EMPTY);
+  scan(plc, 2);
+  EXPECT_EQ(rung_trace_write(trace.handle()), RUNG_OK);
+  plc.write(cells[1], 0.5);
+  scan(plc, 3); // of which one has no room
+  EXPECT_EQ(rung_trace_free(trace.release()), RUNG_OK);
+  std::ifstream file(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), R"($version rungc $end
+$timescale 1 us $end
+$scope module test $end
+$scope module R $end
+$var wire 8 ! COUNT $end
+$var real 64 " SPEED $end
+$upscope $end
+$scope module IN $end
+$var wire 1 # LATCHED_DOOR $end
+$upscope $end
+$upscope $end
+$enddefinitions $end
+#8000
+$dumpvars
+b1 !
+r0 "
+0#
+$end
+#16000
+b10 !
+$comment 1 passes are missing here $end
+#24000
+b11 !
+r0.5 "
+#32000
+b100 !
+)");
+  rung_trace* none = nullptr;
+  EXPECT_EQ(rung_trace_new(watch.handle(), "/nowhere/trace.vcd", &none), RUNG_FAILED);
+  EXPECT_EQ(rung_trace_new(watch.handle(), nullptr, &none), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(rung_trace_new(rung::Watch(plc, cells).handle(), path.c_str(), &none), RUNG_BAD_ARGUMENT);
+  std::filesystem::remove(path);
+}
+
 TEST_F(Runtime, CellsAreWatched) {
   rung::Instance plc = started();
   const rung_cell cells[] = {plc.find("COUNT"), plc.find("SPEED", rung::Access::Write), plc.find("LIMIT")};

@@ -97,7 +97,13 @@ RUNG_COMPILER_API const char* rung_compilation_report(const rung_compilation* co
  * has errors. */
 RUNG_COMPILER_API int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image);
 
-/* The program as a sealed shared object, for rung_image_open. RUNG_FAILED: the file cannot be written. */
+/* Serves an image that rung_image_open has given: its code can be made again, from the IR that its file carries, where
+ * cells that it writes are forced (rung_forces_new). Images of rung_compilation_image are served from the beginning.
+ * RUNG_REFUSED: the file carries no IR (rungc build --no-ir), or that of another version of this compiler;
+ * RUNG_WRONG_STATE: it is served. */
+RUNG_COMPILER_API int32_t rung_compiler_serve(rung_image* image);
+
+/* The program as a sealed shared object, with its IR, for rung_image_open. RUNG_FAILED: the file cannot be written. */
 RUNG_COMPILER_API int32_t rung_compilation_write(rung_compilation* compilation, const char* path);
 
 #ifdef __cplusplus

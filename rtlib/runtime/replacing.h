@@ -1,0 +1,13 @@
+// What others ask of a replacement.
+#pragma once
+#include <memory>
+
+#include "rtlib/runtime/instance.h"
+
+namespace rung::runtime {
+
+// The program that would take over with it. A status, and a sentence where it is an error.
+int32_t imageOf(const rung_instance& instance, const rung_replacement* replacement,
+                std::shared_ptr<const Image>& image);
+
+} // namespace rung::runtime

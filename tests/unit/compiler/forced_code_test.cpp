@@ -1,0 +1,173 @@
+// Code with forced cells, of random programs: every engine does what the interpreter does without the optimiser, and
+// the forced bits are as they should be after every rung.
+#include "tools/compiler/recompiler.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "ir/passes/pipeline.h"
+#include "ir/random/random.h"
+#include "rtlib/host/compare.h"
+#include "rtlib/host/forcing.h"
+#include "rtlib/nc/names/names.h"
+
+namespace rung::compiler {
+namespace {
+
+constexpr int kScans = 4;
+
+Compiled compiledOf(const ir::Module& module, bool optimise) {
+  Compiled out;
+  out.built = std::make_unique<ir::Module>(module);
+  out.module = std::make_unique<ir::Module>(module);
+  out.passes.optimise = optimise;
+  ir::runPasses(*out.module, out.passes);
+  out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{});
+  return out;
+}
+
+using Random = std::mt19937_64;
+
+uint32_t below(Random& random, size_t limit) { return static_cast<uint32_t>(random() % limit); }
+
+// Bits and words anywhere in the spaces.
+std::vector<host::ForcedCell> randomCells(Random& random, const rung_program& program) {
+  std::vector<host::ForcedCell> cells;
+  for (uint32_t i = 0; i < 6; ++i) {
+    const uint32_t space = below(random, program.space_count);
+    const uint32_t bytes = program.spaces[space].byte_count;
+    if (bytes < 8) continue;
+    const uint32_t byte = below(random, bytes - 7);
+    constexpr uint32_t kWidths[] = {8, 16, 32, 64};
+    const host::Ref ref = random() % 3 != 0 ? host::bitRef(space, byte, below(random, 8))
+                                            : host::intRef(space, byte, kWidths[random() % 4]);
+    cells.push_back({.ref = ref, .bits = random()});
+  }
+  return cells;
+}
+
+void expectHeld(const host::Instance& instance, const host::Forcing& forcing) {
+  for (const rung_forced_byte& byte : forcing.bytes())
+    ASSERT_EQ(instance.memory().readByte(byte.space, byte.byte) & byte.mask, byte.value)
+        << "byte " << byte.byte << " of space " << byte.space;
+}
+
+// A program that runs with forced cells.
+struct Running {
+  Running(const ir::Module& module, EngineKind kind, bool optimise)
+      : compiled(compiledOf(module, optimise)), engine(makeEngine(kind, compiled, {}).value()), kind(kind),
+        instance(*engine) {}
+
+  void force(std::span<const host::ForcedCell> cells) {
+    forcing.emplace(instance.program(), engine->context(), cells);
+    Result<std::unique_ptr<ForcedCode>> made =
+        makeForcedCode(compiled, kind, {}, instance.program(), engine->context(), forcing->bytes());
+    ASSERT_TRUE(made.ok()) << made.error();
+    code = std::move(made).value();
+    forcing->setCode(code->code());
+    ASSERT_EQ(instance.force(*forcing), !instance.faulted());
+  }
+
+  Compiled compiled;
+  std::unique_ptr<host::Engine> engine;
+  EngineKind kind;
+  host::Instance instance;
+  std::optional<host::Forcing> forcing;
+  std::unique_ptr<ForcedCode> code;
+};
+
+// Changes the inputs, the first space, with values that depend on the scan alone.
+void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
+  for (uint32_t byte = 0; byte < std::min(8u, instance.program().spaces[0].byte_count); ++byte)
+    EXPECT_EQ(
+        instance.write(host::intRef(0, byte, 8), seed * 31 + uint64_t{byte} * 7 + static_cast<uint64_t>(scan) * 13),
+        std::nullopt);
+}
+
+class ForcedCodeOf : public testing::TestWithParam<EngineKind> {};
+
+TEST_P(ForcedCodeOf, RandomPrograms) {
+  const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : 60;
+  uint32_t withCode = 0;
+  uint32_t forcedAtEnd = 0;
+  for (uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const ir::Module module = ir::randomModule(seed, {.traps = seed % 4 == 0});
+    ir::Module other = module; // so that the layouts differ, and spaces are compared instead of bytes of memory
+    other.slots.push_back({.type = ir::Type::I64, .key = "of the reference alone"});
+    Running reference(other, EngineKind::Interp, false);
+    Running tested(module, GetParam(), true);
+    Random random(seed);
+    const std::vector<host::ForcedCell> cells = randomCells(random, reference.instance.program());
+    const host::Forcing asked(reference.instance.program(), nullptr, cells);
+    if (!asked.problem().empty() || cells.empty()) continue;
+    withCode += asked.needsCode() ? 1 : 0;
+    for (int scan = 0; scan < kScans; ++scan) {
+      if (scan == 1) {
+        reference.force(cells);
+        tested.force(cells);
+      }
+      for (Running* running : {&reference, &tested}) {
+        changeInputs(running->instance, seed, scan);
+        running->instance.scan();
+        if (running->instance.forced()) expectHeld(running->instance, *running->forcing);
+        EXPECT_EQ(running->instance.forced(), scan >= 1 && !running->instance.faulted());
+      }
+      const auto found = host::firstDifference(reference.instance, tested.instance, nc::describe);
+      ASSERT_FALSE(found) << "scan " << scan << ": " << *found;
+      if (HasFatalFailure()) return;
+    }
+    forcedAtEnd += tested.instance.forced() ? 1 : 0;
+  }
+  EXPECT_GT(withCode, seeds / 4);
+  EXPECT_GT(forcedAtEnd, seeds / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, ForcedCodeOf, testing::Values(EngineKind::Interp, EngineKind::Jit),
+                         [](const auto& test) { return std::string(engineName(test.param)); });
+
+// Looks at the forced bits after every rung.
+class Looker final : public ir::RungObserver {
+public:
+  void rungRan(uint32_t, std::span<const uint64_t>) override {
+    if (instance != nullptr && forcing != nullptr && instance->forced()) expectHeld(*instance, *forcing);
+    ++rungs;
+  }
+  const host::Instance* instance = nullptr;
+  const host::Forcing* forcing = nullptr;
+  uint32_t rungs = 0;
+};
+
+TEST(ForcedCode, HoldsTheBitsAfterEveryRung) {
+  uint32_t rungs = 0;
+  for (uint64_t seed = 1000; seed < 1100; ++seed) {
+    SCOPED_TRACE(seed);
+    Running running(ir::randomModule(seed, {}), EngineKind::Interp, true);
+    Random random(seed);
+    const std::vector<host::ForcedCell> cells = randomCells(random, running.instance.program());
+    if (!host::Forcing(running.instance.program(), nullptr, cells).problem().empty() || cells.empty()) continue;
+    Looker* looker = nullptr;
+    EngineOptions options;
+    options.observer = [&](const Compiled&) {
+      auto made = std::make_unique<Looker>();
+      looker = made.get();
+      return made;
+    };
+    running.forcing.emplace(running.instance.program(), running.engine->context(), cells);
+    running.code = makeForcedCode(running.compiled, EngineKind::Interp, options, running.instance.program(),
+                                  running.engine->context(), running.forcing->bytes())
+                       .value();
+    running.forcing->setCode(running.code->code());
+    ASSERT_NE(looker, nullptr);
+    looker->instance = &running.instance;
+    looker->forcing = &*running.forcing;
+    ASSERT_TRUE(running.instance.force(*running.forcing));
+    for (int scan = 0; scan < kScans; ++scan) running.instance.scan();
+    rungs += looker->rungs;
+  }
+  EXPECT_GT(rungs, 1000u);
+}
+
+} // namespace
+} // namespace rung::compiler

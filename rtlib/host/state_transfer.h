@@ -6,9 +6,9 @@
 // A plan is made outside real time and reports what it will do. Running it copies bytes, and nothing else: its time is
 // in proportion to the bytes of state.
 //
-// A name whose cell was elsewhere takes its contents along, but for inputs, which the machine writes. Its former place
-// starts anew, unless another name stays there. A name that is new starts anew where other names were before; where
-// none was, or one of the same extent that is gone (it was renamed), it keeps what is there.
+// A name whose cell was elsewhere takes its contents along, but for inputs, which the machine or the NC writes. Its
+// former place starts anew, unless another name stays there. A name that is new starts anew where other names were
+// before; where none was, or one of the same extent that is gone (it was renamed), it keeps what is there.
 //
 // A mechanism continues at the same instruction. While it waits at one that the new program does not have, the new
 // program cannot take over.

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "rtlib/core/memory.h"
+#include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rung/types.hpp"
 
@@ -61,7 +62,7 @@ private:
 class TransferPlanner {
 public:
   TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to)
-      : plan_(plan), from_(from), to_(to), old_(from), new_(to), source_(new_.count(), kInitial),
+      : plan_(plan), from_(from), to_(to), old_(from), new_(to), overwritten_(to), source_(new_.count(), kInitial),
         stays_(new_.count(), false) {
     for (uint32_t s = 0; s < from.space_count; ++s) sameSpaces_.push_back(findSpace(to, from.spaces[s].name));
   }
@@ -145,7 +146,7 @@ private:
     for (const Match& match : matches_) {
       if (match.former == nullptr || sameCell(*match.former, *match.symbol)) continue;
       const uint32_t space = sameSpaces_[match.former->space];
-      if (space == RUNG_NONE || isInput(space)) continue;
+      if (space == RUNG_NONE || isInput(space, *match.former)) continue;
       const uint32_t begin = 8 * match.former->byte + match.former->bit;
       const uint32_t end = std::min(begin + extent(*match.former), 8 * to_.spaces[space].byte_count);
       for (uint32_t b = begin; b < end; ++b) start(new_.first(space) + b);
@@ -153,7 +154,17 @@ private:
   }
 
   static bool isAllocated(const rung_space& space) { return (space.flags & RUNG_SPACE_ALLOCATED) != 0; }
-  bool isInput(uint32_t space) const { return (to_.spaces[space].flags & RUNG_SPACE_INPUT) != 0; }
+  // The machine or the NC writes this cell, in this space of the new program. Where the program writes the space too,
+  // the input is what a task copies over it.
+  bool isInput(uint32_t space, const rung_symbol& cell) const {
+    const uint32_t flags = to_.spaces[space].flags;
+    if ((flags & RUNG_SPACE_INPUT) == 0) return false;
+    if ((flags & RUNG_SPACE_OUTPUT) == 0) return true;
+    Ref ref = refOf(cell);
+    ref.space = space;
+    return overwritten_.source(ref).has_value();
+  }
+  bool isInput(const rung_symbol& symbol) const { return isInput(symbol.space, symbol); }
 
   void start(uint32_t bit) {
     if (!stays_[bit]) source_[bit] = kInitial;
@@ -163,7 +174,7 @@ private:
   }
 
   void placeFormer(const rung_symbol& symbol, const rung_symbol& former) {
-    if (sameCell(former, symbol) || isInput(symbol.space)) return;
+    if (sameCell(former, symbol) || isInput(symbol)) return;
     start(symbol);
     if (former.type != symbol.type) return report(ChangeKind::Retyped, symbol);
     report(ChangeKind::Moved, symbol);
@@ -178,7 +189,7 @@ private:
   }
 
   void placeNew(const rung_symbol& symbol) {
-    if (isInput(symbol.space)) return;
+    if (isInput(symbol)) return;
     const bool fixed = !isAllocated(to_.spaces[symbol.space]);
     if (const auto former = gone_.find({symbol.space, symbol.byte, symbol.bit, symbol.type, symbol.count});
         fixed && former != gone_.end()) {
@@ -304,6 +315,7 @@ private:
   const rung_program& to_;
   BitNumbers old_;
   BitNumbers new_;
+  Overwritten overwritten_;          // in the new program
   std::vector<uint32_t> sameSpaces_; // by space of the old program: that of the new one with its name; or RUNG_NONE
   std::vector<uint32_t> source_;     // by bit of the new program: the bit of the old one, or kInitial
   std::vector<bool> stays_;          // by bit of the new program: it has a name that has stayed

@@ -40,8 +40,6 @@ void Hooks::onHook(host::Instance& running, uint32_t work) { instance_.control->
 
 void Hooks::onFault(host::Instance& running) { instance_.control->onFault(running); }
 
-void Hooks::onReplace(host::Instance& running) { instance_.control->onReplace(running); }
-
 bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   const rung_instance_options& options = instance_.options;
   int32_t answer = (options.flags & RUNG_QUEUE_REQUESTS) != 0 ? RUNG_QUEUE : RUNG_REFUSE;

@@ -33,7 +33,6 @@ public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
   void onHook(host::Instance& running, uint32_t work) override;
   void onFault(host::Instance& running) override;
-  void onReplace(host::Instance& running) override;
   bool respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
 
 private:

@@ -14,8 +14,8 @@ using namespace rung::runtime;
 struct rung_replacement {
   rung_replacement(rung_instance& of, std::shared_ptr<const Image> next, uint8_t* memory)
       : instance(of), image(std::move(next)),
-        replacement(of.running.program(), {image->program, image->engine, memory}),
-        cells(std::make_unique<CellTable>(image->program)),
+        replacement(*of.program.load(std::memory_order_acquire), {image->program, image->engine, memory}),
+        places(of.control->locate(image->program)), cells(std::make_unique<CellTable>(image->program)),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
     instance.names.join(*instance.control, *cells);
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
@@ -33,6 +33,7 @@ struct rung_replacement {
   rung_instance& instance;
   std::shared_ptr<const Image> image;
   host::Replacement replacement;
+  std::unique_ptr<nc::Places> places; // of the control
   std::unique_ptr<CellTable> cells;
   std::unique_ptr<host::RetainLane> lane; // what is kept of the program
   bool holdsFormer = false;               // the program that it was made to replace
@@ -47,6 +48,7 @@ int32_t failOther() noexcept { return fail(RUNG_BAD_ARGUMENT, "the replacement w
 host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacement) noexcept {
   const host::ReplaceResult result = instance.running.replace(replacement.replacement);
   if (result != host::ReplaceResult::Replaced) return result;
+  instance.control->exchangePlaces(instance.running, replacement.places);
   std::swap(instance.image, replacement.image);
   std::swap(instance.cells, replacement.cells);
   std::swap(instance.clock, replacement.clock);
@@ -90,7 +92,9 @@ int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* m
   if (next == nullptr) return failHandle("an image");
   if (replacement == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the replacement is null");
   const rung_program& program = next->image->program;
-  if (const char* dialect = handle->running.program().dialect; std::strcmp(dialect, program.dialect) != 0)
+  // That of all programs of the instance.
+  if (const char* dialect = handle->program.load(std::memory_order_acquire)->dialect;
+      std::strcmp(dialect, program.dialect) != 0)
     return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
                 dialect);
   if (const int32_t status = checkMemory(program, memory, memory_bytes); status != RUNG_OK) return status;

@@ -18,6 +18,17 @@ void Control::prepare(host::Instance& instance, PowerOn kind) {
     instance.coldStart();
   else
     instance.warmStart();
+  Control::onReplace(instance);
+}
+
+void Control::exchangePlaces(host::Instance& instance, std::unique_ptr<Places>& places) noexcept {
+  places_.swap(places);
+  if (places_) usePlaces(instance, *places_);
+}
+
+void Control::onReplace(host::Instance& instance) {
+  std::unique_ptr<Places> places = locate(instance.program());
+  exchangePlaces(instance, places);
 }
 
 bool Control::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {

@@ -21,6 +21,12 @@ namespace rung::nc {
 
 enum class PowerOn : uint8_t { Cold, Warm };
 
+// Where a control reads and writes in one program (Control::locate).
+class Places {
+public:
+  virtual ~Places() = default;
+};
+
 class Control : public host::ScheduleHooks {
 public:
   // The program is switched on in two steps, so that others can prepare memory in between. `prepare`: memory, presets
@@ -40,6 +46,14 @@ public:
     if (!beginPowerOff(instance)) return;
     for (uint32_t i = 0; i < kMostLastScans && !instance.faulted() && endsLater(instance); ++i) scan();
   }
+
+  // Looks up where the control reads and writes in a program of its dialect. Any thread, but not in real time.
+  virtual std::unique_ptr<Places> locate(const rung_program& program) const { return (void)program, nullptr; }
+  // Another program has taken over, between two passes: `places`, of that program, are what the control uses from now
+  // on; it gets those of the former one. Allocates nothing.
+  void exchangePlaces(host::Instance& instance, std::unique_ptr<Places>& places) noexcept;
+  // The same for a host that has not looked them up beforehand.
+  void onReplace(host::Instance& instance) override;
 
   // After a scan, a slot or a slice.
   virtual void afterSlice(host::Instance& instance) { (void)instance; }
@@ -93,6 +107,9 @@ protected:
   virtual bool beginPowerOff(host::Instance& instance) { return (void)instance, false; }
   virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
 
+  // Another program has taken over: these are its places, which stay until there are others. Allocates nothing.
+  virtual void usePlaces(host::Instance& instance, Places& places) noexcept { (void)instance, (void)places; }
+
   // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
   virtual std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const {
     return (void)program, (void)name, std::nullopt;
@@ -100,6 +117,8 @@ protected:
 
 private:
   static constexpr uint32_t kMostLastScans = 500;
+
+  std::unique_ptr<Places> places_;
 };
 
 // By rung_program::dialect; a plain control for a dialect that has none of its own.

@@ -212,6 +212,30 @@ TEST_F(Transfer, InputsAreTheMachines) {
   EXPECT_EQ(fresh.memory().readByte(kX, 1), 1);
 }
 
+// Where machine and program write one space, the inputs are what a task copies over it.
+TEST_F(Transfer, InputsOfASharedSpaceAreWhatIsCopiedOverThem) {
+  for (Running* one : {&old, &fresh}) {
+    constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
+    one->program.addSpace("M", 1, {{0, 32, 320, RUNG_REPR_PACKED}}, kBoth);
+    one->program.addSpace("TS", 1, {{0, 16, 384, RUNG_REPR_PACKED}}, kBoth);
+    one->program.addBeginCopy(0, {RUNG_COPY_ALL, 384, 320, 0, 16});
+  }
+  constexpr uint32_t kM = 3;
+  old.program.addSymbol("DOOR", kM, 1, RUNG_TYPE_I8);
+  old.program.addSymbol("COUNT", kM, 20, RUNG_TYPE_I8);
+  fresh.program.addSymbol("DOOR", kM, 2, RUNG_TYPE_I8);
+  fresh.program.addSymbol("COUNT", kM, 30, RUNG_TYPE_I8);
+  old.start();
+  fresh.start();
+  old.write("DOOR", 5);
+  old.write("COUNT", 7);
+  EXPECT_EQ(run(), Lines({"moved COUNT"}));
+  EXPECT_EQ(fresh.read("COUNT"), 7u);
+  EXPECT_EQ(fresh.memory().readByte(kM, 20), 0) << "where it was";
+  EXPECT_EQ(fresh.memory().readByte(kM, 1), 5) << "by address";
+  EXPECT_EQ(fresh.read("DOOR"), 0u);
+}
+
 TEST_F(Transfer, SlotsAreFoundByTheirKeys) {
   old.program.addSlot("MAIN/TON T1/since", 0, RUNG_TYPE_I64);
   old.program.addSlot("MAIN/edge X1", 8, RUNG_TYPE_BIT);

@@ -19,7 +19,20 @@ void writeArea(host::Instance& instance, const char* area, const std::vector<uin
   for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
 }
 
+struct GskPlaces final : Places {
+  explicit GskPlaces(const rung_program& program) : areas(program) {}
+  gsk::Areas areas;
+};
+
 } // namespace
+
+std::unique_ptr<Places> GskControl::locate(const rung_program& program) const {
+  return std::make_unique<GskPlaces>(program);
+}
+
+void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
+  functions_.use({instance, static_cast<const GskPlaces&>(places).areas});
+}
 
 void GskControl::prepare(host::Instance& instance, PowerOn kind) {
   const std::vector<uint8_t> machine = readArea(instance, "X");
@@ -27,7 +40,7 @@ void GskControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   writeArea(instance, "X", machine);
   writeArea(instance, "F", cnc);
-  functions_.powerOn(instance);
+  functions_.powerOn();
 }
 
 std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) const {

@@ -10,7 +10,7 @@ class GskControl final : public Control {
 public:
   // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
   void prepare(host::Instance& instance, PowerOn kind) override;
-  void onReplace(host::Instance& instance) override { functions_.locate(instance); }
+  std::unique_ptr<Places> locate(const rung_program& program) const override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
   // The second level is cut into slots of 8 ms.
@@ -18,6 +18,7 @@ public:
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 
 protected:
+  void usePlaces(host::Instance& instance, Places& places) noexcept override;
   std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:

@@ -24,12 +24,11 @@ public:
   explicit GskFunctions(Answer counts = Answer::AfterAbsence) : counts_(counts) {}
 
   // At power-on. F outlasts it, so what was handed over before is taken back.
-  void powerOn(host::Instance& instance) {
-    locate(instance);
+  void powerOn() {
     if (handedOver_ && io_) abort(*io_);
   }
-  // Where the signals are in the program that runs now.
-  void locate(host::Instance& instance) { io_.emplace(instance); }
+  // The signals of the program that runs now.
+  void use(const gsk::SignalsIo& io) { io_ = io; }
 
   // Takes effect with functions handed over from now on.
   void setHighSpeed(bool on) { highSpeed_ = on; }

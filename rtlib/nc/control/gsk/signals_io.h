@@ -1,5 +1,5 @@
-// Access of the CNC to the areas of a GSK25i program, which are found when it is made: it reads X and G and writes F.
-// An area that the program does not have reads 0 and takes nothing. The instance outlives it.
+// Access of the CNC to the areas of a GSK25i program: it reads X and G and writes F. An area that the program does not
+// have reads 0 and takes nothing. The instance outlives it.
 #pragma once
 #include "rtlib/host/program_info.h"
 
@@ -7,10 +7,18 @@
 
 namespace rung::nc::gsk {
 
+struct Areas {
+  explicit Areas(const rung_program& program)
+      : x(host::findSpace(program, "X")), f(host::findSpace(program, "F")), g(host::findSpace(program, "G")) {}
+
+  uint32_t x, f, g; // RUNG_NONE: the program does not have it
+};
+
 class SignalsIo {
 public:
-  explicit SignalsIo(host::Instance& instance)
-      : memory_(instance.memory()), x_(area(instance, "X")), f_(area(instance, "F")), g_(area(instance, "G")) {}
+  explicit SignalsIo(host::Instance& instance) : SignalsIo(instance, Areas(instance.program())) {}
+  SignalsIo(host::Instance& instance, const Areas& areas)
+      : memory_(instance.memory()), x_(areas.x), f_(areas.f), g_(areas.g) {}
 
   bool x(uint32_t byte, uint32_t bit) const { return ((get(x_, byte, 1) >> bit) & 1) != 0; }
   bool g(uint32_t byte, uint32_t bit) const { return ((get(g_, byte, 1) >> bit) & 1) != 0; }
@@ -28,9 +36,6 @@ public:
   void setFDword(uint32_t byte, uint32_t value) const { put(byte, 4, value); }
 
 private:
-  static uint32_t area(const host::Instance& instance, const char* name) {
-    return host::findSpace(instance.program(), name);
-  }
   uint64_t get(uint32_t space, uint32_t byte, uint32_t size) const {
     return space == RUNG_NONE ? 0 : memory_.read(space, byte, size);
   }

@@ -41,28 +41,39 @@ size_t logLine(const rung_program& program, const rung_message& message, std::sp
 
 // ---- cells -------------------------------------------------------------------------------------------------------
 
-void Messages::powerOn(host::Instance& instance) {
+namespace {
+
+// The contents go to where there is more room.
+template <class Entry>
+void widen(std::vector<Entry>& used, std::vector<Entry>& other) noexcept {
+  if (used.capacity() >= other.capacity()) return;
+  other.assign(used.begin(), used.end());
+  used.swap(other);
+}
+
+} // namespace
+
+Messages::Places::Places(const rung_program& program) : cells(program, kMessageSpace) {
+  // More than one a box only between a loss in the queue and its discovery.
+  const size_t room = cells.bytes / (size_t{kMessageWords} * 4) + rt::kMessageCapacity;
+  list.reserve(room);
+  cleared.reserve(room);
+  sorted.reserve(room);
+}
+
+void Messages::powerOn() {
   list_.clear();
   cleared_.clear();
   lost_ = 0;
   cancel_ = pressed_ = ownSignal_ = false;
   changed_ = true;
-  locate(instance);
 }
 
-void Messages::locate(host::Instance& instance) {
-  cells_ = {};
-  const uint32_t space = host::findSpace(instance.program(), kMessageSpace);
-  if (space != RUNG_NONE) {
-    const rung_space& shown = instance.program().spaces[space];
-    if (shown.range_count == 1 && shown.ranges[0].repr == RUNG_REPR_PACKED)
-      cells_ = instance.block().subspan(shown.ranges[0].offset, shown.byte_count);
-  }
-  // More than one a box only between a loss in the queue and its discovery.
-  const size_t room = cells() + rt::kMessageCapacity;
-  list_.reserve(room);
-  cleared_.reserve(room);
-  sorted_.reserve(room);
+void Messages::use(host::Instance& instance, Places& places) noexcept {
+  cells_ = instance.block().subspan(places.cells.offset, places.cells.bytes);
+  widen(list_, places.list);
+  widen(cleared_, places.cleared);
+  widen(sorted_, places.sorted);
 }
 
 uint32_t Messages::cell(uint32_t box, uint32_t word) const {

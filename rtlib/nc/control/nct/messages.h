@@ -4,7 +4,7 @@
 //
 // A code is displayed once: sent again it comes to the top with its new number. A message that the operator clears goes
 // at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870); it comes back
-// with the next rising edge only. Nothing here allocates after powerOn, but `shown`.
+// with the next rising edge only. Nothing here allocates, but `shown` and the makers of places.
 #pragma once
 #include <span>
 #include <string>
@@ -18,11 +18,29 @@
 namespace rung::nc::nct {
 
 class Messages {
+  struct Entry {
+    uint32_t code;
+    bool clearing; // goes at the end of this cycle
+    rung_message message;
+  };
+
 public:
+  // Where the messages of one program have their cells, and room for them.
+  class Places {
+  public:
+    explicit Places(const rung_program& program);
+
+  private:
+    friend class Messages;
+    PackedSpace cells; // the space @SHOWN
+    std::vector<Entry> list;
+    std::vector<uint32_t> cleared, sorted;
+  };
+
   // The program's memory has been started.
-  void powerOn(host::Instance& instance);
-  // Where the cells are in the program that runs now.
-  void locate(host::Instance& instance);
+  void powerOn();
+  // Of the program that runs now. Whichever has more room stays here.
+  void use(host::Instance& instance, Places& places) noexcept;
   // What the program sent.
   void accept(const rung_message& message);
   // The operator's buttons: CANCEL takes the message on top, others the selected one or all of them. False: the
@@ -39,11 +57,6 @@ public:
   std::vector<ShownMessage> shown(const rung_program& program) const;
 
 private:
-  struct Entry {
-    uint32_t code;
-    bool clearing; // goes at the end of this cycle
-    rung_message message;
-  };
   uint32_t cells() const { return static_cast<uint32_t>(cells_.size() / (size_t{kMessageWords} * 4)); }
   uint32_t cell(uint32_t box, uint32_t word) const;
   void setShown(uint32_t box, bool shown);
@@ -58,7 +71,7 @@ private:
   BitSignal any_{"N_MSGA"};
   BitSignal plc_{"N_MSG0"};
   WordSignal active_{"N_ACTMSG"};
-  std::span<uint8_t> cells_;      // the space @SHOWN
+  std::span<uint8_t> cells_;      // see Places
   std::vector<Entry> list_;       // the top is the last one; room for a message of each box
   std::vector<uint32_t> cleared_; // by the operator since the last cycle
   std::vector<uint32_t> sorted_;  // scratch: the codes of the list

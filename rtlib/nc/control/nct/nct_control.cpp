@@ -17,30 +17,39 @@ uint32_t hooksOf(const rung_program& program) {
   return static_cast<uint32_t>(std::ranges::count(steps, RUNG_STEP_HOOK, &rung_step::op));
 }
 
+struct NctPlaces final : Places {
+  explicit NctPlaces(const rung_program& program)
+      : timeSlice(program, nct::kTimeSliceSpace), slicesOfCycle(std::max(hooksOf(program), 1u)), messages(program) {}
+
+  nct::PackedSpace timeSlice;
+  uint32_t slicesOfCycle;
+  nct::Messages::Places messages;
+};
+
 } // namespace
 
 // N_SIMU stays 0: the software does not run on the manufacturer's simulator (man. l.7927).
 void NctControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
-  locate(instance);
-  timeSlices_ = cycles_ = slice_ = 0;
-  messages_.powerOn(instance);
+  timeSlices_ = cycles_ = 0;
+  messages_.powerOn();
   for (NctFunctions& channel : functions_) channel.powerOn(instance);
   writeConstants();
   retainedLost_ = false;
 }
 
-void NctControl::locate(host::Instance& instance) {
-  ts_ = nct::SignalMemory(instance);
-  slicesOfCycle_ = std::max(hooksOf(instance.program()), 1u);
+std::unique_ptr<Places> NctControl::locate(const rung_program& program) const {
+  return std::make_unique<NctPlaces>(program);
 }
 
 // Between two passes, so the next time slice is the first of a cycle.
-void NctControl::onReplace(host::Instance& instance) {
-  locate(instance);
+void NctControl::usePlaces(host::Instance& instance, Places& places) noexcept {
+  auto& of = static_cast<NctPlaces&>(places);
+  ts_ = nct::SignalMemory(instance, of.timeSlice);
+  slicesOfCycle_ = of.slicesOfCycle;
   slice_ = 0;
-  messages_.locate(instance);
-  for (NctFunctions& channel : functions_) channel.locate(instance);
+  messages_.use(instance, of.messages);
+  for (NctFunctions& channel : functions_) channel.use(ts_);
 }
 
 void NctControl::writeConstants() {

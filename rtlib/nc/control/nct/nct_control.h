@@ -11,7 +11,7 @@ namespace rung::nc {
 class NctControl final : public Control {
 public:
   void prepare(host::Instance& instance, PowerOn kind) override;
-  void onReplace(host::Instance& instance) override;
+  std::unique_ptr<Places> locate(const rung_program& program) const override;
   // At power-on both memories hold what the NC says.
   void start(host::Instance& instance) override;
 
@@ -42,6 +42,7 @@ public:
   void reportRetainedLost() override { retainedLost_ = true; }
 
 protected:
+  void usePlaces(host::Instance& instance, Places& places) noexcept override;
   std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
@@ -51,7 +52,6 @@ private:
     int64_t periodUs = 0;
   };
 
-  void locate(host::Instance& instance);
   void writeConstants();
   void beginCycle();
 

@@ -12,7 +12,6 @@ constexpr int32_t kFirstSpindle = 1; // CN_SSEL, 1 to 16 (man. l.10592)
 
 void NctFunctions::powerOn(host::Instance& instance) {
   instance_ = &instance;
-  locate(instance);
   phases_ = {};
   strobes_ = 0;
 }

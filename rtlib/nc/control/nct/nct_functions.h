@@ -28,8 +28,8 @@ public:
 
   // At power-on: the instance outlives the calls of Functions.
   void powerOn(host::Instance& instance);
-  // Where the signals are in the program that runs now.
-  void locate(host::Instance& instance) { signals_ = nct::SignalMemory(instance); }
+  // The signals of the program that runs now.
+  void use(const nct::SignalMemory& signals) { signals_ = signals; }
 
   // The signals themselves, for an NC that keeps account of its blocks. At the beginning of a PLC cycle:
   void dropStrobes(const nct::SignalMemory& signals); // those of the last one

@@ -18,14 +18,13 @@ SignalPlace::SignalPlace(std::string_view name) {
   bit_ = found->bit;
 }
 
-SignalMemory::SignalMemory(host::Instance& instance) {
-  const uint32_t space = host::findSpace(instance.program(), "TS");
-  if (space == RUNG_NONE) return;
-  const rung_space& slice = instance.program().spaces[space];
-  // The compiler keeps TS packed (packedOnly): one range.
-  if (slice.range_count != 1 || slice.ranges[0].repr != RUNG_REPR_PACKED) return;
-  area_ = instance.block().data() + slice.ranges[0].offset;
-  size_ = slice.byte_count;
+PackedSpace::PackedSpace(const rung_program& program, std::string_view name) {
+  const uint32_t number = host::findSpace(program, name);
+  if (number == RUNG_NONE) return;
+  const rung_space& space = program.spaces[number];
+  if (space.range_count != 1 || space.ranges[0].repr != RUNG_REPR_PACKED) return;
+  offset = space.ranges[0].offset;
+  bytes = space.byte_count;
 }
 
 int32_t SignalMemory::word(uint32_t address) const {

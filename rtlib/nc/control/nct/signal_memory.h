@@ -36,11 +36,24 @@ struct RealSignal : SignalPlace {
   explicit RealSignal(std::string_view name) : SignalPlace(name) {}
 };
 
+// A packed space in the memory block; 0 bytes where the program does not have it so.
+struct PackedSpace {
+  PackedSpace() = default;
+  PackedSpace(const rung_program& program, std::string_view name);
+
+  uint32_t offset = 0;
+  uint32_t bytes = 0;
+};
+inline constexpr std::string_view kTimeSliceSpace = "TS"; // the compiler keeps it packed (packedOnly)
+
 // `index` counts axes, spindles, channels … from 0. Outside the table reads give 0 and writes do nothing.
 class SignalMemory {
 public:
   SignalMemory() = default;
-  explicit SignalMemory(host::Instance& instance);
+  explicit SignalMemory(host::Instance& instance)
+      : SignalMemory(instance, PackedSpace(instance.program(), kTimeSliceSpace)) {}
+  SignalMemory(host::Instance& instance, const PackedSpace& timeSlice)
+      : area_(instance.block().data() + timeSlice.offset), size_(timeSlice.bytes) {}
 
   bool get(const BitSignal& signal, uint32_t index = 0) const {
     return ((load<uint32_t>(signal, index) >> signal.bit_) & 1) != 0;

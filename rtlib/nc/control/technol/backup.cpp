@@ -5,9 +5,8 @@
 
 namespace rung::nc::technol {
 
-void Backup::locate(const host::Instance& instance) {
-  const std::optional<host::Ref> place = signalPlace(instance.program(), "REQ_BACKUP_MEM");
-  request_ = place ? host::locate(instance.memory(), *place) : rt::Place();
+rt::Place Backup::locate(const rung_program& program) {
+  return host::locate({program, nullptr}, signalPlace(program, "REQ_BACKUP_MEM").value_or(host::Ref{}));
 }
 
 void Backup::afterMain(host::Instance& instance) {

@@ -9,8 +9,9 @@ class Backup {
 public:
   // Whether the host keeps the memory on disk; without it there is nothing to wait for.
   void setStored(bool stored) { stored_ = stored; }
-  // Where the cell is in the program that runs now.
-  void locate(const host::Instance& instance);
+  // The place of REQ_BACKUP_MEM in a program; in the one that runs now.
+  static rt::Place locate(const rung_program& program);
+  void use(const rt::Place& request) { request_ = request; }
   void afterMain(host::Instance& instance);
   bool asked(const host::Instance& instance) const { return instance.memory().read(request_) != 0; }
   void saved(host::Instance& instance) { instance.memory().write(request_, 0); }

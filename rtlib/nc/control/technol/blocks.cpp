@@ -18,11 +18,11 @@ bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || nam
 constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
 
 // Every program has these cells. A program's own cell of the same name is not the interface's.
-rt::Place hostCell(const host::Instance& instance, std::string_view name) {
-  return host::locate(instance.memory(), cellPlace(instance.program(), name).value_or(host::Ref{}));
+rt::Place hostCell(const rung_program& program, std::string_view name) {
+  return host::locate({program, nullptr}, cellPlace(program, name).value_or(host::Ref{}));
 }
-rt::Place interfaceCell(const host::Instance& instance, std::string_view name) {
-  return host::locate(instance.memory(), signalPlace(instance.program(), name).value_or(host::Ref{}));
+rt::Place interfaceCell(const rung_program& program, std::string_view name) {
+  return host::locate({program, nullptr}, signalPlace(program, name).value_or(host::Ref{}));
 }
 uint64_t get(const host::Instance& instance, const rt::Place& place) { return instance.memory().read(place); }
 void put(host::Instance& instance, const rt::Place& place, uint64_t value) { instance.memory().write(place, value); }
@@ -39,43 +39,43 @@ void Blocks::reset() {
   reached_ = first_ = false;
 }
 
-void Blocks::locate(const host::Instance& instance) {
-  lastOneBlock_.clear();
-  motionBits_.clear();
-  untilNextStart_.clear();
-  for (const std::string_view name : kUntilNextStart) untilNextStart_.push_back(interfaceCell(instance, name));
-  queue_ = host::findSpace(instance.program(), "BLK");
-  const auto task = [&](std::string_view name) { return host::findTask(instance.program(), name); };
-  init_ = {task("BLOCK_INIT"), hostCell(instance, "@BLOCK_INIT.CONT"), hostCell(instance, "@BLOCK_INIT.DONE")};
-  done_ = {task("BLOCK_DONE"), hostCell(instance, "@BLOCK_DONE.CONT"), hostCell(instance, "@BLOCK_DONE.DONE")};
-  initOwed_ = hostCell(instance, "@INIT.PENDING");
-  startDisable_ = interfaceCell(instance, "START_DISABLE");
-  startSuspend_ = interfaceCell(instance, "START_SUSPEND");
-  statusRestart_ = interfaceCell(instance, "STATUS_RESTART");
-  blockInProgress_ = interfaceCell(instance, "PO_F");
-  positionReached_ = interfaceCell(instance, "PO_POL");
-  annulment_ = interfaceCell(instance, "CAPI");
+const Blocks::Places Blocks::kNothing{};
+
+Blocks::Places::Places(const rung_program& program) {
+  for (const std::string_view name : kUntilNextStart) untilNextStart.push_back(interfaceCell(program, name));
+  queue = host::findSpace(program, "BLK");
+  const auto task = [&](std::string_view name) { return host::findTask(program, name); };
+  init = {task("BLOCK_INIT"), hostCell(program, "@BLOCK_INIT.CONT"), hostCell(program, "@BLOCK_INIT.DONE")};
+  done = {task("BLOCK_DONE"), hostCell(program, "@BLOCK_DONE.CONT"), hostCell(program, "@BLOCK_DONE.DONE")};
+  initOwed = hostCell(program, "@INIT.PENDING");
+  startDisable = interfaceCell(program, "START_DISABLE");
+  startSuspend = interfaceCell(program, "START_SUSPEND");
+  statusRestart = interfaceCell(program, "STATUS_RESTART");
+  blockInProgress = interfaceCell(program, "PO_F");
+  positionReached = interfaceCell(program, "PO_POL");
+  annulment = interfaceCell(program, "CAPI");
+  const rt::Memory memory(program, nullptr); // for its places only
   for (const Signal& signal : technolSignals()) {
     const std::string_view name = signal.symbol;
     if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
       continue;
-    const auto place = placeOf(instance.program(), signal);
+    const auto place = placeOf(program, signal);
     if (!place) continue;
-    if (lastsOneBlock(name)) lastOneBlock_.push_back(host::locate(instance.memory(), *place));
-    if (name.starts_with("PO_OS")) motionBits_.push_back(host::locate(instance.memory(), *place));
+    if (lastsOneBlock(name)) lastOneBlock.push_back(host::locate(memory, *place));
+    if (name.starts_with("PO_OS")) motionBits.push_back(host::locate(memory, *place));
   }
 }
 
 bool Blocks::start(host::Instance& instance, std::span<const CommandValue> values) {
   if (busy()) return false;
-  for (const rt::Place& place : untilNextStart_) put(instance, place, 0);
+  for (const rt::Place& place : places_->untilNextStart) put(instance, place, 0);
   for (const CommandValue& value : values) {
     if (value.isReal)
       instance.memory().writeReal(value.place, value.real);
     else
       put(instance, value.place, static_cast<uint64_t>(value.integer));
   }
-  put(instance, positionReached_, 0);
+  put(instance, places_->positionReached, 0);
   phase_ = Phase::Starting;
   reached_ = false;
   return true;
@@ -90,7 +90,7 @@ bool Blocks::reached(host::Instance& instance) {
 
 void Blocks::annul(host::Instance& instance) {
   if (busy()) finish(instance);
-  const CommandValue mode[] = {{.place = annulment_, .integer = 1}};
+  const CommandValue mode[] = {{.place = places_->annulment, .integer = 1}};
   start(instance, mode);
   reached(instance);
 }
@@ -98,32 +98,33 @@ void Blocks::annul(host::Instance& instance) {
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
 // l.6456-6467).
 bool Blocks::mayStart(const host::Instance& instance) const {
-  return get(instance, initOwed_) == 0 && get(instance, startDisable_) == 0 && get(instance, startSuspend_) == 0;
+  return get(instance, places_->initOwed) == 0 && get(instance, places_->startDisable) == 0 &&
+         get(instance, places_->startSuspend) == 0;
 }
 
 void Blocks::enter(host::Instance& instance, Phase phase) {
   phase_ = phase;
   first_ = true;
   switch (phase) {
-  case Phase::Idle: put(instance, statusRestart_, kIdle); return;
+  case Phase::Idle: put(instance, places_->statusRestart, kIdle); return;
   case Phase::Starting: return;
-  case Phase::Init: put(instance, statusRestart_, kInit); return;
-  case Phase::Motion: put(instance, statusRestart_, kMove); return;
-  case Phase::Done: put(instance, statusRestart_, kDone); return;
+  case Phase::Init: put(instance, places_->statusRestart, kInit); return;
+  case Phase::Motion: put(instance, places_->statusRestart, kMove); return;
+  case Phase::Done: put(instance, places_->statusRestart, kDone); return;
   }
 }
 
 void Blocks::supervise(host::Instance& instance) {
   if (phase_ == Phase::Starting && mayStart(instance)) {
-    put(instance, blockInProgress_, 1);
+    put(instance, places_->blockInProgress, 1);
     enter(instance, Phase::Init);
   }
-  if (phase_ == Phase::Init && pass(instance, init_)) {
+  if (phase_ == Phase::Init && pass(instance, places_->init)) {
     enter(instance, Phase::Motion);
     if (reached_) endMotion(instance);
   }
   if (phase_ == Phase::Motion && reached_) enter(instance, Phase::Done);
-  if (phase_ == Phase::Done && pass(instance, done_)) finish(instance);
+  if (phase_ == Phase::Done && pass(instance, places_->done)) finish(instance);
 }
 
 // True when the module ran through. It starts at its beginning with every block.
@@ -137,16 +138,16 @@ bool Blocks::pass(host::Instance& instance, const Module& module) {
 }
 
 void Blocks::endMotion(host::Instance& instance) {
-  put(instance, positionReached_, 1);
-  for (const rt::Place& bit : motionBits_) put(instance, bit, 0);
+  put(instance, places_->positionReached, 1);
+  for (const rt::Place& bit : places_->motionBits) put(instance, bit, 0);
 }
 
 void Blocks::finish(host::Instance& instance) {
-  put(instance, blockInProgress_, 0);
-  for (const rt::Place& bit : lastOneBlock_) put(instance, bit, 0);
-  if (queue_ != RUNG_NONE)
-    for (uint32_t byte = 0; byte < instance.program().spaces[queue_].byte_count; ++byte)
-      instance.memory().writeByte(queue_, byte, 0);
+  put(instance, places_->blockInProgress, 0);
+  for (const rt::Place& bit : places_->lastOneBlock) put(instance, bit, 0);
+  if (places_->queue != RUNG_NONE)
+    for (uint32_t byte = 0; byte < instance.program().spaces[places_->queue].byte_count; ++byte)
+      instance.memory().writeByte(places_->queue, byte, 0);
   enter(instance, Phase::Idle);
 }
 

@@ -23,11 +23,33 @@ struct CommandValue {
 };
 
 class Blocks {
+  // A block module: its task, the state in which it waits, whether it has run through.
+  struct Module {
+    uint32_t task = RUNG_NONE;
+    rt::Place cont, done;
+  };
+
 public:
+  // Where one program has what the blocks need.
+  class Places {
+  public:
+    Places() = default; // a program that has nothing
+    explicit Places(const rung_program& program);
+
+  private:
+    friend class Blocks;
+    Module init, done;
+    rt::Place initOwed, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, annulment;
+    std::vector<rt::Place> lastOneBlock; // zero again at the end of the block
+    std::vector<rt::Place> motionBits;   // PO_OS...
+    std::vector<rt::Place> untilNextStart;
+    uint32_t queue = RUNG_NONE; // the space of the queue of command blocks
+  };
+
   // At power-on: no block is under way.
   void reset();
-  // Where the cells are in the program that runs now.
-  void locate(const host::Instance& instance);
+  // Those of the program that runs now, which outlive their use.
+  void use(const Places& places) { places_ = &places; }
 
   // False: a block is under way already.
   bool start(host::Instance& instance, std::span<const CommandValue> values);
@@ -43,28 +65,18 @@ public:
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Init, Motion, Done };
-  // A block module: its task, the state in which it waits, whether it has run through.
-  struct Module {
-    uint32_t task = RUNG_NONE;
-    rt::Place cont, done;
-  };
-
   bool mayStart(const host::Instance& instance) const;
   void enter(host::Instance& instance, Phase phase);
   bool pass(host::Instance& instance, const Module& module);
   void endMotion(host::Instance& instance);
   void finish(host::Instance& instance);
 
+  static const Places kNothing;
+
+  const Places* places_ = &kNothing;
   Phase phase_ = Phase::Idle;
   bool reached_ = false;
-  // Looked up once, as every scan may need them.
-  Module init_, done_;
-  rt::Place initOwed_, startDisable_, startSuspend_, statusRestart_, blockInProgress_, positionReached_, annulment_;
-  bool first_ = false;                  // pass of the module
-  std::vector<rt::Place> lastOneBlock_; // zero again at the end of the block
-  std::vector<rt::Place> motionBits_;   // PO_OS...
-  std::vector<rt::Place> untilNextStart_;
-  uint32_t queue_ = RUNG_NONE; // the space of the queue of command blocks
+  bool first_ = false; // pass of the module
 };
 
 } // namespace rung::nc::technol

@@ -9,17 +9,34 @@
 
 namespace rung::nc {
 
+namespace {
+
+struct TechnolPlaces final : Places {
+  explicit TechnolPlaces(const rung_program& program)
+      : blocks(program), functions(program), backup(technol::Backup::locate(program)) {}
+
+  technol::Blocks::Places blocks;
+  TechnolFunctions::Places functions;
+  rt::Place backup;
+};
+
+} // namespace
+
 void TechnolControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   messages_.clear();
   blocks_.reset();
-  locate(instance);
 }
 
-void TechnolControl::locate(host::Instance& instance) {
-  blocks_.locate(instance);
-  functions_.locate(instance);
-  backup_.locate(instance);
+std::unique_ptr<Places> TechnolControl::locate(const rung_program& program) const {
+  return std::make_unique<TechnolPlaces>(program);
+}
+
+void TechnolControl::usePlaces(host::Instance& instance, Places& places) noexcept {
+  const auto& of = static_cast<const TechnolPlaces&>(places);
+  blocks_.use(of.blocks);
+  functions_.use(instance, of.functions);
+  backup_.use(of.backup);
 }
 
 void TechnolControl::onHook(host::Instance& instance, uint32_t work) {

@@ -17,7 +17,7 @@ public:
 
   void onHook(host::Instance& instance, uint32_t work) override;
   void onFault(host::Instance& instance) override;
-  void onReplace(host::Instance& instance) override { locate(instance); }
+  std::unique_ptr<Places> locate(const rung_program& program) const override;
   void afterSlice(host::Instance& instance) override;
 
   void accept(const rung_message& message) override { messages_.accept(message); }
@@ -45,13 +45,12 @@ public:
   technol::Blocks& blocks() { return blocks_; }
 
 protected:
+  void usePlaces(host::Instance& instance, Places& places) noexcept override;
   bool beginPowerOff(host::Instance& instance) override { return life_.powerOff(instance); }
   bool endsLater(const host::Instance& instance) const override { return life_.donePending(instance); }
   std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
-  void locate(host::Instance& instance);
-
   technol::Blocks blocks_;
   TechnolFunctions functions_{blocks_};
   technol::ProgramLife life_;

@@ -53,8 +53,8 @@ int64_t bcd(uint32_t number) {
   return digits;
 }
 
-rt::Place cell(const host::Instance& instance, std::string_view name) {
-  return host::locate(instance.memory(), technol::signalPlace(instance.program(), name).value_or(host::Ref{}));
+rt::Place cell(const rung_program& program, std::string_view name) {
+  return host::locate({program, nullptr}, technol::signalPlace(program, name).value_or(host::Ref{}));
 }
 
 } // namespace
@@ -71,25 +71,26 @@ bool TechnolFunctions::setGroup(uint32_t code, uint32_t group) {
   return true;
 }
 
-void TechnolFunctions::locate(host::Instance& instance) {
+const TechnolFunctions::Places TechnolFunctions::kNothing{};
+
+TechnolFunctions::Places::Places(const rung_program& program) {
   static_assert(std::size(kDecodedBits) == kDecoded);
-  instance_ = &instance;
-  automatic_ = cell(instance, "AUTPI");
+  automatic = cell(program, "AUTPI");
   for (uint32_t i = 1; i <= kGroups; ++i) {
     const std::string number = std::to_string(i);
-    groups_[i] = {.changed = cell(instance, "ZMM" + number + "PI"),
-                  .code = {},
-                  .blockChanged = cell(instance, "BLK[0].M" + number),
-                  .blockCode = cell(instance, "BLK[0].M[" + number + "]")};
+    groups[i] = {.changed = cell(program, "ZMM" + number + "PI"),
+                 .code = {},
+                 .blockChanged = cell(program, "BLK[0].M" + number),
+                 .blockCode = cell(program, "BLK[0].M[" + number + "]")};
   }
-  for (const CodeCell& each : kCodeCells) groups_[each.group].code = cell(instance, each.cell);
-  for (uint32_t i = 0; i < kDecoded; ++i) decoded_[i] = cell(instance, kDecodedBits[i].cell);
-  speedChanged_ = cell(instance, "ZMSSPI");
-  speed_ = cell(instance, "BLK[0].SpindleSpeed");
-  toolChanged_ = cell(instance, "ZMSTPI");
-  blockToolChanged_ = cell(instance, "BLK[0].TProg");
-  blockTool_ = cell(instance, "BLK[0].T");
-  for (uint32_t i = 0; i < toolDigits_.size(); ++i) toolDigits_[i] = cell(instance, kToolCells[i]);
+  for (const CodeCell& each : kCodeCells) groups[each.group].code = cell(program, each.cell);
+  for (uint32_t i = 0; i < kDecoded; ++i) decoded[i] = cell(program, kDecodedBits[i].cell);
+  speedChanged = cell(program, "ZMSSPI");
+  speed = cell(program, "BLK[0].SpindleSpeed");
+  toolChanged = cell(program, "ZMSTPI");
+  blockToolChanged = cell(program, "BLK[0].TProg");
+  blockTool = cell(program, "BLK[0].T");
+  for (uint32_t i = 0; i < toolDigits.size(); ++i) toolDigits[i] = cell(program, kToolCells[i]);
 }
 
 bool TechnolFunctions::carries(FunctionKind kind, uint32_t code) const {
@@ -106,7 +107,7 @@ bool TechnolFunctions::carries(FunctionKind kind, uint32_t code) const {
 std::optional<uint32_t> TechnolFunctions::start(FunctionKind kind, uint32_t code) {
   if (blocks_.busy()) return std::nullopt;
   Values values;
-  values.add(automatic_, 1);
+  values.add(places_->automatic, 1);
   switch (kind) {
   case FunctionKind::M: addM(values, code); break;
   case FunctionKind::S: addSpeed(values, code); break;
@@ -120,29 +121,30 @@ std::optional<uint32_t> TechnolFunctions::start(FunctionKind kind, uint32_t code
 
 void TechnolFunctions::addM(Values& values, uint32_t code) const {
   const uint32_t number = groupOfM_[code];
-  const Group& group = groups_[number];
+  const Group& group = places_->groups[number];
   values.add(group.changed, 1);
   values.add(group.code, bcd(code));
   values.add(group.blockChanged, 1);
   values.add(group.blockCode, bcd(code));
   for (uint32_t i = 0; i < kDecoded && code != kAutomaticGear; ++i) {
     const DecodedBit& bit = kDecodedBits[i];
-    if (bit.group == number) values.add(decoded_[i], bit.codes[0] == code || bit.codes[1] == code ? 1 : 0);
+    if (bit.group == number) values.add(places_->decoded[i], bit.codes[0] == code || bit.codes[1] == code ? 1 : 0);
   }
 }
 
 // The output for the drive (PB11, PB12, rSPINDLE_OUTPUT_1) is by the gears that the control is configured with
 // (l.8180-8236).
 void TechnolFunctions::addSpeed(Values& values, uint32_t code) const {
-  values.add(speedChanged_, 1);
-  values.addReal(speed_, code);
+  values.add(places_->speedChanged, 1);
+  values.addReal(places_->speed, code);
 }
 
 void TechnolFunctions::addTool(Values& values, uint32_t code) const {
-  values.add(toolChanged_, 1);
-  values.add(blockToolChanged_, 1);
-  values.add(blockTool_, code);
-  for (uint32_t i = 0; i < toolDigits_.size(); ++i) values.add(toolDigits_[i], bcd(code) >> 8 * i & 0xFF);
+  values.add(places_->toolChanged, 1);
+  values.add(places_->blockToolChanged, 1);
+  values.add(places_->blockTool, code);
+  for (uint32_t i = 0; i < places_->toolDigits.size(); ++i)
+    values.add(places_->toolDigits[i], bcd(code) >> 8 * i & 0xFF);
 }
 
 } // namespace rung::nc

@@ -11,12 +11,41 @@
 namespace rung::nc {
 
 class TechnolFunctions final : public Functions {
+  static constexpr uint32_t kMostM = 99;
+  static constexpr uint32_t kGroups = 14; // of M functions, from 1
+  static constexpr uint32_t kDecoded = 21;
+  static constexpr uint32_t kMostValues = 16; // of a block
+
+  struct Group {
+    rt::Place changed, code;           // ZMMxPI; PBxx
+    rt::Place blockChanged, blockCode; // BLK[0].Mx, BLK[0].M[x]
+  };
+
 public:
+  // Where one program has the cells.
+  class Places {
+  public:
+    Places() = default; // a program that has none of them
+    explicit Places(const rung_program& program);
+
+  private:
+    friend class TechnolFunctions;
+    rt::Place automatic; // AUTPI
+    std::array<Group, kGroups + 1> groups;
+    std::array<rt::Place, kDecoded> decoded;
+    rt::Place speedChanged, speed;
+    rt::Place toolChanged, blockToolChanged, blockTool;
+    std::array<rt::Place, 4> toolDigits;
+  };
+
   // The blocks outlive it.
   explicit TechnolFunctions(technol::Blocks& blocks);
 
-  // Where the cells are in the program that runs now; the instance outlives the calls of Functions.
-  void locate(host::Instance& instance);
+  // Those of the program that runs now, which outlive their use; so does the instance.
+  void use(host::Instance& instance, const Places& places) {
+    instance_ = &instance;
+    places_ = &places;
+  }
 
   // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
   // in a group (l.7184-7214).
@@ -29,15 +58,6 @@ public:
   void abort() override { blocks_.annul(*instance_); }
 
 private:
-  static constexpr uint32_t kMostM = 99;
-  static constexpr uint32_t kGroups = 14; // of M functions, from 1
-  static constexpr uint32_t kDecoded = 21;
-  static constexpr uint32_t kMostValues = 16; // of a block
-
-  struct Group {
-    rt::Place changed, code;           // ZMMxPI; PBxx
-    rt::Place blockChanged, blockCode; // BLK[0].Mx, BLK[0].M[x]
-  };
   // What a block writes.
   struct Values {
     std::array<technol::CommandValue, kMostValues> all;
@@ -53,15 +73,12 @@ private:
   void addSpeed(Values& values, uint32_t code) const;
   void addTool(Values& values, uint32_t code) const;
 
+  static const Places kNothing;
+
   technol::Blocks& blocks_;
   host::Instance* instance_ = nullptr;
+  const Places* places_ = &kNothing;
   std::array<uint8_t, kMostM + 1> groupOfM_ = {}; // by code
-  rt::Place automatic_;                           // AUTPI
-  std::array<Group, kGroups + 1> groups_;
-  std::array<rt::Place, kDecoded> decoded_;
-  rt::Place speedChanged_, speed_;
-  rt::Place toolChanged_, blockToolChanged_, blockTool_;
-  std::array<rt::Place, 4> toolDigits_;
 };
 
 } // namespace rung::nc

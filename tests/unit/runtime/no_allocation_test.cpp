@@ -86,4 +86,41 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
   EXPECT_GT(plc.state().generation, 10u);
 }
 
+// The controls have their places in the new program beforehand, and room for its messages.
+class ReplacingInRealTime : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Dialects, ReplacingInRealTime, testing::Values("gsk", "nct", "technol"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(ReplacingInRealTime, NeitherAllocatesNorEntersTheKernel) {
+  constexpr uint32_t kBytesOfABox = 8, kBoxes = 500;
+  rung::test::TestProgram one, two;
+  for (rung::test::TestProgram* program : {&one, &two}) {
+    const uint32_t boxes = program == &one ? 1 : kBoxes;
+    program->dialect = GetParam();
+    program->memorySize = 8192;
+    program->addPacked("@SHOWN", 4, boxes * kBytesOfABox, 0);
+    program->addPacked("TS", 4, 64, 4096);
+    program->addTask("MAIN",
+                     program->addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
+    program->scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
+    program->link();
+  }
+  const rung::Image first = adopted(one), second = adopted(two);
+  rung::Instance plc(first);
+  plc.powerOn();
+  rung::Replacement change(plc, second);
+  int32_t status = RUNG_OK;
+  int calls = 0;
+  const auto use = [&] {
+    for (int i = 0; i < 3 && status == RUNG_OK; ++i) {
+      status = rung_instance_replace(plc.handle(), change.handle());
+      rung_instance_scan(plc.handle());
+    }
+  };
+  const int counted = allocationsOf([&] { calls = systemCallsOf(use).value_or(0); });
+  EXPECT_EQ(status, RUNG_OK);
+  EXPECT_EQ(counted, 0);
+  EXPECT_EQ(calls, 0);
+}
+
 } // namespace

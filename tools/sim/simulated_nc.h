@@ -61,6 +61,8 @@ public:
 
   void onHook(host::Instance& instance, uint32_t work) override { control().onHook(instance, work); }
   void onFault(host::Instance& instance) override { control().onFault(instance); }
+  // Requests that the machine has taken are answered to the program that runs now. May allocate.
+  void onReplace(host::Instance& instance) override { control().onReplace(instance); }
 
   // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it
   // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` comes before powerOn, whose kind is then

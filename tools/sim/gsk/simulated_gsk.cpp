@@ -12,6 +12,7 @@
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tools/sim/gsk/simulator.h"
 #include "tools/sim/keys.h"
+#include "tools/sim/relocation.h"
 #include "tools/sim/simulated_nc.h"
 
 namespace rung::sim {
@@ -30,13 +31,17 @@ public:
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     SimulatedNc::powerOn(instance, kind);
-    signals_.emplace(instance);
+    locate(instance);
     if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
     simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
-    const uint32_t space = host::findSpace(instance.program(), "@MPOS");
-    for (uint32_t axis = 0; axis < gsk::kAxes; ++axis)
-      positionPlaces_[axis] = space == RUNG_NONE ? rt::Place() : instance.memory().locate(space, 4 * axis, 4);
+  }
+
+  void onReplace(host::Instance& instance) override {
+    SimulatedNc::onReplace(instance);
+    const Relocation relocation(*program_, instance.program());
+    for (Waiting& waiting : waiting_) relocation.renumber(waiting.request);
+    locate(instance);
   }
 
   // Slot by slot, to the end of the cycle of Level 2.
@@ -98,6 +103,14 @@ private:
     rt::ServiceRequest request;
     uint32_t slots = 0;
   };
+
+  void locate(host::Instance& instance) {
+    program_ = &instance.program();
+    signals_.emplace(instance);
+    const uint32_t space = host::findSpace(*program_, "@MPOS");
+    for (uint32_t axis = 0; axis < gsk::kAxes; ++axis)
+      positionPlaces_[axis] = space == RUNG_NONE ? rt::Place() : instance.memory().locate(space, 4 * axis, 4);
+  }
 
   // From 0, of MPOS.1 to MPOS.8.
   static std::optional<uint32_t> axisOfPosition(std::string_view name) {
@@ -162,6 +175,7 @@ private:
   bool simulated_ = false;
   nc::GskControl control_;
   gsk::Simulator simulator_;
+  const rung_program* program_ = nullptr;     // whose places and services these are
   std::optional<nc::gsk::SignalsIo> signals_; // from the power-on
   std::vector<Waiting> waiting_; // low-speed window requests, oldest first; room for all that can be pending
   std::array<rt::Place, gsk::kAxes> positionPlaces_ = {};                // @MPOS

@@ -34,6 +34,11 @@ public:
     control_.start(instance);
   }
 
+  void onReplace(host::Instance& instance) override {
+    SimulatedNc::onReplace(instance);
+    simulator_.programChanged(instance, control_.signals());
+  }
+
   uint32_t keptSize() override {
     nct::Kept size = nct::Kept::measure();
     if (simulated_) simulator_.keep(size);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rtlib/host/program_info.h"
+#include "tools/sim/relocation.h"
 
 namespace rung::sim::nct {
 
@@ -61,6 +62,8 @@ void Simulator::deliver() {
 // ---- time --------------------------------------------------------------------------------------------------------
 
 void Simulator::attach(host::Instance& instance, const SignalMemory& signals) {
+  program_ = &instance.program();
+  findServices(*program_);
   links_.signals = signals;
   links_.memory = PlcMemory(instance);
   blocks_ = {};
@@ -73,7 +76,6 @@ void Simulator::attach(host::Instance& instance, const SignalMemory& signals) {
 
 void Simulator::powerOn(host::Instance& instance, const SignalMemory& signals, nc::PowerOn kind) {
   attach(instance, signals);
-  findServices(instance.program());
   waitingCount_ = 0;
   links_.nowUs = sliceUs_ = instance.nowUs();
   links_.sliceUs = 0;
@@ -81,6 +83,13 @@ void Simulator::powerOn(host::Instance& instance, const SignalMemory& signals, n
     topic->dropRequests();
     topic->powerOn(kind);
   }
+}
+
+void Simulator::programChanged(host::Instance& instance, const SignalMemory& signals) {
+  if (program_ == nullptr) return; // the NC is not simulated
+  const Relocation relocation(*program_, instance.program());
+  for (uint32_t i = 0; i < waitingCount_; ++i) relocation.renumber(waiting_[i].request);
+  attach(instance, signals);
 }
 
 void Simulator::timeSlice(host::Instance& instance, bool cycle) {

@@ -36,6 +36,8 @@ public:
 
   // The program's memory has been started; `signals` are the control's.
   void powerOn(host::Instance& instance, const SignalMemory& signals, nc::PowerOn kind);
+  // Another program has taken over: requests that are at work are answered to it.
+  void programChanged(host::Instance& instance, const SignalMemory& signals);
   // Before every time slice; `cycle`: it is the first one of a PLC cycle.
   void timeSlice(host::Instance& instance, bool cycle);
   // MACR, MACW, SCP, MOVCMND; false: another service.
@@ -81,8 +83,9 @@ private:
   PalletManagement pallets_{links_};
   std::vector<Topic*> topics_; // in the order in which they work
 
-  std::vector<Service> services_; // by rung_program::services
-  std::span<uint8_t> blocks_;     // the space @MB
+  const rung_program* program_ = nullptr; // that is switched on; null: none yet
+  std::vector<Service> services_;         // by rung_program::services
+  std::span<uint8_t> blocks_;             // the space @MB
   struct Waiting {
     rt::ServiceRequest request;
     int64_t sinceUs = 0;

@@ -2,6 +2,7 @@
 #include "tools/sim/technol/exchange.h"
 
 #include "rtlib/host/program_info.h"
+#include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
 
@@ -12,6 +13,7 @@ std::string Exchange::configure(std::string_view key, std::string_view value) {
 }
 
 void Exchange::beforeInit(host::Instance& instance, bool powerOn) {
+  program_ = &instance.program();
   shared_.clear();
   defined_ = false;
   if (powerOn) {
@@ -24,6 +26,14 @@ void Exchange::beforeInit(host::Instance& instance, bool powerOn) {
 void Exchange::afterInit(host::Instance& instance) {
   connections_.build(instance, shared_, cells_);
   defined_ = false;
+}
+
+void Exchange::programChanged(host::Instance& instance) {
+  if (program_ == nullptr) return; // before the first power-on
+  shared_.relocate(Relocation(*program_, instance.program()));
+  program_ = &instance.program();
+  ports_.locate(instance);
+  afterInit(instance);
 }
 
 void Exchange::onHook(host::Instance& instance, uint32_t hook) {

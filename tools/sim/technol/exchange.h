@@ -26,6 +26,10 @@ public:
   // Memory has been started; the program's MODULE_INIT follows. `powerOn`: not a mere start of the program.
   void beforeInit(host::Instance& instance, bool powerOn);
   void afterInit(host::Instance& instance);
+  // Another program has taken over, whose MODULE_INIT does not run: what the former one has declared is found again in
+  // it. Variables that it does not have are dropped, with the connections that end there; module cells and forced ports
+  // stay as they are.
+  void programChanged(host::Instance& instance);
   // Hooks of the schedule.
   void onHook(host::Instance& instance, uint32_t hook);
   void beforeWrite(host::Instance& instance, const host::Ref& place) { ports_.beforeWrite(instance, place); }
@@ -40,6 +44,7 @@ public:
 private:
   void define(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
 
+  const rung_program* program_ = nullptr; // whose places these are
   SharedVariables shared_;
   ModuleCells cells_;
   Connections connections_;

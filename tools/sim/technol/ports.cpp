@@ -52,6 +52,13 @@ void Ports::write(host::Instance& instance, const Family& family, uint32_t numbe
 }
 
 void Ports::reset(const host::Instance& instance) {
+  in_.fill({});
+  out_.fill({});
+  active_ = false;
+  locate(instance);
+}
+
+void Ports::locate(const host::Instance& instance) {
   inputs_ = familyOf(instance, "P1IN", "P2IN");
   outputs_ = familyOf(instance, "P0OUT", "P1OUT");
   lowIn_ = familyOf(instance, "SETL_P1IN", "SETL_P2IN");
@@ -59,9 +66,6 @@ void Ports::reset(const host::Instance& instance) {
   lowOut_ = familyOf(instance, "SETL_P0OUT", "SETL_P1OUT");
   highOut_ = familyOf(instance, "SETH_P0OUT", "SETH_P1OUT");
   shorts_ = familyOf(instance, "ERRLI_P0OUT", "ERRLI_P1OUT");
-  in_.fill({});
-  out_.fill({});
-  active_ = false;
   findSwitches(instance);
 }
 

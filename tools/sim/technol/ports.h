@@ -21,7 +21,10 @@ public:
   // `config CAN[1].INOUT08[i].CONTROL n`: the control byte of a unit, of which IO_DIS_ERPIS counts here. False: another
   // key. `problem` says what is wrong with the value.
   bool configure(std::string_view key, std::string_view value, std::string& problem);
+  // At a power-on: nothing is forced.
   void reset(const host::Instance& instance);
+  // Where the ports are in the program that runs now.
+  void locate(const host::Instance& instance);
 
   void beforeProgram(host::Instance& instance);
   void afterProgram(host::Instance& instance);

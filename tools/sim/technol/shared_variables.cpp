@@ -95,6 +95,45 @@ bool SharedVariables::define(const rung_program& program, SharedVariable variabl
   return true;
 }
 
+namespace {
+
+// All of its bytes, which stay together.
+host::Ref extentOf(const SharedVariable& variable) {
+  if (variable.type == nc::ExchangeType::Bit && variable.count == 1) return placeOf(variable, 0);
+  host::Ref whole = host::intRef(variable.space, variable.byte, 8);
+  whole.count = bytesOf(variable);
+  return whole;
+}
+
+// False: it is not there, or not with all of its parts.
+bool moveTo(const Relocation& relocation, SharedVariable& variable) {
+  const auto place = relocation.place(extentOf(variable));
+  if (!place) return false;
+  for (std::optional<host::Ref>* limit : {&variable.least, &variable.most}) {
+    if (!*limit) continue;
+    *limit = relocation.place(**limit);
+    if (!*limit) return false;
+  }
+  variable.space = place->space;
+  variable.byte = place->byte;
+  if (place->kind == host::RefKind::Bit) variable.bit = place->bit;
+  return true;
+}
+
+} // namespace
+
+void SharedVariables::relocate(const Relocation& relocation) {
+  byKey_.clear();
+  uint32_t kept = 0;
+  for (SharedVariable& variable : all_) {
+    if (!moveTo(relocation, variable)) continue;
+    byKey_.emplace(keyOf(variable.kind, variable.name), kept);
+    if (&all_[kept] != &variable) all_[kept] = std::move(variable);
+    ++kept;
+  }
+  all_.resize(kept);
+}
+
 const SharedVariable* SharedVariables::logical(nc::ExchangeKind kind, std::string_view identifier) const {
   const auto found = byKey_.find(std::string(1, spaceOf(kind)).append(identifier));
   return found == byKey_.end() ? nullptr : &all_[found->second];

@@ -9,6 +9,7 @@
 
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/technol/exchange.h"
+#include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
 
@@ -40,6 +41,9 @@ public:
   // False where the name has another meaning already, or the place is not in the program's memory. `isNew` says
   // whether something has changed.
   bool define(const rung_program& program, SharedVariable variable, bool& isNew);
+
+  // In another program; those that it does not have are dropped.
+  void relocate(const Relocation& relocation);
 
   const std::vector<SharedVariable>& all() const { return all_; }
   // By a canonical identifier of a DEF_IN or DEF_OUT.

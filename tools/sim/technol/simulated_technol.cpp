@@ -40,6 +40,11 @@ public:
     control_.onHook(instance, work);
   }
 
+  void onReplace(host::Instance& instance) override {
+    SimulatedNc::onReplace(instance);
+    exchange_.programChanged(instance);
+  }
+
   std::string config(std::string_view key, std::string_view value) override {
     if (const nc::ConfigKey* row = findConfigKey(nc::technolConfigKeys(), key))
       if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;

@@ -38,7 +38,17 @@ std::string real(double value) {
   return {text.data(), static_cast<size_t>(length)};
 }
 
+std::string unknown(const VcdName& name, const std::string& code) {
+  switch (name.kind) {
+  case VcdKind::Real: return "rnan " + code;
+  case VcdKind::Text: return "s_ " + code;
+  case VcdKind::Integer: break;
+  }
+  return (name.width == 1 ? "x" : "bx ") + code;
+}
+
 std::string change(const VcdName& name, const VcdValue& value, const std::string& code) {
+  if (!value.known) return unknown(name, code);
   switch (name.kind) {
   case VcdKind::Real: return 'r' + real(value.real) + ' ' + code;
   case VcdKind::Text: return 's' + word(value.text) + ' ' + code;

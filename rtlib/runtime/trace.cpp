@@ -39,6 +39,7 @@ struct rung_trace {
     if (sample.lost != lost) vcd.comment(std::to_string(sample.lost - lost) + " passes are missing here");
     lost = sample.lost;
     for (size_t i = 0; i < values.size(); ++i) {
+      shown[i].known = true;
       shown[i].integer = static_cast<uint64_t>(values[i].integer);
       shown[i].real = values[i].real;
     }

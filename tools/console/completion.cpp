@@ -57,7 +57,10 @@ std::vector<std::string> inQuotes(std::vector<std::string> names) {
 } // namespace
 
 const std::vector<std::string>& Completion::values() {
-  if (values_.empty()) values_ = scenario::namesOf(session_.instance(), session_.nc());
+  const host::Instance& instance = session_.instance();
+  if (values_.empty() || generation_ != instance.generation())
+    values_ = scenario::namesOf(instance.program(), session_.nc());
+  generation_ = instance.generation();
   return values_;
 }
 

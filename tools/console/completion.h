@@ -26,6 +26,7 @@ private:
   const scenario::Session& session_;
   std::vector<std::string> statements_;
   std::vector<std::string> values_; // looked up when they are asked for first
+  uint32_t generation_ = 0;         // of the instance, then
 };
 
 // The first part that all of them share.

@@ -8,6 +8,7 @@
 
 #include "ir/support/similar.h"
 #include "rtlib/nc/faults.h"
+#include "tools/scenario/compile_step.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/words.h"
 
@@ -21,6 +22,7 @@ namespace {
 // What the words after a statement's first one name.
 Names namesOf(std::string_view statement, size_t index) {
   if (statement == "print") return Names::Values;
+  if (statement == "replace") return Names::Files;
   if (index != 1) return Names::None;
   if (statement == "set" || statement == "expect" || statement == "expect_range") return Names::Values;
   if (statement == "expect_call" || statement == "expect_no_call" || statement == "prepare") return Names::Services;
@@ -95,7 +97,7 @@ std::vector<std::string> Console::words() {
   return words;
 }
 
-Console::Console(scenario::Session& session, Watch& watch, Recording& recording, const scenario::Explainer* explainer,
+Console::Console(scenario::Session& session, Watch& watch, Recording& recording, const scenario::Explainer& explainer,
                  Print print)
     : session_(session), watch_(watch), recording_(recording), explainer_(explainer), print_(std::move(print)),
       completion_(session, words()) {}
@@ -159,9 +161,12 @@ Outcome Console::execute(const Statement& statement) {
   const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
   if (problem) {
     const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
-    return fail(text + (named && explainer_ != nullptr ? explainer_->why(statement.name) : ""));
+    return fail(text + (named ? explainer_.why(statement.name) : ""));
   }
-  if (statement.file.empty() && isExpectation(statement.kind)) print_("ok");
+  const bool typed = statement.file.empty();
+  if (typed && isExpectation(statement.kind)) print_("ok");
+  if (typed && statement.kind == Kind::Replace)
+    for (const std::string& line : session_.report()->lines()) print_(line);
   return record(statement, scans, us);
 }
 
@@ -177,8 +182,18 @@ Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefo
     recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
     return Outcome::Interrupted;
   }
-  recording_.add(s.text);
+  if (s.kind == Kind::Replace)
+    recordReplace(s);
+  else
+    recording_.add(s.text);
   return Outcome::Done;
+}
+
+void Console::recordReplace(const Statement& s) {
+  const std::vector<std::string> files = scenario::programPaths(s);
+  const bool object = files.size() == 1 && files[0].ends_with(".so");
+  recording_.addReplace(
+      files, object ? "a scenario names sources, and a shared object took over: replace by its sources" : "");
 }
 
 void Console::reportFault() {
@@ -211,7 +226,7 @@ Outcome Console::toggle(std::span<const std::string> words) {
   if (words.size() != 1) return fail("expected one name (the command is: toggle NAME)");
   const std::string& name = words[0];
   const std::optional<host::Ref> place = session_.nc().writePlace(session_.instance().program(), name);
-  if (!place) return fail(scenario::unknownName(session_.instance(), session_.nc(), name));
+  if (!place) return fail(scenario::unknownName(session_.instance().program(), session_.nc(), name));
   if (place->kind != host::RefKind::Bit) return fail(fmt::format("{0} is not a bit; write: set {0} VALUE", name));
   return executeLine(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));
 }
@@ -247,8 +262,8 @@ Outcome Console::why(std::span<const std::string> words) {
   if (words.size() != 1) return fail("expected one name (the command is: why NAME)");
   const auto reading = scenario::readName(session_.instance(), session_.nc(), words[0], false);
   if (!reading.ok()) return fail(reading.error());
-  if (explainer_ == nullptr) return fail("a shared object does not say which rungs write a name; run its sources");
-  print_(fmt::format("{} is {}{}", words[0], scenario::show(reading.value()), explainer_->why(words[0])));
+  if (!explainer_.knowsProgram()) return fail("a shared object does not say which rungs write a name; run its sources");
+  print_(fmt::format("{} is {}{}", words[0], scenario::show(reading.value()), explainer_.why(words[0])));
   return Outcome::Done;
 }
 

@@ -19,8 +19,8 @@ enum class Outcome : uint8_t { Done, Failed, Interrupted, Quit };
 
 class Console {
 public:
-  // All outlive the console. `explainer` is null for a program that was not compiled here.
-  Console(scenario::Session& session, Watch& watch, Recording& recording, const scenario::Explainer* explainer,
+  // All outlive the console.
+  Console(scenario::Session& session, Watch& watch, Recording& recording, const scenario::Explainer& explainer,
           Print print);
 
   // One line as it was typed; empty lines and comments do nothing. A fault is reported.
@@ -48,6 +48,7 @@ private:
   Outcome include(const std::string& file);
   // Interrupted when the statement did less than it says.
   Outcome record(const scenario::Statement& s, uint64_t scansBefore, int64_t usBefore);
+  void recordReplace(const scenario::Statement& s);
   void reportFault();
 
   Outcome toggle(std::span<const std::string> words);
@@ -62,7 +63,7 @@ private:
   scenario::Session& session_;
   Watch& watch_;
   Recording& recording_;
-  const scenario::Explainer* explainer_;
+  const scenario::Explainer& explainer_;
   Print print_;
   Completion completion_;
   bool faultReported_ = false;

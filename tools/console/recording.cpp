@@ -61,7 +61,12 @@ std::string withoutRung(std::string_view fault) { // the rung and the file in br
 
 } // namespace
 
-void Recording::add(std::string statement) { statements_.push_back(std::move(statement)); }
+void Recording::add(std::string statement) { statements_.push_back({std::move(statement)}); }
+
+void Recording::addReplace(std::vector<std::string> files, const std::string& notAScenario) {
+  if (start_.notAScenario.empty()) start_.notAScenario = notAScenario;
+  statements_.push_back({"replace", std::move(files)});
+}
 
 const project::Project* Recording::ownProject(const std::string& folder) const {
   if (!start_.project || start_.programs != start_.project->files) return nullptr;
@@ -94,7 +99,11 @@ Result<std::string> Recording::scenario(const std::string& path, const scenario:
                                start_.project->file));
   std::string text = "# Written by the prompt of rungc run.\n";
   writeStart(path, session.instance().program().dialect, text);
-  for (const std::string& statement : statements_) text += statement + "\n";
+  for (const Done& done : statements_) {
+    text += done.statement;
+    for (const std::string& file : done.files) text += " " + asWord(relativeTo(folderOf(path), file));
+    text += "\n";
+  }
   for (const std::string& name : watched) {
     const Result<scenario::Reading> reading = scenario::readName(session.instance(), session.nc(), name, false);
     if (const std::string line = reading.ok() ? expectationOf(name, reading.value()) : ""; !line.empty())

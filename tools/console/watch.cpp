@@ -32,11 +32,16 @@ std::vector<std::string> Watch::names() const {
   return names;
 }
 
+void Watch::replaced(const scenario::Session& session, const scenario::NextProgram&) {
+  for (Watched& watched : watched_) watched.value.locate(session.instance(), session.nc());
+}
+
 void Watch::look(const scenario::Session& session) {
   for (Watched& watched : watched_) {
-    std::string now = scenario::showShort(watched.value.read(session.instance(), session.nc()));
+    const std::optional<scenario::Reading> reading = watched.value.read(session.instance(), session.nc());
+    std::string now = reading ? " = " + scenario::showShort(*reading) : " is gone";
     if (now == watched.last) continue;
-    print_(atTime(session, fmt::format("{} = {}", watched.value.name(), now)));
+    print_(atTime(session, watched.value.name() + now));
     watched.last = std::move(now);
   }
   printMessages(session);

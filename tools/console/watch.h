@@ -22,6 +22,7 @@ public:
   std::vector<std::string> names() const;
 
   void scanned(const scenario::Session& session) override { look(session); }
+  void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
   void printed(const std::string& line) override { print_(line); }
   // Prints what has changed since the last look.
   void look(const scenario::Session& session);

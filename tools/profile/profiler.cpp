@@ -32,6 +32,7 @@ public:
   const rung_program* program() const { return program_; }
   // The scenarios are not all of one program.
   bool differs() const { return differs_; }
+  bool replaced() const { return replaced_; }
 
   void started(scenario::Session& session) override {
     const rung_program& program = session.instance().program();
@@ -40,8 +41,9 @@ public:
     if (!differs_) begin(session.instance(), fresh_);
     fresh_ = false;
   }
+  void replaced(const scenario::Session&, const scenario::NextProgram&) override { replaced_ = true; }
   void scanned(const scenario::Session& session) override {
-    if (differs_) return;
+    if (differs_ || replaced_) return;
     const scenario::Statement& s = *session.statement();
     const bool whole = s.kind == scenario::Kind::Scan || s.kind == scenario::Kind::Run;
     end(session.instance(), whole, Place{scenario_, session.scans(), session.nowUs(), s.file, s.line});
@@ -59,6 +61,7 @@ private:
   uint64_t scans_ = 0;
   bool fresh_ = true;
   bool differs_ = false;
+  bool replaced_ = false;
 };
 
 // Counters of rungs, whatever they count; remembers what each rung took in one scan.
@@ -232,6 +235,8 @@ private:
         outcome_.scenario = scenario.path;
         if (!outcome_.result.passed) return false;
         if (measurement.program() == nullptr) return fail(scenario.path, "it runs no program");
+        if (measurement.replaced())
+          return fail(scenario.path, "it replaces its program while it runs, and a profile is of one program");
         if (measurement.differs())
           return fail(
               scenario.path,

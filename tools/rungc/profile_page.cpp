@@ -48,8 +48,7 @@ view::Overlay overlayOf(const profile::Profile& profile) {
 } // namespace
 
 Result<std::string> profilePage(const profile::Profile& profile, const profile::Request& request) {
-  const scenario::CompileStep step =
-      scenario::compileProgram(request.scenarios[0], request.programs, false, false, false);
+  const scenario::CompileStep step = scenario::compileProgram(request.scenarios[0], request.programs, {});
   if (!step.program) return failure("the program has changed while its scenarios ran");
   const compiler::Compiled& compiled = *step.program;
   const view::Overlay overlay = overlayOf(profile);

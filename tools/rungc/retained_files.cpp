@@ -44,6 +44,15 @@ void RetainedFiles::scanned(const scenario::Session&) {
   reportFailures();
 }
 
+// The session's program is replaced between two statements, so there is time to wait for what was offered of the former
+// one.
+void RetainedFiles::replaced(const scenario::Session& session, const scenario::NextProgram&) {
+  memory_.flush();
+  auto lane = std::make_unique<host::RetainLane>(host::RetainMap(session.instance().program()));
+  memory_.programChanged(lane);
+  memory_.settle();
+}
+
 void RetainedFiles::reportFailures() {
   reportChange(memory_.memory(), file_, memoryFails_, report_);
   reportChange(tables_, file_ + ".nc", tablesFail_, report_);

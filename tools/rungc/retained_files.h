@@ -23,6 +23,7 @@ public:
   // says why, when they cannot be used.
   std::optional<nc::PowerOn> load(std::string& error);
   void scanned(const scenario::Session& session) override;
+  void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
   // After the last scan; "" or what could not be written.
   std::string finish();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fmt/format.h>
+#include <list>
 #include <memory>
 #include <optional>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/run_scenario.h"
 #include "tools/rungc/scenarios.h"
+#include "tools/scenario/compile_step.h"
 #include "tools/scenario/trace.h"
 
 namespace rung::rungc {
@@ -56,13 +58,28 @@ void catchSignals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+// What is run.
+struct Program {
+  std::optional<compiler::Compiled> compiled; // nothing of a shared object
+  std::unique_ptr<host::Engine> engine;       // ends before it
+
+  const ir::Uses* uses() const { return compiled ? compiled->uses.get() : nullptr; }
+};
+
+bool isSharedObject(const std::vector<std::string>& files) { return files.size() == 1 && files[0].ends_with(".so"); }
+
+// From sources or a shared object. Nothing: a message was printed, and `status` is the exit status.
+std::optional<Program> makeProgram(const RunOptions& options, const SourceOptions& source, int& status);
+
 // One run of a program, from its start to the end that the options set.
 class Run {
 public:
-  // `compiled` is null for a shared object. All outlive the run.
-  Run(const RunOptions& options, host::Engine& engine, const compiler::Compiled* compiled)
-      : options_(options), engine_(engine), compiled_(compiled), recording_(startOf(options, compiled)) {
-    session_.addEngine(engine);
+  // The options outlive the run.
+  Run(const RunOptions& options, Program program)
+      : options_(options), recording_(startOf(options, program.compiled.has_value())) {
+    programs_.push_back(std::move(program));
+    session_.addEngine(*first().engine);
+    session_.setMakeProgram([this](const scenario::Statement& s) { return next(s); });
   }
 
   int run() {
@@ -72,7 +89,7 @@ public:
   }
 
 private:
-  static console::Start startOf(const RunOptions& options, const compiler::Compiled* compiled) {
+  static console::Start startOf(const RunOptions& options, bool compiled) {
     console::Start start;
     start.programs = options.source.files;
     start.project = options.source.project;
@@ -81,26 +98,27 @@ private:
     start.config = options.config;
     if (std::ranges::find(start.programs, "-") != start.programs.end())
       start.notAScenario = "a scenario names sources, and this program came from standard input";
-    if (compiled == nullptr)
-      start.notAScenario = "a scenario names sources, and this is a shared object: run its sources";
+    if (!compiled) start.notAScenario = "a scenario names sources, and this is a shared object: run its sources";
     if (!options.retain.empty()) start.notAScenario = "a scenario starts cold, and this run began with --retain";
     return start;
   }
+
+  Program& first() { return programs_.front(); }
 
   // ---- start ----
 
   // The keys of --config that the compiler does not read are the NC's.
   std::string configure() {
-    const frontend::Dialect* dialect = frontend::findDialect(engine_.program().dialect);
+    const frontend::Dialect* dialect = frontend::findDialect(session_.instance().program().dialect);
     for (const auto& [key, value] : recording_.start().config) {
       const nc::ConfigKey* row = dialect == nullptr ? nullptr : nc::findConfigKey(dialect->configKeys, key);
       const bool compilers = row != nullptr && row->reader == nc::ConfigReader::Compiler;
-      if (compilers && compiled_ != nullptr) continue;
+      if (compilers && first().compiled) continue;
       if (compilers)
         return fmt::format("--config {0}: the compiler reads it: rungc build --config {0}={1}", key, value);
       if (std::string wrong = session_.config(key, value); !wrong.empty()) return wrong;
     }
-    if (compiled_ == nullptr && options_.scenario.periodUs > 0)
+    if (!first().compiled && options_.scenario.periodUs > 0)
       return "the scenario chooses the period, which is the compiler's to know: run the sources";
     for (const scenario::Statement& connect : options_.scenario.connects)
       if (std::string wrong = session_.connect(connect.words[0], connect.words[1]); !wrong.empty())
@@ -130,18 +148,16 @@ private:
     session_.addObserver(watch_);
     if (const int status = openTrace(); status != kOk) return status;
     const bool asked = options_.prompt || !options_.scenarioFile.empty();
-    if (asked && compiled_ != nullptr) {
-      explainer_.emplace(session_, *compiled_->uses);
-      session_.addObserver(*explainer_);
-    }
+    explainer_.emplace(session_, asked ? first().uses() : nullptr);
+    session_.addObserver(*explainer_);
     return kOk;
   }
 
   int openTrace() {
     if (options_.trace.empty()) return kOk;
-    const ir::Uses* uses = compiled_ == nullptr ? nullptr : compiled_->uses.get();
     const std::vector<std::string> names =
-        options_.watch.empty() ? scenario::defaultTraceNames(engine_.program(), uses) : options_.watch;
+        options_.watch.empty() ? scenario::defaultTraceNames(session_.instance().program(), first().uses())
+                               : options_.watch;
     auto trace = scenario::Trace::open(options_.trace, names, session_.instance(), session_.nc());
     if (!trace.ok()) return environmentError(trace.error());
     trace_ = std::move(trace).value();
@@ -154,7 +170,7 @@ private:
   // Inputs, then the scenario, then what --scans and --for ask for, then the person.
   int drive() {
     catchSignals();
-    console::Console console(session_, watch_, recording_, explainer_ ? &*explainer_ : nullptr, print_);
+    console::Console console(session_, watch_, recording_, *explainer_, print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
     if (status == kOk) status = runScans(console);
@@ -231,6 +247,30 @@ private:
     return kOk;
   }
 
+  // The program of a replace statement, with the configuration of the running one.
+  Result<scenario::NextProgram> next(const scenario::Statement& s) {
+    SourceOptions source = options_.source;
+    source.files = scenario::programPaths(s);
+    if (std::ranges::find(source.files, "-") != source.files.end())
+      return failure("a program that takes over comes from files");
+    if (const std::string wrong = dialectProblem(source.files); !wrong.empty()) return failure(wrong);
+    source.dialect = session_.instance().program().dialect;
+    int status = kOk;
+    std::optional<Program> program = makeProgram(options_, source, status);
+    if (!program) return failure("the program that runs has not been replaced");
+    programs_.push_back(std::move(*program));
+    return scenario::NextProgram{{programs_.back().engine.get()}, programs_.back().uses()};
+  }
+
+  // What the sources say of their dialect.
+  std::string dialectProblem(const std::vector<std::string>& files) const {
+    if (isSharedObject(files)) return {}; // the session looks at its tables
+    SourceManager sources;
+    const Result<std::vector<FileId>> added = compiler::addFiles(sources, files);
+    if (!added.ok()) return added.error();
+    return scenario::dialectProblem(sources, added.value().front(), session_.instance().program().dialect);
+  }
+
   // After every scan.
   bool interrupted() {
     constexpr uint64_t kScansBetween = 1024; // the clock costs as much as a small scan
@@ -246,7 +286,8 @@ private:
     progress_.clear();
     if (!options_.source.quiet)
       fmt::print(out_, "{} scan{}, {:.3f} ms of the program's time, engine {}\n", session_.scans(),
-                 session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0, engine_.name());
+                 session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0,
+                 first().engine->name());
     if (!session_.unexpectedFault().empty()) {
       warn_(console::faultLine(session_.instance()));
       status = kWrong;
@@ -260,8 +301,7 @@ private:
   }
 
   const RunOptions& options_;
-  host::Engine& engine_;
-  const compiler::Compiled* compiled_;
+  std::list<Program> programs_; // that ran: the session may hold on to any
   scenario::Session session_{""};
   console::Recording recording_;
   std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json nothing but that is on standard output
@@ -281,34 +321,49 @@ private:
   std::optional<scenario::Explainer> explainer_; // once the session has started
 };
 
-int runSharedObject(const RunOptions& options) {
+std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {
   std::string error;
-  const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(
-      options.source.files[0], error, {.loaded = host::Loaded::WithProcess, .mayLackSeal = options.unsealed});
-  return engine == nullptr ? environmentError(error) : Run(options, *engine, nullptr).run();
+  Program program;
+  program.engine =
+      host::SoEngine::open(file, error, {.loaded = host::Loaded::WithProcess, .mayLackSeal = options.unsealed});
+  if (program.engine != nullptr) return program;
+  status = environmentError(error);
+  return std::nullopt;
 }
 
-int runSource(const RunOptions& options) {
+std::optional<Program> compileProgram(const RunOptions& options, const SourceOptions& source, int& status) {
   const auto kind = compiler::engineFromName(options.engine);
-  if (!kind) return usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm and jit", options.engine));
-  int status = kOk;
+  if (!kind) {
+    status = usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm and jit", options.engine));
+    return std::nullopt;
+  }
   SourceManager sources;
   compiler::CompileRequest request;
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
-  const auto compiled = compileSources(sources, options.source, request, status);
-  if (!compiled) return status;
+  Program program;
+  program.compiled = compileSources(sources, source, request, status);
+  if (!program.compiled) return std::nullopt;
   compiler::EngineOptions engineOptions;
   engineOptions.debugger = options.debugger;
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
-  const Result<std::unique_ptr<host::Engine>> engine = [&] {
+  Result<std::unique_ptr<host::Engine>> engine = [&] {
     const console::Working working("making machine code");
-    return compiler::makeEngine(*kind, *compiled, engineOptions);
+    return compiler::makeEngine(*kind, *program.compiled, engineOptions);
   }();
-  if (!engine.ok()) return environmentError(engine.error());
-  if (const std::string trouble = compiler::cacheTrouble(*engine.value()); !trouble.empty())
+  if (!engine.ok()) {
+    status = environmentError(engine.error());
+    return std::nullopt;
+  }
+  program.engine = std::move(engine).value();
+  if (const std::string trouble = compiler::cacheTrouble(*program.engine); !trouble.empty())
     fmt::print(stderr, "rungc: nothing is taken from or kept in --cache: {}\n", trouble);
-  return Run(options, *engine.value(), &*compiled).run();
+  return program;
+}
+
+std::optional<Program> makeProgram(const RunOptions& options, const SourceOptions& source, int& status) {
+  return isSharedObject(source.files) ? openSharedObject(options, source.files[0], status)
+                                      : compileProgram(options, source, status);
 }
 
 int runProgram(RunOptions& options) {
@@ -327,8 +382,8 @@ int runProgram(RunOptions& options) {
   auto config = configPairs(options.source.config, status);
   if (!config) return status;
   options.config = std::move(*config);
-  const bool object = options.source.files.size() == 1 && options.source.files[0].ends_with(".so");
-  return object ? runSharedObject(options) : runSource(options);
+  std::optional<Program> program = makeProgram(options, options.source, status);
+  return program ? Run(options, std::move(*program)).run() : status;
 }
 
 } // namespace

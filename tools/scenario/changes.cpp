@@ -62,6 +62,7 @@ Changes::Changes(const Session& session, const ir::Uses& uses) {
     std::memcpy(copy_.data() + span.copy, session.instance().block().data() + span.offset, span.size);
   scan_ = session.scans();
   noteTime(scan_, session.nowUs());
+  begin_ = {scan_, session.nowUs()};
 }
 
 void Changes::watch(const rung_program& program, const std::vector<ir::BitRange>& places) {

@@ -1,5 +1,5 @@
-// When the bits of a program's memory changed last. Attached to a session before its first scan; it compares what the
-// program uses with a copy after each scan.
+// When the bits of a program's memory changed last. It compares what the program uses with a copy after each scan, from
+// when it is made.
 #pragma once
 #include <optional>
 #include <vector>
@@ -20,7 +20,9 @@ public:
     int64_t us = 0;
     bool operator==(const Scan&) const = default;
   };
-  // The last scan that ended with another value than the one before it; number 0: none since the start. Nothing for
+  // When it was made.
+  Scan begin() const { return begin_; }
+  // The last scan that ended with another value than the one before it; number 0: none since the beginning. Nothing for
   // places that rungs do not use.
   std::optional<Scan> last(const host::Instance& instance, const ir::BitRange& place) const;
   // Whether the place was written after the last scan, by a `set`.
@@ -51,6 +53,7 @@ private:
   std::vector<uint32_t> scans_; // of the last change, by bit of copy_
   std::vector<Pace> paces_;
   uint64_t scan_ = 0;
+  Scan begin_;
 };
 
 } // namespace rung::scenario

@@ -39,11 +39,6 @@ std::string similarCode(std::string_view code) {
   return similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best());
 }
 
-// A file of the program, which lies beside the file that names it.
-std::string programPath(const Statement& s, const std::string& file) {
-  return (std::filesystem::path(s.file).parent_path() / file).lexically_normal().string();
-}
-
 const Statement* firstOf(const Scenario& scenario, Kind kind) {
   const auto found = std::ranges::find(scenario.statements, kind, &Statement::kind);
   return found == scenario.statements.end() ? nullptr : &*found;
@@ -105,32 +100,58 @@ bool readsKey(const frontend::Dialect& dialect, std::string_view key) {
   return row != nullptr && row->reader == nc::ConfigReader::Compiler;
 }
 
-CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
-                           bool instrument, bool marks) {
-  CompileStep step;
+std::vector<std::string> programPaths(const Statement& s) {
+  std::vector<std::string> paths;
+  for (const std::string& file : s.words)
+    paths.push_back((std::filesystem::path(s.file).parent_path() / file).lexically_normal().string());
+  return paths;
+}
+
+namespace {
+
+compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettings& settings) {
   compiler::CompileRequest request;
-  request.options.strict = strict;
-  request.instrument = instrument;
-  request.marks = marks;
-  std::vector<std::string> names = programs;
+  request.options.strict = settings.strict;
+  request.instrument = settings.instrument;
+  request.marks = settings.marks;
   for (const Statement& s : scenario.statements) {
-    if (s.kind == Kind::Program && programs.empty())
-      for (const std::string& file : s.words) names.push_back(programPath(s, file));
     if (s.kind == Kind::Dialect) request.dialect = s.name;
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
     if (s.kind == Kind::Config) request.options.config[s.name] = s.value.text;
   }
   request.options.includePaths = scenario.includePaths;
-  SourceManager sources;
+  return request;
+}
+
+// Nothing when one cannot be read.
+std::optional<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
+                                            CompileStep& step) {
   Result<std::vector<FileId>> files = compiler::addFiles(sources, names);
-  if (!files.ok()) {
-    step.files = names; // one that is missing may come
-    step.environment = files.error();
-    return step;
-  }
-  Diagnostics diagnostics;
-  step.program = compiler::compile(sources, files.value(), request, diagnostics);
+  if (files.ok()) return std::move(files).value();
+  step.files = names; // one that is missing may come
+  step.environment = files.error();
+  return std::nullopt;
+}
+
+void compileFiles(SourceManager& sources, const std::vector<FileId>& files, const compiler::CompileRequest& request,
+                  Diagnostics& diagnostics, CompileStep& step) {
+  step.program = compiler::compile(sources, files, request, diagnostics);
   for (uint32_t i = 0; i < sources.fileCount(); ++i) step.files.emplace_back(sources.name(FileId{i}));
+}
+
+} // namespace
+
+CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs,
+                           const CompileSettings& settings) {
+  CompileStep step;
+  std::vector<std::string> names = programs;
+  const Statement* named = firstOf(scenario, Kind::Program);
+  if (programs.empty() && named != nullptr) names = programPaths(*named);
+  SourceManager sources;
+  const auto files = addFiles(sources, names, step);
+  if (!files) return step;
+  Diagnostics diagnostics;
+  compileFiles(sources, *files, requestOf(scenario, settings), diagnostics, step);
   std::vector<Reported> reported = reportedOf(diagnostics, sources);
   checkExpected(scenario, reported, step.problems);
   checkOthers(scenario, reported, sources, step.problems);
@@ -140,6 +161,31 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
         problemAt(scenario.statements[0], "the program has errors:\n" + renderText(diagnostics, sources)));
   if (step.program) checkNames(scenario, *step.program, sources, step.problems);
   if (errorExpected) step.program.reset();
+  return step;
+}
+
+std::string dialectProblem(const SourceManager& sources, FileId file, std::string_view running) {
+  const frontend::Dialect* own = frontend::dialectOf(sources, file);
+  if (own == nullptr || own->name == running) return {};
+  return fmt::format("{} is a program of {}, and the one that runs is of {}", sources.name(file), own->name, running);
+}
+
+CompileStep compileNext(const Scenario& scenario, const Statement& replace, const frontend::Dialect& dialect,
+                        const CompileSettings& settings) {
+  CompileStep step;
+  SourceManager sources;
+  const auto files = addFiles(sources, programPaths(replace), step);
+  if (!files) return step;
+  if (std::string problem = dialectProblem(sources, files->front(), dialect.name); !problem.empty()) {
+    step.problems.push_back(problemAt(replace, std::move(problem)));
+    return step;
+  }
+  compiler::CompileRequest request = requestOf(scenario, settings);
+  request.dialect = dialect.name;
+  Diagnostics diagnostics;
+  compileFiles(sources, *files, request, diagnostics, step);
+  if (!step.program)
+    step.problems.push_back(problemAt(replace, "the program has errors:\n" + renderText(diagnostics, sources)));
   return step;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/compiler/compile.h"
@@ -16,9 +17,25 @@ struct CompileStep {
   std::string environment;        // a file that cannot be read
 };
 
-// `instrument`, `marks`: see CompileRequest. `programs`: instead of the files that the scenario names, when not empty.
-CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs, bool strict,
-                           bool instrument, bool marks);
+// See CompileRequest.
+struct CompileSettings {
+  bool strict = false;
+  bool instrument = false;
+  bool marks = false;
+};
+
+// `programs`: instead of the files that the scenario names, when not empty.
+CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs,
+                           const CompileSettings& settings);
+// The program of a replace statement, with the configuration of the scenario's own, which is of this dialect.
+CompileStep compileNext(const Scenario& scenario, const Statement& replace, const frontend::Dialect& dialect,
+                        const CompileSettings& settings);
+
+// The files of a program or replace statement, which lie beside the file that names them.
+std::vector<std::string> programPaths(const Statement& s);
+
+// "" or that the file is of another dialect than the program that it is to replace.
+std::string dialectProblem(const SourceManager& sources, FileId file, std::string_view running);
 
 // Whether the compiler itself reads this configuration key; the rest is for the simulated NC.
 bool readsKey(const frontend::Dialect& dialect, std::string_view key);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <utility>
 
 #include "rtlib/host/program_info.h"
 #include "tools/scenario/place_names.h"
@@ -39,9 +40,10 @@ std::vector<uint32_t> firstOf(std::vector<uint32_t> rungs, size_t most) {
 
 class Explanation {
 public:
-  Explanation(const Session& session, const ir::Uses& uses, const Changes& changes)
-      : session_(session), instance_(session.instance()), program_(instance_.program()), uses_(uses),
-        changes_(changes) {}
+  // `beginning`: what the changes are known from.
+  Explanation(const Session& session, const ir::Uses& uses, const Changes& changes, std::string beginning)
+      : session_(session), instance_(session.instance()), program_(instance_.program()), uses_(uses), changes_(changes),
+        beginning_(std::move(beginning)) {}
 
   std::string of(const Ref& place) {
     expected_ = bitsOf(place);
@@ -75,6 +77,7 @@ private:
   const rung_program& program_;
   const ir::Uses& uses_;
   const Changes& changes_;
+  std::string beginning_;
   BitRange expected_;
   std::string text_;
 };
@@ -84,7 +87,7 @@ std::string Explanation::age(const Ref& place) const {
   if (changes_.pending(instance_, bitsOf(place))) return fmt::format(", set after scan {}", session_.scans());
   const auto last = changes_.last(instance_, bitsOf(place));
   if (!last) return {};
-  if (last->number == 0) return ", unchanged since the start";
+  if (last->number == 0) return ", unchanged since " + beginning_;
   return fmt::format(", changed in {}", scanText(last->number, last->us));
 }
 
@@ -185,8 +188,11 @@ std::optional<std::string> Explanation::nameLine(const Use& use) const {
 
 std::string Explainer::why(std::string_view name) const {
   const std::optional<Ref> place = session_.nc().readPlace(session_.instance().program(), name);
-  if (!place || place->kind == host::RefKind::Constant) return {};
-  return Explanation(session_, uses_, changes_).of(*place);
+  if (uses_ == nullptr || !place || place->kind == host::RefKind::Constant) return {};
+  const Changes::Scan begin = changes_->begin();
+  std::string since =
+      replaced_ ? fmt::format("the program took over after {}", scanText(begin.number, begin.us)) : "the start";
+  return Explanation(session_, *uses_, *changes_, std::move(since)).of(*place);
 }
 
 } // namespace rung::scenario

@@ -7,6 +7,7 @@
 
 #include "rtlib/host/engine.h"
 #include "rtlib/host/instance.h"
+#include "tools/scenario/replace_report.h"
 #include "tools/scenario/requests.h"
 #include "tools/sim/simulated_nc.h"
 
@@ -18,7 +19,7 @@ public:
   // Files that the NC's configuration names lie in `folder`. The engine outlives the lane.
   Lane(host::Engine& engine, std::string folder);
 
-  std::string_view engineName() const { return engine_.name(); }
+  std::string_view engineName() const { return engine_->name(); }
   host::Instance& instance() { return *instance_; }
   const host::Instance& instance() const { return *instance_; }
   sim::SimulatedNc& nc() { return *nc_; }
@@ -28,6 +29,9 @@ public:
 
   // Switches the program on; what was to be looked at is dropped.
   void powerOn(nc::PowerOn kind);
+  // Another program of the same dialect takes over from the running one. "" or why it cannot, and nothing has happened;
+  // its engine outlives the lane.
+  std::string replace(host::Engine& next, ReplaceReport& report);
   // Runs the NC and the program: a scan, a slot or the fast part.
   using Advance = void (sim::SimulatedNc::*)(host::Instance&);
   void advance(Advance how);
@@ -38,6 +42,7 @@ public:
 
   void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
   void onFault(host::Instance& instance) override { nc_->onFault(instance); }
+  void onReplace(host::Instance& instance) override { nc_->onReplace(instance); }
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
     return requests_.respond(instance, request, reply) || nc_->respond(instance, request, reply);
   }
@@ -45,7 +50,7 @@ public:
 private:
   void takeLog();
 
-  host::Engine& engine_;
+  host::Engine* engine_;
   std::unique_ptr<sim::SimulatedNc> nc_;
   std::unique_ptr<host::Instance> instance_;
   Requests requests_;

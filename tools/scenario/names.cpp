@@ -29,20 +29,25 @@ Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc&
   if (const std::optional<host::Ref> place = nc.readPlace(instance.program(), name))
     return readValue(instance, nc.control(), *place, wantReal);
   if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
-  return failure(unknownName(instance, nc, name));
+  return failure(unknownName(instance.program(), nc, name));
 }
 
 NamedValue::NamedValue(std::string name, const host::Instance& instance, const sim::SimulatedNc& nc)
     : name_(std::move(name)), place_(nc.readPlace(instance.program(), name_)) {}
 
-Reading NamedValue::read(const host::Instance& instance, const sim::SimulatedNc& nc) const {
-  if (place_) return readValue(instance, nc.control(), *place_, false);
-  const Result<Reading> reading = readName(instance, nc, name_, false);
-  return reading.ok() ? reading.value() : realReading(0); // a quantity that is not there yet
+void NamedValue::locate(const host::Instance& instance, const sim::SimulatedNc& nc) {
+  place_ = nc.readPlace(instance.program(), name_);
 }
 
-std::vector<std::string> namesOf(const host::Instance& instance, const sim::SimulatedNc& nc) {
-  const rung_program& program = instance.program();
+std::optional<Reading> NamedValue::read(const host::Instance& instance, const sim::SimulatedNc& nc) const {
+  if (place_) return readValue(instance, nc.control(), *place_, false);
+  if (name_.starts_with(kQuantity))
+    return realReading(nc.quantity(std::string_view(name_).substr(kQuantity.size())).value_or(0));
+  const std::optional<sim::NcCell> cell = nc.readCell(name_);
+  return cell ? std::optional(cellReading(*cell)) : std::nullopt;
+}
+
+std::vector<std::string> namesOf(const rung_program& program, const sim::SimulatedNc& nc) {
   std::vector<std::string> names;
   std::unordered_set<std::string_view> seen;
   for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
@@ -53,28 +58,32 @@ std::vector<std::string> namesOf(const host::Instance& instance, const sim::Simu
   const nc::SignalTable* signals = nc::signalsOf(program.dialect);
   if (signals == nullptr) return names;
   for (const nc::Signal& signal : *signals) // not of every area, nor of every structure, a program names the rows
-    if (seen.insert(signal.symbol).second && nc.readPlace(instance.program(), signal.symbol))
-      names.emplace_back(signal.symbol);
+    if (seen.insert(signal.symbol).second && nc.readPlace(program, signal.symbol)) names.emplace_back(signal.symbol);
   return names;
 }
 
-std::string unknownName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name) {
+std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name) {
   Similar similar(nc::headOf(name));
-  const std::vector<std::string> names = namesOf(instance, nc);
+  const std::vector<std::string> names = namesOf(program, nc);
   for (const std::string& known : names) similar.offer(known);
   return fmt::format("'{}' is not a name of this program{}", name,
                      similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best()));
 }
 
-std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance,
-                                  const sim::SimulatedNc& nc) {
+std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& program,
+                                  std::span<const rung_program* const> next, const sim::SimulatedNc& nc) {
   std::vector<Problem> problems;
+  const rung_program* running = &program;
   const auto check = [&](const Statement& s, const std::string& name) {
     if (name.starts_with(kQuantity)) return; // some exist only once they have been set
-    const Result<Reading> reading = readName(instance, nc, name, false);
-    if (!reading.ok()) problems.push_back(problemAt(s, reading.error()));
+    if (!nc.readPlace(*running, name) && !nc.readCell(name))
+      problems.push_back(problemAt(s, unknownName(*running, nc, name)));
   };
   for (const Statement& s : scenario.statements) {
+    if (s.kind == Kind::Replace) {
+      running = next.front();
+      next = next.subspan(1);
+    }
     if (namesValue(s.kind)) check(s, s.name);
     if (s.kind != Kind::Print) continue;
     for (const KeyValue& item : s.keys)

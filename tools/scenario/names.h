@@ -1,6 +1,7 @@
 // Names of a scenario in a running program: what they hold, and what was meant by one that does not exist.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@ namespace rung::scenario {
 Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name,
                          bool wantReal);
 
-// A name that is read after every scan: it is looked up once.
+// A name that is read after every scan: it is looked up once in each program.
 class NamedValue {
 public:
   // The name can be read (readName); a quantity of the NC that does not exist yet reads 0 until it does.
@@ -22,7 +23,10 @@ public:
 
   const std::string& name() const { return name_; }
   const std::optional<host::Ref>& place() const { return place_; } // else a cell or quantity of the NC
-  Reading read(const host::Instance& instance, const sim::SimulatedNc& nc) const;
+  // Another program has taken over.
+  void locate(const host::Instance& instance, const sim::SimulatedNc& nc);
+  // Nothing: the program that runs now does not have the name.
+  std::optional<Reading> read(const host::Instance& instance, const sim::SimulatedNc& nc) const;
 
 private:
   std::string name_;
@@ -30,12 +34,14 @@ private:
 };
 
 // What a user may write for a value: the symbols of the program, then the signals of its control.
-std::vector<std::string> namesOf(const host::Instance& instance, const sim::SimulatedNc& nc);
+std::vector<std::string> namesOf(const rung_program& program, const sim::SimulatedNc& nc);
 // The message about a name that does not exist, with the one that may be meant.
-std::string unknownName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name);
+std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name);
 
-// Of all statements that read or write a value, but for quantities of the NC; the program has been started.
-std::vector<Problem> unknownNames(const Scenario& scenario, const host::Instance& instance, const sim::SimulatedNc& nc);
+// Of all statements that read or write a value, but for quantities of the NC. The program has been started; `next` are
+// those that take over from it, one for each replace statement.
+std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& program,
+                                  std::span<const rung_program* const> next, const sim::SimulatedNc& nc);
 
 // "30.000 ms, scan 3: VALVE = 1, a text": a print statement.
 Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const sim::SimulatedNc& nc,

@@ -167,7 +167,9 @@ bool isExpectation(Kind kind) {
   case Kind::ExpectNoCall:
   case Kind::ExpectError:
   case Kind::ExpectWarning:
-  case Kind::ExpectFault: return true;
+  case Kind::ExpectFault:
+  case Kind::ExpectChange:
+  case Kind::ExpectNoChange: return true;
   default: return false;
   }
 }

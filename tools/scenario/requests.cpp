@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/control/refuse.h"
 
 namespace rung::scenario {
 
@@ -66,6 +67,20 @@ void Requests::take(Instance& instance) {
       answer(instance, signature, request, prepared->results);
     else
       waiting_.push_back(request);
+  }
+}
+
+void Requests::programChanged(Instance& instance, const sim::Relocation& relocation) {
+  const auto gone = [&](rt::ServiceRequest& request) {
+    relocation.renumber(request);
+    if (request.service == RUNG_NONE) instance.services().complete(nc::refuse(instance.program(), request));
+    return request.service == RUNG_NONE;
+  };
+  for (std::vector<rt::ServiceRequest>* list : {&waiting_, &taken_}) {
+    std::vector<rt::ServiceRequest> former;
+    former.swap(*list);
+    for (rt::ServiceRequest& request : former)
+      if (!gone(request)) list->push_back(request);
   }
 }
 

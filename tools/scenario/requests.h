@@ -8,6 +8,7 @@
 #include "rtlib/host/instance.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/services.h"
+#include "tools/sim/relocation.h"
 
 namespace rung::scenario {
 
@@ -19,6 +20,9 @@ public:
   // Between two scans: takes what has entered the program's queue. Prepared answers to operand blocks are given here,
   // and what takes no answer is complete.
   void take(host::Instance& instance);
+  // Another program has taken over: requests that wait are answered to it. Those of services that it does not have are
+  // refused.
+  void programChanged(host::Instance& instance, const sim::Relocation& relocation);
   void clear();
 
   // The statements of these names; each gives "" or what is wrong.

@@ -45,18 +45,36 @@ public:
 private:
   // Everything that is wrong before the first scan is reported at once.
   void compileAndRun() {
-    CompileStep step = compileProgram(scenario_, options_.programs, options_.strict, options_.instrument,
-                                      options_.engine.observer != nullptr);
-    result_.environment = step.environment;
-    add(result_.files, step.files);
-    add(result_.problems, step.problems);
+    const CompileSettings settings{options_.strict, options_.instrument, options_.engine.observer != nullptr};
+    CompileStep step = compileProgram(scenario_, options_.programs, settings);
+    note(step);
     if (options_.strict && result_.expectsNothing) fail(scenario_.statements[0], kExpectsNothing);
     if (!step.program || !result_.environment.empty() || !step.problems.empty()) return;
     program_ = store().enter(std::move(*step.program));
-    if (!start()) return;
-    add(result_.problems, unknownNames(scenario_, session_.instance(), session_.nc()));
+    if (!compileReplacements(settings) || !start()) return;
+    std::vector<const rung_program*> next;
+    for (const Replacement& replacement : replacements_) next.push_back(&replacement.next.engines[0]->program());
+    add(result_.problems, unknownNames(scenario_, session_.instance().program(), next, session_.nc()));
     if (!result_.problems.empty() || !observe(program_->compiled())) return;
     runStatements();
+  }
+
+  void note(const CompileStep& step) {
+    if (result_.environment.empty()) result_.environment = step.environment;
+    add(result_.files, step.files);
+    add(result_.problems, step.problems);
+  }
+
+  bool compileReplacements(const CompileSettings& settings) {
+    bool good = true;
+    for (const Statement& s : scenario_.statements) {
+      if (s.kind != Kind::Replace) continue;
+      CompileStep step = compileNext(scenario_, s, *program_->compiled().dialect, settings);
+      note(step);
+      good = good && step.program;
+      if (step.program) replacements_.push_back({&s, store().enter(std::move(*step.program)), {}});
+    }
+    return good;
   }
 
   // By file and line; a file that is included twice has each of its problems once.
@@ -88,14 +106,27 @@ private:
 
   bool start() {
     for (compiler::EngineKind kind : engines()) {
-      Result<host::Engine*> engine = program_->engine(kind, options_.engine);
-      if (!engine.ok()) {
-        result_.environment = engine.error();
-        return false;
+      host::Engine* engine = engineOf(*program_, kind);
+      if (engine == nullptr) return false;
+      session_.addEngine(*engine);
+      for (Replacement& replacement : replacements_) {
+        replacement.next.engines.push_back(engineOf(*replacement.program, kind));
+        if (replacement.next.engines.back() == nullptr) return false;
       }
-      session_.addEngine(*engine.value());
     }
+    for (Replacement& replacement : replacements_) replacement.next.uses = replacement.program->compiled().uses.get();
+    session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
+      return std::ranges::find(replacements_, &s, &Replacement::statement)->next;
+    });
     return configure(*program_->compiled().dialect) && powerOn();
+  }
+
+  // Null when it cannot be made.
+  host::Engine* engineOf(StoredProgram& program, compiler::EngineKind kind) {
+    const Result<host::Engine*> engine = program.engine(kind, options_.engine);
+    if (engine.ok()) return engine.value();
+    result_.environment = engine.error();
+    return nullptr;
   }
 
   std::string configure(const frontend::Dialect& dialect, const Statement& s) {
@@ -128,7 +159,7 @@ private:
 
   bool observe(const compiler::Compiled& program) {
     session_.addObserver(printer_);
-    explainer_.emplace(session_, *program.uses);
+    explainer_.emplace(session_, program.uses.get());
     session_.addObserver(*explainer_);
     if (options_.started) result_.environment = options_.started(session_, program);
     return result_.environment.empty();
@@ -153,6 +184,12 @@ private:
   RunResult result_;
   EngineStore ownStore_;                   // when the options bring none
   std::shared_ptr<StoredProgram> program_; // outlives the session
+  struct Replacement {
+    const Statement* statement;
+    std::shared_ptr<StoredProgram> program;
+    NextProgram next;
+  };
+  std::vector<Replacement> replacements_; // in the order of their statements
   Printer printer_{result_.printed};
   Session session_;
   std::optional<Explainer> explainer_; // once the session has started

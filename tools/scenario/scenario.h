@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ir/support/result.h"
+#include "rtlib/host/state_transfer.h"
 
 namespace rung::scenario {
 
@@ -43,6 +44,9 @@ enum class Kind : uint8_t {
   ExpectFault,
   AllowErrors,
   Print,
+  Replace,
+  ExpectChange,
+  ExpectNoChange,
 };
 
 enum class ValueKind : uint8_t { Int, Real, Text };
@@ -68,7 +72,7 @@ struct Statement {
   std::string text;  // as written, without blanks around it
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
                      // service or event; Plc: the command
-  std::vector<std::string> words; // Program: files; Connect: source and destination
+  std::vector<std::string> words; // Program, Replace: files; Connect: source and destination
   Value value;                    // Set, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange
   bool near = false;              // expect NAME ~ VALUE TOLERANCE
@@ -79,6 +83,7 @@ struct Statement {
   bool on = true;                // ExpectMessage
   std::vector<KeyValue> keys;    // Print: names as keys, texts as values without a key
   std::vector<KeyValue> results; // Prepare: after ->
+  host::StateChange change;      // ExpectChange
 };
 
 struct Problem {

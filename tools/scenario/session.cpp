@@ -166,6 +166,28 @@ std::string Session::print(const Statement& s) {
   return {};
 }
 
+std::string Session::replace(const Statement& s) {
+  if (!makeProgram_) return "no program can be compiled here to take over";
+  const Result<NextProgram> next = makeProgram_(s);
+  if (!next.ok()) return next.error();
+  const rung_program& program = next.value().engines[0]->program();
+  if (std::string_view(program.dialect) != instance().program().dialect)
+    return fmt::format("{} is a program of {}, and the one that runs is of {}", program.name, program.dialect,
+                       instance().program().dialect);
+  ReplaceReport report;
+  for (size_t i = 0; i < lanes_.size(); ++i)
+    if (const std::string problem = lanes_[i]->replace(*next.value().engines[i], report); !problem.empty())
+      return prefixed(*lanes_[i], problem);
+  report_ = std::move(report);
+  for (Observer* observer : observers_) observer->replaced(*this, next.value());
+  return difference();
+}
+
+std::string Session::expectChange(const Statement& s) {
+  if (!report_) return "no program has been replaced";
+  return s.kind == Kind::ExpectChange ? report_->take(s.change) : report_->expectNone();
+}
+
 std::optional<Problem> Session::execute(const Statement& s) {
   statement_ = &s;
   std::string problem = run(s);
@@ -210,6 +232,9 @@ std::string Session::run(const Statement& s) {
   case Kind::ColdStart: restart(nc::PowerOn::Cold); return {};
   case Kind::WarmStart: restart(nc::PowerOn::Warm); return {};
   case Kind::Print: return print(s);
+  case Kind::Replace: return replace(s);
+  case Kind::ExpectChange:
+  case Kind::ExpectNoChange: return expectChange(s);
   case Kind::ExpectFault: {
     std::string problem = forLanes([&](Lane& lane) { return expectFault(lane, s); });
     faultExpected_ = faultExpected_ || problem.empty();

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ir/uses/uses.h"
 #include "rtlib/host/realtime.h"
 #include "tools/scenario/lane.h"
 #include "tools/scenario/scenario.h"
@@ -22,6 +23,12 @@
 namespace rung::scenario {
 
 class Session;
+
+// A program that takes the place of the running one.
+struct NextProgram {
+  std::vector<host::Engine*> engines; // one for each of the session's, in their order; they outlive the session
+  const ir::Uses* uses = nullptr;     // outlives the session; null: the program was not compiled here
+};
 
 // "scan 12, 0.120 s".
 std::string scanText(uint64_t scan, int64_t us);
@@ -33,6 +40,8 @@ public:
   virtual void started(Session& session) { (void)session; }
   // After every scan, slot and run of the fast part, once the engines have been compared.
   virtual void scanned(const Session& session) = 0;
+  // Another program has taken over.
+  virtual void replaced(const Session& session, const NextProgram& next) { (void)session, (void)next; }
   // The line of a print statement.
   virtual void printed(const std::string& line) { (void)line; }
 };
@@ -55,6 +64,10 @@ public:
   // session has not started.
   std::vector<sim::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
 
+  // Makes the programs of replace statements; a failure says why there is none. Without it they are refused.
+  using MakeProgram = std::function<Result<NextProgram>(const Statement& replace)>;
+  void setMakeProgram(MakeProgram make) { makeProgram_ = std::move(make); }
+
   // Executes one statement in all lanes. What is wrong is what the statement expected or could not do, with the scan
   // and the time; statements that belong to the start are refused.
   std::optional<Problem> execute(const Statement& s);
@@ -73,6 +86,8 @@ public:
   const sim::SimulatedNc& nc() const { return lanes_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }
   uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
+  // Of the last replacement; nothing before one.
+  const std::optional<ReplaceReport>& report() const { return report_; }
   // The one that is being executed, for observers; else null.
   const Statement* statement() const { return statement_; }
 
@@ -91,6 +106,8 @@ private:
   std::string runFor(int64_t us);
   void restart(nc::PowerOn kind);
   std::string print(const Statement& s);
+  std::string replace(const Statement& s);
+  std::string expectChange(const Statement& s);
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
 
@@ -107,6 +124,8 @@ private:
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<Observer*> observers_;
   std::function<bool()> interrupted_;
+  MakeProgram makeProgram_;
+  std::optional<ReplaceReport> report_;
   const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;
   bool running_ = false;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/similar.h"
+#include "tools/scenario/replace_report.h"
 #include "tools/scenario/words.h"
 
 namespace rung::scenario {
@@ -133,6 +134,7 @@ private:
     for (; !done(); ++next_) s_.words.push_back(word());
     return !s_.words.empty() || fail("expected a file");
   }
+  bool expectChange();
   bool connect() {
     s_.words.resize(2);
     return takeWord(s_.words[0], "a source") && takeWord(s_.words[1], "a destination");
@@ -213,6 +215,16 @@ const P::Row P::kRows[] = {
      Kind::ExpectFault,
      &P::takeText},
     {{"print", "print NAME…|\"TEXT\"…", "writes values and texts to the result"}, Kind::Print, &P::print},
+    {{"replace", "replace FILE…", "another program takes over, with the state of this one"},
+     Kind::Replace,
+     &P::program},
+    {{"expect_change", "expect_change new|removed|moved|retyped [state] NAME | expect_change renamed FORMER NAME",
+      "replacing has done this to a cell, or to state of the compiler"},
+     Kind::ExpectChange,
+     &P::expectChange},
+    {{"expect_no_change", "expect_no_change", "replacing has done nothing that was not expected"},
+     Kind::ExpectNoChange,
+     &P::nothing},
 };
 
 const LineParser::Row* LineParser::find(std::string_view word) {
@@ -264,6 +276,20 @@ bool LineParser::print() {
     s_.keys.push_back(item.quoted ? KeyValue{{}, valueOf(item)} : KeyValue{item.text, {}});
   }
   return !s_.keys.empty() || fail("expected a name or a text in quotes");
+}
+
+// A cell may be called "state", too.
+bool LineParser::expectChange() {
+  std::string kind;
+  if (!takeWord(kind, "new, removed, moved, retyped or renamed")) return false;
+  const auto known = changeKindFromName(kind);
+  if (!known) return fail(fmt::format("expected new, removed, moved, retyped or renamed, found '{}'", kind));
+  s_.change.kind = *known;
+  if (*known == host::ChangeKind::Renamed)
+    return takeWord(s_.change.formerName, "the former name") && takeWord(s_.change.name, "the new name");
+  s_.change.slot = next_ + 1 < words_.size() && word() == kStateWord && !words_[next_].quoted;
+  if (s_.change.slot) ++next_;
+  return takeWord(s_.change.name, "a name");
 }
 
 std::string LineParser::unknown() {

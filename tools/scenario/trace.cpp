@@ -79,13 +79,13 @@ std::string Trace::nameProblem(const std::vector<std::string>& names, const host
 Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::vector<std::string>& names,
                                            const host::Instance& instance, const sim::SimulatedNc& nc) {
   const rung_program& program = instance.program();
-  std::vector<NamedValue> sources;
+  std::vector<Source> sources;
   std::vector<TracedName> traced;
   for (const std::string& name : names) {
     NamedValue source(name, instance, nc);
-    const Reading reading = source.read(instance, nc);
+    const Reading reading = source.read(instance, nc).value_or(Reading{});
     traced.push_back({name, areaOf(program, source.place()), reading.kind, reading.width});
-    sources.push_back(std::move(source));
+    sources.push_back({std::move(source), reading.kind});
   }
   std::unique_ptr<Trace> trace(new Trace(path));
   trace->writer_ = makeTraceWriter(path, trace->out_);
@@ -97,9 +97,16 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
   return trace;
 }
 
+void Trace::replaced(const Session& session, const NextProgram&) {
+  for (Source& source : sources_) source.value.locate(session.instance(), session.nc());
+}
+
 void Trace::sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   values_.clear();
-  for (const NamedValue& source : sources_) values_.push_back(source.read(instance, nc));
+  for (const Source& source : sources_) {
+    values_.push_back(source.value.read(instance, nc));
+    if (values_.back() && values_.back()->kind != source.kind) values_.back().reset();
+  }
   writer_->sample(instance.nowUs(), scan, values_);
 }
 

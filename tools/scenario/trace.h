@@ -7,6 +7,7 @@
 #pragma once
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ public:
                                              const host::Instance& instance, const sim::SimulatedNc& nc);
 
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
+  // Names that the new program does not have, or with values of another kind, have none from now on.
+  void replaced(const Session& session, const NextProgram& next) override;
   void sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.
   std::string finish();
@@ -45,8 +48,12 @@ private:
   std::string path_;
   std::ofstream out_;
   std::unique_ptr<TraceWriter> writer_;
-  std::vector<NamedValue> sources_;
-  std::vector<Reading> values_; // of the last sample
+  struct Source {
+    NamedValue value;
+    ValueKind kind = ValueKind::Int; // as the file has it
+  };
+  std::vector<Source> sources_;
+  std::vector<std::optional<Reading>> values_; // of the last sample
 };
 
 } // namespace rung::scenario

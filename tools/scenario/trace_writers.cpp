@@ -26,9 +26,10 @@ public:
       shown.push_back({name.name, name.scope, static_cast<host::VcdKind>(name.kind), name.width});
     vcd_.begin(program, shown);
   }
-  void sample(int64_t us, uint64_t, std::span<const Reading> values) override {
+  void sample(int64_t us, uint64_t, std::span<const std::optional<Reading>> values) override {
     shown_.clear();
-    for (const Reading& value : values) shown_.push_back({value.integer, value.real, value.text});
+    for (const std::optional<Reading>& value : values)
+      shown_.push_back(value ? host::VcdValue{true, value->integer, value->real, value->text} : host::VcdValue{});
     vcd_.sample(us, shown_);
   }
 
@@ -67,9 +68,9 @@ public:
     out_ << '\n';
   }
 
-  void sample(int64_t us, uint64_t scan, std::span<const Reading> values) override {
+  void sample(int64_t us, uint64_t scan, std::span<const std::optional<Reading>> values) override {
     fmt::print(out_, "{:.6f},{}", static_cast<double>(us) / 1e6, scan);
-    for (size_t i = 0; i < values.size(); ++i) out_ << ',' << csvValue(names_[i], values[i]);
+    for (size_t i = 0; i < values.size(); ++i) out_ << ',' << (values[i] ? csvValue(names_[i], *values[i]) : "");
     out_ << '\n';
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
@@ -23,8 +24,8 @@ public:
   virtual ~TraceWriter() = default;
   // Once, before the samples.
   virtual void begin(std::string_view program, std::span<const TracedName> names) = 0;
-  // The values of all names at a time that is not before the last one.
-  virtual void sample(int64_t us, uint64_t scan, std::span<const Reading> values) = 0;
+  // The values of all names at a time that is not before the last one; nothing for a name that is not there now.
+  virtual void sample(int64_t us, uint64_t scan, std::span<const std::optional<Reading>> values) = 0;
 };
 
 // By the ending of the file's name, .vcd or .csv; null for another one.

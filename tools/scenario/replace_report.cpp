@@ -1,0 +1,69 @@
+// The report of a replacement (see replace_report.h).
+#include "tools/scenario/replace_report.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace rung::scenario {
+namespace {
+
+constexpr std::string_view kKinds[] = {"new", "removed", "moved", "renamed", "retyped"}; // by host::ChangeKind
+constexpr size_t kListed = 8;                                                            // changes in a message
+
+std::string counted(uint32_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string inWords(const std::string& name) {
+  const bool plain = !name.starts_with('#') && name.find_first_of(" \t") == std::string::npos;
+  return plain ? name : '"' + name + '"';
+}
+
+bool same(const host::StateChange& a, const host::StateChange& b) {
+  return a.kind == b.kind && a.slot == b.slot && a.name == b.name && a.formerName == b.formerName;
+}
+
+std::string listOf(const std::vector<host::StateChange>& changes) {
+  if (changes.empty()) return "none";
+  std::string list;
+  for (size_t i = 0; i < std::min(changes.size(), kListed); ++i) list += (i == 0 ? "" : ", ") + textOf(changes[i]);
+  if (changes.size() > kListed) list += fmt::format(" and {} more", changes.size() - kListed);
+  return list;
+}
+
+} // namespace
+
+std::optional<host::ChangeKind> changeKindFromName(std::string_view name) {
+  const auto* found = std::ranges::find(kKinds, name);
+  if (found == std::end(kKinds)) return std::nullopt;
+  return static_cast<host::ChangeKind>(found - std::begin(kKinds));
+}
+
+std::string textOf(const host::StateChange& change) {
+  std::string text(kKinds[static_cast<size_t>(change.kind)]);
+  if (change.slot) text.append(" ").append(kStateWord);
+  if (change.kind == host::ChangeKind::Renamed) text += " " + inWords(change.formerName);
+  return text + " " + inWords(change.name);
+}
+
+std::string ReplaceReport::take(const host::StateChange& change) {
+  const auto found = std::ranges::find_if(changes, [&](const host::StateChange& other) { return same(change, other); });
+  if (found == changes.end())
+    return fmt::format("the report does not have: {}; it has: {}", textOf(change), listOf(changes));
+  changes.erase(found);
+  return {};
+}
+
+std::string ReplaceReport::expectNone() const {
+  return changes.empty() ? std::string() : "there are changes that no expect_change names: " + listOf(changes);
+}
+
+std::vector<std::string> ReplaceReport::lines() const {
+  std::vector<std::string> lines = {
+      fmt::format("kept {} and {} of the compiler's", counted(keptCells, "cell"), counted(keptStates, "state"))};
+  for (const host::StateChange& change : changes) lines.push_back(textOf(change));
+  return lines;
+}
+
+} // namespace rung::scenario

@@ -1,0 +1,37 @@
+// What has become of the state when a program took the place of another, in words.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/state_transfer.h"
+
+namespace rung::scenario {
+
+// Before the key of what the compiler made, where a name would mean a cell.
+inline constexpr std::string_view kStateWord = "state";
+
+std::optional<host::ChangeKind> changeKindFromName(std::string_view name);
+// "moved COUNT", "renamed LAMP BEACON", "new state MAIN/TMR": as expect_change names it.
+std::string textOf(const host::StateChange& change);
+
+struct ReplaceReport {
+  ReplaceReport() = default;
+  explicit ReplaceReport(const host::StateTransfer& transfer)
+      : keptCells(transfer.keptCells()), keptStates(transfer.keptSlots()),
+        changes(transfer.changes().begin(), transfer.changes().end()) {}
+
+  uint32_t keptCells = 0;
+  uint32_t keptStates = 0;
+  std::vector<host::StateChange> changes; // those that nobody has taken out
+
+  // Takes it out; "" or what is there instead.
+  std::string take(const host::StateChange& change);
+  // "" or what there is.
+  std::string expectNone() const;
+  // What was kept, and a line for each change.
+  std::vector<std::string> lines() const;
+};
+
+} // namespace rung::scenario

@@ -104,6 +104,21 @@ TEST_F(Transfer, ANameTakesItsContentsAlong) {
   EXPECT_FALSE(fresh.memory().readBit(kR, 1, 2));
 }
 
+// NCT has all of its words in one area, those of the NC and the program's own.
+TEST_F(Transfer, InAnAreaOfInputsAndOutputsNamesGoAsInMemory) {
+  const uint32_t both = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
+  const uint32_t area = old.program.addSpace("M", 4, {{0, 16, 512, RUNG_REPR_PACKED}}, both);
+  fresh.program.addSpace("M", 4, {{0, 16, 512, RUNG_REPR_PACKED}}, both);
+  old.program.addSymbol("TIME", area, 0, RUNG_TYPE_I32);
+  fresh.program.addSymbol("TIME", area, 8, RUNG_TYPE_I32);
+  old.start();
+  fresh.start();
+  old.write("TIME", 1200);
+  EXPECT_EQ(run(), Lines{"moved TIME"});
+  EXPECT_EQ(fresh.read("TIME"), 1200u);
+  EXPECT_EQ(fresh.memory().readByte(area, 0), 0) << "its former place starts anew";
+}
+
 TEST_F(Transfer, AVariableThatIsPutBetweenOthersIsNew) {
   old.program.addSymbol("A", kD, 0, RUNG_TYPE_I32);
   old.program.addSymbol("B", kD, 4, RUNG_TYPE_I32);

@@ -333,6 +333,66 @@ expect Machine.Status "READY"
                   self.goes_on + "\nexpect LIGHT_KEY 0", "plc stop\nplc start\nscan 2\nexpect LIGHT_KEY 1")
 
 
+class ToAndFro(unittest.TestCase):
+    """Every scenario of the examples does what it does without, while its program is replaced again and again: by one
+    whose memory lies otherwise and whose services have other numbers, and back."""
+    statements = 5  # between two replacements
+
+    def with_replacements(self, scenario, programs):
+        lines, count = [], 0
+        for line in scenario.read_text(encoding="utf-8").splitlines():
+            if line.split(" ")[0] in ("set", "scan", "run", "expect", "event", "block"):
+                count += 1
+                if count % self.statements == 0:
+                    programs = programs[::-1]
+                    lines.append(f"replace {programs[0]}")
+            lines.append(line)
+        scenario.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    def check(self, name, edit):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = Path(scratch) / name
+            shutil.copytree(ROOT / "examples" / name, folder)
+            shutil.copytree(folder, Path(scratch) / "other")
+            edit.apply(Path(scratch) / "other")
+            files = tomllib.loads((folder / "rung.toml").read_text(encoding="utf-8"))["files"]
+            for scenario in folder.glob("*.scn"):
+                text = scenario.read_text(encoding="utf-8")
+                if "expect_error" in text or "\nslot" in text:  # no program, or passes that do not end
+                    scenario.unlink()
+                    continue
+                program = re.search(r"^program (.*)", text, re.M)
+                words = program.group(1).split() if program else files
+                self.with_replacements(scenario, (" ".join(words), " ".join(f"../other/{word}" for word in words)))
+            done = subprocess.run([RUNGC, "test", str(folder), "--engine", "jit,interp", "-O", "0"], capture_output=True,
+                                  text=True, timeout=PATIENCE)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+    def test_gsk_mill(self):
+        self.check("gsk-mill", Edit("mill.pmc", "FUNC END1\n", "FUNC END1\nLD   R199.0\nFUNC WINDW\nPRM  D900\n"
+                                                               "PRM  R198\nOUT  R199.1\n"))
+
+    def test_gsk_panel(self):
+        self.check("gsk-panel", Edit("panel.lad", "module LEVEL2\n", "module LEVEL2\n\nrung\n|--[R199.0]--(R199.1)\n"))
+
+    mr = "\n\nrung\n|--[6199.00]--{MR 6150 #10}--(6199.01)\n"
+
+    def test_nct_lathe(self):
+        self.check("nct-lathe", Edit("main.lad", "section \"Start-up\"\n", "section \"Start-up\"" + self.mr))
+
+    def test_nct_turning_centre(self):
+        order = "section \"Order of a cycle\""
+        self.check("nct-turning-centre", Edit("main.lad", order, order + self.mr))
+
+    padding = Edit("main.plc", "\nDATA\n", "\nDATA\nPADDING: DS 4\n")
+
+    def test_technol_mill(self):
+        self.check("technol-mill", Edit("mill.plc", self.padding.old, self.padding.new))
+
+    def test_technol_machining_centre(self):
+        self.check("technol-machining-centre", self.padding)
+
+
 def main():
     global RUNGC
     RUNGC = sys.argv.pop(1)

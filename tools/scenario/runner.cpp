@@ -43,6 +43,13 @@ public:
   }
 
 private:
+  struct Replacement {
+    const Statement* statement;
+    std::vector<std::string> files;
+    std::shared_ptr<StoredProgram> program;
+    NextProgram next;
+  };
+
   // Everything that is wrong before the first scan is reported at once.
   void compileAndRun() {
     const CompileSettings settings{options_.strict, options_.instrument, options_.engine.observer != nullptr};
@@ -69,12 +76,23 @@ private:
     bool good = true;
     for (const Statement& s : scenario_.statements) {
       if (s.kind != Kind::Replace) continue;
+      const std::vector<std::string> files = programPaths(s);
+      if (std::shared_ptr<StoredProgram> same = programOf(files)) {
+        replacements_.push_back({&s, files, std::move(same), {}});
+        continue;
+      }
       CompileStep step = compileNext(scenario_, s, *program_->compiled().dialect, settings);
       note(step);
       good = good && step.program;
-      if (step.program) replacements_.push_back({&s, store().enter(std::move(*step.program)), {}});
+      if (step.program) replacements_.push_back({&s, files, store().enter(std::move(*step.program)), {}});
     }
     return good;
+  }
+
+  // Of an earlier replacement by the same files; null: there is none.
+  std::shared_ptr<StoredProgram> programOf(const std::vector<std::string>& files) const {
+    const auto found = std::ranges::find(replacements_, files, &Replacement::files);
+    return found == replacements_.end() ? nullptr : found->program;
   }
 
   // By file and line; a file that is included twice has each of its problems once.
@@ -184,12 +202,7 @@ private:
   RunResult result_;
   EngineStore ownStore_;                   // when the options bring none
   std::shared_ptr<StoredProgram> program_; // outlives the session
-  struct Replacement {
-    const Statement* statement;
-    std::shared_ptr<StoredProgram> program;
-    NextProgram next;
-  };
-  std::vector<Replacement> replacements_; // in the order of their statements
+  std::vector<Replacement> replacements_;  // in the order of their statements
   Printer printer_{result_.printed};
   Session session_;
   std::optional<Explainer> explainer_; // once the session has started

@@ -10,6 +10,9 @@
 // former place starts anew, unless another name stays there. A name that is new starts anew where other names were
 // before; where none was, or one of the same extent that is gone (it was renamed), it keeps what is there.
 //
+// An output that the old program wrote and the new one does not write starts anew: nobody would ever switch it off.
+// Outputs are the spaces that the program alone writes for the machine or the NC, and what a fault clears.
+//
 // A mechanism continues at the same instruction. While it waits at one that the new program does not have, the new
 // program cannot take over.
 #pragma once
@@ -23,11 +26,12 @@
 namespace rung::host {
 
 enum class ChangeKind : uint8_t {
-  New,     // starts with its initial contents
-  Removed, // its contents are lost
-  Moved,   // a cell that is elsewhere now: keeps its contents; of an array or text that is shorter now, those that fit
-  Renamed, // a cell that had another name: keeps its contents
-  Retyped, // of another type now: its contents are lost, it starts with its initial contents
+  New,      // starts with its initial contents
+  Removed,  // its contents are lost
+  Moved,    // a cell that is elsewhere now: keeps its contents; of an array or text that is shorter now, those that fit
+  Renamed,  // a cell that had another name: keeps its contents
+  Retyped,  // of another type now: its contents are lost, it starts with its initial contents
+  Released, // an output that the old program wrote and the new one does not: starts with its initial contents
 };
 
 struct StateChange {

@@ -57,6 +57,39 @@ private:
   uint32_t count_ = 0;
 };
 
+// Bytes of a program's memory block.
+using Marks = std::vector<bool>;
+
+void mark(Marks& marks, uint32_t offset, uint32_t size) { std::fill_n(marks.begin() + offset, size, true); }
+
+// What its chunks may write, and where that is copied to.
+Marks writtenBytes(const rung_program& program) {
+  Marks written(program.memory_size);
+  for (uint32_t i = 0; i < program.write_count; ++i) mark(written, program.writes[i].offset, program.writes[i].size);
+  for (uint32_t i = 0; i < program.copy_count; ++i)
+    for (uint32_t b = 0; b < program.copies[i].size; ++b)
+      if (written[program.copies[i].from + b]) written[program.copies[i].to + b] = true;
+  return written;
+}
+
+// Outputs, and what is copied to them.
+Marks outputBytes(const rung_program& program) {
+  Marks outputs(program.memory_size);
+  constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
+  for (uint32_t s = 0; s < program.space_count; ++s) {
+    const rung_space& space = program.spaces[s];
+    for (uint32_t r = 0; (space.flags & kBoth) == RUNG_SPACE_OUTPUT && r < space.range_count; ++r)
+      mark(outputs, space.ranges[r].offset,
+           space.ranges[r].byte_count * (space.ranges[r].repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1));
+  }
+  for (uint32_t i = 0; i < program.safe_count; ++i)
+    mark(outputs, program.safe_spans[i].offset, program.safe_spans[i].size);
+  for (uint32_t i = 0; i < program.copy_count; ++i)
+    for (uint32_t b = 0; b < program.copies[i].size; ++b)
+      if (outputs[program.copies[i].to + b]) outputs[program.copies[i].from + b] = true;
+  return outputs;
+}
+
 } // namespace
 
 class TransferPlanner {
@@ -76,6 +109,7 @@ public:
       if (match.former == nullptr) placeNew(*match.symbol);
     for (const Match& match : matches_)
       if (match.former != nullptr) placeFormer(*match.symbol, *match.former);
+    releaseOutputs();
     for (const auto& [cell, name] : gone_) plan_.changes_.push_back({ChangeKind::Removed, false, name, {}});
     std::ranges::sort(plan_.changes_, {}, &StateChange::name);
     addMoves();
@@ -205,6 +239,46 @@ private:
     start(symbol);
     report(ChangeKind::New, symbol);
   }
+
+  // ---- outputs -----------------------------------------------------------------------------------------------------
+
+  void releaseOutputs() {
+    const Marks written = writtenBytes(from_);
+    const Marks writes = writtenBytes(to_);
+    const Marks outputs = outputBytes(to_);
+    std::vector<bool> released(new_.count());
+    for (uint32_t b = 0; b < new_.count(); ++b) {
+      const uint32_t offset = new_.locate(b).offset;
+      if (source_[b] == kInitial || !outputs[offset] || writes[offset]) continue;
+      released[b] = written[old_.locate(source_[b]).offset];
+      if (released[b]) source_[b] = kInitial;
+    }
+    for (const Match& match : matches_) {
+      if (isHidden(match.symbol->space)) continue;
+      bool any = false;
+      for (uint32_t b = new_.first(*match.symbol), end = b + extent(*match.symbol); b < end; ++b) {
+        any = any || released[b];
+        released[b] = false; // it is named
+      }
+      if (any) report(ChangeKind::Released, *match.symbol);
+    }
+    for (uint32_t space = 0; space < to_.space_count; ++space)
+      if (!isHidden(space)) reportUnnamed(space, released);
+  }
+
+  // "Y+3" or "Y+3.5": a whole byte, or a bit of it.
+  void reportUnnamed(uint32_t space, const std::vector<bool>& released) {
+    for (uint32_t byte = 0; byte < to_.spaces[space].byte_count; ++byte) {
+      const auto first = released.begin() + new_.first(space) + 8 * byte;
+      const auto bits = std::count(first, first + 8, true);
+      const std::string name = std::string(to_.spaces[space].name) + "+" + std::to_string(byte);
+      if (bits == 8) report(ChangeKind::Released, name);
+      for (uint32_t b = 0; bits < 8 && b < 8; ++b)
+        if (first[b]) report(ChangeKind::Released, name + "." + std::to_string(b));
+    }
+  }
+  bool isHidden(uint32_t space) const { return (to_.spaces[space].flags & RUNG_SPACE_HIDDEN) != 0; }
+  void report(ChangeKind kind, std::string name) { plan_.changes_.push_back({kind, false, std::move(name), {}}); }
 
   void report(ChangeKind kind, const rung_symbol& symbol, std::string formerName = {}) {
     plan_.changes_.push_back({kind, false, symbol.name, std::move(formerName)});

@@ -139,6 +139,7 @@ class ChangeKind(enum.IntEnum):
     MOVED = 2
     RENAMED = 3
     RETYPED = 4
+    RELEASED = 5
 
 
 class _Answering(enum.IntEnum):

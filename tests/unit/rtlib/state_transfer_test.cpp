@@ -60,7 +60,7 @@ protected:
     plan.run(old.block.data(), fresh.block.data());
     std::set<std::string> lines;
     for (const StateChange& change : plan.changes()) {
-      static constexpr const char* kWords[] = {"new", "removed", "moved", "renamed", "retyped"};
+      static constexpr const char* kWords[] = {"new", "removed", "moved", "renamed", "retyped", "released"};
       lines.insert(kWords[static_cast<int>(change.kind)] + std::string(change.slot ? " slot " : " ") + change.name +
                    (change.formerName.empty() ? "" : " from " + change.formerName));
     }
@@ -175,6 +175,32 @@ TEST_F(Transfer, ArraysKeepWhatFits) {
   EXPECT_EQ(run(), (Lines{"moved LONGER", "moved SHORTER"}));
   const uint8_t wanted[] = {1, 2, 3, 4, 0, 0, 7, 8, 9, 10, 0};
   for (uint32_t i = 0; i < std::size(wanted); ++i) EXPECT_EQ(fresh.memory().readByte(kD, i), wanted[i]) << i;
+}
+
+// Y lies at 512 (a byte a bit) and IMAGE, which is copied to it, at 640; LATCH is no output.
+void addOutputs(TestProgram& program, std::vector<rung_span> writes) {
+  const uint32_t y = program.addSpace("Y", 1, {{0, 4, 512, RUNG_REPR_BYTE_PER_BIT}}, RUNG_SPACE_OUTPUT);
+  const uint32_t image = program.addSpace("IMAGE", 1, {{0, 4, 640, RUNG_REPR_BYTE_PER_BIT}}, RUNG_SPACE_HIDDEN);
+  program.addPacked("LATCH", 1, 4, 768);
+  program.addSymbol("COOLANT", y, 1, RUNG_TYPE_BIT, 2);
+  program.addSymbol("LAMP", y, 1, RUNG_TYPE_BIT, 3);
+  program.addSymbol("HIDDEN_LAMP", image, 1, RUNG_TYPE_BIT, 3);
+  program.addEndCopy(0, {RUNG_COPY_ALL, 640, 512, 0, 32});
+  program.writes = std::move(writes);
+}
+
+TEST_F(Transfer, WhatIsNoLongerWrittenIsReleased) {
+  addOutputs(old.program, {{640, 1}, {650, 2}, {656, 8}, {768, 4}}); // IMAGE+0.0, 1.2, 1.3, byte 2; LATCH
+  addOutputs(fresh.program, {{650, 1}});                             // IMAGE+1.2
+  old.start(1);
+  fresh.start();
+  EXPECT_EQ(run(), (Lines{"released LAMP", "released Y+0.0", "released Y+2"}));
+  EXPECT_EQ(fresh.read("COOLANT"), 1u);
+  EXPECT_EQ(fresh.read("LAMP"), 0u);
+  EXPECT_EQ(fresh.read("HIDDEN_LAMP"), 0u) << "else it would come again";
+  EXPECT_EQ(fresh.memory().readByte(3, 0), 0xFE) << "the host's own";
+  EXPECT_EQ(fresh.memory().readByte(3, 2), 0);
+  EXPECT_EQ(fresh.memory().readByte(5, 0), 1) << "no output";
 }
 
 TEST_F(Transfer, TwoNamesOfOneCellDoNotMoveIt) {

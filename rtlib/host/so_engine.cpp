@@ -111,14 +111,20 @@ std::string lastReason() {
 } // namespace
 
 SoEngine::SoEngine(void* library, const rung_program* program, std::string path, File file)
-    : library_(library), program_(program), path_(std::move(path)), file_(std::move(file)) {}
+    : library_(library), program_(program), path_(std::move(path)), file_(std::move(file)), descriptor_(file_.fd()) {}
+
+// Its descriptor stays open with it.
+void SoEngine::keepWithProcess(const std::string& name) {
+  dlopen(name.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+  file_.release();
+}
 
 SoEngine::~SoEngine() { dlclose(library_); }
 
 std::optional<size_t> SoEngine::readFile(uint64_t first, std::span<char> to) const {
   size_t done = 0;
   while (done < to.size()) {
-    const ssize_t got = ::pread(file_.fd(), to.data() + done, to.size() - done, static_cast<off_t>(first + done));
+    const ssize_t got = ::pread(descriptor_, to.data() + done, to.size() - done, static_cast<off_t>(first + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return std::nullopt;
     if (got == 0) break;
@@ -151,11 +157,9 @@ std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& e
     dlclose(library);
     return nullptr;
   }
-  if (options.loaded == Loaded::WithProcess) {
-    dlopen(name.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
-    file.release();
-  }
-  return std::unique_ptr<SoEngine>(new SoEngine(library, program, path, std::move(file)));
+  std::unique_ptr<SoEngine> engine(new SoEngine(library, program, path, std::move(file)));
+  if (options.loaded == Loaded::WithProcess) engine->keepWithProcess(name);
+  return engine;
 }
 
 } // namespace rung::host

@@ -18,6 +18,8 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "rtlib/host/engine.h"
@@ -50,10 +52,13 @@ public:
 
 private:
   SoEngine(void* library, const rung_program* program, std::string path, File file);
+  void keepWithProcess(const std::string& name);
+
   void* library_;
   const rung_program* program_;
   std::string path_;
-  File file_; // what the library was loaded from
+  File file_;      // what the library was loaded from
+  int descriptor_; // the same
 };
 
 } // namespace rung::host

@@ -20,7 +20,7 @@ struct VcdName {
 };
 
 struct VcdValue {
-  bool known = false; // the name is there now
+  bool known = false;   // the name is there now
   uint64_t integer = 0; // its lowest bits
   double real = 0;
   std::string_view text;

@@ -99,7 +99,7 @@ int32_t rung_image_serve(rung_image* image, const rung_code_maker* maker) {
     const rung_code_maker* none = nullptr;
     if (!handle->image->maker.compare_exchange_strong(none, kept.get()))
       return fail(RUNG_WRONG_STATE, "a compiler serves the image already");
-    (void)kept.release();
+    [[maybe_unused]] const rung_code_maker* now = kept.release();
     return int32_t{RUNG_OK};
   });
 }

@@ -235,6 +235,22 @@ class Piped(Folder):
             self.assertIn(text, output)
         self.assertNotIn("expect_error", output)
 
+    def test_forces(self):
+        lines = "force PUMP 1\nscan\nPUMP\nforces\nunforce PUMP\nscan\nPUMP\nforces\n"
+        for args in ((), ("--engine", "interp")):
+            output = self.prompt(lines, *args).splitlines()
+            self.assertEqual(output[:4], ["PUMP = 1", "PUMP = 1", "PUMP = 0", "nothing is forced"])
+        for args in ((), ("--no-ir",)):
+            self.assertEqual(rungc("build", "lamp.lad", "-o", "lamp.so", *args, cwd=self.folder).returncode, OK)
+            output = self.prompt(lines, status=WRONG if args else OK, program="./lamp.so")
+            self.assertIn("./lamp.so does not tell how it was made: it carries no IR" if args else "PUMP = 1", output)
+
+    def test_wrong_forces(self):
+        for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),
+                              ("force PUMP 2", "a bit takes 0 or 1"), ("force", "expected a name"),
+                              ("unforce PUMP", "PUMP is not forced")):
+            self.assertIn(message, self.prompt(line + "\nscan\n", status=WRONG))
+
     def test_wrong_lines(self):
         for line, message in (("togle START", "did you mean toggle?"), ("frob", "help lists them"),
                               ("wait 2s", "did you mean: run 250ms"), ("expect PUMP 1", "PUMP is 0, expected 1 (before the first scan)"),

@@ -22,9 +22,11 @@ namespace {
 // What the words after a statement's first one name.
 Names namesOf(std::string_view statement, size_t index) {
   if (statement == "print") return Names::Values;
+  if (statement == "unforce") return Names::Values;
   if (statement == "replace") return Names::Files;
   if (index != 1) return Names::None;
-  if (statement == "set" || statement == "expect" || statement == "expect_range") return Names::Values;
+  if (statement == "set" || statement == "force" || statement == "expect" || statement == "expect_range")
+    return Names::Values;
   if (statement == "expect_call" || statement == "expect_no_call" || statement == "prepare") return Names::Services;
   if (statement == "include") return Names::Files;
   if (statement == "plc") return Names::PlcCommands;
@@ -81,6 +83,7 @@ std::span<const Console::Command> Console::commands() {
        &Console::watch},
       {{"unwatch", "unwatch NAME…", "prints them no more"}, Names::Values, &Console::unwatch},
       {{"why", "why NAME", "the rungs that write it, and what they read"}, Names::Values, &Console::why},
+      {{"forces", "forces", "what is forced"}, Names::None, &Console::forces},
       {{"messages", "messages", "the messages on the screen"}, Names::None, &Console::messages},
       {{"save", "save FILE.scn", "writes what was done as a scenario"}, Names::Files, &Console::save},
       {{"help", "help [WORD]", "all statements, or one"}, Names::Statements, &Console::help},
@@ -166,7 +169,7 @@ Outcome Console::execute(const Statement& statement) {
   const bool typed = statement.file.empty();
   if (typed && isExpectation(statement.kind)) print_("ok");
   if (typed && statement.kind == Kind::Replace)
-    for (const std::string& line : session_.report()->lines()) print_(line);
+    for (const std::string& line : session_.report().lines()) print_(line);
   return record(statement, scans, us);
 }
 
@@ -255,6 +258,13 @@ Outcome Console::messages(std::span<const std::string> words) {
   const std::vector<nc::ShownMessage> shown = session_.nc().control().messages(session_.instance());
   for (const nc::ShownMessage& message : shown) print_(session_.nc().control().text(message));
   if (shown.empty()) print_("no messages");
+  return Outcome::Done;
+}
+
+Outcome Console::forces(std::span<const std::string>) {
+  const scenario::Forces::Values& values = session_.forces();
+  for (const auto& [name, value] : values) print_(fmt::format("{} = {}", name, value.text));
+  if (values.empty()) print_("nothing is forced");
   return Outcome::Done;
 }
 

@@ -51,6 +51,7 @@ private:
   void recordReplace(const scenario::Statement& s);
   void reportFault();
 
+  Outcome forces(std::span<const std::string> words);
   Outcome toggle(std::span<const std::string> words);
   Outcome watch(std::span<const std::string> words);
   Outcome unwatch(std::span<const std::string> words);

@@ -6,11 +6,14 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unistd.h>
 
+#include "rtlib/host/seal.h"
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/config_key.h"
 #include "tools/compiler/engines.h"
+#include "tools/compiler/kept_ir.h"
 #include "tools/console/console.h"
 #include "tools/console/progress.h"
 #include "tools/console/prompt.h"
@@ -62,9 +65,36 @@ void catchSignals() {
 struct Program {
   std::optional<compiler::Compiled> compiled; // nothing of a shared object
   std::unique_ptr<host::Engine> engine;       // ends before it
+  const host::SoEngine* object = nullptr;     // the same, of a shared object
+  std::optional<compiler::Compiled> carried;  // that of a shared object, as far as it carries that, once it was wanted
 
   const ir::Uses* uses() const { return compiled ? compiled->uses.get() : nullptr; }
+  Result<const compiler::Compiled*> wanted();
 };
+
+// All of the file that it was loaded from.
+std::string fileOf(const host::SoEngine& object) {
+  constexpr size_t kPiece = size_t{1} << 20;
+  std::string bytes;
+  for (size_t got = kPiece; got == kPiece;) {
+    const size_t before = bytes.size();
+    bytes.resize(before + kPiece);
+    got = object.readFile(before, std::span(bytes).subspan(before)).value_or(0);
+    bytes.resize(before + got);
+  }
+  return bytes;
+}
+
+Result<const compiler::Compiled*> Program::wanted() {
+  if (compiled) return &*compiled;
+  if (!carried) {
+    const std::string file = fileOf(*object);
+    Result<compiler::Compiled> found = compiler::irOf(host::readSealed(file).image, object->program());
+    if (!found.ok()) return failure(object->path() + " does not tell how it was made: " + found.error());
+    carried = std::move(found).value();
+  }
+  return &*carried;
+}
 
 bool isSharedObject(const std::vector<std::string>& files) { return files.size() == 1 && files[0].ends_with(".so"); }
 
@@ -79,6 +109,7 @@ public:
       : options_(options), recording_(startOf(options, program.compiled.has_value())) {
     programs_.push_back(std::move(program));
     session_.addEngine(*first().engine);
+    session_.setCompiled([this] { return first().wanted(); });
     session_.setMakeProgram([this](const scenario::Statement& s) { return next(s); });
   }
 
@@ -259,7 +290,8 @@ private:
     std::optional<Program> program = makeProgram(options_, source, status);
     if (!program) return failure("the program that runs has not been replaced");
     programs_.push_back(std::move(*program));
-    return scenario::NextProgram{{programs_.back().engine.get()}, programs_.back().uses()};
+    Program& next = programs_.back();
+    return scenario::NextProgram{{next.engine.get()}, next.uses(), [&next] { return next.wanted(); }};
   }
 
   // What the sources say of their dialect.
@@ -323,12 +355,16 @@ private:
 
 std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {
   std::string error;
-  Program program;
-  program.engine =
+  std::unique_ptr<host::SoEngine> object =
       host::SoEngine::open(file, error, {.loaded = host::Loaded::WithProcess, .mayLackSeal = options.unsealed});
-  if (program.engine != nullptr) return program;
-  status = environmentError(error);
-  return std::nullopt;
+  if (object == nullptr) {
+    status = environmentError(error);
+    return std::nullopt;
+  }
+  Program program;
+  program.object = object.get();
+  program.engine = std::move(object);
+  return program;
 }
 
 std::optional<Program> compileProgram(const RunOptions& options, const SourceOptions& source, int& status) {
@@ -339,6 +375,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
+  request.keepBuilt = true;
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileSources(sources, source, request, status);

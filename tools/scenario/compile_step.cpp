@@ -114,6 +114,7 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   request.options.strict = settings.strict;
   request.instrument = settings.instrument;
   request.marks = settings.marks;
+  request.keepBuilt = true;
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Dialect) request.dialect = s.name;
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);

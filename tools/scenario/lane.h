@@ -20,6 +20,7 @@ public:
   Lane(host::Engine& engine, std::string folder);
 
   std::string_view engineName() const { return engine_->name(); }
+  void* engineContext() { return engine_->context(); }
   host::Instance& instance() { return *instance_; }
   const host::Instance& instance() const { return *instance_; }
   sim::SimulatedNc& nc() { return *nc_; }

@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::string_view kQuantity = "NC.";
 
-bool namesValue(Kind kind) { return kind == Kind::Set || kind == Kind::Expect || kind == Kind::ExpectRange; }
+bool namesValue(Kind kind) {
+  return kind == Kind::Set || kind == Kind::Force || kind == Kind::Expect || kind == Kind::ExpectRange;
+}
 
 } // namespace
 

@@ -8,8 +8,9 @@
 namespace rung::scenario {
 namespace {
 
-constexpr std::string_view kKinds[] = {"new", "removed", "moved", "renamed", "retyped"}; // by host::ChangeKind
-constexpr size_t kListed = 8;                                                            // changes in a message
+constexpr std::string_view kKinds[] = {"new",     "removed", "moved",
+                                       "renamed", "retyped", "released"}; // by host::ChangeKind
+constexpr size_t kListed = 8;                                             // changes in a message
 
 std::string counted(uint32_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");

@@ -132,11 +132,19 @@ private:
         if (replacement.next.engines.back() == nullptr) return false;
       }
     }
-    for (Replacement& replacement : replacements_) replacement.next.uses = replacement.program->compiled().uses.get();
+    session_.setCompiled(compiledOf(*program_));
+    for (Replacement& replacement : replacements_) {
+      replacement.next.uses = replacement.program->compiled().uses.get();
+      replacement.next.compiled = compiledOf(*replacement.program);
+    }
     session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
       return std::ranges::find(replacements_, &s, &Replacement::statement)->next;
     });
     return configure(*program_->compiled().dialect) && powerOn();
+  }
+
+  static GetCompiled compiledOf(const StoredProgram& program) {
+    return [&program]() -> Result<const compiler::Compiled*> { return &program.compiled(); };
   }
 
   // Null when it cannot be made.

@@ -47,6 +47,8 @@ enum class Kind : uint8_t {
   Replace,
   ExpectChange,
   ExpectNoChange,
+  Force,
+  Unforce,
 };
 
 enum class ValueKind : uint8_t { Int, Real, Text };
@@ -72,8 +74,8 @@ struct Statement {
   std::string text;  // as written, without blanks around it
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
                      // service or event; Plc: the command
-  std::vector<std::string> words; // Program, Replace: files; Connect: source and destination
-  Value value;                    // Set, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
+  std::vector<std::string> words; // Program, Replace: files; Connect: source and destination; Unforce: names
+  Value value;                    // Set, Force, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange
   bool near = false;              // expect NAME ~ VALUE TOLERANCE
   double tolerance = 0;

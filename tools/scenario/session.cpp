@@ -179,6 +179,7 @@ std::string Session::replace(const Statement& s) {
     if (const std::string problem = lanes_[i]->replace(*next.value().engines[i], report); !problem.empty())
       return prefixed(*lanes_[i], problem);
   report_ = std::move(report);
+  compiled_ = next.value().compiled;
   for (Observer* observer : observers_) observer->replaced(*this, next.value());
   return difference();
 }
@@ -233,6 +234,8 @@ std::string Session::run(const Statement& s) {
   case Kind::WarmStart: restart(nc::PowerOn::Warm); return {};
   case Kind::Print: return print(s);
   case Kind::Replace: return replace(s);
+  case Kind::Force: return forces_.set(lanes_, compiled_, s.name, s.value);
+  case Kind::Unforce: return forces_.clear(lanes_, compiled_, s.words);
   case Kind::ExpectChange:
   case Kind::ExpectNoChange: return expectChange(s);
   case Kind::ExpectFault: {

@@ -17,6 +17,7 @@
 
 #include "ir/uses/uses.h"
 #include "rtlib/host/realtime.h"
+#include "tools/scenario/forces.h"
 #include "tools/scenario/lane.h"
 #include "tools/scenario/scenario.h"
 
@@ -28,6 +29,7 @@ class Session;
 struct NextProgram {
   std::vector<host::Engine*> engines; // one for each of the session's, in their order; they outlive the session
   const ir::Uses* uses = nullptr;     // outlives the session; null: the program was not compiled here
+  GetCompiled compiled;               // what it gives outlives the session
 };
 
 // "scan 12, 0.120 s".
@@ -68,6 +70,9 @@ public:
   using MakeProgram = std::function<Result<NextProgram>(const Statement& replace)>;
   void setMakeProgram(MakeProgram make) { makeProgram_ = std::move(make); }
 
+  // Of the program that is run from the start.
+  void setCompiled(GetCompiled compiled) { compiled_ = std::move(compiled); }
+
   // Executes one statement in all lanes. What is wrong is what the statement expected or could not do, with the scan
   // and the time; statements that belong to the start are refused.
   std::optional<Problem> execute(const Statement& s);
@@ -86,8 +91,10 @@ public:
   const sim::SimulatedNc& nc() const { return lanes_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }
   uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
-  // Of the last replacement; nothing before one.
-  const std::optional<ReplaceReport>& report() const { return report_; }
+  // Of the last replacement; empty before one.
+  ReplaceReport report() const { return report_.value_or(ReplaceReport{}); }
+  // What is forced now.
+  const Forces::Values& forces() { return forces_.values(lanes_); }
   // The one that is being executed, for observers; else null.
   const Statement* statement() const { return statement_; }
 
@@ -125,7 +132,9 @@ private:
   std::vector<Observer*> observers_;
   std::function<bool()> interrupted_;
   MakeProgram makeProgram_;
+  GetCompiled compiled_;
   std::optional<ReplaceReport> report_;
+  Forces forces_;
   const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;
   bool running_ = false;

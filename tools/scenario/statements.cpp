@@ -134,6 +134,10 @@ private:
     for (; !done(); ++next_) s_.words.push_back(word());
     return !s_.words.empty() || fail("expected a file");
   }
+  bool names() {
+    for (; !done(); ++next_) s_.words.push_back(word());
+    return true;
+  }
   bool expectChange();
   bool connect() {
     s_.words.resize(2);
@@ -218,13 +222,16 @@ const P::Row P::kRows[] = {
     {{"replace", "replace FILE…", "another program takes over, with the state of this one"},
      Kind::Replace,
      &P::program},
-    {{"expect_change", "expect_change new|removed|moved|retyped [state] NAME | expect_change renamed FORMER NAME",
+    {{"expect_change",
+      "expect_change new|removed|moved|retyped|released [state] NAME | expect_change renamed FORMER NAME",
       "replacing has done this to a cell, or to state of the compiler"},
      Kind::ExpectChange,
      &P::expectChange},
     {{"expect_no_change", "expect_no_change", "replacing has done nothing that was not expected"},
      Kind::ExpectNoChange,
      &P::nothing},
+    {{"force", "force NAME VALUE", "holds a cell at a value, whoever writes it"}, Kind::Force, &P::set},
+    {{"unforce", "unforce [NAME…]", "holds them no more; without names: none"}, Kind::Unforce, &P::names},
 };
 
 const LineParser::Row* LineParser::find(std::string_view word) {
@@ -281,9 +288,9 @@ bool LineParser::print() {
 // A cell may be called "state", too.
 bool LineParser::expectChange() {
   std::string kind;
-  if (!takeWord(kind, "new, removed, moved, retyped or renamed")) return false;
+  if (!takeWord(kind, "new, removed, moved, retyped, released or renamed")) return false;
   const auto known = changeKindFromName(kind);
-  if (!known) return fail(fmt::format("expected new, removed, moved, retyped or renamed, found '{}'", kind));
+  if (!known) return fail(fmt::format("expected new, removed, moved, retyped, released or renamed, found '{}'", kind));
   s_.change.kind = *known;
   if (*known == host::ChangeKind::Renamed)
     return takeWord(s_.change.formerName, "the former name") && takeWord(s_.change.name, "the new name");

@@ -104,8 +104,9 @@ void Trace::replaced(const Session& session, const NextProgram&) {
 void Trace::sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   values_.clear();
   for (const Source& source : sources_) {
-    values_.push_back(source.value.read(instance, nc));
-    if (values_.back() && values_.back()->kind != source.kind) values_.back().reset();
+    std::optional<Reading> value = source.value.read(instance, nc);
+    if (value && value->kind != source.kind) value.reset();
+    values_.push_back(std::move(value));
   }
   writer_->sample(instance.nowUs(), scan, values_);
 }

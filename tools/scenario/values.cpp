@@ -90,23 +90,46 @@ Reading readValue(const Instance& instance, const nc::Control& control, const Re
   return reading;
 }
 
-std::string writeValue(Instance& instance, const nc::Control& control, const Ref& place, const Value& value) {
+namespace {
+
+// Why a cell that is no text cannot hold the value; "" when it can.
+std::string numberProblem(const Instance& instance, const Ref& place, const Value& value) {
   if (place.kind == RefKind::Constant) return "a constant cannot be set";
-  if (place.kind == RefKind::Text) {
-    if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
-    return nc::writeText(instance, place, control.memoryText(value.text, place.count));
-  }
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
   if (value.isBit && place.kind != RefKind::Bit)
     return fmt::format("this name is not a bit, so it cannot be {}: expected a number", value.text);
   if (place.kind == RefKind::Bit && (value.kind == ValueKind::Real || (value.integer != 0 && value.integer != 1)))
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
-  if (place.kind == RefKind::Real) return nc::writeReal(instance, place, value.real);
-  if (value.kind == ValueKind::Int) return nc::write(instance, place, static_cast<uint64_t>(value.integer));
-  if (const auto real = host::asReal(instance.memory(), place)) return nc::writeReal(instance, *real, value.real);
+  if (place.kind == RefKind::Real || value.kind == ValueKind::Int || host::asReal(instance.memory(), place)) return {};
   return fmt::format("this name is an integer of {} bits, so it cannot be {}: expected a whole number, or a name of 64 "
                      "bits, which a real has",
                      place.width, value.text);
+}
+
+// Where a real is written; nothing where the value is an integer.
+std::optional<Ref> realPlace(const Instance& instance, const Ref& place, const Value& value) {
+  if (place.kind == RefKind::Real) return place;
+  return value.kind == ValueKind::Real ? host::asReal(instance.memory(), place) : std::nullopt;
+}
+
+} // namespace
+
+std::string writeValue(Instance& instance, const nc::Control& control, const Ref& place, const Value& value) {
+  if (place.kind == RefKind::Text) {
+    if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
+    return nc::writeText(instance, place, control.memoryText(value.text, place.count));
+  }
+  if (std::string problem = numberProblem(instance, place, value); !problem.empty()) return problem;
+  if (const auto real = realPlace(instance, place, value)) return nc::writeReal(instance, *real, value.real);
+  return nc::write(instance, place, static_cast<uint64_t>(value.integer));
+}
+
+Result<host::ForcedCell> forcedCell(const Instance& instance, const Ref& place, const Value& value) {
+  if (place.kind == RefKind::Text) return failure("a text cannot be forced");
+  if (std::string problem = numberProblem(instance, place, value); !problem.empty()) return failure(std::move(problem));
+  if (const auto real = realPlace(instance, place, value))
+    return host::ForcedCell{*real, std::bit_cast<uint64_t>(value.real)};
+  return host::ForcedCell{place, static_cast<uint64_t>(value.integer)};
 }
 
 std::string checkValue(const Reading& reading, const Statement& expect) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ir/support/result.h"
+#include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "tools/scenario/scenario.h"
 #include "tools/sim/simulated_nc.h"
@@ -29,6 +31,9 @@ Reading realReading(double value);
 Reading cellReading(const sim::NcCell& cell);
 sim::NcCell cellOf(const Value& number);
 int64_t signedOf(const Reading& integer);
+
+// The place with the bits of the value, for whoever forces it.
+Result<host::ForcedCell> forcedCell(const host::Instance& instance, const host::Ref& place, const Value& value);
 
 // Each gives "" or what is wrong.
 std::string writeValue(host::Instance& instance, const nc::Control& control, const host::Ref& place,

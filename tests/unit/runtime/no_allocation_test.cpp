@@ -123,4 +123,20 @@ TEST_P(ReplacingInRealTime, NeitherAllocatesNorEntersTheKernel) {
   EXPECT_EQ(calls, 0);
 }
 
+TEST_P(ReplacingInRealTime, BeforeThePowerOnToo) {
+  rung::test::TestProgram one, two;
+  for (rung::test::TestProgram* program : {&one, &two}) {
+    program->dialect = GetParam();
+    build(*program, 8);
+  }
+  const rung::Image first = adopted(one), second = adopted(two);
+  rung::Instance plc(first);
+  {
+    rung::Replacement change(plc, second);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  }
+  EXPECT_EQ(plc.powerOn(), RUNG_OK);
+  EXPECT_EQ(plc.scan(), RUNG_OK);
+}
+
 } // namespace

@@ -349,21 +349,26 @@ class ToAndFro(unittest.TestCase):
             lines.append(line)
         scenario.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
-    def check(self, name, edit):
+    def check(self, name, *edits):
         with tempfile.TemporaryDirectory() as scratch:
             folder = Path(scratch) / name
             shutil.copytree(ROOT / "examples" / name, folder)
             shutil.copytree(folder, Path(scratch) / "other")
-            edit.apply(Path(scratch) / "other")
+            for edit in edits:
+                edit.apply(Path(scratch) / "other")
             files = tomllib.loads((folder / "rung.toml").read_text(encoding="utf-8"))["files"]
-            for scenario in folder.glob("*.scn"):
+            for scenario in list(folder.glob("*.scn")):
                 text = scenario.read_text(encoding="utf-8")
                 if "expect_error" in text or "\nslot" in text:  # no program, or passes that do not end
                     scenario.unlink()
                     continue
                 program = re.search(r"^program (.*)", text, re.M)
                 words = program.group(1).split() if program else files
-                self.with_replacements(scenario, (" ".join(words), " ".join(f"../other/{word}" for word in words)))
+                programs = (" ".join(words), " ".join(f"../other/{word}" for word in words))
+                fro = scenario.with_suffix(".fro.scn")  # so that each statement meets both programs
+                shutil.copy(scenario, fro)
+                self.with_replacements(scenario, programs)
+                self.with_replacements(fro, programs[::-1])
             done = subprocess.run([RUNGC, "test", str(folder), "--engine", "jit,interp", "-O", "0"], capture_output=True,
                                   text=True, timeout=PATIENCE)
             self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
@@ -384,13 +389,17 @@ class ToAndFro(unittest.TestCase):
         order = "section \"Order of a cycle\""
         self.check("nct-turning-centre", Edit("main.lad", order, order + self.mr))
 
-    padding = Edit("main.plc", "\nDATA\n", "\nDATA\nPADDING: DS 4\n")
+    @staticmethod
+    def padded(file):
+        return (Edit(file, "\nDATA\n", "\nDATA\nPADDING: DS 4\n        DFM  PAD_IN,PAD_OUT,,,,,,\n"),
+                Edit(file, "\nMODULE_MAIN\n", "\nMODULE_MAIN\n        LDR  PAD_IN\n        WR   PAD_OUT\n"))
 
     def test_technol_mill(self):
-        self.check("technol-mill", Edit("mill.plc", self.padding.old, self.padding.new))
+        self.check("technol-mill", *self.padded("mill.plc"))
 
     def test_technol_machining_centre(self):
-        self.check("technol-machining-centre", self.padding)
+        lamp = "\nMODULE_INIT\n        DEF_OUT L_PAD,'Lamp.Pad',TYPE_BIT\n"
+        self.check("technol-machining-centre", *self.padded("main.plc"), Edit("main.plc", "\nMODULE_INIT\n", lamp))
 
 
 def main():

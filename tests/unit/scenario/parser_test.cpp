@@ -139,6 +139,21 @@ TEST(ScenarioParser, Services) {
   EXPECT_EQ(only("plc stop").name, "stop");
 }
 
+TEST(ScenarioParser, ChangesOfAReplacement) {
+  const Statement replace = parseStatement("replace a.lad \"b c.lad\"").value();
+  EXPECT_EQ(replace.kind, Kind::Replace);
+  EXPECT_EQ(replace.words, (std::vector<std::string>{"a.lad", "b c.lad"}));
+  const auto change = [](const std::string& line) { return parseStatement("expect_change " + line).value().change; };
+  EXPECT_EQ(change("moved COUNT").kind, host::ChangeKind::Moved);
+  EXPECT_EQ(change("moved COUNT").name, "COUNT");
+  EXPECT_EQ(change("renamed LAMP BEACON").formerName, "LAMP");
+  EXPECT_EQ(change("renamed LAMP BEACON").name, "BEACON");
+  EXPECT_TRUE(change("new state \"MAIN/TON 1\"").slot);
+  EXPECT_EQ(change("new state \"MAIN/TON 1\"").name, "MAIN/TON 1");
+  EXPECT_FALSE(change("removed state").slot) << "a cell of this name";
+  EXPECT_FALSE(parseStatement("expect_change kept A").ok());
+}
+
 TEST(ScenarioParser, Mistakes) {
   EXPECT_EQ(problemOf("frobnicate"), "unknown statement 'frobnicate'");
   EXPECT_EQ(problemOf("set D10"), "expected a value (the statement is: set NAME VALUE)");

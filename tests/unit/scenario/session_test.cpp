@@ -70,6 +70,23 @@ TEST_F(ScenarioSession, RefusesWhatBelongsToTheStart) {
     EXPECT_NE(execute(line).find("belongs to the start"), std::string::npos) << line;
 }
 
+TEST_F(ScenarioSession, ReplacesByWhatItIsGiven) {
+  EXPECT_NE(execute("replace other.lad").find("no program can be compiled here"), std::string::npos);
+  EXPECT_NE(execute("expect_no_change").find("no program has been replaced"), std::string::npos);
+  session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
+    if (s.words[0] != "lamp.lad") return failure("there is no such program");
+    return NextProgram{{engines_[0].get(), engines_[1].get()}, compiled_.uses.get()};
+  });
+  EXPECT_EQ(execute("scan 2"), "");
+  EXPECT_NE(execute("replace other.lad").find("there is no such program"), std::string::npos);
+  EXPECT_EQ(session_.instance().generation(), 0u);
+  EXPECT_EQ(execute("replace lamp.lad"), "");
+  EXPECT_EQ(session_.instance().generation(), 1u);
+  EXPECT_EQ(execute("expect_no_change"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(session_.scans(), 3u);
+}
+
 TEST_F(ScenarioSession, ObserversSeeEveryScan) {
   ScanCounter counter;
   session_.addObserver(counter);

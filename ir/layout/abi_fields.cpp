@@ -47,6 +47,10 @@ constexpr StructInfo kInit{"rung_init", sizeof(rung_init), kInitFields};
 constexpr FieldInfo kSpanFields[] = {RUNG_FIELD(rung_span, offset, U32), RUNG_FIELD(rung_span, size, U32)};
 constexpr StructInfo kSpan{"rung_span", sizeof(rung_span), kSpanFields};
 
+constexpr FieldInfo kWrittenFields[] = {RUNG_FIELD(rung_written, offset, U32), RUNG_FIELD(rung_written, size, U32),
+                                        RUNG_FIELD(rung_written, mask, U32)};
+constexpr StructInfo kWritten{"rung_written", sizeof(rung_written), kWrittenFields};
+
 constexpr FieldInfo kCopyFields[] = {RUNG_FIELD(rung_copy, kind, U32), RUNG_FIELD(rung_copy, from, U32),
                                      RUNG_FIELD(rung_copy, to, U32), RUNG_FIELD(rung_copy, mask, U32),
                                      RUNG_FIELD(rung_copy, size, U32)};
@@ -129,7 +133,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_ARRAY(rung_program, services, service_count, Texts),
                                         RUNG_ARRAY(rung_program, texts, text_count, Texts),
                                         RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
-                                        RUNG_STRUCTS(rung_program, writes, write_count, kSpan)};
+                                        RUNG_STRUCTS(rung_program, writes, write_count, kWritten)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

@@ -231,25 +231,43 @@ private:
   }
 
   void addWrites() {
-    std::vector<rung_span> all;
+    std::vector<rung_written> all;
     for (const Routine& routine : module_.routines)
       for (const Rung& rung : routine.rungs)
         for (const Op& op : rung.ops) {
-          if (op.code == OpCode::Store && op.type == Type::Bit)
-            all.push_back({layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm)).offset, 1});
-          else if (const SpaceSpan span = writtenBy(module_, op); span.size != 0)
-            forPieces(span, [&](const rung_span& piece) { all.push_back(piece); });
+          if (op.code == OpCode::Store && op.type == Type::Bit) {
+            const BitLocation bit = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+            all.push_back({bit.offset, 1, bit.wholeByte ? kAllBits : 1u << bit.bit});
+          } else if (const SpaceSpan span = writtenBy(module_, op); span.size != 0) {
+            forPieces(span, [&](const rung_span& piece) { all.push_back({piece.offset, piece.size, kAllBits}); });
+          }
         }
-    std::ranges::sort(all, {}, &rung_span::offset);
-    for (const rung_span& span : all) {
-      if (image_.writes_.empty() || image_.writes_.back().offset + image_.writes_.back().size < span.offset) {
-        image_.writes_.push_back(span);
-        continue;
-      }
-      rung_span& last = image_.writes_.back();
-      last.size = std::max(last.size, span.offset + span.size - last.offset);
+    // Whole bytes before bits of them.
+    std::ranges::sort(all, {}, [](const rung_written& w) { return std::pair(w.offset, w.mask != kAllBits); });
+    for (const rung_written& written : all) addWritten(written);
+  }
+
+  // Joins it with the last one where it touches that.
+  void addWritten(const rung_written& written) {
+    if (image_.writes_.empty()) return image_.writes_.push_back(written);
+    rung_written& last = image_.writes_.back();
+    const uint32_t end = last.offset + last.size;
+    if (last.mask == kAllBits && written.mask == kAllBits && written.offset <= end) {
+      last.size = std::max(last.size, written.offset + written.size - last.offset);
+    } else if (last.offset == written.offset && last.mask != kAllBits) {
+      last.mask |= written.mask;
+      if (last.mask == kAllBits) joinLast();
+    } else if (written.offset >= end) {
+      image_.writes_.push_back(written);
     }
   }
+  // The last one has become a whole byte.
+  void joinLast() {
+    const rung_written last = image_.writes_.back();
+    image_.writes_.pop_back();
+    addWritten(last);
+  }
+  static constexpr uint32_t kAllBits = 255;
 
   template <class T>
   static void point(const std::vector<T>& from, const T*& to, uint32_t& count) {

@@ -48,7 +48,7 @@ private:
   std::vector<const char*> faults_;
   std::vector<const char*> services_;
   std::vector<const char*> texts_;
-  std::vector<rung_span> writes_;
+  std::vector<rung_written> writes_;
 };
 
 } // namespace rung::ir

@@ -256,8 +256,11 @@ private:
       inBlock("safe span", i, p_.safe_spans[i].offset, p_.safe_spans[i].size);
     for (uint32_t i = 0; i < p_.write_count; ++i) {
       inBlock("written span", i, p_.writes[i].offset, p_.writes[i].size);
-      if (i > 0 && p_.writes[i].offset <= uint64_t{p_.writes[i - 1].offset} + p_.writes[i - 1].size)
+      if (i > 0 && p_.writes[i].offset < uint64_t{p_.writes[i - 1].offset} + p_.writes[i - 1].size)
         failAt("written span", i, "does not lie above the one before it");
+      const uint32_t mask = p_.writes[i].mask;
+      if (mask == 0 || mask > 255 || (mask != 255 && p_.writes[i].size != 1))
+        failAt("written span", i, "has a mask that is wrong");
     }
   }
 

@@ -10,7 +10,7 @@ Forcing::Forcing(const rung_program& program, void* engine, std::span<const Forc
   for (const ForcedCell& cell : cells) add(cell);
   for (const auto& [offset, bits] : bits_) {
     held_.push_back({.offset = offset, .mask = bits.mask, .value = bits.value});
-    needsCode_ = needsCode_ || isWritten(offset);
+    needsCode_ = needsCode_ || isWritten(offset, bits.mask);
   }
   nameBytes();
 }
@@ -83,10 +83,12 @@ void Forcing::nameBytes() {
     bytes_.push_back({.space = place.first, .byte = place.second, .mask = bits.mask, .value = bits.value});
 }
 
-bool Forcing::isWritten(uint32_t offset) const {
-  const std::span<const rung_span> writes(program_.writes, program_.write_count);
-  const auto after = std::ranges::upper_bound(writes, offset, {}, &rung_span::offset);
-  return after != writes.begin() && offset - std::prev(after)->offset < std::prev(after)->size;
+bool Forcing::isWritten(uint32_t offset, uint8_t mask) const {
+  const std::span<const rung_written> writes(program_.writes, program_.write_count);
+  const auto after = std::ranges::upper_bound(writes, offset, {}, &rung_written::offset);
+  if (after == writes.begin()) return false;
+  const rung_written& written = *std::prev(after);
+  return offset - written.offset < written.size && (written.mask & mask) != 0;
 }
 
 } // namespace rung::host

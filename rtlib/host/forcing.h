@@ -47,7 +47,7 @@ private:
   void hold(uint32_t offset, Bits bits);
   void holdCopies(uint32_t offset, Bits bits);
   void nameBytes();
-  bool isWritten(uint32_t offset) const;
+  bool isWritten(uint32_t offset, uint8_t mask) const;
 
   const rung_program& program_;
   std::string problem_;

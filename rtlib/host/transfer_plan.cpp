@@ -57,23 +57,26 @@ private:
   uint32_t count_ = 0;
 };
 
-// Bytes of a program's memory block.
-using Marks = std::vector<bool>;
+// Bits of the bytes of a program's memory block.
+using Marks = std::vector<uint8_t>;
 
-void mark(Marks& marks, uint32_t offset, uint32_t size) { std::fill_n(marks.begin() + offset, size, true); }
+void mark(Marks& marks, uint32_t offset, uint32_t size, uint32_t bits = 255) {
+  for (uint32_t i = offset; i < offset + size; ++i) marks[i] = static_cast<uint8_t>(marks[i] | bits);
+}
 
 // What its chunks may write, and where that is copied to.
-Marks writtenBytes(const rung_program& program) {
+Marks writtenBits(const rung_program& program) {
   Marks written(program.memory_size);
-  for (uint32_t i = 0; i < program.write_count; ++i) mark(written, program.writes[i].offset, program.writes[i].size);
+  for (uint32_t i = 0; i < program.write_count; ++i)
+    mark(written, program.writes[i].offset, program.writes[i].size, program.writes[i].mask);
   for (uint32_t i = 0; i < program.copy_count; ++i)
     for (uint32_t b = 0; b < program.copies[i].size; ++b)
-      if (written[program.copies[i].from + b]) written[program.copies[i].to + b] = true;
+      mark(written, program.copies[i].to + b, 1, written[program.copies[i].from + b]);
   return written;
 }
 
 // Outputs, and what is copied to them.
-Marks outputBytes(const rung_program& program) {
+Marks outputBits(const rung_program& program) {
   Marks outputs(program.memory_size);
   constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
   for (uint32_t s = 0; s < program.space_count; ++s) {
@@ -86,7 +89,7 @@ Marks outputBytes(const rung_program& program) {
     mark(outputs, program.safe_spans[i].offset, program.safe_spans[i].size);
   for (uint32_t i = 0; i < program.copy_count; ++i)
     for (uint32_t b = 0; b < program.copies[i].size; ++b)
-      if (outputs[program.copies[i].to + b]) outputs[program.copies[i].from + b] = true;
+      mark(outputs, program.copies[i].from + b, 1, outputs[program.copies[i].to + b]);
   return outputs;
 }
 
@@ -243,14 +246,15 @@ private:
   // ---- outputs -----------------------------------------------------------------------------------------------------
 
   void releaseOutputs() {
-    const Marks written = writtenBytes(from_);
-    const Marks writes = writtenBytes(to_);
-    const Marks outputs = outputBytes(to_);
+    const Marks written = writtenBits(from_);
+    const Marks writes = writtenBits(to_);
+    const Marks outputs = outputBits(to_);
     std::vector<bool> released(new_.count());
     for (uint32_t b = 0; b < new_.count(); ++b) {
-      const uint32_t offset = new_.locate(b).offset;
-      if (source_[b] == kInitial || !outputs[offset] || writes[offset]) continue;
-      released[b] = written[old_.locate(source_[b]).offset];
+      if (source_[b] == kInitial) continue;
+      const BitNumbers::Location now = new_.locate(b);
+      if (!isMarked(outputs, now) || isMarked(writes, now)) continue;
+      released[b] = isMarked(written, old_.locate(source_[b]));
       if (released[b]) source_[b] = kInitial;
     }
     for (const Match& match : matches_) {
@@ -264,6 +268,10 @@ private:
     }
     for (uint32_t space = 0; space < to_.space_count; ++space)
       if (!isHidden(space)) reportUnnamed(space, released);
+  }
+
+  static bool isMarked(const Marks& marks, const BitNumbers::Location& place) {
+    return (marks[place.offset] >> place.bit & 1) != 0;
   }
 
   // "Y+3" or "Y+3.5": a whole byte, or a bit of it.

@@ -29,6 +29,20 @@ Image::~Image() {
   if (release != nullptr) release(owner);
 }
 
+void KnownImages::add(const std::shared_ptr<const Image>& image) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(images_, [](const std::weak_ptr<const Image>& known) { return known.expired(); });
+  images_.push_back(image);
+}
+
+std::shared_ptr<const Image> KnownImages::find(const rung_program& program) {
+  const std::lock_guard lock(mutex_);
+  for (const std::weak_ptr<const Image>& known : images_)
+    if (std::shared_ptr<const Image> image = known.lock(); image != nullptr && &image->program == &program)
+      return image;
+  return nullptr;
+}
+
 } // namespace rung::runtime
 
 using namespace rung;

@@ -129,6 +129,7 @@ rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_insta
       running({image->program, image->engine, static_cast<uint8_t*>(given.memory)}, &hooks), pace(running),
       cells(std::make_unique<CellTable>(image->program)) {
   control->onReplace(running); // a replacement before the first power-on gets places in exchange
+  images.add(image);
   names.join(*control, *cells);
   if (image->program.instrumented != 0) clock = profile::calibratedClock();
 }

@@ -52,6 +52,7 @@ struct rung_instance {
   rung_instance_options options;
   std::shared_ptr<const rung::runtime::Image> image;
   std::atomic<const rung_program*> program; // of `image`, for other threads
+  rung::runtime::KnownImages images;        // `image` among them, for other threads, too
   std::unique_ptr<rung::nc::Control> control;
   rung::runtime::Hooks hooks;
   rung::host::Instance running;

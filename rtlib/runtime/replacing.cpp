@@ -17,6 +17,7 @@ struct rung_replacement {
         replacement(*of.program.load(std::memory_order_acquire), {image->program, image->engine, memory}),
         places(of.control->locate(image->program)), cells(std::make_unique<CellTable>(image->program)),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
+    instance.images.add(image);
     instance.names.join(*instance.control, *cells);
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
   }

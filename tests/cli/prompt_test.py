@@ -243,7 +243,7 @@ class Piped(Folder):
         for args in ((), ("--no-ir",)):
             self.assertEqual(rungc("build", "lamp.lad", "-o", "lamp.so", *args, cwd=self.folder).returncode, OK)
             output = self.prompt(lines, status=WRONG if args else OK, program="./lamp.so")
-            self.assertIn("./lamp.so does not tell how it was made: it carries no IR" if args else "PUMP = 1", output)
+            self.assertIn("./lamp.so does not say how it was made: it carries no IR" if args else "PUMP = 1", output)
 
     def test_wrong_forces(self):
         for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),

@@ -1228,6 +1228,43 @@ class Replacing(Case):
 
 # ---- lives -----------------------------------------------------------------------------------------------------------
 
+class Forcing(Case):
+    def test_cells_are_held(self):
+        plc = self.plc("values")
+        forces = rung.Forces(plc, {"SPEED": 2.5, "LONG": 7}, owner="me")
+        self.assertEqual(plc.forced(), [])
+        self.assertTrue(plc.force(forces))
+        plc["SPEED"] = 1.0
+        plc.scan()
+        self.assertEqual((plc["SPEED"], plc["LONG"]), (2.5, 7))
+        self.assertEqual([(force.name, force.value, force.owner) for force in plc.forced()], [("LONG", 7, "me"), ("SPEED", 2.5, "me")])
+        self.assertTrue(plc.force(None))
+        self.assertEqual(plc.forced(), [])
+        with rung.Forces(plc, {"LONG": 8}) as other:
+            plc.force(other)
+        self.assertEqual(plc.forced(), [], "a set that is closed ends")
+
+    def test_what_is_wrong(self):
+        plc = self.plc("values")
+        self.fails(rung.Status.NOT_FOUND, rung.Forces, plc, {"NOBODY": 1})
+        self.fails(rung.Status.BAD_ARGUMENT, rung.Forces, plc, {})
+        self.fails(rung.Status.REFUSED, rung.Forces, plc, {"COUNT": 1}, text="compiler")
+        self.fails(rung.Status.WRONG_TYPE, rung.Forces, plc, {"LONG": "text"})
+
+    def test_a_trace(self):
+        plc = self.plc("values")
+        path = str(Path(FOLDER.name) / "trace.vcd")
+        with rung.Watch(plc, ["COUNT"], depth=8) as watch, rung.Trace(watch, path) as trace:
+            self.assertFalse(trace.write())
+            plc.scan(2)
+            self.assertTrue(trace.write())
+            plc.scan()
+        with open(path, encoding="utf-8") as file:
+            self.assertRegex(file.read(), r"COUNT \$end[^$]*")
+        with rung.Watch(plc, ["COUNT"]) as watch:
+            self.fails(rung.Status.BAD_ARGUMENT, rung.Trace, watch, path, text="keeps no passes")
+
+
 class Lives(Case):
     def test_what_nobody_uses_ends(self):
         kept = program("dropped")

@@ -92,15 +92,16 @@ class Machine(unittest.TestCase):
                 files.append(edit.file)
         return " ".join(f"../{name}/{file}" for file in files)
 
-    def case(self, edits, changes, goes_on=None, until=None):
+    def case(self, edits, changes, goes_on=None, until=None, released=()):
         name = self.id().rsplit(".", 1)[1]
         unchanged = "\n".join(f"expect {output} {value}" for output, value in self.outputs)
+        after = "\n".join(f"expect {output} {0 if output in released else value}" for output, value in self.outputs)
         report = "\n".join(f"expect_change {change}" for change in changes)
         goes_on = self.goes_on if goes_on is None else goes_on
         until = self.until if until is None else until
         text = (f"program {' '.join(self.files)}\n{self.head()}\n{self.works}\n{unchanged}\n{self.goes_on}\n"
                 f"replace {self.edited(name, edits)}\n{report}\nexpect_no_change\n"
-                f"{goes_on}\nscan\n{goes_on}\n{unchanged}\n{until}\n")
+                f"{goes_on}\n{after}\nscan\n{goes_on}\n{after}\n{until}\n")
         scenario = self.now / f"{name}.scn"
         scenario.write_text(text, encoding="utf-8")
         done = subprocess.run([RUNGC, "test", str(scenario), "--engine", "all", "-O", "0"], capture_output=True,
@@ -150,6 +151,10 @@ expect LUBE_PUMP 1
     def test_rung_removed(self):
         self.case([Edit("mill.pmc", "LDI  LUBE_LEVEL\nFUNC TMRB\nPRM  36\nPRM  1000\nOUT  R54.1\n", "")],
                   ["removed state \"P12/TMRB 36/elapsed\"", "removed state \"P12/TMRB 36/last\""])
+
+    def test_output_released(self):
+        self.case([Edit("mill.pmc", "LD   AIR_ORDER\nOR   BLOW_OFF\nAND  DOOR_CLOSED\nOUT  AIR_BLOW\n", "")],
+                  ["released AIR_BLOW"], until="run 800ms\nexpect AIR_BLOW 0", released=("AIR_BLOW",))
 
     def test_symbol_renamed(self):
         self.case([word("mill.pmc", "BLOW_OFF", "AIR_AFTER")], ["renamed BLOW_OFF AIR_AFTER"],
@@ -225,6 +230,10 @@ expect F_LUBE 0
     def test_cell_moved(self):
         self.case([Edit("memory.lad", "symbol LUB_DONE   PLCNVRAM,#13", "symbol LUB_DONE   PLCNVRAM,#20")],
                   ["moved LUB_DONE"], self.goes_on + "\nexpect PLCNVRAM,#13 0")
+
+    def test_output_released(self):
+        self.case([Edit("fluids.lad", "{TPULSE T_LUBE P_LUBSEC SEC}--(LUBE_PUMP)", "{TPULSE T_LUBE P_LUBSEC SEC}--(6130.05)")],
+                  ["released LUBE_PUMP"], until="run 1s\nexpect LUBE_PUMP 0", released=("LUBE_PUMP",))
 
     def test_timer_moved(self):
         self.case([Edit("memory.lad", "symbol T_LUBE     6429", "symbol T_LUBE     6440")], ["moved T_LUBE"])

@@ -90,7 +90,7 @@ Result<const compiler::Compiled*> Program::wanted() {
   if (!carried) {
     const std::string file = fileOf(*object);
     Result<compiler::Compiled> found = compiler::irOf(host::readSealed(file).image, object->program());
-    if (!found.ok()) return failure(object->path() + " does not tell how it was made: " + found.error());
+    if (!found.ok()) return failure(object->path() + " does not say how it was made: " + found.error());
     carried = std::move(found).value();
   }
   return &*carried;

@@ -120,6 +120,14 @@ typedef struct rung_span {
   uint32_t size;
 } rung_span;
 
+/* Bits of the memory block that chunks may write: of each of `size` bytes those of the mask. Where it is not 255,
+ * `size` is 1. */
+typedef struct rung_written {
+  uint32_t offset;
+  uint32_t size;
+  uint32_t mask; /* 1 to 255 */
+} rung_written;
+
 /* Initial contents, which leave expanded bits at 0 or 1; all memory that no entry names starts as 0. */
 typedef struct rung_init {
   uint32_t offset;
@@ -327,7 +335,7 @@ typedef struct rung_program {
   const char* const* texts; /* message texts: pairs of number (decimal) and text */
 
   const rung_chunk_fn* chunk_fns; /* by chunk */
-  const rung_span* writes;        /* all of spaces that chunks may write, ascending; none touches the next */
+  const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */
 } rung_program;
 
 #ifdef __cplusplus

@@ -51,6 +51,17 @@ AT(rung_continuation, point_count, 12);
 AT(rung_continuation, points, 16);
 SIZE(rung_continuation, 24);
 
+AT(rung_written, offset, 0);
+AT(rung_written, size, 4);
+AT(rung_written, mask, 8);
+SIZE(rung_written, 12);
+
+AT(rung_forced_byte, space, 0);
+AT(rung_forced_byte, byte, 4);
+AT(rung_forced_byte, mask, 8);
+AT(rung_forced_byte, value, 12);
+SIZE(rung_forced_byte, 16);
+
 AT(rung_init, offset, 0);
 AT(rung_init, size, 4);
 AT(rung_init, data, 8);

@@ -178,7 +178,7 @@ TEST_F(Transfer, ArraysKeepWhatFits) {
 }
 
 // Y lies at 512 (a byte a bit) and IMAGE, which is copied to it, at 640; LATCH is no output.
-void addOutputs(TestProgram& program, std::vector<rung_span> writes) {
+void addOutputs(TestProgram& program, std::vector<rung_written> writes) {
   const uint32_t y = program.addSpace("Y", 1, {{0, 4, 512, RUNG_REPR_BYTE_PER_BIT}}, RUNG_SPACE_OUTPUT);
   const uint32_t image = program.addSpace("IMAGE", 1, {{0, 4, 640, RUNG_REPR_BYTE_PER_BIT}}, RUNG_SPACE_HIDDEN);
   program.addPacked("LATCH", 1, 4, 768);
@@ -190,8 +190,9 @@ void addOutputs(TestProgram& program, std::vector<rung_span> writes) {
 }
 
 TEST_F(Transfer, WhatIsNoLongerWrittenIsReleased) {
-  addOutputs(old.program, {{640, 1}, {650, 2}, {656, 8}, {768, 4}}); // IMAGE+0.0, 1.2, 1.3, byte 2; LATCH
-  addOutputs(fresh.program, {{650, 1}});                             // IMAGE+1.2
+  addOutputs(old.program,
+             {{640, 1, 255}, {650, 2, 255}, {656, 8, 255}, {768, 4, 255}}); // IMAGE+0.0, 1.2, 1.3, byte 2; LATCH
+  addOutputs(fresh.program, {{650, 1, 255}});                               // IMAGE+1.2
   old.start(1);
   fresh.start();
   EXPECT_EQ(run(), (Lines{"released LAMP", "released Y+0.0", "released Y+2"}));
@@ -201,6 +202,18 @@ TEST_F(Transfer, WhatIsNoLongerWrittenIsReleased) {
   EXPECT_EQ(fresh.memory().readByte(3, 0), 0xFE) << "the host's own";
   EXPECT_EQ(fresh.memory().readByte(3, 2), 0);
   EXPECT_EQ(fresh.memory().readByte(5, 0), 1) << "no output";
+}
+
+TEST_F(Transfer, ABitOfAByteIsReleased) {
+  for (Running* side : {&old, &fresh})
+    side->program.addSpace("Y", 1, {{0, 2, 512, RUNG_REPR_PACKED}}, RUNG_SPACE_OUTPUT);
+  old.program.writes = {{512, 1, 0x3C}, {513, 1, 255}};
+  fresh.program.writes = {{512, 1, 0x0C}};
+  old.start();
+  fresh.start();
+  old.memory().write(3, 0, 2, 0xFFFF);
+  EXPECT_EQ(run(), (Lines{"released Y+0.4", "released Y+0.5", "released Y+1"}));
+  EXPECT_EQ(fresh.memory().read(3, 0, 2), 0x00CFu);
 }
 
 TEST_F(Transfer, TwoNamesOfOneCellDoNotMoveIt) {

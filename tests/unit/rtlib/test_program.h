@@ -30,7 +30,7 @@ struct TestProgram {
   std::vector<rung_init> inits;
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
-  std::vector<rung_span> writes;
+  std::vector<rung_written> writes;
   std::vector<rung_copy> copies;
   std::vector<rung_chunk_fn> functions;
   std::vector<uint32_t> weights; // of chunks; 1 where it is shorter

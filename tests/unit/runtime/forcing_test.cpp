@@ -52,7 +52,7 @@ void build(TestProgram& program) {
   program.addSymbol("NOTE", 0, 0, RUNG_TYPE_TEXT, 0, 8);
   program.addConstant("LIMIT", 5);
   program.safeSpans = {{kLamp, 8}};
-  program.writes = {{kSeen, 2}, {kLamp, 1}};
+  program.writes = {{kSeen, 2, 255}, {kLamp, 1, 255}};
   program.addTask("MAIN", program.addChunk(&work));
   program.addBeginCopy(0, {RUNG_COPY_ALL, kInput, kLatched, 0, 8});
   program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 4000}, {RUNG_STEP_ADVANCE, RUNG_NONE, 4000}, {RUNG_STEP_RUN, 0, 1}};

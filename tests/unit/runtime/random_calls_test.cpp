@@ -37,7 +37,7 @@ void build(TestProgram& program, uint32_t byte) {
   program.addConstant("LIMIT", 4);
   program.addTask("MAIN", program.addChunk(&work));
   program.addBeginCopy(0, {RUNG_COPY_ALL, 32, 64, 0, 16});
-  program.writes = {{0, 1}};
+  program.writes = {{0, 1, 255}};
   program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 1000}, {RUNG_STEP_ADVANCE, RUNG_NONE, 1000}, {RUNG_STEP_RUN, 0, 1}};
   program.link();
 }

@@ -236,14 +236,14 @@ class Piped(Folder):
         self.assertNotIn("expect_error", output)
 
     def test_forces(self):
-        lines = "force PUMP 1\nscan\nPUMP\nforces\nunforce PUMP\nscan\nPUMP\nforces\n"
+        lines = "set START 1\nforce PUMP 0\nscan\nPUMP\nforces\nunforce PUMP\nscan\nPUMP\nforces\n"
         for args in ((), ("--engine", "interp")):
             output = self.prompt(lines, *args).splitlines()
-            self.assertEqual(output[:4], ["PUMP = 1", "PUMP = 1", "PUMP = 0", "nothing is forced"])
+            self.assertEqual(output[:4], ["PUMP = 0", "PUMP = 0", "PUMP = 1", "nothing is forced"])
         for args in ((), ("--no-ir",)):
             self.assertEqual(rungc("build", "lamp.lad", "-o", "lamp.so", *args, cwd=self.folder).returncode, OK)
             output = self.prompt(lines, status=WRONG if args else OK, program="./lamp.so")
-            self.assertIn("./lamp.so does not say how it was made: it carries no IR" if args else "PUMP = 1", output)
+            self.assertIn("./lamp.so does not say how it was made: it carries no IR" if args else "PUMP = 0", output)
 
     def test_wrong_forces(self):
         for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),

@@ -1231,13 +1231,13 @@ class Replacing(Case):
 class Forcing(Case):
     def test_cells_are_held(self):
         plc = self.plc("values")
-        forces = rung.Forces(plc, {"SPEED": 2.5, "LONG": 7}, owner="me")
+        forces = rung.Forces(plc, {"LONG": 7}, owner="me")
         self.assertEqual(plc.forced(), [])
         self.assertTrue(plc.force(forces))
-        plc["SPEED"] = 1.0
+        plc["LONG"] = 1
         plc.scan()
-        self.assertEqual((plc["SPEED"], plc["LONG"]), (2.5, 7))
-        self.assertEqual([(force.name, force.value, force.owner) for force in plc.forced()], [("LONG", 7, "me"), ("SPEED", 2.5, "me")])
+        self.assertEqual(plc["LONG"], 7)
+        self.assertEqual([(force.name, force.value, force.owner) for force in plc.forced()], [("LONG", 7, "me")])
         self.assertTrue(plc.force(None))
         self.assertEqual(plc.forced(), [])
         with rung.Forces(plc, {"LONG": 8}) as other:

@@ -163,7 +163,8 @@ expect_no_change
         self.file("b.pmc", GSK.replace("Y0.0", "Y0.1"))
         self.fails("program a.pmc\nperiod 24ms\nslot\nreplace b.pmc\nexpect_no_change\n", "a.scn:4: the program is within a pass, which "
                    "slots have left unfinished; a program is replaced between two: write scan before it")
-        self.passes("program a.pmc\nperiod 24ms\nset X0.0 1\nslot\nscan\nreplace b.pmc\nexpect_no_change\nscan\nexpect Y0.1 1\n")
+        self.passes("program a.pmc\nperiod 24ms\nset X0.0 1\nslot\nscan\nreplace b.pmc\nexpect_change released Y+0.0\nexpect_no_change\n"
+                    "expect Y0.0 0\nscan\nexpect Y0.1 1\n")
 
     def test_a_mechanism_that_waits(self):
         self.file("a.plc", MECHANISM)

@@ -493,8 +493,7 @@ enum rung_change_kind {
   RUNG_CHANGE_MOVED = 2,   /* is elsewhere now; keeps its contents */
   RUNG_CHANGE_RENAMED = 3, /* a cell that had another name; keeps its contents */
   RUNG_CHANGE_RETYPED = 4, /* of another type now: starts with its initial contents */
-  RUNG_CHANGE_RELEASED =
-      5, /* an output that the new program does not write any more: starts with its initial contents */
+  RUNG_CHANGE_RELEASED = 5, /* an output that the new program does not write: starts anew */
 };
 
 typedef struct rung_change {

@@ -488,11 +488,11 @@ typedef struct rung_replacement_info {
 RUNG_API int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info);
 
 enum rung_change_kind {
-  RUNG_CHANGE_NEW = 0,     /* starts with its initial contents */
-  RUNG_CHANGE_REMOVED = 1, /* its contents are lost */
-  RUNG_CHANGE_MOVED = 2,   /* is elsewhere now; keeps its contents */
-  RUNG_CHANGE_RENAMED = 3, /* a cell that had another name; keeps its contents */
-  RUNG_CHANGE_RETYPED = 4, /* of another type now: starts with its initial contents */
+  RUNG_CHANGE_NEW = 0,      /* starts with its initial contents */
+  RUNG_CHANGE_REMOVED = 1,  /* its contents are lost */
+  RUNG_CHANGE_MOVED = 2,    /* is elsewhere now; keeps its contents */
+  RUNG_CHANGE_RENAMED = 3,  /* a cell that had another name; keeps its contents */
+  RUNG_CHANGE_RETYPED = 4,  /* of another type now: starts with its initial contents */
   RUNG_CHANGE_RELEASED = 5, /* an output that the new program does not write: starts anew */
 };
 

@@ -129,8 +129,7 @@ int callEveryFunction(void* no_handle) {
   BAD_ARGUMENT(rung_image_open("file.so", NULL, NULL));
   BAD_ARGUMENT(rung_image_adopt(NULL, NULL, NULL, NULL, &image));
   if (rung_image_close(NULL) != RUNG_OK || rung_instance_free(NULL) != RUNG_OK ||
-      rung_replacement_free(NULL) != RUNG_OK || rung_forces_free(NULL) != RUNG_OK ||
-      rung_trace_free(NULL) != RUNG_OK)
+      rung_replacement_free(NULL) != RUNG_OK || rung_forces_free(NULL) != RUNG_OK || rung_trace_free(NULL) != RUNG_OK)
     ++wrong;
   if (rung_runtime_version() != (RUNG_RUNTIME_MAJOR << 16 | RUNG_RUNTIME_MINOR)) ++wrong;
   return wrong;

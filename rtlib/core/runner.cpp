@@ -92,6 +92,7 @@ void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) 
 } // namespace
 
 void Runner::copy(uint32_t first, uint32_t count) noexcept {
+  if (count == 0) return; // nothing to hold, either
   for (uint32_t i = first; i < first + count; ++i) {
     const rung_copy& c = program_->copies[i];
     if (c.kind == RUNG_COPY_ALL) {

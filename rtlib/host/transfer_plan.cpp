@@ -249,23 +249,15 @@ private:
     const Marks written = writtenBits(from_);
     const Marks writes = writtenBits(to_);
     const Marks outputs = outputBits(to_);
-    std::vector<bool> released(new_.count());
+    Marks released(to_.memory_size);
     for (uint32_t b = 0; b < new_.count(); ++b) {
       if (source_[b] == kInitial) continue;
       const BitNumbers::Location now = new_.locate(b);
-      if (!isMarked(outputs, now) || isMarked(writes, now)) continue;
-      released[b] = isMarked(written, old_.locate(source_[b]));
-      if (released[b]) source_[b] = kInitial;
+      if (!isMarked(outputs, now) || isMarked(writes, now) || !isMarked(written, old_.locate(source_[b]))) continue;
+      source_[b] = kInitial;
+      mark(released, now.offset, 1, 1u << now.bit);
     }
-    for (const Match& match : matches_) {
-      if (isHidden(match.symbol->space)) continue;
-      bool any = false;
-      for (uint32_t b = new_.first(*match.symbol), end = b + extent(*match.symbol); b < end; ++b) {
-        any = any || released[b];
-        released[b] = false; // it is named
-      }
-      if (any) report(ChangeKind::Released, *match.symbol);
-    }
+    reportNamed(released);
     for (uint32_t space = 0; space < to_.space_count; ++space)
       if (!isHidden(space)) reportUnnamed(space, released);
   }
@@ -274,15 +266,43 @@ private:
     return (marks[place.offset] >> place.bit & 1) != 0;
   }
 
+  // Takes the bit out, and those that are copied to or from it: one report is enough. False: it was not there.
+  bool take(uint32_t bit, Marks& released) const {
+    const BitNumbers::Location place = new_.locate(bit);
+    if (!isMarked(released, place)) return false;
+    const auto clear = [&](uint32_t offset) { released[offset] &= static_cast<uint8_t>(~(1u << place.bit)); };
+    clear(place.offset);
+    for (uint32_t i = 0; i < to_.copy_count; ++i) {
+      const rung_copy& copy = to_.copies[i];
+      if (place.offset - copy.from < copy.size) clear(place.offset - copy.from + copy.to);
+      if (place.offset - copy.to < copy.size) clear(place.offset - copy.to + copy.from);
+    }
+    return true;
+  }
+
+  // A bit goes by its narrowest name.
+  void reportNamed(Marks& released) {
+    std::vector<const rung_symbol*> symbols;
+    for (const Match& match : matches_)
+      if (!isHidden(match.symbol->space)) symbols.push_back(match.symbol);
+    std::ranges::stable_sort(symbols, {}, [](const rung_symbol* symbol) { return extent(*symbol); });
+    for (const rung_symbol* symbol : symbols) {
+      bool any = false;
+      for (uint32_t b = 0; b < extent(*symbol); ++b) any = take(new_.first(*symbol) + b, released) || any;
+      if (any) report(ChangeKind::Released, *symbol);
+    }
+  }
+
   // "Y+3" or "Y+3.5": a whole byte, or a bit of it.
-  void reportUnnamed(uint32_t space, const std::vector<bool>& released) {
+  void reportUnnamed(uint32_t space, Marks& released) {
     for (uint32_t byte = 0; byte < to_.spaces[space].byte_count; ++byte) {
-      const auto first = released.begin() + new_.first(space) + 8 * byte;
-      const auto bits = std::count(first, first + 8, true);
       const std::string name = std::string(to_.spaces[space].name) + "+" + std::to_string(byte);
-      if (bits == 8) report(ChangeKind::Released, name);
-      for (uint32_t b = 0; bits < 8 && b < 8; ++b)
-        if (first[b]) report(ChangeKind::Released, name + "." + std::to_string(b));
+      uint32_t bits = 0;
+      for (uint32_t b = 0; b < 8; ++b)
+        if (take(new_.first(space) + 8 * byte + b, released)) bits |= 1u << b;
+      if (bits == 255) report(ChangeKind::Released, name);
+      for (uint32_t b = 0; bits != 255 && b < 8; ++b)
+        if ((bits >> b & 1) != 0) report(ChangeKind::Released, name + "." + std::to_string(b));
     }
   }
   bool isHidden(uint32_t space) const { return (to_.spaces[space].flags & RUNG_SPACE_HIDDEN) != 0; }

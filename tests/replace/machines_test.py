@@ -231,10 +231,6 @@ expect F_LUBE 0
         self.case([Edit("memory.lad", "symbol LUB_DONE   PLCNVRAM,#13", "symbol LUB_DONE   PLCNVRAM,#20")],
                   ["moved LUB_DONE"], self.goes_on + "\nexpect PLCNVRAM,#13 0")
 
-    def test_output_released(self):
-        self.case([Edit("fluids.lad", "{TPULSE T_LUBE P_LUBSEC SEC}--(LUBE_PUMP)", "{TPULSE T_LUBE P_LUBSEC SEC}--(6130.05)")],
-                  ["released LUBE_PUMP"], until="run 1s\nexpect LUBE_PUMP 0", released=("LUBE_PUMP",))
-
     def test_timer_moved(self):
         self.case([Edit("memory.lad", "symbol T_LUBE     6429", "symbol T_LUBE     6440")], ["moved T_LUBE"])
 

@@ -166,6 +166,14 @@ expect_no_change
         self.passes("program a.pmc\nperiod 24ms\nset X0.0 1\nslot\nscan\nreplace b.pmc\nexpect_change released Y+0.0\nexpect_no_change\n"
                     "expect Y0.0 0\nscan\nexpect Y0.1 1\n")
 
+    def test_an_output_that_nobody_writes(self):
+        """Of NCT the bits of a byte have different writers, and the image of an output is copied to it bit by bit."""
+        head = "dialect nct\nmodule MAIN\nsymbol PUMP OUT000.03\n\nrung\n|--[INP000.00]--(OUT000.00)\n"
+        self.file("a.lad", head + "\nrung\n|--[INP000.00]--(PUMP)\n")
+        self.file("b.lad", head)
+        self.passes("program a.lad\nset INP000.00 1\nscan 2\nexpect PUMP 1\nreplace b.lad\nexpect_change released PUMP\n"
+                    "expect_no_change\nexpect PUMP 0\nexpect OUT000.00 1\nscan 2\nexpect PUMP 0\nexpect OUT000.00 1\n")
+
     def test_a_mechanism_that_waits(self):
         self.file("a.plc", MECHANISM)
         self.file("b.plc", MECHANISM.replace("TIM  -,50", "TIM  -,60"))

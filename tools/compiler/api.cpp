@@ -229,7 +229,7 @@ int32_t serve(rung_image* image, std::shared_ptr<const Program> program, EngineK
                                   .user = maker.get()};
   const int32_t status = rung_image_serve(image, &described);
   if (status != RUNG_OK) return failAsRuntime(status);
-  (void)maker.release(); // it is the image's now
+  [[maybe_unused]] const Maker* images = maker.release(); // it is the image's now
   return RUNG_OK;
 }
 

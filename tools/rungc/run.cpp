@@ -179,7 +179,7 @@ private:
     session_.addObserver(watch_);
     if (const int status = openTrace(); status != kOk) return status;
     const bool asked = options_.prompt || !options_.scenarioFile.empty();
-    explainer_.emplace(session_, asked ? first().uses() : nullptr);
+    explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
     session_.addObserver(*explainer_);
     return kOk;
   }
@@ -350,7 +350,7 @@ private:
   console::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<scenario::Trace> trace_;
-  std::optional<scenario::Explainer> explainer_; // once the session has started
+  std::unique_ptr<scenario::Explainer> explainer_; // once the session has started
 };
 
 std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {

@@ -70,7 +70,10 @@ public:
 
   void sample(int64_t us, uint64_t scan, std::span<const std::optional<Reading>> values) override {
     fmt::print(out_, "{:.6f},{}", static_cast<double>(us) / 1e6, scan);
-    for (size_t i = 0; i < values.size(); ++i) out_ << ',' << (values[i] ? csvValue(names_[i], *values[i]) : "");
+    for (size_t i = 0; i < values.size(); ++i) {
+      out_ << ',';
+      if (const std::optional<Reading>& value = values[i]) out_ << csvValue(names_[i], *value);
+    }
     out_ << '\n';
   }
 

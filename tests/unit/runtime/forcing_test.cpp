@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
+#include <thread>
 
 #include "tests/unit/runtime/test_image.h"
 
@@ -227,6 +229,32 @@ TEST_F(Forcing, EndsWhenAnotherProgramTakesOver) {
   ASSERT_EQ(put(later), RUNG_OK) << "kept, without a scan between";
   plc_.scan();
   EXPECT_EQ(value("SEEN"), 8);
+}
+
+// The scan thread faults now and then, and is switched on again.
+TEST_F(Forcing, SetsArePreparedBesideTheScan) {
+  std::atomic<rung_forces*> handedOver{nullptr};
+  std::atomic<bool> stop{false};
+  uint32_t put = 0, held = 0;
+  std::thread scanning([&] {
+    while (!stop) {
+      if (rung_forces* next = handedOver.exchange(nullptr); next != nullptr)
+        put += rung_instance_force(plc_.handle(), next) == RUNG_OK ? 1 : 0;
+      if (plc_.scan() == RUNG_FAULTED) plc_.powerOn(rung::Power::Cold);
+      held += rung::forcedCells(plc_).empty() ? 0 : 1;
+    }
+  });
+  std::vector<rung::Forces> sets;
+  for (int i = 0; i < 300; ++i) {
+    sets.push_back(forces({cell("DOOR", i % 2), cell("GUARD", 1)}));
+    while (handedOver.load() != nullptr) std::this_thread::yield();
+    handedOver = sets.back().handle();
+  }
+  while (handedOver.load() != nullptr) std::this_thread::yield();
+  stop = true;
+  scanning.join();
+  EXPECT_EQ(put, 300u);
+  EXPECT_GT(held, 0u);
 }
 
 TEST_F(Forcing, BadArguments) {

@@ -2,6 +2,10 @@
 #include "rtlib/host/forcing.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "rtlib/host/copied_bytes.h"
+#include "rtlib/host/program_info.h"
 
 namespace rung::host {
 
@@ -31,16 +35,16 @@ void Forcing::add(const ForcedCell& cell) {
 }
 
 void Forcing::addByte(uint32_t space, uint32_t byte, uint8_t mask, uint8_t value) {
-  const rung_range* range = rt::Memory(program_, nullptr).rangeOf(space, byte);
-  if (range == nullptr) {
-    problem_ = "a forced cell lies outside its space";
-    return;
-  }
-  const uint32_t inRange = byte - range->first_byte;
-  if (range->repr == RUNG_REPR_PACKED) return hold(range->offset + inRange, {.mask = mask, .value = value});
+  const rt::Memory memory(program_, nullptr);
   for (uint32_t bit = 0; bit < 8; ++bit) {
-    const auto on = static_cast<uint8_t>(value >> bit & 1);
-    if ((mask >> bit & 1) != 0) hold(range->offset + inRange * 8 + bit, {.mask = 1, .value = on});
+    if ((mask >> bit & 1) == 0) continue;
+    const rt::Place place = memory.locateBit(space, byte, bit);
+    if (place.outside()) {
+      problem_ = "a forced cell lies outside its space";
+      return;
+    }
+    const auto held = static_cast<uint8_t>(1u << place.bit());
+    hold(place.offset(), {.mask = held, .value = (value >> bit & 1) != 0 ? held : uint8_t{0}});
   }
 }
 
@@ -51,33 +55,21 @@ void Forcing::hold(uint32_t offset, Bits bits) {
   if (both == bits.mask) return;
   held.mask |= bits.mask;
   held.value = static_cast<uint8_t>((held.value & ~bits.mask) | bits.value);
-  holdCopies(offset, bits);
-}
-
-void Forcing::holdCopies(uint32_t offset, Bits bits) {
-  for (uint32_t i = 0; i < program_.copy_count; ++i) {
-    const rung_copy& copy = program_.copies[i];
-    if (offset - copy.from < copy.size) hold(offset - copy.from + copy.to, bits);
-    if (offset - copy.to < copy.size) hold(offset - copy.to + copy.from, bits);
-  }
+  forCopiesOf(program_, offset, [&](uint32_t copied) { hold(copied, bits); });
 }
 
 // The same bits as spaces have them.
 void Forcing::nameBytes() {
   std::map<std::pair<uint32_t, uint32_t>, Bits> named;
-  for (uint32_t space = 0; space < program_.space_count; ++space) {
-    for (uint32_t r = 0; r < program_.spaces[space].range_count; ++r) {
-      const rung_range& range = program_.spaces[space].ranges[r];
-      const bool expanded = range.repr == RUNG_REPR_BYTE_PER_BIT;
-      const uint32_t end = range.offset + range.byte_count * (expanded ? 8 : 1);
-      for (auto it = bits_.lower_bound(range.offset); it != bits_.end() && it->first < end; ++it) {
-        const uint32_t inRange = it->first - range.offset;
-        const uint32_t shift = expanded ? inRange % 8 : 0;
-        Bits& bits = named[{space, range.first_byte + (expanded ? inRange / 8 : inRange)}];
-        bits.mask |= static_cast<uint8_t>(it->second.mask << shift);
-        bits.value |= static_cast<uint8_t>(it->second.value << shift);
-      }
-    }
+  const rt::Memory memory(program_, nullptr);
+  for (const auto& [offset, bits] : bits_) {
+    const std::optional<LogicalByte> byte = byteAt(program_, offset);
+    if (!byte) continue;
+    const rung_range& range = *memory.rangeOf(byte->space, byte->byte);
+    const uint32_t shift = range.repr == RUNG_REPR_BYTE_PER_BIT ? (offset - range.offset) % 8 : 0;
+    Bits& all = named[{byte->space, byte->byte}];
+    all.mask |= static_cast<uint8_t>(bits.mask << shift);
+    all.value |= static_cast<uint8_t>(bits.value << shift);
   }
   for (const auto& [place, bits] : named)
     bytes_.push_back({.space = place.first, .byte = place.second, .mask = bits.mask, .value = bits.value});

@@ -45,7 +45,6 @@ private:
   void add(const ForcedCell& cell);
   void addByte(uint32_t space, uint32_t byte, uint8_t mask, uint8_t value);
   void hold(uint32_t offset, Bits bits);
-  void holdCopies(uint32_t offset, Bits bits);
   void nameBytes();
   bool isWritten(uint32_t offset, uint8_t mask) const;
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "rtlib/core/memory.h"
+#include "rtlib/host/copied_bytes.h"
 #include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rung/types.hpp"
@@ -272,11 +273,7 @@ private:
     if (!isMarked(released, place)) return false;
     const auto clear = [&](uint32_t offset) { released[offset] &= static_cast<uint8_t>(~(1u << place.bit)); };
     clear(place.offset);
-    for (uint32_t i = 0; i < to_.copy_count; ++i) {
-      const rung_copy& copy = to_.copies[i];
-      if (place.offset - copy.from < copy.size) clear(place.offset - copy.from + copy.to);
-      if (place.offset - copy.to < copy.size) clear(place.offset - copy.to + copy.from);
-    }
+    forCopiesOf(to_, place.offset, clear);
     return true;
   }
 

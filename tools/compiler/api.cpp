@@ -263,9 +263,13 @@ int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image
     Running* running = std::make_unique<Running>(handle->program, std::move(made).value()).release();
     host::Engine& engine = *running->engine;
     const int32_t status = rung_image_adopt(&engine.program(), engine.context(), end, running, image);
-    if (status == RUNG_OK) return serve(*image, handle->program, handle->kind, handle->engine);
-    end(running);
-    return failAsRuntime(status);
+    if (status != RUNG_OK) {
+      end(running);
+      return failAsRuntime(status);
+    }
+    const int32_t served = serve(*image, handle->program, handle->kind, handle->engine);
+    if (served != RUNG_OK) rung_image_close(*image);
+    return served;
   });
 }
 

@@ -375,7 +375,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.keepBuilt = true;
+  request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // whoever may force cells
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileSources(sources, source, request, status);

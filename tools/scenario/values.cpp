@@ -92,7 +92,7 @@ Reading readValue(const Instance& instance, const nc::Control& control, const Re
 
 namespace {
 
-// Why a cell that is no text cannot hold the value; "" when it can.
+// Why a number or a bit cannot hold the value; "" when it can.
 std::string numberProblem(const Instance& instance, const Ref& place, const Value& value) {
   if (place.kind == RefKind::Constant) return "a constant cannot be set";
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";

@@ -177,7 +177,7 @@ TEST_F(Transfer, ArraysKeepWhatFits) {
   for (uint32_t i = 0; i < std::size(wanted); ++i) EXPECT_EQ(fresh.memory().readByte(kD, i), wanted[i]) << i;
 }
 
-// Y lies at 512 (a byte a bit) and IMAGE, which is copied to it, at 640; LATCH is no output.
+// Y lies at 512 (a byte a bit) and IMAGE, which is copied to it, at 640; LATCH is not an output.
 void addOutputs(TestProgram& program, std::vector<rung_written> writes) {
   const uint32_t y = program.addSpace("Y", 1, {{0, 4, 512, RUNG_REPR_BYTE_PER_BIT}}, RUNG_SPACE_OUTPUT);
   const uint32_t image = program.addSpace("IMAGE", 1, {{0, 4, 640, RUNG_REPR_BYTE_PER_BIT}}, RUNG_SPACE_HIDDEN);

@@ -74,11 +74,11 @@ TEST_F(ScenarioSession, ReplacesByWhatItIsGiven) {
   EXPECT_NE(execute("replace other.lad").find("no program can be compiled here"), std::string::npos);
   EXPECT_NE(execute("expect_no_change").find("no program has been replaced"), std::string::npos);
   session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
-    if (s.words[0] != "lamp.lad") return failure("there is no such program");
+    if (s.words[0] != "lamp.lad") return failure("no program has this name");
     return NextProgram{{engines_[0].get(), engines_[1].get()}, compiled_.uses.get()};
   });
   EXPECT_EQ(execute("scan 2"), "");
-  EXPECT_NE(execute("replace other.lad").find("there is no such program"), std::string::npos);
+  EXPECT_NE(execute("replace other.lad").find("no program has this name"), std::string::npos);
   EXPECT_EQ(session_.instance().generation(), 0u);
   EXPECT_EQ(execute("replace lamp.lad"), "");
   EXPECT_EQ(session_.instance().generation(), 1u);

@@ -72,7 +72,8 @@ constexpr FieldInfo kTaskFields[] = {RUNG_FIELD(rung_task, name, Text),        R
                                      RUNG_FIELD(rung_task, budget_fault, U32), RUNG_FIELD(rung_task, begin_first, U32),
                                      RUNG_FIELD(rung_task, begin_count, U32),  RUNG_FIELD(rung_task, end_first, U32),
                                      RUNG_FIELD(rung_task, end_count, U32),    RUNG_FIELD(rung_task, part_first, U32),
-                                     RUNG_FIELD(rung_task, part_count, U32)};
+                                     RUNG_FIELD(rung_task, part_count, U32),   RUNG_FIELD(rung_task, heaviest, U32),
+                                     RUNG_FIELD(rung_task, circles, U32)};
 constexpr StructInfo kTask{"rung_task", sizeof(rung_task), kTaskFields};
 
 constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(rung_step, task, U32),

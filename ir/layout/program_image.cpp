@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ir/core/memory_use.h"
+#include "ir/layout/heaviest.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {
@@ -189,6 +190,9 @@ private:
       // A short program gives fewer borders than parts: the parts after the last border are empty.
       image_.partEnds_.insert(image_.partEnds_.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
+      const HeaviestRun heaviest = heaviestRun(layout_, TaskId{i});
+      out.heaviest = heaviest.weight;
+      out.circles = heaviest.circles ? 1 : 0;
       image_.tasks_.push_back(out);
     }
   }

@@ -193,6 +193,8 @@ typedef struct rung_task {
   uint32_t end_count;
   uint32_t part_first; /* in `part_ends` */
   uint32_t part_count; /* 1: not cut */
+  uint32_t heaviest;   /* weight of the heaviest run, of a cut task: of its heaviest part; at most `budget` */
+  uint32_t circles;    /* 1: control may go in circles; `heaviest` counts none of them twice, and `budget` ends them */
 } rung_task;
 
 enum rung_step_op {

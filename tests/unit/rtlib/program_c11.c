@@ -100,7 +100,7 @@ AT(rung_task, end_first, 32);
 AT(rung_task, end_count, 36);
 AT(rung_task, part_first, 40);
 AT(rung_task, part_count, 44);
-SIZE(rung_task, 48);
+SIZE(rung_task, 56);
 
 AT(rung_step, op, 0);
 AT(rung_step, task, 4);

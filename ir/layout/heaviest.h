@@ -1,0 +1,18 @@
+// The heaviest way that control can take through a task: with what a step costs on a machine, the longest that a run
+// may last there.
+#pragma once
+#include <cstdint>
+
+#include "ir/layout/layout.h"
+
+namespace rung::ir {
+
+struct HeaviestRun {
+  uint32_t weight = 0;  // at most the task's budget
+  bool circles = false; // control may go in circles; the weight is that of a way without the jump that closes one
+};
+
+// Of a task, or of the heaviest of its parts where it is cut.
+HeaviestRun heaviestRun(const Layout& layout, TaskId task);
+
+} // namespace rung::ir

@@ -1,0 +1,110 @@
+// The weight of the heaviest run: compared with all ways of small programs, one after the other.
+#include "ir/layout/heaviest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "ir/random/random.h"
+
+namespace rung::ir {
+namespace {
+
+using Open = std::set<std::pair<uint32_t, uint32_t>>; // routine and rung
+
+// From a rung to the end of its routine; nothing: control may go in circles.
+std::optional<uint64_t> heaviestWay(const Module& module, RoutineId routine, uint32_t rung, Open& open) {
+  const std::vector<Rung>& rungs = module.at(routine).rungs;
+  if (rung >= rungs.size()) return 0;
+  if (!open.insert({routine.index, rung}).second) return std::nullopt;
+  const Transfer& transfer = rungs[rung].transfer;
+  uint64_t most = 0;
+  bool endless = false;
+  const auto way = [&](uint32_t to, uint64_t before) {
+    const std::optional<uint64_t> rest = heaviestWay(module, routine, to, open);
+    endless = endless || !rest;
+    most = std::max(most, before + rest.value_or(0));
+  };
+  if (transfer.kind == TransferKind::Next || transfer.cond.valid()) way(rung + 1, 0);
+  if (transfer.kind == TransferKind::Goto) way(transfer.target, 0);
+  for (const uint32_t target : transfer.targets) way(target, 0);
+  if (transfer.kind == TransferKind::Call) {
+    const std::optional<uint64_t> callee = heaviestWay(module, transfer.callee, 0, open);
+    endless = endless || !callee;
+    way(rung + 1, callee.value_or(0));
+  }
+  open.erase({routine.index, rung});
+  if (endless) return std::nullopt;
+  return most + std::max(1u, rungs[rung].weight);
+}
+
+TEST(HeaviestRun, IsThatOfAllWays) {
+  uint32_t endless = 0;
+  uint32_t bounded = 0;
+  for (uint64_t seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE(seed);
+    Module module = randomModule(seed, {.rungs = 6, .ops = 4});
+    for (Routine& routine : module.routines)
+      for (size_t i = 0; i < routine.rungs.size(); ++i) routine.rungs[i].weight = 1 + static_cast<uint32_t>(i % 3);
+    const Layout layout(module, {.maxChunkRungs = 2});
+    for (uint32_t t = 0; t < module.tasks.size(); ++t) {
+      Task& task = module.tasks[t];
+      if (task.parts != 1) continue;
+      Open open;
+      const std::optional<uint64_t> expected = heaviestWay(module, task.entry, 0, open);
+      endless += expected ? 0 : 1;
+      bounded += expected ? 1 : 0;
+      const HeaviestRun found = heaviestRun(layout, TaskId{t});
+      EXPECT_EQ(found.circles, !expected.has_value());
+      if (expected) EXPECT_EQ(found.weight, *expected);
+      EXPECT_GT(found.weight, 0u);
+      task.budget = 2;
+      EXPECT_EQ(heaviestRun(layout, TaskId{t}).weight, std::min(found.weight, 2u));
+    }
+  }
+  EXPECT_GT(bounded, 50u);
+  EXPECT_GT(endless, 50u);
+}
+
+TEST(HeaviestRun, IsThatOfTheHeaviestPart) {
+  for (uint64_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    Module module = randomModule(seed, {.rungs = 40, .ops = 4, .jumps = false});
+    Task& task = module.tasks[0];
+    std::vector<Rung>& rungs = module.routines[task.entry.index].rungs;
+    const auto count = static_cast<uint32_t>(rungs.size());
+    for (uint32_t i = 0; i < count; ++i) rungs[i].weight = 1 + i * 7 % 5;
+    for (Rung& rung : rungs) rung.transfer = {};
+    task.parts = 3;
+    task.borders = {count / 4, count / 2};
+    if (count < 8) continue;
+    uint64_t most = 0;
+    for (const auto& [from, to] :
+         {std::pair(0u, count / 4), std::pair(count / 4, count / 2), std::pair(count / 2, count)}) {
+      uint64_t weight = 0;
+      for (uint32_t i = from; i < to; ++i) weight += rungs[i].weight;
+      most = std::max(most, weight);
+    }
+    EXPECT_EQ(heaviestRun(Layout(module, {.maxChunkRungs = 3}), TaskId{0}).weight, most);
+  }
+}
+
+// A routine of any length is no recursion of the compiler.
+TEST(HeaviestRun, OfManyRungs) {
+  Module module = randomModule(1, {.rungs = 4, .jumps = false});
+  std::vector<Rung>& rungs = module.routines[module.tasks[0].entry.index].rungs;
+  rungs.resize(200'000, rungs[0]);
+  for (Rung& rung : rungs) {
+    rung.weight = 2;
+    rung.transfer = {};
+  }
+  module.tasks[0].parts = 1;
+  module.tasks[0].borders.clear();
+  EXPECT_EQ(heaviestRun(Layout(module, {}), TaskId{0}).weight, 400'000u);
+}
+
+} // namespace
+} // namespace rung::ir

@@ -1,11 +1,16 @@
 // Chunks and exits of the reference interpreter (see interp.h); operations stand in rung_run.cpp.
 #include "ir/interp/interp.h"
 
+#include <algorithm>
+#include <array>
+
 #include "ir/interp/rung_run.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {
 namespace {
+
+constexpr size_t kOnStack = 4096; // values and operands: 32 kB
 
 std::vector<uint32_t> partnersOf(const Rung& rung) {
   std::vector<uint32_t> partners;
@@ -29,7 +34,7 @@ Destination reach(Destination to, rung_ctx& ctx) {
   return to;
 }
 
-Destination leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ctx& ctx) {
+Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& ctx) {
   if (exit.cond.valid() && values[exit.cond.index] == 0) return reach(exit.otherwise, ctx);
   switch (exit.kind) {
   case TransferKind::Next: return reach(exit.otherwise, ctx);
@@ -51,34 +56,42 @@ Destination leave(const Exit& exit, const std::vector<uint64_t>& values, rung_ct
 } // namespace
 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
-    : layout_(layout), counting_(counting), image_(layout, codeHash), functions_(layout.chunks().size(), &runChunk) {
+    : layout_(layout), counting_(counting), image_(layout, codeHash),
+      functions_(layout.chunks().size(), &chunkFunction) {
   image_.program().chunk_fns = functions_.data();
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {
       exits_.push_back(exitOf(layout, RoutineId{r}, i));
       partners_.push_back(partnersOf(routines[r].rungs[i]));
+      mostValues_ = std::max(mostValues_, routines[r].rungs[i].values.size());
+      for (const Op& op : routines[r].rungs[i].ops) mostArgs_ = std::max<size_t>(mostArgs_, op.argCount);
     }
 }
 
-uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
+bool InterpEngine::allocates() const { return mostValues_ + mostArgs_ > kOnStack; }
+
+uint32_t InterpEngine::chunkFunction(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
   RUNG_CHECK(ctx->engine != nullptr, "rung_ctx::engine is not set to the interpreter");
-  return static_cast<const InterpEngine*>(ctx->engine)->run(mem, *ctx, chunk);
+  return static_cast<const InterpEngine*>(ctx->engine)->runChunk(mem, *ctx, chunk);
 }
 
-uint32_t InterpEngine::run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
+uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
   const Chunk& place = layout_.chunks()[chunk];
-  std::vector<uint64_t> values;
+  std::array<uint64_t, kOnStack> few; // not cleared: that is done a rung at a time
+  std::vector<uint64_t> many;
+  if (allocates()) many.resize(mostValues_ + mostArgs_);
+  const std::span<uint64_t> room = allocates() ? std::span<uint64_t>(many) : std::span<uint64_t>(few);
   uint32_t extra = 0;
   Destination next{.rung = place.firstRung};
   while (next.inside()) {
     const Rung& rung = layout_.module().at(place.routine).rungs[next.rung];
     const uint32_t number = layout_.rungNumber(place.routine, next.rung);
-    values.assign(rung.values.size(), 0);
-    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values, counting_);
+    const std::span<uint64_t> values = room.first(rung.values.size());
+    std::ranges::fill(values, uint64_t{0});
+    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values, room.last(mostArgs_), counting_);
     const bool completed = run.run();
-    if (observer_ != nullptr)
-      observer_->rungRan(number, completed ? std::span<const uint64_t>(values) : std::span<const uint64_t>());
+    if (observer_ != nullptr) observer_->rungRan(number, completed ? values : std::span<const uint64_t>());
     if (!completed) return RUNG_PC_FAULT;
     next = leave(exits_[number], values, ctx);
     extra += next.extra;

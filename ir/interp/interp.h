@@ -40,12 +40,15 @@ public:
   const rung_program& program() const override { return image_.program(); }
   std::string_view name() const override { return "interp"; }
   void* context() override { return this; }
+  // What the program's functions do, for code that has other functions beside them.
+  uint32_t runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const;
+  // Whether some rung has so many values that running it needs memory from the heap.
+  bool allocates() const;
   // Null: none. The instances of an observed engine must not run at the same time.
   void setObserver(std::unique_ptr<RungObserver> observer) { observer_ = std::move(observer); }
 
 private:
-  static uint32_t runChunk(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
-  uint32_t run(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const;
+  static uint32_t chunkFunction(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 
   const Layout& layout_;
   Counting counting_;
@@ -56,6 +59,8 @@ private:
   // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:
   // each other). Empty for a rung without regions.
   std::vector<std::vector<uint32_t>> partners_;
+  size_t mostValues_ = 0; // that a rung has
+  size_t mostArgs_ = 0;   // that an operation has
 };
 
 } // namespace rung::ir

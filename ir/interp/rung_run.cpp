@@ -108,10 +108,8 @@ void RungRun::storeBitAt(const Op& op) {
 // The operands of `from` become the results of `to`, behind the first `skip`. Results may be operands too, when carried
 // values change places, so all are read first.
 void RungRun::giveArgs(const Op& from, const Op& to, uint32_t skip) {
-  if (from.argCount == 0) return;
-  std::vector<uint64_t> carried;
-  for (int i = 0; i < from.argCount; ++i) carried.push_back(in(from, i));
-  std::copy(carried.begin(), carried.end(), values_.begin() + to.result.index + skip);
+  for (int i = 0; i < from.argCount; ++i) carried_[static_cast<size_t>(i)] = in(from, i);
+  std::copy_n(carried_.begin(), from.argCount, values_.begin() + to.result.index + skip);
 }
 
 size_t RungRun::endLoop(const Op& op, size_t index) {

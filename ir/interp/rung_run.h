@@ -1,6 +1,7 @@
 // One run of one rung by the interpreter.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ir/interp/interp.h"
@@ -10,11 +11,12 @@ namespace rung::ir {
 
 class RungRun {
 public:
-  // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); all outlive the run.
+  // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); `carried` has one for
+  // each operand of any operation. All outlive the run.
   RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem,
-          rung_ctx& ctx, std::vector<uint64_t>& values, Counting counting)
+          rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting)
       : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values),
-        counting_(counting) {}
+        carried_(carried), counting_(counting) {}
 
   // False: a fault, which stands in the context.
   bool run();
@@ -53,7 +55,8 @@ private:
   const std::vector<uint32_t>& partners_;
   uint8_t* const mem_;
   rung_ctx& ctx_;
-  std::vector<uint64_t>& values_;
+  std::span<uint64_t> values_;
+  std::span<uint64_t> carried_;
   const Counting counting_;
   uint64_t operations_ = 0; // executed so far
 };

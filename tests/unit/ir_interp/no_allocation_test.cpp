@@ -1,0 +1,28 @@
+// The interpreter runs programs in real time, before their machine code is there: it asks nothing of the heap.
+#include <gtest/gtest.h>
+
+#include "ir/interp/interp.h"
+#include "ir/random/random.h"
+#include "rtlib/host/instance.h"
+#include "tests/support/count_allocations.h"
+
+namespace rung::ir {
+namespace {
+
+TEST(Interpreter, AllocatesNothingWhileItRuns) {
+  for (uint64_t seed = 0; seed < 100; ++seed) {
+    const Module module = randomModule(seed, {});
+    const Layout layout(module, {});
+    InterpEngine engine(layout, 0);
+    ASSERT_FALSE(engine.allocates());
+    host::Instance instance(engine);
+    allocations = 0;
+    counting = true;
+    for (int scan = 0; scan < 8; ++scan) instance.scan();
+    counting = false;
+    EXPECT_EQ(allocations, 0) << seed;
+  }
+}
+
+} // namespace
+} // namespace rung::ir

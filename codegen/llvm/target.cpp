@@ -8,11 +8,13 @@
 #include <llvm/Config/llvm-config.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/MC/TargetRegistry.h>
+#include <llvm/Support/ErrorHandling.h>
 #include <llvm/Support/TargetSelect.h>
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/SubtargetFeature.h>
 
 #include "codegen/llvm/llvm_module.h"
+#include "ir/support/check.h"
 
 namespace rung::codegen {
 namespace {
@@ -32,9 +34,13 @@ constexpr TargetRow kTargets[] = {
     {"riscv64-linux-gnu", "generic-rv64", "+m,+a,+f,+d,+c", "lp64d", false},
 };
 
+// What LLVM cannot go on with is an internal error like our own: a library throws it (ThrowingChecks).
+void fatalError(void*, const char* reason, bool) { checkFailed("LLVM", reason, __FILE__, __LINE__); }
+
 void initialiseLlvm() {
   static std::once_flag once;
   std::call_once(once, [] {
+    llvm::install_fatal_error_handler(&fatalError);
     llvm::InitializeAllTargetInfos();
     llvm::InitializeAllTargets();
     llvm::InitializeAllTargetMCs();

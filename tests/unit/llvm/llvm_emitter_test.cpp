@@ -8,9 +8,12 @@
 #include <cstring>
 #include <elf.h>
 #include <filesystem>
+#include <llvm/Support/ErrorHandling.h>
+#include <stdexcept>
 #include <unistd.h>
 
 #include "ir/random/random.h"
+#include "ir/support/check.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
@@ -227,6 +230,15 @@ TEST(LlvmSharedObject, ForEveryTarget) {
       EXPECT_THAT(object.exported, testing::ElementsAre(RUNG_PROGRAM_SYMBOL));
       EXPECT_THAT(object.needed, testing::IsEmpty());
     }
+}
+
+// What ends a compiler does not end its host.
+TEST(Llvm, FatalErrorsAreThrownInALibrary) {
+  const Module module = randomModule(5);
+  ASSERT_TRUE(buildLlvmSharedObject(Layout(module, {}), 42, {}).ok());
+  const ThrowingChecks throwing;
+  EXPECT_THROW(llvm::report_fatal_error("cannot select: something"), std::logic_error);
+  EXPECT_TRUE(buildLlvmSharedObject(Layout(module, {}), 42, {}).ok()) << "and it goes on";
 }
 
 } // namespace

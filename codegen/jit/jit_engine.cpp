@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <numeric>
+#include <stdexcept>
 #include <thread>
 
 #include <fmt/format.h>
@@ -16,40 +17,53 @@
 #include "codegen/jit/object_cache.h"
 #include "codegen/llvm/llvm_module.h"
 #include "ir/layout/program_image.h"
+#include "ir/support/check.h"
+#include "rtlib/host/realtime.h"
 
 namespace rung::codegen {
 
 using namespace ir;
 
 struct JitEngine::State {
-  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash) {}
+  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash), functions(layout.chunks().size()) {}
 
   ProgramImage image;
-  std::unique_ptr<llvm::orc::LLJIT> jit;
+  std::unique_ptr<JitCode> code;
   std::vector<rung_chunk_fn> functions; // by chunk
-  JitReport report;
+};
+
+struct JitCode::Linker {
+  std::unique_ptr<llvm::orc::LLJIT> jit;
+  std::string machine; // that the code is for
 };
 
 namespace {
 
-// Small enough that two threads share the work and that memory stays flat, large enough that a piece's own cost
-// vanishes.
-constexpr uint32_t kRungsPerPiece = 2048;
+// Small enough that threads share the work, that memory stays flat and that the first piece is soon there; large enough
+// that a piece's own cost vanishes.
+constexpr uint32_t kOpsPerPiece = 8192;
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
+
+uint32_t operationsOf(const Layout& layout, const Chunk& chunk) {
+  const std::vector<Rung>& rungs = layout.module().at(chunk.routine).rungs;
+  uint32_t ops = 0;
+  for (uint32_t i = 0; i < chunk.rungCount; ++i) ops += static_cast<uint32_t>(rungs[chunk.firstRung + i].ops.size());
+  return ops;
+}
 
 // Each of chunks that follow one another.
 std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t> chunks) {
   std::vector<ModulePart> pieces;
-  uint32_t rungs = kRungsPerPiece;
+  uint32_t ops = 0;
   for (const uint32_t chunk : chunks) {
     const bool follows = !pieces.empty() && pieces.back().firstChunk + pieces.back().chunkCount == chunk;
-    if (rungs >= kRungsPerPiece || !follows) {
+    if (ops >= kOpsPerPiece || !follows) {
       pieces.push_back({.firstChunk = chunk, .tableName = fmt::format("rung_chunks_{}", chunk)});
-      rungs = 0;
+      ops = 0;
     }
     ++pieces.back().chunkCount;
-    rungs += layout.chunks()[chunk].rungCount;
+    ops += operationsOf(layout, layout.chunks()[chunk]);
   }
   return pieces;
 }
@@ -67,60 +81,80 @@ Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const 
   return generateCode(*module.value(), *machine.value(), llvm::CodeGenFileType::ObjectFile);
 }
 
-// Compiles or finds all pieces; `report` tells how many of each.
+// By any thread: what fails within the compiler or LLVM ends the piece, and not the process.
+Result<std::string> containedPiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
+                                   const ModulePart& piece) {
+  try {
+    const ThrowingChecks throwing;
+    return compilePiece(layout, codeHash, options, piece);
+  } catch (const std::logic_error& error) {
+    return failure(error.what());
+  }
+}
+
+// Compiles or finds all pieces, and links each.
 class Compiler {
 public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
            std::span<const uint32_t> chunks, JitReport& report)
       : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout, chunks)),
-        objects_(pieces_.size()), cache_(options.cacheFolder), report_(report) {
+        cache_(options.cacheFolder), report_(report) {
+    report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
     if (options.cacheFolder.empty()) return;
     const CacheKeys keys(layout, codeHash, options.code, machine);
     for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
   }
 
-  Result<void> run() {
-    report_.modules = static_cast<uint32_t>(pieces_.size());
+  Result<void> run(llvm::orc::LLJIT& jit, const JitCode::Take& take, const std::atomic<bool>* stop) {
+    const auto work = [&] {
+      while (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
+        const size_t i = next_++;
+        if (i >= pieces_.size()) return;
+        doPiece(pieces_[i], jit, take);
+      }
+    };
     std::vector<std::thread> helpers;
     for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
-      helpers.emplace_back([this] { work(); });
+      helpers.emplace_back([&] {
+        host::runOrdinary();
+        work();
+      });
     work();
     for (std::thread& helper : helpers) helper.join();
     if (!trouble_.empty()) return failure(trouble_);
     return {};
   }
 
-  const std::vector<ModulePart>& pieces() const { return pieces_; }
-  std::string& object(size_t piece) { return objects_[piece]; }
-
 private:
-  void work() {
-    for (uint32_t i = next_++; i < pieces_.size(); i = next_++) {
-      if (std::optional<std::string> found = cache_.find(pieces_[i])) {
-        objects_[i] = std::move(*found);
-        const std::lock_guard lock(mutex_);
-        ++report_.fromCache;
-        continue;
-      }
-      Result<std::string> made = compilePiece(layout_, codeHash_, options_.code, pieces_[i]);
-      Result<void> kept = made.ok() ? cache_.keep(pieces_[i], made.value()) : Result<void>();
-      const std::lock_guard lock(mutex_);
-      if (!made.ok())
-        trouble_ = made.error();
-      else
-        objects_[i] = std::move(made).value();
-      if (!kept.ok()) report_.cacheTrouble = kept.error();
-    }
+  void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
+    std::optional<std::string> found = cache_.find(piece);
+    Result<std::string> object = found ? std::move(*found) : containedPiece(layout_, codeHash_, options_.code, piece);
+    const Result<void> kept = object.ok() && !found ? cache_.keep(piece, object.value()) : Result<void>();
+    const std::lock_guard lock(mutex_);
+    if (found) ++report_.fromCache;
+    if (!kept.ok()) report_.cacheTrouble = kept.error();
+    const Result<void> linked = object.ok() ? link(piece, object.value(), jit, take) : object.failure();
+    if (!linked.ok()) trouble_ = linked.error();
+  }
+
+  static Result<void> link(const ModulePart& piece, const std::string& object, llvm::orc::LLJIT& jit,
+                           const JitCode::Take& take) {
+    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(object, piece.tableName);
+    if (llvm::Error error = jit.addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
+    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(piece.tableName);
+    if (!table) return failure(textOf(table.takeError()));
+    const auto* functions = table->toPtr<const rung_chunk_fn*>();
+    for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
+    return {};
   }
 
   const Layout& layout_;
   uint64_t codeHash_;
   const JitOptions& options_;
   std::vector<ModulePart> pieces_;
-  std::vector<std::string> objects_;
   ObjectCache cache_;
-  std::atomic<uint32_t> next_{0};
-  std::mutex mutex_; // of what follows
+  std::atomic<size_t> next_{0};
+  std::mutex mutex_; // of what follows, and of linking
   JitReport& report_;
   std::string trouble_;
 };
@@ -146,72 +180,44 @@ Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) 
   return std::move(*jit);
 }
 
-// Gives each chunk's number and function to `take`, in their order.
-template <class Take>
-Result<std::unique_ptr<llvm::orc::LLJIT>> compileAndLink(const Layout& layout, uint64_t codeHash,
-                                                         const JitOptions& options, std::span<const uint32_t> chunks,
-                                                         JitReport& report, Take take) {
+} // namespace
+
+JitCode::JitCode(const JitOptions& options, std::unique_ptr<Linker> linker)
+    : options_(options), linker_(std::move(linker)) {}
+JitCode::~JitCode() = default;
+
+Result<std::unique_ptr<JitCode>> JitCode::make(const JitOptions& options) {
   if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
   Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
   if (!machine.ok()) return machine.failure();
-  Compiler compiler(layout, codeHash, options, describeMachine(*machine.value()), chunks, report);
-  if (Result<void> compiled = compiler.run(); !compiled.ok()) return compiled.failure();
-  Result<std::unique_ptr<llvm::orc::LLJIT>> linker = makeLinker(options);
-  if (!linker.ok()) return linker.failure();
-  llvm::orc::LLJIT& jit = *linker.value();
-  for (size_t i = 0; i < compiler.pieces().size(); ++i) {
-    const ModulePart& piece = compiler.pieces()[i];
-    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(compiler.object(i), piece.tableName);
-    if (llvm::Error error = jit.addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
-    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(piece.tableName);
-    if (!table) return failure(textOf(table.takeError()));
-    const auto* functions = table->toPtr<const rung_chunk_fn*>();
-    for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
-  }
-  return linker;
+  Result<std::unique_ptr<llvm::orc::LLJIT>> jit = makeLinker(options);
+  if (!jit.ok()) return jit.failure();
+  auto linker = std::make_unique<Linker>(std::move(jit).value(), describeMachine(*machine.value()));
+  return std::unique_ptr<JitCode>(new JitCode(options, std::move(linker)));
 }
 
-} // namespace
+Result<void> JitCode::compile(const Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks,
+                              const Take& take, const std::atomic<bool>* stop) {
+  return Compiler(layout, codeHash, options_, linker_->machine, chunks, report_).run(*linker_->jit, take, stop);
+}
 
 JitEngine::JitEngine(std::unique_ptr<State> state) : state_(std::move(state)) {}
 JitEngine::~JitEngine() = default;
 const rung_program& JitEngine::program() const { return state_->image.program(); }
-const JitReport& JitEngine::report() const { return state_->report; }
+const JitReport& JitEngine::report() const { return state_->code->report(); }
 
 Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t codeHash, const JitOptions& options) {
+  Result<std::unique_ptr<JitCode>> code = JitCode::make(options);
+  if (!code.ok()) return code.failure();
   auto state = std::make_unique<JitEngine::State>(layout, codeHash);
+  state->code = std::move(code).value();
   std::vector<uint32_t> all(layout.chunks().size());
   std::iota(all.begin(), all.end(), 0);
-  Result<std::unique_ptr<llvm::orc::LLJIT>> jit =
-      compileAndLink(layout, codeHash, options, all, state->report,
-                     [&](uint32_t, rung_chunk_fn function) { state->functions.push_back(function); });
-  if (!jit.ok()) return jit.failure();
-  state->jit = std::move(jit).value();
+  const Result<void> compiled = state->code->compile(
+      layout, codeHash, all, [&](uint32_t chunk, rung_chunk_fn function) { state->functions[chunk] = function; });
+  if (!compiled.ok()) return compiled.failure();
   state->image.program().chunk_fns = state->functions.data();
   return std::unique_ptr<JitEngine>(new JitEngine(std::move(state)));
-}
-
-struct JitChunks::State {
-  std::unique_ptr<llvm::orc::LLJIT> jit;
-};
-
-JitChunks::JitChunks(std::unique_ptr<State> state, std::vector<Chunk> chunks)
-    : state_(std::move(state)), chunks_(std::move(chunks)) {}
-JitChunks::~JitChunks() = default;
-
-Result<std::unique_ptr<JitChunks>> compileChunks(const Layout& layout, std::span<const uint32_t> chunks,
-                                                 const JitOptions& options) {
-  JitOptions uncached = options;
-  uncached.cacheFolder.clear();
-  JitReport report;
-  std::vector<JitChunks::Chunk> made;
-  Result<std::unique_ptr<llvm::orc::LLJIT>> jit =
-      compileAndLink(layout, 0, uncached, chunks, report, [&](uint32_t number, rung_chunk_fn function) {
-        made.push_back({.number = number, .function = function});
-      });
-  if (!jit.ok()) return jit.failure();
-  auto state = std::make_unique<JitChunks::State>(std::move(jit).value());
-  return std::unique_ptr<JitChunks>(new JitChunks(std::move(state), std::move(made)));
 }
 
 } // namespace rung::codegen

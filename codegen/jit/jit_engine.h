@@ -1,11 +1,12 @@
 // JIT: a layout becomes machine code in this process, behind the Engine interface. Free of LLVM.
 #pragma once
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "codegen/llvm/llvm_emitter.h"
 #include "rtlib/host/engine.h"
@@ -26,6 +27,30 @@ struct JitReport {
   std::string cacheTrouble; // why a piece could not be kept; the code is good all the same
 };
 
+// Machine code of chunks, for the pieces of a program one after the other.
+class JitCode {
+public:
+  // One thread at a time calls it, any of those that compile.
+  using Take = std::function<void(uint32_t chunk, rung_chunk_fn function)>;
+
+  static Result<std::unique_ptr<JitCode>> make(const JitOptions& options);
+  ~JitCode();
+
+  // `chunks`: ascending, each once in the life of the code. Those of a piece are taken once the piece is there, and
+  // stay as long as the code, also after a failure. Ends early, and with success, when `stop` (which may be null) says
+  // so. `codeHash`: of the whole program, for the cache.
+  Result<void> compile(const ir::Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks, const Take& take,
+                       const std::atomic<bool>* stop = nullptr);
+  const JitReport& report() const { return report_; } // of the last compilation
+
+private:
+  struct Linker;
+  JitCode(const JitOptions& options, std::unique_ptr<Linker> linker);
+  JitOptions options_;
+  std::unique_ptr<Linker> linker_;
+  JitReport report_;
+};
+
 class JitEngine final : public host::Engine {
 public:
   ~JitEngine() override;
@@ -40,29 +65,6 @@ private:
                                                        const JitOptions& options);
   std::unique_ptr<State> state_;
 };
-
-// Code of some chunks of a program, to run in the place of what the program has for them.
-class JitChunks {
-public:
-  ~JitChunks();
-  struct Chunk {
-    uint32_t number = 0;
-    rung_chunk_fn function = nullptr;
-  };
-  std::span<const Chunk> chunks() const { return chunks_; }
-
-private:
-  struct State;
-  explicit JitChunks(std::unique_ptr<State> state, std::vector<Chunk> chunks);
-  friend Result<std::unique_ptr<JitChunks>> compileChunks(const ir::Layout& layout, std::span<const uint32_t> chunks,
-                                                          const JitOptions& options);
-  std::unique_ptr<State> state_;
-  std::vector<Chunk> chunks_;
-};
-
-// `chunks`: ascending. Without a cache. The layout need not outlive the code.
-Result<std::unique_ptr<JitChunks>> compileChunks(const ir::Layout& layout, std::span<const uint32_t> chunks,
-                                                 const JitOptions& options);
 
 // `codeHash` goes into the program's tables. The layout need not outlive the engine.
 Result<std::unique_ptr<JitEngine>> compileJit(const ir::Layout& layout, uint64_t codeHash, const JitOptions& options);

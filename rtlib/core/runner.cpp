@@ -1,6 +1,7 @@
 // The chunk loop, the border copies and the schedule.
 #include "rtlib/core/runner.h"
 
+#include <atomic>
 #include <cstring>
 
 #include "rtlib/core/float_environment.h"
@@ -104,6 +105,16 @@ void Runner::copy(uint32_t first, uint32_t count) noexcept {
   hold();
 }
 
+namespace {
+
+// The host may exchange a function while chunks run: another thread, with code that does the same. The tables of a
+// program that is loaded are constants, from which an atomic read is one read, too.
+rung_chunk_fn functionOf(const rung_chunk_fn* functions, uint32_t chunk) noexcept {
+  return std::atomic_ref<rung_chunk_fn>(const_cast<rung_chunk_fn&>(functions[chunk])).load(std::memory_order_acquire);
+}
+
+} // namespace
+
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
   ctx_->fault.code = task.budget_fault;
   ctx_->fault.rung = chunk.first_rung;
@@ -122,7 +133,7 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     const rung_chunk& chunk = chunks[pc];
     if (chunk.weight > budget) return overrun(task, chunk);
     budget -= chunk.weight;
-    pc = functions[pc](memory_, ctx_, pc);
+    pc = functionOf(functions, pc)(memory_, ctx_, pc);
     if constexpr (Timed)
       if (isLate()) return overrun(task, chunk);
     if (ctx_->extra_weight == 0) continue;

@@ -639,7 +639,7 @@ class Products(Cli):
         cache.chmod(0o777)
         done = rungc("run", source, "--cache", str(cache))
         self.assertEqual(done.returncode, OK)
-        self.assertIn(b"nothing is taken from or kept in --cache: cannot use the folder", done.stderr)
+        self.assertIn(b"nothing is taken from or kept in the cache: cannot use the folder", done.stderr)
         self.assertIn(b"every user may write to it (mode 0777)", done.stderr)
 
 

@@ -135,7 +135,7 @@ int32_t compileInto(const rung_source* sources, uint32_t count, const rung_compi
   request.dialect = options.dialect != nullptr ? options.dialect : "";
   request.options.strict = (options.flags & RUNG_COMPILE_STRICT) != 0;
   request.instrument = (options.flags & RUNG_COMPILE_PROFILE) != 0;
-  constexpr EngineKind kKinds[] = {EngineKind::Jit, EngineKind::Jit, EngineKind::Interp}; // by rung_engine
+  constexpr EngineKind kKinds[] = {EngineKind::Jit, EngineKind::Jit, EngineKind::Interp, EngineKind::Tiered};
   to.kind = kKinds[options.engine];
   to.engine.optimise = options.engine != RUNG_ENGINE_FAST;
   to.engine.debugger = (options.flags & RUNG_COMPILE_DEBUG) != 0;
@@ -164,7 +164,7 @@ int32_t rung_compile(const rung_source* sources, uint32_t count, const rung_comp
     return fail(RUNG_BAD_ARGUMENT, "rung_compile needs a source at least, and a place for the compilation");
   rung_compile_options given{};
   if (!runtime::takeStruct(options, given)) return runtime::failSize("rung_compile_options");
-  if (given.engine > RUNG_ENGINE_INTERP) return fail(RUNG_BAD_ARGUMENT, "%u is not an enum rung_engine", given.engine);
+  if (given.engine > RUNG_ENGINE_TIERED) return fail(RUNG_BAD_ARGUMENT, "%u is not an enum rung_engine", given.engine);
   return contained([&] {
     auto made = std::make_unique<rung_compilation>();
     const int32_t status = compileInto(sources, count, given, *made);

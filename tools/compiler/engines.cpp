@@ -11,6 +11,7 @@
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
+#include "tools/compiler/tiered.h"
 
 namespace rung::compiler {
 namespace {
@@ -19,8 +20,11 @@ struct NamedEngine {
   EngineKind kind;
   std::string_view name;
 };
-constexpr std::array<NamedEngine, 4> kEngines = {
-    {{EngineKind::Interp, "interp"}, {EngineKind::Cpp, "cpp"}, {EngineKind::Llvm, "llvm"}, {EngineKind::Jit, "jit"}}};
+constexpr std::array<NamedEngine, 5> kEngines = {{{EngineKind::Interp, "interp"},
+                                                  {EngineKind::Cpp, "cpp"},
+                                                  {EngineKind::Llvm, "llvm"},
+                                                  {EngineKind::Jit, "jit"},
+                                                  {EngineKind::Tiered, "tiered"}}};
 
 // A loaded shared object under the name of the engine that made it; the file is needed no longer once it is loaded.
 class BuiltEngine final : public host::Engine {
@@ -80,11 +84,7 @@ std::optional<EngineKind> engineFromName(std::string_view name) {
 }
 
 std::span<const EngineKind> allEngines() {
-  static constexpr std::array<EngineKind, kEngines.size()> kAll = [] {
-    std::array<EngineKind, kEngines.size()> kinds{};
-    for (size_t i = 0; i < kinds.size(); ++i) kinds[i] = kEngines[i].kind;
-    return kinds;
-  }();
+  static constexpr std::array kAll = {EngineKind::Interp, EngineKind::Cpp, EngineKind::Llvm, EngineKind::Jit};
   return kAll;
 }
 
@@ -126,13 +126,21 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     if (!engine.ok()) return engine.failure();
     return std::unique_ptr<host::Engine>(std::move(engine).value());
   }
+  case EngineKind::Tiered: {
+    Result<std::unique_ptr<TieredEngine>> engine =
+        TieredEngine::make(compiled, jitOptionsOf(options), countingOf(options));
+    if (!engine.ok()) return engine.failure();
+    return std::unique_ptr<host::Engine>(std::move(engine).value());
+  }
   }
   return failure("unknown engine");
 }
 
-std::string cacheTrouble(const host::Engine& engine) {
-  const auto* jit = dynamic_cast<const codegen::JitEngine*>(&engine);
-  return jit != nullptr ? jit->report().cacheTrouble : "";
+std::string codeTrouble(host::Engine& engine) {
+  if (const auto* jit = dynamic_cast<const codegen::JitEngine*>(&engine))
+    return cacheTroubleText(jit->report().cacheTrouble);
+  auto* tiered = dynamic_cast<TieredEngine*>(&engine);
+  return tiered != nullptr ? tiered->problem() : "";
 }
 
 } // namespace rung::compiler

@@ -21,10 +21,12 @@ enum class EngineKind : uint8_t {
   Cpp,    // generated C++, built to a shared object and loaded
   Llvm,   // LLVM object file, linked to a shared object and loaded
   Jit,    // LLVM, compiled in the process
+  Tiered, // the interpreter until the code of the JIT is there (tiered.h)
 };
 
 std::string_view engineName(EngineKind kind);
 std::optional<EngineKind> engineFromName(std::string_view name);
+// Those that translate a program each in its own way: all but the last.
 std::span<const EngineKind> allEngines();
 
 struct EngineOptions {
@@ -49,9 +51,9 @@ Result<std::string> sharedObject(const Compiled& compiled, const EngineOptions& 
 codegen::JitOptions jitOptionsOf(const EngineOptions& options);
 ir::Counting countingOf(const EngineOptions& options);
 
-// Why the JIT could not keep its code in the cache folder, or must not take any from there; empty when it could, or
-// when no folder was given. The engine works either way.
-std::string cacheTrouble(const host::Engine& engine);
+// What was wrong with code that is made while the program runs already; waits for it where a cache keeps it. "" also
+// when none is made. The engine works either way.
+std::string codeTrouble(host::Engine& engine);
 
 // The C++ compiler to use when none is named: $CXX, else the first installed of clang++-19, g++, c++.
 std::string defaultCppCompiler();

@@ -6,6 +6,7 @@
 #include "codegen/jit/jit_engine.h"
 #include "ir/interp/interp.h"
 #include "ir/passes/force.h"
+#include "tools/compiler/tiered.h"
 
 namespace rung::compiler {
 namespace {
@@ -60,15 +61,39 @@ private:
 
 class NativeCode final : public ForcedCode {
 public:
-  NativeCode(std::unique_ptr<codegen::JitChunks> changed, const rung_program& running, void* engine)
-      : changed_(std::move(changed)), functions_(running.chunk_fns, running.chunk_fns + running.chunk_count) {
-    for (const codegen::JitChunks::Chunk& chunk : changed_->chunks()) functions_[chunk.number] = chunk.function;
+  NativeCode(const rung_program& running, void* engine)
+      : functions_(running.chunk_count), isChanged_(running.chunk_count) {
     code_ = {functions_.data(), engine};
+  }
+  ~NativeCode() override {
+    if (tiers_ != nullptr) tiers_->unfollow(functions_);
+  }
+
+  Result<void> change(const ForcedProgram& program, std::span<const uint32_t> chunks,
+                      const codegen::JitOptions& options) {
+    for (const uint32_t chunk : chunks) isChanged_[chunk] = true;
+    Result<std::unique_ptr<codegen::JitCode>> code = codegen::JitCode::make(options);
+    if (!code.ok()) return code.failure();
+    changed_ = std::move(code).value();
+    return changed_->compile(program.layout, 0, chunks,
+                             [&](uint32_t chunk, rung_chunk_fn function) { functions_[chunk] = function; });
+  }
+
+  // The other chunks: as the program has them, or will have them.
+  void keep(const rung_chunk_fn* functions) {
+    for (size_t chunk = 0; chunk < functions_.size(); ++chunk)
+      if (!isChanged_[chunk]) functions_[chunk] = functions[chunk];
+  }
+  void keep(std::shared_ptr<TierTables> tiers) {
+    tiers_ = std::move(tiers);
+    tiers_->follow(functions_, isChanged_);
   }
 
 private:
-  std::unique_ptr<codegen::JitChunks> changed_;
-  std::vector<rung_chunk_fn> functions_;
+  std::unique_ptr<codegen::JitCode> changed_;
+  std::vector<rung_chunk_fn> functions_; // by chunk
+  std::vector<bool> isChanged_;
+  std::shared_ptr<TierTables> tiers_;
 };
 
 } // namespace
@@ -79,10 +104,16 @@ Result<std::unique_ptr<ForcedCode>> makeForcedCode(const Compiled& source, Engin
   if (kind == EngineKind::Interp)
     return std::unique_ptr<ForcedCode>(std::make_unique<InterpretedCode>(source, options, running, forced));
   const ForcedProgram program(source, forced);
-  Result<std::unique_ptr<codegen::JitChunks>> chunks =
-      codegen::compileChunks(program.layout, program.chunksUnlike(*source.module), jitOptionsOf(options));
-  if (!chunks.ok()) return chunks.failure();
-  return std::unique_ptr<ForcedCode>(std::make_unique<NativeCode>(std::move(chunks).value(), running, engine));
+  auto code = std::make_unique<NativeCode>(running, engine);
+  codegen::JitOptions jit = jitOptionsOf(options);
+  jit.cacheFolder.clear();
+  const Result<void> changed = code->change(program, program.chunksUnlike(*source.module), jit);
+  if (!changed.ok()) return changed.failure();
+  if (kind == EngineKind::Tiered)
+    code->keep(static_cast<const TieredEngine*>(engine)->tables());
+  else
+    code->keep(running.chunk_fns);
+  return std::unique_ptr<ForcedCode>(std::move(code));
 }
 
 } // namespace rung::compiler

@@ -62,7 +62,8 @@ Result<profile::Baseline> openBaseline(const std::string& path) {
 int runProfile(const ProfileOptions& options) {
   profile::Request request;
   const auto engine = compiler::engineFromName(options.engine);
-  if (!engine) return usageError("--engine takes one of interp, cpp, llvm and jit");
+  if (!engine || *engine == compiler::EngineKind::Tiered) // whose times are of two engines
+    return usageError("--engine takes one of interp, cpp, llvm and jit");
   request.engine = *engine;
   request.order = options.by == "time" ? profile::Order::Time : profile::Order::Operations;
   request.repeat = options.repeat;

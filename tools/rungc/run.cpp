@@ -30,8 +30,8 @@ namespace {
 
 struct RunOptions {
   SourceOptions source;
-  ConfigPairs config; // of the source options
-  std::string engine = "jit";
+  ConfigPairs config;            // of the source options
+  std::string engine;            // "": tiered, for a debugger jit
   std::optional<uint64_t> scans; // one, where nothing else drives the program
   std::string duration;
   int64_t forUs = 0;
@@ -324,6 +324,8 @@ private:
       warn_(console::faultLine(session_.instance()));
       status = kWrong;
     }
+    for (const Program& program : programs_)
+      if (const std::string trouble = compiler::codeTrouble(*program.engine); !trouble.empty()) warn_(trouble);
     // What cannot be written is worse: the run may have been right.
     if (retained_)
       if (const std::string error = retained_->finish(); !error.empty()) status = environmentError(error);
@@ -368,9 +370,10 @@ std::optional<Program> openSharedObject(const RunOptions& options, const std::st
 }
 
 std::optional<Program> compileProgram(const RunOptions& options, const SourceOptions& source, int& status) {
-  const auto kind = compiler::engineFromName(options.engine);
+  const std::string name = !options.engine.empty() ? options.engine : options.debugger ? "jit" : "tiered";
+  const auto kind = compiler::engineFromName(name);
   if (!kind) {
-    status = usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm and jit", options.engine));
+    status = usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm, jit and tiered", name));
     return std::nullopt;
   }
   SourceManager sources;
@@ -393,8 +396,6 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
     return std::nullopt;
   }
   program.engine = std::move(engine).value();
-  if (const std::string trouble = compiler::cacheTrouble(*program.engine); !trouble.empty())
-    fmt::print(stderr, "rungc: nothing is taken from or kept in --cache: {}\n", trouble);
   return program;
 }
 
@@ -429,8 +430,9 @@ void addRun(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("run", "Run a program, from source or from a shared object");
   auto options = std::make_shared<RunOptions>();
   addSourceOptions(*command, options->source);
-  command->add_option("--engine", options->engine, "interp, cpp, llvm or jit; a shared object brings its own")
-      ->capture_default_str();
+  command->add_option("--engine", options->engine,
+                      "interp, cpp, llvm, jit, or tiered: interp until the code of jit is there. Default: tiered, with "
+                      "--debugger jit; a shared object brings its own");
   CLI::Option* scans = command
                            ->add_option("--scans", options->scans,
                                         "Number of scans; default: 1, with --scenario or --prompt none of its own")
@@ -465,7 +467,7 @@ void addRun(CLI::App& app, int& status) {
       "--retain", options->retain,
       "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");
   command->add_option("--cache", options->cache,
-                      "Folder for compiled code of engine jit, to start the same program faster");
+                      "Folder for compiled code of engines jit and tiered, to start the same program faster");
   addLevelOption(*command, options->level);
   // The scenario may name the program, so it is read before the program is looked for.
   command->parse_complete_callback([command, options] {

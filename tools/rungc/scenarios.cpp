@@ -16,7 +16,8 @@ Result<std::vector<compiler::EngineKind>> enginesOf(const std::string& names) {
       continue;
     }
     const auto kind = compiler::engineFromName(name);
-    if (!kind) return failure(fmt::format("unknown engine '{}'; there are interp, cpp, llvm, jit and all", name));
+    if (!kind)
+      return failure(fmt::format("unknown engine '{}'; there are interp, cpp, llvm, jit, tiered and all", name));
     engines.push_back(*kind);
   }
   return engines;

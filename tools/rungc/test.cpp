@@ -155,7 +155,9 @@ void addTest(CLI::App& app, int& status) {
       "SCENARIO", options->names,
       "Scenario files; folders: the scenarios of the project in it, else every *.scn below; without any, those of the "
       "project of the working directory");
-  command->add_option("--engine", options->engines, "interp, cpp, llvm, jit, a list of them with commas, or all")
+  command
+      ->add_option("--engine", options->engines,
+                   "interp, cpp, llvm, jit, tiered, a list of them with commas, or all: the first four")
       ->capture_default_str();
   command->add_option("-j,--jobs", options->threads, "How many scenarios run at a time; default: one per processor")
       ->check(CLI::Range(1u, 256u));

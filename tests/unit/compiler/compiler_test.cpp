@@ -60,7 +60,7 @@ void expectLatch(const rung::Image& image) {
 }
 
 TEST(Compiler, EveryEngineRunsTheProgram) {
-  for (const rung_engine engine : {RUNG_ENGINE_JIT, RUNG_ENGINE_FAST, RUNG_ENGINE_INTERP}) {
+  for (const rung_engine engine : {RUNG_ENGINE_JIT, RUNG_ENGINE_FAST, RUNG_ENGINE_INTERP, RUNG_ENGINE_TIERED}) {
     SCOPED_TRACE(engine);
     const Compilation compilation(kLatch, {.engine = static_cast<uint32_t>(engine)});
     ASSERT_EQ(compilation.status(), RUNG_OK) << rung_compiler_error_text();
@@ -127,7 +127,7 @@ void expectForced(rung::Instance& plc) {
 }
 
 TEST(Compiler, ACellThatTheProgramWritesIsForced) {
-  for (const rung_engine engine : {RUNG_ENGINE_JIT, RUNG_ENGINE_FAST, RUNG_ENGINE_INTERP}) {
+  for (const rung_engine engine : {RUNG_ENGINE_JIT, RUNG_ENGINE_FAST, RUNG_ENGINE_INTERP, RUNG_ENGINE_TIERED}) {
     SCOPED_TRACE(engine);
     const Compilation compilation(kLatch, {.engine = static_cast<uint32_t>(engine)});
     const rung::Image image = compilation.image();

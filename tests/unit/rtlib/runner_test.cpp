@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cfenv>
+#include <thread>
 #include <vector>
 
 #include "rtlib/core/float_environment.h"
@@ -127,6 +129,23 @@ TEST_F(RunnerTest, RunsChunksOfAnInterpreter) {
   const uint32_t task = test.addTask("MAIN", 0);
   EXPECT_TRUE(start().runTask(task));
   EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+}
+
+// Another thread enters other code for a chunk while chunks run.
+TEST_F(RunnerTest, RunsChunksWhoseCodeIsExchanged) {
+  constexpr rung_chunk_fn kOne = [](uint8_t* mem, rung_ctx* ctx, uint32_t) { return ++mem[0], popChunk(ctx); };
+  constexpr rung_chunk_fn kOther = [](uint8_t* mem, rung_ctx* ctx, uint32_t) { return mem[0] += 1, popChunk(ctx); };
+  test.addTask("MAIN", test.addChunk(kOne));
+  Runner& running = start();
+  std::atomic<bool> end{false};
+  std::thread exchanging([&] {
+    for (uint32_t i = 0; !end; ++i)
+      std::atomic_ref(test.functions[0]).store(i % 2 == 0 ? kOne : kOther, std::memory_order_release);
+  });
+  for (int i = 0; i < 10'000; ++i) ASSERT_TRUE(running.runTask(0));
+  end = true;
+  exchanging.join();
+  EXPECT_EQ(memory[0], 10'000 % 256);
 }
 
 TEST_F(RunnerTest, BudgetStopsAnEndlessLoopAndNamesItsRung) {

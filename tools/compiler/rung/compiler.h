@@ -45,6 +45,7 @@ enum rung_engine {
   RUNG_ENGINE_JIT = 0,    /* machine code, optimised */
   RUNG_ENGINE_FAST = 1,   /* machine code, compiled fast */
   RUNG_ENGINE_INTERP = 2, /* the interpreter: there at once, and slow */
+  RUNG_ENGINE_TIERED = 3, /* the interpreter until optimised machine code is there, which helper threads compile */
 };
 
 enum rung_compile_flags {

@@ -33,10 +33,10 @@ from ctypes import (CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int
                     c_uint64, c_void_p)
 from keyword import iskeyword
 
-__all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Direction", "Error", "Fault",
-           "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power", "Profile", "Replacement",
-           "Report", "Request", "Sample", "State", "StateFlags", "Status", "Symbol", "SymbolFlags", "Type", "Watch",
-           "version",
+__all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Difference", "Direction", "Error",
+           "Fault", "Force", "Forces", "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power",
+           "Profile", "Replacement", "Report", "Request", "Sample", "Shadow", "ShadowReport", "ShadowState", "State",
+           "StateFlags", "Status", "Symbol", "SymbolFlags", "Trace", "Type", "Watch", "version",
            "COLD", "WARM", "READ", "WRITE", "TO_PROGRAM", "FROM_PROGRAM", "M", "S", "T", "B", "QUEUE"]
 
 _MAJOR, _MINOR = 0, 1  # of the header that this module was written for
@@ -140,6 +140,16 @@ class ChangeKind(enum.IntEnum):
     RENAMED = 3
     RETYPED = 4
     RELEASED = 5
+
+
+class ShadowState(enum.IntEnum):
+    """Of a Shadow."""
+    PREPARED = 0
+    RUNNING = 1
+    FINISHED = 2
+    TOO_SLOW = 3
+    STOPPED = 4
+    FAULTED = 5
 
 
 class _Answering(enum.IntEnum):
@@ -270,12 +280,22 @@ class rung_sample(_Struct):
 
 class rung_replacement_info(_Struct):
     _fields_ = [("size", c_uint32), ("kept_cells", c_uint32), ("kept_states", c_uint32), ("changes", c_uint32),
-                ("bytes", c_uint64)]
+                ("bytes", c_uint64), ("steps", c_uint64), ("slice_ns", c_uint64), ("period_ns", c_uint64)]
 
 
 class rung_change(_Struct):
     _fields_ = [("size", c_uint32), ("kind", c_uint32), ("is_state", c_uint32), ("reserved", c_uint32),
                 ("name", c_char_p), ("former", c_char_p)]
+
+
+class rung_shadow_info(_Struct):
+    _fields_ = [("size", c_uint32), ("state", c_uint32), ("differences", c_uint32), ("reserved", c_uint32),
+                ("runs", c_uint64), ("fault", c_char_p)]
+
+
+class rung_difference(_Struct):
+    _fields_ = [("size", c_uint32), ("type", c_uint32), ("name", c_char_p), ("first_us", c_int64), ("runs", c_uint64),
+                ("running", rung_value), ("next", rung_value)]
 
 
 class rung_forced_cell(ctypes.Structure):
@@ -350,6 +370,9 @@ Profile = _record("Profile", rung_profile, "Of Instance.profile: a rung, how oft
                   "compiler's.")
 Sample = _record("Sample", rung_sample, "Of a Watch: when its values were so.")
 Report = _record("Report", rung_replacement_info, "Of Replacement.report.")
+ShadowReport = _record("ShadowReport", rung_shadow_info, "Of Shadow.report.", state=_member_of(ShadowState))
+Difference = _record("Difference", rung_difference, "Of Shadow.differences. type None: a service that the new program "
+                     "alone requests. running, next: a float or an int.", type=lambda t: _member(Type, t) if t else None)
 Force = _record("Force", rung_force_info, "Of Instance.forced: a cell that is held at a value. value: a float or an int.",
                 type=_member_of(Type))
 Change = _record("Change", rung_change, "Of Replacement.changes.", kind=_member_of(ChangeKind), is_state=bool)
@@ -500,8 +523,15 @@ _FUNCTIONS = {
     "rung_replacement_new": (c_int32, _Handle, _Handle, c_void_p, c_size_t, _New),
     "rung_replacement_free": (c_int32, _Handle),
     "rung_replacement_report": (c_int32, _Handle, POINTER(rung_replacement_info)),
+    "rung_replacement_allow_late": (c_int32, _Handle),
     "rung_replacement_change": (c_int32, _Handle, _U32, POINTER(rung_change)),
     "rung_instance_replace": (c_int32, _Handle, _Handle),
+    "rung_shadow_new": (c_int32, _Handle, _Handle, _U32, _U32, _New),
+    "rung_shadow_free": (c_int32, _Handle),
+    "rung_instance_shadow": (c_int32, _Handle, _Handle),
+    "rung_shadow_work": (c_int32, _Handle),
+    "rung_shadow_report": (c_int32, _Handle, POINTER(rung_shadow_info)),
+    "rung_shadow_difference": (c_int32, _Handle, _U32, POINTER(rung_difference)),
     "rung_forces_new": (c_int32, _Handle, _Handle, POINTER(rung_forced_cell), _U32, _New),
     "rung_forces_free": (c_int32, _Handle),
     "rung_instance_force": (c_int32, _Handle, _Handle),
@@ -996,6 +1026,12 @@ class Instance(_Closing):
         WRONG_STATE, it was made for another program than the one that runs; BAD_ARGUMENT, for another instance."""
         return _call(_library.rung_instance_replace, self, replacement) != Status.LATER
 
+    def shadow(self, shadow):
+        """A Shadow begins with the state of this moment; None ends the one that runs. False: not at this moment, try
+        again after the next slice, or a fault has stopped the program. Error: WRONG_STATE, there is a shadow already,
+        or it was made for another program or has begun before; BAD_ARGUMENT, for another instance."""
+        return _call(_library.rung_instance_shadow, self, _Handle() if shadow is None else shadow) == Status.OK
+
     # -- forcing --
 
     def force(self, forces):
@@ -1098,15 +1134,50 @@ class Replacement(_Part):
         super().__init__(plc, "rung_replacement_free", _library.rung_replacement_new, image, None, 0)
 
     def report(self):
-        """A Report of what replace would do now: how many names and states stay, how many change, and the bytes that
-        are copied."""
+        """A Report of what replace would do now: how many names and states stay, how many change, the bytes that are
+        copied; and how long a slice of the new program may last on this machine, and how long it may."""
         report = rung_replacement_info()
         _call(_library.rung_replacement_report, self, byref(report))
         return report.shown()
 
+    def allow_late(self):
+        """Lets the new program take over although a slice of it may last longer than its period."""
+        _call(_library.rung_replacement_allow_late, self)
+
     def changes(self):
         """What replace would change now: a list of Change, cells before states, each in the order of their names."""
         return [change.shown() for change in _each(self, _library.rung_replacement_change, rung_change)]
+
+
+class Shadow(_Part):
+    """Another program that runs beside the one of an instance, on what that one reads and is answered, so that its
+    outputs can be compared before it takes over (Instance.shadow). Nothing of it gets out.
+
+    It ends by close, at the end of its `with`, or with its instance.
+    """
+
+    def __init__(self, plc, image, passes, room=64):
+        """For so many passes of the schedule, with room for so many runs of tasks that wait for `work`. Error: REFUSED,
+        a program of another dialect or schedule; BAD_ARGUMENT; OUT_OF_MEMORY."""
+        super().__init__(plc, "rung_shadow_free", _library.rung_shadow_new, image, _integer(passes, 0, _NONE),
+                         _integer(room, 0, _NONE))
+
+    def work(self):
+        """Runs and compares one run of a task that was recorded. False: none waits."""
+        return _call(_library.rung_shadow_work, self) == Status.OK
+
+    def report(self):
+        """A ShadowReport."""
+        report = rung_shadow_info()
+        _call(_library.rung_shadow_report, self, byref(report))
+        return report.shown()
+
+    def differences(self):
+        """What the last report has counted: a list of Difference, in the order of their names."""
+        def shown(difference):
+            of = (lambda value: value.real) if difference.type == Type.F64 else (lambda value: value.integer)
+            return difference.shown()._replace(running=of(difference.running), next=of(difference.next))
+        return [shown(difference) for difference in _each(self, _library.rung_shadow_difference, rung_difference)]
 
 
 class Forces(_Part):

@@ -11,6 +11,7 @@ inline constexpr uint32_t kInstanceMark = 0x52494E53;
 inline constexpr uint32_t kReplacementMark = 0x5252504C;
 inline constexpr uint32_t kWatchMark = 0x52574154;
 inline constexpr uint32_t kTraceMark = 0x52545243;
+inline constexpr uint32_t kShadowMark = 0x52534857;
 inline constexpr uint32_t kForcesMark = 0x52465243;
 inline constexpr uint32_t kCompilationMark = 0x52434D50;
 

@@ -6,6 +6,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/runtime/error.h"
 #include "rtlib/runtime/running.h"
+#include "rtlib/runtime/shadow.h"
 #include "rtlib/runtime/structs.h"
 
 namespace rung::runtime {
@@ -41,6 +42,7 @@ void Hooks::onHook(host::Instance& running, uint32_t work) { instance_.control->
 void Hooks::onFault(host::Instance& running) { instance_.control->onFault(running); }
 
 bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  shadowRequest(instance_, request);
   const rung_instance_options& options = instance_.options;
   int32_t answer = (options.flags & RUNG_QUEUE_REQUESTS) != 0 ? RUNG_QUEUE : RUNG_REFUSE;
   if (options.request != nullptr) {
@@ -84,6 +86,7 @@ int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
 
 int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = false;
+  endShadow(instance);
   if (!instance.keptFile.empty()) {
     if (const int32_t status = takeKept(instance, kind); status != RUNG_OK) return status;
   } else if (!instance.wasOn) {

@@ -1,8 +1,11 @@
 // Another program for an instance: prepared outside real time, put in its place between two passes.
+#include <atomic>
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include "rtlib/host/replacement.h"
+#include "rtlib/host/scan_bound.h"
 #include "rtlib/runtime/error.h"
 #include "rtlib/runtime/replacing.h"
 #include "rtlib/runtime/running.h"
@@ -20,6 +23,8 @@ struct rung_replacement {
     instance.images.add(image);
     instance.names.join(*instance.control, *cells);
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
+    bound = host::measureBound({image->program, image->engine});
+    if (!bound.fits()) late = "a slice of the new program may last " + host::boundText(bound, image->program);
   }
   ~rung_replacement() {
     rung_replacement* self = this;
@@ -39,6 +44,9 @@ struct rung_replacement {
   std::unique_ptr<host::RetainLane> lane; // what is kept of the program
   bool holdsFormer = false;               // the program that it was made to replace
   profile::Clock clock;
+  host::ScanBound bound; // of the new program
+  std::string late;      // a sentence, where it may be late
+  std::atomic<bool> mayBeLate{false};
 };
 
 namespace rung::runtime {
@@ -116,7 +124,17 @@ int32_t rung_replacement_report(const rung_replacement* replacement, rung_replac
   return giveStruct(info, rung_replacement_info{.kept_cells = transfer.keptCells(),
                                                 .kept_states = transfer.keptSlots(),
                                                 .changes = static_cast<uint32_t>(transfer.changes().size()),
-                                                .bytes = transfer.bytes()});
+                                                .bytes = transfer.bytes(),
+                                                .steps = handle->bound.weight,
+                                                .slice_ns = static_cast<uint64_t>(handle->bound.ns),
+                                                .period_ns = static_cast<uint64_t>(handle->bound.periodNs)});
+}
+
+int32_t rung_replacement_allow_late(rung_replacement* replacement) {
+  rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  handle->mayBeLate = true;
+  return RUNG_OK;
 }
 
 int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t index, rung_change* change) {
@@ -137,6 +155,8 @@ int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replace
   rung_replacement* handle = checked(replacement, kReplacementMark);
   if (handle == nullptr) return failHandle("a replacement");
   if (&handle->instance != &*call) return failOther();
+  if (!handle->holdsFormer && !handle->late.empty() && !handle->mayBeLate)
+    return fail(RUNG_REFUSED, "%s", handle->late.c_str());
   switch (exchange(*call, *handle)) {
   case host::ReplaceResult::Replaced: return RUNG_OK;
   case host::ReplaceResult::OtherProgram:

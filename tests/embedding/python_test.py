@@ -200,7 +200,7 @@ class Header(unittest.TestCase):
         self.assertEqual({name for _, name, _ in declared}, set(rung._FUNCTIONS))
         results = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "const char*": ctypes.c_char_p,
                    "const rung_program*": ctypes.POINTER(rung.rung_program)}
-        handles = dict.fromkeys(("rung_image*", "rung_instance*", "rung_watch*", "rung_replacement*", "rung_forces*", "rung_trace*"), (rung._Handle,))
+        handles = dict.fromkeys(("rung_image*", "rung_instance*", "rung_watch*", "rung_replacement*", "rung_forces*", "rung_trace*", "rung_shadow*"), (rung._Handle,))
         types = {"int32_t": (rung._I32,), "uint32_t": (rung._U32,), "rung_cell": (rung._U32,), "int64_t": (rung._I64,), "uint64_t": (rung._U64,),
                  "size_t": (ctypes.c_size_t,), "char*": (rung._Text, rung._Path, ctypes.c_char_p), "rung_program*": (ctypes.c_void_p,),
                  "void*": (ctypes.c_void_p,), "uint32_t*": (ctypes.POINTER(ctypes.c_uint32),), "size_t*": (ctypes.POINTER(ctypes.c_size_t),), "rung_cell*": (rung._Cells,)}
@@ -222,6 +222,7 @@ class Header(unittest.TestCase):
                  rung.LogLevel: ("rung_log_level", "RUNG_LOG_"), rung.StateFlags: ("rung_state_flags", "RUNG_STATE_"),
                  rung.Type: ("rung_type", "RUNG_TYPE_"), rung.SymbolFlags: ("rung_symbol_flags", "RUNG_SYMBOL_"),
                  rung.MessageOp: ("rung_message_op", "RUNG_MESSAGE_"), rung.ChangeKind: ("rung_change_kind", "RUNG_CHANGE_"),
+                 rung.ShadowState: ("rung_shadow_state", "RUNG_SHADOW_"),
                  rung._Answering: ("rung_answer", "RUNG_"), rung._InstanceFlags: ("rung_instance_flags", "RUNG_")}
         of_module = {kind for kind in vars(rung).values() if isinstance(kind, enum.EnumMeta)}
         self.assertEqual(of_module, set(enums))
@@ -1165,6 +1166,10 @@ class Replacing(Case):
             self.assertEqual(report.changes, len(changes))
             self.assertGreater(report.kept_cells, 5)
             self.assertGreater(report.bytes, 0)
+            self.assertGreater(report.steps, 0)
+            self.assertGreater(report.slice_ns, 0)
+            self.assertEqual(report.period_ns, 8_000_000)
+            change.allow_late()
             self.assertEqual(changes[0], rung.Change(rung.ChangeKind.MOVED, False, "STROKES", ""))
             kinds = {(one.kind, one.is_state) for one in changes[1:]}
             self.assertEqual(kinds, {(rung.ChangeKind.NEW, True), (rung.ChangeKind.REMOVED, True)})
@@ -1217,6 +1222,40 @@ class Replacing(Case):
         self.fails(rung.Status.BAD_ARGUMENT, other.replace, first, text="another instance")
         self.assertTrue(plc.replace(first))
         self.fails(rung.Status.WRONG_STATE, plc.replace, second, text="another program")
+
+    def test_a_program_runs_beside_the_one_that_runs(self):
+        plc = self.plc()
+        position = ctypes.c_int32(0)
+        plc.bind("D0:4", position, rung.TO_PROGRAM)
+        plc["START"] = True
+        with rung.Shadow(plc, self.image("axis-2"), passes=50) as shadow:
+            self.assertIs(shadow.work(), False)
+            self.assertEqual(shadow.report().state, rung.ShadowState.PREPARED)
+            plc.slice()
+            while not plc.shadow(shadow):
+                plc.slice()
+            self.fails(rung.Status.WRONG_STATE, plc.shadow, shadow)
+            for _ in range(60):
+                position.value += 250
+                plc.scan()
+                while shadow.work():
+                    pass
+            report = shadow.report()
+            self.assertEqual((report.state, report.fault), (rung.ShadowState.FINISHED, ""))
+            self.assertGreaterEqual(report.runs, 50)
+            found = {difference.name: difference for difference in shadow.differences()}
+            self.assertEqual(len(found), report.differences)
+            self.assertEqual(found["ENABLE"].type, rung.Type.BIT)
+            self.assertNotEqual(found["ENABLE"].running, found["ENABLE"].next)  # the other one goes further
+            plc.shadow(None)
+        with rung.Shadow(plc, self.image("axis"), passes=5, room=1) as shadow:
+            self.assertTrue(plc.shadow(shadow))
+            plc.scan()
+            plc.scan()
+            self.assertTrue(shadow.work())
+            self.assertEqual(shadow.report().state, rung.ShadowState.TOO_SLOW)
+        self.fails(rung.Status.REFUSED, rung.Shadow, plc, self.image("values"), 5, text="technol")
+        self.fails(rung.Status.BAD_ARGUMENT, rung.Shadow, plc, self.image("axis"), 0)
 
     def test_they_end_with_their_instance(self):
         plc = self.plc()

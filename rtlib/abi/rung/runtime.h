@@ -471,7 +471,8 @@ typedef struct rung_replacement rung_replacement;
 
 /* Prepares another program of the same dialect to take over from the one that runs, and finds out what becomes of its
  * state. `memory`: as in rung_instance_options, of the new program; null: the library's. The instance may be scanned by
- * its thread meanwhile, but must neither be given another program nor be freed. RUNG_REFUSED: of another dialect. */
+ * its thread meanwhile, but must neither be given another program nor be freed. Measures what the new program costs on
+ * this machine, with what its code does to memory of its own. RUNG_REFUSED: of another dialect. */
 RUNG_API int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,
                                       rung_replacement** replacement);
 /* Null is allowed. Any thread, but not while rung_instance_replace has it. */
@@ -483,9 +484,15 @@ typedef struct rung_replacement_info {
   uint32_t kept_states; /* of edges, timers, counters */
   uint32_t changes;     /* see rung_replacement_change */
   uint64_t bytes;       /* that the change copies: its time is in proportion to them */
+  uint64_t steps;       /* of the new program, at most: of the slice that comes nearest to the time it has */
+  uint64_t slice_ns;    /* that this slice may last here: its steps times the most that one was found to cost */
+  uint64_t period_ns;   /* the time it has, up to the next slice; 0: the schedule takes no time */
 } rung_replacement_info;
 
 RUNG_API int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info);
+
+/* Lets the new program take over although a slice of it may last longer than its period. Any thread. */
+RUNG_API int32_t rung_replacement_allow_late(rung_replacement* replacement);
 
 enum rung_change_kind {
   RUNG_CHANGE_NEW = 0,      /* starts with its initial contents */
@@ -511,10 +518,74 @@ RUNG_API int32_t rung_replacement_change(const rung_replacement* replacement, ui
 /* The program of the replacement takes over, with its state; the clock, queues and bound variables continue. The
  * replacement then holds the former program as it was, and reports the way back: given again, it puts that back. So
  * does, as long as the replacement exists, a fault of the new program: the former one then waits for the next power-on,
- * and rung_instance_fault still says what happened; where RUNG_LATER would be given, the new program stays. RUNG_LATER:
- * within a pass of the schedule, or a mechanism or a service request waits that the new program does not know;
- * RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
+ * and rung_instance_fault still says what happened; where RUNG_LATER would be given, the new program stays.
+ * RUNG_REFUSED: a slice of the new program may last longer than its period, and the sentence has the figures (see
+ * rung_replacement_allow_late). Of jumps that may go in circles each counts once: rung_instance_limit ends them in
+ * time. RUNG_LATER: within a pass of the schedule, or a mechanism or a service request waits that the new program does
+ * not know; RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
 RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);
+
+/* ---- a program beside the one that runs -------------------------------------------------------------------------- */
+
+/* Another program of the same dialect and schedule, which runs on what the instance's program reads and is answered:
+ * so that its outputs can be compared before it takes over. It writes nothing but memory of its own; its messages and
+ * requests go nowhere, and a request that both programs make in the same run of a task has one answer for both. */
+typedef struct rung_shadow rung_shadow;
+
+enum rung_shadow_state {
+  RUNG_SHADOW_PREPARED = 0,
+  RUNG_SHADOW_RUNNING = 1,
+  RUNG_SHADOW_FINISHED = 2, /* all passes are compared */
+  RUNG_SHADOW_TOO_SLOW = 3, /* there was no room for a run, or for its more than 32 requests */
+  RUNG_SHADOW_STOPPED = 4,  /* by the host, a fault of the instance's program, its power-on or its replacement */
+  RUNG_SHADOW_FAULTED = 5,  /* the new program */
+};
+
+#define RUNG_MOST_SHADOW_PASSES 1000000u
+#define RUNG_MOST_SHADOW_ROOM 4096u
+
+/* Prepares a shadow for `passes` passes of the schedule, with room for `room` runs of tasks that wait for
+ * rung_shadow_work: its time. Each takes the instance's memory block twice. The instance may be scanned by its thread
+ * meanwhile, but must neither be given another program nor be freed. RUNG_REFUSED: of another dialect or schedule. */
+RUNG_API int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t passes, uint32_t room,
+                                 rung_shadow** shadow);
+/* Ends it, too. Null is allowed. The thread of the instance, before that is freed; no other uses the shadow. */
+RUNG_API int32_t rung_shadow_free(rung_shadow* shadow);
+
+/* The shadow begins with the state that the instance has now; null: it ends. While it runs, every run of a task copies
+ * the memory block twice, and nothing waits for the shadow: where it has no room, it ends. RUNG_LATER: as for
+ * rung_instance_replace; RUNG_FAULTED; RUNG_WRONG_STATE: the instance has a shadow, or this one has begun before, or
+ * was made for another program than the one that runs. [rt] */
+RUNG_API int32_t rung_instance_shadow(rung_instance* instance, rung_shadow* shadow);
+
+/* Runs and compares one run of a task that was recorded. RUNG_EMPTY: none waits. Any thread, one at a time with
+ * rung_shadow_report and rung_shadow_difference. */
+RUNG_API int32_t rung_shadow_work(rung_shadow* shadow);
+
+typedef struct rung_shadow_info {
+  uint32_t size;
+  uint32_t state;       /* enum rung_shadow_state */
+  uint32_t differences; /* see rung_shadow_difference */
+  uint32_t reserved;
+  uint64_t runs;     /* of tasks that were compared */
+  const char* fault; /* of the new program, "" without one; valid until the next report */
+} rung_shadow_info;
+
+RUNG_API int32_t rung_shadow_report(rung_shadow* shadow, rung_shadow_info* info);
+
+typedef struct rung_difference {
+  uint32_t size;
+  uint32_t type;      /* enum rung_type; 0: a service that the new program alone requests, named by `name` */
+  const char* name;   /* of an output; where the dialect does not say what its outputs are, of any cell with a name that
+                       * both programs have. Valid until the next report */
+  int64_t first_us;   /* of the program's clock, when it was seen first */
+  uint64_t runs;      /* of tasks after which it was seen; of requests, how many */
+  rung_value running; /* the values that were seen first */
+  rung_value next;
+} rung_difference;
+
+/* The index-th difference of the last report, in the order of the names. RUNG_EMPTY: there are not so many. */
+RUNG_API int32_t rung_shadow_difference(const rung_shadow* shadow, uint32_t index, rung_difference* difference);
 
 /* ---- forcing ----------------------------------------------------------------------------------------------------- */
 

@@ -190,6 +190,7 @@ public:
     check(rung_replacement_report(handle(), &out));
     return out;
   }
+  void allowLate() { check(rung_replacement_allow_late(handle())); }
   std::vector<rung_change> changes() const {
     std::vector<rung_change> all;
     auto change = sized<rung_change>();
@@ -199,6 +200,35 @@ public:
 
 private:
   std::unique_ptr<rung_replacement, Ends<rung_replacement, rung_replacement_free>> replacement_;
+};
+
+// A program beside the one that runs (rung_shadow_new); it ends before the instance does, in its thread.
+class Shadow {
+public:
+  Shadow(Instance& instance, const Image& image, uint32_t passes, uint32_t room = 64) {
+    rung_shadow* shadow = nullptr;
+    check(rung_shadow_new(instance.handle(), image.handle(), passes, room, &shadow));
+    shadow_.reset(shadow);
+  }
+  rung_shadow* handle() const noexcept { return shadow_.get(); }
+
+  bool work() { return check(rung_shadow_work(handle())) == RUNG_OK; }
+  rung_shadow_info report() {
+    auto out = sized<rung_shadow_info>();
+    check(rung_shadow_report(handle(), &out));
+    return out;
+  }
+  // Of the last report.
+  std::vector<rung_difference> differences() const {
+    std::vector<rung_difference> all;
+    auto difference = sized<rung_difference>();
+    for (uint32_t i = 0; check(rung_shadow_difference(handle(), i, &difference)) == RUNG_OK; ++i)
+      all.push_back(difference);
+    return all;
+  }
+
+private:
+  std::unique_ptr<rung_shadow, Ends<rung_shadow, rung_shadow_free>> shadow_;
 };
 
 // The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does. Who wants to know

@@ -84,6 +84,18 @@ static void replacements(rung_replacement* replacement) {
   rung_change change = {.size = sizeof change};
   BAD_HANDLE(rung_replacement_report(replacement, &report));
   BAD_HANDLE(rung_replacement_change(replacement, 0, &change));
+  BAD_HANDLE(rung_replacement_allow_late(replacement));
+}
+
+static void shadows(rung_instance* plc, rung_image* image, rung_shadow* shadow) {
+  rung_shadow_info report = {.size = sizeof report};
+  rung_difference difference = {.size = sizeof difference};
+  rung_shadow* made = NULL;
+  BAD_HANDLE(rung_shadow_new(plc, image, 1, 1, &made));
+  BAD_HANDLE(rung_instance_shadow(plc, NULL));
+  BAD_HANDLE(rung_shadow_work(shadow));
+  BAD_HANDLE(rung_shadow_report(shadow, &report));
+  BAD_HANDLE(rung_shadow_difference(shadow, 0, &difference));
 }
 
 static void forces(rung_instance* plc, rung_image* image) {
@@ -113,6 +125,7 @@ int callEveryFunction(void* no_handle) {
     replacements(handles[i]);
     watches(handles[i]);
     forces(handles[i], handles[i]);
+    shadows(handles[i], handles[i], handles[i]);
     BAD_HANDLE(rung_instance_new(handles[i], NULL, &plc));
     BAD_HANDLE(rung_replacement_new(handles[i], NULL, NULL, 0, &replacement));
     BAD_HANDLE(rung_watch_new(handles[i], &cell, 1, 0, &watch));
@@ -122,6 +135,7 @@ int callEveryFunction(void* no_handle) {
     BAD_HANDLE(rung_replacement_free(handles[i]));
     BAD_HANDLE(rung_watch_free(handles[i]));
     BAD_HANDLE(rung_forces_free(handles[i]));
+    BAD_HANDLE(rung_shadow_free(handles[i]));
     BAD_HANDLE(rung_trace_write(handles[i]));
     BAD_HANDLE(rung_trace_free(handles[i]));
   }
@@ -129,7 +143,8 @@ int callEveryFunction(void* no_handle) {
   BAD_ARGUMENT(rung_image_open("file.so", NULL, NULL));
   BAD_ARGUMENT(rung_image_adopt(NULL, NULL, NULL, NULL, &image));
   if (rung_image_close(NULL) != RUNG_OK || rung_instance_free(NULL) != RUNG_OK ||
-      rung_replacement_free(NULL) != RUNG_OK || rung_forces_free(NULL) != RUNG_OK || rung_trace_free(NULL) != RUNG_OK)
+      rung_replacement_free(NULL) != RUNG_OK || rung_shadow_free(NULL) != RUNG_OK ||
+      rung_forces_free(NULL) != RUNG_OK || rung_trace_free(NULL) != RUNG_OK)
     ++wrong;
   if (rung_runtime_version() != (RUNG_RUNTIME_MAJOR << 16 | RUNG_RUNTIME_MINOR)) ++wrong;
   return wrong;

@@ -51,6 +51,7 @@ public:
     endTraces();
     for (rung_watch* watch : watches_) rung_watch_free(watch);
     for (rung_forces* forces : forces_) rung_forces_free(forces);
+    for (rung_shadow* shadow : shadows_) rung_shadow_free(shadow);
     for (rung_replacement* replacement : replacements_) rung_replacement_free(replacement);
     for (rung_instance* instance : instances_) rung_instance_free(instance);
   }
@@ -99,7 +100,7 @@ private:
     values[0].integer = static_cast<int64_t>(random_());
     rung_cell cells[4] = {number(), number(), number(), number()};
     char text[16] = "text";
-    const uint32_t which = below(44);
+    const uint32_t which = below(47);
     last_ = which;
     switch (which) {
     case 0: return make();
@@ -156,6 +157,14 @@ private:
     case 42:
       return withStruct<rung_force_info>([&](rung_force_info* s) { return rung_instance_forced(plc, number(), s); });
     case 43: return trace();
+    case 44: return shadow();
+    case 45: return rung_instance_shadow(plc, chance(70) ? one(shadows_) : nullptr);
+    case 46: {
+      withStruct<rung_shadow_info>([&](rung_shadow_info* s) { return rung_shadow_report(one(shadows_), s); });
+      withStruct<rung_difference>(
+          [&](rung_difference* s) { return rung_shadow_difference(one(shadows_), number(), s); });
+      return rung_shadow_work(one(shadows_));
+    }
     default: return RUNG_OK;
     }
   }
@@ -183,6 +192,7 @@ private:
     withStruct<rung_replacement_info>(
         [&](rung_replacement_info* s) { return rung_replacement_report(one(replacements_), s); });
     withStruct<rung_change>([&](rung_change* s) { return rung_replacement_change(one(replacements_), number(), s); });
+    if (chance(20)) rung_replacement_allow_late(one(replacements_));
     if (replacements_.size() > 6) {
       rung_replacement_free(replacements_.back());
       replacements_.pop_back();
@@ -198,6 +208,16 @@ private:
   }
   void endTraces() {
     while (!traces_.empty()) rung_trace_free(traces_.back()), traces_.pop_back();
+  }
+  int32_t shadow() {
+    rung_shadow* made = nullptr;
+    const int32_t status = rung_shadow_new(one(instances_), image(), number(), below(8), place(made));
+    if (made != nullptr) shadows_.push_back(made);
+    if (shadows_.size() > 4) {
+      rung_shadow_free(shadows_.front());
+      shadows_.erase(shadows_.begin());
+    }
+    return status;
   }
   int32_t force() {
     std::array<rung_forced_cell, 4> cells{};
@@ -235,6 +255,7 @@ private:
     if (!chance(3)) return RUNG_OK;
     while (!watches_.empty()) rung_watch_free(watches_.back()), watches_.pop_back();
     while (!forces_.empty()) rung_forces_free(forces_.back()), forces_.pop_back();
+    while (!shadows_.empty()) rung_shadow_free(shadows_.back()), shadows_.pop_back();
     while (!replacements_.empty()) rung_replacement_free(replacements_.back()), replacements_.pop_back();
     while (!instances_.empty()) rung_instance_free(instances_.back()), instances_.pop_back();
     return RUNG_OK;
@@ -251,6 +272,7 @@ private:
   std::vector<rung_replacement*> replacements_;
   std::vector<rung_watch*> watches_;
   std::vector<rung_forces*> forces_;
+  std::vector<rung_shadow*> shadows_;
   std::vector<rung_trace*> traces_;
   std::array<uint64_t, 128> none_{};
   double bound_ = 0;

@@ -434,6 +434,102 @@ TEST_F(Runtime, AnotherProgramTakesOver) {
   EXPECT_EQ(plc.read<double>(speed), 0);
 }
 
+// The machine's clock is not waited for: a slice of a thousand million steps is too long everywhere.
+TEST_F(Runtime, AProgramThatMayBeLateIsRefused) {
+  rung::Instance plc = started();
+  rung::test::TestProgram next;
+  build(next);
+  next.tasks[0].heaviest = 1'000'000'000;
+  next.link();
+  const rung::Image image = adopted(next);
+  rung::Replacement change(plc, image);
+  EXPECT_EQ(change.report().steps, 1'000'000'000u);
+  EXPECT_EQ(change.report().period_ns, 4'000'000u);
+  EXPECT_GT(change.report().slice_ns, change.report().period_ns);
+  EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_REFUSED);
+  EXPECT_THAT(rung_error_text(), HasSubstr("1000000000 steps of "));
+  EXPECT_THAT(rung_error_text(), HasSubstr("the period is 4 ms"));
+  change.allowLate();
+  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK) << "back again";
+  rung::Replacement there(plc, image);
+  there.allowLate();
+  ASSERT_EQ(rung_instance_replace(plc.handle(), there.handle()), RUNG_OK);
+}
+
+uint32_t workOtherwise(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
+  const uint32_t next = work(mem, ctx, chunk);
+  mem[kLamp] = mem[kCount] < 7 ? 1 : 0;
+  return next;
+}
+
+TEST_F(Runtime, AProgramRunsBesideTheOneThatRuns) {
+  rung::Instance plc = started();
+  rung::test::TestProgram next;
+  build(next, 2); // WORDS has moved
+  next.functions[0] = &workOtherwise;
+  next.link();
+  const rung::Image image = adopted(next);
+  rung::Shadow shadow(plc, image, 20, 4);
+  EXPECT_FALSE(shadow.work());
+  EXPECT_EQ(shadow.report().state, RUNG_SHADOW_PREPARED);
+  scan(plc, 2);
+  ASSERT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_OK);
+  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_WRONG_STATE) << "it has one";
+  plc.write(plc.find("ASKS", rung::Access::Write), 1);
+  for (int i = 0; i < 8; ++i) {
+    scan(plc);
+    EXPECT_TRUE(shadow.work());
+    EXPECT_FALSE(shadow.work());
+  }
+  const rung_shadow_info report = shadow.report();
+  EXPECT_EQ(report.state, RUNG_SHADOW_RUNNING);
+  EXPECT_EQ(report.runs, 8u);
+  EXPECT_STREQ(report.fault, "");
+  const std::vector<rung_difference> differences = shadow.differences();
+  ASSERT_EQ(differences.size(), report.differences);
+  ASSERT_EQ(differences.size(), 1u);
+  EXPECT_STREQ(differences[0].name, "LAMP");
+  EXPECT_EQ(differences[0].type, RUNG_TYPE_BIT);
+  EXPECT_EQ(differences[0].running.integer, 1);
+  EXPECT_EQ(differences[0].next.integer, 0);
+  EXPECT_EQ(differences[0].runs, 4u);
+  EXPECT_EQ(differences[0].first_us, 7 * 8000);
+  EXPECT_EQ(plc.read<int>(plc.find("LAMP")), 1);
+  ASSERT_EQ(rung_instance_shadow(plc.handle(), nullptr), RUNG_OK);
+  EXPECT_EQ(shadow.report().state, RUNG_SHADOW_STOPPED);
+  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_WRONG_STATE) << "once";
+}
+
+TEST_F(Runtime, AShadowFitsItsInstance) {
+  rung::Instance plc = started();
+  rung::Instance other = started();
+  rung::test::TestProgram next, foreign;
+  build(next);
+  build(foreign);
+  foreign.dialect = "other";
+  foreign.link();
+  next.scan[0].arg = 5000;
+  next.link();
+  const rung::Image image = adopted(next);
+  const rung::Image strange = adopted(foreign);
+  EXPECT_EQ(statusOf([&] { rung::Shadow(plc, image, 1); }), RUNG_REFUSED);
+  EXPECT_THAT(rung_error_text(), HasSubstr("schedule"));
+  EXPECT_EQ(statusOf([&] { rung::Shadow(plc, strange, 1); }), RUNG_REFUSED);
+  EXPECT_EQ(statusOf([&] { rung::Shadow(plc, *image_, 0); }), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(statusOf([&] { rung::Shadow(plc, *image_, 1, 5000); }), RUNG_BAD_ARGUMENT);
+  const rung::Shadow shadow(plc, *image_, 1);
+  EXPECT_EQ(rung_instance_shadow(other.handle(), shadow.handle()), RUNG_BAD_ARGUMENT);
+  plc.slice();
+  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_LATER);
+  plc.slice();
+  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_OK);
+  plc.powerOn();
+  rung_shadow_info report{.size = sizeof report};
+  ASSERT_EQ(rung_shadow_report(shadow.handle(), &report), RUNG_OK);
+  EXPECT_EQ(report.state, RUNG_SHADOW_STOPPED);
+}
+
 TEST_F(Runtime, RetainedMemoryOfANewProgram) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rung_runtime_change";
   std::filesystem::remove_all(folder);

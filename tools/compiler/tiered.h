@@ -2,9 +2,9 @@
 // chunk as that is compiled. Whichever code a chunk has does the same, so it is exchanged at any moment; it costs a
 // running program nothing.
 //
-// Where the interpreter may need more than the period of the schedule, because the program is long or may go in circles,
-// or memory from the heap, the program begins with machine code that is compiled fast, and whoever makes the engine
-// waits for that.
+// Where the interpreter may need more than the period of the schedule, because the program is long or may go in
+// circles, or memory from the heap, the program begins with machine code that is compiled fast, and whoever makes the
+// engine waits for that.
 #pragma once
 #include <atomic>
 #include <memory>

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <random>
 #include <unistd.h>
@@ -160,7 +161,7 @@ TEST(TierTables, FollowersKeepTheirOwn) {
 // ---- the beginning -------------------------------------------------------------------------------------------------
 
 ir::Module withPeriod(uint32_t us) {
-  ir::Module module = ir::randomModule(7, {.jumps = false});
+  ir::Module module = ir::randomModule(7, {.rungs = 300, .jumps = false});
   for (std::vector<ir::Step>* list : {&module.scan, &module.slices})
     for (ir::Step& step : *list)
       if (step.op == RUNG_STEP_ADVANCE) step.arg = us;
@@ -173,6 +174,18 @@ TEST(Tiered, InterpretsWhereTheInterpreterIsFastEnough) {
   EXPECT_TRUE(both.engine->bound().fits());
   EXPECT_EQ(both.engine->bound().periodNs, 1'000'000'000'000);
   EXPECT_GT(both.engine->bound().ns, 0);
+}
+
+TEST(Tiered, WaitsForMachineCodeWhereAProgramMayGoInCircles) {
+  uint32_t circling = 0;
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    const Both both(ir::randomModule(seed, {.rungs = 6}));
+    const std::span<const rung_task> tasks(both.tested.program().tasks, both.tested.program().task_count);
+    const bool circles = std::ranges::any_of(tasks, [](const rung_task& task) { return task.circles != 0; });
+    EXPECT_EQ(both.engine->beganInterpreted(), !circles) << seed;
+    circling += circles ? 1 : 0;
+  }
+  EXPECT_GT(circling, 0u);
 }
 
 TEST(Tiered, WaitsForMachineCodeWhereTheInterpreterMayBeLate) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "rtlib/core/float_environment.h"
 #include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
 #include "rtlib/host/program_info.h"
@@ -71,6 +72,7 @@ public:
 
   // The piece that costs most for its weight: with initial contents, and with any.
   Piece dearest() {
+    const rt::FloatEnvironment environment(defaultFloats_);
     Piece most{.nsPerWeight = 0};
     for (const bool scattered : {false, true}) {
       loaded_.clear();
@@ -156,6 +158,7 @@ private:
   LoadedProgram loaded_;
   std::unique_ptr<rt::HostPort> port_ = std::make_unique<rt::HostPort>();
   rung_ctx ctx_{};
+  bool defaultFloats_ = false;
 };
 
 std::string shownTime(double ns) {

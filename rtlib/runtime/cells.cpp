@@ -6,7 +6,6 @@
 #include "rtlib/host/overwritten.h"
 
 namespace rung::runtime {
-namespace {
 
 rung_type typeOf(const host::Ref& ref) {
   switch (ref.kind) {
@@ -21,6 +20,8 @@ rung_type typeOf(const host::Ref& ref) {
          : ref.width == 32 ? RUNG_TYPE_I32
                            : RUNG_TYPE_I64;
 }
+
+namespace {
 
 // What a host holds for a value of this type.
 int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYPE_TEXT ? 2 : 0; }

@@ -27,6 +27,9 @@ enum class CellState : uint8_t {
   Retyped,     // it was a real, a text or neither when it was found, and is not any more
 };
 
+// The type of one element.
+rung_type typeOf(const host::Ref& ref);
+
 struct LocatedCell {
   CellState state = CellState::Gone;
   bool writes = false; // as it was found

@@ -8,6 +8,7 @@
 
 #include "rtlib/host/shadow.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/runtime/cells.h"
 #include "rtlib/runtime/error.h"
 #include "rtlib/runtime/structs.h"
 
@@ -43,17 +44,6 @@ void endShadow(rung_instance& instance) noexcept {
 }
 
 namespace {
-
-uint32_t typeOf(const host::Ref& ref) noexcept {
-  if (ref.kind == host::RefKind::Real) return RUNG_TYPE_F64;
-  switch (ref.width) {
-  case 8: return RUNG_TYPE_I8;
-  case 16: return RUNG_TYPE_I16;
-  case 32: return RUNG_TYPE_I32;
-  case 64: return RUNG_TYPE_I64;
-  default: return RUNG_TYPE_BIT;
-  }
-}
 
 rung_value valueOf(const host::Ref& ref, uint64_t bits) noexcept {
   rung_value value{};
@@ -155,7 +145,7 @@ int32_t rung_shadow_difference(const rung_shadow* shadow, uint32_t index, rung_d
   if (handle == nullptr) return failHandle("a shadow");
   if (index >= handle->differences.size()) return RUNG_EMPTY;
   const host::ShadowDifference& d = handle->differences[index];
-  return giveStruct(difference, rung_difference{.type = d.service ? 0u : typeOf(d.ref),
+  return giveStruct(difference, rung_difference{.type = d.service ? 0u : uint32_t{typeOf(d.ref)},
                                                 .name = d.name.c_str(),
                                                 .first_us = d.firstUs,
                                                 .runs = d.runs,

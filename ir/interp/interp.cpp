@@ -78,7 +78,8 @@ uint32_t InterpEngine::chunkFunction(uint8_t* mem, rung_ctx* ctx, uint32_t chunk
 
 uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
   const Chunk& place = layout_.chunks()[chunk];
-  std::array<uint64_t, kOnStack> few; // not cleared: that is done a rung at a time
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): cleared a rung at a time
+  std::array<uint64_t, kOnStack> few;
   std::vector<uint64_t> many;
   if (allocates()) many.resize(mostValues_ + mostArgs_);
   const std::span<uint64_t> room = allocates() ? std::span<uint64_t>(many) : std::span<uint64_t>(few);

@@ -96,10 +96,11 @@ void Shadow::findOutputs() {
     if (live == nullptr || live->type != symbol.type || (live->flags & RUNG_SYMBOL_CONST) != 0) continue;
     const Ref ref = refOf(symbol);
     const Ref there = refOf(*live);
-    for (uint32_t i = 0; i < std::min(ref.count, there.count); ++i)
-      outputs_.push_back({.live = *element(there, i),
-                          .next = *element(ref, i),
-                          .name = ref.count == 1 ? symbol.name : symbol.name + ("[" + std::to_string(i) + "]")});
+    for (uint32_t i = 0; i < std::min(ref.count, there.count); ++i) {
+      const std::string name = ref.count == 1 ? symbol.name : symbol.name + ("[" + std::to_string(i) + "]");
+      outputs_.push_back(
+          {.live = element(there, i).value_or(there), .next = element(ref, i).value_or(ref), .name = name});
+    }
     for (uint32_t byte = 0; byte < std::max(1u, ref.width / 8u) * ref.count; ++byte)
       named.insert({symbol.space, ref.byte + byte});
   }

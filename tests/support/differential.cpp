@@ -57,4 +57,14 @@ compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& opti
   return out;
 }
 
+compiler::Compiled compiledFromBuilt(const ir::Module& built, const ir::LayoutOptions& options, bool optimise) {
+  ir::Module module = built;
+  const ir::PassOptions passes{.optimise = optimise};
+  ir::runPasses(module, passes);
+  compiler::Compiled out = compiledFrom(std::move(module), options);
+  out.built = std::make_unique<ir::Module>(built);
+  out.passes = passes;
+  return out;
+}
+
 } // namespace rung::testing

@@ -14,4 +14,8 @@ std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& 
 // A module with its layout in the form that makeEngine takes.
 compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options = {});
 
+// The same of a module as a front end would have built it, which is kept: its code can be made again.
+compiler::Compiled compiledFromBuilt(const ir::Module& built, const ir::LayoutOptions& options = {},
+                                     bool optimise = true);
+
 } // namespace rung::testing

@@ -60,6 +60,8 @@ public:
   const rung_program& program() const override { return program_; }
   std::string_view name() const override { return "tiered"; }
   void* context() override { return this; }
+  // The code of a chunk that is interpreted.
+  static uint32_t interpret(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 
   const std::shared_ptr<TierTables>& tables() const { return tables_; }
   // What the interpreter may need, as it was measured.
@@ -74,7 +76,6 @@ public:
 
 private:
   TieredEngine(const Compiled& compiled, const codegen::JitOptions& options, ir::Counting counting);
-  static uint32_t interpret(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
   Result<void> begin();
   Result<std::unique_ptr<codegen::JitCode>> codeOf(codegen::LlvmLevel level);
   Result<void> compile(codegen::JitCode& code, std::atomic<uint32_t>& done);

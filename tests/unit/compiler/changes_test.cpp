@@ -8,12 +8,12 @@
 #include <random>
 #include <thread>
 
-#include "ir/passes/pipeline.h"
 #include "ir/random/random.h"
 #include "ir/support/hash.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/replacement.h"
+#include "tests/support/differential.h"
 #include "tools/compiler/recompiler.h"
 #include "tools/compiler/tiered.h"
 
@@ -41,18 +41,10 @@ ir::Module variantOf(ir::Module module, uint32_t variant) {
   return module;
 }
 
-Compiled compiledOf(const ir::Module& module) {
-  Compiled out;
-  out.built = std::make_unique<ir::Module>(module);
-  out.module = std::make_unique<ir::Module>(module);
-  ir::runPasses(*out.module, out.passes);
-  out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{.maxChunkRungs = 4});
-  return out;
-}
-
 struct Variant {
   Variant(const ir::Module& module, EngineKind engineKind)
-      : kind(engineKind), compiled(compiledOf(module)), engine(makeEngine(kind, compiled, {}).value()) {}
+      : kind(engineKind), compiled(testing::compiledFromBuilt(module, {.maxChunkRungs = 4})),
+        engine(makeEngine(kind, compiled, {}).value()) {}
   const rung_program& program() const { return engine->program(); }
 
   EngineKind kind;
@@ -218,7 +210,7 @@ void runSeed(uint64_t seed, Counts& counts) {
 
 TEST(Changes, OfEveryKindAtTheSameTime) {
   Counts counts;
-  for (uint64_t seed = 0; seed < 12 && !testing::Test::HasFailure(); ++seed) {
+  for (uint64_t seed = 0; seed < 12 && !::testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     runSeed(seed, counts);
   }

@@ -6,26 +6,16 @@
 
 #include <random>
 
-#include "ir/passes/pipeline.h"
 #include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/support/differential.h"
 
 namespace rung::compiler {
 namespace {
 
 constexpr int kScans = 4;
-
-Compiled compiledOf(const ir::Module& module, bool optimise) {
-  Compiled out;
-  out.built = std::make_unique<ir::Module>(module);
-  out.module = std::make_unique<ir::Module>(module);
-  out.passes.optimise = optimise;
-  ir::runPasses(*out.module, out.passes);
-  out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{});
-  return out;
-}
 
 using Random = std::mt19937_64;
 
@@ -56,8 +46,8 @@ void expectHeld(const host::Instance& instance, const host::Forcing& forcing) {
 // A program that runs with forced cells.
 struct Running {
   Running(const ir::Module& module, EngineKind kind, bool optimise)
-      : compiled(compiledOf(module, optimise)), engine(makeEngine(kind, compiled, {}).value()), kind(kind),
-        instance(*engine) {}
+      : compiled(testing::compiledFromBuilt(module, {}, optimise)), engine(makeEngine(kind, compiled, {}).value()),
+        kind(kind), instance(*engine) {}
 
   void force(std::span<const host::ForcedCell> cells) {
     forcing.emplace(instance.program(), engine->context(), cells);
@@ -85,7 +75,7 @@ void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
         std::nullopt);
 }
 
-class ForcedCodeOf : public testing::TestWithParam<EngineKind> {};
+class ForcedCodeOf : public ::testing::TestWithParam<EngineKind> {};
 
 TEST_P(ForcedCodeOf, RandomPrograms) {
   const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : 60;
@@ -124,7 +114,7 @@ TEST_P(ForcedCodeOf, RandomPrograms) {
   EXPECT_GT(forcedAtEnd, seeds / 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ForcedCodeOf, testing::Values(EngineKind::Interp, EngineKind::Jit),
+INSTANTIATE_TEST_SUITE_P(Engines, ForcedCodeOf, ::testing::Values(EngineKind::Interp, EngineKind::Jit),
                          [](const auto& test) { return std::string(engineName(test.param)); });
 
 // Looks at the forced bits after every rung.

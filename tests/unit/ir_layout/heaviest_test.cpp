@@ -92,7 +92,7 @@ TEST(HeaviestRun, IsThatOfTheHeaviestPart) {
   }
 }
 
-// A routine of any length is no recursion of the compiler.
+// The length of a routine is not limited by the stack.
 TEST(HeaviestRun, OfManyRungs) {
   Module module = randomModule(1, {.rungs = 4, .jumps = false});
   std::vector<Rung>& rungs = module.routines[module.tasks[0].entry.index].rungs;

@@ -81,6 +81,13 @@ int32_t imageOf(const rung_instance& instance, const rung_replacement* replaceme
   return RUNG_OK;
 }
 
+int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept {
+  const char* dialect = instance.program.load(std::memory_order_acquire)->dialect; // that of all its programs
+  if (std::strcmp(dialect, program.dialect) == 0) return RUNG_OK;
+  return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
+              dialect);
+}
+
 void putFormerBack(rung_instance& instance) noexcept {
   instance.puttingBack.enter();
   if (rung_replacement* former = instance.former.exchange(nullptr); former != nullptr) {
@@ -101,11 +108,7 @@ int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* m
   if (next == nullptr) return failHandle("an image");
   if (replacement == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the replacement is null");
   const rung_program& program = next->image->program;
-  // That of all programs of the instance.
-  if (const char* dialect = handle->program.load(std::memory_order_acquire)->dialect;
-      std::strcmp(dialect, program.dialect) != 0)
-    return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
-                dialect);
+  if (const int32_t status = checkDialect(*handle, program); status != RUNG_OK) return status;
   if (const int32_t status = checkMemory(program, memory, memory_bytes); status != RUNG_OK) return status;
   return contained([&] {
     *replacement = new rung_replacement(*handle, next->image, static_cast<uint8_t*>(memory));

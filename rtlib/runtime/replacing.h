@@ -10,4 +10,7 @@ namespace rung::runtime {
 int32_t imageOf(const rung_instance& instance, const rung_replacement* replacement,
                 std::shared_ptr<const Image>& image);
 
+// Whether a program can take over from those of the instance, or run beside them: it is of their dialect.
+int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept;
+
 } // namespace rung::runtime

@@ -2,7 +2,6 @@
 #include "rtlib/runtime/shadow.h"
 
 #include <bit>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "rtlib/nc/names/names.h"
 #include "rtlib/runtime/cells.h"
 #include "rtlib/runtime/error.h"
+#include "rtlib/runtime/replacing.h"
 #include "rtlib/runtime/structs.h"
 
 using namespace rung;
@@ -73,11 +73,8 @@ int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t pas
   if (passes == 0 || passes > RUNG_MOST_SHADOW_PASSES || room == 0 || room > RUNG_MOST_SHADOW_ROOM)
     return fail(RUNG_BAD_ARGUMENT, "a shadow runs for 1 to %u passes and has room for 1 to %u runs, not for %u and %u",
                 RUNG_MOST_SHADOW_PASSES, RUNG_MOST_SHADOW_ROOM, passes, room);
-  const rung_program& program = next->image->program;
+  if (const int32_t status = checkDialect(*handle, next->image->program); status != RUNG_OK) return status;
   const rung_program& running = *handle->program.load(std::memory_order_acquire);
-  if (std::strcmp(running.dialect, program.dialect) != 0)
-    return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
-                running.dialect);
   return contained([&] {
     auto made = std::make_unique<rung_shadow>(*handle, handle->images.find(running), next->image, passes, room);
     if (!made->shadow.problem().empty())

@@ -73,7 +73,8 @@ constexpr FieldInfo kTaskFields[] = {RUNG_FIELD(rung_task, name, Text),        R
                                      RUNG_FIELD(rung_task, begin_count, U32),  RUNG_FIELD(rung_task, end_first, U32),
                                      RUNG_FIELD(rung_task, end_count, U32),    RUNG_FIELD(rung_task, part_first, U32),
                                      RUNG_FIELD(rung_task, part_count, U32),   RUNG_FIELD(rung_task, heaviest, U32),
-                                     RUNG_FIELD(rung_task, circles, U32)};
+                                     RUNG_FIELD(rung_task, circles, U32),      RUNG_FIELD(rung_task, read_first, U32),
+                                     RUNG_FIELD(rung_task, read_count, U32)};
 constexpr StructInfo kTask{"rung_task", sizeof(rung_task), kTaskFields};
 
 constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(rung_step, task, U32),
@@ -113,6 +114,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, slot_count, U32),
                                         RUNG_FIELD(rung_program, continuation_count, U32),
                                         RUNG_FIELD(rung_program, write_count, U32),
+                                        RUNG_FIELD(rung_program, read_count, U32),
                                         RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
                                         RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
                                         RUNG_STRUCTS(rung_program, slots, slot_count, kSlot),
@@ -134,7 +136,8 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_ARRAY(rung_program, services, service_count, Texts),
                                         RUNG_ARRAY(rung_program, texts, text_count, Texts),
                                         RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
-                                        RUNG_STRUCTS(rung_program, writes, write_count, kWritten)};
+                                        RUNG_STRUCTS(rung_program, writes, write_count, kWritten),
+                                        RUNG_STRUCTS(rung_program, reads, read_count, kSpan)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

@@ -224,6 +224,21 @@ uint32_t Layout::byte(SpaceId space, uint32_t byteOffset) const {
   return range.offset + (byteOffset - range.first_byte);
 }
 
+std::vector<rung_span> Layout::pieces(const SpaceSpan& span) const {
+  std::vector<rung_span> out;
+  uint32_t done = 0;
+  for (const rung_range& range : space(span.space).ranges) {
+    const uint32_t first = std::max(range.first_byte, span.byte);
+    const uint32_t end = std::min(range.first_byte + range.byte_count, span.byte + span.size);
+    if (first >= end) continue;
+    const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
+    out.push_back({range.offset + (first - range.first_byte) * scale, (end - first) * scale});
+    done += end - first;
+  }
+  RUNG_CHECK(done == span.size, "span outside its space");
+  return out;
+}
+
 uint32_t Layout::chunkAt(RoutineId routine, uint32_t rung) const {
   const uint32_t chunk = chunkOfRung_[routine.index][rung];
   RUNG_CHECK(chunks_[chunk].firstRung == rung, "control may enter a chunk at its head only");

@@ -64,6 +64,8 @@ public:
   BitLocation bit(SpaceId space, uint64_t bitOffset) const;
   // Offset of a byte that lies in a packed range; `size` bytes from it lie there too.
   uint32_t byte(SpaceId space, uint32_t byteOffset) const;
+  // The pieces of a span that lie together in the memory block.
+  std::vector<rung_span> pieces(const SpaceSpan& span) const;
   uint32_t slot(SlotId slot) const { return slotOffsets_[slot.index]; }
   const SpaceLayout& space(SpaceId space) const { return spaces_[space.index]; }
 

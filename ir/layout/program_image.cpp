@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ir/core/memory_use.h"
+#include "ir/layout/accesses.h"
 #include "ir/layout/heaviest.h"
 #include "ir/support/check.h"
 
@@ -43,27 +43,12 @@ public:
     addSteps(module_.fast, image_.fast_);
     addSteps(module_.slices, image_.slices_);
     addTexts();
-    addWrites();
+    image_.writes_ = writtenBits(layout_);
     link();
   }
 
 private:
   const char* text(const std::string& s) { return image_.strings_.emplace_back(s).c_str(); }
-
-  // The pieces of a span that lie together in the memory block.
-  template <class Visit>
-  void forPieces(const SpaceSpan& span, Visit visit) {
-    uint32_t done = 0;
-    for (const rung_range& range : layout_.space(span.space).ranges) {
-      const uint32_t first = std::max(range.first_byte, span.byte);
-      const uint32_t end = std::min(range.first_byte + range.byte_count, span.byte + span.size);
-      if (first >= end) continue;
-      const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
-      visit(rung_span{range.offset + (first - range.first_byte) * scale, (end - first) * scale});
-      done += end - first;
-    }
-    RUNG_CHECK(done == span.size, "span outside its space");
-  }
 
   void addSpaces() {
     for (uint32_t i = 0; i < module_.spaces.size(); ++i) {
@@ -135,7 +120,10 @@ private:
   }
 
   void addSpans(const std::vector<SpaceSpan>& spans, std::vector<rung_span>& out) {
-    for (const SpaceSpan& span : spans) forPieces(span, [&](rung_span piece) { out.push_back(piece); });
+    for (const SpaceSpan& span : spans) {
+      const std::vector<rung_span> pieces = layout_.pieces(span);
+      out.insert(out.end(), pieces.begin(), pieces.end());
+    }
   }
 
   // Connected bytes have one representation, but their ranges may be cut at different places.
@@ -193,6 +181,10 @@ private:
       const HeaviestRun heaviest = heaviestRun(layout_, TaskId{i});
       out.heaviest = heaviest.weight;
       out.circles = heaviest.circles ? 1 : 0;
+      const std::vector<rung_span> reads = readBytes(layout_, TaskId{i});
+      out.read_first = static_cast<uint32_t>(image_.reads_.size());
+      out.read_count = static_cast<uint32_t>(reads.size());
+      image_.reads_.insert(image_.reads_.end(), reads.begin(), reads.end());
       image_.tasks_.push_back(out);
     }
   }
@@ -225,54 +217,6 @@ private:
     }
   }
 
-  // What the operation may write of a space; nothing where it writes none.
-  static SpaceSpan writtenBy(const Module& module, const Op& op) {
-    const OpInfo& info = opInfo(op.code);
-    const std::optional<Use> use = (info.effects & kWrites) != 0 ? useOf(module, op) : std::nullopt;
-    if (!use) return {};
-    const uint32_t first = use->place.first / 8;
-    return {use->place.space, first, (use->place.first + use->place.count + 7) / 8 - first};
-  }
-
-  void addWrites() {
-    std::vector<rung_written> all;
-    for (const Routine& routine : module_.routines)
-      for (const Rung& rung : routine.rungs)
-        for (const Op& op : rung.ops) {
-          if (op.code == OpCode::Store && op.type == Type::Bit) {
-            const BitLocation bit = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
-            all.push_back({bit.offset, 1, bit.wholeByte ? kAllBits : 1u << bit.bit});
-          } else if (const SpaceSpan span = writtenBy(module_, op); span.size != 0) {
-            forPieces(span, [&](const rung_span& piece) { all.push_back({piece.offset, piece.size, kAllBits}); });
-          }
-        }
-    // Whole bytes before bits of them.
-    std::ranges::sort(all, {}, [](const rung_written& w) { return std::pair(w.offset, w.mask != kAllBits); });
-    for (const rung_written& written : all) addWritten(written);
-  }
-
-  // Joins it with the last one where it touches that.
-  void addWritten(const rung_written& written) {
-    if (image_.writes_.empty()) return image_.writes_.push_back(written);
-    rung_written& last = image_.writes_.back();
-    const uint32_t end = last.offset + last.size;
-    if (last.mask == kAllBits && written.mask == kAllBits && written.offset <= end) {
-      last.size = std::max(last.size, written.offset + written.size - last.offset);
-    } else if (last.offset == written.offset && last.mask != kAllBits) {
-      last.mask |= written.mask;
-      if (last.mask == kAllBits) joinLast();
-    } else if (written.offset >= end) {
-      image_.writes_.push_back(written);
-    }
-  }
-  // The last one has become a whole byte.
-  void joinLast() {
-    const rung_written last = image_.writes_.back();
-    image_.writes_.pop_back();
-    addWritten(last);
-  }
-  static constexpr uint32_t kAllBits = 255;
-
   template <class T>
   static void point(const std::vector<T>& from, const T*& to, uint32_t& count) {
     to = from.empty() ? nullptr : from.data();
@@ -302,6 +246,7 @@ private:
     pointTexts(image_.services_, p.services, p.service_count);
     pointTexts(image_.texts_, p.texts, p.text_count);
     point(image_.writes_, p.writes, p.write_count);
+    point(image_.reads_, p.reads, p.read_count);
   }
 
   static void pointTexts(const std::vector<const char*>& from, const char* const*& to, uint32_t& count) {

@@ -49,6 +49,7 @@ private:
   std::vector<const char*> services_;
   std::vector<const char*> texts_;
   std::vector<rung_written> writes_;
+  std::vector<rung_span> reads_;
 };
 
 } // namespace rung::ir

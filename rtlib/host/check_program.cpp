@@ -123,6 +123,7 @@ private:
     present("services", p_.service_count, p_.services);
     present("texts", p_.text_count, p_.texts);
     present("written spans", p_.write_count, p_.writes);
+    present("read spans", p_.read_count, p_.reads);
   }
 
   // ---- memory ------------------------------------------------------------------------------------------------------
@@ -254,6 +255,7 @@ private:
     if (kept > UINT32_MAX) fail("the retained spans have more than 4 GB together");
     for (uint32_t i = 0; i < p_.safe_count; ++i)
       inBlock("safe span", i, p_.safe_spans[i].offset, p_.safe_spans[i].size);
+    for (uint32_t i = 0; i < p_.read_count; ++i) inBlock("read span", i, p_.reads[i].offset, p_.reads[i].size);
     for (uint32_t i = 0; i < p_.write_count; ++i) {
       inBlock("written span", i, p_.writes[i].offset, p_.writes[i].size);
       if (i > 0 && p_.writes[i].offset < uint64_t{p_.writes[i - 1].offset} + p_.writes[i - 1].size)
@@ -343,6 +345,7 @@ private:
       piece("task", i, "begin copies", t.begin_first, t.begin_count, p_.copy_count);
       piece("task", i, "end copies", t.end_first, t.end_count, p_.copy_count);
       piece("task", i, "parts", t.part_first, t.part_count, p_.part_end_count);
+      piece("task", i, "read spans", t.read_first, t.read_count, p_.read_count);
       if (t.part_count == 0) failAt("task", i, "has no parts, expected at least 1");
       if (error_.empty()) checkParts(i, t);
     }

@@ -195,6 +195,8 @@ typedef struct rung_task {
   uint32_t part_count; /* 1: not cut */
   uint32_t heaviest;   /* weight of the heaviest run, of a cut task: of its heaviest part; at most `budget` */
   uint32_t circles;    /* 1: control may go in circles; `heaviest` counts none of them twice, and `budget` ends them */
+  uint32_t read_first; /* in `reads`: what a run may read of spaces, its `begin` copies included */
+  uint32_t read_count;
 } rung_task;
 
 enum rung_step_op {
@@ -314,6 +316,7 @@ typedef struct rung_program {
   uint32_t slot_count;
   uint32_t continuation_count;
   uint32_t write_count;
+  uint32_t read_count;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
@@ -338,6 +341,7 @@ typedef struct rung_program {
 
   const rung_chunk_fn* chunk_fns; /* by chunk */
   const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */
+  const rung_span* reads;         /* of each task, ascending; none touches the next */
 } rung_program;
 
 #ifdef __cplusplus

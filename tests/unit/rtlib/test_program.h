@@ -31,6 +31,7 @@ struct TestProgram {
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
   std::vector<rung_written> writes;
+  std::vector<rung_span> reads;
   std::vector<rung_copy> copies;
   std::vector<rung_chunk_fn> functions;
   std::vector<uint32_t> weights; // of chunks; 1 where it is shorter
@@ -88,6 +89,12 @@ struct TestProgram {
     tasks.push_back(task);
     return static_cast<uint32_t>(tasks.size() - 1);
   }
+  // What the task may read; all of one task after the other.
+  void addReads(uint32_t task, std::vector<rung_span> spans) {
+    tasks[task].read_first = static_cast<uint32_t>(reads.size());
+    tasks[task].read_count = static_cast<uint32_t>(spans.size());
+    reads.insert(reads.end(), spans.begin(), spans.end());
+  }
   void addBeginCopy(uint32_t task, rung_copy copy) { addCopy(copy, tasks[task].begin_first, tasks[task].begin_count); }
   void addEndCopy(uint32_t task, rung_copy copy) { addCopy(copy, tasks[task].end_first, tasks[task].end_count); }
 
@@ -132,6 +139,7 @@ struct TestProgram {
     point(services, program.services, program.service_count);
     point(texts, program.texts, program.text_count);
     point(writes, program.writes, program.write_count);
+    point(reads, program.reads, program.read_count);
     point(files, program.files, program.file_count);
     point(routines, program.routines, program.routine_count);
     program.chunk_fns = functions.data();

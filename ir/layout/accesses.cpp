@@ -1,0 +1,136 @@
+// From the operations of the rungs to bytes of the memory block (see accesses.h).
+#include "ir/layout/accesses.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "ir/core/memory_use.h"
+
+namespace rung::ir {
+namespace {
+
+constexpr uint32_t kAllBits = 255;
+
+SpaceSpan bytesOf(const BitRange& place) {
+  const uint32_t first = place.first / 8;
+  return {place.space, first, (place.first + place.count + 7) / 8 - first};
+}
+
+template <class Visit>
+void forUses(const Module& module, const Routine& routine, Visit visit) {
+  for (const Rung& rung : routine.rungs)
+    for (const Op& op : rung.ops)
+      if (const std::optional<Use> use = useOf(module, op); use) visit(*use);
+}
+
+bool isOneBit(const Use& use) { return use.type == Type::Bit && !use.computed; }
+
+// ---- writing -----------------------------------------------------------------------------------------------------
+
+class WrittenSpans {
+public:
+  void add(const rung_written& written) { all_.push_back(written); }
+
+  std::vector<rung_written> joined() {
+    // Whole bytes before bits of them.
+    std::ranges::sort(all_, {}, [](const rung_written& w) { return std::pair(w.offset, w.mask != kAllBits); });
+    for (const rung_written& written : all_) join(written);
+    return std::move(out_);
+  }
+
+private:
+  // With the last one, where it touches that.
+  void join(const rung_written& written) {
+    if (out_.empty()) return out_.push_back(written);
+    rung_written& last = out_.back();
+    const uint32_t end = last.offset + last.size;
+    if (last.mask == kAllBits && written.mask == kAllBits && written.offset <= end) {
+      last.size = std::max(last.size, written.offset + written.size - last.offset);
+    } else if (last.offset == written.offset && last.mask != kAllBits) {
+      last.mask |= written.mask;
+      if (last.mask == kAllBits) joinLast();
+    } else if (written.offset >= end) {
+      out_.push_back(written);
+    }
+  }
+  // The last one has become a whole byte.
+  void joinLast() {
+    const rung_written last = out_.back();
+    out_.pop_back();
+    join(last);
+  }
+
+  std::vector<rung_written> all_;
+  std::vector<rung_written> out_;
+};
+
+// ---- reading -----------------------------------------------------------------------------------------------------
+
+// The routines that a task may come to.
+std::vector<bool> routinesOf(const Module& module, RoutineId entry) {
+  std::vector<bool> found(module.routines.size(), false);
+  std::vector<RoutineId> left{entry};
+  found[entry.index] = true;
+  while (!left.empty()) {
+    const Routine& routine = module.at(left.back());
+    left.pop_back();
+    for (const Rung& rung : routine.rungs) {
+      if (rung.transfer.kind != TransferKind::Call || found[rung.transfer.callee.index]) continue;
+      found[rung.transfer.callee.index] = true;
+      left.push_back(rung.transfer.callee);
+    }
+  }
+  return found;
+}
+
+std::vector<rung_span> joined(std::vector<rung_span> spans) {
+  std::ranges::sort(spans, {}, &rung_span::offset);
+  std::vector<rung_span> out;
+  for (const rung_span& span : spans) {
+    if (out.empty() || span.offset > out.back().offset + out.back().size)
+      out.push_back(span);
+    else
+      out.back().size = std::max(out.back().size, span.offset + span.size - out.back().offset);
+  }
+  return out;
+}
+
+} // namespace
+
+std::vector<rung_written> writtenBits(const Layout& layout) {
+  const Module& module = layout.module();
+  WrittenSpans spans;
+  for (const Routine& routine : module.routines)
+    forUses(module, routine, [&](const Use& use) {
+      if (!use.writes) return;
+      if (isOneBit(use)) {
+        const BitLocation bit = layout.bit(use.place.space, use.place.first);
+        return spans.add({bit.offset, 1, bit.wholeByte ? kAllBits : 1u << bit.bit});
+      }
+      for (const rung_span& piece : layout.pieces(bytesOf(use.place))) spans.add({piece.offset, piece.size, kAllBits});
+    });
+  return spans.joined();
+}
+
+std::vector<rung_span> readBytes(const Layout& layout, TaskId id) {
+  const Module& module = layout.module();
+  const Task& task = module.tasks[id.index];
+  std::vector<rung_span> spans;
+  const auto addPieces = [&](const SpaceSpan& span) {
+    const std::vector<rung_span> pieces = layout.pieces(span);
+    spans.insert(spans.end(), pieces.begin(), pieces.end());
+  };
+  for (const Copy& copy : task.begin) addPieces(copy.from);
+  const std::vector<bool> routines = routinesOf(module, task.entry);
+  for (uint32_t r = 0; r < routines.size(); ++r) {
+    if (!routines[r]) continue;
+    forUses(module, module.routines[r], [&](const Use& use) {
+      if (use.writes) return;
+      if (isOneBit(use)) return spans.push_back({layout.bit(use.place.space, use.place.first).offset, 1});
+      addPieces(bytesOf(use.place));
+    });
+  }
+  return joined(std::move(spans));
+}
+
+} // namespace rung::ir

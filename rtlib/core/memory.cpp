@@ -5,21 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "rtlib/core/bits.h"
+
 namespace rung::rt {
-
-namespace {
-
-uint8_t gather(const uint8_t* bits) noexcept {
-  uint32_t value = 0;
-  for (uint32_t b = 0; b < 8; ++b) value |= (bits[b] & 1u) << b;
-  return static_cast<uint8_t>(value);
-}
-
-void scatter(uint8_t* bits, uint8_t value) noexcept {
-  for (uint32_t b = 0; b < 8; ++b) bits[b] = (value >> b) & 1u;
-}
-
-} // namespace
 
 bool Memory::contains(uint32_t space, uint32_t byte, uint32_t size) const noexcept {
   if (space >= program_->space_count) return false;
@@ -47,7 +35,7 @@ uint8_t Memory::readByte(uint32_t space, uint32_t byte) const noexcept {
   const rung_range* range = rangeOf(space, byte);
   if (range == nullptr) return 0;
   const uint32_t index = byte - range->first_byte;
-  if (range->repr == RUNG_REPR_BYTE_PER_BIT) return gather(block_ + range->offset + size_t{8} * index);
+  if (range->repr == RUNG_REPR_BYTE_PER_BIT) return packBits(block_ + range->offset + size_t{8} * index);
   return block_[range->offset + index];
 }
 
@@ -56,7 +44,7 @@ void Memory::writeByte(uint32_t space, uint32_t byte, uint8_t value) const noexc
   if (range == nullptr) return;
   const uint32_t index = byte - range->first_byte;
   if (range->repr == RUNG_REPR_BYTE_PER_BIT) {
-    scatter(block_ + range->offset + size_t{8} * index, value);
+    unpackBits(value, block_ + range->offset + size_t{8} * index);
   } else {
     block_[range->offset + index] = value;
   }

@@ -1,11 +1,12 @@
 // The file of a retained image, all numbers little-endian:
-//   0 magic "RUNGRET1" · 8 layout hash · 16 generation · 24 size · 28 CRC-32 of bytes 0..27 and of the contents · 32
-//   contents
+//   0 magic "RUNGRET1" · 8 layout hash · 16 generation · 24 size of the image · 28 CRC-32 of all but these
+//   four bytes · 32 image, and after it the description of its layout
 #include "rtlib/host/retain.h"
 
 #include <fcntl.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -44,7 +45,8 @@ struct Found {
   bool good = false; // whole and intact
   uint64_t layoutHash = 0;
   uint64_t generation = 0;
-  std::vector<uint8_t> contents;
+  std::vector<uint8_t> image;
+  std::string description;
   std::string wrong;
 };
 
@@ -65,7 +67,7 @@ Found look(const std::string& path) {
     found.wrong = path + ": too short";
   } else if (std::memcmp(file.data(), kMagic, 8) != 0) {
     found.wrong = path + ": not a retained image";
-  } else if (get(file, 24, 4) != file.size() - kHeaderSize) {
+  } else if (get(file, 24, 4) > file.size() - kHeaderSize) {
     found.wrong = path + ": wrong length";
   } else if (get(file, kCrcAt, 4) != checksum(file)) {
     found.wrong = path + ": wrong checksum";
@@ -75,15 +77,17 @@ Found look(const std::string& path) {
     found.good = true;
     found.layoutHash = get(file, 8, 8);
     found.generation = get(file, 16, 8);
-    found.contents.assign(file.begin() + kHeaderSize, file.end());
+    const size_t end = kHeaderSize + get(file, 24, 4);
+    found.image.assign(file.begin() + kHeaderSize, file.begin() + static_cast<ptrdiff_t>(end));
+    found.description = bytes.substr(end);
   }
   return found;
 }
 
 } // namespace
 
-RetainStore::RetainStore(std::string base, uint64_t layoutHash, uint32_t size)
-    : base_(std::move(base)), layoutHash_(layoutHash), size_(size) {}
+RetainStore::RetainStore(std::string base, RetainLayout layout, uint32_t size)
+    : base_(std::move(base)), layout_(std::move(layout)), size_(size) {}
 
 bool RetainStore::lock(std::string& error) {
   if (lock_.ok()) return true;
@@ -115,31 +119,37 @@ RetainImage RetainStore::load() {
   }
   generation_ = newest.generation;
   // An older image of this layout would be out of date by everything that the other program did: not taken.
-  if (newest.layoutHash != layoutHash_ || newest.contents.size() != size_) {
+  if (newest.layoutHash != layout_.hash || newest.image.size() != size_) {
     image.report += (image.report.empty() ? "" : "; ") + base_ + (newestIsB_ ? ".b" : ".a") +
-                    ": made by a program with another memory layout; starting cold";
+                    ": made by a program with other retained cells";
+    image.description = std::move(newest.description);
+    if (image.description.empty())
+      image.report += "; starting cold";
+    else
+      image.bytes = std::move(newest.image);
     return image;
   }
   if (!image.report.empty()) image.report += "; using the other image, generation " + std::to_string(generation_);
   image.found = true;
   image.generation = generation_;
-  image.bytes = std::move(newest.contents);
+  image.bytes = std::move(newest.image);
   return image;
 }
 
-bool RetainStore::save(std::span<const uint8_t> bytes, uint64_t layoutHash, std::string& error) {
-  if (layoutHash == layoutHash_ && bytes.size() != size_) {
+bool RetainStore::save(std::span<const uint8_t> bytes, const RetainLayout& layout, std::string& error) {
+  if (layout.hash == layout_.hash && bytes.size() != size_) {
     error = "the retained image has the wrong size";
     return false;
   }
   if (!lock(error)) return false;
   if (!looked_) load(); // the generation must be above those on disk
-  std::vector<uint8_t> file(kHeaderSize + bytes.size());
+  std::vector<uint8_t> file(kHeaderSize + bytes.size() + layout.description.size());
   std::memcpy(file.data(), kMagic, 8);
-  put(file, 8, layoutHash, 8);
+  put(file, 8, layout.hash, 8);
   put(file, 16, generation_ + 1, 8);
   put(file, 24, bytes.size(), 4);
-  if (!bytes.empty()) std::memcpy(file.data() + kHeaderSize, bytes.data(), bytes.size());
+  std::copy_n(bytes.data(), bytes.size(), file.data() + kHeaderSize);
+  std::copy_n(layout.description.data(), layout.description.size(), file.data() + kHeaderSize + bytes.size());
   put(file, kCrcAt, checksum(file), 4);
   if (!replaceDiskFile(base_ + (newestIsB_ ? ".a" : ".b"), file, error)) return false;
   ++generation_;
@@ -149,13 +159,13 @@ bool RetainStore::save(std::span<const uint8_t> bytes, uint64_t layoutHash, std:
 
 // ---- saver -------------------------------------------------------------------------------------------------------
 
-RetainLane::RetainLane(uint64_t layoutHash, uint32_t rawSize, uint32_t imageSize, Pack pack)
-    : layoutHash_(layoutHash), imageSize_(imageSize), pack_(std::move(pack)) {
+RetainLane::RetainLane(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack)
+    : layout_(std::move(layout)), imageSize_(imageSize), pack_(std::move(pack)) {
   for (Offer& offer : offers_) offer.raw.resize(rawSize);
 }
 
 RetainLane::RetainLane(const RetainMap& map)
-    : RetainLane(map.hash(), map.rawSize(), map.size(),
+    : RetainLane(map.layout(), map.rawSize(), map.size(),
                  [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }) {}
 
 void RetainLane::enter(int64_t saver) noexcept {
@@ -198,11 +208,11 @@ bool RetainSaver::flush() {
 bool RetainSaver::save(const RetainLane& lane, const RetainLane::Offer& offer, std::string& error) try {
   image_.assign(lane.imageSize_, 0);
   lane.pack_(offer.raw, image_);
-  if (onDiskKnown_ && onDiskLayout_ == lane.layoutHash_ && image_ == onDisk_) return true;
+  if (onDiskKnown_ && onDiskLayout_ == lane.layout_.hash && image_ == onDisk_) return true;
   onDiskKnown_ = false;
-  if (!target_->save(image_, lane.layoutHash_, error)) return false;
+  if (!target_->save(image_, lane.layout_, error)) return false;
   onDisk_ = image_;
-  onDiskLayout_ = lane.layoutHash_;
+  onDiskLayout_ = lane.layout_.hash;
   onDiskKnown_ = true;
   saved_.fetch_add(1, std::memory_order_relaxed);
   return true;

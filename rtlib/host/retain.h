@@ -1,5 +1,5 @@
-// The retained memory on disk. Two files, BASE.a and BASE.b, are written in turn; each has a generation number, the
-// layout hash and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
+// The retained memory on disk. Two files, BASE.a and BASE.b, are written in turn; each has a generation number, its
+// layout and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
 // one. BASE.lock keeps a second process out.
 #pragma once
 #include <array>
@@ -23,7 +23,8 @@
 namespace rung::host {
 
 struct RetainImage {
-  bool found = false; // false: start cold
+  bool found = false;      // false: start cold
+  std::string description; // not found, but an image of another layout, which has this: `bytes` are its
   std::vector<uint8_t> bytes;
   uint64_t generation = 0;
   std::string report; // what was wrong with the files, "" when nothing was; nor is a first start
@@ -35,24 +36,24 @@ public:
   virtual ~RetainTarget() = default;
   // True: the image, of a program with this layout, is kept, whatever happens now. False: `error` says what was not
   // written and why.
-  virtual bool save(std::span<const uint8_t> bytes, uint64_t layoutHash, std::string& error) = 0;
+  virtual bool save(std::span<const uint8_t> bytes, const RetainLayout& layout, std::string& error) = 0;
 };
 
 class RetainStore final : public RetainTarget {
 public:
-  // `base` is a path without ending; bytes saved under another layout hash or size are not loaded.
-  RetainStore(std::string base, uint64_t layoutHash, uint32_t size);
+  // `base` is a path without ending; bytes saved under another layout or size are not `found`.
+  RetainStore(std::string base, RetainLayout layout, uint32_t size);
 
   // From now until this store ends no other one saves here, in no process. Whoever loads in order to save later locks
   // first; `save` does it too. False: `error` says why.
   bool lock(std::string& error);
   RetainImage load();
-  bool save(std::span<const uint8_t> bytes, std::string& error) { return save(bytes, layoutHash_, error); }
-  bool save(std::span<const uint8_t> bytes, uint64_t layoutHash, std::string& error) override;
+  bool save(std::span<const uint8_t> bytes, std::string& error) { return save(bytes, layout_, error); }
+  bool save(std::span<const uint8_t> bytes, const RetainLayout& layout, std::string& error) override;
 
 private:
   std::string base_;
-  uint64_t layoutHash_;
+  RetainLayout layout_;
   uint32_t size_;
   File lock_;
   bool usedBefore_ = false; // the lock was there: so were images
@@ -67,7 +68,7 @@ public:
   // How the bytes that were copied in the scan become the image; runs on the saver's thread.
   using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
 
-  RetainLane(uint64_t layoutHash, uint32_t rawSize, uint32_t imageSize, Pack pack);
+  RetainLane(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack);
   // Of the retained memory of an instance.
   explicit RetainLane(const RetainMap& map);
 
@@ -82,7 +83,7 @@ private:
     uint64_t ticket = 0; // 0: nothing was offered
   };
 
-  uint64_t layoutHash_;
+  RetainLayout layout_;
   uint32_t imageSize_;
   Pack pack_;
   // One belongs to the scan thread, one to the saver, and the third is what they exchange.

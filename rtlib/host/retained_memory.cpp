@@ -12,17 +12,21 @@ std::chrono::milliseconds periodOf(RetainWhen when) {
 
 } // namespace
 
-RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when)
-    : RetainedMemory(program, file, when, periodOf(when)) {}
+RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take)
+    : RetainedMemory(program, file, when, take, periodOf(when)) {}
 
-RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when,
+RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
                                std::chrono::milliseconds period)
-    : map_(program), when_(when), store_(std::make_unique<RetainStore>(file, map_.hash(), map_.size())),
+    : map_(program), when_(when), take_(take), store_(std::make_unique<RetainStore>(file, map_.layout(), map_.size())),
       period_(period) {}
 
 bool RetainedMemory::load(Instance& instance, std::string& report, std::string& error) {
   if (!store_->lock(error)) return false;
-  const RetainImage image = store_->load();
+  RetainImage image = store_->load();
+  if (!image.description.empty()) {
+    if (take_ != nullptr) take_(instance.program(), map_, image);
+    if (!image.found) image.report += "; starting cold";
+  }
   report = image.report;
   lost_ = !image.found && !report.empty();
   std::vector<uint8_t> raw(map_.rawSize());

@@ -1,11 +1,13 @@
 // The retained memory of a running program on disk, as a host uses it: taken at the start, saved while the program
-// runs, and at its end. Files: FILE.a and FILE.b (see retain.h), by the dialect's addresses (see retain_map.h).
+// runs, and at its end. Files: FILE.a and FILE.b (see retain.h), by the dialect's addresses (see retain_map.h);
+// what another program has left there, by name and address (see retained_take.h).
 //
 // Only whole scans are saved: what a fault leaves of the scan that it stopped never reaches the disk.
 #pragma once
 #include <memory>
 
 #include "rtlib/host/retain.h"
+#include "rtlib/host/retained_take.h"
 
 namespace rung::host {
 
@@ -16,16 +18,19 @@ enum class RetainWhen : uint8_t {
 
 class RetainedMemory {
 public:
-  RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when = RetainWhen::Always);
+  // `take`: null where a machine's program never changes. Then an image of another one is not taken, and the host is
+  // smaller by a quarter.
+  RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when = RetainWhen::Always,
+                 RetainTake take = &takeRetainedOf);
   // The saver looks once a `period` whether there is something to write.
-  RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when,
+  RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
                  std::chrono::milliseconds period);
 
   // Before the program's warm start; false: nothing could be taken, and it starts cold. `report` is a message for the
   // user, "" when this is the first start. From then on no other process can use the files. The first image is written
   // at once, so that a place that cannot be written shows: then `error` says why.
   bool load(Instance& instance, std::string& report, std::string& error);
-  // There was an image, and `load` could not take it.
+  // There was an image, and `load` could not take it, not even that of another program.
   bool lost() const noexcept { return lost_; }
 
   // Scan thread, after every slice: copies what is to be saved, never waits and allocates nothing. `asked`: the program
@@ -57,6 +62,7 @@ public:
 private:
   RetainMap map_;
   RetainWhen when_;
+  RetainTake take_;
   std::unique_ptr<RetainStore> store_; // until load has handed it to the saver
   std::chrono::milliseconds period_;
   std::unique_ptr<RetainSaver> saver_;

@@ -1,26 +1,12 @@
 // Copying by a plan, between two scans (see state_transfer.h; transfer_plan.cpp makes the plan).
 #include "rtlib/host/state_transfer.h"
 
+#include <algorithm>
 #include <cstring>
 
+#include "rtlib/core/bits.h"
+
 namespace rung::host {
-
-namespace {
-
-uint8_t packed(const uint8_t* bits) noexcept {
-  uint64_t bytes;
-  std::memcpy(&bytes, bits, sizeof bytes);
-  return static_cast<uint8_t>((bytes & 0x0101010101010101u) * 0x0102040810204080u >> 56);
-}
-
-// Byte b keeps bit b alone; the sum carries it to the top of its byte.
-void unpack(uint8_t byte, uint8_t* bits) noexcept {
-  const uint64_t chosen = (byte * 0x0101010101010101u) & 0x8040201008040201u;
-  const uint64_t bytes = ((chosen + 0x00406070787C7E7Fu) >> 7) & 0x0101010101010101u;
-  std::memcpy(bits, &bytes, sizeof bytes);
-}
-
-} // namespace
 
 // A mechanism that does not wait is at its beginning, which every program has; one that is gone and does not wait is no
 // loss either.
@@ -40,10 +26,10 @@ void StateTransfer::run(const uint8_t* from, uint8_t* to) const noexcept {
     switch (move.kind) {
     case MoveKind::Copy: std::memcpy(target, source, move.count); break;
     case MoveKind::Pack:
-      for (uint32_t i = 0; i < move.count; ++i) target[i] = packed(source + size_t{8} * i);
+      for (uint32_t i = 0; i < move.count; ++i) target[i] = rt::packBits(source + size_t{8} * i);
       break;
     case MoveKind::Unpack:
-      for (uint32_t i = 0; i < move.count; ++i) unpack(source[i], target + size_t{8} * i);
+      for (uint32_t i = 0; i < move.count; ++i) rt::unpackBits(source[i], target + size_t{8} * i);
       break;
     case MoveKind::Bit: {
       const uint32_t bit = (*source >> move.fromBit) & 1u;
@@ -51,6 +37,11 @@ void StateTransfer::run(const uint8_t* from, uint8_t* to) const noexcept {
       break;
     }
     }
+  }
+  for (const Holder& holder : holders_) {
+    const uint8_t* slot = from + holder.slot;
+    if (std::any_of(slot, slot + holder.slotBytes, [](uint8_t byte) { return byte != 0; }))
+      std::memset(to + holder.held, 0, holder.heldBytes);
   }
   for (const Points& points : points_) {
     uint32_t number;

@@ -13,12 +13,16 @@
 // An output that the old program wrote and the new one does not write starts anew: nobody would ever switch it off.
 // Outputs are the spaces that the program alone writes for the machine or the NC, and what a fault clears.
 //
+// What all instructions share under a key that begins with @, and one of them holds at a time, is free again when that
+// one is gone: it holds it while its own slot, whose key ends with that key, is not 0.
+//
 // A mechanism continues at the same instruction. While it waits at one that the new program does not have, the new
 // program cannot take over.
 #pragma once
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rung/program.h"
@@ -33,6 +37,8 @@ enum class ChangeKind : uint8_t {
   Retyped,  // of another type now: its contents are lost, it starts with its initial contents
   Released, // an output that the old program wrote and the new one does not: starts with its initial contents
 };
+
+inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "renamed", "retyped", "released"};
 
 struct StateChange {
   ChangeKind kind = ChangeKind::New;
@@ -88,7 +94,16 @@ private:
     uint32_t count = 0;
   };
 
+  // Of an instruction that is gone, and what it may have held.
+  struct Holder {
+    uint32_t slot = 0; // in the former program's memory block
+    uint32_t slotBytes = 0;
+    uint32_t held = 0; // in the new one's
+    uint32_t heldBytes = 0;
+  };
+
   const rung_program* from_;
+  std::vector<Holder> holders_;
   std::vector<Points> points_;
   std::vector<uint32_t> numbers_; // of points in the new program; RUNG_NONE: it has none like it
   std::vector<Move> moves_;

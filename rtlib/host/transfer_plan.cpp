@@ -362,8 +362,7 @@ private:
     uint32_t o = 0;
     for (uint32_t n = 0; n < to_.slot_count; ++n) {
       const rung_slot& slot = to_.slots[n];
-      for (; o < from_.slot_count && std::strcmp(from_.slots[o].key, slot.key) < 0; ++o)
-        report(ChangeKind::Removed, from_.slots[o]);
+      for (; o < from_.slot_count && std::strcmp(from_.slots[o].key, slot.key) < 0; ++o) remove(from_.slots[o]);
       if (o == from_.slot_count || std::strcmp(from_.slots[o].key, slot.key) != 0) {
         report(ChangeKind::New, slot);
         continue;
@@ -374,11 +373,26 @@ private:
         continue;
       }
       ++plan_.keptSlots_;
-      found.push_back({.from = former.offset, .to = slot.offset, .count = std::max(1u, elementBits(slot.type) / 8)});
+      found.push_back({.from = former.offset, .to = slot.offset, .count = bytesOf(slot)});
     }
-    for (; o < from_.slot_count; ++o) report(ChangeKind::Removed, from_.slots[o]);
+    for (; o < from_.slot_count; ++o) remove(from_.slots[o]);
     std::ranges::sort(found, {}, &StateTransfer::Move::to);
     for (const StateTransfer::Move& move : found) add(move);
+  }
+
+  static uint32_t bytesOf(const rung_slot& slot) { return std::max(1u, elementBits(slot.type) / 8); }
+
+  void remove(const rung_slot& former) {
+    report(ChangeKind::Removed, former);
+    const std::string_view key = former.key;
+    const size_t shared = key.find('@', 1);
+    if (shared == std::string_view::npos) return;
+    const std::span slots(to_.slots, to_.slot_count);
+    const auto held = std::ranges::lower_bound(slots, key.substr(shared), {},
+                                               [](const rung_slot& slot) { return std::string_view(slot.key); });
+    if (held == slots.end() || key.substr(shared) != held->key) return;
+    plan_.holders_.push_back(
+        {.slot = former.offset, .slotBytes = bytesOf(former), .held = held->offset, .heldBytes = bytesOf(*held)});
   }
 
   // The cells are moved as slots and cells with a name are; then their numbers are replaced.

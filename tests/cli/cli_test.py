@@ -156,11 +156,22 @@ class Retained(Cli):
         done = self.run_it(program, "--config", "tmr.1=960", "--watch", "T0:2")
         self.assertIn(b"T0:2 = 10", done.stdout)
 
+    def test_a_changed_program_finds_its_cells_by_name(self):
+        def named(place):
+            return self.file("named.pmc", f"dialect gsk\nsymbol COUNT {place}\n" + COUNTER.format(tail="").replace("D0", "COUNT"))
+        self.run_it(named("D0"), "--scans", "5")
+        done = self.run_it(named("D20"), "--scans", "1", "--watch", "COUNT", "--watch", "D0")
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn(b"made by a program with other retained cells; its cells are taken by name and address: moved COUNT", done.stderr)
+        self.assertIn(b"COUNT = 6", done.stdout)
+        self.assertIn(b"D0 = 0", done.stdout)
+        self.assertEqual(self.run_it(named("D20"), "--scans", "1").stderr, b"")
+
     def test_another_dialect_starts_cold_and_says_so(self):
         self.run_it(self.counter(), "--scans", "5")
         done = self.run_it(self.file("lamp.lad", LAMP))
         self.assertEqual(done.returncode, OK, done.stderr)
-        self.assertIn(b"made by a program with another memory layout; starting cold", done.stderr)
+        self.assertIn(b"made by a program with other retained cells; starting cold", done.stderr)
 
     def test_damaged_images(self):
         program = self.counter()

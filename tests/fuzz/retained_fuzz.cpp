@@ -20,6 +20,7 @@
 #include "ir/support/check.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/retain.h"
+#include "rtlib/host/retained_take.h"
 
 namespace {
 
@@ -51,7 +52,7 @@ void makeChecksumRight(Bytes& file) {
 // By the description of the format in retain.cpp.
 bool intact(const Bytes& file) {
   return file.size() >= kHeaderSize && std::memcmp(file.data(), "RUNGRET1", 8) == 0 &&
-         number(file, 24, 4) == file.size() - kHeaderSize && number(file, kCrcAt, 4) == checksum(file) &&
+         number(file, 24, 4) <= file.size() - kHeaderSize && number(file, kCrcAt, 4) == checksum(file) &&
          number(file, 16, 8) != std::numeric_limits<uint64_t>::max();
 }
 
@@ -69,16 +70,38 @@ const Bytes* newestOf(const Bytes& a, const std::optional<Bytes>& b) {
   return aGood ? &a : &*b;
 }
 
+// Of a program that keeps kSize bytes of a space D.
+const std::string& ownDescription() {
+  static const std::string description = [] {
+    const rung_range range = {0, kSize, 0, RUNG_REPR_PACKED};
+    const rung_space space = {"D", 1, kSize, 0, 1, &range};
+    const rung_symbol symbol = {"COUNT", "", 0, 2, 0, RUNG_TYPE_I16, 1, 0, 0};
+    rung_program program{};
+    program.dialect = "test";
+    program.space_count = program.symbol_count = 1;
+    program.spaces = &space;
+    program.symbols = &symbol;
+    const rung::host::RetainRun run = {0, 0, kSize};
+    return rung::host::retainLayoutOf(program, {&run, 1}).description;
+  }();
+  return description;
+}
+
 void checkLoad(const rung::host::RetainImage& image, const Bytes& a, const std::optional<Bytes>& b) {
   const Bytes* newest = newestOf(a, b);
-  const bool fits = newest != nullptr && number(*newest, 8, 8) == kLayout && newest->size() == kHeaderSize + kSize;
+  const bool fits = newest != nullptr && number(*newest, 8, 8) == kLayout && number(*newest, 24, 4) == kSize;
   RUNG_CHECK(image.found == fits, "an intact image of this layout is found, and no other");
   if (fits) {
-    RUNG_CHECK(std::equal(image.bytes.begin(), image.bytes.end(), newest->begin() + kHeaderSize, newest->end()),
+    RUNG_CHECK(std::equal(image.bytes.begin(), image.bytes.end(), newest->begin() + kHeaderSize,
+                          newest->begin() + kHeaderSize + kSize),
                "it is the whole image");
     RUNG_CHECK(image.generation == number(*newest, 16, 8), "it has its generation");
   } else {
-    RUNG_CHECK(image.bytes.empty(), "nothing of an image that is refused");
+    RUNG_CHECK(image.bytes.empty() || !image.description.empty(), "nothing of an image that nobody can use");
+    const std::vector<uint8_t> initial(kSize);
+    const std::vector<uint8_t> taken =
+        rung::host::takeRetained(ownDescription(), image.description, image.bytes, initial).image;
+    RUNG_CHECK(taken.empty() || taken.size() == kSize, "what is taken is an image of this layout");
   }
   const bool damaged = !intact(a) || (b && !intact(*b));
   RUNG_CHECK(image.report.empty() == (fits && !damaged), "what is wrong is reported, and nothing else");

@@ -221,6 +221,12 @@ expect D110:4 -1234567
         self.passes(f"{asked}replace b.pmc\nexpect_no_change\nexpect_call windr function=1 number=2\n{answered}")
         self.passes(f"{asked}expect_call windr\nreplace b.pmc\nexpect_no_change\n{answered}")
         self.passes(f"{asked}replace c.pmc\nexpect_no_call\nscan 3\nexpect_no_call\n")  # nobody waits any more
+        # what the WINDR that is gone has locked is free: whether it waited or had finished
+        written = "set D200:2 4\nset D204:2 4\nset D206:2 7\nset D208:2 2\nset R0.2 1\nscan\n"
+        self.passes(f"{asked}{written}expect_call windr\nexpect_no_call\nreplace c.pmc\nscan\nexpect_call windw number=7\n")
+        self.passes(f"{asked}expect_call windr\n{answered}{written}expect_no_call\nreplace c.pmc\nscan\nexpect_call windw number=7\n")
+        # and what another one has locked is not
+        self.passes(f"program a.pmc\n{written}expect_call windw\nreplace c.pmc\nscan\nexpect_no_call\n")
 
     def test_coverage_counts_both_programs(self):
         self.passes("program lamp.lad\nset SWITCH 1\nscan\nreplace lamp2.lad\nscan\nexpect BEACON 1\n", "--coverage")
@@ -293,6 +299,16 @@ class Prompt(Folder):
         self.assertIn("moved COUNT", done.stdout)
         again = self.rungc("run", "next.lad", "-i", "-q", "--retain", "kept", stdin="COUNT\n")
         self.assertIn("COUNT = 42", again.stdout, again.stderr)
+
+    def test_retained_memory_of_a_program_that_was_changed_meanwhile(self):
+        kept = LAMP.replace("COUNT  5300", "COUNT  PLCNVRAM")
+        self.file("lamp.lad", kept)
+        self.file("next.lad", kept.replace("COUNT  PLCNVRAM", "COUNT  PLCNVRAM,#3"))
+        self.typed("set COUNT 41\nset SWITCH 1\nscan\n", "--retain", "kept")
+        again = self.rungc("run", "next.lad", "-i", "-q", "--retain", "kept", stdin="COUNT\n")
+        self.assertIn("COUNT = 42", again.stdout, again.stderr)
+        self.assertIn("made by a program with other retained cells; its cells are taken by name and address: moved COUNT",
+                      again.stderr)
 
     def test_shared_objects(self):
         for name in ("lamp", "lamp2"):

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   if (engine == nullptr) return std::puts(error.c_str()), 1;
   const std::unique_ptr<nc::Control> control = nc::makeControl(engine->program().dialect);
   host::Instance instance(engine->program(), control.get());
-  nc::Retention retention(*control, instance, argv[2]);
+  nc::Retention retention(*control, instance, argv[2], nullptr); // the machine's program never changes
   std::string report;
   const std::optional<nc::PowerOn> kind = retention.load(report, error);
   std::puts(report.c_str());

@@ -91,7 +91,8 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
   Machine machine(program, 1);
   std::string report;
   std::string error;
-  host::RetainedMemory retained(program, file, host::RetainWhen::Always, std::chrono::milliseconds(1));
+  host::RetainedMemory retained(program, file, host::RetainWhen::Always, &host::takeRetainedOf,
+                                std::chrono::milliseconds(1));
   retained.load(machine.instance(), report, error);
   ASSERT_EQ(error, "");
   std::atomic<bool> done = false;
@@ -118,7 +119,7 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
   const host::RetainMap map(program);
   Bytes image(map.size());
   map.pack(kept, image);
-  EXPECT_EQ(host::RetainStore(file, map.hash(), map.size()).load().bytes, image);
+  EXPECT_EQ(host::RetainStore(file, map.layout().hash, map.size()).load().bytes, image);
 }
 
 constexpr int64_t kLast = 2'000; // requests

@@ -8,9 +8,7 @@
 namespace rung::scenario {
 namespace {
 
-constexpr std::string_view kKinds[] = {"new",     "removed", "moved",
-                                       "renamed", "retyped", "released"}; // by host::ChangeKind
-constexpr size_t kListed = 8;                                             // changes in a message
+constexpr size_t kListed = 8; // changes in a message
 
 std::string counted(uint32_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -36,13 +34,13 @@ std::string listOf(const std::vector<host::StateChange>& changes) {
 } // namespace
 
 std::optional<host::ChangeKind> changeKindFromName(std::string_view name) {
-  const auto* found = std::ranges::find(kKinds, name);
-  if (found == std::end(kKinds)) return std::nullopt;
-  return static_cast<host::ChangeKind>(found - std::begin(kKinds));
+  const auto* found = std::ranges::find(host::kChangeKinds, name);
+  if (found == std::end(host::kChangeKinds)) return std::nullopt;
+  return static_cast<host::ChangeKind>(found - std::begin(host::kChangeKinds));
 }
 
 std::string textOf(const host::StateChange& change) {
-  std::string text(kKinds[static_cast<size_t>(change.kind)]);
+  std::string text(host::kChangeKinds[static_cast<size_t>(change.kind)]);
   if (change.slot) text.append(" ").append(kStateWord);
   if (change.kind == host::ChangeKind::Renamed) text += " " + inWords(change.formerName);
   return text + " " + inWords(change.name);

@@ -40,11 +40,13 @@ private:
     return address;
   }
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
-  ir::SlotId state() { return f_.slot("state", Type::I8); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
-  // One for all low-speed functions of the program.
-  ir::SlotId lock() { return f_.shared("@window/lock", Type::Bit); }
+  // One for all low-speed functions of the program. Who has taken it has a state that is not idle: whoever replaces the
+  // program knows from its key what an instruction that is gone has held (rtlib/host/state_transfer.h).
+  static constexpr const char* kLock = "@window/lock";
+  ir::SlotId lock() { return f_.shared(kLock, Type::Bit); }
+  ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }
 
   uint32_t room() const;
   ValueId oneOf(uint64_t set, ValueId number);

@@ -3,10 +3,10 @@
 
 namespace rung::nc {
 
-Retention::Retention(Control& control, host::Instance& instance, const std::string& file)
+Retention::Retention(Control& control, host::Instance& instance, const std::string& file, host::RetainTake take)
     : control_(&control), instance_(&instance),
       memory_(instance.program(), file,
-              control.savesOnRequest() ? host::RetainWhen::OnRequest : host::RetainWhen::Always) {
+              control.savesOnRequest() ? host::RetainWhen::OnRequest : host::RetainWhen::Always, take) {
   control.setStored(true);
 }
 

@@ -10,8 +10,9 @@ namespace rung::nc {
 
 class Retention {
 public:
-  // Control and instance outlive this. FILE of FILE.a and FILE.b.
-  Retention(Control& control, host::Instance& instance, const std::string& file);
+  // Control and instance outlive this. FILE of FILE.a and FILE.b. `take`: as RetainedMemory has it.
+  Retention(Control& control, host::Instance& instance, const std::string& file,
+            host::RetainTake take = &host::takeRetainedOf);
 
   // Before the power-on: how the program is switched on. Nothing, and `error` says why: the files cannot be used.
   // `report`: what the operator should know of them, or "".

@@ -158,7 +158,7 @@ struct Disk {
 class SlowTarget final : public RetainTarget {
 public:
   explicit SlowTarget(Disk& disk) : disk_(&disk) {}
-  bool save(std::span<const uint8_t> bytes, uint64_t, std::string&) override {
+  bool save(std::span<const uint8_t> bytes, const RetainLayout&, std::string&) override {
     if (disk_->gate != nullptr) disk_->gate->pass();
     disk_->last.assign(bytes.begin(), bytes.end());
     return true;
@@ -225,7 +225,7 @@ TEST(NoAllocation, NorTheEndOfAScan) {
   ASSERT_NE(mkdtemp(pattern.data()), nullptr);
   for (const RetainWhen when : {RetainWhen::Always, RetainWhen::OnRequest}) {
     Instance instance(test.program);
-    RetainedMemory retained(test.program, pattern + "/plc", when, std::chrono::milliseconds(1));
+    RetainedMemory retained(test.program, pattern + "/plc", when, &takeRetainedOf, std::chrono::milliseconds(1));
     std::string report;
     std::string error;
     retained.load(instance, report, error);
@@ -246,7 +246,7 @@ TEST(NoAllocation, NorTheEndOfAScan) {
     EXPECT_FALSE(retained.failing());
     instance.memory().writeByte(0, 4, 123);
     EXPECT_EQ(retained.finish(instance), "");
-    EXPECT_EQ(RetainStore(pattern + "/plc", RetainMap(test.program).hash(), 4).load().bytes[0], 123);
+    EXPECT_EQ(RetainStore(pattern + "/plc", RetainMap(test.program).layout().hash, 4).load().bytes[0], 123);
   }
   fs::remove_all(pattern);
 }

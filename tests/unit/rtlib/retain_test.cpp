@@ -199,7 +199,7 @@ TEST_F(RetainTest, AnotherLayoutOrSizeIsNotTaken) {
   saveThree();
   const RetainImage other = store(kLayout + 1).load();
   EXPECT_FALSE(other.found);
-  EXPECT_THAT(other.report, HasSubstr("another memory layout"));
+  EXPECT_THAT(other.report, HasSubstr("other retained cells"));
   EXPECT_FALSE(store(kLayout, 4).load().found);
   // After the other program saved, the old image is out of date.
   RetainStore s = store(kLayout + 1);
@@ -547,7 +547,7 @@ TEST_F(SaverTest, ALaneOfASaverBeforeHoldsNothingNew) {
 class FailsAfterWriting final : public RetainTarget {
 public:
   FailsAfterWriting(std::vector<Bytes>& written, bool& fails) : written_(&written), fails_(&fails) {}
-  bool save(std::span<const uint8_t> bytes, uint64_t, std::string& error) override {
+  bool save(std::span<const uint8_t> bytes, const RetainLayout&, std::string& error) override {
     written_->emplace_back(bytes.begin(), bytes.end());
     error = "fsync";
     return !*fails_;
@@ -576,7 +576,7 @@ TEST_F(SaverTest, AfterAFailureTheOldImageIsWrittenAgain) {
 
 class Throws final : public RetainTarget {
 public:
-  bool save(std::span<const uint8_t>, uint64_t, std::string&) override { throw std::bad_alloc(); }
+  bool save(std::span<const uint8_t>, const RetainLayout&, std::string&) override { throw std::bad_alloc(); }
 };
 
 TEST_F(SaverTest, NothingThrownLeavesTheThread) {

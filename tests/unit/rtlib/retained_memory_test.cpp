@@ -51,7 +51,7 @@ protected:
   void TearDown() override { fs::remove_all(folder); }
 
   std::unique_ptr<RetainedMemory> started(RetainWhen when, std::chrono::milliseconds period = kNever) {
-    auto memory = std::make_unique<RetainedMemory>(test.program, file, when, period);
+    auto memory = std::make_unique<RetainedMemory>(test.program, file, when, &takeRetainedOf, period);
     found = memory->load(*instance, report, error);
     EXPECT_EQ(error, "");
     return memory;
@@ -63,7 +63,7 @@ protected:
     }
   }
   std::vector<uint8_t> onDisk() const {
-    return RetainStore(file, RetainMap(test.program).hash(), RetainMap(test.program).size()).load().bytes;
+    return RetainStore(file, RetainMap(test.program).layout().hash, RetainMap(test.program).size()).load().bytes;
   }
   using Bytes = std::vector<uint8_t>;
 

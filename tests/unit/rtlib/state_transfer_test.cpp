@@ -309,6 +309,28 @@ TEST_F(Transfer, SlotsAreFoundByTheirKeys) {
   EXPECT_EQ(fresh.block[2], 0);
 }
 
+// Two instructions share @lock, the bit at 16.
+TEST_F(Transfer, WhatAnInstructionThatIsGoneHasHeldIsFree) {
+  for (TestProgram* program : {&old.program, &fresh.program}) {
+    program->addSlot("@lock", 16, RUNG_TYPE_BIT);
+    program->addSlot("MAIN/A/state@lock", 2, RUNG_TYPE_I8);
+  }
+  old.program.addSlot("MAIN/B/state@lock", 4, RUNG_TYPE_I16);
+  old.program.addSlot("MAIN/B/state@other", 6, RUNG_TYPE_I8); // nobody shares that
+  old.start();
+  fresh.start();
+  const auto locked = [&](uint8_t a, uint8_t b) {
+    old.block[2] = a;
+    old.block[5] = b;
+    old.block[6] = 1;
+    old.block[16] = 1;
+    run();
+    return fresh.block[16];
+  };
+  EXPECT_EQ(locked(1, 0), 1) << "it is A that holds it";
+  EXPECT_EQ(locked(0, 1), 0);
+}
+
 TEST_F(Transfer, MechanismsContinueAtTheSameInstruction) {
   old.program.addContinuation("DOOR", 0, {"beginning", "open", "wait", "close"});
   old.program.addContinuation("GONE", 4, {"beginning", "on"});

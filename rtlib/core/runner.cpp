@@ -145,6 +145,12 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
   return pc;
 }
 
+void Runner::latch(uint32_t task) noexcept {
+  if (hooks_.latch == nullptr) return;
+  hooks_.latch(hooks_.data, task);
+  hold();
+}
+
 void Runner::begin(uint32_t task) noexcept {
   inTask_ = true;
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
@@ -177,6 +183,7 @@ bool Runner::runPart(uint32_t task) noexcept {
 bool Runner::runWhole(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
+  latch(task);
   begin(task);
   copy(t.begin_first, t.begin_count);
   beginStack();
@@ -189,6 +196,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
   PartState& state = parts_[task];
+  if (state.part == 0) latch(task);
   begin(task);
   if (state.part == 0) {
     copy(t.begin_first, t.begin_count);

@@ -34,6 +34,8 @@ struct RunnerHooks {
   void* data = nullptr;
   // Around every run of a task or a part, border copies included; runs nothing.
   void (*task)(void* data, uint32_t task, bool begins) = nullptr;
+  // Before that, where a run begins: brings in what it reads.
+  void (*latch)(void* data, uint32_t task) = nullptr;
 };
 
 // A limit in time beside the budget in steps: how long a scan, a slot, a slice, the fast list or a task by itself may
@@ -127,6 +129,7 @@ private:
   void holdAll() noexcept;
   bool isLate() const noexcept { return limit_.nowNs() > deadline_; }
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
+  void latch(uint32_t task) noexcept;
   void begin(uint32_t task) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;

@@ -12,14 +12,11 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
       runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data(), runnable.engine) {
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
-  enter();
-  setTaskWatch(nullptr);
+  ctx_->prof = loaded_.counters();
+  setRunnerHooks();
   port_->services.setResponder({&respondHook, this});
   coldStart();
 }
-
-// Its counters in the context.
-void Instance::enter() { ctx_->prof = loaded_.profile.empty() ? nullptr : loaded_.profile.data(); }
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
@@ -64,9 +61,27 @@ void Instance::taskHook(void* self, uint32_t task, bool begins) {
     instance.taskWatch_->ended(instance, task);
 }
 
+void Instance::latchHook(void* self, uint32_t task) {
+  auto& instance = *static_cast<Instance*>(self);
+  instance.hooks_->onLatch(instance, task);
+}
+
+void Instance::setRunnerHooks() {
+  runner_.setHooks({.step = &stepHook,
+                    .fault = &faultHook,
+                    .data = this,
+                    .task = taskWatch_ == nullptr ? nullptr : &taskHook,
+                    .latch = latching_ && hooks_ != nullptr ? &latchHook : nullptr});
+}
+
 void Instance::setTaskWatch(TaskWatch* watch) {
   taskWatch_ = watch;
-  runner_.setHooks({&stepHook, &faultHook, this, watch == nullptr ? nullptr : &taskHook});
+  setRunnerHooks();
+}
+
+void Instance::setLatching(bool latching) {
+  latching_ = latching;
+  setRunnerHooks();
 }
 
 bool Instance::respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
@@ -152,7 +167,7 @@ ReplaceResult Instance::replace(Replacement& replacement) {
   std::swap(replacement.there_, replacement.back_);
   runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine);
   ctx_->fault = translated(ctx_->fault, former, program());
-  enter();
+  ctx_->prof = loaded_.counters();
   clearProfile();
   ++generation_;
   if (hooks_ != nullptr) hooks_->onReplace(*this);

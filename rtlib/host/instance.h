@@ -23,14 +23,16 @@ namespace rung::host {
 
 class Instance;
 
-// The control's place in the schedule. onHook and onFault may run tasks; respond runs inside one: it may run none, and
-// it may read the program's memory but not write it.
+// The control's place in the schedule. onHook and onFault may run tasks; onLatch runs none, and may write to the
+// program's memory; respond runs inside a task: it may run none, and it may read the program's memory but not write it.
 class ScheduleHooks {
 public:
   virtual ~ScheduleHooks() = default;
   virtual void onHook(Instance& instance, uint32_t work) { (void)instance, (void)work; }
   // The fault is recorded and the outputs are safe. Tasks run here a last time; faults of theirs are ignored.
   virtual void onFault(Instance& instance) { (void)instance; }
+  // A run of a task begins, with its input copies: what it reads from elsewhere is brought in. See setLatching.
+  virtual void onLatch(Instance& instance, uint32_t task) { (void)instance, (void)task; }
   // Another program has taken over, of the same dialect: places that were looked up in the former one mean nothing now.
   virtual void onReplace(Instance& instance) { (void)instance; }
   // True: the reply is filled in and the request does not enter the queue.
@@ -61,8 +63,12 @@ public:
   Instance& operator=(const Instance&) = delete;
 
   const rung_program& program() const { return *loaded_.program; }
-  void setHooks(ScheduleHooks* hooks) { hooks_ = hooks; }
+  void setHooks(ScheduleHooks* hooks) {
+    hooks_ = hooks;
+    setRunnerHooks();
+  }
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
+  void setLatching(bool latching);     // whether onLatch is called; not at first
 
   // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
   // The host's side of the queues may be active meanwhile.
@@ -144,17 +150,19 @@ public:
   const rung_ctx& context() const { return *ctx_; }
 
 private:
-  void enter();
+  void setRunnerHooks();
   bool servicesAgree(const rung_program& next) const;
   void resetRun();
   static void stepHook(void* self, uint32_t work);
   static void faultHook(void* self);
+  static void latchHook(void* self, uint32_t task);
   static void taskHook(void* self, uint32_t task, bool begins);
   static bool respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply);
 
   LoadedProgram loaded_;
   ScheduleHooks* hooks_;
   TaskWatch* taskWatch_ = nullptr;
+  bool latching_ = false;
   std::unique_ptr<rung_ctx> ctx_;
   std::unique_ptr<rt::HostPort> port_;
   rt::Runner runner_;

@@ -20,6 +20,8 @@ struct Runnable {
 struct LoadedProgram {
   explicit LoadedProgram(const Runnable& runnable);
   void clear() noexcept; // memory as the program's tables say
+  // For rung_ctx::prof.
+  rung_prof* counters() noexcept { return profile.empty() ? nullptr : profile.data(); }
 
   struct FreeBlock {
     size_t align; // 0: of somebody else

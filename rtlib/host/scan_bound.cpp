@@ -66,7 +66,7 @@ public:
       : program_(runnable.program), loaded_({runnable.program, runnable.engine}) {
     ctx_.host = &rt::hostApi();
     ctx_.host_data = port_.get();
-    ctx_.prof = loaded_.profile.empty() ? nullptr : loaded_.profile.data();
+    ctx_.prof = loaded_.counters();
     ctx_.engine = runnable.engine;
   }
 

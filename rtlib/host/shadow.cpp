@@ -48,7 +48,7 @@ Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace des
       runner_(next.program, next_.block.get(), ctx_, next_.parts.data(), next.engine) {
   ctx_.host = &api_;
   ctx_.host_data = this;
-  ctx_.prof = next_.profile.empty() ? nullptr : next_.profile.data();
+  ctx_.prof = next_.counters();
   start_.before.resize(live.memory_size);
   for (Record& record : records_) {
     record.before.resize(live.memory_size);

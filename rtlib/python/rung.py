@@ -37,7 +37,7 @@ __all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Diff
            "Fault", "Force", "Forces", "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power",
            "Profile", "Replacement", "Report", "Request", "Sample", "Shadow", "ShadowReport", "ShadowState", "State",
            "StateFlags", "Status", "Symbol", "SymbolFlags", "Trace", "Type", "Watch", "version",
-           "COLD", "WARM", "READ", "WRITE", "TO_PROGRAM", "FROM_PROGRAM", "M", "S", "T", "B", "QUEUE"]
+           "COLD", "WARM", "READ", "WRITE", "REAL", "TO_PROGRAM", "FROM_PROGRAM", "BOUND_REAL", "M", "S", "T", "B", "QUEUE"]
 
 _MAJOR, _MINOR = 0, 1  # of the header that this module was written for
 _NONE = 0xFFFFFFFF  # RUNG_NONE
@@ -71,15 +71,18 @@ class Power(enum.IntEnum):
 
 
 class Access(enum.IntEnum):
-    """What a cell is found for. WRITE includes reading, of the place that is written."""
+    """What a cell is found for. WRITE includes reading, of the place that is written; REAL is added to one of them for
+    the real of 64 bits that begins there."""
     READ = 0
     WRITE = 1
+    REAL = 2
 
 
 class Direction(enum.IntEnum):
     """When a bound variable is copied: before or after every slice."""
     TO_PROGRAM = 0
     FROM_PROGRAM = 1
+    BOUND_REAL = 2
 
 
 class FunctionKind(enum.IntEnum):
@@ -164,8 +167,8 @@ class _InstanceFlags(enum.IntFlag):
 
 
 COLD, WARM = Power
-READ, WRITE = Access
-TO_PROGRAM, FROM_PROGRAM = Direction
+READ, WRITE, REAL = Access
+TO_PROGRAM, FROM_PROGRAM, BOUND_REAL = Direction
 M, S, T, B = FunctionKind
 QUEUE = _Answering.QUEUE
 
@@ -261,6 +264,10 @@ class rung_symbol_info(_Struct):
 class rung_variable(ctypes.Structure):
     _fields_ = [("name", c_char_p), ("address", c_void_p), ("type", c_uint32), ("direction", c_uint32),
                 ("scale", c_double)]
+
+
+class rung_block(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("address", c_void_p), ("bytes", c_uint32), ("direction", c_uint32)]
 
 
 class rung_message_info(_Struct):
@@ -502,12 +509,16 @@ _FUNCTIONS = {
     "rung_instance_read_text": (c_int32, _Handle, _U32, c_char_p, c_size_t),
     "rung_instance_write_text": (c_int32, _Handle, _U32, c_char_p),
     "rung_instance_bind": (c_int32, _Handle, POINTER(rung_variable), _U32),
+    "rung_instance_bind_blocks": (c_int32, _Handle, POINTER(rung_block), _U32),
     "rung_instance_next_message": (c_int32, _Handle, POINTER(rung_message_info)),
     "rung_instance_shown": (c_int32, _Handle, _U32, POINTER(rung_message_info)),
     "rung_instance_next_request": (c_int32, _Handle, POINTER(rung_request)),
     "rung_instance_answer": (c_int32, _Handle, POINTER(rung_reply)),
     "rung_instance_begin_function": (c_int32, _Handle, _U32, _I32, _U32, POINTER(c_uint32)),
     "rung_instance_function_done": (c_int32, _Handle, _U32, _U32),
+    "rung_instance_carries_function": (c_int32, _Handle, _U32, _I32, _U32),
+    "rung_instance_group_function": (c_int32, _Handle, _U32, _U32, _U32),
+    "rung_instance_high_speed_functions": (c_int32, _Handle, _U32),
     "rung_instance_abort_functions": (c_int32, _Handle, _U32),
     "rung_instance_keep": (c_int32, _Handle, _Path),
     "rung_instance_flush": (c_int32, _Handle),
@@ -947,6 +958,16 @@ class Instance(_Closing):
         _call(_library.rung_instance_bind, self, byref(bound), 1)
         self._used.append(variable)
 
+    def bind_block(self, name, block, direction):
+        """Binds memory, any object of ctypes such as an array or a structure, to the bytes from a name on, as the
+        dialect lays them out: TO_PROGRAM, a run of a task takes what it may read where it begins; FROM_PROGRAM after
+        every slice; then it is 0 after a fault and after the power-off. Errors as of cell; OVERWRITTEN, for any of its
+        bytes; BAD_ARGUMENT, a block that does not begin with a byte or is too long."""
+        bound = rung_block(_text(name), ctypes.addressof(block), ctypes.sizeof(block),
+                           _integer(direction, 0, _NONE))
+        _call(_library.rung_instance_bind_blocks, self, byref(bound), 1)
+        self._used.append(block)
+
     # -- messages and services --
 
     def messages(self):
@@ -992,6 +1013,26 @@ class Instance(_Closing):
     def abort_functions(self, channel):
         """Reset, emergency stop: what is under way in the channel ends at once. Error: NOT_FOUND, no such channel."""
         _call(_library.rung_instance_abort_functions, self, channel)
+
+    def carries_function(self, channel, kind, code):
+        """Whether the dialect has signals for this function in the channel."""
+        try:
+            _call(_library.rung_instance_carries_function, self, channel, kind, code)
+        except Error as error:
+            if error.status != Status.NOT_FOUND:
+                raise
+            return False
+        return True
+
+    def group_function(self, channel, code, group):
+        """The machine has this M function in a group of its choice, from now on. Error: NOT_FOUND, the dialect has no
+        such group, or the function has its group for good."""
+        _call(_library.rung_instance_group_function, self, channel, code, group)
+
+    def high_speed_functions(self, channel):
+        """From now on the program finishes every kind of function by a signal of its own. Error: NOT_FOUND, the dialect
+        has no such handshake."""
+        _call(_library.rung_instance_high_speed_functions, self, channel)
 
     # -- retained memory --
 

@@ -23,6 +23,10 @@ rung_type typeOf(const host::Ref& ref) {
 
 namespace {
 
+std::optional<host::Ref> realOf(const rung_program& program, const host::Ref& ref) {
+  return ref.kind == host::RefKind::Real ? std::optional(ref) : host::asReal(rt::Memory(program, nullptr), ref);
+}
+
 // What a host holds for a value of this type.
 int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYPE_TEXT ? 2 : 0; }
 
@@ -31,9 +35,12 @@ int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYP
 LocatedCell locateCell(const nc::Control& control, const rung_program& program, const CellName& name,
                        const rung_type* as) {
   LocatedCell cell;
-  cell.writes = name.access == RUNG_WRITE;
-  const std::optional<host::Ref> ref =
+  cell.writes = (name.access & RUNG_WRITE) != 0;
+  std::optional<host::Ref> ref =
       cell.writes ? control.writePlace(program, name.name) : control.readPlace(program, name.name);
+  if (!ref) return cell;
+  if ((name.access & RUNG_REAL) != 0) ref = realOf(program, *ref);
+  cell.state = CellState::Retyped;
   if (!ref) return cell;
   cell.ref = *ref;
   cell.type = typeOf(*ref);

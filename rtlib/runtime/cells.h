@@ -40,7 +40,7 @@ struct LocatedCell {
 
 struct CellName {
   std::string name;
-  int32_t access = RUNG_READ;
+  int32_t access = RUNG_READ; // enum rung_access, added up
   auto operator<=>(const CellName&) const = default;
 };
 

@@ -33,6 +33,15 @@ int32_t failChannel(uint32_t channel) noexcept {
   return fail(RUNG_NOT_FOUND, "the control has no functions in a channel %u", channel);
 }
 
+int32_t checkFunction(rung_instance& instance, uint32_t channel, int32_t kind, uint32_t code) noexcept {
+  if (kind < RUNG_FUNCTION_M || kind > RUNG_FUNCTION_B)
+    return fail(RUNG_BAD_ARGUMENT, "%d is not an enum rung_function_kind", kind);
+  const nc::Functions* functions = functionsOf(instance, channel);
+  if (functions == nullptr) return failChannel(channel);
+  if (functions->carries(static_cast<nc::FunctionKind>(kind), code)) return RUNG_OK;
+  return fail(RUNG_NOT_FOUND, "the dialect has no signals for %c%u", nc::kFunctionKinds[kind][0], code);
+}
+
 } // namespace
 } // namespace rung::runtime
 
@@ -98,14 +107,10 @@ int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, 
                                      uint32_t* line) {
   const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (kind < RUNG_FUNCTION_M || kind > RUNG_FUNCTION_B || line == nullptr)
-    return fail(RUNG_BAD_ARGUMENT, "a function has a kind of enum rung_function_kind, and a place for its line");
-  nc::Functions* functions = functionsOf(*call, channel);
-  if (functions == nullptr) return failChannel(channel);
+  if (line == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the line of a function is null");
+  if (const int32_t status = checkFunction(*call, channel, kind, code); status != RUNG_OK) return status;
   const auto of = static_cast<nc::FunctionKind>(kind);
-  if (!functions->carries(of, code))
-    return fail(RUNG_NOT_FOUND, "the dialect has no signals for %c%u", nc::kFunctionKinds[kind][0], code);
-  const std::optional<uint32_t> started = functions->start(of, code);
+  const std::optional<uint32_t> started = functionsOf(*call, channel)->start(of, code);
   if (!started) return RUNG_LATER;
   call->functionChannels |= 1u << channel;
   *line = *started;
@@ -127,4 +132,28 @@ int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel)
   if (functions == nullptr) return failChannel(channel);
   functions->abort();
   return RUNG_OK;
+}
+
+int32_t rung_instance_carries_function(const rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code) {
+  const Call call(instance);
+  return call.ok() ? checkFunction(*call, channel, kind, code) : call.status();
+}
+
+int32_t rung_instance_group_function(rung_instance* instance, uint32_t channel, uint32_t code, uint32_t group) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  nc::Functions* functions = functionsOf(*call, channel);
+  if (functions == nullptr) return failChannel(channel);
+  return contained([&] {
+    if (functions->setGroup(code, group)) return int32_t{RUNG_OK};
+    return fail(RUNG_NOT_FOUND, "M%u cannot be in a group %u that the machine chooses", code, group);
+  });
+}
+
+int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t channel) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  nc::Functions* functions = functionsOf(*call, channel);
+  if (functions == nullptr) return failChannel(channel);
+  return functions->useHighSpeed() ? RUNG_OK : fail(RUNG_NOT_FOUND, "the dialect has no high-speed handshake");
 }

@@ -41,6 +41,10 @@ void Hooks::onHook(host::Instance& running, uint32_t work) { instance_.control->
 
 void Hooks::onFault(host::Instance& running) { instance_.control->onFault(running); }
 
+void Hooks::onLatch(host::Instance& running, uint32_t task) {
+  instance_.blockPlan->latch(running.block().data(), task);
+}
+
 bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   shadowRequest(instance_, request);
   const rung_instance_options& options = instance_.options;
@@ -130,10 +134,11 @@ rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_insta
     : options(given), image(std::move(from)), program(&image->program),
       control(nc::makeControl(image->program.dialect)), hooks(*this),
       running({image->program, image->engine, static_cast<uint8_t*>(given.memory)}, &hooks), pace(running),
-      cells(std::make_unique<CellTable>(image->program)) {
+      cells(std::make_unique<CellTable>(image->program)), blockPlan(std::make_unique<BlockPlan>(image->program)) {
   control->onReplace(running); // a replacement before the first power-on gets places in exchange
   images.add(image);
   names.join(*control, *cells);
+  blocks.join(*control, *blockPlan);
   if (image->program.instrumented != 0) clock = profile::calibratedClock();
 }
 

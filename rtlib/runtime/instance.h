@@ -13,6 +13,7 @@
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/retention.h"
 #include "rtlib/profile/clock.h"
+#include "rtlib/runtime/blocks.h"
 #include "rtlib/runtime/cells.h"
 #include "rtlib/runtime/image.h"
 #include "rtlib/runtime/scan_use.h"
@@ -33,6 +34,7 @@ public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
   void onHook(host::Instance& running, uint32_t work) override;
   void onFault(host::Instance& running) override;
+  void onLatch(host::Instance& running, uint32_t task) override;
   bool respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
 
 private:
@@ -61,6 +63,8 @@ struct rung_instance {
   rung::runtime::CellNames names;
   std::unique_ptr<rung::runtime::CellTable> cells;
   std::vector<rung::runtime::BoundVariable> inputs, outputs;
+  rung::runtime::HostBlocks blocks;
+  std::unique_ptr<rung::runtime::BlockPlan> blockPlan; // of the program that runs
   rung::runtime::Watches watches;
   rung::rt::FixedRing<rung_message, rung::rt::kMessageCapacity> messages;
   std::string keptFile;                           // "": nothing is kept

@@ -19,9 +19,11 @@ struct rung_replacement {
       : instance(of), image(std::move(next)),
         replacement(*of.program.load(std::memory_order_acquire), {image->program, image->engine, memory}),
         places(of.control->locate(image->program)), cells(std::make_unique<CellTable>(image->program)),
+        blockPlan(std::make_unique<BlockPlan>(image->program)),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
     instance.images.add(image);
     instance.names.join(*instance.control, *cells);
+    instance.blocks.join(*instance.control, *blockPlan);
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
     bound = host::measureBound({image->program, image->engine});
     if (!bound.fits()) late = "a slice of the new program may last " + host::boundText(bound, image->program);
@@ -31,6 +33,7 @@ struct rung_replacement {
     instance.former.compare_exchange_strong(self, nullptr);
     instance.puttingBack.wait();
     instance.names.leave(*cells);
+    instance.blocks.leave(*blockPlan);
     const std::lock_guard lock(instance.retentionChanges);
     if (instance.retention) instance.retention->settle();
   }
@@ -41,6 +44,7 @@ struct rung_replacement {
   host::Replacement replacement;
   std::unique_ptr<nc::Places> places; // of the control
   std::unique_ptr<CellTable> cells;
+  std::unique_ptr<BlockPlan> blockPlan;
   std::unique_ptr<host::RetainLane> lane; // what is kept of the program
   bool holdsFormer = false;               // the program that it was made to replace
   profile::Clock clock;
@@ -60,6 +64,7 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
   instance.control->exchangePlaces(instance.running, replacement.places);
   std::swap(instance.image, replacement.image);
   std::swap(instance.cells, replacement.cells);
+  std::swap(instance.blockPlan, replacement.blockPlan);
   std::swap(instance.clock, replacement.clock);
   settleForces(instance);
   if (instance.retention) instance.retention->programChanged(replacement.lane);

@@ -11,10 +11,27 @@
 
 namespace rung::runtime {
 
-void beforePart(rung_instance& instance) noexcept {
+namespace {
+
+// A function that the host begins before the next slice begins with that one, like those that the steps were for.
+void stepFunctions(rung_instance& instance) noexcept {
   for (uint32_t left = instance.functionChannels; left != 0; left &= left - 1)
     instance.control->functions(static_cast<uint32_t>(std::countr_zero(left)))->step();
+}
+
+void endPass(rung_instance& instance) noexcept {
+  ++instance.passes;
+  instance.watches.sample(instance);
+  instance.lastPassNs = instance.passNs;
+  instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
+  instance.passNs = 0;
+}
+
+} // namespace
+
+void beforePart(rung_instance& instance) noexcept {
   readInputs(instance);
+  instance.blockPlan->readRest(instance.running.block().data());
 }
 
 void afterPart(rung_instance& instance) noexcept {
@@ -36,12 +53,9 @@ void afterPart(rung_instance& instance) noexcept {
     return;
   }
   writeOutputs(instance);
-  if (!running.atListStart()) return;
-  ++instance.passes;
-  instance.watches.sample(instance);
-  instance.lastPassNs = instance.passNs;
-  instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
-  instance.passNs = 0;
+  instance.blockPlan->write(running.block().data());
+  if (running.atListStart()) endPass(instance);
+  stepFunctions(instance);
 }
 
 void reportFault(rung_instance& instance) noexcept {

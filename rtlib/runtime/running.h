@@ -8,7 +8,7 @@ namespace rung::runtime {
 
 void beforePart(rung_instance& instance) noexcept;
 void afterPart(rung_instance& instance) noexcept;
-// What the program has written means nothing any more: bound variables become 0.
+// What the program has written means nothing any more: bound variables and blocks become 0.
 void clearOutputs(rung_instance& instance) noexcept;
 
 // `part` runs a slice, a slot, a scan or the fast task.

@@ -7,6 +7,13 @@
 #include "rtlib/runtime/structs.h"
 
 namespace rung::runtime {
+
+int32_t failName(const rung_instance& instance, const char* name) noexcept {
+  return fail(RUNG_NOT_FOUND,
+              "%s is not a name of the program %s, an address of its dialect or a signal of the NC's interface", name,
+              instance.running.program().name);
+}
+
 namespace {
 
 int32_t failState(CellState state) noexcept {
@@ -25,11 +32,9 @@ int32_t failState(CellState state) noexcept {
 // The sentence for a name that is not entered.
 int32_t failName(const rung_instance& instance, const char* name, CellState state) {
   const rung_program& program = instance.running.program();
+  if (state == CellState::Retyped) return fail(RUNG_WRONG_TYPE, "%s has no room for a real", name);
   if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
-  if (state != CellState::Overwritten)
-    return fail(RUNG_NOT_FOUND,
-                "%s is not a name of the program %s, an address of its dialect or a signal of the NC's interface", name,
-                program.name);
+  if (state != CellState::Overwritten) return runtime::failName(instance, name);
   const std::optional<host::Ref> place = instance.control->writePlace(program, name);
   const std::optional<host::Ref> source = place ? host::Overwritten(program).source(*place) : std::nullopt;
   return fail(RUNG_OVERWRITTEN, "%s is copied from %s before the program reads it: write there", name,
@@ -102,8 +107,8 @@ int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t ac
   if (!call.ok()) return call.status();
   if (name == nullptr || cell == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "the name or the pointer that receives the cell is null");
-  if (access != RUNG_READ && access != RUNG_WRITE)
-    return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, not %d", access);
+  if (access < 0 || access > (RUNG_WRITE | RUNG_REAL))
+    return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, and RUNG_REAL, not %d", access);
   return contained([&] { return findCell(*call, name, access, *cell); });
 }
 

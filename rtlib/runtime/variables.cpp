@@ -59,6 +59,10 @@ int64_t nearest(double value) noexcept {
   return std::llrint(std::fmax(-kLimit, std::fmin(kLimit, value)));
 }
 
+bool isUnsigned(rung_host_type type) noexcept {
+  return type == RUNG_HOST_U8 || type == RUNG_HOST_U16 || type == RUNG_HOST_U32;
+}
+
 bool isReal(rung_host_type type) noexcept { return type == RUNG_HOST_F32 || type == RUNG_HOST_F64; }
 
 double realOf(const BoundVariable& v) noexcept {
@@ -97,6 +101,10 @@ void writeOutputs(rung_instance& instance) noexcept {
       setInteger(v, 0);
       continue;
     }
+    if (isUnsigned(v.type) && cell.ref.kind == host::RefKind::Int) {
+      setInteger(v, static_cast<int64_t>(memory.read(cell.place)));
+      continue;
+    }
     const rung_value value = firstValue(memory, cell);
     const bool real = cell.place.real;
     if (isReal(v.type))
@@ -108,6 +116,7 @@ void writeOutputs(rung_instance& instance) noexcept {
 
 void clearOutputs(rung_instance& instance) noexcept {
   for (const BoundVariable& v : instance.outputs) setInteger(v, 0);
+  instance.blockPlan->clear();
 }
 
 namespace {
@@ -119,13 +128,22 @@ int32_t checkVariable(const rung_variable& v, uint32_t number) noexcept {
     return fail(RUNG_BAD_ARGUMENT, "variable %u has no name or no address", number);
   if (v.type < RUNG_HOST_BOOL || v.type > RUNG_HOST_F64)
     return fail(RUNG_BAD_ARGUMENT, "variable %u, %s: %u is not an enum rung_host_type", number, v.name, v.type);
-  if (v.direction > RUNG_FROM_PROGRAM)
+  if (v.direction > (RUNG_FROM_PROGRAM | RUNG_BOUND_REAL))
     return fail(RUNG_BAD_ARGUMENT, "variable %u, %s: %u is not an enum rung_direction", number, v.name, v.direction);
   if (reinterpret_cast<uintptr_t>(v.address) % kWidths[v.type] != 0)
     return fail(RUNG_BAD_ARGUMENT, "variable %u, %s: its address is not aligned for its type", number, v.name);
   if (!std::isfinite(v.scale))
     return fail(RUNG_BAD_ARGUMENT, "variable %u, %s: the scale is not a number", number, v.name);
   return RUNG_OK;
+}
+
+// The machine sees what it could write, also of the program's outputs. What is no place of the machine's is as the
+// program has it.
+int32_t findVariable(rung_instance& instance, const rung_variable& v, bool input, rung_cell& cell) {
+  const int32_t real = (v.direction & RUNG_BOUND_REAL) != 0 ? RUNG_REAL : 0;
+  const int32_t status = findCell(instance, v.name, RUNG_WRITE | real, cell);
+  if (input || (status != RUNG_OVERWRITTEN && status != RUNG_WRONG_TYPE)) return status;
+  return findCell(instance, v.name, RUNG_READ | real, cell);
 }
 
 } // namespace
@@ -144,11 +162,10 @@ int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variabl
     for (uint32_t i = 0; i < count; ++i) {
       const rung_variable& v = variables[i];
       if (const int32_t status = checkVariable(v, i); status != RUNG_OK) return status;
-      const bool input = v.direction == RUNG_TO_PROGRAM;
+      const bool input = (v.direction & RUNG_FROM_PROGRAM) == 0;
       BoundVariable bound{
           .type = static_cast<rung_host_type>(v.type), .address = v.address, .scale = v.scale != 0 ? v.scale : 1};
-      if (const int32_t status = findCell(*call, v.name, input ? RUNG_WRITE : RUNG_READ, bound.cell); status != RUNG_OK)
-        return status;
+      if (const int32_t status = findVariable(*call, v, input, bound.cell); status != RUNG_OK) return status;
       if (call->cells->at(bound.cell)->type == RUNG_TYPE_TEXT)
         return fail(RUNG_WRONG_TYPE, "%s is a text: no variable can be bound to it", v.name);
       (input ? inputs : outputs).push_back(bound);

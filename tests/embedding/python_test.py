@@ -566,8 +566,9 @@ class Values(Case):
             self.fails(rung.Status.BAD_ARGUMENT, plc.__getitem__, wrong, text="is not a text")
         self.fails(rung.Status.BAD_ARGUMENT, plc.__getitem__, "COUNT\0")
         self.fails(rung.Status.WRONG_TYPE, plc.__setitem__, "FIVE", 6, text="constant")
-        for wrong in (2, -1, "w", 1 << 32):
+        for wrong in (4, -1, "w", 1 << 32):
             self.fails(rung.Status.BAD_ARGUMENT, plc.cell, "COUNT", wrong)
+        self.fails(rung.Status.WRONG_TYPE, plc.cell, "COUNT", rung.REAL, text="COUNT has no room for a real")
 
     def test_cells(self):
         plc = self.values
@@ -648,7 +649,8 @@ class Values(Case):
         self.fails(rung.Status.WRONG_TYPE, plc.bind, "TEXT", good, rung.TO_PROGRAM)
         self.fails(rung.Status.WRONG_TYPE, plc.bind, "FIVE", good, rung.TO_PROGRAM)
         self.fails(rung.Status.WRONG_TYPE, plc.bind, 5, good, rung.TO_PROGRAM)
-        self.fails(rung.Status.BAD_ARGUMENT, plc.bind, "LONG", good, 2)
+        self.fails(rung.Status.BAD_ARGUMENT, plc.bind, "LONG", good, 4)
+        self.fails(rung.Status.WRONG_TYPE, plc.bind, "LONG", good, rung.BOUND_REAL)
         self.fails(rung.Status.BAD_ARGUMENT, plc.bind, "LONG", good, 1 << 32)
         self.fails(rung.Status.WRONG_TYPE, plc.bind, "LONG", good, "in")
         self.fails(rung.Status.BAD_ARGUMENT, plc.bind, "LONG", good, rung.TO_PROGRAM, float("nan"))

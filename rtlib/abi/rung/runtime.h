@@ -248,11 +248,13 @@ typedef uint32_t rung_cell;
 enum rung_access {
   RUNG_READ = 0,
   RUNG_WRITE = 1, /* by the machine or a person; reading is included, of the place that is written */
+  RUNG_REAL = 2,  /* in addition: the real of 64 bits that begins there, in a longer cell or in two words */
 };
 
 /* Finds a cell by a name of the program, an address of the dialect or a signal of the NC's interface, with index, bit
  * or width as the dialect writes them. The same name gives the same cell. RUNG_NOT_FOUND; RUNG_OVERWRITTEN for
- * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE. */
+ * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE, or no room for RUNG_REAL.
+ * `access`: enum rung_access, added up. */
 RUNG_API int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell);
 
 typedef struct rung_cell_info {
@@ -313,7 +315,7 @@ typedef struct rung_symbol_info {
 
 RUNG_API int32_t rung_image_symbol(const rung_image* image, uint32_t index, rung_symbol_info* symbol);
 
-/* ---- host variables -------------------------------------------------------------------------------------------- */
+/* ---- host variables and blocks --------------------------------------------------------------------------------- */
 
 enum rung_host_type {
   RUNG_HOST_BOOL = 1, /* a byte: 0, or not */
@@ -329,22 +331,39 @@ enum rung_host_type {
 };
 
 enum rung_direction {
-  RUNG_TO_PROGRAM = 0,   /* before every slice */
-  RUNG_FROM_PROGRAM = 1, /* after every slice; 0 after a fault and after the power-off */
+  RUNG_TO_PROGRAM = 0,   /* before every slice; of a block, where a task begins that reads it */
+  RUNG_FROM_PROGRAM = 1, /* after every slice, as the machine sees it; 0 after a fault and after the power-off */
+  RUNG_BOUND_REAL = 2,   /* in addition, of a variable: the real that RUNG_REAL would find */
 };
 
 typedef struct rung_variable {
   const char* name;   /* as for rung_instance_find */
   void* address;      /* of the host's variable, aligned for its type, for the life of the instance */
   uint32_t type;      /* enum rung_host_type */
-  uint32_t direction; /* enum rung_direction */
+  uint32_t direction; /* enum rung_direction, added up */
   double scale;       /* of RUNG_HOST_F32 and F64: units of the program in one of the host's; 0: 1 */
 } rung_variable;
 
 /* Binds variables of the host to cells, in addition to those that are bound: from now on they are copied at the borders
- * of slices. An integer that a narrower cell does not hold loses its upper bits; a real is rounded to an integer cell
- * and held in its range. All or none; errors as of rung_instance_find. */
+ * of slices. An integer that a narrower cell does not hold loses its upper bits; of a wider variable from a cell the
+ * upper ones are its sign, or 0 where the variable has none. A real is rounded to an integer cell and held in its
+ * range. All or none; errors as of rung_instance_find. */
 RUNG_API int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variables, uint32_t count);
+
+/* Memory of the host for bytes of a space, as the dialect lays them out: little-endian, bit 0 the lowest.
+ */
+typedef struct rung_block {
+  const char* name;   /* of its first cell, as for rung_instance_find; it begins with a byte */
+  void* address;      /* of the host's memory, of any alignment, for the life of the instance */
+  uint32_t bytes;     /* at least 1; to the end of the space at most; of a cell that the compiler placed: of the cell */
+  uint32_t direction; /* enum rung_direction */
+} rung_block;
+
+/* Binds blocks, in addition to those that are bound. Of a block to the program, a run of a task takes the bytes that
+ * the task may read, once, where it begins; what no task reads is taken before every slice, for the control and for who
+ * looks at it. Where a variable is bound to the same cell, the block counts. All or none; errors as of
+ * rung_instance_find, RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
+RUNG_API int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blocks, uint32_t count);
 
 /* ---- messages -------------------------------------------------------------------------------------------------- */
 
@@ -388,6 +407,16 @@ RUNG_API int32_t rung_instance_begin_function(rung_instance* instance, uint32_t 
 RUNG_API int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line);
 /* Reset, emergency stop: what is under way in the channel ends at once, unanswered. [rt] */
 RUNG_API int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel);
+
+/* Whether the dialect has signals for this function in the channel. RUNG_NOT_FOUND: no. [rt] */
+RUNG_API int32_t rung_instance_carries_function(const rung_instance* instance, uint32_t channel, int32_t kind,
+                                                uint32_t code);
+/* The machine has this M function in a group of its choice, from now on. RUNG_NOT_FOUND: the dialect has no such group,
+ * or the function has its group for good. */
+RUNG_API int32_t rung_instance_group_function(rung_instance* instance, uint32_t channel, uint32_t code, uint32_t group);
+/* From now on the program finishes every kind of function by a signal of its own, so that kinds do not wait for each
+ * other. RUNG_NOT_FOUND: the dialect has no such handshake. */
+RUNG_API int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t channel);
 
 /* ---- retained memory -------------------------------------------------------------------------------------------- */
 

@@ -139,6 +139,15 @@ public:
   void bindOutput(const std::string& name, T& variable, double scale = 1) {
     bind(name, &variable, hostType<T>(), RUNG_FROM_PROGRAM, scale);
   }
+  // An array or a struct of the host, which outlives the instance, for the bytes from a cell on.
+  template <class T>
+  void bindInputBlock(const std::string& name, const T& block) {
+    bindBlock(name, block, RUNG_TO_PROGRAM);
+  }
+  template <class T>
+  void bindOutputBlock(const std::string& name, T& block) {
+    bindBlock(name, block, RUNG_FROM_PROGRAM);
+  }
 
   std::optional<rung_message_info> nextMessage() {
     auto out = sized<rung_message_info>();
@@ -165,6 +174,13 @@ private:
       constexpr int kWidth = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
       return std::is_signed_v<T> ? kSigned[kWidth] : kUnsigned[kWidth];
     }
+  }
+  template <class T>
+  void bindBlock(const std::string& name, T& block, rung_direction direction) {
+    static_assert(std::is_trivially_copyable_v<T>, "a block is plain memory: an array or a struct of numbers");
+    const rung_block bound{name.c_str(), const_cast<void*>(static_cast<const void*>(&block)), sizeof block,
+                           static_cast<uint32_t>(direction)};
+    check(rung_instance_bind_blocks(handle(), &bound, 1));
   }
   void bind(const std::string& name, void* address, rung_host_type type, rung_direction direction, double scale) {
     const rung_variable variable{name.c_str(), address, static_cast<uint32_t>(type), static_cast<uint32_t>(direction),

@@ -56,6 +56,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_read_text(plc, cell, text, sizeof text));
   BAD_HANDLE(rung_instance_write_text(plc, cell, "a"));
   BAD_HANDLE(rung_instance_bind(plc, NULL, 0));
+  BAD_HANDLE(rung_instance_bind_blocks(plc, NULL, 0));
   BAD_HANDLE(rung_instance_next_message(plc, &message));
   BAD_HANDLE(rung_instance_shown(plc, 0, &message));
   BAD_HANDLE(rung_instance_next_request(plc, &request));
@@ -63,6 +64,9 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_begin_function(plc, 0, RUNG_FUNCTION_M, 3, &line));
   BAD_HANDLE(rung_instance_function_done(plc, 0, 0));
   BAD_HANDLE(rung_instance_abort_functions(plc, 0));
+  BAD_HANDLE(rung_instance_carries_function(plc, 0, RUNG_FUNCTION_M, 3));
+  BAD_HANDLE(rung_instance_group_function(plc, 0, 3, 1));
+  BAD_HANDLE(rung_instance_high_speed_functions(plc, 0));
   BAD_HANDLE(rung_instance_keep(plc, "file"));
   BAD_HANDLE(rung_instance_flush(plc));
   BAD_HANDLE(rung_instance_profile(plc, 0, &profile));

@@ -263,6 +263,8 @@ private:
   int32_t bind(rung_instance* plc) {
     if (!chance(10)) return RUNG_OK; // they stay
     rung_variable variable{name(), place(bound_), number() + (chance(80) ? 1 : 0), below(3), chance(50) ? 0.0 : 2.5};
+    rung_block block{name(), place(block_), below(20), below(3)};
+    if (chance(30)) return rung_instance_bind_blocks(plc, place(block), below(2));
     return rung_instance_bind(plc, place(variable), below(2));
   }
 
@@ -276,6 +278,7 @@ private:
   std::vector<rung_trace*> traces_;
   std::array<uint64_t, 128> none_{};
   double bound_ = 0;
+  std::array<uint8_t, 64> block_{};
   uint32_t last_ = 0;
   std::array<int, kStatuses>& statuses_;
 };

@@ -3,6 +3,7 @@
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc {
 namespace {
@@ -58,7 +59,22 @@ std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) c
   return shown;
 }
 
+namespace {
+
+// NC.MPOS.N, the machine position of axis N in 0.001 mm: a program has it where it reads positions (PSGNL, PSGN2).
+std::optional<host::Ref> position(const rung_program& program, std::string_view number) {
+  constexpr uint32_t kBytes = 4;
+  const uint32_t space = host::findSpace(program, "@MPOS");
+  const uint32_t axis = text::numberIn<uint32_t>(number).value_or(0);
+  if (space == RUNG_NONE || axis == 0 || axis > program.spaces[space].byte_count / kBytes) return std::nullopt;
+  return host::intRef(space, kBytes * (axis - 1), 8 * kBytes);
+}
+
+} // namespace
+
 std::optional<host::Ref> GskControl::signal(const rung_program& program, std::string_view name) const {
+  constexpr std::string_view kPositions = "NC.MPOS.";
+  if (name.starts_with(kPositions)) return position(program, name.substr(kPositions.size()));
   const Signal* found = findSignal(gskSignals(), name);
   if (found == nullptr) return std::nullopt;
   const uint32_t space = host::findSpace(program, found->area);

@@ -1,0 +1,192 @@
+// From blocks of the host to pieces of the memory block, and copying them (see blocks.h).
+#include "rtlib/runtime/blocks.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "rtlib/core/bits.h"
+#include "rtlib/host/overwritten.h"
+#include "rtlib/runtime/error.h"
+#include "rtlib/runtime/values.h"
+
+namespace rung::runtime {
+namespace {
+
+// Bytes from the beginning of a cell to its end.
+uint64_t extentOf(const host::Ref& ref) { return (uint64_t{ref.width} * ref.count + 7) / 8; }
+
+} // namespace
+
+BlockPlace locateBlock(const nc::Control& control, const rung_program& program, const HostBlock& block) {
+  const std::optional<host::Ref> ref = control.writePlace(program, block.name); // as the machine sees it
+  if (!ref) return {};
+  const auto wrong = [](BlockState state) { return BlockPlace{.state = state}; };
+  if (ref->kind == host::RefKind::Constant) return wrong(BlockState::Constant);
+  if (ref->kind == host::RefKind::Bit && ref->bit != 0) return wrong(BlockState::WithinByte);
+  const rung_space& space = program.spaces[ref->space];
+  const bool allocated = (space.flags & RUNG_SPACE_ALLOCATED) != 0;
+  const uint64_t room = allocated ? extentOf(*ref) : uint64_t{space.byte_count} - ref->byte;
+  if (block.bytes > room) return wrong(BlockState::TooLong);
+  const host::Overwritten overwritten(program);
+  for (uint32_t i = 0; block.input && i < block.bytes; ++i)
+    if (overwritten.source(host::intRef(ref->space, ref->byte + i, 8))) return wrong(BlockState::Overwritten);
+  return {.state = BlockState::Good, .space = ref->space, .byte = ref->byte};
+}
+
+// ---- one program -------------------------------------------------------------------------------------------------
+
+void BlockPlan::add(const nc::Control& control, const HostBlock& block) {
+  const BlockPlace place = locateBlock(control, *program_, block);
+  if (!block.input)
+    addOutput(block, place);
+  else if (place.state == BlockState::Good)
+    addInput(block, place);
+}
+
+BlockPlan::Piece BlockPlan::byteOf(const HostBlock& block, const BlockPlace& place, uint32_t i) const {
+  const rung_range& range = *rt::Memory(*program_, nullptr).rangeOf(place.space, place.byte + i);
+  const bool expanded = range.repr == RUNG_REPR_BYTE_PER_BIT;
+  const uint32_t into = place.byte + i - range.first_byte;
+  return {block.address + i, range.offset + into * (expanded ? 8 : 1), 1, expanded};
+}
+
+bool BlockPlan::reads(uint32_t task, const Piece& byte) const {
+  const rung_task& t = program_->tasks[task];
+  const uint32_t end = byte.offset + (byte.expanded ? 8 : 1);
+  const std::span spans(program_->reads + t.read_first, t.read_count);
+  const auto after = std::ranges::lower_bound(spans, end, {}, &rung_span::offset);
+  return after != spans.begin() && std::prev(after)->offset + std::prev(after)->size > byte.offset;
+}
+
+void BlockPlan::append(std::vector<Piece>& pieces, const Piece& byte) {
+  if (!pieces.empty()) {
+    Piece& last = pieces.back();
+    if (last.expanded == byte.expanded && last.host + last.bytes == byte.host &&
+        last.offset + last.bytes * (last.expanded ? 8 : 1) == byte.offset) {
+      ++last.bytes;
+      return;
+    }
+  }
+  pieces.push_back(byte);
+}
+
+void BlockPlan::addInput(const HostBlock& block, const BlockPlace& place) {
+  for (uint32_t i = 0; i < block.bytes; ++i) {
+    const Piece byte = byteOf(block, place, i);
+    bool any = false;
+    for (uint32_t task = 0; task < reads_.size(); ++task) {
+      if (!reads(task, byte)) continue;
+      append(reads_[task], byte);
+      any = true;
+    }
+    if (!any) append(rest_, byte);
+  }
+}
+
+void BlockPlan::addOutput(const HostBlock& block, const BlockPlace& place) {
+  if (place.state != BlockState::Good) return outputs_.push_back({block.address, kNowhere, block.bytes, false});
+  for (uint32_t i = 0; i < block.bytes; ++i) append(outputs_, byteOf(block, place, i));
+}
+
+void BlockPlan::copyIn(const std::vector<Piece>& pieces, uint8_t* memory) noexcept {
+  for (const Piece& piece : pieces) {
+    uint8_t* to = memory + piece.offset;
+    if (piece.expanded)
+      for (uint32_t i = 0; i < piece.bytes; ++i) rt::unpackBits(piece.host[i], to + size_t{8} * i);
+    else
+      std::memcpy(to, piece.host, piece.bytes);
+  }
+}
+
+void BlockPlan::write(const uint8_t* memory) const noexcept {
+  for (const Piece& piece : outputs_) {
+    if (piece.offset == kNowhere) {
+      std::memset(piece.host, 0, piece.bytes);
+      continue;
+    }
+    const uint8_t* from = memory + piece.offset;
+    if (piece.expanded)
+      for (uint32_t i = 0; i < piece.bytes; ++i) piece.host[i] = rt::packBits(from + size_t{8} * i);
+    else
+      std::memcpy(piece.host, from, piece.bytes);
+  }
+}
+
+void BlockPlan::clear() const noexcept {
+  for (const Piece& piece : outputs_) std::memset(piece.host, 0, piece.bytes);
+}
+
+// ---- all programs ------------------------------------------------------------------------------------------------
+
+void HostBlocks::add(const nc::Control& control, const std::vector<HostBlock>& blocks) {
+  const std::lock_guard lock(mutex_);
+  for (const HostBlock& block : blocks) {
+    for (BlockPlan* plan : plans_) plan->add(control, block);
+    blocks_.push_back(block);
+  }
+}
+
+void HostBlocks::join(const nc::Control& control, BlockPlan& plan) {
+  const std::lock_guard lock(mutex_);
+  for (const HostBlock& block : blocks_) plan.add(control, block);
+  plans_.push_back(&plan);
+}
+
+void HostBlocks::leave(BlockPlan& plan) {
+  const std::lock_guard lock(mutex_);
+  std::erase(plans_, &plan);
+}
+
+namespace {
+
+int32_t checkBlock(const rung_block& b, uint32_t number) noexcept {
+  if (b.name == nullptr || b.address == nullptr || b.bytes == 0)
+    return fail(RUNG_BAD_ARGUMENT, "block %u has no name, no address or no bytes", number);
+  if (b.direction > RUNG_FROM_PROGRAM)
+    return fail(RUNG_BAD_ARGUMENT, "block %u, %s: %u is not an enum rung_direction", number, b.name, b.direction);
+  return RUNG_OK;
+}
+
+int32_t failBlock(const rung_instance& instance, const HostBlock& block, BlockState state) {
+  const char* name = block.name.c_str();
+  switch (state) {
+  case BlockState::Good: break;
+  case BlockState::Gone: return failName(instance, name);
+  case BlockState::Constant: return fail(RUNG_WRONG_TYPE, "%s is a constant: it has no memory", name);
+  case BlockState::WithinByte:
+    return fail(RUNG_BAD_ARGUMENT, "%s does not begin with a byte: a block is made of whole bytes", name);
+  case BlockState::TooLong:
+    return fail(RUNG_BAD_ARGUMENT, "there are not %u bytes from %s on for a block", block.bytes, name);
+  case BlockState::Overwritten:
+    return fail(RUNG_OVERWRITTEN, "another place is copied over the %u bytes from %s on, or over some of them",
+                block.bytes, name);
+  }
+  return RUNG_OK;
+}
+
+} // namespace
+} // namespace rung::runtime
+
+using namespace rung::runtime;
+
+int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blocks, uint32_t count) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (blocks == nullptr && count != 0) return fail(RUNG_BAD_ARGUMENT, "the blocks are null, their number is not 0");
+  return contained([&] {
+    std::vector<HostBlock> given;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (const int32_t status = checkBlock(blocks[i], i); status != RUNG_OK) return status;
+      const HostBlock& block = given.emplace_back(HostBlock{.name = blocks[i].name,
+                                                            .address = static_cast<uint8_t*>(blocks[i].address),
+                                                            .bytes = blocks[i].bytes,
+                                                            .input = blocks[i].direction == RUNG_TO_PROGRAM});
+      const BlockState state = locateBlock(*call->control, call->running.program(), block).state;
+      if (state != BlockState::Good) return failBlock(*call, block, state);
+    }
+    call->blocks.add(*call->control, given);
+    if (std::ranges::any_of(given, &HostBlock::input)) call->running.setLatching(true);
+    return int32_t{RUNG_OK};
+  });
+}

@@ -1,0 +1,89 @@
+// Blocks of the host's memory for bytes of a space (rung_instance_bind_blocks), and which bytes of them lie
+// where in each program that the instance has or may get.
+#pragma once
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "rtlib/nc/control/control.h"
+#include "rung/runtime.h"
+
+namespace rung::runtime {
+
+struct HostBlock {
+  std::string name;
+  uint8_t* address = nullptr;
+  uint32_t bytes = 0;
+  bool input = false;
+};
+
+// What of a program is wrong for a block.
+enum class BlockState : uint8_t {
+  Good,
+  Gone,        // the program does not have the name
+  Constant,    // it has no memory
+  WithinByte,  // it does not begin with a byte
+  TooLong,     // it ends in another space, or where other cells are that nobody placed there
+  Overwritten, // another place is copied over its input
+};
+
+// The first byte of a block.
+struct BlockPlace {
+  BlockState state = BlockState::Gone;
+  uint32_t space = RUNG_NONE;
+  uint32_t byte = 0;
+};
+BlockPlace locateBlock(const nc::Control& control, const rung_program& program, const HostBlock& block);
+
+// The blocks in one program. Copying allocates nothing.
+class BlockPlan {
+public:
+  explicit BlockPlan(const rung_program& program) : program_(&program), reads_(program.task_count) {}
+
+  void add(const nc::Control& control, const HostBlock& block);
+
+  // What a run of the task reads; and what no task reads, which others may look at.
+  void latch(uint8_t* memory, uint32_t task) const noexcept { copyIn(reads_[task], memory); }
+  void readRest(uint8_t* memory) const noexcept { copyIn(rest_, memory); }
+  void write(const uint8_t* memory) const noexcept;
+  void clear() const noexcept;
+
+private:
+  static constexpr uint32_t kNowhere = RUNG_NONE; // as an offset: the program does not have the bytes
+  // Bytes of a block that lie together in the program's memory.
+  struct Piece {
+    uint8_t* host;
+    uint32_t offset; // in the memory block
+    uint32_t bytes;
+    bool expanded; // there: a byte a bit
+  };
+  static void copyIn(const std::vector<Piece>& pieces, uint8_t* memory) noexcept;
+  static void append(std::vector<Piece>& pieces, const Piece& byte);
+  void addInput(const HostBlock& block, const BlockPlace& place);
+  void addOutput(const HostBlock& block, const BlockPlace& place);
+  Piece byteOf(const HostBlock& block, const BlockPlace& place, uint32_t i) const;
+  bool reads(uint32_t task, const Piece& byte) const;
+
+  const rung_program* program_;
+  std::vector<std::vector<Piece>> reads_; // by task
+  std::vector<Piece> rest_;
+  std::vector<Piece> outputs_;
+};
+
+// The blocks, and every plan that has them. For any thread, but not in real time.
+class HostBlocks {
+public:
+  // Adds to every plan. The instance of the plans' programs does not run meanwhile.
+  void add(const nc::Control& control, const std::vector<HostBlock>& blocks);
+  // From now on the plan has all blocks.
+  void join(const nc::Control& control, BlockPlan& plan);
+  void leave(BlockPlan& plan);
+
+private:
+  std::mutex mutex_;
+  std::vector<HostBlock> blocks_;
+  std::vector<BlockPlan*> plans_;
+};
+
+} // namespace rung::runtime

@@ -145,7 +145,7 @@ def fault(bench, _options):
     loop = range(lines.index("FUNC LBL") + 1, lines.index("PRM  L1", lines.index("FUNC JMPB")) + 2)
     expect(int(values["fault-line"][1], 0) in loop, values)
     expect(int(values["scans"][0], 0) > 0, values)
-    expect("box: the program has stopped: dead-loop at " in done.stdout, "no message")
+    expect("box: the program has stopped: dead-loop (rung 3, " in done.stdout, "no message")
     expect("stuck.pmc:" in done.stdout, "no source file in the message")
     expect("box: the program has been restarted" in done.stdout, "no message of the restart")
 

@@ -14,6 +14,7 @@
 
 #include "ir/support/check.h"
 #include "tests/fuzz/mapped_programs.h"
+#include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
 #include "tools/rung-hal/binding.h"
 #include "tools/rung-hal/map_file.h"
@@ -76,13 +77,12 @@ void checkMap(const MapFile& map) {
 
 // ---- binding -------------------------------------------------------------------------------------------------------
 
-// Binding reads the instance only.
 struct Bound {
   explicit Bound(const fuzz::MappedProgram& source)
-      : compiled(source.file, source.text, compiler::EngineKind::Interp), instance(compiled.program()) {}
+      : compiled(source.file, source.text, compiler::EngineKind::Interp), image(test::adopted(compiled.program())) {}
 
   testing::CompiledProgram compiled;
-  host::Instance instance;
+  Image image;
 };
 
 const std::list<Bound>& programs() {
@@ -90,28 +90,24 @@ const std::list<Bound>& programs() {
   return made;
 }
 
-void checkRef(const host::Instance& instance, const host::Ref& place, PinType type) {
-  const uint32_t bytes = std::max(1u, place.width / 8u);
-  RUNG_CHECK(place.space < instance.program().space_count, "a place is in a space of the program");
-  RUNG_CHECK(instance.memory().contains(place.space, place.byte, bytes), "a place is in the program's memory");
-  RUNG_CHECK((place.kind == host::RefKind::Bit) == (type == PinType::Bit), "a bit is for a bit");
-  RUNG_CHECK(place.kind != host::RefKind::Real || type == PinType::Float, "a real number is for a float");
-  RUNG_CHECK(place.kind != host::RefKind::Text && place.kind != host::RefKind::Constant, "a place holds a value");
+// As a variable of the pin's type it can be bound.
+template <class Link>
+void checkLink(const Instance& plc, const Link& link, double scale, uint32_t direction) {
+  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64};
+  static double room = 0;
+  const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
+  const rung_variable variable{link.name.c_str(), &room, kTypes[static_cast<size_t>(link.type)], direction | words,
+                               scale};
+  RUNG_CHECK(rung_instance_bind(plc.handle(), &variable, 1) == RUNG_OK, "what is found can be bound");
 }
 
-void checkWritten(const host::Instance& instance, const host::Ref& place, PinType type) {
-  checkRef(instance, place, type);
-  const uint32_t flags = instance.program().spaces[place.space].flags;
-  RUNG_CHECK((flags & RUNG_SPACE_OUTPUT) == 0 || (flags & RUNG_SPACE_INPUT) != 0, "outputs are not written");
-}
-
-void checkBinding(const MapFile& map, const host::Instance& instance) {
+void checkBinding(const MapFile& map, const Bound& program) {
   std::vector<std::string> errors;
-  const std::unique_ptr<nc::Control> control = nc::makeControl(instance.program().dialect);
-  const Binding binding = bindMap(map, instance, *control, errors);
-  for (const PinLink& link : binding.inputs) checkWritten(instance, link.place, link.type);
-  for (const PinLink& link : binding.outputs) checkRef(instance, link.place, link.type);
-  for (const ConstLink& constant : binding.constants) checkWritten(instance, constant.place, constant.type);
+  const Instance plc(program.image); // a new one: what is bound stays
+  const Binding binding = bindMap(map, plc.handle(), program.image.program(), errors);
+  for (const PinLink& link : binding.inputs) checkLink(plc, link, link.scale, RUNG_TO_PROGRAM);
+  for (const PinLink& link : binding.outputs) checkLink(plc, link, link.scale, RUNG_FROM_PROGRAM);
+  for (const ConstLink& constant : binding.constants) checkLink(plc, constant, 1, RUNG_TO_PROGRAM);
   const size_t links = binding.inputs.size() + binding.outputs.size() + binding.constants.size();
   const size_t entries = map.inputs.size() + map.outputs.size() + map.constants.size();
   RUNG_CHECK(links <= entries && entries - links <= errors.size(), "an entry is bound or has an error");
@@ -130,6 +126,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MapFile map = parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors);
   checkMap(map);
   for (const std::string& error : errors) checkError(error);
-  for (const Bound& program : programs()) checkBinding(map, program.instance);
+  for (const Bound& program : programs()) checkBinding(map, program);
   return 0;
 }

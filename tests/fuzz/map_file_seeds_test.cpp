@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/fuzz/mapped_programs.h"
+#include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
 #include "tools/rung-hal/binding.h"
 
@@ -22,11 +23,10 @@ TEST(MapFileSeeds, BindWithoutErrors) {
     const std::string text(std::istreambuf_iterator<char>(file), {});
     ASSERT_NE(text, "") << path;
     const testing::CompiledProgram program(source.file, source.text, compiler::EngineKind::Interp);
-    const host::Instance instance(program.program());
-    const std::unique_ptr<nc::Control> control = nc::makeControl(instance.program().dialect);
+    const Instance instance(test::adopted(program.program()));
     std::vector<std::string> errors;
     const hal::MapFile map = hal::parseMap(text, path, errors);
-    hal::bindMap(map, instance, *control, errors);
+    hal::bindMap(map, instance.handle(), program.program(), errors);
     EXPECT_THAT(errors, ::testing::IsEmpty());
   }
 }

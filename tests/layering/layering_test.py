@@ -44,6 +44,7 @@ BAD = {
     "cryptography outside the host": ("codegen/cpp/x.cpp", "#include <sodium.h>"),
     "gtest in a library": ("ir/core/x.cpp", "#include <gtest/gtest.h>"),
     "the machine's component includes the simulation": ("tools/rung-hal/x.cpp", '#include "tools/sim/simulated_nc.h"'),
+    "the machine's component includes the runtime inside": ("tools/rung-hal/x.cpp", '#include "rtlib/host/instance.h"'),
     "the machine's component includes the compiler": ("tools/rung-hal/x.cpp", '#include "ir/core/module.h"'),
     "a dialect as a text": ("rtlib/host/x.cpp", 'bool is = dialect == "gsk";'),
     "a dialect in an identifier": ("rtlib/core/x.h", "constexpr int kNctSlices = 5;"),

@@ -7,6 +7,7 @@
 #include "rtlib/nc/control/retention.h"
 #include "tests/realtime/guard.h"
 #include "tests/realtime/places.h"
+#include "tests/support/adopted_image.h"
 #include "tests/support/fake_clock.h"
 #include "tools/rung-hal/box.h"
 
@@ -133,12 +134,12 @@ Outcome runInBox(const rung_program& program, hal::MapFile map, const std::strin
   Outcome outcome;
   std::vector<std::string> errors;
   std::vector<std::string> reports;
-  const std::unique_ptr<hal::Box> box = hal::Box::make(program, std::move(map), errors, retain, reports);
+  const std::unique_ptr<hal::Box> box = hal::Box::make(test::adopted(program), std::move(map), errors, retain, reports);
   for (const std::string& error : errors) outcome.problem += error + "\n";
   if (!box) return outcome;
   Pins pins(box->pins());
   box->connect(pins.cells());
-  box->setMessageSink(describe);
+  box->setMessageSink([](const rung_message_info&) { ++shown; });
   shown = 0;
   Guard guard;
   bool reset = false;

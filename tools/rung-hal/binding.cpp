@@ -3,19 +3,18 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <span>
 
 #include "ir/support/similar.h"
-#include "rtlib/host/program_info.h"
-#include "rtlib/nc/names/names.h"
 #include "rtlib/text/number.h"
+#include "rung/types.hpp"
 
 namespace rung::hal {
 namespace {
 
 constexpr std::string_view kPositions = "NC.MPOS.";
-constexpr uint32_t kPositionBytes = 4;
 constexpr uint32_t kMostSuggestions = 10; // each takes a time in proportion to the symbols of the program
 
 enum class Use : uint8_t { Input, Output, Constant }; // HAL writes the first and the last
@@ -48,6 +47,16 @@ struct Mistake {
   std::string fix;
 };
 
+// What a name stands for.
+struct Place {
+  uint32_t type = RUNG_TYPE_BIT; // enum rung_type
+  uint32_t space = RUNG_NONE;    // RUNG_NONE: a constant, whose value this is
+  int64_t constant = 0;
+
+  bool isReal() const { return type == RUNG_TYPE_F64; }
+  uint32_t width() const { return elementBits(type); }
+};
+
 bool isPosition(std::string_view name) { return name.starts_with(kPositions); }
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
@@ -60,13 +69,13 @@ std::string shown(const Entry& entry) {
   return {text, std::to_chars(std::begin(text), std::end(text), entry.value).ptr};
 }
 
-std::string typesOf(const host::Ref& place, const Entry& entry) {
-  if (place.kind == host::RefKind::Real) return "write type = \"float\"";
+std::string typesOf(const Place& place, const Entry& entry) {
+  if (place.isReal()) return "write type = \"float\"";
   return std::string("write type = \"s32\", \"u32\" or \"float\"") +
          (isPosition(entry.name) ? "" : ", or name a bit of the cell");
 }
 
-Mistake mistakeOf(Misfit misfit, const host::Ref& place, const Entry& entry) {
+Mistake mistakeOf(Misfit misfit, const Place& place, const Entry& entry) {
   const std::string forType = entry.name + " for type " + std::string(pinTypeName(entry.type));
   const bool isConstant = entry.use == Use::Constant;
   switch (misfit) {
@@ -94,8 +103,8 @@ Mistake mistakeOf(Misfit misfit, const host::Ref& place, const Entry& entry) {
 
 class Binder {
 public:
-  Binder(const MapFile& map, const host::Instance& instance, nc::Control& control, std::vector<std::string>& errors)
-      : map_(map), instance_(instance), control_(control), errors_(errors) {}
+  Binder(const MapFile& map, rung_instance* instance, const rung_program& program, std::vector<std::string>& errors)
+      : map_(map), instance_(instance), program_(program), errors_(errors) {}
 
   Binding run() {
     Binding binding;
@@ -111,25 +120,33 @@ private:
 
   void checkFunctions() {
     for (const MapSend& send : map_.sends)
-      if (const nc::Functions* functions = functionsOf(send)) checkKind(send, *functions);
-    nc::Functions* first = control_.functions(0);
+      if (checkChannel(send)) checkKind(send);
     for (const MapGroup& row : map_.groups)
-      if (first == nullptr || !first->setGroup(row.code, row.group))
+      if (rung_instance_group_function(instance_, 0, row.code, row.group) != RUNG_OK)
         fail(row.at, "m-groups",
              {"M" + std::to_string(row.code) + " in group " + std::to_string(row.group),
               "what a machine can choose with the dialect " + dialect(), "write another group, or remove the line"});
-    if (map_.highSpeed && (first == nullptr || !first->useHighSpeed()))
+    if (map_.highSpeed && rung_instance_high_speed_functions(instance_, 0) != RUNG_OK)
       fail(*map_.highSpeed, "high-speed",
            {"true", "false, because the dialect " + dialect() + " has no such handshake", "remove the line"});
   }
 
-  std::string dialect() const { return instance_.program().dialect; }
+  std::string dialect() const { return program_.dialect; }
 
-  const nc::Functions* functionsOf(const MapSend& send) {
-    const nc::Functions* functions = control_.functions(send.channel);
-    if (functions != nullptr) return functions;
+  bool carries(uint32_t channel, uint32_t kind, uint32_t code = 0) const {
+    return rung_instance_carries_function(instance_, channel, static_cast<int32_t>(kind), code) == RUNG_OK;
+  }
+  // One kind at least.
+  bool hasChannel(uint32_t channel) const {
+    for (uint32_t kind = 0; kind < std::size(kFunctionKinds); ++kind)
+      if (carries(channel, kind)) return true;
+    return false;
+  }
+
+  bool checkChannel(const MapSend& send) {
+    if (hasChannel(send.channel)) return true;
     uint32_t channels = 0;
-    while (control_.functions(channels) != nullptr) ++channels;
+    while (hasChannel(channels)) ++channels;
     if (channels == 0)
       fail(send.at, "send",
            {"a function", "none, because the dialect " + dialect() + " has no M, S and T functions",
@@ -140,26 +157,25 @@ private:
             (channels == 1 ? "1, the only channel" : "1 to " + std::to_string(channels) + ", the channels") +
                 " of a control of the dialect " + dialect(),
             "write for example channel = 1"});
-    return nullptr;
+    return false;
   }
 
-  void checkKind(const MapSend& send, const nc::Functions& functions) {
-    const std::string kind(nc::kFunctionKinds[static_cast<size_t>(send.kind)]);
-    if (!functions.carries(send.kind, 0))
+  void checkKind(const MapSend& send) {
+    const std::string kind(kFunctionKinds[send.kind]);
+    if (!carries(send.channel, send.kind))
       fail(send.at, "send.function",
-           {quoted(kind), kindsOf(functions) + ", the functions of the dialect " + dialect(),
+           {quoted(kind), kindsOf(send.channel) + ", the functions of the dialect " + dialect(),
             "remove the table, and connect its signals in [in] and [out]"});
-    else if (!send.codePin && !functions.carries(send.kind, static_cast<uint32_t>(send.code)))
+    else if (!send.codePin && !carries(send.channel, send.kind, static_cast<uint32_t>(send.code)))
       fail(send.at, "send.code",
            {kind + std::to_string(send.code), "a code that the signals of the dialect " + dialect() + " hold",
             "write another code"});
   }
 
-  static std::string kindsOf(const nc::Functions& functions) {
+  std::string kindsOf(uint32_t channel) const {
     std::string kinds;
-    for (size_t i = 0; i < std::size(nc::kFunctionKinds); ++i)
-      if (functions.carries(static_cast<nc::FunctionKind>(i), 0))
-        kinds += (kinds.empty() ? "" : ", ") + quoted(nc::kFunctionKinds[i]);
+    for (uint32_t kind = 0; kind < std::size(kFunctionKinds); ++kind)
+      if (carries(channel, kind)) kinds += (kinds.empty() ? "" : ", ") + quoted(kFunctionKinds[kind]);
     return kinds;
   }
 
@@ -168,65 +184,71 @@ private:
   void addLink(std::vector<PinLink>& links, const MapLink& link, Use use) {
     const MapPin& pin = map_.pins[link.pin];
     Entry entry{(use == Use::Input ? "in." : "out.") + pin.name + ".name", link.name, link.at, use, pin.type};
-    if (const auto place = find(entry)) links.push_back({link.pin, pin.type, *place, link.scale});
+    if (const auto place = find(entry)) links.push_back({link.pin, pin.type, link.name, link.scale, inWords(entry)});
   }
 
   void addConstant(std::vector<ConstLink>& links, const MapConst& constant) {
     Entry entry{"const." + constant.name, constant.name, constant.at, Use::Constant, constant.type, constant.value};
-    const std::optional<host::Ref> place = find(entry);
-    if (place && fits(entry, *place)) links.push_back({entry.type, *place, constant.value});
+    const std::optional<Place> place = find(entry);
+    if (place && fits(entry, *place)) links.push_back({entry.type, constant.name, constant.value, inWords(entry)});
   }
 
   // Integers with a sign or without; what is converted from a real number has one.
-  bool fits(const Entry& constant, const host::Ref& place) {
-    if (place.kind != host::RefKind::Int) return true;
+  bool fits(const Entry& constant, const Place& place) {
+    if (place.isReal() || place.type == RUNG_TYPE_BIT || inWords(constant)) return true;
     const bool isReal = constant.type == PinType::Float;
-    const double half = std::ldexp(1, place.width - 1);
+    const double half = std::ldexp(1, static_cast<int>(place.width()) - 1);
     const double end = isReal ? half : 2 * half;
     const double value = std::round(constant.value);
     if (value >= -half && value < end) return true;
     const auto text = [](double bound) { return std::to_string(static_cast<int64_t>(bound)); };
     fail(constant.at, constant.where,
          {shown(constant),
-          text(-half) + " to " + text(end - 1) + ", what the cell of " + std::to_string(place.width) + " bits holds" +
+          text(-half) + " to " + text(end - 1) + ", what the cell of " + std::to_string(place.width()) + " bits holds" +
               (isReal ? " of a real number, which becomes an integer with a sign" : ""),
           "write such a value, or name a longer cell"});
     return false;
   }
 
-  // The place of the entry; a real number where the program has one. An integer is also a value of a real number, and
-  // becomes one of type float.
-  std::optional<host::Ref> find(Entry& entry) {
-    const std::optional<host::Ref> place = lookUp(entry);
+  // The place of the entry. An integer is also a value of a real number, and becomes one of type float.
+  std::optional<Place> find(Entry& entry) {
+    const std::optional<Place> place = lookUp(entry);
     if (!place) return std::nullopt;
     if (const Misfit misfit = misfitOf(*place, entry); misfit != Misfit::None)
       return fail(entry.at, entry.where, mistakeOf(misfit, *place, entry));
-    if (place->kind == host::RefKind::Real) entry.type = PinType::Float;
-    if (entry.type != PinType::Float || isPosition(entry.name)) return place;
-    return host::asReal(instance_.memory(), *place).value_or(*place);
+    if (place->isReal()) entry.type = PinType::Float;
+    return place;
   }
 
-  Misfit misfitOf(const host::Ref& place, const Entry& entry) const {
-    if (place.kind == host::RefKind::Constant) return Misfit::Constant;
-    if (place.kind == host::RefKind::Text) return Misfit::Text;
+  // A real number where the program has room for one.
+  bool inWords(const Entry& entry) const {
+    rung_cell cell = 0;
+    return entry.type == PinType::Float && !isPosition(entry.name) &&
+           rung_instance_find(instance_, entry.name.c_str(), RUNG_WRITE | RUNG_REAL, &cell) == RUNG_OK;
+  }
+
+  Misfit misfitOf(const Place& place, const Entry& entry) const {
+    if (place.space == RUNG_NONE) return Misfit::Constant;
+    if (place.type == RUNG_TYPE_TEXT) return Misfit::Text;
     if (entry.use != Use::Output && isOutputOnly(place)) return Misfit::Output;
-    const bool isBit = place.kind == host::RefKind::Bit;
+    const bool isBit = place.type == RUNG_TYPE_BIT;
     if (isBit != (entry.type == PinType::Bit)) return isBit ? Misfit::Bit : Misfit::Cell;
     const bool isInteger = entry.type == PinType::S32 || entry.type == PinType::U32;
-    const bool needsReal = place.kind == host::RefKind::Real && isInteger && entry.use != Use::Constant;
+    const bool needsReal = place.isReal() && isInteger && entry.use != Use::Constant;
     return needsReal ? Misfit::Real : Misfit::None;
   }
 
-  bool isOutputOnly(const host::Ref& place) const {
-    const uint32_t flags = instance_.program().spaces[place.space].flags;
+  bool isOutputOnly(const Place& place) const {
+    const uint32_t flags = program_.spaces[place.space].flags;
     return (flags & RUNG_SPACE_OUTPUT) != 0 && (flags & RUNG_SPACE_INPUT) == 0;
   }
 
-  std::optional<host::Ref> lookUp(const Entry& entry) {
-    if (isPosition(entry.name)) return position(entry);
-    // What the NC and the machine write is also what they see: for NCT both are the time-slice copy.
-    std::optional<host::Ref> place = control_.writePlace(instance_.program(), entry.name);
-    if (place) return place;
+  std::optional<Place> lookUp(const Entry& entry) {
+    if (isPosition(entry.name) && !checkPosition(entry)) return std::nullopt;
+    int32_t status = RUNG_OK;
+    if (const std::optional<Place> place = placeOf(entry.name, entry.use, status)) return place;
+    if (status == RUNG_OVERWRITTEN)
+      return fail(entry.at, entry.where, {entry.name, "a place where a value lasts", rung_error_text()});
     const std::string meant = meantBy(entry);
     return fail(entry.at, entry.where,
                 {"an unknown name " + entry.name,
@@ -234,42 +256,62 @@ private:
                  meant.empty() ? "write the name as the program has it" : "did you mean " + meant + "?"});
   }
 
-  // NC.MPOS.N, the machine position of an axis in 0.001 mm: the program has it where it reads it (PSGNL, PSGN2).
-  std::optional<host::Ref> position(const Entry& entry) {
-    const rung_program& program = instance_.program();
-    const uint32_t space = host::findSpace(program, "@MPOS");
-    if (space == RUNG_NONE)
-      return fail(entry.at, entry.where,
-                  {entry.name, "a name of this program, which reads no machine positions", "remove the entry"});
-    const uint32_t axes = program.spaces[space].byte_count / kPositionBytes;
-    const uint32_t axis = text::numberIn<uint32_t>(std::string_view(entry.name).substr(kPositions.size())).value_or(0);
+  // What the NC and the machine write is also what they see. Nothing: there is no such name, or `status` is
+  // RUNG_OVERWRITTEN for what HAL would write.
+  std::optional<Place> placeOf(const std::string& name, Use use, int32_t& status) const {
+    rung_cell cell = 0;
+    status = rung_instance_find(instance_, name.c_str(), RUNG_WRITE, &cell);
+    if (status == RUNG_WRONG_TYPE || (status == RUNG_OVERWRITTEN && use == Use::Output))
+      status = rung_instance_find(instance_, name.c_str(), RUNG_READ, &cell);
+    rung_cell_info info{};
+    info.size = sizeof info;
+    if (status != RUNG_OK || rung_instance_cell(instance_, cell, &info) != RUNG_OK) return std::nullopt;
+    rung_value value{};
+    if (info.space == RUNG_NONE) rung_instance_read(instance_, cell, 0, 1, &value);
+    return Place{info.type, info.space, value.integer};
+  }
+
+  // The positions of the program's axes, which it has where it reads them.
+  bool checkPosition(const Entry& entry) {
+    const auto mistake = [&](const Mistake& what) { return fail(entry.at, entry.where, what), false; };
     const std::string first = std::string(kPositions) + "1";
+    uint32_t axes = 0;
+    int32_t status = RUNG_OK;
+    while (placeOf(std::string(kPositions) + std::to_string(axes + 1), Use::Input, status)) ++axes;
+    if (axes == 0)
+      return mistake({entry.name, "a name of this program, which reads no machine positions", "remove the entry"});
+    const uint32_t axis = text::numberIn<uint32_t>(std::string_view(entry.name).substr(kPositions.size())).value_or(0);
     if (axis == 0 || axis > axes)
-      return fail(
-          entry.at, entry.where,
+      return mistake(
           {entry.name, first + " to " + std::string(kPositions) + std::to_string(axes), "write for example " + first});
     if (entry.use == Use::Output)
-      return fail(entry.at, entry.where,
-                  {entry.name + ", which HAL writes", "a name that the program writes", "move the pin to [in]"});
-    return host::intRef(space, kPositionBytes * (axis - 1), 8 * kPositionBytes);
+      return mistake({entry.name + ", which HAL writes", "a name that the program writes", "move the pin to [in]"});
+    return true;
+  }
+
+  // What a name is a part of: the name without its bit, index, width or distance, SYM of SYM.3, SYM,#2, SYM[2], !SYM.
+  static std::string_view headOf(std::string_view name) {
+    if (name.starts_with('!')) name.remove_prefix(1);
+    return name.substr(0, name.find_first_of(".,[:+"));
   }
 
   // The name with the symbol that it may have meant; "" when none is close.
   std::string meantBy(const Entry& entry) {
     if (suggestions_++ >= kMostSuggestions) return {};
-    const rung_program& program = instance_.program();
-    const std::string_view head = nc::headOf(entry.name);
+    const std::string_view head = headOf(entry.name);
     const bool isWhole = head.size() == entry.name.size();
     Similar similar(head);
-    for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
+    for (const rung_symbol& symbol : std::span(program_.symbols, program_.symbol_count)) {
       if ((symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) != 0) continue;
-      if (!isWhole || misfitOf(host::refOf(symbol), entry) == Misfit::None) similar.offer(symbol.name);
+      if (!isWhole || misfitOf({symbol.type, symbol.space, symbol.value}, entry) == Misfit::None)
+        similar.offer(symbol.name);
     }
     if (similar.best().empty()) return {};
     std::string meant = entry.name;
     meant.replace(static_cast<size_t>(head.data() - entry.name.data()), head.size(), similar.best());
     // A bit, an index or a length may take the place out of the cell.
-    const std::optional<host::Ref> place = control_.writePlace(instance_.program(), meant);
+    int32_t status = RUNG_OK;
+    const std::optional<Place> place = placeOf(meant, entry.use, status);
     return place && misfitOf(*place, entry) == Misfit::None ? meant : std::string();
   }
 
@@ -280,17 +322,17 @@ private:
   }
 
   const MapFile& map_;
-  const host::Instance& instance_;
-  nc::Control& control_;
+  rung_instance* instance_;
+  const rung_program& program_;
   std::vector<std::string>& errors_;
   uint32_t suggestions_ = 0;
 };
 
 } // namespace
 
-Binding bindMap(const MapFile& map, const host::Instance& instance, nc::Control& control,
+Binding bindMap(const MapFile& map, rung_instance* instance, const rung_program& program,
                 std::vector<std::string>& errors) {
-  return Binder(map, instance, control, errors).run();
+  return Binder(map, instance, program, errors).run();
 }
 
 } // namespace rung::hal

@@ -2,101 +2,124 @@
 #include "tools/rung-hal/box.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
-
-#include "rtlib/host/program_info.h"
+#include <utility>
 
 namespace rung::hal {
 namespace {
 
-rt::ListedPlace listed(const rt::Memory& memory, const host::Ref& place, PinType type, double scale) {
-  using enum rt::ValueForm;
-  constexpr rt::ValueForm kForms[] = {Raw, Signed, Raw, Real}; // of Bit, S32, U32, Float
-  return {host::locate(memory, place), kForms[static_cast<size_t>(type)], scale};
-}
-
-uint64_t valueOf(PinType type, const PinCell& cell) noexcept {
+Value valueOf(PinType type, const PinCell& cell) noexcept {
   switch (type) {
-  case PinType::Bit: return *cell.bit ? 1 : 0;
-  case PinType::S32: return static_cast<uint64_t>(int64_t{*cell.s32});
-  case PinType::U32: return *cell.u32;
-  case PinType::Float: return std::bit_cast<uint64_t>(double{*cell.real});
+  case PinType::Bit: return {.bit = *cell.bit};
+  case PinType::S32: return {.s32 = *cell.s32};
+  case PinType::U32: return {.u32 = *cell.u32};
+  case PinType::Float: return {.real = *cell.real};
   }
-  return 0;
+  return {};
 }
 
-void setPin(PinType type, const PinCell& cell, uint64_t value) noexcept {
+Value constant(PinType type, double value) noexcept {
   switch (type) {
-  case PinType::Bit: *cell.bit = value != 0; return;
-  case PinType::S32: *cell.s32 = static_cast<int32_t>(value); return;
-  case PinType::U32: *cell.u32 = static_cast<uint32_t>(value); return;
-  case PinType::Float: *cell.real = std::bit_cast<double>(value); return;
+  case PinType::Bit: return {.bit = value != 0};
+  case PinType::S32: return {.s32 = static_cast<int32_t>(value)};
+  case PinType::U32: return {.u32 = static_cast<uint32_t>(value)};
+  case PinType::Float: return {.real = value};
+  }
+  return {};
+}
+
+void setPin(PinType type, const PinCell& cell, const Value& value) noexcept {
+  switch (type) {
+  case PinType::Bit: *cell.bit = value.bit; return;
+  case PinType::S32: *cell.s32 = value.s32; return;
+  case PinType::U32: *cell.u32 = value.u32; return;
+  case PinType::Float: *cell.real = value.real; return;
   }
 }
 
 } // namespace
 
-Box::Box(const rung_program& program, MapFile map, std::string retain)
-    : map_(std::move(map)), retain_(std::move(retain)), control_(nc::makeControl(program.dialect)),
-      instance_(program, control_.get()), pace_(instance_) {}
+Box::Box(const Image& image, MapFile map, const std::string& retain)
+    : map_(std::move(map)), options_{.size = sizeof options_, .user = this, .log = &Box::log}, plc_(image, &options_),
+      kept_(!retain.empty()) {
+  if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
+}
 
-std::unique_ptr<Box> Box::make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
-                               const std::string& retain, std::vector<std::string>& warnings) {
-  if (host::scanPeriodUs(program) == 0) {
-    errors.push_back(std::string(program.name) + ": the program's schedule has no period");
-    return nullptr;
-  }
-  std::unique_ptr<Box> box(new Box(program, std::move(map), retain));
-  box->binding_ = bindMap(box->map_, box->instance_, *box->control_, errors);
+void Box::log(void* box, int32_t level, const char* text) {
+  if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
+}
+
+std::unique_ptr<Box> Box::make(const Image& image, MapFile map, std::vector<std::string>& errors,
+                               const std::string& retain, std::vector<std::string>& warnings) try {
+  std::unique_ptr<Box> box(new Box(image, std::move(map), retain));
+  box->binding_ = bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
   if (!errors.empty()) return nullptr;
-  box->locatePlaces();
-  box->functions_ = std::make_unique<FunctionQueue>(box->map_, *box->control_);
-  if (!box->start(errors, warnings)) return nullptr;
-  return box;
+  box->bindValues();
+  box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->plc_.handle());
+  const bool started = box->start(errors);
+  warnings = std::move(box->logged_);
+  return started ? std::move(box) : nullptr;
+} catch (const Error& error) {
+  errors.emplace_back(error.what());
+  return nullptr;
 }
 
-bool Box::start(std::vector<std::string>& errors, std::vector<std::string>& warnings) {
-  std::optional<nc::PowerOn> kind = nc::PowerOn::Cold;
-  if (!retain_.empty()) {
-    retained_ = std::make_unique<nc::Retention>(*control_, instance_, retain_);
-    std::string report;
-    std::string error;
-    kind = retained_->load(report, error);
-    if (!kind) errors.push_back(error);
-    if (!report.empty()) warnings.push_back(report);
+// Constants in every slice, too: neither a restart nor the control can undo them.
+void Box::bindValues() {
+  inputs_.resize(binding_.inputs.size());
+  outputs_.resize(binding_.outputs.size());
+  constants_.resize(binding_.constants.size());
+  for (size_t i = 0; i < inputs_.size(); ++i) {
+    const PinLink& link = binding_.inputs[i];
+    bind(link.name, link.type, inputs_[i], RUNG_TO_PROGRAM | (link.words ? RUNG_BOUND_REAL : 0), link.scale);
   }
-  if (!kind) return false;
-  control_->powerOn(instance_, *kind);
-  return true;
+  for (size_t i = 0; i < constants_.size(); ++i) {
+    const ConstLink& link = binding_.constants[i];
+    constants_[i] = constant(link.type, link.value);
+    bind(link.name, link.type, constants_[i], RUNG_TO_PROGRAM | (link.words ? RUNG_BOUND_REAL : 0), 1);
+  }
+  for (size_t i = 0; i < outputs_.size(); ++i) {
+    const PinLink& link = binding_.outputs[i];
+    bind(link.name, link.type, outputs_[i], RUNG_FROM_PROGRAM | (link.words ? RUNG_BOUND_REAL : 0), link.scale);
+  }
 }
 
-// The memory that the fault left is not what the program continues with: its retained part comes from the disk, where
-// the last whole scan is.
+void Box::bind(const std::string& name, PinType type, Value& value, uint32_t direction, double scale) {
+  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by PinType
+  const rung_variable variable{name.c_str(), &value, kTypes[static_cast<size_t>(type)], direction, scale};
+  check(rung_instance_bind(plc_.handle(), &variable, 1));
+}
+
+// A fault at the power-on shows in the first step.
+bool Box::start(std::vector<std::string>& reports) {
+  const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
+  if (status < RUNG_OK) reports.emplace_back(rung_error_text());
+  return status >= RUNG_OK;
+}
+
 bool Box::serve(std::vector<std::string>& reports) {
-  if (state_.load(std::memory_order_acquire) != State::Restarting) return false;
-  if (retained_)
-    if (std::string error = retained_->finish(); !error.empty()) reports.push_back(error);
-  retained_.reset();
+  const State state = state_.load(std::memory_order_acquire);
+  if (state == State::Running) return false;
+  const bool isNew = !std::exchange(reported_, true);
+  if (const std::optional<rung_fault_info> info = fault(); info && isNew)
+    reports.push_back("the program has stopped: " + std::string(info->text) +
+                      "; all output pins are 0 until pin reset rises");
+  if (state == State::Stopped) return isNew;
   functions_->restart();
-  pace_.restart();
-  state_.store(start(reports, reports) ? State::Running : State::Stopped, std::memory_order_release);
+  const bool started = start(reports);
+  std::ranges::move(logged_, std::back_inserter(reports));
+  logged_.clear();
+  reports.emplace_back(started ? "the program has been restarted" : "the program cannot be restarted");
+  reported_ = !started;
+  state_.store(started ? State::Running : State::Stopped, std::memory_order_release);
   return true;
 }
 
 std::string Box::close() {
-  if (state_.load(std::memory_order_acquire) == State::Running) lastScans();
+  std::string error;
+  if (rung_instance_power_off(plc_.handle()) == RUNG_FAILED) error = rung_error_text();
   if (cells_ != nullptr) clearPins();
-  return retained_ ? retained_->finish() : std::string();
-}
-
-// What MODULE_DONE switches off goes to the pins.
-void Box::lastScans() noexcept {
-  if (retained_) retained_->finish(); // for the case that the program faults in its last scans
-  control_->powerOff(instance_, [this] {
-    do slice();
-    while (!instance_.atListStart() && !instance_.faulted());
-  });
+  return error;
 }
 
 StepResult Box::step(int64_t ns, bool reset) noexcept {
@@ -106,75 +129,58 @@ StepResult Box::step(int64_t ns, bool reset) noexcept {
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
   if (state != State::Running) return StepResult::Waiting;
   functions_->sample(cells_, ns);
-  pace_.elapse(ns);
-  StepResult result = StepResult::Waiting;
-  while (!instance_.faulted() && pace_.take()) {
-    slice();
-    result = StepResult::Ran;
-  }
-  if (!instance_.faulted()) return result;
-  clearPins();
-  state_.store(State::Stopped, std::memory_order_release);
-  return StepResult::Failed;
+  return run(ns);
 }
 
-void Box::slice() noexcept {
-  if (cells_ != nullptr) {
+StepResult Box::run(int64_t ns) noexcept {
+  const rung_state before = state();
+  if (before.wait_ns <= ns) {
     functions_->advance(cells_);
     readPins();
   }
-  instance_.slice();
-  control_->afterSlice(instance_);
-  if (retained_) retained_->afterSlice();
+  const int32_t status = rung_instance_run_due(plc_.handle(), ns);
   passMessages();
-  if (instance_.faulted() || cells_ == nullptr) return;
-  if (instance_.atListStart()) ++scans_;
+  if (status == RUNG_FAULTED) {
+    clearPins();
+    state_.store(State::Stopped, std::memory_order_release);
+    return StepResult::Failed;
+  }
+  if (before.wait_ns > ns) return StepResult::Waiting;
   writePins();
+  return StepResult::Ran;
 }
 
-// The values of constants follow those of the pins, and never change.
-void Box::locatePlaces() {
-  const rt::Memory memory = instance_.memory();
-  for (const PinLink& link : binding_.inputs) inputs_.push_back(listed(memory, link.place, link.type, link.scale));
-  inputValues_.resize(inputs_.size());
-  for (const ConstLink& constant : binding_.constants) {
-    inputs_.push_back(listed(memory, constant.place, constant.type, 1));
-    inputValues_.push_back(constant.type == PinType::Float
-                               ? std::bit_cast<uint64_t>(constant.value)
-                               : static_cast<uint64_t>(static_cast<int64_t>(constant.value)));
-  }
-  for (const PinLink& link : binding_.outputs) outputs_.push_back(listed(memory, link.place, link.type, link.scale));
-  outputValues_.resize(outputs_.size());
+rung_state Box::state() const noexcept {
+  rung_state state{};
+  state.size = sizeof state;
+  rung_instance_state(plc_.handle(), &state);
+  return state;
 }
 
-// Constants too in every slice: neither a restart nor the control can undo them.
 void Box::readPins() noexcept {
-  for (size_t i = 0; i < binding_.inputs.size(); ++i) {
+  for (size_t i = 0; i < inputs_.size(); ++i) {
     const PinLink& link = binding_.inputs[i];
-    inputValues_[i] = valueOf(link.type, cells_[link.pin]);
+    inputs_[i] = valueOf(link.type, cells_[link.pin]);
   }
-  rt::writePlaces(instance_.memory(), inputs_, inputValues_);
 }
 
 void Box::writePins() noexcept {
-  rt::readPlaces(instance_.memory(), outputs_, outputValues_);
-  for (size_t i = 0; i < binding_.outputs.size(); ++i) {
+  for (size_t i = 0; i < outputs_.size(); ++i) {
     const PinLink& link = binding_.outputs[i];
-    setPin(link.type, cells_[link.pin], outputValues_[i]);
+    setPin(link.type, cells_[link.pin], outputs_[i]);
   }
 }
 
 void Box::clearPins() noexcept {
   for (size_t i = 0; i < map_.pins.size(); ++i)
-    if (map_.pins[i].output) setPin(map_.pins[i].type, cells_[i], 0);
+    if (map_.pins[i].output) setPin(map_.pins[i].type, cells_[i], {});
 }
 
 void Box::passMessages() noexcept {
-  rung_message message;
-  for (uint32_t i = 0; i < rt::kMessageCapacity && instance_.messages().pop(message); ++i) {
-    control_->accept(message);
-    if (sink_ != nullptr) sink_(*control_, instance_.program(), message);
-  }
+  rung_message_info message{};
+  message.size = sizeof message;
+  while (rung_instance_next_message(plc_.handle(), &message) == RUNG_OK)
+    if (sink_ != nullptr) sink_(message);
 }
 
 } // namespace rung::hal

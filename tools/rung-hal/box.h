@@ -4,15 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "rtlib/core/place_list.h"
-#include "rtlib/host/instance.h"
-#include "rtlib/host/pace.h"
-#include "rtlib/host/realtime.h"
-#include "rtlib/nc/control/control.h"
-#include "rtlib/nc/control/retention.h"
+#include "rung/runtime.hpp"
 #include "tools/rung-hal/binding.h"
 #include "tools/rung-hal/function_queue.h"
 #include "tools/rung-hal/map_file.h"
@@ -27,14 +23,13 @@ enum class StepResult : uint8_t {
 };
 
 // Takes a message of the program in the scan.
-using MessageSink = void (*)(const nc::Control& control, const rung_program& program, const rung_message& message);
+using MessageSink = void (*)(const rung_message_info& message);
 
 class Box {
 public:
-  // Null, and `errors` say why, when the map does not fit the program, which outlives the box. The start is cold, or
-  // with the memory that `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the
-  // retained memory.
-  static std::unique_ptr<Box> make(const rung_program& program, MapFile map, std::vector<std::string>& errors,
+  // Null, and `errors` say why, when the map does not fit the program. The start is cold, or with the memory that
+  // `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the retained memory.
+  static std::unique_ptr<Box> make(const Image& image, MapFile map, std::vector<std::string>& errors,
                                    const std::string& retain, std::vector<std::string>& warnings);
   // After the last step, or where none can come any more: the program's last scans run, output pins are 0 then, and
   // what is retained is on disk; "" or why not.
@@ -50,49 +45,47 @@ public:
   // restarted the program.
   StepResult step(int64_t ns, bool reset = false) noexcept;
   // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
-  void setTimeLimit(int64_t ns) noexcept { instance_.setTimeLimit({.ns = ns, .nowNs = &host::monotonicNs}); }
-  // Not the scan thread, again and again: what a step must not do itself, the restart after a fault. True: it has been
-  // tried, and `reports` says what the operator should know of it.
+  void setTimeLimit(int64_t ns) noexcept { rung_instance_limit(plc_.handle(), ns); }
+  // Not the scan thread, again and again: what a step must not do itself, a fault in words, and the restart after it.
+  // True: there was something of that, and `reports` says what the operator should know of it.
   bool serve(std::vector<std::string>& reports);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
 
-  const rung_program& program() const { return instance_.program(); }
-  const rung_fault& fault() const { return instance_.fault(); }
-  uint32_t scans() const { return scans_; }          // passes of the schedule
-  uint64_t missed() const { return pace_.missed(); } // passes that were left out
+  // While it does not run, for the thread that serves it.
+  std::optional<rung_fault_info> fault() const { return plc_.fault(); }
+  // Of the instance; while it runs, for the scan thread.
+  rung_state state() const noexcept;
+  bool failsToSave() const noexcept { return (state().flags & RUNG_STATE_UNSAVED) != 0; }
   const FunctionQueue& functions() const { return *functions_; }
-  // Of the retained memory; null: nothing is kept.
-  const host::RetainedMemory* retained() const { return retained_ ? &retained_->memory() : nullptr; }
 
 private:
-  Box(const rung_program& program, MapFile map, std::string retain);
+  Box(const Image& image, MapFile map, const std::string& retain);
 
   // Stopped: by a fault. Restarting: the instance belongs to `serve`.
   enum class State : uint8_t { Running, Stopped, Restarting };
 
-  bool start(std::vector<std::string>& errors, std::vector<std::string>& warnings);
-  void lastScans() noexcept;
-  void slice() noexcept;
-  void locatePlaces();
+  void bind(const std::string& name, PinType type, Value& value, uint32_t direction, double scale);
+  void bindValues();
+  bool start(std::vector<std::string>& reports);
+  StepResult run(int64_t ns) noexcept;
   void readPins() noexcept;
   void writePins() noexcept;
   void clearPins() noexcept;
   void passMessages() noexcept;
+  static void log(void* box, int32_t level, const char* text);
 
   MapFile map_;
-  std::string retain_; // the file, or ""
-  std::unique_ptr<nc::Control> control_;
-  host::Instance instance_;
-  host::Pace pace_;
+  std::vector<std::string> logged_;
+  rung_instance_options options_;
+  Instance plc_;
+  bool kept_; // there is a file for retained memory
   Binding binding_;
-  std::vector<rt::ListedPlace> inputs_, outputs_; // of binding_; its constants follow the inputs
-  std::vector<uint64_t> inputValues_, outputValues_;
-  std::unique_ptr<FunctionQueue> functions_; // once the map is bound
-  std::unique_ptr<nc::Retention> retained_;  // null: nothing is kept
+  std::vector<Value> inputs_, outputs_, constants_; // bound to the program; by binding_
+  std::unique_ptr<FunctionQueue> functions_;        // once the map is bound
   const PinCell* cells_ = nullptr;
   MessageSink sink_ = nullptr;
-  uint32_t scans_ = 0;
   bool wasReset_ = false;
+  bool reported_ = false; // the fault that has stopped it: by `serve`
   std::atomic<State> state_{State::Running};
 };
 

@@ -5,12 +5,10 @@
 
 namespace rung::hal {
 
-FunctionQueue::FunctionQueue(const MapFile& map, nc::Control& control)
-    : sends_(map.sends), wasTriggered_(sends_.size()), aborts_(map.aborts), wasAborted_(aborts_.size()),
-      timeoutNs_(map.timeoutNs), calls_(kRoom) {
-  for (const MapSend& send : sends_)
-    while (channels_.size() <= send.channel)
-      channels_.push_back(control.functions(static_cast<uint32_t>(channels_.size())));
+FunctionQueue::FunctionQueue(const MapFile& map, rung_instance* instance)
+    : instance_(instance), sends_(map.sends), wasTriggered_(sends_.size()), aborts_(map.aborts),
+      wasAborted_(aborts_.size()), timeoutNs_(map.timeoutNs), calls_(kRoom) {
+  for (const MapSend& send : sends_) channels_ = std::max(channels_, send.channel + 1);
   restart();
 }
 
@@ -44,7 +42,8 @@ void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {
 }
 
 void FunctionQueue::queue(Call call) noexcept {
-  if (count_ == kRoom || !functionsOf(call).carries(sends_[call.send].kind, call.code))
+  const MapSend& send = sends_[call.send];
+  if (count_ == kRoom || rung_instance_carries_function(instance_, send.channel, send.kind, call.code) != RUNG_OK)
     ++lost_;
   else
     calls_[count_++] = call;
@@ -60,12 +59,11 @@ void FunctionQueue::withdraw(uint32_t send, const PinCell* pins) noexcept {
 void FunctionQueue::abort() noexcept {
   count_ = 0;
   late_ = false;
-  for (nc::Functions* channel : channels_) channel->abort();
+  for (uint32_t channel = 0; channel < channels_; ++channel) rung_instance_abort_functions(instance_, channel);
 }
 
 void FunctionQueue::advance(const PinCell* pins) noexcept {
   if (count_ == 0) return;
-  for (nc::Functions* channel : channels_) channel->step();
   const auto first = calls_.begin();
   const auto kept = std::remove_if(first, first + count_, [&](const Call& call) { return finish(call, pins); });
   count_ = static_cast<uint32_t>(kept - first);
@@ -81,13 +79,14 @@ void FunctionQueue::start(uint32_t index) noexcept {
     return !older.line && before.kind == send.kind && before.channel == send.channel;
   };
   if (call.line || std::any_of(calls_.begin(), calls_.begin() + index, overtakes)) return;
-  call.line = functionsOf(call).start(send.kind, call.code);
+  uint32_t line = 0;
+  if (rung_instance_begin_function(instance_, send.channel, send.kind, call.code, &line) == RUNG_OK) call.line = line;
 }
 
 // The acknowledge is for a cause that is still there, and not for a later one on the same pin.
 bool FunctionQueue::finish(const Call& call, const PinCell* pins) const noexcept {
   const MapSend& send = sends_[call.send];
-  if (!call.line || functionsOf(call).busy(*call.line)) return false;
+  if (!call.line || rung_instance_function_done(instance_, send.channel, *call.line) != RUNG_OK) return false;
   if (send.donePin && call.wanted) *pins[*send.donePin].bit = true;
   return true;
 }

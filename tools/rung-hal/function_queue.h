@@ -1,5 +1,5 @@
 // M, S and T functions for programs that expect the handshake of their NC, while HAL has levels: an edge of a pin
-// queues a function, the dialect's handshake (rtlib/nc/control/functions.h) hands it to the program, and the
+// queues a function, the dialect's handshake hands it to the program, and the
 // acknowledge pin comes on when the program has finished it; it falls with the pin that caused the function.
 //
 // Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "rtlib/nc/control/control.h"
+#include "rung/runtime.h"
 #include "tools/rung-hal/map_file.h"
 #include "tools/rung-hal/pin_cell.h"
 
@@ -19,8 +19,8 @@ class FunctionQueue {
 public:
   static constexpr uint32_t kRoom = 64;
 
-  // The control has the channels of all sends.
-  FunctionQueue(const MapFile& map, nc::Control& control);
+  // The control of the instance, which outlives the queue, has the channels of all sends.
+  FunctionQueue(const MapFile& map, rung_instance* instance);
 
   // In every call of the scan function: notices edges, and an abort, which empties the queue and ends what the program
   // was doing. `ns`: time since the last call.
@@ -53,15 +53,15 @@ private:
   void abort() noexcept;
   bool finish(const Call& call, const PinCell* pins) const noexcept;
   void start(uint32_t index) noexcept;
-  nc::Functions& functionsOf(const Call& call) const noexcept { return *channels_[sends_[call.send].channel]; }
 
+  rung_instance* instance_;
   std::vector<MapSend> sends_;
   std::vector<bool> wasTriggered_; // by sends_
   std::vector<MapEdge> aborts_;
-  std::vector<bool> wasAborted_;         // by aborts_
-  std::vector<nc::Functions*> channels_; // from the first to the last that a send is for
-  int64_t timeoutNs_;                    // 0: none
-  std::vector<Call> calls_;              // the oldest first; room for kRoom
+  std::vector<bool> wasAborted_; // by aborts_
+  uint32_t channels_ = 0;        // that sends are for: those below this number
+  int64_t timeoutNs_;            // 0: none
+  std::vector<Call> calls_;      // the oldest first; room for kRoom
   uint32_t count_ = 0;
   uint32_t lost_ = 0;
   bool late_ = false;

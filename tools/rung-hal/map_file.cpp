@@ -109,7 +109,7 @@ struct EdgeRow {
 // An entry of [[send]].
 struct SendRow {
   EdgeRow edge;
-  nc::FunctionKind kind = nc::FunctionKind::M;
+  rung_function_kind kind = RUNG_FUNCTION_M;
   int32_t code = 0;
   std::optional<Place> codePin;
   std::optional<Place> donePin;
@@ -254,9 +254,9 @@ private:
   bool takeSendPin(const toml::node& node, SendRow& row) { return takeEdgePin(node, row.edge); }
   bool takeSendEdge(const toml::node& node, SendRow& row) { return takeEdge(node, row.edge); }
   bool takeFunction(const toml::node& node, SendRow& row) {
-    const auto kind = std::ranges::find(nc::kFunctionKinds, textOf(node));
-    row.kind = static_cast<nc::FunctionKind>(kind - std::begin(nc::kFunctionKinds));
-    return kind != std::end(nc::kFunctionKinds);
+    const auto kind = std::ranges::find(kFunctionKinds, textOf(node));
+    row.kind = static_cast<rung_function_kind>(kind - std::begin(kFunctionKinds));
+    return kind != std::end(kFunctionKinds);
   }
   bool takeCode(const toml::node& node, SendRow& row) {
     row.codePin = pinNameOf(node);

@@ -8,11 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "rtlib/nc/control/functions.h"
+#include "rung/runtime.h"
 
 namespace rung::hal {
 
 enum class PinType : uint8_t { Bit, S32, U32, Float };
+
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B"}; // by rung_function_kind
 
 // Both from 1; columns count characters.
 struct MapPosition {
@@ -54,7 +56,7 @@ struct MapEdge {
 // send: an edge of a pin hands a function to the program.
 struct MapSend {
   MapEdge edge;
-  nc::FunctionKind kind = nc::FunctionKind::M;
+  rung_function_kind kind = RUNG_FUNCTION_M;
   uint32_t channel = 0; // of the control, from 0; the map counts from 1
   int32_t code = 0;
   std::optional<uint32_t> codePin; // instead of `code`

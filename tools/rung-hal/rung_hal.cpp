@@ -14,8 +14,6 @@
 #include <optional>
 #include <thread>
 
-#include "rtlib/host/program_info.h"
-#include "rtlib/host/so_engine.h"
 #include "tools/rung-hal/box.h"
 
 extern "C" {
@@ -57,7 +55,7 @@ struct StatusPins {
 
 struct Component {
   std::string prefix;
-  std::unique_ptr<host::SoEngine> engine;
+  std::optional<Image> image;
   std::unique_ptr<hal::Box> box;
   StatusPins* status = nullptr;  // in HAL's memory
   hal::PinCell* cells = nullptr; // in HAL's memory
@@ -88,12 +86,7 @@ bool loadProgram(Component& c) {
     complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed\n", kModule);
     return false;
   }
-  std::string error;
-  c.engine = host::SoEngine::open(so, error);
-  if (!c.engine) {
-    complain("%s: %s\n", kModule, error.c_str());
-    return false;
-  }
+  c.image.emplace(so);
   const std::optional<std::string> text = readFile(map);
   if (!text) {
     complain("%s: cannot read %s\n", kModule, map);
@@ -103,7 +96,7 @@ bool loadProgram(Component& c) {
   hal::MapFile mapping = hal::parseMap(*text, map, errors);
   // Both kinds of mistakes at once; a box is only made for a faultless map.
   std::vector<std::string> warnings;
-  c.box = hal::Box::make(c.engine->program(), std::move(mapping), errors, retain != nullptr ? retain : "", warnings);
+  c.box = hal::Box::make(*c.image, std::move(mapping), errors, retain != nullptr ? retain : "", warnings);
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   return errors.empty();
@@ -160,26 +153,8 @@ bool makePins(Component& c) {
   return true;
 }
 
-void printMessage(const nc::Control& control, const rung_program& program, const rung_message& message) {
-  if (message.op == RUNG_MESSAGE_CLEAR) return;
-  char line[nc::kMessageLine];
-  line[control.describe(program, message, std::span(line).first(sizeof line - 1))] = '\0';
-  rtapi_print("%s: message %s\n", kModule, line);
-}
-
-// The fault in one line, from the program's tables alone: this runs in the scan and must not allocate.
-void reportFault(const Component& c) {
-  const rung_program& program = c.box->program();
-  const rung_fault& fault = c.box->fault();
-  const char* reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
-  const bool known = fault.rung < program.rung_count;
-  const rung_rung_info none = {"", RUNG_NONE, 0, 0, 0, 0, 0, 0};
-  const rung_rung_info& rung = known ? program.rungs[fault.rung] : none;
-  const char* file = rung.file < program.file_count ? program.files[rung.file] : "?";
-  const uint32_t line = fault.line != 0 ? fault.line : rung.first_line;
-  *c.status->faultLine.u32 = line;
-  complain("%s: the program has stopped: %s at %s:%u (rung %u \"%s\"); all output pins are 0 until pin reset rises\n",
-           c.prefix.c_str(), reason, file, line, rung.number, rung.title);
+void printMessage(const rung_message_info& message) {
+  if (message.op != RUNG_MESSAGE_CLEAR) rtapi_print("%s: message %s\n", kModule, message.text);
 }
 
 void runStep(Component& c, long periodNs) {
@@ -193,16 +168,14 @@ void runStep(Component& c, long periodNs) {
   *c.status->functionsBusy.bit = runs && c.box->functions().busy();
   *c.status->functionsTimeout.bit = runs && c.box->functions().late();
   if (runs) *c.status->functionsLost.u32 = c.box->functions().lost();
-  switch (result) {
-  case hal::StepResult::Waiting: return;
-  case hal::StepResult::Ran: break;
-  case hal::StepResult::Failed: reportFault(c); break;
-  }
+  if (result == hal::StepResult::Waiting) return;
   const auto time = static_cast<uint32_t>(rtapi_get_time() - begin);
   *c.status->scanTime.u32 = time;
   if (time > *c.status->scanTimeMax.u32) *c.status->scanTimeMax.u32 = time;
-  *c.status->scans.u32 = c.box->scans();
-  *c.status->missed.u32 = static_cast<uint32_t>(c.box->missed());
+  if (result == hal::StepResult::Failed) return; // the instance is the service's now
+  const rung_state state = c.box->state();
+  *c.status->scans.u32 = static_cast<uint32_t>(state.passes);
+  *c.status->missed.u32 = static_cast<uint32_t>(state.missed);
 }
 
 void scan(void* argument, long periodNs) {
@@ -216,11 +189,9 @@ void scan(void* argument, long periodNs) {
 void serve(Component& c) {
   while (!c.ending.load()) {
     std::vector<std::string> reports;
-    if (c.box->serve(reports)) {
-      complain("%s: %s\n", c.prefix.c_str(),
-               c.box->running() ? "the program has been restarted" : "the program cannot be restarted");
-      for (const std::string& report : reports) complain("%s: %s\n", c.prefix.c_str(), report.c_str());
-    }
+    if (c.box->serve(reports) && !c.box->running())
+      if (const std::optional<rung_fault_info> fault = c.box->fault()) *c.status->faultLine.u32 = fault->line;
+    for (const std::string& report : reports) complain("%s: %s\n", c.prefix.c_str(), report.c_str());
     std::this_thread::sleep_for(kServicePeriod);
   }
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/adopted_image.h"
 #include "tools/rung-hal/box.h"
 
 namespace rung::hal::testing {
@@ -26,7 +27,7 @@ public:
     MapFile map = parseMap(text, "m.map", errors);
     values.resize(map.pins.size());
     for (PinValue& value : values) cells.push_back({.any = &value});
-    box = Box::make(program, std::move(map), errors, retain, warnings);
+    box = Box::make(test::adopted(program), std::move(map), errors, retain, warnings);
     if (box) box->connect(cells.data());
   }
 

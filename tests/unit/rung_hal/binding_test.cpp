@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/host/program_info.h"
+#include "tests/support/adopted_image.h"
 #include "tests/unit/rung_hal/test_program.h"
 
 namespace rung::hal {
@@ -14,25 +15,41 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
+// Space, byte, bit and type of what an entry is bound to.
+struct Cell {
+  uint32_t space;
+  uint32_t byte;
+  uint32_t bit;
+  uint32_t type;
+  bool operator==(const Cell&) const = default;
+};
+
 struct Bound {
+  explicit Bound(const rung_program& program) : plc(test::adopted(program)) {}
+  template <class Link>
+  Cell cell(const Link& link) {
+    const rung_cell found =
+        plc.find(link.name, static_cast<Access>(link.words ? RUNG_WRITE | RUNG_REAL : uint32_t{RUNG_WRITE}));
+    const rung_cell_info info = plc.describe(found);
+    return {info.space, info.byte, info.bit, info.type};
+  }
+
+  Instance plc;
   Binding binding;
   std::vector<std::string> errors;
 };
 
 Bound boundTo(const rung_program& program, std::string_view text) {
-  EXPECT_EQ(host::checkProgram(program), "");
-  Bound bound;
+  Bound bound(program);
   const MapFile map = parseMap(text, "m.map", bound.errors);
-  host::Instance instance(program);
-  const std::unique_ptr<nc::Control> control = nc::makeControl(program.dialect);
-  bound.binding = bindMap(map, instance, *control, bound.errors);
+  bound.binding = bindMap(map, bound.plc.handle(), program, bound.errors);
   return bound;
 }
 
 std::vector<std::string> gskErrors(std::string_view text) { return boundTo(testing::gskProgram(), text).errors; }
 
 TEST(Binding, AddressesSymbolsAndSignalsOfGsk) {
-  const Bound bound = boundTo(testing::gskProgram(), R"(
+  Bound bound = boundTo(testing::gskProgram(), R"(
 in.a = { type = "bit", name = "X000.3" }
 out.b = { type = "bit", name = "SYM" }
 in.c = { type = "s32", name = "F10:4" }
@@ -40,24 +57,24 @@ out.fin = { type = "bit", name = "FIN" }
 )");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.inputs.size(), 2u);
-  EXPECT_EQ(bound.binding.inputs[0].place, host::bitRef(0, 0, 3));
-  EXPECT_EQ(bound.binding.inputs[1].place, host::intRef(2, 10, 32));
+  EXPECT_EQ(bound.cell(bound.binding.inputs[0]), (Cell{0, 0, 3, RUNG_TYPE_BIT}));
+  EXPECT_EQ(bound.cell(bound.binding.inputs[1]), (Cell{2, 10, 0, RUNG_TYPE_I32}));
   ASSERT_EQ(bound.binding.outputs.size(), 2u);
-  EXPECT_EQ(bound.binding.outputs[0].place, host::bitRef(1, 1, 2));
-  EXPECT_EQ(bound.binding.outputs[1].place, host::bitRef(3, 4, 3)); // FIN of the NC interface is G4.3
+  EXPECT_EQ(bound.cell(bound.binding.outputs[0]), (Cell{1, 1, 2, RUNG_TYPE_BIT}));
+  EXPECT_EQ(bound.cell(bound.binding.outputs[1]), (Cell{3, 4, 3, RUNG_TYPE_BIT})); // FIN of the NC interface is G4.3
 }
 
 TEST(Binding, MachinePositions) {
-  const Bound bound = boundTo(testing::gskProgram(), R"(
+  Bound bound = boundTo(testing::gskProgram(), R"(
 in.a = { type = "float", name = "NC.MPOS.1", scale = 1000 }
 in.b = { type = "s32", name = "NC.MPOS.8" }
 )");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.inputs.size(), 2u);
   const uint32_t space = host::findSpace(testing::gskProgram(), "@MPOS");
-  EXPECT_EQ(bound.binding.inputs[0].place, host::intRef(space, 0, 32));
+  EXPECT_EQ(bound.cell(bound.binding.inputs[0]), (Cell{space, 0, 0, RUNG_TYPE_I32}));
   EXPECT_EQ(bound.binding.inputs[0].scale, 1000);
-  EXPECT_EQ(bound.binding.inputs[1].place, host::intRef(space, 28, 32));
+  EXPECT_EQ(bound.cell(bound.binding.inputs[1]), (Cell{space, 28, 0, RUNG_TYPE_I32}));
   EXPECT_EQ(bound.binding.inputs[1].scale, 1);
   EXPECT_THAT(gskErrors(R"(
 in.a = { type = "bit", name = "NC.MPOS.1" }
@@ -82,7 +99,7 @@ in.e = { type = "s32", name = "NC.MPOS.x" }
 }
 
 TEST(Binding, NctNamesAreTheHardwaresSide) {
-  const Bound bound = boundTo(testing::nctProgram(), R"(
+  Bound bound = boundTo(testing::nctProgram(), R"(
 in.a = { type = "bit", name = "0056.17" }
 out.w = { type = "s32", name = "0400" }
 out.d = { type = "float", name = "0400" }
@@ -90,14 +107,14 @@ out.d = { type = "float", name = "0400" }
   EXPECT_THAT(bound.errors, IsEmpty());
   const uint32_t slice = host::findSpace(testing::nctProgram(), "TS");
   ASSERT_EQ(bound.binding.inputs.size(), 1u);
-  EXPECT_EQ(bound.binding.inputs[0].place, host::bitRef(slice, 56 * 4, 17));
+  EXPECT_EQ(bound.cell(bound.binding.inputs[0]), (Cell{slice, 56 * 4 + 2, 1, RUNG_TYPE_BIT}));
   ASSERT_EQ(bound.binding.outputs.size(), 2u);
-  EXPECT_EQ(bound.binding.outputs[0].place, host::intRef(slice, 1600, 32));
-  EXPECT_EQ(bound.binding.outputs[1].place, host::realRef(slice, 1600)); // a double in two words
+  EXPECT_EQ(bound.cell(bound.binding.outputs[0]), (Cell{slice, 1600, 0, RUNG_TYPE_I32}));
+  EXPECT_EQ(bound.cell(bound.binding.outputs[1]), (Cell{slice, 1600, 0, RUNG_TYPE_F64})); // a double in two words
 }
 
 TEST(Binding, TechnolCells) {
-  const Bound bound = boundTo(testing::technolProgram(), R"(
+  Bound bound = boundTo(testing::technolProgram(), R"(
 out.r = { type = "float", name = "realcell" }
 out.c = { type = "s32", name = "COUNT" }
 out.b = { type = "bit", name = "COUNT.3" }
@@ -105,16 +122,16 @@ out.b = { type = "bit", name = "COUNT.3" }
   EXPECT_THAT(bound.errors, IsEmpty());
   const uint32_t data = host::findSpace(testing::technolProgram(), "DATA");
   ASSERT_EQ(bound.binding.outputs.size(), 3u);
-  EXPECT_EQ(bound.binding.outputs[0].place, host::realRef(data, 0));
-  EXPECT_EQ(bound.binding.outputs[1].place, host::intRef(data, 8, 16));
-  EXPECT_EQ(bound.binding.outputs[2].place, host::bitRef(data, 8, 3));
+  EXPECT_EQ(bound.cell(bound.binding.outputs[0]), (Cell{data, 0, 0, RUNG_TYPE_F64}));
+  EXPECT_EQ(bound.cell(bound.binding.outputs[1]), (Cell{data, 8, 0, RUNG_TYPE_I16}));
+  EXPECT_EQ(bound.cell(bound.binding.outputs[2]), (Cell{data, 8, 3, RUNG_TYPE_BIT}));
 }
 
 TEST(Binding, FloatPinsConvertOtherIntegers) {
-  const Bound bound = boundTo(testing::technolProgram(), R"(out.c = { type = "float", name = "COUNT" })");
+  Bound bound = boundTo(testing::technolProgram(), R"(out.c = { type = "float", name = "COUNT" })");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.outputs.size(), 1u);
-  EXPECT_EQ(bound.binding.outputs[0].place.kind, host::RefKind::Int);
+  EXPECT_NE(bound.cell(bound.binding.outputs[0]).type, uint32_t{RUNG_TYPE_F64});
 }
 
 TEST(Binding, UnknownNames) {
@@ -193,14 +210,14 @@ TEST(Binding, RealNumbers) {
   rung_program program = testing::technolProgram();
   program.symbols = &kSpeed;
   program.symbol_count = 1;
-  const Bound bound = boundTo(program, R"(
+  Bound bound = boundTo(program, R"(
 out.a = { type = "float", name = "SPEED" }
 const.SPEED = 5
 )");
   EXPECT_THAT(bound.errors, IsEmpty());
   ASSERT_EQ(bound.binding.constants.size(), 1u);
   EXPECT_EQ(bound.binding.constants[0].type, PinType::Float);
-  EXPECT_EQ(bound.binding.constants[0].place, host::realRef(1, 0));
+  EXPECT_EQ(bound.cell(bound.binding.constants[0]), (Cell{1, 0, 0, RUNG_TYPE_F64}));
   EXPECT_THAT(
       boundTo(program, R"(
 out.a = { type = "u32", name = "SPEED" }
@@ -217,7 +234,7 @@ const.SPEED = true
 }
 
 TEST(Binding, Constants) {
-  const Bound bound = boundTo(testing::gskProgram(), R"([const]
+  Bound bound = boundTo(testing::gskProgram(), R"([const]
 "X0.0" = true
 D0 = 255
 D1 = -128
@@ -231,16 +248,16 @@ D1 = -128
   EXPECT_EQ(bound.binding.constants[1].value, 255);
   EXPECT_EQ(bound.binding.constants[2].type, PinType::S32);
   EXPECT_EQ(bound.binding.constants[4].type, PinType::Float);
-  EXPECT_EQ(bound.binding.constants[4].place.kind, host::RefKind::Int); // rounded there
+  EXPECT_NE(bound.cell(bound.binding.constants[4]).type, uint32_t{RUNG_TYPE_F64}); // rounded there
   // 8 bytes hold either an integer or a real number: the value says which.
-  const Bound real = boundTo(testing::technolProgram(), "const.realcell = 5.0");
+  Bound real = boundTo(testing::technolProgram(), "const.realcell = 5.0");
   EXPECT_THAT(real.errors, IsEmpty());
   ASSERT_EQ(real.binding.constants.size(), 1u);
-  EXPECT_EQ(real.binding.constants[0].place.kind, host::RefKind::Real);
-  const Bound integer = boundTo(testing::technolProgram(), "const.realcell = 5");
+  EXPECT_EQ(real.cell(real.binding.constants[0]).type, uint32_t{RUNG_TYPE_F64});
+  Bound integer = boundTo(testing::technolProgram(), "const.realcell = 5");
   EXPECT_THAT(integer.errors, IsEmpty());
   ASSERT_EQ(integer.binding.constants.size(), 1u);
-  EXPECT_EQ(integer.binding.constants[0].place.kind, host::RefKind::Int);
+  EXPECT_NE(integer.cell(integer.binding.constants[0]).type, uint32_t{RUNG_TYPE_F64});
   EXPECT_THAT(
       gskErrors(R"([const]
 "X0.0" = 1

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "rtlib/host/retain.h"
 #include "rtlib/nc/technol/signals.h"
 #include "tests/support/count_allocations.h"
 #include "tests/unit/rtlib/test_program.h"
@@ -20,6 +21,7 @@ namespace rung::hal {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 using testing::Bench;
@@ -64,7 +66,7 @@ TEST(Box, ASliceRunsWhenItsTimeHasCome) {
     EXPECT_EQ(b.box->step(kMs), ms % 8 == 0 ? StepResult::Ran : StepResult::Waiting) << ms;
     EXPECT_EQ(b["count"].u32, static_cast<uint32_t>(ms / 8));
   }
-  EXPECT_EQ(b.box->scans(), 10u);
+  EXPECT_EQ(b.box->state().passes, 10u);
   for (int i = 0; i < 8; ++i) b.box->step(3 * kMs); // 24 ms in steps that do not divide the period
   EXPECT_EQ(b["count"].u32, 13u);
   b.box->step(20 * kMs); // two at once, and 4 ms are owed
@@ -77,10 +79,10 @@ TEST(Box, PassesInAStepAreBounded) {
   Bench b(testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })");
   b.box->step(88 * kMs); // one is due, ten are late
   EXPECT_EQ(b["count"].u32, 11u);
-  EXPECT_EQ(b.box->missed(), 0u);
+  EXPECT_EQ(b.box->state().missed, 0u);
   b.box->step(804 * kMs);
   EXPECT_EQ(b["count"].u32, 22u);
-  EXPECT_EQ(b.box->missed(), 89u);
+  EXPECT_EQ(b.box->state().missed, 89u);
   b.box->step(3 * kMs);
   EXPECT_EQ(b["count"].u32, 22u);
   b.box->step(kMs); // the time of what was left out has passed, too
@@ -96,10 +98,10 @@ out.on = { type = "bit", name = "N_ON" }
   ASSERT_THAT(b.errors, IsEmpty());
   b["i"].bit = true;
   b.box->step(5 * kMs);
-  EXPECT_EQ(b.box->scans(), 0u);
+  EXPECT_EQ(b.box->state().passes, 0u);
   EXPECT_FALSE(b["o"].bit);
   b.box->step(5 * kMs);
-  EXPECT_EQ(b.box->scans(), 1u);
+  EXPECT_EQ(b.box->state().passes, 1u);
   EXPECT_TRUE(b["o"].bit);
   EXPECT_TRUE(b["on"].bit); // the NC's constant signal, without a line in the map
 }
@@ -135,7 +137,7 @@ out.fc = { type = "float", name = "D0:2" }
   EXPECT_EQ(b["fc"].real, 2.0);
   b["bad"].bit = true;
   EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
-  EXPECT_EQ(b.box->fault().line, 42u);
+  EXPECT_EQ(b.box->fault()->line, 42u);
   EXPECT_FALSE(b["o"].bit);
   EXPECT_EQ(b["count"].u32, 0u);
   EXPECT_EQ(b["fc"].real, 0.0);
@@ -143,7 +145,7 @@ out.fc = { type = "float", name = "D0:2" }
   b["bad"].bit = false;
   EXPECT_EQ(b.box->step(8 * kMs), StepResult::Waiting);
   EXPECT_FALSE(b["o"].bit);
-  EXPECT_EQ(b.box->scans(), 2u);
+  EXPECT_EQ(b.box->state().passes, 2u);
 }
 
 // The end code 6 of a window function that the CNC does not provide (man. l.8668-8676).
@@ -315,7 +317,7 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
           file);
   ASSERT_THAT(b.errors, IsEmpty());
   const host::RetainMap map(program.program);
-  const auto onDisk = [&] { return host::RetainStore(file, map.hash(), map.size()).load().bytes.at(0); };
+  const auto onDisk = [&] { return host::RetainStore(file, map.layout().hash, map.size()).load().bytes.at(0); };
   const auto step = [&] { ASSERT_EQ(b.box->step(20 * kMs), StepResult::Ran); };
   const auto ask = [&] {
     b["ask"].bit = false;
@@ -336,16 +338,16 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
   ask();
   ASSERT_TRUE(wait([&] { return !b["asked"].bit; }));
   EXPECT_EQ(onDisk(), 5); // of the fifth scan, where it was asked for
-  EXPECT_EQ(b.box->retained()->saved(), 1u);
+  EXPECT_EQ(b.box->state().saves, 1u);
   for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::create_directory(file + ending);
   ask();
-  ASSERT_TRUE(wait([&] { return b.box->retained()->failing(); }));
+  ASSERT_TRUE(wait([&] { return b.box->failsToSave(); }));
   for (int i = 0; i < 20; ++i) step();
   EXPECT_TRUE(b["asked"].bit); // the program waits
   EXPECT_EQ(onDisk(), 5);
   for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::remove(file + ending);
   ASSERT_TRUE(wait([&] { return !b["asked"].bit; }));
-  EXPECT_FALSE(b.box->retained()->failing());
+  EXPECT_FALSE(b.box->failsToSave());
   EXPECT_GT(onDisk(), 5);
   EXPECT_EQ(b.box->close(), "");
 }
@@ -361,15 +363,14 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
   b["ask"].bit = true;
   b.box->step(20 * kMs);
   EXPECT_FALSE(b["asked"].bit);
-  EXPECT_EQ(b.box->retained(), nullptr);
+  EXPECT_EQ(b.box->state().saves, 0u);
 }
 
 std::vector<uint32_t> shown;
 
 TEST(Box, MessagesReachTheSink) {
   Bench b(testing::gskProgram(), R"(in.show = { type = "bit", name = "X1.2" })");
-  b.box->setMessageSink(
-      [](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.number); });
+  b.box->setMessageSink([](const rung_message_info& message) { shown.push_back(message.number); });
   b["show"].bit = true;
   b.scans(2);
   EXPECT_THAT(shown, ElementsAre(7u, 7u));
@@ -386,8 +387,7 @@ out.code = { type = "u32", name = "N_ACTMSG" }
 )");
   ASSERT_THAT(b.errors, IsEmpty());
   shown.clear();
-  b.box->setMessageSink(
-      [](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.op); });
+  b.box->setMessageSink([](const rung_message_info& message) { shown.push_back(message.op); });
   const auto cycle = [&] { b.box->step(10 * kMs); };
   b["show"].bit = true;
   cycle();
@@ -410,15 +410,12 @@ out.code = { type = "u32", name = "N_ACTMSG" }
                                  uint32_t{RUNG_MESSAGE_SHOW_LOG}));
 }
 
-TEST(Box, RefusesMapsThatDoNotFitAndProgramsWithoutTime) {
+TEST(Box, RefusesMapsThatDoNotFit) {
   EXPECT_THAT(Bench(testing::gskProgram(), "in.a = { type = \"bit\", name = \"Y0.0\" }\ntimeout = 0").errors,
               ElementsAre("m.map:2:11: timeout: found 0, expected seconds, above 0 and at most 1000000; write for "
                           "example timeout = 30",
                           "m.map:1:31: in.a.name: found Y0.0, an output of the program, expected a name that HAL may "
                           "write; move the pin to [out]"));
-  Bench timeless(testing::timelessProgram(), "");
-  EXPECT_THAT(timeless.errors, ElementsAre("test: the program's schedule has no period"));
-  EXPECT_EQ(timeless.box, nullptr);
 }
 
 // ---- after a fault -----------------------------------------------------------------------------------------------
@@ -437,12 +434,16 @@ out.count = { type = "u32", name = "D0:2" }
   EXPECT_FALSE(b.box->running());
   EXPECT_FALSE(b["o"].bit);
   std::vector<std::string> reports;
+  EXPECT_TRUE(b.box->serve(reports));
+  EXPECT_THAT(reports, ElementsAre("the program has stopped: dead-loop (rung 1 \"all of it\", main.pmc:42); all output "
+                                   "pins are 0 until pin reset rises"));
+  reports.clear();
   EXPECT_FALSE(b.box->serve(reports)); // nobody has asked
   b["bad"].bit = false;
   EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting);
   EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting); // until it is served
   EXPECT_TRUE(b.box->serve(reports));
-  EXPECT_THAT(reports, IsEmpty());
+  EXPECT_THAT(reports, ElementsAre("the program has been restarted"));
   EXPECT_TRUE(b.box->running());
   EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Ran);
   EXPECT_TRUE(b["o"].bit);
@@ -450,7 +451,8 @@ out.count = { type = "u32", name = "D0:2" }
   b["bad"].bit = true;           // the pin that is still on does not restart it again
   EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Failed);
   EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting);
-  EXPECT_FALSE(b.box->serve(reports));
+  b.box->serve(reports);
+  EXPECT_FALSE(b.box->running());
 }
 
 TEST_F(BoxRetained, ARestartTakesTheLastWholeScan) {
@@ -467,7 +469,7 @@ out.count = { type = "u32", name = "D0:2" }
   b.box->step(8 * kMs, true);
   std::vector<std::string> reports;
   EXPECT_TRUE(b.box->serve(reports));
-  EXPECT_THAT(reports, IsEmpty());
+  EXPECT_THAT(reports, ElementsAre(HasSubstr("dead-loop"), "the program has been restarted")) << "both, at once";
   b.scans(1);
   EXPECT_EQ(b["count"].u32, 6u);
 }
@@ -753,20 +755,6 @@ TEST_F(RestartedFunctions, AreNewWithoutTheirPins) {
   EXPECT_FALSE(b.box->functions().busy());
 }
 
-// One that only counts the aborts.
-class CountingControl : public nc::Control, public nc::Functions {
-public:
-  nc::Functions* functions(uint32_t) override { return this; }
-  bool carries(nc::FunctionKind, uint32_t) const override { return true; }
-  std::optional<uint32_t> start(nc::FunctionKind, uint32_t) override { return std::nullopt; }
-  using nc::Control::start;
-  void step() override {}
-  bool busy(uint32_t) const override { return false; }
-  void abort() override { ++aborts; }
-
-  int aborts = 0;
-};
-
 TEST(Functions, PinsOfAbortsAreEdgesAfterARestart) {
   std::vector<std::string> errors;
   const MapFile map = parseMap(R"(
@@ -777,13 +765,23 @@ abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
   ASSERT_THAT(errors, IsEmpty());
   bool a = false, on = true, off = false;
   const PinCell cells[] = {{.bit = &a}, {.bit = &on}, {.bit = &off}};
-  CountingControl control;
-  FunctionQueue functions(map, control);
-  for (int aborts = 1; aborts <= 2; ++aborts) {
+  Instance plc(test::adopted(testing::gskProgram()));
+  plc.powerOn();
+  // Whether a function that is under way is still so after the pins have been looked at.
+  FunctionQueue functions(map, plc.handle());
+  const auto survives = [&] {
+    uint32_t line = 0;
+    for (int i = 0; i < 20 && rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 3, &line) != RUNG_OK; ++i)
+      plc.scan();
+    EXPECT_EQ(rung_instance_function_done(plc.handle(), 0, line), RUNG_LATER);
     functions.sample(cells, kMs);
-    EXPECT_EQ(control.aborts, aborts);
-    functions.sample(cells, kMs);
-    EXPECT_EQ(control.aborts, aborts);
+    const bool goesOn = rung_instance_function_done(plc.handle(), 0, line) == RUNG_LATER;
+    rung_instance_abort_functions(plc.handle(), 0);
+    return goesOn;
+  };
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_FALSE(survives()) << round;
+    EXPECT_TRUE(survives()) << round;
     functions.restart();
   }
 }
@@ -826,7 +824,7 @@ out.o = { type = "bit", name = "Y0.0" }
   EXPECT_EQ(allocationsIn(busy, 100), 0);
   busy["bad"].bit = true;
   EXPECT_EQ(allocationsIn(busy, 8), 0);
-  EXPECT_EQ(busy.box->fault().code, 0u);
+  EXPECT_STREQ(busy.box->fault()->code, "dead-loop");
 
   Bench nct(testing::nctProgram(), R"(
 in.i = { type = "bit", name = "0056.17" }
@@ -838,7 +836,7 @@ in.show = { type = "bit", name = "0056.18" }
   EXPECT_EQ(allocationsIn(nct, 500), 0);
   nct["show"].bit = false;
   EXPECT_EQ(allocationsIn(nct, 500), 0);
-  EXPECT_EQ(nct.box->scans(), 200u);
+  EXPECT_EQ(nct.box->state().passes, 200u);
 }
 
 } // namespace

@@ -85,7 +85,7 @@ edge = "rise"
   ASSERT_EQ(map.sends.size(), 2u);
   EXPECT_EQ(map.pins[map.sends[0].edge.pin].name, "spindle-on");
   EXPECT_FALSE(map.sends[0].edge.rising);
-  EXPECT_EQ(map.sends[0].kind, nc::FunctionKind::M);
+  EXPECT_EQ(map.sends[0].kind, RUNG_FUNCTION_M);
   EXPECT_EQ(map.sends[0].code, 5);
   EXPECT_FALSE(map.sends[0].codePin.has_value());
   EXPECT_FALSE(map.sends[0].donePin.has_value());
@@ -94,7 +94,7 @@ edge = "rise"
   EXPECT_EQ(map.sends[0].channel, 0u);
   EXPECT_EQ(map.sends[1].channel, 1u);
   EXPECT_TRUE(map.sends[1].edge.rising);
-  EXPECT_EQ(map.sends[1].kind, nc::FunctionKind::T);
+  EXPECT_EQ(map.sends[1].kind, RUNG_FUNCTION_T);
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].name, "number");
   EXPECT_EQ(map.pins[map.sends[1].codePin.value()].type, PinType::S32);
   EXPECT_EQ(map.pins[map.sends[1].donePin.value()].name, "prepared");

@@ -90,11 +90,10 @@ protected:
     Bench b(program, kFaultsMap, retain);
     EXPECT_THAT(b.errors, IsEmpty());
     shown.clear();
-    b.box->setMessageSink(
-        [](const nc::Control&, const rung_program&, const rung_message& message) { shown.push_back(message.number); });
+    b.box->setMessageSink([](const rung_message_info& message) { shown.push_back(message.number); });
     return b;
   }
-  static std::string reason(const Bench& b) { return b.box->program().faults[b.box->fault().code]; }
+  static std::string reason(const Bench& b) { return b.box->fault()->code; }
 
   CompiledProgram program{"faults.plc", kFaults};
   TemporaryFolder folder;
@@ -130,11 +129,11 @@ TEST_F(TechnolFaults, InModuleInit) {
     EXPECT_EQ(b.box->step(kMs), StepResult::Failed);
     EXPECT_THAT(reason(b), HasSubstr("halt-status 2"));
     EXPECT_FALSE(b["lamp"].bit);
-    EXPECT_EQ(b.box->scans(), 0u);
+    EXPECT_EQ(b.box->state().passes, 0u);
     b.box->step(kMs, true);
     std::vector<std::string> reports;
     EXPECT_TRUE(b.box->serve(reports));
-    EXPECT_THAT(reports, IsEmpty());
+    EXPECT_THAT(reports, ElementsAre(HasSubstr("halt-status 2"), "the program has been restarted"));
   }
 }
 
@@ -201,7 +200,7 @@ TEST_F(TechnolBackup, IsSavedWhenTheProgramAsksAndAtTheEnd) {
   {
     Bench b = start();
     EXPECT_EQ(b["starts"].u32, 1u);
-    const uint64_t first = b.box->retained()->saved();
+    const uint64_t first = b.box->state().saves;
     b["go"].bit = true;
     b.run(20);
     b["go"].bit = false;
@@ -209,7 +208,7 @@ TEST_F(TechnolBackup, IsSavedWhenTheProgramAsksAndAtTheEnd) {
     EXPECT_FALSE(b["saved"].bit);
     ASSERT_TRUE(runUntil(b, [&] { return b["saved"].bit; }));
     EXPECT_FALSE(b["asked"].bit);
-    EXPECT_GT(b.box->retained()->saved(), first);
+    EXPECT_GT(b.box->state().saves, first);
     b["last"].u32 = 0x5A; // MODULE_DONE keeps it
     b.run(20);
     EXPECT_EQ(b.box->close(), "");
@@ -261,14 +260,13 @@ TEST_F(TechnolBackup, AFullDiskMakesTheProgramWait) {
   {
     const FullDisk full(1000);
     b["go"].bit = true;
-    ASSERT_TRUE(runUntil(b, [&] { return b.box->retained()->failing(); }));
+    ASSERT_TRUE(runUntil(b, [&] { return b.box->failsToSave(); }));
     b.run(200);
     EXPECT_TRUE(b["asked"].bit);
     EXPECT_FALSE(b["saved"].bit);
-    EXPECT_THAT(b.box->retained()->problem(), HasSubstr("cannot write"));
   }
   EXPECT_TRUE(runUntil(b, [&] { return b["saved"].bit; })); // tried again and again
-  EXPECT_FALSE(b.box->retained()->failing());
+  EXPECT_FALSE(b.box->failsToSave());
   EXPECT_EQ(b.box->close(), "");
 }
 
@@ -295,7 +293,7 @@ out.slices = { type = "u32", name = "FAST" }
   uint32_t slices = 0;
   for (int ms = 0; ms < 100; ++ms) {
     slices += b.box->step(kMs) == StepResult::Ran ? 1 : 0;
-    EXPECT_EQ(b.box->scans(), slices / 5);
+    EXPECT_EQ(b.box->state().passes, slices / 5);
   }
   EXPECT_EQ(slices, 50u);
   EXPECT_EQ(b["cycles"].u32, 10u);

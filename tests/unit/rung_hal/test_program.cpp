@@ -120,7 +120,6 @@ constexpr const char* kTexts[] = {"7", "Oil level low"};
 constexpr rung_task kTasks8ms[] = {{"MAIN", 0, 8000, 1000, 0, 0, 0, 0, 0, 0, 1}};
 constexpr rung_task kTasks10ms[] = {{"MAIN", 0, 10000, 1000, 0, 0, 0, 0, 0, 0, 1}};
 constexpr rung_task kTasks20ms[] = {{"MAIN", 0, 20000, 1000, 0, 0, 0, 0, 0, 0, 1}};
-constexpr rung_task kTasksNoPeriod[] = {{"MAIN", 0, 0, 1000, 0, 0, 0, 0, 0, 0, 1}};
 constexpr rung_step kScan8ms[] = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
 constexpr rung_step kScan10ms[] = { // two time slices, the NC's work in front of each
     {RUNG_STEP_ADVANCE, RUNG_NONE, 5000}, {RUNG_STEP_HOOK, RUNG_NONE, 1}, {RUNG_STEP_SLOT, RUNG_NONE, 0},
@@ -193,14 +192,6 @@ const rung_program& technolProgram() {
     rung_program p = withMemory(common("technol", kTasks20ms, kTechnolCode), 128, kTechnolSpaces, kScanHook);
     p.symbol_count = 3;
     p.symbols = kTechnolSymbols;
-    return p;
-  }();
-  return program;
-}
-
-const rung_program& timelessProgram() {
-  static const rung_program program = [] {
-    rung_program p = withMemory(common("gsk", kTasksNoPeriod, kGskCode), kGskSize, kGskSpaces, kScanHook);
     return p;
   }();
   return program;

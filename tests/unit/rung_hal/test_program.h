@@ -18,7 +18,4 @@ const rung_program& nctProgram();
 // names and types, it does nothing.
 const rung_program& technolProgram();
 
-// No schedule and no period.
-const rung_program& timelessProgram();
-
 } // namespace rung::hal::testing

@@ -92,22 +92,34 @@ const std::list<Bound>& programs() {
 
 // As a variable of the pin's type it can be bound.
 template <class Link>
-void checkLink(const Instance& plc, const Link& link, double scale, uint32_t direction) {
+void checkLink(const Instance& plc, const rung_program& program, const Link& link, double scale, uint32_t direction) {
   constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64};
   static double room = 0;
   const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
   const rung_variable variable{link.name.c_str(), &room, kTypes[static_cast<size_t>(link.type)], direction | words,
                                scale};
   RUNG_CHECK(rung_instance_bind(plc.handle(), &variable, 1) == RUNG_OK, "what is found can be bound");
+  rung_cell cell = 0;
+  if (rung_instance_find(plc.handle(), link.name.c_str(), RUNG_WRITE, &cell) != RUNG_OK)
+    RUNG_CHECK(rung_instance_find(plc.handle(), link.name.c_str(), RUNG_READ, &cell) == RUNG_OK, "it is found");
+  const rung_cell_info info = plc.describe(cell);
+  RUNG_CHECK(info.space != RUNG_NONE && info.type != RUNG_TYPE_TEXT, "a place holds a value");
+  RUNG_CHECK((info.type == RUNG_TYPE_BIT) == (link.type == PinType::Bit), "a bit is for a bit");
+  RUNG_CHECK(info.type != RUNG_TYPE_F64 || link.type == PinType::Float, "a real number is for a float");
+  const uint32_t flags = program.spaces[info.space].flags;
+  RUNG_CHECK(direction != RUNG_TO_PROGRAM || (flags & RUNG_SPACE_OUTPUT) == 0 || (flags & RUNG_SPACE_INPUT) != 0,
+             "outputs are not written");
 }
 
 void checkBinding(const MapFile& map, const Bound& program) {
   std::vector<std::string> errors;
   const Instance plc(program.image); // a new one: what is bound stays
   const Binding binding = bindMap(map, plc.handle(), program.image.program(), errors);
-  for (const PinLink& link : binding.inputs) checkLink(plc, link, link.scale, RUNG_TO_PROGRAM);
-  for (const PinLink& link : binding.outputs) checkLink(plc, link, link.scale, RUNG_FROM_PROGRAM);
-  for (const ConstLink& constant : binding.constants) checkLink(plc, constant, 1, RUNG_TO_PROGRAM);
+  for (const PinLink& link : binding.inputs) checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
+  for (const PinLink& link : binding.outputs)
+    checkLink(plc, program.image.program(), link, link.scale, RUNG_FROM_PROGRAM);
+  for (const ConstLink& constant : binding.constants)
+    checkLink(plc, program.image.program(), constant, 1, RUNG_TO_PROGRAM);
   const size_t links = binding.inputs.size() + binding.outputs.size() + binding.constants.size();
   const size_t entries = map.inputs.size() + map.outputs.size() + map.constants.size();
   RUNG_CHECK(links <= entries && entries - links <= errors.size(), "an entry is bound or has an error");

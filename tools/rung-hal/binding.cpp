@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <span>
 
@@ -222,9 +221,12 @@ private:
 
   // A real number where the program has room for one.
   bool inWords(const Entry& entry) const {
+    if (entry.type != PinType::Float || isPosition(entry.name)) return false;
     rung_cell cell = 0;
-    return entry.type == PinType::Float && !isPosition(entry.name) &&
-           rung_instance_find(instance_, entry.name.c_str(), RUNG_WRITE | RUNG_REAL, &cell) == RUNG_OK;
+    const auto isThere = [&](int32_t access) {
+      return rung_instance_find(instance_, entry.name.c_str(), access | RUNG_REAL, &cell) == RUNG_OK;
+    };
+    return isThere(RUNG_WRITE) || (entry.use == Use::Output && isThere(RUNG_READ));
   }
 
   Misfit misfitOf(const Place& place, const Entry& entry) const {

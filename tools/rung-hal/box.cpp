@@ -2,6 +2,7 @@
 #include "tools/rung-hal/box.h"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -45,8 +46,10 @@ Box::Box(const Image& image, MapFile map, const std::string& retain)
   if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
 }
 
-void Box::log(void* box, int32_t level, const char* text) {
+// No exception may go through the library, which is one of C.
+void Box::log(void* box, int32_t level, const char* text) try {
   if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
+} catch (const std::bad_alloc&) { // then there is nobody to say it
 }
 
 std::unique_ptr<Box> Box::make(const Image& image, MapFile map, std::vector<std::string>& errors,
@@ -69,24 +72,23 @@ void Box::bindValues() {
   inputs_.resize(binding_.inputs.size());
   outputs_.resize(binding_.outputs.size());
   constants_.resize(binding_.constants.size());
-  for (size_t i = 0; i < inputs_.size(); ++i) {
-    const PinLink& link = binding_.inputs[i];
-    bind(link.name, link.type, inputs_[i], RUNG_TO_PROGRAM | (link.words ? RUNG_BOUND_REAL : 0), link.scale);
-  }
+  for (size_t i = 0; i < inputs_.size(); ++i)
+    bind(binding_.inputs[i], inputs_[i], RUNG_TO_PROGRAM, binding_.inputs[i].scale);
   for (size_t i = 0; i < constants_.size(); ++i) {
     const ConstLink& link = binding_.constants[i];
     constants_[i] = constant(link.type, link.value);
-    bind(link.name, link.type, constants_[i], RUNG_TO_PROGRAM | (link.words ? RUNG_BOUND_REAL : 0), 1);
+    bind(link, constants_[i], RUNG_TO_PROGRAM, 1);
   }
-  for (size_t i = 0; i < outputs_.size(); ++i) {
-    const PinLink& link = binding_.outputs[i];
-    bind(link.name, link.type, outputs_[i], RUNG_FROM_PROGRAM | (link.words ? RUNG_BOUND_REAL : 0), link.scale);
-  }
+  for (size_t i = 0; i < outputs_.size(); ++i)
+    bind(binding_.outputs[i], outputs_[i], RUNG_FROM_PROGRAM, binding_.outputs[i].scale);
 }
 
-void Box::bind(const std::string& name, PinType type, Value& value, uint32_t direction, double scale) {
+template <class Link>
+void Box::bind(const Link& link, Value& value, rung_direction direction, double scale) {
   constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by PinType
-  const rung_variable variable{name.c_str(), &value, kTypes[static_cast<size_t>(type)], direction, scale};
+  const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
+  const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
+                               scale};
   check(rung_instance_bind(plc_.handle(), &variable, 1));
 }
 
@@ -101,9 +103,11 @@ bool Box::serve(std::vector<std::string>& reports) {
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Running) return false;
   const bool isNew = !std::exchange(reported_, true);
-  if (const std::optional<rung_fault_info> info = fault(); info && isNew)
+  if (const std::optional<rung_fault_info> info = fault(); info && isNew) {
+    faultLine_.store(info->line, std::memory_order_relaxed);
     reports.push_back("the program has stopped: " + std::string(info->text) +
                       "; all output pins are 0 until pin reset rises");
+  }
   if (state == State::Stopped) return isNew;
   functions_->restart();
   const bool started = start(reports);
@@ -117,7 +121,9 @@ bool Box::serve(std::vector<std::string>& reports) {
 
 std::string Box::close() {
   std::string error;
-  if (rung_instance_power_off(plc_.handle()) == RUNG_FAILED) error = rung_error_text();
+  const int32_t status = rung_instance_power_off(plc_.handle());
+  if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // it may be off
+  passMessages();
   if (cells_ != nullptr) clearPins();
   return error;
 }
@@ -155,6 +161,12 @@ rung_state Box::state() const noexcept {
   state.size = sizeof state;
   rung_instance_state(plc_.handle(), &state);
   return state;
+}
+
+std::optional<rung_fault_info> Box::fault() const noexcept {
+  rung_fault_info info{};
+  info.size = sizeof info;
+  return rung_instance_fault(plc_.handle(), &info) == RUNG_OK ? std::optional(info) : std::nullopt;
 }
 
 void Box::readPins() noexcept {

@@ -1,6 +1,7 @@
 // A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the box is
 // made; `step` allocates nothing, takes no lock and makes no system call.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -45,14 +46,19 @@ public:
   // restarted the program.
   StepResult step(int64_t ns, bool reset = false) noexcept;
   // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
-  void setTimeLimit(int64_t ns) noexcept { rung_instance_limit(plc_.handle(), ns); }
+  void setTimeLimit(int64_t ns) noexcept {
+    constexpr int64_t kHour = 3'600'000'000'000; // more is none
+    rung_instance_limit(plc_.handle(), std::min(ns, kHour));
+  }
   // Not the scan thread, again and again: what a step must not do itself, a fault in words, and the restart after it.
   // True: there was something of that, and `reports` says what the operator should know of it.
   bool serve(std::vector<std::string>& reports);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
 
   // While it does not run, for the thread that serves it.
-  std::optional<rung_fault_info> fault() const { return plc_.fault(); }
+  std::optional<rung_fault_info> fault() const noexcept;
+  // The line of the last fault that `serve` has reported; 0: none.
+  uint32_t faultLine() const noexcept { return faultLine_.load(std::memory_order_relaxed); }
   // Of the instance; while it runs, for the scan thread.
   rung_state state() const noexcept;
   bool failsToSave() const noexcept { return (state().flags & RUNG_STATE_UNSAVED) != 0; }
@@ -64,7 +70,8 @@ private:
   // Stopped: by a fault. Restarting: the instance belongs to `serve`.
   enum class State : uint8_t { Running, Stopped, Restarting };
 
-  void bind(const std::string& name, PinType type, Value& value, uint32_t direction, double scale);
+  template <class Link>
+  void bind(const Link& link, Value& value, rung_direction direction, double scale);
   void bindValues();
   bool start(std::vector<std::string>& reports);
   StepResult run(int64_t ns) noexcept;
@@ -86,6 +93,7 @@ private:
   MessageSink sink_ = nullptr;
   bool wasReset_ = false;
   bool reported_ = false; // the fault that has stopped it: by `serve`
+  std::atomic<uint32_t> faultLine_{0};
   std::atomic<State> state_{State::Running};
 };
 

@@ -59,7 +59,7 @@ struct Component {
   std::unique_ptr<hal::Box> box;
   StatusPins* status = nullptr;  // in HAL's memory
   hal::PinCell* cells = nullptr; // in HAL's memory
-  std::thread service;           // restarts
+  std::thread service;           // reports faults, restarts
   std::atomic<bool> ending{false};
   std::atomic<bool> inScan{false};
   std::atomic<int64_t> periodNs{0};
@@ -86,7 +86,12 @@ bool loadProgram(Component& c) {
     complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed\n", kModule);
     return false;
   }
-  c.image.emplace(so);
+  try {
+    c.image.emplace(so);
+  } catch (const Error& error) {
+    complain("%s: %s\n", kModule, error.what());
+    return false;
+  }
   const std::optional<std::string> text = readFile(map);
   if (!text) {
     complain("%s: cannot read %s\n", kModule, map);
@@ -186,12 +191,28 @@ void scan(void* argument, long periodNs) {
   c.inScan.store(false);
 }
 
+void serveOnce(Component& c) {
+  std::vector<std::string> reports;
+  if (c.box->serve(reports)) *c.status->faultLine.u32 = c.box->faultLine();
+  for (const std::string& report : reports) complain("%s: %s\n", c.prefix.c_str(), report.c_str());
+}
+
+// No exception may leave the module: it would end the whole CNC.
+template <class Action>
+int guarded(Action action) noexcept {
+  try {
+    return action();
+  } catch (const std::exception& problem) {
+    complain("%s: %s\n", kModule, problem.what());
+  } catch (...) {
+    complain("%s: unknown exception\n", kModule);
+  }
+  return -ENOMEM;
+}
+
 void serve(Component& c) {
   while (!c.ending.load()) {
-    std::vector<std::string> reports;
-    if (c.box->serve(reports) && !c.box->running())
-      if (const std::optional<rung_fault_info> fault = c.box->fault()) *c.status->faultLine.u32 = fault->line;
-    for (const std::string& report : reports) complain("%s: %s\n", c.prefix.c_str(), report.c_str());
+    guarded([&] { return serveOnce(c), 0; });
     std::this_thread::sleep_for(kServicePeriod);
   }
 }
@@ -221,6 +242,7 @@ void endScans(Component& c) {
 
 void closeProgram(Component& c) {
   if (!c.box) return;
+  guarded([&] { return serveOnce(c), 0; }); // a fault of the last moment
   const std::string error = c.box->close();
   if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
 }
@@ -229,19 +251,6 @@ void leaveHal(const Component& c) {
   hal_exit(componentId);
   std::this_thread::sleep_for(std::chrono::nanoseconds(2 * c.periodNs.load()));
   while (c.inScan.load()) std::this_thread::yield();
-}
-
-// No exception may leave the module: it would end the whole CNC.
-template <class Action>
-int guarded(Action action) noexcept {
-  try {
-    return action();
-  } catch (const std::exception& problem) {
-    complain("%s: %s\n", kModule, problem.what());
-  } catch (...) {
-    complain("%s: unknown exception\n", kModule);
-  }
-  return -ENOMEM;
 }
 
 void end() {

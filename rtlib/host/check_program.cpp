@@ -336,6 +336,13 @@ private:
     }
   }
 
+  void checkReads(uint32_t task) {
+    const rung_task& t = p_.tasks[task];
+    for (uint32_t i = t.read_first + 1; error_.empty() && i < t.read_first + t.read_count; ++i)
+      if (p_.reads[i].offset <= uint64_t{p_.reads[i - 1].offset} + p_.reads[i - 1].size)
+        failAt("read span", i, "does not lie above the one before it");
+  }
+
   void checkTasks() {
     for (uint32_t i = 0; i < p_.task_count; ++i) {
       const rung_task& t = p_.tasks[i];
@@ -346,6 +353,7 @@ private:
       piece("task", i, "end copies", t.end_first, t.end_count, p_.copy_count);
       piece("task", i, "parts", t.part_first, t.part_count, p_.part_end_count);
       piece("task", i, "read spans", t.read_first, t.read_count, p_.read_count);
+      checkReads(i);
       if (t.part_count == 0) failAt("task", i, "has no parts, expected at least 1");
       if (error_.empty()) checkParts(i, t);
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -24,7 +25,8 @@ std::string compressed(const std::string& text) {
   uLongf length = compressBound(text.size());
   std::string out(4 + length, 0);
   for (size_t i = 0; i < 4; ++i) out[i] = static_cast<char>(text.size() >> (8 * i));
-  compress(reinterpret_cast<Bytef*>(&out[4]), &length, reinterpret_cast<const Bytef*>(text.data()), text.size());
+  const auto* from = reinterpret_cast<const Bytef*>(text.data());
+  if (compress(reinterpret_cast<Bytef*>(&out[4]), &length, from, text.size()) != Z_OK) throw std::bad_alloc();
   out.resize(4 + length);
   return out;
 }

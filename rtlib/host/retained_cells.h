@@ -18,7 +18,7 @@ namespace rung::host {
 
 // How an image is laid out.
 struct RetainLayout {
-  RetainLayout(uint64_t hashGiven, std::string descriptionGiven = {})
+  RetainLayout(uint64_t hashGiven, std::string descriptionGiven = {}) // NOLINT(google-explicit-constructor)
       : hash(hashGiven), description(std::move(descriptionGiven)) {}
 
   uint64_t hash;           // equal hashes: images are interchangeable, cell by cell

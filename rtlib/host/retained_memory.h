@@ -19,7 +19,7 @@ enum class RetainWhen : uint8_t {
 class RetainedMemory {
 public:
   // `take`: null where a machine's program never changes. Then an image of another one is not taken, and the host is
-  // smaller by a quarter.
+  // smaller.
   RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when = RetainWhen::Always,
                  RetainTake take = &takeRetainedOf);
   // The saver looks once a `period` whether there is something to write.

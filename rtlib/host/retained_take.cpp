@@ -14,8 +14,9 @@
 namespace rung::host {
 namespace {
 
-constexpr size_t kMostText = 16 << 20;    // of a description
-constexpr uint64_t kMostBytes = 16 << 20; // of all spaces: planning a transfer takes 32 bytes for each
+constexpr size_t kMostText = 4 << 20;     // of a description
+constexpr uint64_t kMostBytes = 1 << 20;  // of all spaces: planning a transfer takes 32 bytes for each
+constexpr uint64_t kMostLooks = 64 << 20; // for cells in runs
 
 // The fields of a line, one after the other.
 class Fields {
@@ -121,7 +122,7 @@ bool Cells::isKept(const Cell& cell) const {
 bool Cells::isSound() const {
   uint64_t bytes = 0;
   for (const Space& space : spaces) bytes += space.bytes;
-  if (bytes > kMostBytes) return false;
+  if (bytes > kMostBytes || uint64_t{cells.size()} * runs.size() > kMostLooks) return false;
   const auto goodRun = [&](const RetainRun& run) {
     return run.space < spaces.size() && uint64_t{run.first} + run.count <= spaces[run.space].bytes;
   };
@@ -222,7 +223,7 @@ RetainedTaken takeRetained(std::string_view now, std::string_view former, std::s
   from.fill(image);
   const StateTransfer transfer(from.program(), to.program());
   transfer.run(from.block(), to.block());
-  return {to.image(), {transfer.changes().begin(), transfer.changes().end()}};
+  return {true, to.image(), {transfer.changes().begin(), transfer.changes().end()}};
 }
 
 namespace {
@@ -254,7 +255,7 @@ std::vector<uint8_t> initialImage(const rung_program& program, const RetainMap& 
 void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image) {
   RetainedTaken taken =
       takeRetained(map.layout().description, image.description, image.bytes, initialImage(program, map));
-  image.found = !taken.image.empty();
+  image.found = taken.good;
   image.bytes = std::move(taken.image);
   if (image.found) image.report += "; its cells are taken by name and address" + textOf(taken.changes);
 }

@@ -14,7 +14,8 @@ namespace rung::host {
 // `initial` and the result are images of the description `now`, `image` is one of `former`. What `former` does not have
 // is as in `initial`.
 struct RetainedTaken {
-  std::vector<uint8_t> image; // empty: a description is none, the dialect is another, or an image has another size
+  bool good = false; // a description is none, the dialect is another, or an image has another size
+  std::vector<uint8_t> image;
   std::vector<StateChange> changes;
 };
 RetainedTaken takeRetained(std::string_view now, std::string_view former, std::span<const uint8_t> image,

@@ -385,8 +385,8 @@ private:
   void remove(const rung_slot& former) {
     report(ChangeKind::Removed, former);
     const std::string_view key = former.key;
-    const size_t shared = key.find('@', 1);
-    if (shared == std::string_view::npos) return;
+    const size_t shared = key.rfind('@');
+    if (shared == std::string_view::npos || shared == 0) return;
     const std::span slots(to_.slots, to_.slot_count);
     const auto held = std::ranges::lower_bound(slots, key.substr(shared), {},
                                                [](const rung_slot& slot) { return std::string_view(slot.key); });

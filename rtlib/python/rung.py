@@ -79,7 +79,7 @@ class Access(enum.IntEnum):
 
 
 class Direction(enum.IntEnum):
-    """When a bound variable is copied: before or after every slice."""
+    """When a bound variable is copied: before or after every slice. BOUND_REAL is added for the real that REAL would find."""
     TO_PROGRAM = 0
     FROM_PROGRAM = 1
     BOUND_REAL = 2

@@ -13,8 +13,13 @@
 namespace rung::runtime {
 namespace {
 
-// Bytes from the beginning of a cell to its end.
-uint64_t extentOf(const host::Ref& ref) { return (uint64_t{ref.width} * ref.count + 7) / 8; }
+// The schedule runs the task, rather than the control where there is need.
+bool isScheduled(const rung_program& program, uint32_t task) {
+  const auto runs = [&](const rung_step& step) { return step.task == task; };
+  return std::ranges::any_of(std::span(program.scan, program.scan_count), runs) ||
+         std::ranges::any_of(std::span(program.fast, program.fast_count), runs) ||
+         std::ranges::any_of(std::span(program.slices, program.slice_count), runs);
+}
 
 } // namespace
 
@@ -26,7 +31,9 @@ BlockPlace locateBlock(const nc::Control& control, const rung_program& program, 
   if (ref->kind == host::RefKind::Bit && ref->bit != 0) return wrong(BlockState::WithinByte);
   const rung_space& space = program.spaces[ref->space];
   const bool allocated = (space.flags & RUNG_SPACE_ALLOCATED) != 0;
-  const uint64_t room = allocated ? extentOf(*ref) : uint64_t{space.byte_count} - ref->byte;
+  const uint64_t bits = uint64_t{ref->width} * ref->count; // beside it may be other cells
+  if (allocated && bits % 8 != 0) return wrong(BlockState::WithinByte);
+  const uint64_t room = allocated ? bits / 8 : uint64_t{space.byte_count} - ref->byte;
   if (block.bytes > room) return wrong(BlockState::TooLong);
   const host::Overwritten overwritten(program);
   for (uint32_t i = 0; block.input && i < block.bytes; ++i)
@@ -78,7 +85,7 @@ void BlockPlan::addInput(const HostBlock& block, const BlockPlace& place) {
     for (uint32_t task = 0; task < reads_.size(); ++task) {
       if (!reads(task, byte)) continue;
       append(reads_[task], byte);
-      any = true;
+      any = any || isScheduled(*program_, task);
     }
     if (!any) append(rest_, byte);
   }

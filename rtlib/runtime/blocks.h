@@ -24,7 +24,7 @@ enum class BlockState : uint8_t {
   Gone,        // the program does not have the name
   Constant,    // it has no memory
   WithinByte,  // it does not begin with a byte
-  TooLong,     // it ends in another space, or where other cells are that nobody placed there
+  TooLong,     // it goes on behind its space, or behind a cell whose place the compiler has chosen
   Overwritten, // another place is copied over its input
 };
 
@@ -43,7 +43,7 @@ public:
 
   void add(const nc::Control& control, const HostBlock& block);
 
-  // What a run of the task reads; and what no task reads, which others may look at.
+  // What a run of the task reads; and what no task of the schedule reads, which others may look at.
   void latch(uint8_t* memory, uint32_t task) const noexcept { copyIn(reads_[task], memory); }
   void readRest(uint8_t* memory) const noexcept { copyIn(rest_, memory); }
   void write(const uint8_t* memory) const noexcept;

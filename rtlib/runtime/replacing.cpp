@@ -21,12 +21,10 @@ struct rung_replacement {
         places(of.control->locate(image->program)), cells(std::make_unique<CellTable>(image->program)),
         blockPlan(std::make_unique<BlockPlan>(image->program)),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
-    instance.images.add(image);
-    instance.names.join(*instance.control, *cells);
-    instance.blocks.join(*instance.control, *blockPlan);
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
     bound = host::measureBound({image->program, image->engine});
     if (!bound.fits()) late = "a slice of the new program may last " + host::boundText(bound, image->program);
+    join();
   }
   ~rung_replacement() {
     rung_replacement* self = this;
@@ -36,6 +34,18 @@ struct rung_replacement {
     instance.blocks.leave(*blockPlan);
     const std::lock_guard lock(instance.retentionChanges);
     if (instance.retention) instance.retention->settle();
+  }
+
+  // At last: what has joined is looked at by others until it leaves.
+  void join() {
+    instance.images.add(image);
+    instance.names.join(*instance.control, *cells);
+    try {
+      instance.blocks.join(*instance.control, *blockPlan);
+    } catch (...) {
+      instance.names.leave(*cells);
+      throw;
+    }
   }
 
   uint32_t mark = kReplacementMark;

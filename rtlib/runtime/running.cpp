@@ -17,6 +17,7 @@ namespace {
 void stepFunctions(rung_instance& instance) noexcept {
   for (uint32_t left = instance.functionChannels; left != 0; left &= left - 1)
     instance.control->functions(static_cast<uint32_t>(std::countr_zero(left)))->step();
+  instance.running.hold();
 }
 
 void endPass(rung_instance& instance) noexcept {

@@ -97,7 +97,7 @@ void writeOutputs(rung_instance& instance) noexcept {
   const rt::Memory memory = instance.running.memory();
   for (const BoundVariable& v : instance.outputs) {
     const LocatedCell& cell = *instance.cells->at(v.cell);
-    if (cell.state != CellState::Good) {
+    if (cell.state == CellState::Gone || cell.state == CellState::Retyped) {
       setInteger(v, 0);
       continue;
     }

@@ -350,8 +350,7 @@ typedef struct rung_variable {
  * range. All or none; errors as of rung_instance_find. */
 RUNG_API int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variables, uint32_t count);
 
-/* Memory of the host for bytes of a space, as the dialect lays them out: little-endian, bit 0 the lowest.
- */
+/* Memory of the host for bytes of a space, as the dialect lays them out: little-endian, bit 0 the lowest. */
 typedef struct rung_block {
   const char* name;   /* of its first cell, as for rung_instance_find; it begins with a byte */
   void* address;      /* of the host's memory, of any alignment, for the life of the instance */
@@ -360,9 +359,10 @@ typedef struct rung_block {
 } rung_block;
 
 /* Binds blocks, in addition to those that are bound. Of a block to the program, a run of a task takes the bytes that
- * the task may read, once, where it begins; what no task reads is taken before every slice, for the control and for who
- * looks at it. Where a variable is bound to the same cell, the block counts. All or none; errors as of
- * rung_instance_find, RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
+ * the task may read, once, where it begins, before its input copies; a task that begins within another one may take the
+ * same byte again. What no task of the schedule reads is taken before every slice, for the control and for who looks at
+ * it. Where a variable is bound to the same cell, the block counts. All or none; errors as of rung_instance_find,
+ * RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
 RUNG_API int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blocks, uint32_t count);
 
 /* ---- messages -------------------------------------------------------------------------------------------------- */

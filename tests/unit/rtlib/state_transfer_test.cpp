@@ -315,7 +315,7 @@ TEST_F(Transfer, WhatAnInstructionThatIsGoneHasHeldIsFree) {
     program->addSlot("@lock", 16, RUNG_TYPE_BIT);
     program->addSlot("MAIN/A/state@lock", 2, RUNG_TYPE_I8);
   }
-  old.program.addSlot("MAIN/B/state@lock", 4, RUNG_TYPE_I16);
+  old.program.addSlot("MAIN/B D@1/state@lock", 4, RUNG_TYPE_I16);
   old.program.addSlot("MAIN/B/state@other", 6, RUNG_TYPE_I8); // nobody shares that
   old.start();
   fresh.start();

@@ -62,6 +62,7 @@ void build(rung::test::TestProgram& program, bool hasInputs = true) {
     program.addSymbol("OUTPUT", 1, 0, RUNG_TYPE_I8);
   }
   program.addSymbol("PLACED", 2, 2, RUNG_TYPE_I16);
+  program.addSymbol("PLACED_BIT", 2, 4, RUNG_TYPE_BIT);
   program.spaces[2].flags = RUNG_SPACE_ALLOCATED;
   program.addSymbol("COPIED", 3, 0, RUNG_TYPE_I8);
   program.addConstant("FIXED", 5);
@@ -174,6 +175,7 @@ TEST_F(Blocks, WhatCannotBeBound) {
   EXPECT_EQ(bind("PLACED", bytes, 2, RUNG_TO_PROGRAM), RUNG_OK);
   EXPECT_EQ(bind("INSIDE", bytes, 1, RUNG_TO_PROGRAM), RUNG_BAD_ARGUMENT);
   EXPECT_STREQ(rung_error_text(), "INSIDE does not begin with a byte: a block is made of whole bytes");
+  EXPECT_EQ(bind("PLACED_BIT", bytes, 1, RUNG_FROM_PROGRAM), RUNG_BAD_ARGUMENT) << "its neighbours are others";
   EXPECT_EQ(bind("FIXED", bytes, 1, RUNG_FROM_PROGRAM), RUNG_WRONG_TYPE);
   EXPECT_EQ(bind("COPIED", bytes, 1, RUNG_TO_PROGRAM), RUNG_OK);
   EXPECT_EQ(bind("COPIED", bytes, 2, RUNG_TO_PROGRAM), RUNG_OVERWRITTEN);

@@ -275,6 +275,24 @@ TEST_F(Runtime, BoundVariables) {
   EXPECT_EQ(rung_instance_bind(plc.handle(), &odd, 1), RUNG_BAD_ARGUMENT);
 }
 
+// The next program copies another place over the cell: the host reads it all the same.
+TEST_F(Runtime, ABoundOutputStaysOneWhereItIsOverwritten) {
+  rung::test::TestProgram plain;
+  build(plain);
+  plain.tasks[0].begin_count = 0;
+  plain.link();
+  const rung::Image image = adopted(plain);
+  rung::Instance plc(image);
+  bool latched = false;
+  plc.bindOutput("LATCHED_DOOR", latched);
+  plc.powerOn();
+  const rung::Replacement change(plc, *image_);
+  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  plc.write(plc.find("DOOR", rung::Access::Write), true);
+  scan(plc);
+  EXPECT_TRUE(latched);
+}
+
 TEST_F(Runtime, Messages) {
   rung::Instance plc = started();
   EXPECT_FALSE(plc.nextMessage());

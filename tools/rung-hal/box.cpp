@@ -49,7 +49,8 @@ Box::Box(const Image& image, MapFile map, const std::string& retain)
 // No exception may go through the library, which is one of C.
 void Box::log(void* box, int32_t level, const char* text) try {
   if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
-} catch (const std::bad_alloc&) { // then there is nobody to say it
+} catch (const std::bad_alloc&) {
+  static_cast<Box*>(box)->logged_.clear(); // room for what comes next
 }
 
 std::unique_ptr<Box> Box::make(const Image& image, MapFile map, std::vector<std::string>& errors,

@@ -64,16 +64,9 @@ private:
     }
   }
 
-  // All of it is kept, in one run.
-  bool isKept(const rung_symbol& s) const {
-    const uint64_t end = s.byte + (s.bit + uint64_t{elementBits(s.type)} * s.count + 7) / 8;
-    return std::ranges::any_of(runs_, [&](const RetainRun& run) {
-      return run.space == s.space && run.first <= s.byte && end <= uint64_t{run.first} + run.count;
-    });
-  }
-
   void addCell(const rung_symbol& s) {
-    if ((s.flags & RUNG_SYMBOL_CONST) == 0 && isKept(s))
+    if ((s.flags & RUNG_SYMBOL_CONST) == 0 &&
+        isKept(runs_, s.space, 8 * uint64_t{s.byte} + s.bit, uint64_t{elementBits(s.type)} * s.count))
       addLine("cell", s.name, {numbers_[s.space], s.byte, s.bit, s.type, s.count});
   }
 
@@ -84,6 +77,13 @@ private:
 };
 
 } // namespace
+
+bool isKept(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits) {
+  return std::ranges::any_of(runs, [&](const RetainRun& run) {
+    return run.space == space && 8 * uint64_t{run.first} <= firstBit &&
+           firstBit + bits <= 8 * (uint64_t{run.first} + run.count);
+  });
+}
 
 RetainLayout retainLayoutOf(const rung_program& program, std::span<const RetainRun> runs) {
   const Description description(program, runs);

@@ -32,6 +32,9 @@ struct RetainRun {
   uint32_t count = 0;
 };
 
+// All `bits` from a bit of a space on, which is counted from the beginning of the space, are kept, in one run.
+bool isKept(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits);
+
 // Of a program, and the bytes of it that are kept, in the order of the image.
 RetainLayout retainLayoutOf(const rung_program& program, std::span<const RetainRun> runs);
 

@@ -42,8 +42,6 @@ private:
   bool good_ = true;
 };
 
-uint64_t bitsOf(uint32_t type, uint32_t count) { return uint64_t{elementBits(type)} * count; }
-
 // What a description says.
 struct Cells {
   struct Space {
@@ -62,7 +60,6 @@ struct Cells {
 
   bool readText(std::string_view text);
   bool isSound() const;
-  bool isKept(const Cell& cell) const;
 
   std::string dialect;
   std::vector<Space> spaces;
@@ -111,13 +108,6 @@ bool Cells::readText(std::string_view text) {
   return true;
 }
 
-bool Cells::isKept(const Cell& cell) const {
-  const uint64_t end = cell.byte + (cell.bit + bitsOf(cell.type, cell.count) + 7) / 8;
-  return std::ranges::any_of(runs, [&](const RetainRun& run) {
-    return run.space == cell.space && run.first <= cell.byte && end <= uint64_t{run.first} + run.count;
-  });
-}
-
 // As the tables of a program are that has passed its check.
 bool Cells::isSound() const {
   uint64_t bytes = 0;
@@ -127,8 +117,9 @@ bool Cells::isSound() const {
     return run.space < spaces.size() && uint64_t{run.first} + run.count <= spaces[run.space].bytes;
   };
   const auto goodCell = [&](const Cell& cell) {
-    const uint64_t bits = bitsOf(cell.type, cell.count);
-    return bits != 0 && cell.bit < 8 && (cell.bit == 0 || cell.type == RUNG_TYPE_BIT) && isKept(cell);
+    const uint64_t bits = uint64_t{elementBits(cell.type)} * cell.count;
+    return bits != 0 && cell.bit < 8 && (cell.bit == 0 || cell.type == RUNG_TYPE_BIT) &&
+           isKept(runs, cell.space, 8 * uint64_t{cell.byte} + cell.bit, bits);
   };
   return std::ranges::all_of(runs, goodRun) && std::ranges::all_of(cells, goodCell) &&
          std::ranges::is_sorted(cells, {}, &Cell::name);

@@ -24,7 +24,7 @@ enum class BlockState : uint8_t {
   Gone,        // the program does not have the name
   Constant,    // it has no memory
   WithinByte,  // it does not begin with a byte
-  TooLong,     // it goes on behind its space, or behind a cell whose place the compiler has chosen
+  TooLong,     // longer than the rest of its space, or than a cell that the compiler placed
   Overwritten, // another place is copied over its input
 };
 

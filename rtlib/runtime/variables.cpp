@@ -137,8 +137,8 @@ int32_t checkVariable(const rung_variable& v, uint32_t number) noexcept {
   return RUNG_OK;
 }
 
-// The machine sees what it could write, also of the program's outputs. What is no place of the machine's is as the
-// program has it.
+// A variable from the program has the value that the machine sees: that of the place which the machine may write, and
+// of the program's own where there is no such place.
 int32_t findVariable(rung_instance& instance, const rung_variable& v, bool input, rung_cell& cell) {
   const int32_t real = (v.direction & RUNG_BOUND_REAL) != 0 ? RUNG_REAL : 0;
   const int32_t status = findCell(instance, v.name, RUNG_WRITE | real, cell);

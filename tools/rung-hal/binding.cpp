@@ -46,7 +46,7 @@ struct Mistake {
   std::string fix;
 };
 
-// What a name stands for.
+// The place of a name, and its type.
 struct Place {
   uint32_t type = RUNG_TYPE_BIT; // enum rung_type
   uint32_t space = RUNG_NONE;    // RUNG_NONE: a constant, whose value this is
@@ -258,8 +258,8 @@ private:
                  meant.empty() ? "write the name as the program has it" : "did you mean " + meant + "?"});
   }
 
-  // What the NC and the machine write is also what they see. Nothing: there is no such name, or `status` is
-  // RUNG_OVERWRITTEN for what HAL would write.
+  // As the NC and the machine see it. Nothing: there is no such name, or `status` is RUNG_OVERWRITTEN for what HAL
+  // would write.
   std::optional<Place> placeOf(const std::string& name, Use use, int32_t& status) const {
     rung_cell cell = 0;
     status = rung_instance_find(instance_, name.c_str(), RUNG_WRITE, &cell);

@@ -1,6 +1,6 @@
 // M, S and T functions for programs that expect the handshake of their NC, while HAL has levels: an edge of a pin
-// queues a function, the dialect's handshake hands it to the program, and the
-// acknowledge pin comes on when the program has finished it; it falls with the pin that caused the function.
+// queues a function, the dialect's handshake hands it to the program, and the acknowledge pin comes on when the program
+// has finished it; it falls with the pin that caused the function.
 //
 // Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
 // begins as soon as the handshake takes it.

@@ -59,7 +59,8 @@ void runOrdinary() noexcept {
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
 }
 
-RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepGoing) {
+RealTimeStats runRealTime(Instance& instance, const std::function<void()>& slice,
+                          const std::function<bool()>& keepGoing) {
   RealTimeStats stats;
   Pace pace(instance);
   int64_t now = monotonicNs();
@@ -72,7 +73,7 @@ RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepG
     look();
     stats.maxLateNs = std::max(stats.maxLateNs, -pace.untilNextNs());
     pace.take();
-    instance.slice();
+    slice();
     ++stats.slices;
     const int64_t start = now;
     look();

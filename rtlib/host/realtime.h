@@ -49,7 +49,9 @@ struct RealTimeStats {
   int64_t maxRunNs = 0;
 };
 
-// Runs on the calling thread until `keepGoing`, asked after every slice, says no, or a fault stops the program.
-RealTimeStats runRealTime(Instance& instance, const std::function<bool()>& keepGoing);
+// Calls `slice`, which runs one of the instance, whenever one is due: on the calling thread, until `keepGoing`, asked
+// after every slice, says no, or a fault stops the program.
+RealTimeStats runRealTime(Instance& instance, const std::function<void()>& slice,
+                          const std::function<bool()>& keepGoing);
 
 } // namespace rung::host

@@ -22,9 +22,8 @@ double Collector::take(size_t rung, const rung_prof& counter) noexcept {
   return value;
 }
 
-void Collector::newInstance() noexcept { std::fill(last_.begin(), last_.end(), rung_prof{}); }
-
 void Collector::started(std::span<const rung_prof> counters) noexcept {
+  std::fill(last_.begin(), last_.end(), rung_prof{});
   for (size_t i = 0; i < rungs_.size() && i < counters.size(); ++i) take(i, counters[i]);
 }
 

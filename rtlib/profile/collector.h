@@ -29,9 +29,7 @@ public:
   // `cost`: what measuring one execution adds.
   Collector(uint32_t rungs, double cost) : cost_(cost), rungs_(rungs), last_(rungs), scan_(rungs) {}
 
-  // The counters that follow are those of another instance: they have begun at 0.
-  void newInstance() noexcept;
-  // What has been counted since the last call was a start: it belongs to no scan.
+  // The counters have begun at 0 with a start, of this instance or another one: what they show belongs to no scan.
   void started(std::span<const rung_prof> counters) noexcept;
   // What has been counted since the last call was one scan.
   void scanned(std::span<const rung_prof> counters) noexcept;

@@ -164,6 +164,7 @@ class _Answering(enum.IntEnum):
 class _InstanceFlags(enum.IntFlag):
     MEASURE = 1
     QUEUE_REQUESTS = 2
+    SAVE_AT_ONCE = 4
 
 
 COLD, WARM = Power
@@ -287,7 +288,8 @@ class rung_sample(_Struct):
 
 class rung_replacement_info(_Struct):
     _fields_ = [("size", c_uint32), ("kept_cells", c_uint32), ("kept_states", c_uint32), ("changes", c_uint32),
-                ("bytes", c_uint64), ("steps", c_uint64), ("slice_ns", c_uint64), ("period_ns", c_uint64)]
+                ("bytes", c_uint64), ("steps", c_uint64), ("slice_ns", c_uint64), ("period_ns", c_uint64),
+                ("bound", c_char_p)]
 
 
 class rung_change(_Struct):
@@ -306,7 +308,8 @@ class rung_difference(_Struct):
 
 
 class rung_forced_cell(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("owner", c_char_p), ("value", rung_value)]
+    _fields_ = [("name", c_char_p), ("owner", c_char_p), ("value", rung_value), ("access", c_uint32),
+                ("reserved", c_uint32)]
 
 
 class rung_force_info(_Struct):
@@ -522,6 +525,7 @@ _FUNCTIONS = {
     "rung_instance_abort_functions": (c_int32, _Handle, _U32),
     "rung_instance_keep": (c_int32, _Handle, _Path),
     "rung_instance_flush": (c_int32, _Handle),
+    "rung_instance_unsaved": (c_int32, _Handle, c_char_p, c_size_t),
     "rung_instance_profile": (c_int32, _Handle, _U32, POINTER(rung_profile)),
     "rung_instance_worst_rung": (c_int32, _Handle, POINTER(rung_profile)),
     "rung_watch_new": (c_int32, _Handle, _Cells, _U32, _U32, _New),
@@ -802,7 +806,8 @@ class Instance(_Closing):
     exception in a callback the call that led to it runs to its end and then raises that exception, the first of them.
     """
 
-    def __init__(self, image, *, request=None, fault=None, log=None, measure=False, queue_requests=False):
+    def __init__(self, image, *, request=None, fault=None, log=None, measure=False, queue_requests=False,
+                 save_at_once=False):
         """One program that runs, not switched on yet.
 
         request(plc, request): the program asks for a service, a Request, within a scan. Gives an Answer, or QUEUE: it
@@ -812,12 +817,15 @@ class Instance(_Closing):
         log(level, text): what an operator should know, with its LogLevel.
         measure: the times of passes are measured, for State.last_ns and .worst_ns.
         queue_requests: without `request`, all requests wait for next_request.
+        save_at_once: what the program asks to be saved is on disk when a call returns; for a program that runs faster
+            than its clock.
 
         Error: OUT_OF_MEMORY.
         """
         me = weakref.ref(self)  # its callbacks do not keep it alive
         options = rung_instance_options(flags=bool(measure) * _InstanceFlags.MEASURE
-                                        | bool(queue_requests) * _InstanceFlags.QUEUE_REQUESTS)
+                                        | bool(queue_requests) * _InstanceFlags.QUEUE_REQUESTS
+                                        | bool(save_at_once) * _InstanceFlags.SAVE_AT_ONCE)
         if log is not None:
             options.log = _callback(_LogFunction, lambda _, level, text: log(_member(LogLevel, level), _decoded(text)))
         if request is not None:
@@ -1046,6 +1054,12 @@ class Instance(_Closing):
         kept."""
         _call(_library.rung_instance_flush, self)
 
+    def unsaved(self):
+        """Why the last try to write retained memory failed; None: it did not."""
+        text = ctypes.create_string_buffer(512)
+        status = _call(_library.rung_instance_unsaved, self, text, len(text))
+        return None if status == Status.EMPTY else _decoded(text.value)
+
     # -- profile --
 
     def profile(self):
@@ -1176,7 +1190,7 @@ class Replacement(_Part):
 
     def report(self):
         """A Report of what replace would do now: how many names and states stay, how many change, the bytes that are
-        copied; and how long a slice of the new program may last on this machine, and how long it may."""
+        copied; and how long a slice of the new program may last on this machine, and how long it may, also as a sentence."""
         report = rung_replacement_info()
         _call(_library.rung_replacement_report, self, byref(report))
         return report.shown()
@@ -1227,14 +1241,14 @@ class Forces(_Part):
     It ends by close, at the end of its `with`, or with its instance; one that is in effect ends then, too.
     """
 
-    def __init__(self, plc, values, owner="", replacement=None):
+    def __init__(self, plc, values, owner="", replacement=None, access=READ):
         """`values`: {name: value}, a float for a real and an int for all others; of an array its first element is
-        forced. With a Replacement for its program, else for the one that runs. Error: NOT_FOUND; WRONG_TYPE, a text or
-        a constant; REFUSED, the program writes a cell, and no compiler serves its image; BAD_ARGUMENT."""
+        forced; with access=REAL the real of 64 bits that begins there. With a Replacement for its program, else for the
+        one that runs. Error: NOT_FOUND; WRONG_TYPE, a text, a constant, or no room for a real; REFUSED, the program writes a cell, and no compiler serves its image; BAD_ARGUMENT."""
         cells = (rung_forced_cell * len(values))()
         for cell, (name, value) in zip(cells, values.items()):
-            cell.name, cell.owner = _text(name), _text(owner)
-            cell.value = self._given(value) if replacement is not None else plc.cell(name)._given(value)
+            cell.name, cell.owner, cell.access = _text(name), _text(owner), access
+            cell.value = self._given(value) if replacement is not None else plc.cell(name, access)._given(value)
         super().__init__(plc, "rung_forces_free", _library.rung_forces_new,
                          _Handle() if replacement is None else replacement, cells, len(cells))
 

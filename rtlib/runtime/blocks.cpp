@@ -23,8 +23,8 @@ bool isScheduled(const rung_program& program, uint32_t task) {
 
 } // namespace
 
-BlockPlace locateBlock(const nc::Control& control, const rung_program& program, const HostBlock& block) {
-  const std::optional<host::Ref> ref = control.writePlace(program, block.name); // as the machine sees it
+BlockPlace locateBlock(const Surroundings& around, const rung_program& program, const HostBlock& block) {
+  const std::optional<host::Ref> ref = around.writePlace(program, block.name); // as the machine sees it
   if (!ref) return {};
   const auto wrong = [](BlockState state) { return BlockPlace{.state = state}; };
   if (ref->kind == host::RefKind::Constant) return wrong(BlockState::Constant);
@@ -43,8 +43,8 @@ BlockPlace locateBlock(const nc::Control& control, const rung_program& program, 
 
 // ---- one program -------------------------------------------------------------------------------------------------
 
-void BlockPlan::add(const nc::Control& control, const HostBlock& block) {
-  const BlockPlace place = locateBlock(control, *program_, block);
+void BlockPlan::add(const Surroundings& around, const HostBlock& block) {
+  const BlockPlace place = locateBlock(around, *program_, block);
   if (!block.input)
     addOutput(block, place);
   else if (place.state == BlockState::Good)
@@ -126,17 +126,17 @@ void BlockPlan::clear() const noexcept {
 
 // ---- all programs ------------------------------------------------------------------------------------------------
 
-void HostBlocks::add(const nc::Control& control, const std::vector<HostBlock>& blocks) {
+void HostBlocks::add(const Surroundings& around, const std::vector<HostBlock>& blocks) {
   const std::lock_guard lock(mutex_);
   for (const HostBlock& block : blocks) {
-    for (BlockPlan* plan : plans_) plan->add(control, block);
+    for (BlockPlan* plan : plans_) plan->add(around, block);
     blocks_.push_back(block);
   }
 }
 
-void HostBlocks::join(const nc::Control& control, BlockPlan& plan) {
+void HostBlocks::join(const Surroundings& around, BlockPlan& plan) {
   const std::lock_guard lock(mutex_);
-  for (const HostBlock& block : blocks_) plan.add(control, block);
+  for (const HostBlock& block : blocks_) plan.add(around, block);
   plans_.push_back(&plan);
 }
 
@@ -189,10 +189,10 @@ int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blo
                                                             .address = static_cast<uint8_t*>(blocks[i].address),
                                                             .bytes = blocks[i].bytes,
                                                             .input = blocks[i].direction == RUNG_TO_PROGRAM});
-      const BlockState state = locateBlock(*call->control, call->running.program(), block).state;
+      const BlockState state = locateBlock(*call->around, call->running.program(), block).state;
       if (state != BlockState::Good) return failBlock(*call, block, state);
     }
-    call->blocks.add(*call->control, given);
+    call->blocks.add(*call->around, given);
     if (std::ranges::any_of(given, &HostBlock::input)) call->running.setLatching(true);
     return int32_t{RUNG_OK};
   });

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/nc/control/control.h"
+#include "rtlib/runtime/surroundings.h"
 #include "rung/runtime.h"
 
 namespace rung::runtime {
@@ -34,14 +34,14 @@ struct BlockPlace {
   uint32_t space = RUNG_NONE;
   uint32_t byte = 0;
 };
-BlockPlace locateBlock(const nc::Control& control, const rung_program& program, const HostBlock& block);
+BlockPlace locateBlock(const Surroundings& around, const rung_program& program, const HostBlock& block);
 
 // The blocks in one program. Copying allocates nothing.
 class BlockPlan {
 public:
   explicit BlockPlan(const rung_program& program) : program_(&program), reads_(program.task_count) {}
 
-  void add(const nc::Control& control, const HostBlock& block);
+  void add(const Surroundings& around, const HostBlock& block);
 
   // What a run of the task reads; and what no task of the schedule reads, which others may look at.
   void latch(uint8_t* memory, uint32_t task) const noexcept { copyIn(reads_[task], memory); }
@@ -75,9 +75,9 @@ private:
 class HostBlocks {
 public:
   // Adds to every plan. The instance of the plans' programs does not run meanwhile.
-  void add(const nc::Control& control, const std::vector<HostBlock>& blocks);
+  void add(const Surroundings& around, const std::vector<HostBlock>& blocks);
   // From now on the plan has all blocks.
-  void join(const nc::Control& control, BlockPlan& plan);
+  void join(const Surroundings& around, BlockPlan& plan);
   void leave(BlockPlan& plan);
 
 private:

@@ -32,12 +32,12 @@ int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYP
 
 } // namespace
 
-LocatedCell locateCell(const nc::Control& control, const rung_program& program, const CellName& name,
+LocatedCell locateCell(const Surroundings& around, const rung_program& program, const CellName& name,
                        const rung_type* as) {
   LocatedCell cell;
   cell.writes = (name.access & RUNG_WRITE) != 0;
   std::optional<host::Ref> ref =
-      cell.writes ? control.writePlace(program, name.name) : control.readPlace(program, name.name);
+      cell.writes ? around.writePlace(program, name.name) : around.readPlace(program, name.name);
   if (!ref) return cell;
   if ((name.access & RUNG_REAL) != 0) ref = realOf(program, *ref);
   cell.state = CellState::Retyped;
@@ -61,7 +61,7 @@ void CellTable::add(const LocatedCell& cell) {
   count_.store(number + 1, std::memory_order_release);
 }
 
-bool CellNames::find(const nc::Control& control, const CellTable& table, const CellName& name, CellState& state,
+bool CellNames::find(const Surroundings& around, const CellTable& table, const CellName& name, CellState& state,
                      rung_cell& cell) {
   const std::lock_guard lock(mutex_);
   if (const auto known = numbers_.find(name); known != numbers_.end()) {
@@ -69,7 +69,7 @@ bool CellNames::find(const nc::Control& control, const CellTable& table, const C
     state = table.at(cell)->state;
     return true;
   }
-  const LocatedCell found = locateCell(control, table.program(), name);
+  const LocatedCell found = locateCell(around, table.program(), name);
   state = found.state;
   if (state != CellState::Good) return true;
   if (names_.size() == CellTable::kMostCells) return false;
@@ -77,7 +77,7 @@ bool CellNames::find(const nc::Control& control, const CellTable& table, const C
   names_.push_back(&numbers_.emplace(name, cell).first->first);
   types_.push_back(found.type);
   for (CellTable* other : tables_)
-    other->add(other == &table ? found : locateCell(control, other->program(), name, &found.type));
+    other->add(other == &table ? found : locateCell(around, other->program(), name, &found.type));
   return true;
 }
 
@@ -91,9 +91,9 @@ std::string CellNames::nameOf(rung_cell cell) {
   return names_[cell]->name;
 }
 
-void CellNames::join(const nc::Control& control, CellTable& table) {
+void CellNames::join(const Surroundings& around, CellTable& table) {
   const std::lock_guard lock(mutex_);
-  for (uint32_t i = 0; i < names_.size(); ++i) table.add(locateCell(control, table.program(), *names_[i], &types_[i]));
+  for (uint32_t i = 0; i < names_.size(); ++i) table.add(locateCell(around, table.program(), *names_[i], &types_[i]));
   tables_.push_back(&table);
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "rtlib/core/place_list.h"
-#include "rtlib/nc/control/control.h"
+#include "rtlib/runtime/surroundings.h"
 #include "rung/runtime.h"
 
 namespace rung::runtime {
@@ -74,13 +74,13 @@ class CellNames {
 public:
   // The cell of this name; it is located in every table. `state` says what of it is wrong in `table`'s program, where
   // it is not entered then. False: there are too many cells.
-  bool find(const nc::Control& control, const CellTable& table, const CellName& name, CellState& state,
+  bool find(const Surroundings& around, const CellTable& table, const CellName& name, CellState& state,
             rung_cell& cell);
   // As it was found; nothing where no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
   std::string nameOf(rung_cell cell); // of a cell that there is
   // From now on the table has all cells.
-  void join(const nc::Control& control, CellTable& table);
+  void join(const Surroundings& around, CellTable& table);
   void leave(CellTable& table);
 
 private:
@@ -92,7 +92,7 @@ private:
 };
 
 // Where the name lies in a program; `as`: what it was when it was found.
-LocatedCell locateCell(const nc::Control& control, const rung_program& program, const CellName& name,
+LocatedCell locateCell(const Surroundings& around, const rung_program& program, const CellName& name,
                        const rung_type* as = nullptr);
 
 } // namespace rung::runtime

@@ -69,7 +69,12 @@ uint64_t bitsOf(const LocatedCell& cell, rung_value value) {
 // The cell that the name is for those who read it, and, where that is another, the one that the machine writes.
 int32_t locate(const rung_instance& instance, const rung_program& program, const rung_forced_cell& wanted, Force& force,
                std::vector<host::ForcedCell>& places) {
-  const LocatedCell read = locateCell(*instance.control, program, {wanted.name, RUNG_READ});
+  const auto access = static_cast<int32_t>(wanted.access);
+  if (access != RUNG_READ && access != RUNG_REAL)
+    return fail(RUNG_BAD_ARGUMENT, "a cell is forced with RUNG_READ or RUNG_REAL, not with %d", access);
+  const LocatedCell read = locateCell(*instance.around, program, {wanted.name, access});
+  if (read.state == CellState::Retyped)
+    return fail(RUNG_WRONG_TYPE, "%s has no room for a real of 64 bits", wanted.name);
   if (read.state != CellState::Good)
     return fail(RUNG_NOT_FOUND,
                 "%s is not a name of the program %s, an address of its dialect or a signal of the NC's interface",
@@ -77,8 +82,8 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
   if (read.type == RUNG_TYPE_TEXT || read.ref.kind == host::RefKind::Constant)
     return fail(RUNG_WRONG_TYPE, "%s is a text or a constant: it cannot be forced", wanted.name);
   places.push_back({.ref = read.ref, .bits = bitsOf(read, wanted.value)});
-  const LocatedCell written = locateCell(*instance.control, program, {wanted.name, RUNG_WRITE});
-  if (written.state != CellState::Gone && !(written.ref == read.ref))
+  const LocatedCell written = locateCell(*instance.around, program, {wanted.name, RUNG_WRITE | access});
+  if (written.state != CellState::Gone && written.state != CellState::Retyped && !(written.ref == read.ref))
     places.push_back({.ref = written.ref, .bits = bitsOf(written, wanted.value)});
   force = {.name = wanted.name,
            .owner = wanted.owner != nullptr ? wanted.owner : "",

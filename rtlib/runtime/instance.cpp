@@ -37,9 +37,13 @@ Call::Call(const rung_instance* handle, When when) noexcept : instance_(instance
 
 // ---- the schedule ------------------------------------------------------------------------------------------------
 
-void Hooks::onHook(host::Instance& running, uint32_t work) { instance_.control->onHook(running, work); }
+// What the control shows, it has heard of: messages of the time before come first.
+void Hooks::onHook(host::Instance& running, uint32_t work) {
+  takeMessages(instance_);
+  instance_.around->onHook(running, work);
+}
 
-void Hooks::onFault(host::Instance& running) { instance_.control->onFault(running); }
+void Hooks::onFault(host::Instance& running) { instance_.around->onFault(running); }
 
 void Hooks::onLatch(host::Instance& running, uint32_t task) {
   instance_.blockPlan->latch(running.block().data(), task);
@@ -57,7 +61,7 @@ bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, 
     reply.ticket = request.ticket;
   }
   if (answer == RUNG_ANSWER) return true;
-  return answer != RUNG_QUEUE && instance_.control->respond(running, request, reply);
+  return answer != RUNG_QUEUE && instance_.around->respond(running, request, reply);
 }
 
 // ---- power -------------------------------------------------------------------------------------------------------
@@ -90,16 +94,18 @@ int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
 
 int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = false;
+  clearOutputs(instance); // until the first slice ends, and where a fault prevents it
   endShadow(instance);
   if (!instance.keptFile.empty()) {
     if (const int32_t status = takeKept(instance, kind); status != RUNG_OK) return status;
   } else if (!instance.wasOn) {
     kind = nc::PowerOn::Cold;
   }
-  instance.control->powerOn(instance.running, kind);
-  settleForces(instance);
   instance.running.setStopped(false);
   instance.running.clearProfile();
+  instance.around->powerOn(instance.running, kind);
+  takeMessages(instance);
+  settleForces(instance);
   instance.pace.restart();
   instance.functionChannels = 0;
   instance.passes = 0;
@@ -130,21 +136,25 @@ int32_t powerOff(rung_instance& instance) {
 using namespace rung;
 using namespace rung::runtime;
 
-rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given)
-    : options(given), image(std::move(from)), program(&image->program),
-      control(nc::makeControl(image->program.dialect)), hooks(*this),
+rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given,
+                             std::unique_ptr<Surroundings> surroundings)
+    : options(given), image(std::move(from)), program(&image->program), around(std::move(surroundings)),
+      control(&around->control()), hooks(*this),
       running({image->program, image->engine, static_cast<uint8_t*>(given.memory)}, &hooks), pace(running),
       cells(std::make_unique<CellTable>(image->program)), blockPlan(std::make_unique<BlockPlan>(image->program)) {
   control->onReplace(running); // a replacement before the first power-on gets places in exchange
   images.add(image);
-  names.join(*control, *cells);
-  blocks.join(*control, *blockPlan);
+  names.join(*around, *cells);
+  blocks.join(*around, *blockPlan);
   if (image->program.instrumented != 0) clock = profile::calibratedClock();
 }
 
 rung_instance::~rung_instance() = default;
 
-int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance) {
+namespace rung::runtime {
+
+int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Surroundings> around,
+                    rung_instance** instance) {
   const rung_image* handle = checked(image, kImageMark);
   if (handle == nullptr) return failHandle("an image");
   if (instance == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the instance is null");
@@ -153,9 +163,16 @@ int32_t rung_instance_new(rung_image* image, const rung_instance_options* option
   if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
     return status;
   return contained([&] {
-    *instance = new rung_instance(handle->image, given);
+    if (around == nullptr) around = controlAlone(handle->image->program.dialect);
+    *instance = new rung_instance(handle->image, given, std::move(around));
     return int32_t{RUNG_OK};
   });
+}
+
+} // namespace rung::runtime
+
+int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance) {
+  return newInstance(image, options, nullptr, instance);
 }
 
 int32_t rung_instance_free(rung_instance* instance) {
@@ -191,6 +208,15 @@ int32_t rung_instance_keep(rung_instance* instance, const char* path) {
     call->keptFile = path;
     return int32_t{RUNG_OK};
   });
+}
+
+int32_t rung_instance_unsaved(const rung_instance* instance, char* text, size_t bytes) {
+  const Call call(instance, When::Always);
+  if (!call.ok()) return call.status();
+  if (text == nullptr || bytes == 0) return fail(RUNG_BAD_ARGUMENT, "the place for the text is null or has no bytes");
+  if (!call->retention || !call->retention->memory().failing()) return RUNG_EMPTY;
+  text[call->retention->memory().problem({text, bytes - 1})] = 0;
+  return RUNG_OK;
 }
 
 int32_t rung_instance_flush(rung_instance* instance) {

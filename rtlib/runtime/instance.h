@@ -17,6 +17,7 @@
 #include "rtlib/runtime/cells.h"
 #include "rtlib/runtime/image.h"
 #include "rtlib/runtime/scan_use.h"
+#include "rtlib/runtime/surroundings.h"
 #include "rtlib/runtime/watch.h"
 
 namespace rung::runtime {
@@ -28,7 +29,7 @@ struct BoundVariable {
   double scale = 1;
 };
 
-// The control's place in the schedule, with what the host wants to hear of it.
+// The place of the surroundings in the schedule, with what the host wants to hear of it.
 class Hooks final : public host::ScheduleHooks {
 public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
@@ -44,7 +45,8 @@ private:
 } // namespace rung::runtime
 
 struct rung_instance {
-  rung_instance(std::shared_ptr<const rung::runtime::Image> program, const rung_instance_options& given);
+  rung_instance(std::shared_ptr<const rung::runtime::Image> program, const rung_instance_options& given,
+                std::unique_ptr<rung::runtime::Surroundings> surroundings);
   ~rung_instance();
 
   uint32_t mark = rung::runtime::kInstanceMark;
@@ -55,7 +57,8 @@ struct rung_instance {
   std::shared_ptr<const rung::runtime::Image> image;
   std::atomic<const rung_program*> program; // of `image`, for other threads
   rung::runtime::KnownImages images;        // `image` among them, for other threads, too
-  std::unique_ptr<rung::nc::Control> control;
+  std::unique_ptr<rung::runtime::Surroundings> around;
+  rung::nc::Control* control; // in `around`
   rung::runtime::Hooks hooks;
   rung::host::Instance running;
   rung::host::Pace pace;

@@ -23,7 +23,7 @@ struct rung_replacement {
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
     bound = host::measureBound({image->program, image->engine});
-    if (!bound.fits()) late = "a slice of the new program may last " + host::boundText(bound, image->program);
+    boundText = host::boundText(bound, image->program);
     join();
   }
   ~rung_replacement() {
@@ -39,9 +39,9 @@ struct rung_replacement {
   // At last: what has joined is looked at by others until it leaves.
   void join() {
     instance.images.add(image);
-    instance.names.join(*instance.control, *cells);
+    instance.names.join(*instance.around, *cells);
     try {
-      instance.blocks.join(*instance.control, *blockPlan);
+      instance.blocks.join(*instance.around, *blockPlan);
     } catch (...) {
       instance.names.leave(*cells);
       throw;
@@ -59,7 +59,7 @@ struct rung_replacement {
   bool holdsFormer = false;               // the program that it was made to replace
   profile::Clock clock;
   host::ScanBound bound; // of the new program
-  std::string late;      // a sentence, where it may be late
+  std::string boundText;
   std::atomic<bool> mayBeLate{false};
 };
 
@@ -72,6 +72,7 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
   const host::ReplaceResult result = instance.running.replace(replacement.replacement);
   if (result != host::ReplaceResult::Replaced) return result;
   instance.control->exchangePlaces(instance.running, replacement.places);
+  instance.around->programChanged(instance.running, instance.image->program);
   std::swap(instance.image, replacement.image);
   std::swap(instance.cells, replacement.cells);
   std::swap(instance.blockPlan, replacement.blockPlan);
@@ -94,6 +95,16 @@ int32_t imageOf(const rung_instance& instance, const rung_replacement* replaceme
   if (&handle->instance != &instance) return failOther();
   image = handle->image;
   return RUNG_OK;
+}
+
+int32_t failLater(const rung_instance& instance, host::ReplaceResult result,
+                  const host::StateTransfer& transfer) noexcept {
+  if (result == host::ReplaceResult::WithinPass)
+    return fail(RUNG_LATER, "the program is within a pass of its schedule");
+  if (result == host::ReplaceResult::RequestsWait)
+    return fail(RUNG_LATER, "a request waits for its answer, and the new program numbers its services otherwise");
+  return fail(RUNG_LATER, "%s waits at an instruction that the new program does not have",
+              transfer.waiting(instance.running.block().data()));
 }
 
 int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept {
@@ -145,7 +156,8 @@ int32_t rung_replacement_report(const rung_replacement* replacement, rung_replac
                                                 .bytes = transfer.bytes(),
                                                 .steps = handle->bound.weight,
                                                 .slice_ns = static_cast<uint64_t>(handle->bound.ns),
-                                                .period_ns = static_cast<uint64_t>(handle->bound.periodNs)});
+                                                .period_ns = static_cast<uint64_t>(handle->bound.periodNs),
+                                                .bound = handle->boundText.c_str()});
 }
 
 int32_t rung_replacement_allow_late(rung_replacement* replacement) {
@@ -173,15 +185,11 @@ int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replace
   rung_replacement* handle = checked(replacement, kReplacementMark);
   if (handle == nullptr) return failHandle("a replacement");
   if (&handle->instance != &*call) return failOther();
-  if (!handle->holdsFormer && !handle->late.empty() && !handle->mayBeLate)
-    return fail(RUNG_REFUSED, "%s", handle->late.c_str());
-  switch (exchange(*call, *handle)) {
-  case host::ReplaceResult::Replaced: return RUNG_OK;
-  case host::ReplaceResult::OtherProgram:
+  if (!handle->holdsFormer && !handle->bound.fits() && !handle->mayBeLate)
+    return fail(RUNG_REFUSED, "a slice of the new program may last %s", handle->boundText.c_str());
+  const host::ReplaceResult result = exchange(*call, *handle);
+  if (result == host::ReplaceResult::Replaced) return RUNG_OK;
+  if (result == host::ReplaceResult::OtherProgram)
     return fail(RUNG_WRONG_STATE, "the replacement was made for another program than the one that runs");
-  case host::ReplaceResult::WithinPass:
-  case host::ReplaceResult::RequestsWait:
-  case host::ReplaceResult::MechanismWaits: break;
-  }
-  return RUNG_LATER;
+  return failLater(*call, result, handle->replacement.transfer());
 }

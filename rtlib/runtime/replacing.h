@@ -13,4 +13,8 @@ int32_t imageOf(const rung_instance& instance, const rung_replacement* replaceme
 // Whether a program can take over from those of the instance, or run beside them: it is of their dialect.
 int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept;
 
+// RUNG_LATER, and the sentence why: `result` is what the instance has said.
+int32_t failLater(const rung_instance& instance, host::ReplaceResult result,
+                  const host::StateTransfer& transfer) noexcept;
+
 } // namespace rung::runtime

@@ -33,17 +33,17 @@ void endPass(rung_instance& instance) noexcept {
 void beforePart(rung_instance& instance) noexcept {
   readInputs(instance);
   instance.blockPlan->readRest(instance.running.block().data());
+  instance.around->beforePart(instance.running);
 }
 
 void afterPart(rung_instance& instance) noexcept {
   host::Instance& running = instance.running;
-  instance.control->afterSlice(running);
+  takeMessages(instance);
+  instance.around->afterPart(running);
   running.hold();
-  if (instance.retention) instance.retention->afterSlice();
-  rung_message message;
-  for (uint32_t i = 0; i < rt::kMessageCapacity && running.messages().pop(message); ++i) {
-    instance.control->accept(message);
-    (void)instance.messages.push(message);
+  if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
+    (void)instance.retention->flush();
+    (void)instance.retention->afterSlice();
   }
   if (running.faulted()) {
     settleForces(instance);

@@ -109,13 +109,13 @@ int32_t rung_instance_shadow(rung_instance* instance, rung_shadow* shadow) {
   if (&handle->instance != &*call) return fail(RUNG_BAD_ARGUMENT, "the shadow was made for another instance");
   if (call->running.faulted()) return RUNG_FAULTED;
   if (call->shadow != nullptr) return fail(RUNG_WRONG_STATE, "the instance has a shadow: end that first");
-  switch (handle->shadow.begin(call->running)) {
-  case host::ReplaceResult::Replaced: call->shadow = handle; return RUNG_OK;
-  case host::ReplaceResult::OtherProgram:
+  const host::ReplaceResult result = handle->shadow.begin(call->running);
+  if (result == host::ReplaceResult::OtherProgram)
     return fail(RUNG_WRONG_STATE,
                 "the shadow has begun before, or was made for another program than the one that runs");
-  default: return RUNG_LATER;
-  }
+  if (result != host::ReplaceResult::Replaced) return failLater(*call, result, handle->shadow.transfer());
+  call->shadow = handle;
+  return RUNG_OK;
 }
 
 int32_t rung_shadow_work(rung_shadow* shadow) {

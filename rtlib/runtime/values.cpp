@@ -35,7 +35,7 @@ int32_t failName(const rung_instance& instance, const char* name, CellState stat
   if (state == CellState::Retyped) return fail(RUNG_WRONG_TYPE, "%s has no room for a real", name);
   if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
   if (state != CellState::Overwritten) return runtime::failName(instance, name);
-  const std::optional<host::Ref> place = instance.control->writePlace(program, name);
+  const std::optional<host::Ref> place = instance.around->writePlace(program, name);
   const std::optional<host::Ref> source = place ? host::Overwritten(program).source(*place) : std::nullopt;
   return fail(RUNG_OVERWRITTEN, "%s is copied from %s before the program reads it: write there", name,
               source ? nc::describe(program, *source).c_str() : "another place");
@@ -92,7 +92,7 @@ const LocatedCell* elementsOf(const rung_instance& instance, rung_cell cell, boo
 
 int32_t findCell(rung_instance& instance, const char* name, int32_t access, rung_cell& cell) {
   CellState state = CellState::Good;
-  if (!instance.names.find(*instance.control, *instance.cells, {name, access}, state, cell))
+  if (!instance.names.find(*instance.around, *instance.cells, {name, access}, state, cell))
     return fail(RUNG_OUT_OF_MEMORY, "an instance has no more than %u cells", CellTable::kMostCells);
   return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, name, state);
 }

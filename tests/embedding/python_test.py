@@ -1031,6 +1031,7 @@ class Retained(Case):
 
     def test_what_is_wrong(self):
         plc = self.plc()
+        self.assertIsNone(plc.unsaved())
         self.fails(rung.Status.WRONG_STATE, plc.flush)
         self.fails(rung.Status.WRONG_STATE, plc.keep, program("late"))
         with rung.Instance(self.image()) as plc:
@@ -1171,6 +1172,7 @@ class Replacing(Case):
             self.assertGreater(report.steps, 0)
             self.assertGreater(report.slice_ns, 0)
             self.assertEqual(report.period_ns, 8_000_000)
+            self.assertRegex(report.bound, r"[mun]s: \d+ steps of .*, and the period is 8 ms$")
             change.allow_late()
             self.assertEqual(changes[0], rung.Change(rung.ChangeKind.MOVED, False, "STROKES", ""))
             kinds = {(one.kind, one.is_state) for one in changes[1:]}

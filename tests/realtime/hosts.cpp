@@ -190,7 +190,7 @@ Outcome runOnClock(const rung_program& program, const std::string& retain) {
   while (bare.goesOn()) {
     {
       const Guarded realTime(bare.guard());
-      host::runRealTime(bare.instance(), keepGoing);
+      host::runRealTime(bare.instance(), [&] { bare.instance().slice(); }, keepGoing);
     }
     bare.betweenSlices(); // after a fault
   }

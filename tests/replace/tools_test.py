@@ -161,8 +161,8 @@ expect_no_change
     def test_between_two_passes(self):
         self.file("a.pmc", GSK)
         self.file("b.pmc", GSK.replace("Y0.0", "Y0.1"))
-        self.fails("program a.pmc\nperiod 24ms\nslot\nreplace b.pmc\nexpect_no_change\n", "a.scn:4: the program is within a pass, which "
-                   "slots have left unfinished; a program is replaced between two: write scan before it")
+        self.fails("program a.pmc\nperiod 24ms\nslot\nreplace b.pmc\nexpect_no_change\n",
+                   "a.scn:4: the program is within a pass of its schedule (scan 1, 0.008 s)")
         self.passes("program a.pmc\nperiod 24ms\nset X0.0 1\nslot\nscan\nreplace b.pmc\nexpect_change released Y+0.0\nexpect_no_change\n"
                     "expect Y0.0 0\nscan\nexpect Y0.1 1\n")
 
@@ -255,9 +255,78 @@ expect D110:4 -1234567
         self.assertIn("\nx!\n", (self.folder / "t.vcd").read_text(encoding="utf-8"))
 
 
+class Shadows(Folder):
+    """`shadow FILE…`: the same inputs, and what differs."""
+
+    def setUp(self):
+        super().setUp()
+        self.file("late.lad", LAMP.replace("#1 #1", "#2 #1"))  # the lamp is lit a second later
+
+    def test_a_program_that_does_the_same(self):
+        self.passes("program lamp.lad\nshadow lamp.lad\nset SWITCH 1\nscan 50\nset SWITCH 0\nscan 5\nexpect_no_difference\n")
+
+    def test_what_differs_is_named(self):
+        scenario = "program lamp.lad\nshadow late.lad\nset SWITCH 1\nscan 110\n"
+        both = "expect_difference LAMP\nexpect_difference T_OFF\n"
+        self.passes(scenario + both + "expect_no_difference\nexpect LAMP 1\n")
+        self.fails(scenario + "expect_no_difference\n",
+                   "a.scn:5: there are differences that no expect_difference names: LAMP is 1, and 0 in the shadow (first at 1.0",
+                   "; T_OFF is 1000, and 2000 in the shadow (first at 0.010 s)")
+        self.fails(scenario + "expect_difference COUNT\n", "a.scn:5: COUNT was not seen to differ; there are: LAMP is 1, and 0")
+        self.fails(scenario + both + "expect_difference LAMP\n", "a.scn:7: the shadow has done nothing otherwise")
+
+    def test_the_shadow_writes_nothing(self):
+        self.passes("program lamp.lad\nshadow late.lad\nset SWITCH 1\nscan 2\nexpect COUNT 1\nscan 110\nexpect LAMP 1\nexpect COUNT 1\n")
+
+    def test_it_begins_with_the_state_of_the_running_program(self):
+        self.passes("program lamp.lad\nset SWITCH 1\nscan 10\nexpect COUNT 1\nshadow lamp2.lad\nscan 10\nexpect_no_difference\n")
+
+    def test_every_engine_has_its_own(self):
+        self.fails("program lamp.lad\nshadow late.lad\nset SWITCH 1\nscan 110\nexpect_no_difference\n", "[interp] there are differences",
+                   args=("--engine", "all", "-O", "0"))
+
+    def test_its_end(self):
+        self.fails("program lamp.lad\nshadow lamp.lad\nshadow\nexpect_no_difference\n", "a.scn:4: no program runs beside this one")
+        self.fails("program lamp.lad\nshadow lamp.lad\nreplace lamp2.lad\nexpect_no_difference\n", "a.scn:4: no program runs beside")
+        self.fails("program lamp.lad\nshadow lamp.lad\nscan\ncold_start\nexpect_no_difference\n",
+                   "a.scn:5: the shadow has ended, as the program that it ran beside has")
+        self.fails("program lamp.lad\nscan\nexpect_difference LAMP\n", "a.scn:3: no program runs beside this one: write shadow FILE… before")
+
+    def test_its_fault(self):
+        self.file("a.pmc", GSK)
+        self.file("b.pmc", GSK.replace("FUNC END2", "FUNC LBL\nPRM  L1\nLD   X0.0\nFUNC JMPB\nPRM  L1\nFUNC END2"))
+        self.fails("program a.pmc\nshadow b.pmc\nscan 2\nset X0.0 1\nscan 3\nexpect_no_difference\n",
+                   "a.scn:6: the shadow has stopped with a fault: ")
+
+    def test_what_cannot_run_beside_it(self):
+        self.file("other.pmc", GSK)
+        self.file("a.lad", LAMP.replace("(LAMP)", "(LUMP)"))
+        self.fails("program lamp.lad\nshadow other.pmc\nscan\nexpect_no_difference\n",
+                   "a.scn:2: other.pmc is a program of gsk, and the one that runs is of nct")
+        self.fails("program lamp.lad\nshadow a.lad\nscan\nexpect_no_difference\n", "a.scn:2: the program has errors:", "undeclared-symbol")
+
+    def test_requests_of_the_shadow_alone(self):
+        self.file("a.pmc", "FUNC END1\nLD   R0.0\nOUT  Y0.0\nFUNC END2\n")
+        self.file("b.pmc", f"FUNC END1\n{READS}LD   R0.0\nOUT  Y0.0\nFUNC END2\n")
+        asked = "program a.pmc\nset D100:2 1\nset D104:2 4\nset D106:2 2\nset D108:2 1\nset R0.0 1\nshadow b.pmc\nscan 4\nexpect_no_call\n"
+        self.passes(asked + "expect_difference windr\n")
+
+
 class Prompt(Folder):
     def typed(self, lines, *args):
         return self.rungc("run", "lamp.lad", "-i", "-q", *args, stdin=lines)
+
+    def test_a_shadow(self):
+        self.file("late.lad", LAMP.replace("#1 #1", "#1 #3"))
+        done = self.typed("shadow late.lad\nscan 2\nset SWITCH 1\nscan 3\nscan 110\nshadow\nsave again.scn\n")
+        self.assertEqual(done.returncode, OK, done.stdout)
+        self.assertEqual(done.stdout.count("LAMP is 1, and 0 in the shadow (first at "), 1, done.stdout)
+        self.assertIn("\nshadow late.lad\nscan 2\nset SWITCH 1\nscan 3\nscan 110\nshadow\n",
+                      (self.folder / "again.scn").read_text(encoding="utf-8"))
+
+    def test_how_long_a_slice_may_last(self):
+        done = self.typed("scan\nreplace lamp2.lad\n")
+        self.assertRegex(done.stdout, r"a slice may last [0-9.]+ [mun]s: [0-9]+ steps of [0-9.]+ [mun]s at most \(rung [0-9]")
 
     def test_the_report_and_watched_names(self):
         self.file("next.lad", LAMP.replace("COUNT  5300", "COUNT  5310").replace("LAMP", "LIGHT"))
@@ -275,9 +344,9 @@ class Prompt(Folder):
         done = self.typed("scan\nreplace wrong.lad\nreplace other.pmc\nreplace none.lad\nreplace -\nreplace\nscan\n")
         self.assertEqual(done.returncode, WRONG)
         self.assertIn("error: 'LUMP' is not declared [undeclared-symbol]", done.stderr)
-        for part in ("the program that runs has not been replaced",
+        for part in ("the program that runs has not changed",
                      "other.pmc is a program of gsk, and the one that runs is of nct", "cannot read 'none.lad'",
-                     "a program that takes over comes from files", "expected a file"):
+                     "another program comes from files", "expected a file"):
             self.assertIn(part, done.stdout)
 
     def test_a_saved_session_replaces_again(self):

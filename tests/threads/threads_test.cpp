@@ -12,7 +12,7 @@
 #include "rtlib/host/retained_memory.h"
 #include "tests/threads/examples.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/simulated_nc.h"
+#include "tools/sim/machine.h"
 
 namespace rung::test {
 namespace {
@@ -35,26 +35,25 @@ std::string nameOf(const testing::TestParamInfo<Example>& info) {
 class Machine {
 public:
   Machine(const rung_program& program, uint32_t seed)
-      : nc_(sim::makeSimulatedNc(program.dialect)), instance_(program, nc_.get()), random_(seed) {
-    nc_->powerOn(instance_, nc::PowerOn::Cold);
+      : machine_(program, nullptr, sim::makeSimulatedNc(program.dialect)), random_(seed) {
+    machine_.powerOn(nc::PowerOn::Cold);
   }
 
   void scan() {
-    for (uint32_t s = 0; s < instance_.program().space_count; ++s)
-      if ((instance_.program().spaces[s].flags & RUNG_SPACE_INPUT) != 0) change(s);
-    nc_->scan(instance_);
+    for (uint32_t s = 0; s < instance().program().space_count; ++s)
+      if ((instance().program().spaces[s].flags & RUNG_SPACE_INPUT) != 0) change(s);
+    machine_.scan();
   }
-  host::Instance& instance() { return instance_; }
-  Bytes memory() const { return {instance_.block().begin(), instance_.block().end()}; }
+  host::Instance& instance() { return machine_.inside(); }
+  Bytes memory() const { return {machine_.inside().block().begin(), machine_.inside().block().end()}; }
 
 private:
   void change(uint32_t space) {
-    const uint32_t byte = random_() % instance_.program().spaces[space].byte_count;
-    instance_.memory().writeByte(space, byte, static_cast<uint8_t>(random_()));
+    const uint32_t byte = random_() % instance().program().spaces[space].byte_count;
+    instance().memory().writeByte(space, byte, static_cast<uint8_t>(random_()));
   }
 
-  std::unique_ptr<sim::SimulatedNc> nc_;
-  host::Instance instance_;
+  sim::Machine machine_;
   std::mt19937 random_;
 };
 

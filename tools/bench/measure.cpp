@@ -22,7 +22,6 @@
 #include "tools/bench/gsk_workload.h"
 #include "tools/bench/technol_workload.h"
 #include "tools/compiler/engines.h"
-#include "tools/sim/simulated_nc.h"
 
 namespace rung::bench {
 namespace {

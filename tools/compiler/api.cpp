@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/runtime/handles.h"
 #include "rtlib/runtime/structs.h"
 #include "rung/compiler.h"
+#include "tools/compiler/code_maker.h"
 #include "tools/compiler/compile.h"
 #include "tools/compiler/configuration.h"
+#include "tools/compiler/contained.h"
 #include "tools/compiler/engines.h"
 #include "tools/compiler/kept_ir.h"
-#include "tools/compiler/recompiler.h"
 
 namespace rung::compiler {
 namespace {
@@ -36,13 +36,6 @@ struct Program {
 struct Running {
   std::shared_ptr<const Program> program;
   std::unique_ptr<host::Engine> engine;
-};
-
-// What serves an image.
-struct Maker {
-  std::shared_ptr<const Program> program;
-  EngineKind kind;
-  EngineOptions options;
 };
 
 } // namespace
@@ -67,15 +60,6 @@ namespace {
 
 rung_compilation* compilationOf(const rung_compilation* handle) noexcept {
   return const_cast<rung_compilation*>(checked(handle, runtime::kCompilationMark));
-}
-
-// What the compiler finds wrong with itself does not end the process.
-template <class Body>
-int32_t contained(Body body) noexcept {
-  return runtime::contained([&] {
-    const ThrowingChecks throwing;
-    return body();
-  });
 }
 
 int32_t addSources(const rung_source* sources, uint32_t count, SourceManager& to, std::vector<FileId>& files) {
@@ -199,38 +183,14 @@ const char* rung_compilation_report(const rung_compilation* compilation) {
 
 namespace {
 
-int32_t makeForced(void* user, const rung_program* program, void* engine, const rung_forced_byte* forced,
-                   uint32_t count, rung_forced_code* code, char* problem, size_t problemBytes) {
-  const int32_t status = contained([&] {
-    const Maker& maker = *static_cast<const Maker*>(user);
-    Result<std::unique_ptr<ForcedCode>> made =
-        makeForcedCode(*maker.program->compiled, maker.kind, maker.options, *program, engine, {forced, count});
-    if (!made.ok()) return fail(RUNG_FAILED, "%s", made.error().c_str());
-    ForcedCode* owner = std::move(made).value().release();
-    *code = {.chunk_fns = owner->code().functions,
-             .engine = owner->code().engine,
-             .release = [](void* object) { delete static_cast<ForcedCode*>(object); },
-             .owner = owner};
-    return int32_t{RUNG_OK};
-  });
-  if (status != RUNG_OK) runtime::putText({problem, problemBytes}, runtime::errorText());
-  return status;
-}
-
 // The runtime's sentence, for a caller of this library.
 int32_t failAsRuntime(int32_t status) { return fail(static_cast<rung_status>(status), "%s", rung_error_text()); }
 
 int32_t serve(rung_image* image, std::shared_ptr<const Program> program, EngineKind kind,
               const EngineOptions& options) {
-  auto maker = std::make_unique<Maker>(Maker{std::move(program), kind, options});
-  const rung_code_maker described{.size = sizeof described,
-                                  .force = &makeForced,
-                                  .release = [](void* user) { delete static_cast<Maker*>(user); },
-                                  .user = maker.get()};
-  const int32_t status = rung_image_serve(image, &described);
-  if (status != RUNG_OK) return failAsRuntime(status);
-  [[maybe_unused]] const Maker* images = maker.release(); // it is the image's now
-  return RUNG_OK;
+  const auto compiled = [program]() -> Result<const Compiled*> { return &*program->compiled; };
+  const int32_t status = serveImage(image, compiled, kind, options);
+  return status == RUNG_OK ? status : failAsRuntime(status);
 }
 
 // All of the file that the image was opened from; "" without one.

@@ -23,7 +23,7 @@ namespace {
 Names namesOf(std::string_view statement, size_t index) {
   if (statement == "print") return Names::Values;
   if (statement == "unforce") return Names::Values;
-  if (statement == "replace") return Names::Files;
+  if (statement == "replace" || statement == "shadow") return Names::Files;
   if (index != 1) return Names::None;
   if (statement == "set" || statement == "force" || statement == "expect" || statement == "expect_range")
     return Names::Values;
@@ -161,6 +161,7 @@ Outcome Console::execute(const Statement& statement) {
   const int64_t us = session_.nowUs();
   const std::optional<scenario::Problem> problem = session_.execute(statement);
   watch_.look(session_);
+  for (const std::string& line : session_.shadowNews()) print_(line);
   const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
   if (problem) {
     const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
@@ -185,18 +186,19 @@ Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefo
     recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
     return Outcome::Interrupted;
   }
-  if (s.kind == Kind::Replace)
-    recordReplace(s);
+  if (s.kind == Kind::Replace || s.kind == Kind::Shadow)
+    recordProgram(s);
   else
     recording_.add(s.text);
   return Outcome::Done;
 }
 
-void Console::recordReplace(const Statement& s) {
+void Console::recordProgram(const Statement& s) {
   const std::vector<std::string> files = scenario::programPaths(s);
   const bool object = files.size() == 1 && files[0].ends_with(".so");
-  recording_.addReplace(
-      files, object ? "a scenario names sources, and a shared object took over: replace by its sources" : "");
+  const std::string word = s.text.substr(0, s.text.find_first_of(" \t"));
+  recording_.addProgram(
+      word, files, object ? fmt::format("a scenario names sources, not a shared object: {} its sources", word) : "");
 }
 
 void Console::reportFault() {

@@ -48,7 +48,7 @@ private:
   Outcome include(const std::string& file);
   // Interrupted when the statement did less than it says.
   Outcome record(const scenario::Statement& s, uint64_t scansBefore, int64_t usBefore);
-  void recordReplace(const scenario::Statement& s);
+  void recordProgram(const scenario::Statement& s);
   void reportFault();
 
   Outcome forces(std::span<const std::string> words);

@@ -63,9 +63,9 @@ std::string withoutRung(std::string_view fault) { // the rung and the file in br
 
 void Recording::add(std::string statement) { statements_.push_back({std::move(statement)}); }
 
-void Recording::addReplace(std::vector<std::string> files, const std::string& notAScenario) {
+void Recording::addProgram(std::string word, std::vector<std::string> files, const std::string& notAScenario) {
   if (start_.notAScenario.empty()) start_.notAScenario = notAScenario;
-  statements_.push_back({"replace", std::move(files)});
+  statements_.push_back({std::move(word), std::move(files)});
 }
 
 const project::Project* Recording::ownProject(const std::string& folder) const {

@@ -28,9 +28,9 @@ public:
   const Start& start() const { return start_; }
   // A statement that did what it says, as a scenario writes it.
   void add(std::string statement);
-  // Another program took over, whose files these are; paths can be opened from the working directory. `notAScenario`:
-  // not empty, why no scenario can do that.
-  void addReplace(std::vector<std::string> files, const std::string& notAScenario);
+  // A statement about another program, whose files these are; paths can be opened from the working directory.
+  // `notAScenario`: not empty, why no scenario can do that.
+  void addProgram(std::string word, std::vector<std::string> files, const std::string& notAScenario);
 
   // The scenario, as the file of this path: what was added, then what the watched names hold now and the fault that has
   // stopped the program. Fails when no scenario can do the same.

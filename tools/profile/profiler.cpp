@@ -24,10 +24,7 @@ struct Place {
 class Measurement : public scenario::Observer {
 public:
   virtual void rewind() { scans_ = 0; }
-  void enter(const scenario::Scenario& scenario) {
-    scenario_ = scenario.path;
-    fresh_ = true;
-  }
+  void enter(const scenario::Scenario& scenario) { scenario_ = scenario.path; }
   uint64_t scans() const { return scans_; }
   const rung_program* program() const { return program_; }
   // The scenarios are not all of one program.
@@ -38,8 +35,7 @@ public:
     const rung_program& program = session.instance().program();
     differs_ = differs_ || (program_ != nullptr && program_->code_hash != program.code_hash);
     program_ = &program;
-    if (!differs_) begin(session.instance(), fresh_);
-    fresh_ = false;
+    if (!differs_) begin(session.instance());
   }
   void replaced(const scenario::Session&, const scenario::NextProgram&) override { replaced_ = true; }
   void scanned(const scenario::Session& session) override {
@@ -51,15 +47,14 @@ public:
   }
 
 protected:
-  // The instance was switched on; `fresh`: it is a new one.
-  virtual void begin(host::Instance& instance, bool fresh) = 0;
+  // The instance was switched on.
+  virtual void begin(host::Instance& instance) = 0;
   virtual void end(const host::Instance& instance, bool whole, const Place& place) = 0;
 
 private:
   std::string scenario_;
   const rung_program* program_ = nullptr;
   uint64_t scans_ = 0;
-  bool fresh_ = true;
   bool differs_ = false;
   bool replaced_ = false;
 };
@@ -73,9 +68,8 @@ public:
   const std::vector<uint64_t>& remembered() const { return remembered_; }
 
 protected:
-  void begin(host::Instance& instance, bool fresh) override {
+  void begin(host::Instance& instance) override {
     if (collector_.rungs().empty()) collector_ = Collector(instance.program().rung_count, collector_.cost());
-    if (fresh) collector_.newInstance();
     collector_.started(instance.profile());
   }
 
@@ -120,7 +114,7 @@ public:
   }
 
 protected:
-  void begin(host::Instance& instance, bool) override {
+  void begin(host::Instance& instance) override {
     instance.setTaskWatch(&times_);
     times_.started(instance);
   }
@@ -141,8 +135,8 @@ public:
   const ScanTimes& times() const { return times_; }
 
 protected:
-  void begin(host::Instance& instance, bool fresh) override {
-    RungMeasurement::begin(instance, fresh);
+  void begin(host::Instance& instance) override {
+    RungMeasurement::begin(instance);
     instance.setTaskWatch(&times_);
     times_.started(instance);
   }

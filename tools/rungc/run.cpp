@@ -106,7 +106,8 @@ class Run {
 public:
   // The options outlive the run.
   Run(const RunOptions& options, Program program)
-      : options_(options), recording_(startOf(options, program.compiled.has_value())) {
+      : options_(options), session_("", options.realtime ? sim::Clock::Machine : sim::Clock::Virtual),
+        recording_(startOf(options, program.compiled.has_value())) {
     programs_.push_back(std::move(program));
     session_.addEngine(*first().engine);
     session_.setCompiled([this] { return first().wanted(); });
@@ -157,19 +158,19 @@ private:
     return {};
   }
 
-  int start() {
+  int start() try {
     if (const std::string wrong = configure(); !wrong.empty()) return usageError(wrong);
     nc::PowerOn kind = nc::PowerOn::Cold;
     if (!options_.retain.empty()) {
-      retained_ = std::make_unique<RetainedFiles>(session_, options_.retain, options_.realtime, warn_);
-      std::string error;
-      const auto loaded = retained_->load(error);
-      if (!loaded) return environmentError(error);
-      kind = *loaded;
+      retained_ = std::make_unique<RetainedFiles>(session_, options_.retain, warn_);
+      if (const std::string error = retained_->load(); !error.empty()) return environmentError(error);
+      kind = nc::PowerOn::Warm;
     }
     const std::vector<sim::NcProblem> problems = session_.start(kind);
     for (const sim::NcProblem& problem : problems) warn_(problem.text);
     return problems.empty() ? observe() : int{kUsage};
+  } catch (const rung::Error& error) { // the retained memory
+    return environmentError(error.what());
   }
 
   int observe() {
@@ -278,17 +279,16 @@ private:
     return kOk;
   }
 
-  // The program of a replace statement, with the configuration of the running one.
+  // The program of a replace or shadow statement, with the configuration of the running one.
   Result<scenario::NextProgram> next(const scenario::Statement& s) {
     SourceOptions source = options_.source;
     source.files = scenario::programPaths(s);
-    if (std::ranges::find(source.files, "-") != source.files.end())
-      return failure("a program that takes over comes from files");
+    if (std::ranges::find(source.files, "-") != source.files.end()) return failure("another program comes from files");
     if (const std::string wrong = dialectProblem(source.files); !wrong.empty()) return failure(wrong);
     source.dialect = session_.instance().program().dialect;
     int status = kOk;
     std::optional<Program> program = makeProgram(options_, source, status);
-    if (!program) return failure("the program that runs has not been replaced");
+    if (!program) return failure("the program that runs has not changed");
     programs_.push_back(std::move(*program));
     Program& next = programs_.back();
     return scenario::NextProgram{{next.engine.get()}, next.uses(), [&next] { return next.wanted(); }};
@@ -336,7 +336,7 @@ private:
 
   const RunOptions& options_;
   std::list<Program> programs_; // that ran: the session may hold on to any
-  scenario::Session session_{""};
+  scenario::Session session_;
   console::Recording recording_;
   std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json nothing but that is on standard output
   console::Progress progress_{stderr};

@@ -171,14 +171,14 @@ std::string dialectProblem(const SourceManager& sources, FileId file, std::strin
   return fmt::format("{} is a program of {}, and the one that runs is of {}", sources.name(file), own->name, running);
 }
 
-CompileStep compileNext(const Scenario& scenario, const Statement& replace, const frontend::Dialect& dialect,
+CompileStep compileNext(const Scenario& scenario, const Statement& s, const frontend::Dialect& dialect,
                         const CompileSettings& settings) {
   CompileStep step;
   SourceManager sources;
-  const auto files = addFiles(sources, programPaths(replace), step);
+  const auto files = addFiles(sources, programPaths(s), step);
   if (!files) return step;
   if (std::string problem = dialectProblem(sources, files->front(), dialect.name); !problem.empty()) {
-    step.problems.push_back(problemAt(replace, std::move(problem)));
+    step.problems.push_back(problemAt(s, std::move(problem)));
     return step;
   }
   compiler::CompileRequest request = requestOf(scenario, settings);
@@ -186,7 +186,7 @@ CompileStep compileNext(const Scenario& scenario, const Statement& replace, cons
   Diagnostics diagnostics;
   compileFiles(sources, *files, request, diagnostics, step);
   if (!step.program)
-    step.problems.push_back(problemAt(replace, "the program has errors:\n" + renderText(diagnostics, sources)));
+    step.problems.push_back(problemAt(s, "the program has errors:\n" + renderText(diagnostics, sources)));
   return step;
 }
 

@@ -27,14 +27,14 @@ struct CompileSettings {
 // `programs`: instead of the files that the scenario names, when not empty.
 CompileStep compileProgram(const Scenario& scenario, const std::vector<std::string>& programs,
                            const CompileSettings& settings);
-// The program of a replace statement, with the configuration of the scenario's own, which is of this dialect.
-CompileStep compileNext(const Scenario& scenario, const Statement& replace, const frontend::Dialect& dialect,
+// The program of a replace or shadow statement, with the configuration of the scenario's own, which is of this dialect.
+CompileStep compileNext(const Scenario& scenario, const Statement& s, const frontend::Dialect& dialect,
                         const CompileSettings& settings);
 
-// The files of a program or replace statement, which lie beside the file that names them.
+// The files of a program, replace or shadow statement, which lie beside the file that names them.
 std::vector<std::string> programPaths(const Statement& s);
 
-// "" or that the file is of another dialect than the program that it is to replace.
+// "" or that the file is of another dialect than the program that runs.
 std::string dialectProblem(const SourceManager& sources, FileId file, std::string_view running);
 
 // Whether the compiler itself reads this configuration key; the rest is for the simulated NC.

@@ -9,79 +9,61 @@
 namespace rung::scenario {
 namespace {
 
-// The cell of the name, and, where the machine writes another one, that one too.
-std::string addCells(const Lane& lane, const std::string& name, const Value& value,
-                     std::vector<host::ForcedCell>& cells) {
-  const host::Instance& instance = lane.instance();
-  const rung_program& program = instance.program();
+Result<rung_forced_cell> cellOf(const Lane& lane, const std::string& name, const Value& value) {
+  const rung_program& program = lane.instance().program();
   const auto read = lane.nc().readPlace(program, name);
-  if (!read && lane.nc().readCell(name)) return name + " lies in the NC: only the program's memory can be forced";
-  if (!read) return unknownName(program, lane.nc(), name);
-  const Result<host::ForcedCell> cell = forcedCell(instance, *read, value);
-  if (!cell.ok()) return cell.error();
-  cells.push_back(cell.value());
-  const auto written = lane.nc().writePlace(program, name);
-  if (!written || *written == *read) return {};
-  const Result<host::ForcedCell> other = forcedCell(instance, *written, value);
-  if (!other.ok()) return other.error();
-  cells.push_back(other.value());
-  return {};
+  if (!read && lane.nc().readCell(name))
+    return failure(name + " lies in the NC: only the program's memory can be forced");
+  if (!read) return failure(unknownName(program, lane.nc(), name));
+  return forcedCell(lane.instance(), name, *read, value);
 }
 
-// A shared object is machine code, whatever made it.
-compiler::EngineKind kindOf(const Lane& lane) {
-  return compiler::engineFromName(lane.engineName()).value_or(compiler::EngineKind::Jit);
+Result<rung::Forces> prepare(Lane& lane, const Forces::Values& values) try {
+  std::vector<rung_forced_cell> cells;
+  for (const auto& [name, value] : values) {
+    const Result<rung_forced_cell> cell = cellOf(lane, name, value);
+    if (!cell.ok()) return cell.failure();
+    cells.push_back(cell.value());
+  }
+  return rung::Forces(lane.machine().instance(), cells);
+} catch (const rung::Error& error) {
+  return failure(error.what());
+}
+
+void force(Lane& lane, rung_forces* forces) {
+  (void)rung_instance_force(lane.machine().instance().handle(), forces); // the first lane was asked before
 }
 
 } // namespace
 
-Result<Forces::InLane> Forces::prepare(Lane& lane, const GetCompiled& compiled, const Values& values) {
-  std::vector<host::ForcedCell> cells;
-  for (const auto& [name, value] : values)
-    if (std::string problem = addCells(lane, name, value, cells); !problem.empty()) return failure(std::move(problem));
-  InLane out;
-  const rung_program& program = lane.instance().program();
-  out.forcing = std::make_unique<host::Forcing>(program, lane.engineContext(), cells);
-  if (!out.forcing->problem().empty()) return failure(out.forcing->problem());
-  if (!out.forcing->needsCode()) return out;
-  const Result<const compiler::Compiled*> source = compiled();
-  if (!source.ok()) return failure("the program writes a cell that is to be forced, and " + source.error());
-  Result<std::unique_ptr<compiler::ForcedCode>> code =
-      compiler::makeForcedCode(*source.value(), kindOf(lane), {}, program, lane.engineContext(), out.forcing->bytes());
-  if (!code.ok()) return code.failure();
-  out.code = std::move(code).value();
-  out.forcing->setCode(out.code->code());
-  return out;
-}
-
-std::string Forces::put(const Lanes& lanes, const GetCompiled& compiled, Values values) {
-  std::vector<InLane> prepared;
+std::string Forces::put(const Lanes& lanes, Values values) {
+  std::vector<rung::Forces> prepared;
   for (const std::unique_ptr<Lane>& lane : lanes) {
-    Result<InLane> inLane = prepare(*lane, compiled, values);
+    Result<rung::Forces> inLane = prepare(*lane, values);
     if (!inLane.ok()) return inLane.error();
     prepared.push_back(std::move(inLane).value());
   }
-  for (size_t i = 0; i < lanes.size(); ++i) lanes[i]->instance().force(*prepared[i].forcing);
+  for (size_t i = 0; i < lanes.size(); ++i) force(*lanes[i], prepared[i].handle());
   inLanes_ = std::move(prepared);
   values_ = std::move(values);
   return {};
 }
 
-std::string Forces::set(const Lanes& lanes, const GetCompiled& compiled, const std::string& name, const Value& value) {
+std::string Forces::set(const Lanes& lanes, const std::string& name, const Value& value) {
   const host::Instance& instance = lanes[0]->instance();
   if (instance.faulted()) return "a program that a fault has stopped has no forces";
   if (instance.stopped()) return "a stopped program has no forces";
   Values values = this->values(lanes);
   values[name] = value;
-  return put(lanes, compiled, std::move(values));
+  return put(lanes, std::move(values));
 }
 
-std::string Forces::clear(const Lanes& lanes, const GetCompiled& compiled, const std::vector<std::string>& names) {
+std::string Forces::clear(const Lanes& lanes, const std::vector<std::string>& names) {
   Values values = this->values(lanes);
   for (const std::string& name : names)
     if (values.erase(name) == 0) return name + " is not forced";
-  if (!names.empty() && !values.empty()) return put(lanes, compiled, std::move(values));
-  for (const std::unique_ptr<Lane>& lane : lanes) lane->instance().endForces();
+  if (!names.empty() && !values.empty()) return put(lanes, std::move(values));
+  for (const std::unique_ptr<Lane>& lane : lanes) force(*lane, nullptr);
   values_.clear();
   inLanes_.clear();
   return {};

@@ -1,75 +1,75 @@
 // One engine's run (see lane.h).
 #include "tools/scenario/lane.h"
 
-#include <fmt/format.h>
 #include <iterator>
 #include <utility>
 
-#include "rtlib/host/program_info.h"
 #include "rtlib/nc/control/refuse.h"
-#include "tools/compiler/engines.h"
 
 namespace rung::scenario {
 namespace {
 
 constexpr ptrdiff_t kMostUnread = 50'000; // entries of the log; a session of hours must not fill the memory
 
-} // namespace
-
-Lane::Lane(host::Engine& engine, std::string folder)
-    : engine_(&engine), nc_(sim::makeSimulatedNc(engine.program().dialect)),
-      instance_(std::make_unique<host::Instance>(engine, this)) {
-  nc_->setFolder(std::move(folder));
+// A shared object is machine code, whatever made it.
+compiler::EngineKind kindOf(const host::Engine& engine) {
+  return compiler::engineFromName(engine.name()).value_or(compiler::EngineKind::Jit);
 }
 
+void serveWith(rung::Image& image, const host::Engine& engine, const compiler::GetCompiled& compiled) {
+  if (compiled) check(compiler::serveImage(image.handle(), compiled, kindOf(engine), {}));
+}
+
+} // namespace
+
+Lane::Lane(host::Engine& engine, std::string folder, sim::Clock clock)
+    : engine_(&engine),
+      machine_(engine.program(), engine.context(), sim::makeSimulatedNc(engine.program().dialect), clock) {
+  nc().setFolder(std::move(folder));
+  nc().setAnswers(&requests_);
+}
+
+void Lane::serve(const compiler::GetCompiled& compiled) { serveWith(machine_.image(), *engine_, compiled); }
+
 void Lane::powerOn(nc::PowerOn kind) {
-  nc_->powerOn(*instance_, kind);
+  machine_.powerOn(kind);
+  takeLog();
   unreadLog_.clear();
   requests_.clear();
 }
 
-std::string Lane::replace(host::Engine& next, ReplaceReport& report) {
-  const rung_program& former = instance_->program();
-  host::Replacement replacement(former, {next.program(), next.context()});
-  ReplaceReport planned(replacement.transfer());
-  requests_.take(*instance_);
-  switch (instance_->replace(replacement)) {
-  case host::ReplaceResult::Replaced: break;
-  case host::ReplaceResult::OtherProgram: return "another program is running";
-  case host::ReplaceResult::WithinPass:
-    return "the program is within a pass, which slots have left unfinished; a program is replaced between two: write "
-           "scan before it";
-  case host::ReplaceResult::RequestsWait:
-    return fmt::format("a request {} waits for its answer, and the new program numbers its services otherwise",
-                       host::serviceName(former, instance_->services().peek()->service));
-  case host::ReplaceResult::MechanismWaits:
-    return fmt::format("{} waits at an instruction that the new program does not have",
-                       replacement.transfer().waiting(instance_->block().data()));
-  }
+std::string Lane::replace(host::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report) try {
+  const rung_program& former = instance().program();
+  rung::Image image = sim::imageOf(next.program(), next.context());
+  serveWith(image, next, compiled);
+  rung::Replacement replacement(machine_.instance(), image);
+  replacement.allowLate(); // the clock of a scenario waits
+  ReplaceReport planned(replacement);
+  requests_.take(instance());
+  if (check(rung_instance_replace(machine_.instance().handle(), replacement.handle())) == RUNG_LATER)
+    return rung_error_text();
   engine_ = &next;
-  requests_.programChanged(*instance_, sim::Relocation(former, instance_->program()));
+  machine_.setImage(std::move(image));
+  requests_.programChanged(instance(), sim::Relocation(former, instance().program()));
   report = std::move(planned);
   return {};
+} catch (const rung::Error& error) {
+  return error.what();
 }
 
 void Lane::advance(Advance how) {
-  (nc_.get()->*how)(*instance_);
-  takeLog();
-}
-
-void Lane::takeMessages() {
-  nc_->takeMessages(*instance_);
+  (machine_.*how)();
   takeLog();
 }
 
 void Lane::takeLog() {
-  for (std::string& line : nc_->takeLog()) unreadLog_.push_back(std::move(line));
+  for (std::string& line : nc().takeLog()) unreadLog_.push_back(std::move(line));
   if (std::ssize(unreadLog_) > 2 * kMostUnread) unreadLog_.erase(unreadLog_.begin(), unreadLog_.end() - kMostUnread);
 }
 
 void Lane::ignore() {
   rt::ServiceRequest request;
-  while (instance_->services().take(request)) instance_->services().complete(nc::refuse(instance_->program(), request));
+  while (instance().services().take(request)) instance().services().complete(nc::refuse(instance().program(), request));
   unreadLog_.clear();
 }
 

@@ -1,4 +1,4 @@
-// One engine's run of a program, with the NC beside it and what a scenario has yet to look at.
+// One engine's run of a program in its simulated NC, and what a scenario has yet to look at.
 #pragma once
 #include <memory>
 #include <string>
@@ -6,54 +6,54 @@
 #include <vector>
 
 #include "rtlib/host/engine.h"
-#include "rtlib/host/instance.h"
+#include "tools/compiler/code_maker.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/requests.h"
-#include "tools/sim/simulated_nc.h"
+#include "tools/sim/machine.h"
 
 namespace rung::scenario {
 
-// Lends the simulated NC's hooks to the instance and adds the scenario's prepared answers.
-class Lane final : public host::ScheduleHooks {
+class Lane {
 public:
   // Files that the NC's configuration names lie in `folder`. The engine outlives the lane.
-  Lane(host::Engine& engine, std::string folder);
+  Lane(host::Engine& engine, std::string folder, sim::Clock clock);
 
   std::string_view engineName() const { return engine_->name(); }
-  void* engineContext() { return engine_->context(); }
-  host::Instance& instance() { return *instance_; }
-  const host::Instance& instance() const { return *instance_; }
-  sim::SimulatedNc& nc() { return *nc_; }
-  const sim::SimulatedNc& nc() const { return *nc_; }
+  sim::Machine& machine() { return machine_; }
+  // The program from inside.
+  host::Instance& instance() { return machine_.inside(); }
+  const host::Instance& instance() const { return machine_.inside(); }
+  sim::SimulatedNc& nc() { return machine_.nc(); }
+  const sim::SimulatedNc& nc() const { return machine_.nc(); }
   Requests& requests() { return requests_; }
   std::vector<std::string>& unreadLog() { return unreadLog_; } // since the last expect_log
 
-  // Switches the program on; what was to be looked at is dropped.
+  // Code of the program can be made anew from what `compiled` gives, when it is asked for.
+  void serve(const compiler::GetCompiled& compiled);
+
+  // Switches the program on; what was to be looked at is dropped. Throws as Machine::powerOn.
   void powerOn(nc::PowerOn kind);
   // Another program of the same dialect takes over from the running one. "" or why it cannot, and nothing has happened;
   // its engine outlives the lane.
-  std::string replace(host::Engine& next, ReplaceReport& report);
-  // Runs the NC and the program: a scan, a slot or the fast part.
-  using Advance = void (sim::SimulatedNc::*)(host::Instance&);
+  std::string replace(host::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report);
+  // Runs the NC and the program: a scan, a slot, the fast part or a slice.
+  using Advance = void (sim::Machine::*)();
   void advance(Advance how);
-  // After a slice that was run beside `advance`.
-  void takeMessages();
+  // The operator or the machine does something between two scans.
+  template <class Act>
+  std::string operate(Act act) {
+    std::string problem = machine_.operate(act);
+    takeLog();
+    return problem;
+  }
   // Nobody will look: requests are refused, and what the log holds is dropped.
   void ignore();
-
-  void onHook(host::Instance& instance, uint32_t work) override { nc_->onHook(instance, work); }
-  void onFault(host::Instance& instance) override { nc_->onFault(instance); }
-  void onReplace(host::Instance& instance) override { nc_->onReplace(instance); }
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    return requests_.respond(instance, request, reply) || nc_->respond(instance, request, reply);
-  }
 
 private:
   void takeLog();
 
   host::Engine* engine_;
-  std::unique_ptr<sim::SimulatedNc> nc_;
-  std::unique_ptr<host::Instance> instance_;
+  sim::Machine machine_;
   Requests requests_;
   std::vector<std::string> unreadLog_;
 };

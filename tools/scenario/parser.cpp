@@ -169,7 +169,9 @@ bool isExpectation(Kind kind) {
   case Kind::ExpectWarning:
   case Kind::ExpectFault:
   case Kind::ExpectChange:
-  case Kind::ExpectNoChange: return true;
+  case Kind::ExpectNoChange:
+  case Kind::ExpectDifference:
+  case Kind::ExpectNoDifference: return true;
   default: return false;
   }
 }

@@ -46,6 +46,15 @@ std::string textOf(const host::StateChange& change) {
   return text + " " + inWords(change.name);
 }
 
+ReplaceReport::ReplaceReport(const rung::Replacement& replacement) {
+  const rung_replacement_info info = replacement.report();
+  keptCells = info.kept_cells;
+  keptStates = info.kept_states;
+  bound = info.bound;
+  for (const rung_change& change : replacement.changes())
+    changes.push_back({static_cast<host::ChangeKind>(change.kind), change.is_state != 0, change.name, change.former});
+}
+
 std::string ReplaceReport::take(const host::StateChange& change) {
   const auto found = std::ranges::find_if(changes, [&](const host::StateChange& other) { return same(change, other); });
   if (found == changes.end())
@@ -62,6 +71,7 @@ std::vector<std::string> ReplaceReport::lines() const {
   std::vector<std::string> lines = {
       fmt::format("kept {} and {} of the compiler's", counted(keptCells, "cell"), counted(keptStates, "state"))};
   for (const host::StateChange& change : changes) lines.push_back(textOf(change));
+  lines.push_back("a slice may last " + bound);
   return lines;
 }
 

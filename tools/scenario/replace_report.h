@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rtlib/host/state_transfer.h"
+#include "rung/runtime.hpp"
 
 namespace rung::scenario {
 
@@ -18,19 +19,18 @@ std::string textOf(const host::StateChange& change);
 
 struct ReplaceReport {
   ReplaceReport() = default;
-  explicit ReplaceReport(const host::StateTransfer& transfer)
-      : keptCells(transfer.keptCells()), keptStates(transfer.keptSlots()),
-        changes(transfer.changes().begin(), transfer.changes().end()) {}
+  explicit ReplaceReport(const rung::Replacement& replacement);
 
   uint32_t keptCells = 0;
   uint32_t keptStates = 0;
+  std::string bound;                      // rung_replacement_info::bound
   std::vector<host::StateChange> changes; // those that nobody has taken out
 
   // Takes it out; "" or what is there instead.
   std::string take(const host::StateChange& change);
   // "" or what there is.
   std::string expectNone() const;
-  // What was kept, and a line for each change.
+  // What was kept, a line for each change, and how long a slice of it may last.
   std::vector<std::string> lines() const;
 };
 

@@ -9,14 +9,15 @@
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/services.h"
 #include "tools/sim/relocation.h"
+#include "tools/sim/simulated_nc.h"
 
 namespace rung::scenario {
 
-class Requests {
+class Requests final : public sim::Answers {
 public:
   // While a task runs: answers a request with what is prepared for it. A request with an operand block is kept back and
   // answered by `take`. False: nothing is prepared.
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
   // Between two scans: takes what has entered the program's queue. Prepared answers to operand blocks are given here,
   // and what takes no answer is complete.
   void take(host::Instance& instance);

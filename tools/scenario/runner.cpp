@@ -43,7 +43,8 @@ public:
   }
 
 private:
-  struct Replacement {
+  // Of a replace or shadow statement.
+  struct NamedProgram {
     const Statement* statement;
     std::vector<std::string> files;
     std::shared_ptr<StoredProgram> program;
@@ -58,9 +59,10 @@ private:
     if (options_.strict && result_.expectsNothing) fail(scenario_.statements[0], kExpectsNothing);
     if (!step.program || !result_.environment.empty() || !step.problems.empty()) return;
     program_ = store().enter(std::move(*step.program));
-    if (!compileReplacements(settings) || !start()) return;
+    if (!compileNamed(settings) || !start()) return;
     std::vector<const rung_program*> next;
-    for (const Replacement& replacement : replacements_) next.push_back(&replacement.next.engines[0]->program());
+    for (const NamedProgram& named : named_)
+      if (named.statement->kind == Kind::Replace) next.push_back(&named.next.engines[0]->program());
     add(result_.problems, unknownNames(scenario_, session_.instance().program(), next, session_.nc()));
     if (!result_.problems.empty() || !observe(program_->compiled())) return;
     runStatements();
@@ -72,27 +74,27 @@ private:
     add(result_.problems, step.problems);
   }
 
-  bool compileReplacements(const CompileSettings& settings) {
+  bool compileNamed(const CompileSettings& settings) {
     bool good = true;
     for (const Statement& s : scenario_.statements) {
-      if (s.kind != Kind::Replace) continue;
+      if (s.kind != Kind::Replace && (s.kind != Kind::Shadow || s.words.empty())) continue;
       const std::vector<std::string> files = programPaths(s);
       if (std::shared_ptr<StoredProgram> same = programOf(files)) {
-        replacements_.push_back({&s, files, std::move(same), {}});
+        named_.push_back({&s, files, std::move(same), {}});
         continue;
       }
       CompileStep step = compileNext(scenario_, s, *program_->compiled().dialect, settings);
       note(step);
       good = good && step.program;
-      if (step.program) replacements_.push_back({&s, files, store().enter(std::move(*step.program)), {}});
+      if (step.program) named_.push_back({&s, files, store().enter(std::move(*step.program)), {}});
     }
     return good;
   }
 
-  // Of an earlier replacement by the same files; null: there is none.
+  // Of an earlier statement with the same files; null: there is none.
   std::shared_ptr<StoredProgram> programOf(const std::vector<std::string>& files) const {
-    const auto found = std::ranges::find(replacements_, files, &Replacement::files);
-    return found == replacements_.end() ? nullptr : found->program;
+    const auto found = std::ranges::find(named_, files, &NamedProgram::files);
+    return found == named_.end() ? nullptr : found->program;
   }
 
   // By file and line; a file that is included twice has each of its problems once.
@@ -127,23 +129,23 @@ private:
       host::Engine* engine = engineOf(*program_, kind);
       if (engine == nullptr) return false;
       session_.addEngine(*engine);
-      for (Replacement& replacement : replacements_) {
-        replacement.next.engines.push_back(engineOf(*replacement.program, kind));
-        if (replacement.next.engines.back() == nullptr) return false;
+      for (NamedProgram& named : named_) {
+        named.next.engines.push_back(engineOf(*named.program, kind));
+        if (named.next.engines.back() == nullptr) return false;
       }
     }
     session_.setCompiled(compiledOf(*program_));
-    for (Replacement& replacement : replacements_) {
-      replacement.next.uses = replacement.program->compiled().uses.get();
-      replacement.next.compiled = compiledOf(*replacement.program);
+    for (NamedProgram& named : named_) {
+      named.next.uses = named.program->compiled().uses.get();
+      named.next.compiled = compiledOf(*named.program);
     }
     session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
-      return std::ranges::find(replacements_, &s, &Replacement::statement)->next;
+      return std::ranges::find(named_, &s, &NamedProgram::statement)->next;
     });
     return configure(*program_->compiled().dialect) && powerOn();
   }
 
-  static GetCompiled compiledOf(const StoredProgram& program) {
+  static compiler::GetCompiled compiledOf(const StoredProgram& program) {
     return [&program]() -> Result<const compiler::Compiled*> { return &program.compiled(); };
   }
 
@@ -210,7 +212,7 @@ private:
   RunResult result_;
   EngineStore ownStore_;                   // when the options bring none
   std::shared_ptr<StoredProgram> program_; // outlives the session
-  std::vector<Replacement> replacements_;  // in the order of their statements
+  std::vector<NamedProgram> named_;        // in the order of their statements
   Printer printer_{result_.printed};
   Session session_;
   std::optional<Explainer> explainer_; // once the session has started

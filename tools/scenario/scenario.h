@@ -47,6 +47,9 @@ enum class Kind : uint8_t {
   Replace,
   ExpectChange,
   ExpectNoChange,
+  Shadow,
+  ExpectDifference,
+  ExpectNoDifference,
   Force,
   Unforce,
 };
@@ -74,7 +77,7 @@ struct Statement {
   std::string text;  // as written, without blanks around it
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
                      // service or event; Plc: the command
-  std::vector<std::string> words; // Program, Replace: files; Connect: source and destination; Unforce: names
+  std::vector<std::string> words; // Program, Replace, Shadow: files; Connect: source and destination; Unforce: names
   Value value;                    // Set, Force, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange
   bool near = false;              // expect NAME ~ VALUE TOLERANCE

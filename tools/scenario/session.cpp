@@ -34,7 +34,11 @@ bool belongsToStart(Kind kind) {
 
 // ---- start ---------------------------------------------------------------------------------------------------------
 
-void Session::addEngine(host::Engine& engine) { lanes_.push_back(std::make_unique<Lane>(engine, folder_)); }
+void Session::addEngine(host::Engine& engine) { lanes_.push_back(std::make_unique<Lane>(engine, folder_, clock_)); }
+
+void Session::setCompiled(const compiler::GetCompiled& compiled) {
+  for (const std::unique_ptr<Lane>& lane : lanes_) lane->serve(compiled);
+}
 
 std::string Session::config(std::string_view key, std::string_view value) {
   for (const std::unique_ptr<Lane>& lane : lanes_)
@@ -84,6 +88,7 @@ std::string Session::advanceOnce(Lane::Advance how) {
 
 std::string Session::afterScan() {
   std::string problem = difference();
+  shadows_.work();
   for (const std::unique_ptr<Lane>& lane : lanes_) {
     if (unattended_)
       lane->ignore();
@@ -96,11 +101,10 @@ std::string Session::afterScan() {
 
 host::RealTimeStats Session::runRealTime() {
   Lane& lane = *lanes_[0];
-  lane.nc().betweenSlices(lane.instance());
-  return host::runRealTime(lane.instance(), [&] {
-    lane.takeMessages();
+  lane.nc().setRealTime();
+  const auto slice = [&lane] { lane.advance(&sim::Machine::slice); };
+  return host::runRealTime(lane.instance(), slice, [&] {
     scans_ += lane.instance().atListStart() ? 1 : 0;
-    lane.nc().betweenSlices(lane.instance());
     afterScan();
     return !lane.instance().faulted() && !interrupted();
   });
@@ -118,7 +122,7 @@ std::string Session::runFor(int64_t us) {
   const int64_t end = nowUs() + us;
   while (nowUs() < end) {
     const int64_t before = nowUs();
-    if (std::string problem = advanceOnce(&sim::SimulatedNc::scan); !problem.empty()) return problem;
+    if (std::string problem = advanceOnce(&sim::Machine::scan); !problem.empty()) return problem;
     if (interrupted()) return {};
     // A stopped or faulted program may leave the clock alone; its time goes on all the same.
     if (nowUs() != before) continue;
@@ -127,13 +131,16 @@ std::string Session::runFor(int64_t us) {
   return {};
 }
 
-void Session::restart(nc::PowerOn kind) {
+std::string Session::restart(nc::PowerOn kind) try {
   for (const std::unique_ptr<Lane>& lane : lanes_) {
-    if (kind == nc::PowerOn::Warm) lane->nc().powerOff(lane->instance());
+    if (kind == nc::PowerOn::Warm) lane->machine().powerOff();
     lane->powerOn(kind);
   }
   faultExpected_ = false;
   for (Observer* observer : observers_) observer->started(*this);
+  return {};
+} catch (const rung::Error& error) {
+  return error.what();
 }
 
 // ---- statements ----------------------------------------------------------------------------------------------------
@@ -166,20 +173,34 @@ std::string Session::print(const Statement& s) {
   return {};
 }
 
-std::string Session::replace(const Statement& s) {
-  if (!makeProgram_) return "no program can be compiled here to take over";
-  const Result<NextProgram> next = makeProgram_(s);
-  if (!next.ok()) return next.error();
+Result<NextProgram> Session::makeProgram(const Statement& s) {
+  if (!makeProgram_) return failure("no other program can be compiled here");
+  Result<NextProgram> next = makeProgram_(s);
+  if (!next.ok()) return next;
   const rung_program& program = next.value().engines[0]->program();
   if (std::string_view(program.dialect) != instance().program().dialect)
-    return fmt::format("{} is a program of {}, and the one that runs is of {}", program.name, program.dialect,
-                       instance().program().dialect);
+    return failure(fmt::format("{} is a program of {}, and the one that runs is of {}", program.name, program.dialect,
+                               instance().program().dialect));
+  return next;
+}
+
+std::string Session::shadow(const Statement& s) {
+  shadows_.end();
+  if (s.words.empty()) return {};
+  const Result<NextProgram> next = makeProgram(s);
+  return next.ok() ? shadows_.begin(lanes_, next.value().engines) : next.error();
+}
+
+std::string Session::replace(const Statement& s) {
+  const Result<NextProgram> next = makeProgram(s);
+  if (!next.ok()) return next.error();
   ReplaceReport report;
   for (size_t i = 0; i < lanes_.size(); ++i)
-    if (const std::string problem = lanes_[i]->replace(*next.value().engines[i], report); !problem.empty())
+    if (const std::string problem = lanes_[i]->replace(*next.value().engines[i], next.value().compiled, report);
+        !problem.empty())
       return prefixed(*lanes_[i], problem);
+  shadows_.end();
   report_ = std::move(report);
-  compiled_ = next.value().compiled;
   for (Observer* observer : observers_) observer->replaced(*this, next.value());
   return difference();
 }
@@ -209,11 +230,11 @@ std::string Session::run(const Statement& s) {
   case Kind::ExpectWarning:
   case Kind::AllowErrors: return "the program has started; this statement belongs to the start of a scenario";
   case Kind::Set: return forLanes([&](Lane& lane) { return setValue(lane, s); });
-  case Kind::Scan: return advance(s.count, &sim::SimulatedNc::scan);
-  case Kind::Fast: return advance(s.count, &sim::SimulatedNc::fast);
+  case Kind::Scan: return advance(s.count, &sim::Machine::scan);
+  case Kind::Fast: return advance(s.count, &sim::Machine::fast);
   case Kind::Slot:
     if (!nc().control().runsInSlots()) return "only the second level of a GSK program is run in slots (8 ms)";
-    return advance(s.count, &sim::SimulatedNc::slot);
+    return advance(s.count, &sim::Machine::slot);
   case Kind::Run: return runFor(s.microseconds);
   case Kind::Expect:
   case Kind::ExpectRange: return forLanes([&](Lane& lane) { return expectValue(lane, s); });
@@ -225,17 +246,20 @@ std::string Session::run(const Statement& s) {
   case Kind::Reply: return forLanes([&](Lane& lane) { return lane.requests().reply(lane.instance(), s); });
   case Kind::Prepare: return forLanes([&](Lane& lane) { return lane.requests().prepare(lane.instance(), s); });
   case Kind::BlockStart:
-    return forLanes([&](Lane& lane) { return lane.nc().blockStart(lane.instance(), arguments(s.keys)); });
-  case Kind::BlockDone: return forLanes([&](Lane& lane) { return lane.nc().blockDone(lane.instance()); });
+    return operate([&](auto& nc, auto& program) { return nc.blockStart(program, arguments(s.keys)); });
+  case Kind::BlockDone: return operate([&](auto& nc, auto& program) { return nc.blockDone(program); });
   case Kind::Event:
-    return forLanes([&](Lane& lane) { return lane.nc().event(lane.instance(), s.name, arguments(s.keys)); });
-  case Kind::Plc: return forLanes([&](Lane& lane) { return lane.nc().plcCommand(lane.instance(), s.name); });
-  case Kind::ColdStart: restart(nc::PowerOn::Cold); return {};
-  case Kind::WarmStart: restart(nc::PowerOn::Warm); return {};
+    return operate([&](auto& nc, auto& program) { return nc.event(program, s.name, arguments(s.keys)); });
+  case Kind::Plc: return operate([&](auto& nc, auto& program) { return nc.plcCommand(program, s.name); });
+  case Kind::ColdStart: return restart(nc::PowerOn::Cold);
+  case Kind::WarmStart: return restart(nc::PowerOn::Warm);
   case Kind::Print: return print(s);
   case Kind::Replace: return replace(s);
-  case Kind::Force: return forces_.set(lanes_, compiled_, s.name, s.value);
-  case Kind::Unforce: return forces_.clear(lanes_, compiled_, s.words);
+  case Kind::Shadow: return shadow(s);
+  case Kind::ExpectDifference: return shadows_.expectDifference(lanes_, s.name);
+  case Kind::ExpectNoDifference: return shadows_.expectNone(lanes_);
+  case Kind::Force: return forces_.set(lanes_, s.name, s.value);
+  case Kind::Unforce: return forces_.clear(lanes_, s.words);
   case Kind::ExpectChange:
   case Kind::ExpectNoChange: return expectChange(s);
   case Kind::ExpectFault: {

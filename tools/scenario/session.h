@@ -20,16 +20,17 @@
 #include "tools/scenario/forces.h"
 #include "tools/scenario/lane.h"
 #include "tools/scenario/scenario.h"
+#include "tools/scenario/shadows.h"
 
 namespace rung::scenario {
 
 class Session;
 
-// A program that takes the place of the running one.
+// A program that takes the place of the running one, or runs beside it.
 struct NextProgram {
   std::vector<host::Engine*> engines; // one for each of the session's, in their order; they outlive the session
   const ir::Uses* uses = nullptr;     // outlives the session; null: the program was not compiled here
-  GetCompiled compiled;               // what it gives outlives the session
+  compiler::GetCompiled compiled;     // what it gives outlives the session
 };
 
 // "scan 12, 0.120 s".
@@ -54,7 +55,8 @@ bool belongsToStart(Kind kind);
 class Session {
 public:
   // Files that the NC's configuration names lie in `folder`.
-  explicit Session(std::string folder) : folder_(std::move(folder)) {}
+  explicit Session(std::string folder, sim::Clock clock = sim::Clock::Virtual)
+      : folder_(std::move(folder)), clock_(clock) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -62,16 +64,16 @@ public:
   void addEngine(host::Engine& engine);
   std::string config(std::string_view key, std::string_view value);
   std::string connect(std::string_view source, std::string_view destination);
-  // Switches the program on. What is wrong: connections whose ends do not exist, engines that disagree; then the
-  // session has not started.
+  // Switches the program on. Throws rung::Error where retained memory cannot be taken. What is wrong: connections whose
+  // ends do not exist, engines that disagree; then the session has not started.
   std::vector<sim::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
 
-  // Makes the programs of replace statements; a failure says why there is none. Without it they are refused.
-  using MakeProgram = std::function<Result<NextProgram>(const Statement& replace)>;
+  // Makes the programs of replace and shadow statements; a failure says why there is none. Without it they are refused.
+  using MakeProgram = std::function<Result<NextProgram>(const Statement& s)>;
   void setMakeProgram(MakeProgram make) { makeProgram_ = std::move(make); }
 
   // Of the program that is run from the start.
-  void setCompiled(GetCompiled compiled) { compiled_ = std::move(compiled); }
+  void setCompiled(const compiler::GetCompiled& compiled);
 
   // Executes one statement in all lanes. What is wrong is what the statement expected or could not do, with the scan
   // and the time; statements that belong to the start are refused.
@@ -85,6 +87,7 @@ public:
   host::RealTimeStats runRealTime();
 
   // Of the first engine.
+  sim::Machine& machine() { return lanes_[0]->machine(); }
   host::Instance& instance() { return lanes_[0]->instance(); }
   const host::Instance& instance() const { return lanes_[0]->instance(); }
   sim::SimulatedNc& nc() { return lanes_[0]->nc(); }
@@ -93,6 +96,8 @@ public:
   uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
   // Of the last replacement; empty before one.
   ReplaceReport report() const { return report_.value_or(ReplaceReport{}); }
+  // What the program beside this one has done otherwise since the last call.
+  std::vector<std::string> shadowNews() { return shadows_.news(); }
   // What is forced now.
   const Forces::Values& forces() { return forces_.values(lanes_); }
   // The one that is being executed, for observers; else null.
@@ -111,9 +116,11 @@ private:
   std::string advanceOnce(Lane::Advance how);
   std::string afterScan();
   std::string runFor(int64_t us);
-  void restart(nc::PowerOn kind);
+  std::string restart(nc::PowerOn kind);
   std::string print(const Statement& s);
+  Result<NextProgram> makeProgram(const Statement& s);
   std::string replace(const Statement& s);
+  std::string shadow(const Statement& s);
   std::string expectChange(const Statement& s);
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
@@ -125,16 +132,21 @@ private:
       if (const std::string problem = act(*lane); !problem.empty()) return prefixed(*lane, problem);
     return {};
   }
+  template <class Act>
+  std::string operate(Act act) {
+    return forLanes([&](Lane& lane) { return lane.operate(act); });
+  }
   std::string prefixed(const Lane& lane, const std::string& problem) const;
 
   std::string folder_;
+  sim::Clock clock_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<Observer*> observers_;
   std::function<bool()> interrupted_;
   MakeProgram makeProgram_;
-  GetCompiled compiled_;
   std::optional<ReplaceReport> report_;
   Forces forces_;
+  Shadows shadows_;
   const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;
   bool running_ = false;

@@ -149,6 +149,7 @@ private:
   bool event() { return takeWord(s_.name, "an event") && takeKeys(s_.keys); }
   bool noCall() { return done() || takeWord(s_.name, "a service"); }
   bool print();
+  bool difference() { return takeWord(s_.name, "a name"); }
   bool nothing() { return true; }
   bool include() { return takeWord(s_.name, "a file"); }
   bool dialect() { return takeWord(s_.name, "a dialect"); }
@@ -229,6 +230,15 @@ const P::Row P::kRows[] = {
      &P::expectChange},
     {{"expect_no_change", "expect_no_change", "replacing has done nothing that was not expected"},
      Kind::ExpectNoChange,
+     &P::nothing},
+    {{"shadow", "shadow [FILE…]", "a program runs beside this one, to be compared; without files: no more"},
+     Kind::Shadow,
+     &P::names},
+    {{"expect_difference", "expect_difference NAME", "the shadow has had another value there, or requested it alone"},
+     Kind::ExpectDifference,
+     &P::difference},
+    {{"expect_no_difference", "expect_no_difference", "the shadow has done nothing else otherwise"},
+     Kind::ExpectNoDifference,
      &P::nothing},
     {{"force", "force NAME VALUE", "holds a cell at a value, whoever writes it"}, Kind::Force, &P::set},
     {{"unforce", "unforce [NAME…]", "holds them no more; without names: none"}, Kind::Unforce, &P::names},

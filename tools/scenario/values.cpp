@@ -124,12 +124,16 @@ std::string writeValue(Instance& instance, const nc::Control& control, const Ref
   return nc::write(instance, place, static_cast<uint64_t>(value.integer));
 }
 
-Result<host::ForcedCell> forcedCell(const Instance& instance, const Ref& place, const Value& value) {
+Result<rung_forced_cell> forcedCell(const Instance& instance, const std::string& name, const Ref& place,
+                                    const Value& value) {
   if (place.kind == RefKind::Text) return failure("a text cannot be forced");
   if (std::string problem = numberProblem(instance, place, value); !problem.empty()) return failure(std::move(problem));
-  if (const auto real = realPlace(instance, place, value))
-    return host::ForcedCell{*real, std::bit_cast<uint64_t>(value.real)};
-  return host::ForcedCell{place, static_cast<uint64_t>(value.integer)};
+  rung_forced_cell cell{.name = name.c_str(), .value = {.integer = value.integer}};
+  if (realPlace(instance, place, value)) {
+    cell.value.real = value.real;
+    cell.access = RUNG_REAL;
+  }
+  return cell;
 }
 
 std::string checkValue(const Reading& reading, const Statement& expect) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ir/support/result.h"
-#include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
+#include "rung/runtime.h"
 #include "tools/scenario/scenario.h"
 #include "tools/sim/simulated_nc.h"
 
@@ -32,8 +32,9 @@ Reading cellReading(const sim::NcCell& cell);
 sim::NcCell cellOf(const Value& number);
 int64_t signedOf(const Reading& integer);
 
-// The place with the bits of the value, for whoever forces it.
-Result<host::ForcedCell> forcedCell(const host::Instance& instance, const host::Ref& place, const Value& value);
+// The cell of this name, at this place, with the value, for whoever forces it. The name outlives the result.
+Result<rung_forced_cell> forcedCell(const host::Instance& instance, const std::string& name, const host::Ref& place,
+                                    const Value& value);
 
 // Each gives "" or what is wrong.
 std::string writeValue(host::Instance& instance, const nc::Control& control, const host::Ref& place,

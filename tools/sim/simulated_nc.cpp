@@ -20,33 +20,6 @@ void SimulatedNc::powerOn(host::Instance& instance, nc::PowerOn kind) {
   control().powerOn(instance, kind);
 }
 
-void SimulatedNc::powerOff(host::Instance& instance) {
-  control().powerOff(instance, [&] { scan(instance); });
-}
-
-void SimulatedNc::scan(host::Instance& instance) {
-  beginSlice(instance);
-  instance.scan();
-  finishSlice(instance);
-}
-
-void SimulatedNc::slot(host::Instance& instance) {
-  beginSlice(instance);
-  instance.slot();
-  finishSlice(instance);
-}
-
-void SimulatedNc::fast(host::Instance& instance) {
-  beginSlice(instance);
-  instance.fast();
-  finishSlice(instance);
-}
-
-void SimulatedNc::finishSlice(host::Instance& instance) {
-  takeMessages(instance);
-  control().afterSlice(instance);
-}
-
 // ---- messages ----------------------------------------------------------------------------------------------------
 
 namespace {
@@ -68,12 +41,9 @@ bool SimulatedNc::isLogged(const rung_message& message) const {
   return message.op == RUNG_MESSAGE_SHOW_LOG || message.op == RUNG_MESSAGE_LOG;
 }
 
-void SimulatedNc::takeMessages(host::Instance& instance) {
-  rung_message message;
-  while (instance.messages().pop(message)) {
-    if (isLogged(message)) log_.push_back(logLine(control(), instance.program(), message));
-    control().accept(message);
-  }
+void SimulatedNc::accept(const host::Instance& instance, const rung_message& message) {
+  if (isLogged(message)) log_.push_back(logLine(control(), instance.program(), message));
+  control().accept(message);
 }
 
 std::optional<NcCell> SimulatedNc::readCell(std::string_view) const { return std::nullopt; }

@@ -1,6 +1,6 @@
 // The simulated NC beside a running program: the control that every host has (rtlib/nc/control), and around it the
-// machine: axes, part programs, devices, an operator. One class a dialect; a scenario or `rungc run` drives it. It
-// knows the program only through its tables.
+// machine: axes, part programs, devices, an operator. One class a dialect; a Machine (machine.h) has it around its
+// instance. It knows the program only through its tables.
 //
 // Errors of the caller (an unknown key, a name that does not exist) come back as a text; "" means done.
 #pragma once
@@ -13,8 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "rtlib/host/instance.h"
-#include "rtlib/nc/control/control.h"
+#include "rtlib/runtime/surroundings.h"
 
 namespace rung::sim {
 
@@ -41,7 +40,14 @@ struct NcArgument {
   std::string text;
 };
 
-class SimulatedNc : public host::ScheduleHooks {
+// Who answers a request before the machine does, within a scan. False: the machine.
+class Answers {
+public:
+  virtual ~Answers() = default;
+  virtual bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) = 0;
+};
+
+class SimulatedNc : public runtime::Surroundings {
 public:
   // Files named by `config` without a full path are in this folder; without one, in the working folder.
   void setFolder(std::string folder) { folder_ = std::move(folder); }
@@ -51,18 +57,14 @@ public:
   // After a power-on: the connections whose ends do not exist or do not fit. They are not served.
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
-  virtual nc::Control& control() = 0;
-  virtual const nc::Control& control() const = 0;
+  // Null: nobody. They outlive it.
+  void setAnswers(Answers* answers) { answers_ = answers; }
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) final {
+    return (answers_ != nullptr && answers_->respond(instance, request, reply)) || serve(instance, request, reply);
+  }
 
   // Switches the control and the machine on.
-  virtual void powerOn(host::Instance& instance, nc::PowerOn kind);
-  // A regular power-off, with the scans that the program still needs.
-  void powerOff(host::Instance& instance);
-
-  void onHook(host::Instance& instance, uint32_t work) override { control().onHook(instance, work); }
-  void onFault(host::Instance& instance) override { control().onFault(instance); }
-  // Requests that the machine has taken are answered to the program that runs now. May allocate.
-  void onReplace(host::Instance& instance) override { control().onReplace(instance); }
+  void powerOn(host::Instance& instance, nc::PowerOn kind) override;
 
   // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it
   // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` comes before powerOn, whose kind is then
@@ -70,19 +72,9 @@ public:
   virtual uint32_t keptSize() { return 0; }
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
-  virtual void scan(host::Instance& instance);
-  void slot(host::Instance& instance);
-  void fast(host::Instance& instance);
-  // For a real clock: what the NC does before the first and between two slices.
-  virtual void betweenSlices(host::Instance& instance) { control().afterSlice(instance); }
+  // From now on the program runs on the machine's clock.
+  virtual void setRealTime() {}
 
-  // The place that `expect` reads and the one that `set` writes.
-  virtual std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const {
-    return control().readPlace(program, name);
-  }
-  virtual std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const {
-    return control().writePlace(program, name);
-  }
   // The machine or a user is going to write there: what the control has put over the real value gives way to it.
   virtual void beforeWrite(host::Instance& instance, const host::Ref& place) { (void)instance, (void)place; }
 
@@ -99,23 +91,28 @@ public:
   virtual std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(host::Instance& instance, std::string_view command);
 
-  // Empties the program's message queue: what is shown is the control's, what is logged is kept here.
-  void takeMessages(host::Instance& instance);
+  // What is shown is the control's, what is logged is kept here.
+  void accept(const host::Instance& instance, const rung_message& message) override;
   // Entries of the log since the last call.
   std::vector<std::string> takeLog() { return std::exchange(log_, {}); }
 
 protected:
   // Whether the log gets a line for this message.
   virtual bool isLogged(const rung_message& message) const;
-  // Before and after a scan, a slot or the fast part; after it: messages, and what the control does then.
-  virtual void beginSlice(host::Instance& instance) { (void)instance; }
-  virtual void finishSlice(host::Instance& instance);
+  // True: the machine answers, within the scan. False: the request waits for somebody.
+  virtual bool serve(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+    (void)instance, (void)request, (void)reply;
+    return false;
+  }
 
   std::string inFolder(std::string_view file) const;
 
   std::string folder_;
   std::vector<std::string> log_;
   std::map<std::string, double, std::less<>> quantities_;
+
+private:
+  Answers* answers_ = nullptr;
 };
 
 // By rung_program::dialect; a plain model for a dialect that has none of its own.

@@ -58,8 +58,8 @@ enum rung_status {
   RUNG_FAILED = -10, /* the system: a file that cannot be written, a thread that cannot be started */
 };
 
-/* The sentence for the last error that a call gave in this thread; "" before the first. Until the thread's next call.
- * [any] [rt] */
+/* The sentence for the last error that a call gave in this thread, and for RUNG_LATER of rung_instance_replace and
+ * rung_instance_shadow; "" before the first. Until the thread's next call. [any] [rt] */
 RUNG_API const char* rung_error_text(void);
 
 /* Of this header. */
@@ -130,6 +130,8 @@ typedef struct rung_reply {
 enum rung_instance_flags {
   RUNG_MEASURE = 1,        /* the times of passes are measured: two looks at the clock a slice */
   RUNG_QUEUE_REQUESTS = 2, /* without a `request` callback: requests wait for rung_instance_next_request */
+  RUNG_SAVE_AT_ONCE = 4,   /* what the program asks to be saved is on disk when a call returns, which is not real time
+                              then: for hosts whose program runs faster than its clock */
 };
 
 typedef struct rung_instance_options {
@@ -153,8 +155,9 @@ typedef struct rung_instance_options {
 /* One program that runs, not switched on yet. `options` may be null. RUNG_OUT_OF_MEMORY. */
 RUNG_API int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance);
 
-/* Ends it; does not switch it off (rung_instance_power_off). What was to be saved is on disk when it returns, or has
- * been tried. Null is allowed. Its watches, replacements and sets of forces are freed before. */
+/* Ends it; does not switch it off (rung_instance_power_off): what it has written for the host stays. What was to be
+ * saved is on disk when it returns, or has been tried. Null is allowed. Its watches, replacements and sets of forces are
+ * freed before. */
 RUNG_API int32_t rung_instance_free(rung_instance* instance);
 
 /* ---- power ----------------------------------------------------------------------------------------------------- */
@@ -164,7 +167,8 @@ enum rung_power {
   RUNG_WARM = 1, /* retained memory keeps its contents: those on disk (rung_instance_keep), else the instance's own */
 };
 
-/* Switches the program on, or off and on again, after a fault too. RUNG_FAULTED: what runs at a power-on has faulted;
+/* Switches the program on, or off and on again, after a fault too. What the program writes for the host (bound variables
+ * and blocks) is 0 until its first slice. RUNG_FAULTED: what runs at a power-on has faulted;
  * RUNG_FAILED: the retained memory cannot be taken or saved (rung_instance_keep), and the program is off. */
 RUNG_API int32_t rung_instance_power_on(rung_instance* instance, int32_t power);
 
@@ -172,7 +176,8 @@ RUNG_API int32_t rung_instance_power_on(rung_instance* instance, int32_t power);
  * not, and rung_error_text says why; the program is switched off all the same. */
 RUNG_API int32_t rung_instance_power_off(rung_instance* instance);
 
-/* The operator's stop and start: a stopped program lets its clock advance, and does nothing. [rt] */
+/* The operator's stop and start: a stopped program lets its clock advance, and does nothing: what it has written for the
+ * host stays. [rt] */
 RUNG_API int32_t rung_instance_stop(rung_instance* instance);
 RUNG_API int32_t rung_instance_start(rung_instance* instance);
 
@@ -191,8 +196,8 @@ RUNG_API int32_t rung_instance_scan(rung_instance* instance);
 RUNG_API int32_t rung_instance_slot(rung_instance* instance);
 RUNG_API int32_t rung_instance_fast(rung_instance* instance);
 
-/* How long the program may run in one of these calls before that counts as a fault, in nanoseconds; 0: the budgets of
- * its tasks alone count. [rt] */
+/* How long a slice of the program may run before that counts as a fault, in nanoseconds, also where a call runs several
+ * slices; 0: the budgets of its tasks alone count. [rt] */
 RUNG_API int32_t rung_instance_limit(rung_instance* instance, int64_t ns);
 
 enum rung_state_flags {
@@ -429,6 +434,10 @@ RUNG_API int32_t rung_instance_keep(rung_instance* instance, const char* path);
  * wait. */
 RUNG_API int32_t rung_instance_flush(rung_instance* instance);
 
+/* Why the last try to write retained memory failed, ended by 0 and cut off where `bytes` does not hold it. RUNG_EMPTY:
+ * it did not (see RUNG_STATE_UNSAVED). [rt] */
+RUNG_API int32_t rung_instance_unsaved(const rung_instance* instance, char* text, size_t bytes);
+
 /* ---- profile ---------------------------------------------------------------------------------------------------- */
 
 typedef struct rung_profile {
@@ -516,6 +525,7 @@ typedef struct rung_replacement_info {
   uint64_t steps;       /* of the new program, at most: of the slice that comes nearest to the time it has */
   uint64_t slice_ns;    /* that this slice may last here: its steps times the most that one was found to cost */
   uint64_t period_ns;   /* the time it has, up to the next slice; 0: the schedule takes no time */
+  const char* bound;    /* these figures for people, with the dearest rung; valid as long as the replacement */
 } rung_replacement_info;
 
 RUNG_API int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info);
@@ -626,13 +636,16 @@ typedef struct rung_forced_cell {
   const char* name;  /* as for rung_instance_find, for reading; of an array the first element is forced */
   const char* owner; /* who forces it, for others to see; null: "" */
   rung_value value;
+  uint32_t access; /* RUNG_READ, or RUNG_REAL: the real that this would find */
+  uint32_t reserved;
 } rung_forced_cell;
 
 /* Prepares a set of forces: for the program that runs, or, with a replacement, for that of the replacement. Where
  * chunks of the program write a cell, they are compiled anew, by the compiler that made the image or serves it
  * (rung/compiler.h). The instance may be scanned by its thread meanwhile, but must neither be given another program nor
- * be freed. RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text or a constant; RUNG_BAD_ARGUMENT: two cells want different values
- * in one place; RUNG_REFUSED: the program writes a cell, and no compiler serves its image. */
+ * be freed. RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text, a constant, or no room for RUNG_REAL; RUNG_BAD_ARGUMENT: two
+ * cells want different values in one place, or an unknown `access`; RUNG_REFUSED: the program writes a cell, and no
+ * compiler serves its image. */
 RUNG_API int32_t rung_forces_new(rung_instance* instance, rung_replacement* replacement, const rung_forced_cell* cells,
                                  uint32_t count, rung_forces** forces);
 /* Null is allowed. Any thread, before its instance; one that is in effect ends, and is freed as a call for the instance

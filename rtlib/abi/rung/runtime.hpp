@@ -68,6 +68,7 @@ public:
     check(rung_instance_new(image.handle(), options, &instance));
     instance_.reset(instance);
   }
+  explicit Instance(rung_instance* instance) : instance_(instance) {} // which it ends
   rung_instance* handle() const noexcept { return instance_.get(); }
 
   void keep(const std::string& path) { check(rung_instance_keep(handle(), path.c_str())); }

@@ -8,7 +8,7 @@
 
 #include "ir/support/diag_render.h"
 #include "tools/compiler/engines.h"
-#include "tools/sim/simulated_nc.h"
+#include "tools/sim/machine.h"
 
 namespace rung::nct::test {
 namespace {
@@ -74,15 +74,16 @@ public:
     EXPECT_TRUE(compiled.has_value()) << renderText(diagnostics, sources);
     compiled_ = std::move(*compiled);
     engine_ = std::move(compiler::makeEngine(compiler::EngineKind::Interp, compiled_, {}).value());
-    nc_ = sim::makeSimulatedNc("nct");
-    instance_ = std::make_unique<host::Instance>(*engine_, nc_.get());
-    nc_->powerOn(*instance_, nc::PowerOn::Cold);
+    machine_ = std::make_unique<sim::Machine>(engine_->program(), engine_->context(), sim::makeSimulatedNc("nct"));
+    machine_->powerOn(nc::PowerOn::Cold);
   }
   void set(std::string_view bit, bool value) {
-    EXPECT_EQ(instance_->write(*nc_->writePlace(instance_->program(), bit), value ? 1 : 0), std::nullopt);
+    EXPECT_EQ(program().write(*machine_->nc().writePlace(program().program(), bit), value ? 1 : 0), std::nullopt);
   }
-  uint64_t read(const std::string& name) { return instance_->read(*nc_->readPlace(instance_->program(), name)); }
-  void scan() { nc_->scan(*instance_); }
+  uint64_t read(const std::string& name) {
+    return program().read(*machine_->nc().readPlace(program().program(), name));
+  }
+  void scan() { machine_->scan(); }
   // The bits that are 1 among `count` from word `first` on.
   uint32_t ones(uint32_t first, uint32_t count) {
     uint32_t sum = 0;
@@ -90,15 +91,16 @@ public:
       sum += static_cast<uint32_t>(read(fmt::format("{:04}.{:02}", first + i / 32, i % 32)));
     return sum;
   }
-  std::vector<nc::ShownMessage> shown() { return nc_->control().messages(*instance_); }
-  std::vector<std::string> log() { return nc_->takeLog(); }
-  uint32_t lost() { return instance_->messages().lost(); }
+  std::vector<nc::ShownMessage> shown() { return machine_->nc().control().messages(program()); }
+  std::vector<std::string> log() { return machine_->nc().takeLog(); }
+  uint32_t lost() { return program().messages().lost(); }
 
 private:
+  host::Instance& program() { return machine_->inside(); }
+
   compiler::Compiled compiled_;
   std::unique_ptr<host::Engine> engine_;
-  std::unique_ptr<sim::SimulatedNc> nc_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<sim::Machine> machine_;
 };
 
 // `count` boxes with the numbers from `number` on, driven by one bit; outputs from `word` on.

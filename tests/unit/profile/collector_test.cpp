@@ -70,7 +70,6 @@ TEST_F(ProfileCollector, TakesSeveralInstancesTogether) {
   Collector collector(3, 0);
   for (int instance = 0; instance < 2; ++instance) {
     counters.assign(3, {});
-    collector.newInstance();
     collector.started(counters);
     ran(0, 1, 10);
     collector.scanned(counters);

@@ -25,7 +25,7 @@ protected:
   // Each rung takes so much in each of `scans` scans; rung 2 never runs.
   void run(Collector& collector, const std::vector<uint64_t>& perScan, uint64_t scans) {
     counters.assign(counters.size(), {});
-    collector.newInstance();
+    collector.started(counters);
     for (uint64_t scan = 0; scan < scans; ++scan) {
       for (size_t i = 0; i < perScan.size(); ++i) {
         counters[i].count += perScan[i] == 0 ? 0 : 1;

@@ -36,11 +36,15 @@ protected:
 
 constexpr int64_t kMs = 1'000'000;
 
+std::function<void()> slice(Instance& instance) {
+  return [&instance] { instance.slice(); };
+}
+
 TEST_F(RealTimeTest, ClockOfTheProgramFollowsTheMachines) {
   Instance instance(test.program);
   FakeClock clock(1000 * kMs);
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 20; });
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] { return ++slices < 20; });
   EXPECT_EQ(stats.slices, 20u);
   EXPECT_EQ(stats.missed, 0u);
   EXPECT_EQ(stats.maxLateNs, 0);
@@ -55,7 +59,7 @@ TEST_F(RealTimeTest, WhatIsLateIsCaughtUp) {
   Instance instance(test.program);
   FakeClock clock(1000 * kMs);
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] {
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] {
     if (++slices == 2) clock.advance(21 * kMs);
     return slices < 13;
   });
@@ -70,7 +74,7 @@ TEST_F(RealTimeTest, PassesThatAreTooLateAreCountedAndTheClockIsRight) {
   Instance instance(test.program);
   FakeClock clock(1000 * kMs);
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] {
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] {
     if (++slices == 2) clock.advance(101 * kMs);
     return slices < 14;
   });
@@ -90,7 +94,7 @@ TEST_F(RealTimeTest, NoPassIsLeftHalfDone) {
   Instance instance(test.program);
   FakeClock clock;
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] {
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] {
     if (++slices == 1) clock.advance(100 * kMs); // at 102 ms: the second slice is 97 ms late, the next pass 95 ms
     return slices < 2 + 2 * 11;
   });
@@ -105,7 +109,7 @@ TEST_F(RealTimeTest, ALateWakeUpMissesNothing) {
   FakeClock clock;
   clock.setLateness(kMs);
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 10; });
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] { return ++slices < 10; });
   EXPECT_EQ(stats.missed, 0u);
   EXPECT_EQ(stats.maxLateNs, kMs);
   EXPECT_EQ(instance.nowUs(), 20'000);
@@ -126,7 +130,7 @@ TEST_F(RealTimeTest, TheLongestSliceIsMeasured) {
   FakeClock clock;
   running = &clock;
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 5; });
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] { return ++slices < 5; });
   EXPECT_EQ(stats.maxRunNs, 700'000);
   EXPECT_EQ(stats.maxLateNs, 0);
 }
@@ -136,7 +140,7 @@ TEST_F(RealTimeTest, SleepsOnTheMachinesClock) {
   Instance instance(test.program);
   const int64_t start = monotonicNs();
   int slices = 0;
-  const RealTimeStats stats = runRealTime(instance, [&] { return ++slices < 5; });
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [&] { return ++slices < 5; });
   EXPECT_GE(monotonicNs() - start, 10 * kMs);
   EXPECT_EQ(instance.nowUs(), 2000 * static_cast<int64_t>(5 + stats.missed));
 }
@@ -211,7 +215,7 @@ TEST(RealTimeThread, MemoryStaysLocked) {
 TEST_F(RealTimeTest, FaultEndsTheLoop) {
   Instance instance(test.program);
   EXPECT_EQ(instance.write(intRef(0, 1, 8), 1), std::nullopt);
-  const RealTimeStats stats = runRealTime(instance, [] { return true; });
+  const RealTimeStats stats = runRealTime(instance, slice(instance), [] { return true; });
   EXPECT_EQ(stats.slices, 1u);
   EXPECT_TRUE(instance.faulted());
 }

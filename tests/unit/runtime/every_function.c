@@ -69,6 +69,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_high_speed_functions(plc, 0));
   BAD_HANDLE(rung_instance_keep(plc, "file"));
   BAD_HANDLE(rung_instance_flush(plc));
+  BAD_HANDLE(rung_instance_unsaved(plc, text, sizeof text));
   BAD_HANDLE(rung_instance_profile(plc, 0, &profile));
   BAD_HANDLE(rung_instance_worst_rung(plc, &profile));
   BAD_HANDLE(rung_instance_replace(plc, NULL));

@@ -146,7 +146,7 @@ private:
       return rung_instance_begin_function(plc, number(), static_cast<int32_t>(number()), number(), place(cells[0]));
     case 33: return rung_instance_function_done(plc, number(), number());
     case 34: return rung_instance_abort_functions(plc, number());
-    case 35: return rung_instance_flush(plc);
+    case 35: return chance(2) ? rung_instance_flush(plc) : rung_instance_unsaved(plc, text, number());
     case 36: return withStruct<rung_profile>([&](rung_profile* s) { return rung_instance_profile(plc, number(), s); });
     case 37: return withStruct<rung_profile>([&](rung_profile* s) { return rung_instance_worst_rung(plc, s); });
     case 38: return rung_instance_replace(plc, one(replacements_));

@@ -152,6 +152,16 @@ TEST_F(Runtime, StopsAndStarts) {
   EXPECT_EQ(plc.read<int>(count), 3);
 }
 
+TEST_F(Runtime, OutputsAreOffUntilTheFirstSlice) {
+  rung::Instance plc = started();
+  bool lamp = false;
+  plc.bindOutput("LAMP", lamp);
+  scan(plc, 199);
+  EXPECT_TRUE(lamp);
+  plc.powerOn();
+  EXPECT_FALSE(lamp);
+}
+
 TEST_F(Runtime, AFaultIsDescribed) {
   rung::Instance plc = started();
   bool lamp = false;
@@ -391,6 +401,31 @@ TEST_F(Runtime, MemoryOfTheHost) {
   EXPECT_EQ(block[kCount], 5);
 }
 
+// A disk that fails, and works again.
+TEST_F(Runtime, WhyMemoryIsNotSavedIsToBeRead) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rung_runtime_unsaved";
+  std::filesystem::create_directory(folder);
+  rung::Instance plc(*image_);
+  plc.keep((folder / "retained").string());
+  plc.powerOn();
+  char text[256] = "nothing";
+  EXPECT_EQ(rung_instance_unsaved(plc.handle(), text, sizeof text), RUNG_EMPTY);
+  EXPECT_EQ(rung_instance_unsaved(plc.handle(), text, 0), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(rung_instance_unsaved(plc.handle(), nullptr, 1), RUNG_BAD_ARGUMENT);
+  std::filesystem::remove_all(folder);
+  scan(plc);
+  EXPECT_EQ(rung_instance_flush(plc.handle()), RUNG_FAILED);
+  EXPECT_NE(plc.state().flags & RUNG_STATE_UNSAVED, 0u);
+  EXPECT_EQ(rung_instance_unsaved(plc.handle(), text, sizeof text), RUNG_OK);
+  EXPECT_THAT(text, HasSubstr("rung_runtime_unsaved"));
+  EXPECT_EQ(rung_instance_unsaved(plc.handle(), text, 4), RUNG_OK);
+  EXPECT_EQ(std::strlen(text), 3u);
+  std::filesystem::create_directory(folder);
+  scan(plc);
+  EXPECT_EQ(rung_instance_flush(plc.handle()), RUNG_OK);
+  EXPECT_EQ(rung_instance_unsaved(plc.handle(), text, sizeof text), RUNG_EMPTY);
+}
+
 TEST_F(Runtime, RetainedMemoryIsKept) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rung_runtime_keep";
   std::filesystem::remove_all(folder);
@@ -437,7 +472,8 @@ TEST_F(Runtime, AnotherProgramTakesOver) {
   EXPECT_THAT(changed, ElementsAre("SPEED", "WORDS"));
   const rung_cell later = plc.find("STATE"); // found while the change is prepared
   plc.slice();
-  EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_LATER) << "within a pass";
+  EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_LATER);
+  EXPECT_STREQ(rung_error_text(), "the program is within a pass of its schedule");
   scan(plc);
   ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
   EXPECT_EQ(plc.state().generation, 1u);

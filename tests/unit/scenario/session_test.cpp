@@ -71,7 +71,7 @@ TEST_F(ScenarioSession, RefusesWhatBelongsToTheStart) {
 }
 
 TEST_F(ScenarioSession, ReplacesByWhatItIsGiven) {
-  EXPECT_NE(execute("replace other.lad").find("no program can be compiled here"), std::string::npos);
+  EXPECT_NE(execute("replace other.lad").find("no other program can be compiled here"), std::string::npos);
   EXPECT_NE(execute("expect_no_change").find("no program has been replaced"), std::string::npos);
   session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
     if (s.words[0] != "lamp.lad") return failure("no program has this name");

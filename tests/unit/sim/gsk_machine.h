@@ -4,13 +4,13 @@
 
 #include "rtlib/nc/names/names.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/simulated_nc.h"
+#include "tools/sim/machine.h"
 
 namespace rung::sim::test {
 
 class GskMachine {
 public:
-  explicit GskMachine(const std::vector<std::pair<std::string, std::string>>& config) : model_(makeSimulatedGsk()) {
+  explicit GskMachine(const std::vector<std::pair<std::string, std::string>>& config) {
     program_.dialect = "gsk";
     program_.memorySize = 1024;
     program_.services = {"windr function length number attribute -> end data",
@@ -23,29 +23,29 @@ public:
                      program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
     program_.scan = {{RUNG_STEP_ADVANCE, 0, 8000}, {RUNG_STEP_RUN, 0, 1}, {RUNG_STEP_SLOT, 0, 0}};
     program_.fast = program_.scan;
-    for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "");
-    instance_ = std::make_unique<host::Instance>(program_.link(), model_.get());
-    model_->powerOn(*instance_, nc::PowerOn::Cold);
+    machine_ = std::make_unique<Machine>(program_.link(), nullptr, makeSimulatedGsk());
+    for (const auto& [key, value] : config) EXPECT_EQ(nc().config(key, value), "");
+    machine_->powerOn(nc::PowerOn::Cold);
   }
 
-  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name), value), std::nullopt); }
-  uint64_t get(const char* name) { return instance_->read(place(name)); }
+  void set(const char* name, uint64_t value) { EXPECT_EQ(instance().write(place(name), value), std::nullopt); }
+  uint64_t get(const char* name) { return instance().read(place(name)); }
   void slot(int count = 1) {
-    for (int i = 0; i < count; ++i) model_->slot(*instance_);
+    for (int i = 0; i < count; ++i) machine_->slot();
   }
-  SimulatedNc& nc() const { return *model_; }
-  host::Instance& instance() { return *instance_; }
+  Machine& machine() const { return *machine_; }
+  SimulatedNc& nc() const { return machine_->nc(); }
+  host::Instance& instance() const { return machine_->inside(); }
 
 private:
   host::Ref place(const char* name) {
-    const auto found = nc::resolve(instance_->program(), name);
+    const auto found = nc::resolve(instance().program(), name);
     EXPECT_TRUE(found) << name;
     return found.value_or(host::Ref{});
   }
 
   rung::test::TestProgram program_;
-  std::unique_ptr<SimulatedNc> model_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<Machine> machine_;
 };
 
 } // namespace rung::sim::test

@@ -38,7 +38,7 @@ TEST(NctControl, TheFirstCycleIsOneForHostsThatRunSlices) {
 
 TEST(NctControl, ATimeSliceOfItsOwnBelongsToNoCycle) {
   NctMachine machine;
-  for (int i = 0; i < 7; ++i) machine.nc().fast(machine.instance());
+  for (int i = 0; i < 7; ++i) machine.machine().fast();
   machine.scan();
   EXPECT_EQ(machine.get("N_FIRSTCC"), 1u);
   machine.scan();
@@ -198,7 +198,7 @@ protected:
     report_.clear();
     EXPECT_EQ(tables.load(report_, error), found) << report_;
     EXPECT_EQ(error, "");
-    machine.nc().powerOn(machine.instance(), rung::nc::PowerOn::Cold); // of the program: its own memory was not kept
+    machine.machine().powerOn(rung::nc::PowerOn::Cold); // of the program: its own memory was not kept
     work(machine);
     EXPECT_EQ(tables.finish(), "");
   }
@@ -274,7 +274,7 @@ TEST_F(NctKept, KilledWhileWriting) {
       std::string report;
       std::string error;
       tables.load(report, error);
-      machine.nc().powerOn(machine.instance(), rung::nc::PowerOn::Cold);
+      machine.machine().powerOn(rung::nc::PowerOn::Cold);
       static_cast<void>(write(ready[1], "r", 1) == 1);
       for (int i = static_cast<int>(machine.nc().quantity("NVRAM.0").value_or(0)) + 1;; ++i) {
         mark(machine, i);

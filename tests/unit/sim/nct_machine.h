@@ -5,7 +5,7 @@
 
 #include "rtlib/nc/nct/operand_block.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/simulated_nc.h"
+#include "tools/sim/machine.h"
 
 namespace rung::sim::test {
 
@@ -13,7 +13,7 @@ class NctMachine {
 public:
   using Config = std::vector<std::pair<std::string, std::string>>; // keys and values
 
-  explicit NctMachine(const Config& config = {}) : model_(makeSimulatedNct()) {
+  explicit NctMachine(const Config& config = {}) {
     program_.dialect = "nct";
     program_.services = {"MR function address block -> code",    "MW function address block -> code",
                          "MACR variable channel -> value:f",     "MACW variable channel value:f ->",
@@ -37,57 +37,56 @@ public:
     program_.scan.push_back({RUNG_STEP_RUN, 0, 1});
     program_.scan.push_back({RUNG_STEP_SLOT, RUNG_NONE, 0});
     program_.fast = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000}, {RUNG_STEP_HOOK, RUNG_NONE, 0}};
-    EXPECT_EQ(model_->config("nc", "simulated"), "");
-    for (const auto& [key, value] : config) EXPECT_EQ(model_->config(key, value), "") << key;
-    instance_ = std::make_unique<host::Instance>(program_.link(), model_.get());
-    model_->powerOn(*instance_, nc::PowerOn::Cold);
+    machine_ = std::make_unique<Machine>(program_.link(), nullptr, makeSimulatedNct());
+    EXPECT_EQ(nc().config("nc", "simulated"), "");
+    for (const auto& [key, value] : config) EXPECT_EQ(nc().config(key, value), "") << key;
+    machine_->powerOn(nc::PowerOn::Cold);
   }
 
-  void set(const char* name, uint64_t value) { EXPECT_EQ(instance_->write(place(name, true), value), std::nullopt); }
-  uint64_t get(const char* name) { return instance_->read(place(name, false)); }
+  void set(const char* name, uint64_t value) { EXPECT_EQ(instance().write(place(name, true), value), std::nullopt); }
+  uint64_t get(const char* name) { return instance().read(place(name, false)); }
   void scan(int count = 1) {
-    for (int i = 0; i < count; ++i) model_->scan(*instance_);
+    for (int i = 0; i < count; ++i) machine_->scan();
   }
 
   // A request of MR or MW with words 1, 2…; its answer, -1 while it is pending.
   uint32_t request(bool write, int64_t function, const std::vector<int32_t>& words) {
-    for (uint32_t i = 0; i < nc::nct::kBlockStride; ++i) instance_->memory().write(blocks_, 4 * i, 4, 0);
+    for (uint32_t i = 0; i < nc::nct::kBlockStride; ++i) instance().memory().write(blocks_, 4 * i, 4, 0);
     for (uint32_t i = 0; i < words.size(); ++i)
-      instance_->memory().write(blocks_, 4 * (i + 1), 4, static_cast<uint32_t>(words[i]));
+      instance().memory().write(blocks_, 4 * (i + 1), 4, static_cast<uint32_t>(words[i]));
     const int64_t args[] = {function, 7000, 0};
-    return instance_->services().request(write ? 1 : 0, args, 3);
+    return instance().services().request(write ? 1 : 0, args, 3);
   }
   int64_t answer(uint32_t ticket) {
-    instance_->services().deliver();
-    return instance_->services().poll(ticket) == RUNG_SERVICE_DONE ? instance_->services().result(ticket, 0) : -1;
+    instance().services().deliver();
+    return instance().services().poll(ticket) == RUNG_SERVICE_DONE ? instance().services().result(ticket, 0) : -1;
   }
   int64_t ask(bool write, int64_t function, const std::vector<int32_t>& words, int scans = 1) {
     const uint32_t ticket = request(write, function, words);
     scan(scans);
     return answer(ticket);
   }
-  int32_t blockWord(uint32_t n) { return static_cast<int32_t>(instance_->memory().read(blocks_, 4 * n, 4)); }
+  int32_t blockWord(uint32_t n) { return static_cast<int32_t>(instance().memory().read(blocks_, 4 * n, 4)); }
 
-  int32_t word(uint32_t address) { return static_cast<int32_t>(instance_->memory().read(0, 4 * address, 4)); }
+  int32_t word(uint32_t address) { return static_cast<int32_t>(instance().memory().read(0, 4 * address, 4)); }
   void setWord(uint32_t address, int32_t value) {
-    instance_->memory().write(0, 4 * address, 4, static_cast<uint32_t>(value));
+    instance().memory().write(0, 4 * address, 4, static_cast<uint32_t>(value));
   }
 
-  SimulatedNc& nc() { return *model_; }
-  host::Instance& instance() { return *instance_; }
+  Machine& machine() { return *machine_; }
+  SimulatedNc& nc() { return machine_->nc(); }
+  host::Instance& instance() { return machine_->inside(); }
 
 private:
   host::Ref place(const char* name, bool write) {
-    const auto found =
-        write ? model_->writePlace(instance_->program(), name) : model_->readPlace(instance_->program(), name);
+    const auto found = write ? nc().writePlace(instance().program(), name) : nc().readPlace(instance().program(), name);
     EXPECT_TRUE(found) << name;
     return found.value_or(host::Ref{});
   }
 
   rung::test::TestProgram program_;
   uint32_t blocks_ = 0;
-  std::unique_ptr<SimulatedNc> model_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<Machine> machine_;
 };
 
 } // namespace rung::sim::test

@@ -245,7 +245,7 @@ TEST(NctNetwork, ClosedByARestart) {
   NctMachine machine;
   ASSERT_EQ(machine.ask(true, 60, {5, 1, 0, 1, kOutside, 49202}), 0);
   ASSERT_EQ(machine.ask(false, 62, {3, 1, 6000, 1}), 65);
-  machine.nc().powerOn(machine.instance(), rung::nc::PowerOn::Warm);
+  machine.machine().powerOn(rung::nc::PowerOn::Warm);
   EXPECT_EQ(machine.ask(false, 62, {3, 1, 6000, 1}), 63);
 }
 

@@ -49,7 +49,7 @@ TEST(NctNoAllocation, Scans) {
       machine.instance().services().request(3, macro, 3);
       machine.request(write, words[0], operands);
       machine.scan(3);
-      machine.nc().fast(machine.instance());
+      machine.machine().fast();
       machine.nc().copyKept(image);
     });
     EXPECT_EQ(count, 0) << "function " << words[0];

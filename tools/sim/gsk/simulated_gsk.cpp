@@ -37,37 +37,23 @@ public:
     waiting_.clear();
   }
 
-  void onReplace(host::Instance& instance) override {
-    SimulatedNc::onReplace(instance);
-    const Relocation relocation(*program_, instance.program());
+  void programChanged(host::Instance& instance, const rung_program& former) override {
+    const Relocation relocation(former, instance.program());
     for (Waiting& waiting : waiting_) relocation.renumber(waiting.request);
     locate(instance);
   }
 
-  // Slot by slot, to the end of the cycle of Level 2.
-  void scan(host::Instance& instance) override {
-    do slot(instance);
-    while (!instance.atListStart() && !instance.faulted());
-  }
-
   // A slice is a slot.
-  void betweenSlices(host::Instance& instance) override {
-    SimulatedNc::betweenSlices(instance);
-    takeRequests(instance);
-    beginSlice(instance);
+  void beforePart(host::Instance& instance) override {
+    if (simulated_ && signals_ && !instance.faulted()) {
+      simulator_.step(*signals_);
+      answerLowSpeed(instance, *signals_);
+    }
+    writePositions(instance);
   }
-
-  // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
-  // function is not provided (inventory §18).
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    const auto window = windowRequest(instance, request);
-    if (!window) return false;
-    const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
-    if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
-    reply = replyOf(request, window->write,
-                    simulated_ && signals_ ? simulator_.answer(*window, *signals_)
-                                           : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
-    return true;
+  void afterPart(host::Instance& instance) override {
+    SimulatedNc::afterPart(instance);
+    takeRequests(instance);
   }
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override;
@@ -86,16 +72,17 @@ public:
   }
 
 protected:
-  void beginSlice(host::Instance& instance) override {
-    if (simulated_ && signals_ && !instance.faulted()) {
-      simulator_.step(*signals_);
-      answerLowSpeed(instance, *signals_);
-    }
-    writePositions(instance);
-  }
-  void finishSlice(host::Instance& instance) override {
-    SimulatedNc::finishSlice(instance);
-    takeRequests(instance);
+  // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
+  // function is not provided (inventory §18).
+  bool serve(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    const auto window = windowRequest(instance, request);
+    if (!window) return false;
+    const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
+    if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
+    reply = replyOf(request, window->write,
+                    simulated_ && signals_ ? simulator_.answer(*window, *signals_)
+                                           : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
+    return true;
   }
 
 private:
@@ -105,9 +92,8 @@ private:
   };
 
   void locate(host::Instance& instance) {
-    program_ = &instance.program();
     signals_.emplace(instance);
-    const uint32_t space = host::findSpace(*program_, "@MPOS");
+    const uint32_t space = host::findSpace(instance.program(), "@MPOS");
     for (uint32_t axis = 0; axis < gsk::kAxes; ++axis)
       positionPlaces_[axis] = space == RUNG_NONE ? rt::Place() : instance.memory().locate(space, 4 * axis, 4);
   }
@@ -175,7 +161,6 @@ private:
   bool simulated_ = false;
   nc::GskControl control_;
   gsk::Simulator simulator_;
-  const rung_program* program_ = nullptr;     // whose places and services these are
   std::optional<nc::gsk::SignalsIo> signals_; // from the power-on
   std::vector<Waiting> waiting_; // low-speed window requests, oldest first; room for all that can be pending
   std::array<rt::Place, gsk::kAxes> positionPlaces_ = {};                // @MPOS

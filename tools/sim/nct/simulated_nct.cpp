@@ -34,8 +34,7 @@ public:
     control_.start(instance);
   }
 
-  void onReplace(host::Instance& instance) override {
-    SimulatedNc::onReplace(instance);
+  void programChanged(host::Instance& instance, const rung_program&) override {
     simulator_.programChanged(instance, control_.signals());
   }
 
@@ -57,7 +56,6 @@ public:
   }
 
   void onHook(host::Instance& instance, uint32_t work) override {
-    takeMessages(instance);
     control_.onHook(instance, work);
     const bool first = control_.slice() == nc::nct::Messages::Slice::First;
     ran_ = ran_ || first;
@@ -67,15 +65,12 @@ public:
       giveAxes();
   }
 
-  void betweenSlices(host::Instance& instance) override {
-    SimulatedNc::betweenSlices(instance);
-    simulator_.setRealTime();
-    answer(instance);
+  void afterPart(host::Instance& instance) override {
+    SimulatedNc::afterPart(instance);
+    if (simulated_ && !instance.faulted()) simulator_.betweenScans(instance);
   }
 
-  bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    return simulated_ && simulator_.respond(request, reply);
-  }
+  void setRealTime() override { simulator_.setRealTime(); }
 
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
     if (name == "cancel") return cancel(keys);
@@ -100,9 +95,8 @@ public:
   }
 
 protected:
-  void finishSlice(host::Instance& instance) override {
-    SimulatedNc::finishSlice(instance);
-    answer(instance);
+  bool serve(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    return simulated_ && simulator_.respond(request, reply);
   }
 
 private:
@@ -147,10 +141,6 @@ private:
     const uint32_t axis = (place.byte - first) / acknowledge.strideBytes;
     if ((place.byte - first) % acknowledge.strideBytes == 0 && axis < acknowledge.count)
       ownAcknowledge_ |= uint32_t{1} << axis;
-  }
-
-  void answer(host::Instance& instance) {
-    if (simulated_ && !instance.faulted()) simulator_.betweenScans(instance);
   }
 
   bool simulated_ = false;

@@ -32,7 +32,6 @@ public:
     exchange_.beforeInit(instance, true);
     control_.start(instance);
     exchange_.afterInit(instance);
-    takeMessages(instance);
   }
 
   void onHook(host::Instance& instance, uint32_t work) override {
@@ -40,10 +39,7 @@ public:
     control_.onHook(instance, work);
   }
 
-  void onReplace(host::Instance& instance) override {
-    SimulatedNc::onReplace(instance);
-    exchange_.programChanged(instance);
-  }
+  void programChanged(host::Instance& instance, const rung_program&) override { exchange_.programChanged(instance); }
 
   std::string config(std::string_view key, std::string_view value) override {
     if (const nc::ConfigKey* row = findConfigKey(nc::technolConfigKeys(), key))
@@ -75,13 +71,6 @@ public:
   std::optional<NcCell> readCell(std::string_view name) const override { return exchange_.cells().read(name); }
   bool writeCell(std::string_view name, const NcCell& value) override { return exchange_.cells().write(name, value); }
 
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    if (exchange_.respond(instance, request, reply)) return true;
-    if (host::serviceName(instance.program(), request.service) != nc::kConfigurationService) return false;
-    configuration_.respond(request, reply);
-    return true;
-  }
-
   std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) override;
   std::string blockDone(host::Instance& instance) override {
     return control_.blocks().reached(instance) ? "" : "no block is in motion";
@@ -94,14 +83,11 @@ public:
     }
     if (text::equalsIgnoringCase(name, "HALT")) {
       instance.halt(nc::kTechnolRequested);
-      takeMessages(instance);
       return {};
     }
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
-    if (!answer) return SimulatedNc::event(instance, name, keys);
-    takeMessages(instance);
-    return *answer;
+    return answer ? *answer : SimulatedNc::event(instance, name, keys);
   }
 
   std::string plcCommand(host::Instance& instance, std::string_view command) override {
@@ -113,11 +99,16 @@ public:
     } else {
       control_.life().clear(instance);
     }
-    takeMessages(instance);
     return {};
   }
 
 protected:
+  bool serve(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    if (exchange_.respond(instance, request, reply)) return true;
+    if (host::serviceName(instance.program(), request.service) != nc::kConfigurationService) return false;
+    configuration_.respond(request, reply);
+    return true;
+  }
   bool isLogged(const rung_message& message) const override { return control_.list().begins(message); }
 
 private:

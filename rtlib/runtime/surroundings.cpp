@@ -1,0 +1,33 @@
+// See surroundings.h.
+#include "rtlib/runtime/surroundings.h"
+
+#include "rtlib/runtime/instance.h"
+
+namespace rung::runtime {
+namespace {
+
+class ControlAlone final : public Surroundings {
+public:
+  explicit ControlAlone(std::string_view dialect) : control_(nc::makeControl(dialect)) {}
+  nc::Control& control() override { return *control_; }
+  const nc::Control& control() const override { return *control_; }
+
+private:
+  std::unique_ptr<nc::Control> control_;
+};
+
+} // namespace
+
+std::unique_ptr<Surroundings> controlAlone(std::string_view dialect) { return std::make_unique<ControlAlone>(dialect); }
+
+host::Instance& insideOf(rung_instance& instance) noexcept { return instance.running; }
+
+void takeMessages(rung_instance& instance) noexcept {
+  rung_message message;
+  for (uint32_t i = 0; i < rt::kMessageCapacity && instance.running.messages().pop(message); ++i) {
+    instance.around->accept(instance.running, message);
+    (void)instance.messages.push(message);
+  }
+}
+
+} // namespace rung::runtime

@@ -1,0 +1,62 @@
+// What is around a program besides its host: the control of its dialect, or a simulated NC with that control in it. A
+// simulation has its part in the schedule and writes where the NC writes, which no host of the library may: it is
+// compiled into the process (newInstance) and sees the program from inside.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/control/control.h"
+#include "rung/runtime.h"
+
+namespace rung::runtime {
+
+// Where nothing else is said, the control alone. Hooks, parts and messages are the scan thread's.
+class Surroundings : public host::ScheduleHooks {
+public:
+  virtual nc::Control& control() = 0;
+  virtual const nc::Control& control() const = 0;
+
+  virtual void powerOn(host::Instance& instance, nc::PowerOn kind) { control().powerOn(instance, kind); }
+  // Around what one call of the host runs: a slice, a slot, a scan or the fast task.
+  virtual void beforePart(host::Instance& instance) { (void)instance; }
+  virtual void afterPart(host::Instance& instance) { control().afterSlice(instance); }
+  // A message that the program has sent.
+  virtual void accept(const host::Instance& instance, const rung_message& message) {
+    (void)instance;
+    control().accept(message);
+  }
+  // Another program has taken over from `former`, which still exists; the control has its places in it already.
+  virtual void programChanged(host::Instance& instance, const rung_program& former) { (void)instance, (void)former; }
+
+  // The place that a name is for who reads it, and the one that the NC or the machine writes.
+  virtual std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const {
+    return control().readPlace(program, name);
+  }
+  virtual std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const {
+    return control().writePlace(program, name);
+  }
+
+  void onHook(host::Instance& instance, uint32_t work) override { control().onHook(instance, work); }
+  void onFault(host::Instance& instance) override { control().onFault(instance); }
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+    return control().respond(instance, request, reply);
+  }
+};
+
+// By rung_program::dialect.
+std::unique_ptr<Surroundings> controlAlone(std::string_view dialect);
+
+// rung_instance_new with these surroundings; null: the control alone.
+int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Surroundings> around,
+                    rung_instance** instance);
+
+// The program as its surroundings see it, as long as the handle is alive. Running, power, replacing and forcing are the
+// library's alone.
+host::Instance& insideOf(rung_instance& instance) noexcept;
+
+// What surroundings do of their own between two calls of the host may send messages: they are taken.
+void takeMessages(rung_instance& instance) noexcept;
+
+} // namespace rung::runtime

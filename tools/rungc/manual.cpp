@@ -1,0 +1,102 @@
+// See manual.h; groff_man(7) has the macros.
+#include "tools/rungc/manual.h"
+
+#include <fmt/format.h>
+
+#include "rtlib/text/letters.h"
+#include "tools/rungc/command_line.h"
+
+namespace rung::rungc {
+namespace {
+
+// As it is written: what roff would set as an accent, a quotation mark or a hyphen can be copied into a terminal.
+std::string escaped(std::string_view text) {
+  std::string roff;
+  for (const char c : text) {
+    switch (c) {
+    case '\\': roff += "\\e"; break;
+    case '-': roff += "\\-"; break;
+    case '\'': roff += "\\(aq"; break;
+    case '`': roff += "\\(ga"; break;
+    case '^': roff += "\\(ha"; break;
+    case '~': roff += "\\(ti"; break;
+    default: roff += c;
+    }
+  }
+  return roff;
+}
+
+// A line of its own: what looks like a macro there is none.
+std::string line(std::string_view text) { return (text.starts_with('.') ? "\\&" : "") + escaped(text) + "\n"; }
+
+std::string bold(std::string_view text) { return "\\fB" + escaped(text) + "\\fR"; }
+std::string italic(std::string_view text) { return "\\fI" + escaped(text) + "\\fR"; }
+
+std::string valueOf(const OptionText& option) {
+  return option.choices.empty() ? italic(option.word) : escaped(fmt::format("{}", fmt::join(option.choices, "|")));
+}
+
+std::string headOf(const OptionText& option) {
+  if (option.names.empty()) return italic(option.word);
+  std::string head;
+  for (const std::string& name : option.names) head += (head.empty() ? "" : ", ") + bold(name);
+  return option.word.empty() ? head : head + " " + valueOf(option);
+}
+
+std::string synopsisOf(const CLI::App& command, const std::vector<OptionText>& options) {
+  std::string text = bold("rungc " + command.get_name()) + " [" + italic("OPTION") + "...]";
+  for (const OptionText& option : options) {
+    if (!option.names.empty()) continue;
+    std::string word = italic(option.word) + (option.repeated ? "..." : "");
+    text += option.required ? " " + word : " [" + word + "]";
+  }
+  return text;
+}
+
+std::string pageName(const CLI::App& app, const CLI::App& command) {
+  return &app == &command ? "rungc" : "rungc-" + command.get_name();
+}
+
+std::string commandList(const CLI::App& app) {
+  std::string text = ".SH COMMANDS\n";
+  for (const CLI::App* command : commandsOf(app))
+    text += ".TP\n" + bold(command->get_name()) + "\n" + line(command->get_description());
+  return text;
+}
+
+// What --help says at its end: "Exit status: 0 ok, …".
+std::string exitStatus(const CLI::App& app) {
+  const std::string footer = app.get_footer();
+  return ".SH EXIT STATUS\n" + line(footer.substr(footer.find(": ") + 2));
+}
+
+std::string optionList(const std::vector<OptionText>& options) {
+  std::string text = ".SH OPTIONS\n";
+  for (const OptionText& option : options) text += ".TP\n" + headOf(option) + "\n" + line(option.description);
+  return text;
+}
+
+} // namespace
+
+std::string manualPage(const CLI::App& app, const CLI::App& command) {
+  const bool whole = &app == &command;
+  const std::vector<OptionText> options = optionsOf(command);
+  const std::string name = pageName(app, command);
+  // Without a date: the same command line gives the same page.
+  std::string text = fmt::format(".TH \"{}\" 1 \"\" \"{}\" \"Rung\"\n", escaped(text::upper(name)), app.version());
+  text += ".SH NAME\n" + escaped(name) + " \\- " + escaped(command.get_description()) + "\n";
+  text += ".SH SYNOPSIS\n" +
+          (whole ? bold("rungc") + " " + italic("COMMAND") + " [" + italic("ARGUMENT") + "...]"
+                 : synopsisOf(command, options)) +
+          "\n";
+  if (whole) text += commandList(app);
+  text += optionList(options);
+  text += exitStatus(app);
+  text += ".SH SEE ALSO\n";
+  if (!whole) return text + ".BR rungc (1)\n";
+  for (const CLI::App* other : commandsOf(app)) text += ".BR rungc\\-" + escaped(other->get_name()) + " (1),\n";
+  return text + ".BR rung.toml (5),\n.BR rung\\-scenario (5),\n.BR rung\\-ladder (5),\n.BR rung\\-coverage (5),\n"
+                ".BR rung\\-profile (5),\n.BR rung_hal (9)\n";
+}
+
+} // namespace rung::rungc

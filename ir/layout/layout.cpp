@@ -15,6 +15,7 @@ namespace rung::ir {
 namespace {
 
 constexpr uint32_t kBlockAlign = 64;
+constexpr uint32_t kRoom = 4096;
 
 uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / align * align; }
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
@@ -41,7 +42,6 @@ public:
       : layout_(layout), module_(*layout.module_), options_(options) {}
 
   void run() {
-    placeSlots();
     placeSpaces();
     layout_.memorySize_ = used(alignUp(std::max<uint64_t>(next_, 1), kBlockAlign));
     numberRungs();
@@ -55,36 +55,63 @@ private:
     return static_cast<uint32_t>(offset);
   }
 
+  // What is packed lies where it lies in its space, and what has the same size in every program of the dialect lies at
+  // the same place, but for hidden spaces that follow what the program decides (its own spaces, expanded bits and
+  // slots) after some room: so a program that takes over finds most of its state in place. Hidden ones come last, as
+  // debuggers do not read a structure of any size.
+  void placeSpaces() {
+    for (const std::vector<uint8_t>& bytes : chooseRepresentation(module_, options_.expandBits)) {
+      SpaceLayout& space = layout_.spaces_.emplace_back();
+      for (uint32_t first = 0; first < bytes.size();) {
+        uint32_t end = first;
+        while (end < bytes.size() && bytes[end] == bytes[first]) ++end;
+        space.ranges.push_back({first, end - first, 0, bytes[first]});
+        first = end;
+      }
+    }
+    placePacked(0);
+    const uint64_t decided = next_;
+    placePacked(RUNG_SPACE_ALLOCATED);
+    placeExpanded();
+    placeSlots();
+    next_ = decided + alignUp(next_ - decided, kRoom);
+    placePacked(RUNG_SPACE_HIDDEN);
+    placePacked(RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED);
+  }
+
+  void placePacked(uint32_t flags) {
+    for (size_t s = 0; s < module_.spaces.size(); ++s)
+      if ((module_.spaces[s].flags & (RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED)) == flags)
+        placePacked(layout_.spaces_[s]);
+  }
+
+  void placePacked(SpaceLayout& space) {
+    next_ = alignUp(next_, kBlockAlign);
+    for (rung_range& range : space.ranges)
+      if (range.repr == RUNG_REPR_PACKED) range.offset = used(next_ + range.first_byte);
+    if (!space.ranges.empty()) next_ += space.ranges.back().first_byte + space.ranges.back().byte_count;
+  }
+
+  void placeExpanded() {
+    next_ = alignUp(next_, kBlockAlign);
+    for (SpaceLayout& space : layout_.spaces_)
+      for (rung_range& range : space.ranges) {
+        if (range.repr == RUNG_REPR_PACKED) continue;
+        range.offset = used(next_);
+        next_ += uint64_t{range.byte_count} * 8;
+      }
+  }
+
   // Widest first, so that each is aligned without gaps.
   void placeSlots() {
     layout_.slotOffsets_.resize(module_.slots.size());
+    next_ = alignUp(next_, kBlockAlign);
     for (uint32_t size : {8u, 4u, 2u, 1u})
       for (size_t i = 0; i < module_.slots.size(); ++i)
         if (slotBytes(module_.slots[i]) == size) {
           layout_.slotOffsets_[i] = used(next_);
           next_ += size;
         }
-  }
-
-  void placeSpaces() {
-    const Representation repr = chooseRepresentation(module_, options_.expandBits);
-    for (const std::vector<uint8_t>& bytes : repr) {
-      next_ = alignUp(next_, kBlockAlign);
-      layout_.spaces_.emplace_back();
-      for (uint32_t first = 0; first < bytes.size();) {
-        uint32_t end = first;
-        while (end < bytes.size() && bytes[end] == bytes[first]) ++end;
-        placeRange(first, end - first, bytes[first]);
-        first = end;
-      }
-    }
-  }
-
-  void placeRange(uint32_t first, uint32_t count, uint8_t repr) {
-    // A packed range keeps the alignment that its bytes have in the space.
-    if (repr == RUNG_REPR_PACKED) next_ = alignUp(next_, 8) + first % 8;
-    layout_.spaces_.back().ranges.push_back({first, count, used(next_), repr});
-    next_ += repr == RUNG_REPR_PACKED ? count : uint64_t{count} * 8;
   }
 
   void numberRungs() {

@@ -162,9 +162,7 @@ ReplaceResult Instance::replace(Replacement& replacement) {
   if (!atListStart() && !faulted()) return ReplaceResult::WithinPass;
   if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
   if (replacement.there_.waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
-  replacement.there_.run(loaded_.block.get(), replacement.loaded_.block.get());
-  std::swap(loaded_, replacement.loaded_);
-  std::swap(replacement.there_, replacement.back_);
+  replacement.exchange(loaded_);
   runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine);
   ctx_->fault = translated(ctx_->fault, former, program());
   ctx_->prof = loaded_.counters();

@@ -9,17 +9,19 @@ namespace rung::host {
 
 namespace {
 
-uint32_t blockBytes(const rung_program& program) { return std::max(program.memory_size, rt::Memory::kLeastBlock); }
+uint32_t bytesFor(const Runnable& runnable, uint32_t leastBytes) {
+  const uint32_t size = std::max(runnable.program.memory_size, rt::Memory::kLeastBlock);
+  return runnable.memory != nullptr ? size : std::max(size + size / 8, leastBytes);
+}
 
 // At least a cache line.
 uint32_t alignOf(const rung_program& program) { return std::max(program.memory_align, 64u); }
 
-std::unique_ptr<uint8_t, LoadedProgram::FreeBlock> blockFor(const Runnable& runnable) {
+std::unique_ptr<uint8_t, LoadedProgram::FreeBlock> blockFor(const Runnable& runnable, uint32_t bytes) {
   using FreeBlock = LoadedProgram::FreeBlock;
   if (runnable.memory != nullptr) return {runnable.memory, FreeBlock{0}};
   const uint32_t align = alignOf(runnable.program);
-  return {static_cast<uint8_t*>(::operator new(blockBytes(runnable.program), std::align_val_t{align})),
-          FreeBlock{align}};
+  return {static_cast<uint8_t*>(::operator new(bytes, std::align_val_t{align})), FreeBlock{align}};
 }
 
 uint32_t retainedBytes(const rung_program& program) {
@@ -34,10 +36,10 @@ void LoadedProgram::FreeBlock::operator()(uint8_t* bytes) const {
   if (align != 0) ::operator delete(bytes, std::align_val_t{align});
 }
 
-LoadedProgram::LoadedProgram(const Runnable& runnable)
-    : program(&runnable.program), engine(runnable.engine), block(blockFor(runnable)),
-      profile(program->instrumented != 0 ? program->rung_count : 0), parts(program->task_count),
-      retained(retainedBytes(*program)), overwritten(*program) {
+LoadedProgram::LoadedProgram(const Runnable& runnable, uint32_t leastBytes)
+    : program(&runnable.program), engine(runnable.engine), blockBytes(bytesFor(runnable, leastBytes)),
+      block(blockFor(runnable, blockBytes)), profile(program->instrumented != 0 ? program->rung_count : 0),
+      parts(program->task_count), retained(retainedBytes(*program)), overwritten(*program) {
   clear();
 }
 

@@ -18,7 +18,8 @@ struct Runnable {
 
 // A program with all the memory that one instance of it needs; its memory block holds the initial contents.
 struct LoadedProgram {
-  explicit LoadedProgram(const Runnable& runnable);
+  // The memory block, where it is the instance's own, has `leastBytes` or more, and room for a program that has grown.
+  explicit LoadedProgram(const Runnable& runnable, uint32_t leastBytes = 0);
   void clear() noexcept; // memory as the program's tables say
   // For rung_ctx::prof.
   rung_prof* counters() noexcept { return profile.empty() ? nullptr : profile.data(); }
@@ -29,6 +30,7 @@ struct LoadedProgram {
   };
   const rung_program* program;
   void* engine;
+  uint32_t blockBytes;
   std::unique_ptr<uint8_t, FreeBlock> block;
   std::vector<rung_prof> profile;   // one a rung; empty when the program is not instrumented
   std::vector<rt::PartState> parts; // one a task

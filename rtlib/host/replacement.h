@@ -2,6 +2,8 @@
 // (Instance::replace).
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "rtlib/host/loaded_program.h"
 #include "rtlib/host/state_transfer.h"
@@ -24,12 +26,32 @@ public:
   const rung_program& next() const { return *loaded_.program; }
   // What becomes of the state.
   const StateTransfer& transfer() const { return there_; }
+  // That taking over copies: its time is in proportion to them.
+  uint64_t bytes() const { return shared_ ? shared_->there.bytes() + shared_->swappedBytes : there_.bytes(); }
 
 private:
   friend class Instance;
+  // Where most of the state stays where it is, the next program takes the block over in which the running one lies.
+  // What else is to be there is put into the other block, and swapped with it.
+  struct Span {
+    uint32_t offset;
+    uint32_t size;
+  };
+  struct SharedBlock {
+    StateTransfer there; // without what stays
+    StateTransfer back;
+    std::vector<Span> swaps;
+    uint64_t swappedBytes; // of both blocks
+  };
+  void planSharedBlock(const rung_program& running);
+  bool shares(const LoadedProgram& running) const noexcept;
+  // The state goes over. `running` is the next program then, and this holds what it was.
+  void exchange(LoadedProgram& running) noexcept;
+
   LoadedProgram loaded_;
   StateTransfer there_;
   StateTransfer back_;
+  std::optional<SharedBlock> shared_; // nothing where that would take longer
 };
 
 } // namespace rung::host

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "rtlib/core/bits.h"
 
@@ -50,6 +51,44 @@ void StateTransfer::run(const uint8_t* from, uint8_t* to) const noexcept {
     number = numbers_[points.first + number];
     std::memcpy(to + points.to, &number, sizeof number);
   }
+}
+
+void StateTransfer::countBytes() {
+  bytes_ = 0;
+  for (const Move& move : moves_) bytes_ += bytesOf(move);
+}
+
+// A later move of the same bytes counts.
+std::vector<bool> StateTransfer::staying(uint32_t bytes) const {
+  std::vector<bool> staying(bytes);
+  const auto mark = [&](uint32_t first, uint64_t count, bool stays) {
+    std::fill_n(staying.begin() + first, count, stays);
+  };
+  for (const Move& move : moves_) mark(move.to, bytesOf(move), move.kind == MoveKind::Copy && move.from == move.to);
+  for (const Holder& holder : holders_) mark(holder.held, holder.heldBytes, false);
+  for (const Points& points : points_)
+    if (points.to != RUNG_NONE) mark(points.to, sizeof(uint32_t), false);
+  return staying;
+}
+
+StateTransfer StateTransfer::without(const std::vector<bool>& staying) const {
+  StateTransfer rest = *this;
+  rest.moves_.clear();
+  for (const Move& move : moves_) {
+    if (move.kind != MoveKind::Copy || move.from != move.to) {
+      rest.moves_.push_back(move);
+      continue;
+    }
+    for (uint32_t i = 0; i < move.count; ++i) {
+      if (staying[move.to + i]) continue;
+      if (i > 0 && !staying[move.to + i - 1])
+        ++rest.moves_.back().count;
+      else
+        rest.moves_.push_back({.from = move.from + i, .to = move.to + i, .count = 1});
+    }
+  }
+  rest.countBytes();
+  return rest;
 }
 
 } // namespace rung::host

@@ -68,6 +68,11 @@ public:
   // What `run` writes.
   uint64_t bytes() const { return bytes_; }
 
+  // Of the first `bytes` of a block: which keep their contents where they are.
+  std::vector<bool> staying(uint32_t bytes) const;
+  // The same but for what stays at these: for two programs in one block.
+  StateTransfer without(const std::vector<bool>& staying) const;
+
 private:
   friend class TransferPlanner;
   enum class MoveKind : uint8_t {
@@ -84,6 +89,9 @@ private:
     uint32_t to = 0;
     uint32_t count = 0;
   };
+  static uint64_t bytesOf(const Move& move) {
+    return move.kind == MoveKind::Unpack ? 8 * uint64_t{move.count} : move.count;
+  }
 
   // By what the number in a continuation's cell is replaced.
   struct Points {
@@ -101,6 +109,8 @@ private:
     uint32_t held = 0; // in the new one's
     uint32_t heldBytes = 0;
   };
+
+  void countBytes();
 
   const rung_program* from_;
   std::vector<Holder> holders_;

@@ -119,8 +119,7 @@ public:
     addMoves();
     addSlots();
     addContinuations();
-    for (const StateTransfer::Move& move : plan_.moves_)
-      plan_.bytes_ += move.kind == MoveKind::Unpack ? 8 * uint64_t{move.count} : move.count;
+    plan_.countBytes();
   }
 
 private:

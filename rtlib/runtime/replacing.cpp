@@ -153,7 +153,7 @@ int32_t rung_replacement_report(const rung_replacement* replacement, rung_replac
   return giveStruct(info, rung_replacement_info{.kept_cells = transfer.keptCells(),
                                                 .kept_states = transfer.keptSlots(),
                                                 .changes = static_cast<uint32_t>(transfer.changes().size()),
-                                                .bytes = transfer.bytes(),
+                                                .bytes = handle->replacement.bytes(),
                                                 .steps = handle->bound.weight,
                                                 .slice_ns = static_cast<uint64_t>(handle->bound.ns),
                                                 .period_ns = static_cast<uint64_t>(handle->bound.periodNs),

@@ -156,8 +156,8 @@ typedef struct rung_instance_options {
 RUNG_API int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance);
 
 /* Ends it; does not switch it off (rung_instance_power_off): what it has written for the host stays. What was to be
- * saved is on disk when it returns, or has been tried. Null is allowed. Its watches, replacements and sets of forces are
- * freed before. */
+ * saved is on disk when it returns, or has been tried. Null is allowed. Its watches, replacements and sets of forces
+ * are freed before. */
 RUNG_API int32_t rung_instance_free(rung_instance* instance);
 
 /* ---- power ----------------------------------------------------------------------------------------------------- */
@@ -167,17 +167,17 @@ enum rung_power {
   RUNG_WARM = 1, /* retained memory keeps its contents: those on disk (rung_instance_keep), else the instance's own */
 };
 
-/* Switches the program on, or off and on again, after a fault too. What the program writes for the host (bound variables
- * and blocks) is 0 until its first slice. RUNG_FAULTED: what runs at a power-on has faulted;
- * RUNG_FAILED: the retained memory cannot be taken or saved (rung_instance_keep), and the program is off. */
+/* Switches the program on, or off and on again, after a fault too. What the program writes for the host (bound
+ * variables and blocks) is 0 until its first slice. RUNG_FAULTED: what runs at a power-on has faulted; RUNG_FAILED: the
+ * retained memory cannot be taken or saved (rung_instance_keep), and the program is off. */
 RUNG_API int32_t rung_instance_power_on(rung_instance* instance, int32_t power);
 
 /* A regular power-off: the scans that the dialect still needs run, and what is retained is on disk. RUNG_FAILED: it is
  * not, and rung_error_text says why; the program is switched off all the same. */
 RUNG_API int32_t rung_instance_power_off(rung_instance* instance);
 
-/* The operator's stop and start: a stopped program lets its clock advance, and does nothing: what it has written for the
- * host stays. [rt] */
+/* The operator's stop and start: a stopped program lets its clock advance, and does nothing: what it has written for
+ * the host stays. [rt] */
 RUNG_API int32_t rung_instance_stop(rung_instance* instance);
 RUNG_API int32_t rung_instance_start(rung_instance* instance);
 

@@ -10,11 +10,14 @@
 #include "ir/layout/representation.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
+#include "ir/support/put.h"
 
 namespace rung::ir {
 namespace {
 
 constexpr uint32_t kBlockAlign = 64;
+// What a program decides takes a multiple of so many bytes: a changed program seldom needs more, and then what follows
+// lies elsewhere and is copied.
 constexpr uint32_t kRoom = 4096;
 
 uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / align * align; }
@@ -274,17 +277,16 @@ uint32_t Layout::chunkAt(RoutineId routine, uint32_t rung) const {
 
 std::string Layout::text() const {
   std::string out;
-  auto put = std::back_inserter(out);
-  fmt::format_to(put, "memory {}\n", memorySize_);
+  put(out, "memory {}\n", memorySize_);
   for (size_t i = 0; i < spaces_.size(); ++i) {
     const Space& space = module_->spaces[i];
-    fmt::format_to(put, "space {} unit {} units {}\n", space.name, space.unitBytes, space.units);
+    put(out, "space {} unit {} units {}\n", space.name, space.unitBytes, space.units);
     for (const rung_range& range : spaces_[i].ranges)
-      fmt::format_to(put, "  bytes {} +{} at {} {}\n", range.first_byte, range.byte_count, range.offset,
-                     range.repr == RUNG_REPR_PACKED ? "packed" : "byte-per-bit");
+      put(out, "  bytes {} +{} at {} {}\n", range.first_byte, range.byte_count, range.offset,
+          range.repr == RUNG_REPR_PACKED ? "packed" : "byte-per-bit");
   }
   for (size_t i = 0; i < slotOffsets_.size(); ++i)
-    fmt::format_to(put, "slot {} {} at {}\n", module_->slots[i].key, typeName(module_->slots[i].type), slotOffsets_[i]);
+    put(out, "slot {} {} at {}\n", module_->slots[i].key, typeName(module_->slots[i].type), slotOffsets_[i]);
   return out;
 }
 

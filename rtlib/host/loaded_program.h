@@ -30,7 +30,7 @@ struct LoadedProgram {
   };
   const rung_program* program;
   void* engine;
-  uint32_t blockBytes;
+  uint32_t blockBytes; // the block has so many, of which the program needs its memory_size
   std::unique_ptr<uint8_t, FreeBlock> block;
   std::vector<rung_prof> profile;   // one a rung; empty when the program is not instrumented
   std::vector<rt::PartState> parts; // one a task

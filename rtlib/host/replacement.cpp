@@ -23,15 +23,10 @@ void Replacement::planSharedBlock(const rung_program& running) {
   for (uint32_t i = 0; i < bytes; ++i) staying[i] = staying[i] && back[i];
   const auto changed = static_cast<uint64_t>(std::ranges::count(staying, false));
   if (kSwapCost * changed >= there_.bytes()) return;
-  shared_ = {
-      .there = there_.without(staying), .back = back_.without(staying), .swaps = {}, .swappedBytes = 2 * changed};
-  for (uint32_t i = 0; i < bytes; ++i) {
-    if (staying[i]) continue;
-    if (i > 0 && !staying[i - 1])
-      ++shared_->swaps.back().size;
-    else
-      shared_->swaps.push_back({i, 1});
-  }
+  shared_ = {.there = there_.without(staying),
+             .back = back_.without(staying),
+             .swaps = StateTransfer::leaving(staying, 0, bytes),
+             .swappedBytes = 2 * changed};
 }
 
 // The block may be another one than that in which the program once was, and may be the host's.
@@ -51,7 +46,7 @@ void Replacement::exchange(LoadedProgram& running) noexcept {
   std::swap(running.block, loaded_.block);
   std::swap(running.blockBytes, loaded_.blockBytes);
   uint8_t* here = running.block.get();
-  for (const Span& span : shared_->swaps)
+  for (const rung_span& span : shared_->swaps)
     std::swap_ranges(here + span.offset, here + span.offset + span.size, loaded_.block.get() + span.offset);
 }
 

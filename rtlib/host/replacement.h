@@ -26,21 +26,18 @@ public:
   const rung_program& next() const { return *loaded_.program; }
   // What becomes of the state.
   const StateTransfer& transfer() const { return there_; }
-  // That taking over copies: its time is in proportion to them.
+  // That taking over copies: its time is in proportion to them. It copies all of the state where the block of the
+  // running program has no room for the next one.
   uint64_t bytes() const { return shared_ ? shared_->there.bytes() + shared_->swappedBytes : there_.bytes(); }
 
 private:
   friend class Instance;
   // Where most of the state stays where it is, the next program takes the block over in which the running one lies.
   // What else is to be there is put into the other block, and swapped with it.
-  struct Span {
-    uint32_t offset;
-    uint32_t size;
-  };
   struct SharedBlock {
     StateTransfer there; // without what stays
     StateTransfer back;
-    std::vector<Span> swaps;
+    std::vector<rung_span> swaps;
     uint64_t swappedBytes; // of both blocks
   };
   void planSharedBlock(const rung_program& running);

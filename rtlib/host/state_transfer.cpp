@@ -79,16 +79,23 @@ StateTransfer StateTransfer::without(const std::vector<bool>& staying) const {
       rest.moves_.push_back(move);
       continue;
     }
-    for (uint32_t i = 0; i < move.count; ++i) {
-      if (staying[move.to + i]) continue;
-      if (i > 0 && !staying[move.to + i - 1])
-        ++rest.moves_.back().count;
-      else
-        rest.moves_.push_back({.from = move.from + i, .to = move.to + i, .count = 1});
-    }
+    for (const rung_span& span : leaving(staying, move.to, move.count))
+      rest.moves_.push_back({.from = span.offset, .to = span.offset, .count = span.size});
   }
   rest.countBytes();
   return rest;
+}
+
+std::vector<rung_span> StateTransfer::leaving(const std::vector<bool>& staying, uint32_t first, uint32_t count) {
+  std::vector<rung_span> spans;
+  for (uint32_t i = first; i < first + count; ++i) {
+    if (staying[i]) continue;
+    if (i > first && !staying[i - 1])
+      ++spans.back().size;
+    else
+      spans.push_back({i, 1});
+  }
+  return spans;
 }
 
 } // namespace rung::host

@@ -72,6 +72,8 @@ public:
   std::vector<bool> staying(uint32_t bytes) const;
   // The same but for what stays at these: for two programs in one block.
   StateTransfer without(const std::vector<bool>& staying) const;
+  // The longest spans of those of `count` bytes from `first` that do not stay.
+  static std::vector<rung_span> leaving(const std::vector<bool>& staying, uint32_t first, uint32_t count);
 
 private:
   friend class TransferPlanner;

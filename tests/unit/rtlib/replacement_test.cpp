@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "rtlib/host/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
@@ -166,6 +169,138 @@ TEST_F(ReplacementTest, TheControlHears) {
   Replacement replacement(one.program, {two.program});
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(hooks.programs, std::vector<const rung_program*>{&two.program});
+}
+
+// Programs of which most stays in place: 512 bytes of memory, and slots behind them.
+class SharedBlockTest : public testing::Test {
+protected:
+  static constexpr uint32_t kMemory = 512;
+  static void build(TestProgram& program, uint32_t memorySize) {
+    program.memorySize = memorySize;
+    program.addPacked("MEM", 1, kMemory, 0);
+    program.addSymbol("STAYS", 0, 0, RUNG_TYPE_I8);
+    program.addTask("MAIN", program.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
+    program.scan = {{RUNG_STEP_RUN, 0, 1}};
+  }
+  // After `one` has become `two`, and back, and again: what stays, and what is of one program alone.
+  void goesToAndFro(Instance& instance, Replacement& replacement) {
+    uint8_t* block = instance.block().data();
+    block[0] = 1;
+    block[kMemory] = 11; // the slot of `one`
+    ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+    block = instance.block().data();
+    EXPECT_EQ(block[0], 1);
+    EXPECT_EQ(block[kMemory], 0) << "a slot that is new";
+    EXPECT_EQ(block[kMemory + 8], 11) << "the same one, elsewhere";
+    block[0] = 2;
+    block[kMemory] = 22;
+    block[kMemory + 8] = 12;
+    ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+    block = instance.block().data();
+    EXPECT_EQ(block[0], 2);
+    EXPECT_EQ(block[kMemory], 12);
+    block[0] = 3;
+    ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+    block = instance.block().data();
+    EXPECT_EQ(block[0], 3);
+    EXPECT_EQ(block[kMemory], 22) << "as it was when its program was replaced";
+    EXPECT_EQ(block[kMemory + 8], 12);
+  }
+  void link(uint32_t sizeOfTwo) {
+    build(one, kMemory + 16);
+    one.addSlot("EDGE", kMemory, RUNG_TYPE_I32);
+    build(two, sizeOfTwo);
+    two.addSlot("ANOTHER", kMemory, RUNG_TYPE_I32);
+    two.addSlot("EDGE", kMemory + 8, RUNG_TYPE_I32);
+    for (TestProgram* program : {&one, &two}) ASSERT_EQ(checkProgram(program->link()), "");
+  }
+
+  TestProgram one, two;
+};
+
+TEST_F(SharedBlockTest, TheNextProgramTakesTheBlockOver) {
+  link(kMemory + 16);
+  Instance instance(one.program);
+  Replacement replacement(one.program, {two.program});
+  const uint8_t* block = instance.block().data();
+  goesToAndFro(instance, replacement);
+  EXPECT_EQ(instance.block().data(), block);
+  EXPECT_LT(replacement.bytes(), kMemory / 2);
+}
+
+TEST_F(SharedBlockTest, AProgramThatHasGrownTooMuchHasABlockOfItsOwn) {
+  link(2 * kMemory);
+  Instance instance(one.program);
+  Replacement replacement(one.program, {two.program});
+  const uint8_t* block = instance.block().data();
+  goesToAndFro(instance, replacement);
+  EXPECT_NE(instance.block().data(), block);
+}
+
+TEST_F(SharedBlockTest, TheBlockOfAHostStaysInUse) {
+  link(kMemory + 16);
+  alignas(64) uint8_t memory[kMemory + 16] = {};
+  Instance instance(Runnable{one.program, nullptr, memory});
+  Replacement replacement(one.program, {two.program});
+  goesToAndFro(instance, replacement);
+  EXPECT_EQ(instance.block().data(), memory);
+  EXPECT_EQ(memory[0], 3);
+}
+
+TEST_F(SharedBlockTest, ABlockThatTheNextProgramCannotUseIsLeft) {
+  link(kMemory + 16);
+  two.program.memory_align = 64;
+  alignas(64) uint8_t memory[kMemory + 24] = {};
+  Instance instance(Runnable{one.program, nullptr, memory + 8});
+  Replacement replacement(one.program, {two.program});
+  goesToAndFro(instance, replacement);
+  EXPECT_NE(instance.block().data(), memory + 8);
+}
+
+// Programs with the same spaces, and names and slots at random.
+void buildAtRandom(TestProgram& program, std::mt19937& random) {
+  const auto below = [&](uint32_t limit) { return static_cast<uint32_t>(random() % limit); };
+  constexpr uint32_t kTypes[] = {RUNG_TYPE_I8, RUNG_TYPE_I16, RUNG_TYPE_I32};
+  constexpr const char* kNames[] = {"N0", "N1", "N2", "N3", "N4", "N5", "N6", "N7"};
+  constexpr const char* kKeys[] = {"S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7"};
+  program.memorySize = 4600 + below(200);
+  program.addPacked("MEM", 1, 4096, 0);
+  program.addPacked("MINE", 1, 64, 4096);
+  program.spaces.back().flags = RUNG_SPACE_ALLOCATED;
+  program.addSpace("BITS", 1, {{0, 16, 4160, below(2) == 0 ? RUNG_REPR_PACKED : RUNG_REPR_BYTE_PER_BIT}});
+  for (uint32_t i = 0; i < 8; ++i) {
+    if (below(3) != 0) program.addSymbol(kNames[i], below(2), 4 * below(16), kTypes[below(3)]);
+    if (below(3) != 0) program.addSlot(kKeys[i], 4288 + 4 * (i + 8 * below(2)), RUNG_TYPE_I32);
+  }
+  program.addTask("MAIN", program.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
+  program.scan = {{RUNG_STEP_RUN, 0, 1}};
+}
+
+TEST(SharedBlock, HasWhatTwoBlocksWouldHave) {
+  uint32_t shared = 0;
+  constexpr uint32_t kPairs = 500;
+  for (uint32_t seed = 0; seed < kPairs; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    TestProgram one, two;
+    for (TestProgram* program : {&one, &two}) {
+      buildAtRandom(*program, random);
+      ASSERT_EQ(checkProgram(program->link()), "");
+    }
+    Instance inOne(one.program), inTwo(one.program);
+    alignas(64) uint8_t memory[8192]; // a program in a host's memory does not share another block
+    Replacement sharing(one.program, {two.program}), copying(one.program, {two.program, nullptr, memory});
+    const uint8_t* block = inOne.block().data();
+    for (int change = 0; change < 4; ++change) {
+      for (uint8_t& byte : inOne.block()) byte = random() % 2;
+      std::ranges::copy(inOne.block(), inTwo.block().begin());
+      ASSERT_EQ(inOne.replace(sharing), ReplaceResult::Replaced);
+      ASSERT_EQ(inTwo.replace(copying), ReplaceResult::Replaced);
+      ASSERT_TRUE(std::ranges::equal(inOne.block(), inTwo.block())) << "change " << change;
+    }
+    shared += inOne.block().data() == block && sharing.bytes() < copying.bytes() ? 1 : 0;
+  }
+  EXPECT_GT(shared, kPairs / 2) << "otherwise little is tested here";
 }
 
 } // namespace

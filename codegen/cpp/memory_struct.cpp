@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ir/layout/memory_members.h"
+#include "ir/support/put.h"
 
 namespace rung::codegen {
 
@@ -50,8 +51,7 @@ public:
       first = end;
     }
     // clang describes a struct only where its size matters.
-    fmt::format_to(std::back_inserter(out_), "}};\nstatic_assert(sizeof(rung_memory) == {});\n\n",
-                   std::max(1u, bytesOf(members)));
+    put(out_, "}};\nstatic_assert(sizeof(rung_memory) == {});\n\n", std::max(1u, bytesOf(members)));
   }
 
 private:
@@ -106,13 +106,13 @@ private:
   void writeGap(uint64_t from, uint64_t to) {
     constexpr uint64_t kMostUnnamed = 64;
     const auto unnamed = [&](uint64_t bits) {
-      if (bits != 0) fmt::format_to(std::back_inserter(out_), "long long : {};\n", bits);
+      if (bits != 0) put(out_, "long long : {};\n", bits);
     };
     if (to - from <= kMostUnnamed) return unnamed(to - from);
     const uint64_t first = wholeBytes(from);
     unnamed(first - from);
     // No name of a program is mapped to one with '$'.
-    fmt::format_to(std::back_inserter(out_), "char $gap_{}[{}];\n", gaps_++, (to - first) / 8);
+    put(out_, "char $gap_{}[{}];\n", gaps_++, (to - first) / 8);
     unnamed(to % 8);
   }
 

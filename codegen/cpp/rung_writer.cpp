@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/check.h"
+#include "ir/support/put.h"
 
 namespace rung::codegen {
 
@@ -73,7 +74,7 @@ void RungWriter::beginLine(uint32_t line, bool force) {
   if (open_ && line == line_ && !force) return;
   endLine();
   line_ = line;
-  if (line != 0) fmt::format_to(std::back_inserter(out_), "#line {} \"{}\"\n", line, file_);
+  if (line != 0) put(out_, "#line {} \"{}\"\n", line, file_);
   out_ += "RUNG_LINE(\n";
   open_ = true;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ir/layout/abi_fields.h"
+#include "ir/support/put.h"
 
 namespace rung::codegen {
 
@@ -72,7 +73,7 @@ private:
       body += ",\n";
     }
     const std::string id = fmt::format("{}_{}", name, next_++);
-    fmt::format_to(std::back_inserter(out_), "static const {} {}[] = {{\n{}}};\n", type, id, body);
+    put(out_, "static const {} {}[] = {{\n{}}};\n", type, id, body);
     return id;
   }
 
@@ -89,9 +90,9 @@ std::string cppString(std::string_view text) {
     const unsigned char byte = static_cast<unsigned char>(c);
     // Three octal digits end by themselves, so that a digit may follow; `?` is escaped against trigraphs.
     if (c == '"' || c == '\\' || c == '?')
-      fmt::format_to(std::back_inserter(out), "\\{}", c);
+      put(out, "\\{}", c);
     else if (byte < 32 || byte > 126)
-      fmt::format_to(std::back_inserter(out), "\\{:03o}", byte);
+      put(out, "\\{:03o}", byte);
     else
       out += c;
   }
@@ -101,10 +102,10 @@ std::string cppString(std::string_view text) {
 void writeTables(const rung_program& program, std::string_view chunkTable, std::string& out) {
   TableWriter writer(chunkTable, out);
   const std::string text = writer.structText(programInfo(), reinterpret_cast<const std::byte*>(&program));
-  fmt::format_to(std::back_inserter(out),
-                 "\nextern \"C\" __attribute__((visibility(\"default\"))) const rung_program {0};\nconst rung_program "
-                 "{0} = {1};\n",
-                 RUNG_PROGRAM_SYMBOL, text);
+  put(out,
+      "\nextern \"C\" __attribute__((visibility(\"default\"))) const rung_program {0};\nconst rung_program "
+      "{0} = {1};\n",
+      RUNG_PROGRAM_SYMBOL, text);
 }
 
 } // namespace rung::codegen

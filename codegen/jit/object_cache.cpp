@@ -2,13 +2,13 @@
 #include "codegen/jit/object_cache.h"
 
 #include <cstring>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <llvm/ADT/StringExtras.h>
 #include <llvm/Object/ObjectFile.h>
 #include <llvm/Support/SHA256.h>
 
+#include "ir/support/put.h"
 #include "ir/text/text.h"
 
 namespace rung::codegen {
@@ -19,14 +19,14 @@ CacheKey sha256(std::string_view bytes) {
 }
 
 void putDestination(const ir::Destination& to, std::string& text) {
-  fmt::format_to(std::back_inserter(text), " {}:{}+{}", to.chunk, to.rung, to.extra);
+  put(text, " {}:{}+{}", to.chunk, to.rung, to.extra);
 }
 
 // The cut of a chunk, and where its rungs go with which extra weight.
 void putChunk(const ir::Layout& layout, const ir::Chunk& chunk, std::string& text) {
-  fmt::format_to(std::back_inserter(text), "chunk {} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
+  put(text, "chunk {} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
   for (const ir::Exit& exit : ir::exitsOf(layout, chunk)) {
-    fmt::format_to(std::back_inserter(text), "{}", static_cast<int>(exit.kind));
+    put(text, "{}", static_cast<int>(exit.kind));
     putDestination(exit.taken, text);
     putDestination(exit.otherwise, text);
     for (const ir::Destination& to : exit.targets) putDestination(to, text);

@@ -1,12 +1,13 @@
 // Writing a page of the reference: lines, headings, tables.
 #pragma once
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "ir/support/put.h"
 
 namespace rung::frontend {
 
@@ -14,7 +15,7 @@ class Page {
 public:
   template <class... Args>
   void line(fmt::format_string<Args...> text, Args&&... args) {
-    fmt::format_to(std::back_inserter(text_), text, std::forward<Args>(args)...);
+    put(text_, text, std::forward<Args>(args)...);
     text_ += '\n';
   }
   void heading(std::string_view title) { line("\n{}\n", title); }

@@ -6,10 +6,9 @@
 #include "ir/layout/accesses.h"
 #include "ir/layout/heaviest.h"
 #include "ir/support/check.h"
+#include "ir/support/version.h"
 
 namespace rung::ir {
-
-inline constexpr char kCompilerName[] = "rungc 0.1";
 
 class ImageBuilder {
 public:
@@ -21,7 +20,7 @@ public:
     p.abi_version = RUNG_ABI_VERSION;
     p.name = text(module_.name);
     p.dialect = text(module_.dialect);
-    p.compiler = kCompilerName;
+    p.compiler = compilerName();
     p.layout_hash = layout_.hash();
     p.code_hash = codeHash;
     p.memory_size = layout_.memorySize();

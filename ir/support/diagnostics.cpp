@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/check.h"
+#include "ir/support/put.h"
 #include "rtlib/text/utf8.h"
 
 namespace rung {
@@ -107,7 +108,7 @@ DiagBuilder& DiagBuilder::severity(Severity severity) {
 bool Diagnostics::isNew(const Diagnostic& diagnostic) {
   std::string key = fmt::format("{} {}", static_cast<unsigned>(diagnostic.id), diagnostic.range.begin.value);
   for (const DiagArg& arg : diagnostic.args) {
-    std::visit([&key](const auto& value) { fmt::format_to(std::back_inserter(key), "\n{}", value); }, arg);
+    std::visit([&key](const auto& value) { put(key, "\n{}", value); }, arg);
   }
   return seen_.insert(std::hash<std::string>()(key)).second;
 }

@@ -1,16 +1,17 @@
-// Formatted text to the end of a text. Internal to the writers.
+// Formatted text to the end of a text. fmt::format_to would be compiled anew, with all of its formatting, in each
+// source.
 #pragma once
-#include <iterator>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 
-namespace rung::view {
+namespace rung {
+
+void putFormatted(std::string& out, fmt::string_view format, fmt::format_args args);
 
 template <class... Args>
 void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+  putFormatted(out, format, fmt::make_format_args(args...));
 }
 
-} // namespace rung::view
+} // namespace rung

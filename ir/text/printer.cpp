@@ -3,9 +3,9 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <unordered_map>
 
+#include "ir/support/put.h"
 #include "ir/text/keywords.h"
 #include "ir/text/text.h"
 
@@ -25,7 +25,7 @@ std::string inQuotes(std::string_view text) {
     else if (c == '\t')
       out += "\\t";
     else if (byte < 0x20 || byte == 0x7F)
-      fmt::format_to(std::back_inserter(out), "\\x{:02X}", byte);
+      rung::put(out, "\\x{:02X}", byte);
     else
       out += c;
   }
@@ -113,7 +113,7 @@ public:
 private:
   template <class... Args>
   void put(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+    rung::put(out_, format, std::forward<Args>(args)...);
   }
 
   void printMemory();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/put.h"
 #include "ir/text/text.h"
 #include "ir/verify/rules.h"
 
@@ -34,15 +35,15 @@ std::string render(const Module& module, const std::vector<VerifyError>& errors)
   int shown = 0;
   for (size_t i = 0; i < errors.size();) {
     if (shown++ == kMaxShown) {
-      fmt::format_to(std::back_inserter(out), "and {} more errors\n", errors.size() - i);
+      put(out, "and {} more errors\n", errors.size() - i);
       break;
     }
     const VerifyError& error = errors[i];
     const bool inRung = error.routine.valid() && error.rung != RUNG_NONE;
-    if (error.routine.valid()) fmt::format_to(std::back_inserter(out), "routine {}: ", module.at(error.routine).name);
+    if (error.routine.valid()) put(out, "routine {}: ", module.at(error.routine).name);
     if (!inRung || error.op == RUNG_NONE) {
-      if (inRung) fmt::format_to(std::back_inserter(out), "rung {}: ", error.rung);
-      fmt::format_to(std::back_inserter(out), "[{}] {}\n", ruleName(error.rule), error.message);
+      if (inRung) put(out, "rung {}: ", error.rung);
+      put(out, "[{}] {}\n", ruleName(error.rule), error.message);
       ++i;
       if (!inRung) continue;
       out += printRung(module, error.routine, error.rung);
@@ -53,7 +54,7 @@ std::string render(const Module& module, const std::vector<VerifyError>& errors)
     while (end < errors.size() && errors[end].routine == error.routine && errors[end].rung == error.rung &&
            errors[end].op != RUNG_NONE)
       ++end;
-    fmt::format_to(std::back_inserter(out), "rung {}:\n", error.rung);
+    put(out, "rung {}:\n", error.rung);
     out += printRung(module, error.routine, error.rung, [&](size_t op) {
       std::string text;
       for (size_t k = i; k < end; ++k)

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <random>
 
+#include "ir/support/put.h"
+
 namespace rung::bench {
 namespace {
 
@@ -48,36 +50,33 @@ std::vector<WorkRung> drawRungs(uint32_t count, uint64_t seed) {
 
 std::string ladderText(const std::vector<WorkRung>& rungs) {
   std::string out = "dialect nct\nmodule MAIN\n";
-  auto put = std::back_inserter(out);
   for (uint32_t i = 0; i < rungs.size(); ++i) {
     const WorkRung& r = rungs[i];
     const std::string a = contact(r.first);
     const std::string b = contact(r.second);
     out += "\nrung\n";
     if (!r.parallel) {
-      fmt::format_to(put, "|--{}--{}--{}--({})\n", a, b, contact(r.third), address(kInputs + i));
+      put(out, "|--{}--{}--{}--({})\n", a, b, contact(r.third), address(kInputs + i));
       continue;
     }
     const size_t width = std::max(a.size(), b.size());
-    fmt::format_to(put, "|--{:-<{}}--+--{}--({})\n|--{:-<{}}--+\n", a, width, contact(r.third), address(kInputs + i), b,
-                   width);
+    put(out, "|--{:-<{}}--+--{}--({})\n|--{:-<{}}--+\n", a, width, contact(r.third), address(kInputs + i), b, width);
   }
   return out;
 }
 
 std::string handWritten(const std::vector<WorkRung>& rungs) {
   std::string out;
-  auto put = std::back_inserter(out);
   size_t functions = 0;
   for (size_t first = 0; first < rungs.size(); first += kRungsAFunction, ++functions) {
-    fmt::format_to(put, "static void part{}(unsigned char *m) {{\n", functions);
+    put(out, "static void part{}(unsigned char *m) {{\n", functions);
     for (size_t i = first; i < std::min(rungs.size(), first + kRungsAFunction); ++i)
-      fmt::format_to(put, "  m[{}] = ({} {} {}) & {};\n", kInputs + i, term(rungs[i].first),
-                     rungs[i].parallel ? "|" : "&", term(rungs[i].second), term(rungs[i].third));
+      put(out, "  m[{}] = ({} {} {}) & {};\n", kInputs + i, term(rungs[i].first), rungs[i].parallel ? "|" : "&",
+          term(rungs[i].second), term(rungs[i].third));
     out += "}\n";
   }
   out += "extern \"C\" __attribute__((visibility(\"default\"))) void scan(unsigned char *m) {\n";
-  for (size_t i = 0; i < functions; ++i) fmt::format_to(put, "  part{}(m);\n", i);
+  for (size_t i = 0; i < functions; ++i) put(out, "  part{}(m);\n", i);
   return out + "}\n";
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ir/core/op_info.h"
+#include "ir/support/put.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
@@ -61,28 +62,26 @@ std::string cell(std::string_view text) {
 }
 
 void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::string& out) {
-  auto put = std::back_inserter(out);
-  fmt::format_to(put, "### {}", row.mnemonic);
-  if (row.number >= 0) fmt::format_to(put, " (function {})", row.number);
-  fmt::format_to(put, ": {}\n\n{}\n\n", row.title, row.doc);
+  put(out, "### {}", row.mnemonic);
+  if (row.number >= 0) put(out, " (function {})", row.number);
+  put(out, ": {}\n\n{}\n\n", row.title, row.doc);
   if (row.pins.size() > 0) {
     out += "| condition | meaning |\n| --- | --- |\n";
     for (const PinInfo& pin : row.pins.all())
-      fmt::format_to(put, "| `{}` | {}{} |\n", pin.name, cell(pin.doc), pin.edge ? " (rising edge)" : "");
+      put(out, "| `{}` | {}{} |\n", pin.name, cell(pin.doc), pin.edge ? " (rising edge)" : "");
     out += '\n';
   }
   if (row.operands.size() > 0) {
     out += "| operand | kind | access | range | meaning |\n| --- | --- | --- | --- | --- |\n";
     for (const OperandInfo& o : row.operands.all())
-      fmt::format_to(put, "| {}{}{} | {} | {} | {} | {} |\n", o.name, o.optional ? " (optional)" : "",
-                     o.repeated ? " …" : "", o.kind, accessText(o.access),
-                     o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
+      put(out, "| {}{}{} | {} | {} | {} | {} |\n", o.name, o.optional ? " (optional)" : "", o.repeated ? " …" : "",
+          o.kind, accessText(o.access), o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
     out += '\n';
   }
-  fmt::format_to(put, "Output: {}. Place: {}{}{}.{}\n\n", outputText(row.output), placementText(row.placement),
-                 row.tasks.empty() ? "" : ", in ", row.tasks, row.terminating ? " Closes the logic equation." : "");
-  if (!row.example.empty()) fmt::format_to(put, "```\n{}\n```\n\n", row.example);
-  fmt::format_to(put, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");
+  put(out, "Output: {}. Place: {}{}{}.{}\n\n", outputText(row.output), placementText(row.placement),
+      row.tasks.empty() ? "" : ", in ", row.tasks, row.terminating ? " Closes the logic equation." : "");
+  if (!row.example.empty()) put(out, "```\n{}\n```\n\n", row.example);
+  put(out, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");
 }
 
 std::vector<const DiagInfo*> sortedDiags() {
@@ -100,8 +99,8 @@ std::vector<std::string_view> groupsOf(const Dialect& dialect) {
 }
 
 void appendConfigKey(const nc::ConfigKey& row, std::string& out) {
-  fmt::format_to(std::back_inserter(out), "| `{}` | {} | {} | {} | {} |\n", nc::shownKey(row), cell(nc::takesOf(row)),
-                 cell(row.otherwise), row.reader == nc::ConfigReader::Compiler ? "compiler" : "control", cell(row.doc));
+  put(out, "| `{}` | {} | {} | {} | {} |\n", nc::shownKey(row), cell(nc::takesOf(row)), cell(row.otherwise),
+      row.reader == nc::ConfigReader::Compiler ? "compiler" : "control", cell(row.doc));
 }
 
 constexpr std::string_view kConfigHead =
@@ -111,7 +110,7 @@ void appendFaults(const Dialect& dialect, std::string& out) {
   out += "\n## Faults\n\nWhat stops a program of this dialect, as `rungc run` and `expect_fault` show it.\n\n"
          "| fault | meaning |\n| --- | --- |\n";
   for (const nc::Fault& fault : nc::faultsOf(dialect.name))
-    fmt::format_to(std::back_inserter(out), "| `{}` | {} |\n", fault.text, cell(fault.explanation));
+    put(out, "| `{}` | {} |\n", fault.text, cell(fault.explanation));
 }
 
 // As GitHub makes it of a heading.
@@ -166,16 +165,15 @@ std::string withContents(const std::string& page) {
 
 std::string dialectReference(const Dialect& dialect) {
   std::string out;
-  auto put = std::back_inserter(out);
-  fmt::format_to(put, "# {}: reference\n\n{}. Made by `rungc doc {}` from the tables of the dialect; do not edit.\n\n",
-                 dialect.name, dialect.title, dialect.name);
+  put(out, "# {}: reference\n\n{}. Made by `rungc doc {}` from the tables of the dialect; do not edit.\n\n",
+      dialect.name, dialect.title, dialect.name);
   for (std::string_view group : groupsOf(dialect)) {
-    fmt::format_to(put, "## {}\n\n", group);
+    put(out, "## {}\n\n", group);
     for (const InstructionInfo* row : dialect.instructions)
       if (row->group == group) appendInstruction(dialect, *row, out);
   }
   out += "## Kinds of operands\n\n| kind | what may be written |\n| --- | --- |\n";
-  for (const auto& kind : dialect.operandKinds) fmt::format_to(put, "| {} | {} |\n", kind.kind, cell(kind.doc));
+  for (const auto& kind : dialect.operandKinds) put(out, "| {} | {} |\n", kind.kind, cell(kind.doc));
   out += "\n## Configuration\n\n`config KEY VALUE` in a scenario, `KEY = VALUE` in the table [config] of rung.toml, "
          "`--config KEY=VALUE` on the command line.\n\n";
   out += kConfigHead;
@@ -189,8 +187,8 @@ std::string diagnosticReference() {
   std::string out =
       "# Diagnostics\n\nEvery code that the compiler reports. Made by `rungc doc diagnostics`; do not edit.\n\n";
   for (const DiagInfo* info : sortedDiags())
-    fmt::format_to(std::back_inserter(out), "## {}\n\n{}: {}\n\n{}\n\n", info->code,
-                   info->severity == Severity::Error ? "Error" : "Warning", info->message, info->explanation);
+    put(out, "## {}\n\n{}: {}\n\n{}\n\n", info->code, info->severity == Severity::Error ? "Error" : "Warning",
+        info->message, info->explanation);
   return withContents(out);
 }
 
@@ -202,8 +200,7 @@ std::string operationReference() {
     for (int t = 1; t < ir::kTypeCount; ++t)
       if (ir::contains(info.types, static_cast<ir::Type>(t)))
         types += (types.empty() ? "" : " ") + std::string(ir::typeName(static_cast<ir::Type>(t)));
-    fmt::format_to(std::back_inserter(out), "| `{}` | {} | {} |\n", info.name, types.empty() ? "-" : types,
-                   cell(info.doc));
+    put(out, "| `{}` | {} | {} |\n", info.name, types.empty() ? "-" : types, cell(info.doc));
   }
   return out;
 }
@@ -273,10 +270,9 @@ void explainInDialect(const Dialect& dialect, std::string_view word, Collected& 
 std::string instructionTopic(const Dialect& dialect) {
   std::string out = fmt::format("# Instructions of {}\n\n", dialect.name);
   for (std::string_view group : groupsOf(dialect)) {
-    fmt::format_to(std::back_inserter(out), "## {}\n\n| | |\n| --- | --- |\n", group);
+    put(out, "## {}\n\n| | |\n| --- | --- |\n", group);
     for (const InstructionInfo* row : dialect.instructions)
-      if (row->group == group)
-        fmt::format_to(std::back_inserter(out), "| {} | {} |\n", row->mnemonic, cell(row->title));
+      if (row->group == group) put(out, "| {} | {} |\n", row->mnemonic, cell(row->title));
     out += '\n';
   }
   return out;
@@ -284,16 +280,14 @@ std::string instructionTopic(const Dialect& dialect) {
 
 std::string diagnosticTopic() {
   std::string out = "# Diagnostics\n\n| | |\n| --- | --- |\n";
-  for (const DiagInfo* info : sortedDiags())
-    fmt::format_to(std::back_inserter(out), "| {} | {} |\n", info->code, cell(info->message));
+  for (const DiagInfo* info : sortedDiags()) put(out, "| {} | {} |\n", info->code, cell(info->message));
   return out;
 }
 
 std::string configTopic() {
   std::string out;
   for (const Dialect* dialect : frontend::allDialects()) {
-    fmt::format_to(std::back_inserter(out), "{}# Configuration of {}\n\n{}", out.empty() ? "" : "\n", dialect->name,
-                   kConfigHead);
+    put(out, "{}# Configuration of {}\n\n{}", out.empty() ? "" : "\n", dialect->name, kConfigHead);
     for (const nc::ConfigKey& row : dialect->configKeys) appendConfigKey(row, out);
   }
   return out;
@@ -302,8 +296,7 @@ std::string configTopic() {
 std::string faultTopic() {
   std::string out = "# Faults of a running program\n\n| | |\n| --- | --- |\n";
   for (const Dialect* dialect : frontend::allDialects())
-    for (const nc::Fault& fault : nc::faultsOf(dialect->name))
-      fmt::format_to(std::back_inserter(out), "| {} | {} |\n", fault.text, dialect->name);
+    for (const nc::Fault& fault : nc::faultsOf(dialect->name)) put(out, "| {} | {} |\n", fault.text, dialect->name);
   return out;
 }
 
@@ -330,13 +323,12 @@ std::string explainTopics() {
   std::string out =
       "`rungc explain WORD` explains an instruction, a signal, a diagnostic, a fault or a configuration key; "
       "a part of a word lists what contains it.\n\n| topic | |\n| --- | --- |\n";
-  auto put = std::back_inserter(out);
   for (const Dialect* dialect : frontend::allDialects()) {
     std::string groups;
     for (std::string_view group : groupsOf(*dialect)) groups += (groups.empty() ? "" : ", ") + std::string(group);
-    fmt::format_to(put, "| {} | {} instructions: {} |\n", dialect->name, dialect->instructions.size(), groups);
+    put(out, "| {} | {} instructions: {} |\n", dialect->name, dialect->instructions.size(), groups);
   }
-  fmt::format_to(put, "| diagnostics | {} codes of errors and warnings |\n", allDiags().size());
+  put(out, "| diagnostics | {} codes of errors and warnings |\n", allDiags().size());
   out += "| faults | what stops a running program |\n| config | the configuration keys of the dialects |\n";
   return out;
 }

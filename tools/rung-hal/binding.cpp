@@ -58,7 +58,7 @@ struct Place {
 
 bool isPosition(std::string_view name) { return name.starts_with(kPositions); }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string inQuotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 // A constant as the file has it.
 std::string shown(const Entry& entry) {
@@ -89,11 +89,11 @@ Mistake mistakeOf(Misfit misfit, const Place& place, const Entry& entry) {
             isConstant ? "remove the line" : "move the pin to [out]"};
   case Misfit::Bit:
     if (isConstant)
-      return {shown(entry) + " for a bit", "true or false", "write for example " + quoted(entry.name) + " = true"};
+      return {shown(entry) + " for a bit", "true or false", "write for example " + inQuotes(entry.name) + " = true"};
     return {"the bit " + forType, "a cell", "write type = \"bit\""};
   case Misfit::Cell:
     if (isConstant)
-      return {shown(entry) + " for a cell", "a number", "write for example " + quoted(entry.name) + " = 1"};
+      return {shown(entry) + " for a cell", "a number", "write for example " + inQuotes(entry.name) + " = 1"};
     return {"the cell " + forType, "a bit", typesOf(place, entry)};
   case Misfit::Real: return {"the real number " + forType, "an integer", "write type = \"float\""};
   }
@@ -163,7 +163,7 @@ private:
     const std::string kind(kFunctionKinds[send.kind]);
     if (!carries(send.channel, send.kind))
       fail(send.at, "send.function",
-           {quoted(kind), kindsOf(send.channel) + ", the functions of the dialect " + dialect(),
+           {inQuotes(kind), kindsOf(send.channel) + ", the functions of the dialect " + dialect(),
             "remove the table, and connect its signals in [in] and [out]"});
     else if (!send.codePin && !carries(send.channel, send.kind, static_cast<uint32_t>(send.code)))
       fail(send.at, "send.code",
@@ -174,7 +174,7 @@ private:
   std::string kindsOf(uint32_t channel) const {
     std::string kinds;
     for (uint32_t kind = 0; kind < std::size(kFunctionKinds); ++kind)
-      if (carries(channel, kind)) kinds += (kinds.empty() ? "" : ", ") + quoted(kFunctionKinds[kind]);
+      if (carries(channel, kind)) kinds += (kinds.empty() ? "" : ", ") + inQuotes(kFunctionKinds[kind]);
     return kinds;
   }
 

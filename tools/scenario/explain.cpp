@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <iterator>
 #include <utility>
 
+#include "ir/support/put.h"
 #include "rtlib/host/program_info.h"
 #include "tools/scenario/place_names.h"
 #include "tools/scenario/values.h"
@@ -58,7 +58,7 @@ private:
   template <class... Args>
   void line(int indent, fmt::format_string<Args...> format, Args&&... args) {
     text_ += "\n" + std::string(static_cast<size_t>(indent), ' ');
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    rung::put(text_, format, std::forward<Args>(args)...);
   }
   std::string rungText(uint32_t rung) const { return host::rungText(program_, rung); }
 

@@ -1,9 +1,9 @@
 // See html_page.h.
 #include "tools/view/html_page.h"
 
+#include "ir/support/put.h"
 #include "tools/view/colours.h"
 #include "tools/view/html_parts.h"
-#include "tools/view/put.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "ir/support/put.h"
 #include "tools/view/overlay.h"
-#include "tools/view/put.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {

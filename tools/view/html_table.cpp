@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <map>
 
+#include "ir/support/put.h"
 #include "tools/view/html_page.h"
 #include "tools/view/html_runs.h"
 #include "tools/view/overlay.h"
-#include "tools/view/put.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {

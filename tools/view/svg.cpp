@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "ir/support/put.h"
 #include "tools/view/overlay.h"
-#include "tools/view/put.h"
 
 namespace rung::view {
 namespace {

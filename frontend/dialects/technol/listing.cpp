@@ -2,9 +2,10 @@
 #include "frontend/dialects/technol/listing.h"
 
 #include <fmt/format.h>
-#include <iterator>
 #include <map>
 #include <utility>
+
+#include "ir/support/put.h"
 
 namespace rung::frontend::technol {
 
@@ -26,10 +27,9 @@ std::map<LineOfFile, uint32_t> rungNumbers(const ir::Module& module) {
 std::string listing(const SourceManager& sources, std::span<const FileId> files, const ir::Module& module) {
   const std::map<LineOfFile, uint32_t> numbers = rungNumbers(module);
   std::string out;
-  const auto put = std::back_inserter(out);
   for (const FileId file : files) {
     if (!out.empty()) out += '\n';
-    fmt::format_to(put, "; {}\n; line rung\n", sources.name(file));
+    put(out, "; {}\n; line rung\n", sources.name(file));
     const uint32_t lines = sources.lineCount(file);
     for (uint32_t line = 1; line <= lines; ++line) {
       const std::string_view text = sources.lineText(file, line);
@@ -37,9 +37,9 @@ std::string listing(const SourceManager& sources, std::span<const FileId> files,
       const auto number = numbers.find({sources.name(file), line});
       const std::string rung = number == numbers.end() ? "" : std::to_string(number->second);
       if (text.empty())
-        fmt::format_to(put, "{:6}\n", line);
+        put(out, "{:6}\n", line);
       else
-        fmt::format_to(put, "{:6} {:>5}  {}\n", line, rung, text);
+        put(out, "{:6} {:>5}  {}\n", line, rung, text);
     }
   }
   return out;

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <memory>
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/llvm/llvm_emitter.h"
@@ -29,13 +30,13 @@ struct BuildOptions {
   bool noIr = false; // build only
 };
 
-void addCodeOptions(CLI::App& command, BuildOptions& options) {
+void addCodeOptions(Command command, BuildOptions& options) {
   addSourceOptions(command, options.source);
   addLevelOption(command, options.level);
-  command.add_flag("-g", options.debugInfo, "With debug information for the PLC source");
-  command.add_flag("--profile", options.profile, "Count and time every rung");
-  command.add_option("--target", options.target,
-                     "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
+  command.flag("-g", options.debugInfo, "With debug information for the PLC source");
+  command.flag("--profile", options.profile, "Count and time every rung");
+  command.option("--target", options.target,
+                 "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
 }
 
 compiler::CompileRequest requestOf(const BuildOptions& options) {
@@ -116,19 +117,18 @@ int emitText(const compiler::Compiled& compiled, const BuildOptions& options) {
 
 } // namespace
 
-void addBuild(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("build", "Compile a program to a shared object");
+void addBuild(CommandLine& app, int& status) {
+  Command command = app.add("build", "Compile a program to a shared object");
   auto options = std::make_shared<BuildOptions>();
-  addCodeOptions(*command, *options);
-  command->add_option("-o,--output", options->out,
-                      "The shared object to write; in a project NAME.so beside its rung.toml without it");
-  command->add_option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one")
-      ->check(CLI::IsMember({"llvm", "cpp"}));
-  command->add_option("--cxx", options->cxx, "C++ compiler for --via cpp");
-  command->add_flag("--no-ir", options->noIr, "Leave out the program's IR: cells that it writes cannot be forced then");
-  command->add_option("--listing", options->listing,
-                      "Write the program's numbered lines, to which name_LINE refers (technol)");
-  command->callback([options, &status] {
+  addCodeOptions(command, *options);
+  command.option("-o,--output", options->out,
+                 "The shared object to write; in a project NAME.so beside its rung.toml without it");
+  command.option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one").oneOf({"llvm", "cpp"});
+  command.option("--cxx", options->cxx, "C++ compiler for --via cpp");
+  command.flag("--no-ir", options->noIr, "Leave out the program's IR: cells that it writes cannot be forced then");
+  command.option("--listing", options->listing,
+                 "Write the program's numbered lines, to which name_LINE refers (technol)");
+  command.onRun([options, &status] {
     if (options->out.empty() && !options->source.project) {
       status = usageError("build: -o says which file to write; only a project has a name for it");
       return;
@@ -145,15 +145,15 @@ void addBuild(CLI::App& app, int& status) {
   });
 }
 
-void addEmit(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("emit", "Print a form of the program: C++, IR, layout, LLVM IR or assembly");
+void addEmit(CommandLine& app, int& status) {
+  Command command = app.add("emit", "Print a form of the program: C++, IR, layout, LLVM IR or assembly");
   auto options = std::make_shared<BuildOptions>();
-  command->add_option("WHAT", options->what, "cpp, ir, layout, llvm or asm")
-      ->required()
-      ->check(CLI::IsMember({"cpp", "ir", "layout", "llvm", "asm"}));
-  command->add_option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
-  addCodeOptions(*command, *options);
-  command->callback([options, &status] {
+  command.option("WHAT", options->what, "cpp, ir, layout, llvm or asm")
+      .required()
+      .oneOf({"cpp", "ir", "layout", "llvm", "asm"});
+  command.option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
+  addCodeOptions(command, *options);
+  command.onRun([options, &status] {
     SourceManager sources;
     if (auto compiled = compileSources(sources, options->source, requestOf(*options), status))
       status = emitText(*compiled, *options);

@@ -1,13 +1,15 @@
 // rungc check: reports every mistake of a program.
+#include <memory>
+
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
 
-void addCheck(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("check", "Report all mistakes of a program");
+void addCheck(CommandLine& app, int& status) {
+  Command command = app.add("check", "Report all mistakes of a program");
   auto options = std::make_shared<SourceOptions>();
-  addSourceOptions(*command, *options);
-  command->callback([options, &status] {
+  addSourceOptions(command, *options);
+  command.onRun([options, &status] {
     SourceManager sources;
     if (const auto compiled = compileSources(sources, *options, {}, status)) printSummary(*compiled, *options, "");
   });

@@ -1,7 +1,10 @@
 // See command_line.h.
 #include "tools/rungc/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace rung::rungc {
 namespace {
@@ -44,18 +47,103 @@ OptionText textOf(const CLI::Option& option) {
   return text;
 }
 
-} // namespace
-
-std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
+WrongWords wrongWords(CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> named = app.get_subcommands();
+  if (named.empty()) return {std::nullopt, app.remaining(), error.what()};
+  return {Command(named.front()), named.front()->remaining(), error.what()};
 }
 
-std::vector<OptionText> optionsOf(const CLI::App& command) {
+} // namespace
+
+Option Option::required() { return Option(option_->required()); }
+Option Option::oneOf(std::vector<std::string> choices) {
+  return Option(option_->check(CLI::IsMember(std::move(choices))));
+}
+Option Option::between(int least, int most) { return Option(option_->check(CLI::Range(least, most))); }
+Option Option::between(unsigned least, unsigned most) { return Option(option_->check(CLI::Range(least, most))); }
+Option Option::between(uint64_t least, uint64_t most) { return Option(option_->check(CLI::Range(least, most))); }
+Option Option::between(double least, double most) { return Option(option_->check(CLI::Range(least, most))); }
+Option Option::excludes(Option other) { return Option(option_->excludes(other.option_)); }
+Option Option::needs(Option other) { return Option(option_->needs(other.option_)); }
+Option Option::oneValue() { return Option(option_->allow_extra_args(false)); }
+Option Option::manyValues() { return Option(option_->allow_extra_args()); }
+Option Option::showDefault() { return Option(option_->capture_default_str()); }
+
+Option Command::option(const std::string& names, std::string& value, const std::string& description) {
+  return Option(app_->add_option(names, value, description));
+}
+Option Command::option(const std::string& names, std::vector<std::string>& value, const std::string& description) {
+  return Option(app_->add_option(names, value, description));
+}
+Option Command::option(const std::string& names, int& value, const std::string& description) {
+  return Option(app_->add_option(names, value, description));
+}
+Option Command::option(const std::string& names, unsigned& value, const std::string& description) {
+  return Option(app_->add_option(names, value, description));
+}
+Option Command::option(const std::string& names, std::optional<uint64_t>& value, const std::string& description) {
+  return Option(app_->add_option(names, value, description));
+}
+Option Command::option(const std::string& names, double& value, const std::string& description) {
+  return Option(app_->add_option(names, value, description));
+}
+Option Command::flag(const std::string& names, bool& value, const std::string& description) {
+  return Option(app_->add_flag(names, value, description));
+}
+
+void Command::onParsed(std::function<int()> then) {
+  app_->parse_complete_callback([app = app_, then = std::move(then)] {
+    if (!app->remaining().empty()) return; // a word that it does not take: that is reported first
+    if (const int status = then(); status != 0) throw CLI::RuntimeError(status);
+  });
+}
+void Command::onRun(std::function<void()> run) { app_->callback(std::move(run)); }
+bool Command::given(const std::string& option) const { return app_->count(option) > 0; }
+
+const std::string& Command::name() const { return app_->get_name(); }
+std::string Command::description() const { return app_->get_description(); }
+std::string Command::help() const { return app_->help("rungc"); }
+
+std::vector<OptionText> Command::options() const {
   std::vector<OptionText> texts;
   for (const bool positional : {false, true})
-    for (const CLI::Option* option : command.get_options())
+    for (const CLI::Option* option : std::as_const(*app_).get_options())
       if (option->get_positional() == positional && !option->get_group().empty()) texts.push_back(textOf(*option));
   return texts;
+}
+
+CommandLine::CommandLine(const std::string& description, const std::string& version, const std::string& footer)
+    : app_(std::make_unique<CLI::App>(description)) {
+  app_->require_subcommand(1);
+  app_->set_version_flag("--version", version);
+  app_->footer(footer);
+}
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::add(const std::string& name, const std::string& description) {
+  return Command(app_->add_subcommand(name, description));
+}
+Command CommandLine::root() const { return Command(app_.get()); }
+std::string CommandLine::version() const { return app_->version(); }
+std::string CommandLine::footer() const { return app_->get_footer(); }
+
+std::vector<Command> CommandLine::commands() const {
+  std::vector<Command> commands;
+  for (CLI::App* app : app_->get_subcommands([](CLI::App*) { return true; })) commands.emplace_back(app);
+  return commands;
+}
+
+std::optional<int> CommandLine::run(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong) {
+  try {
+    app_->parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::RuntimeError& error) {
+    return error.get_exit_code(); // the cause is printed
+  } catch (const CLI::Success& asked) {
+    return app_->exit(asked); // --help, --version
+  } catch (const CLI::ParseError& error) {
+    return wrong(wrongWords(*app_, error));
+  }
 }
 
 } // namespace rung::rungc

@@ -1,7 +1,6 @@
 // The subcommands of rungc. Each adds itself to the application and returns nothing; when the user names it, it stores
 // its exit status in `status`: 0 ok, 1 the program or scenario is wrong, 2 usage, 3 environment.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "tools/compiler/compile.h"
 #include "tools/project/project.h"
+#include "tools/rungc/command_line.h"
 
 namespace rung::rungc {
 
@@ -29,7 +29,7 @@ struct SourceOptions {
   std::string color = "auto";
 };
 
-void addSourceOptions(CLI::App& command, SourceOptions& options);
+void addSourceOptions(Command command, SourceOptions& options);
 // Finds the project: that of --project, of the only folder or rung.toml among the files, that all the named files
 // belong to, or without files the nearest one from the working directory upwards. What it says goes into the options;
 // those of the command line go before it. Gives the exit status.
@@ -37,11 +37,11 @@ int takeProject(SourceOptions& options);
 // The project that a folder or a rung.toml names, or with "" the nearest one upwards; its mistakes are printed.
 // Nothing, and `status` says why, when there is none.
 std::optional<project::Project> openProject(const std::string& named, const SourceOptions& options, int& status);
-void addColorOption(CLI::App& command, std::string& color, const std::string& what);
+void addColorOption(Command command, std::string& color, const std::string& what);
 // By the option and, with auto, whether the file is a terminal.
 bool wantsColor(const std::string& color, int file);
 // -O0 compiles fast, -O2 runs fast.
-void addLevelOption(CLI::App& command, std::string& level);
+void addLevelOption(Command command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
 std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
                                                  compiler::CompileRequest request, int& status);
@@ -67,19 +67,20 @@ int writeFile(const std::string& text, const std::string& out);
 // A sealed program file: on the disk, and nobody but its owner may write to it. Gives the exit status.
 int writeProgram(const std::string& out, const std::string& file);
 
-void addCheck(CLI::App& app, int& status);
-void addBuild(CLI::App& app, int& status);
-void addConvert(CLI::App& app, int& status);
-void addEmit(CLI::App& app, int& status);
-void addRun(CLI::App& app, int& status);
-void addTest(CLI::App& app, int& status);
-void addProfile(CLI::App& app, int& status);
-void addExplain(CLI::App& app, int& status);
-void addDoc(CLI::App& app, int& status);
-void addView(CLI::App& app, int& status);
-void addHelp(CLI::App& app, int& status);
-void addNew(CLI::App& app, int& status);
-void addSeal(CLI::App& app, int& status);
-void addKey(CLI::App& app, int& status);
+void addCheck(CommandLine& app, int& status);
+void addBuild(CommandLine& app, int& status);
+void addConvert(CommandLine& app, int& status);
+void addEmit(CommandLine& app, int& status);
+void addRun(CommandLine& app, int& status);
+void addTest(CommandLine& app, int& status);
+void addProfile(CommandLine& app, int& status);
+void addExplain(CommandLine& app, int& status);
+void addDoc(CommandLine& app, int& status);
+void addView(CommandLine& app, int& status);
+void addCompletion(CommandLine& app, int& status);
+void addHelp(CommandLine& app, int& status);
+void addNew(CommandLine& app, int& status);
+void addSeal(CommandLine& app, int& status);
+void addKey(CommandLine& app, int& status);
 
 } // namespace rung::rungc

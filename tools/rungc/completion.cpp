@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 #include <iostream>
+#include <memory>
 
-#include "tools/rungc/command_line.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -12,24 +12,24 @@ namespace {
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-std::vector<std::string> namesOf(const std::vector<const CLI::App*>& commands) {
+std::vector<std::string> namesOf(const std::vector<Command>& commands) {
   std::vector<std::string> names;
-  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  for (const Command& command : commands) names.push_back(command.name());
   return names;
 }
 
 // What is left of a command's choices where `help` takes the name of one.
-std::vector<std::string> choicesOf(const CLI::App& app, const CLI::App& command, const OptionText& option) {
-  const bool helped = command.get_name() == "help" && option.word == "COMMAND";
-  return helped ? namesOf(commandsOf(app)) : option.choices;
+std::vector<std::string> choicesOf(const CommandLine& app, Command command, const OptionText& option) {
+  const bool helped = command.name() == "help" && option.word == "COMMAND";
+  return helped ? namesOf(app.commands()) : option.choices;
 }
 
 // ---- bash ----------------------------------------------------------------------------------------------------------
 
-std::string bashCase(const CLI::App& app, const CLI::App& command) {
+std::string bashCase(const CommandLine& app, Command command) {
   std::string values; // of the option before the word
   std::vector<std::string> words, free;
-  for (const OptionText& option : optionsOf(command)) {
+  for (const OptionText& option : command.options()) {
     words.insert(words.end(), option.names.begin(), option.names.end());
     const std::vector<std::string> choices = choicesOf(app, command, option);
     if (option.names.empty())
@@ -37,7 +37,7 @@ std::string bashCase(const CLI::App& app, const CLI::App& command) {
     else if (!choices.empty())
       values += fmt::format("        {}) values=\"{}\" ;;\n", fmt::join(option.names, "|"), joined(choices));
   }
-  std::string text = fmt::format("    {})\n", command.get_name());
+  std::string text = fmt::format("    {})\n", command.name());
   if (!values.empty()) text += "      case $previous in\n" + values + "      esac\n";
   text += fmt::format("      options=\"{}\"\n", joined(words));
   if (!free.empty()) text += fmt::format("      words=\"{}\"\n", joined(free));
@@ -77,9 +77,9 @@ std::string zshValue(const OptionText& option, const std::vector<std::string>& c
   return fmt::format(":{}:{}", option.word, choices.empty() ? "_files" : "(" + joined(choices) + ")");
 }
 
-std::string zshCase(const CLI::App& app, const CLI::App& command) {
-  std::string text = fmt::format("    {})\n      _arguments", command.get_name());
-  for (const OptionText& option : optionsOf(command)) {
+std::string zshCase(const CommandLine& app, Command command) {
+  std::string text = fmt::format("    {})\n      _arguments", command.name());
+  for (const OptionText& option : command.options()) {
     const std::string value = zshValue(option, choicesOf(app, command, option));
     if (option.names.empty()) text += fmt::format(" \\\n        '{}{}'", zshColons(option), value);
     for (const std::string& name : option.names)
@@ -90,7 +90,7 @@ std::string zshCase(const CLI::App& app, const CLI::App& command) {
 
 } // namespace
 
-std::string bashCompletion(const CLI::App& app) {
+std::string bashCompletion(const CommandLine& app) {
   std::string text = R"(# Completion of rungc in bash, made by `rungc completion bash`.
 _rungc() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}
@@ -107,8 +107,8 @@ _rungc() {
   COMPREPLY=()
   case $command in
 )";
-  text += fmt::format("    '') options=\"--help --version\" words=\"{}\" ;;\n", joined(namesOf(commandsOf(app))));
-  for (const CLI::App* command : commandsOf(app)) text += bashCase(app, *command);
+  text += fmt::format("    '') options=\"--help --version\" words=\"{}\" ;;\n", joined(namesOf(app.commands())));
+  for (const Command& command : app.commands()) text += bashCase(app, command);
   return text + R"(  esac
   for ((++i; i < COMP_CWORD; ++i)); do # the word that has a choice is there: files follow
     if [[ " $words " == *" ${COMP_WORDS[i]} "* ]]; then words=; fi
@@ -125,15 +125,15 @@ complete -o bashdefault -o default -F _rungc rungc
 )";
 }
 
-std::string zshCompletion(const CLI::App& app) {
+std::string zshCompletion(const CommandLine& app) {
   std::string text = R"(#compdef rungc
 # Completion of rungc in zsh, made by `rungc completion zsh`.
 _rungc() {
   local -a commands
   commands=(
 )";
-  for (const CLI::App* command : commandsOf(app))
-    text += fmt::format("    '{}:{}'\n", command->get_name(), zshText(command->get_description()));
+  for (const Command& command : app.commands())
+    text += fmt::format("    '{}:{}'\n", command.name(), zshText(command.description()));
   text += R"(  )
   if (( CURRENT == 2 )); then
     _describe command commands
@@ -144,20 +144,20 @@ _rungc() {
   (( CURRENT-- ))
   case $command in
 )";
-  for (const CLI::App* command : commandsOf(app)) text += zshCase(app, *command);
+  for (const Command& command : app.commands()) text += zshCase(app, command);
   return text + R"(  esac
 }
 _rungc "$@"
 )";
 }
 
-void addCompletion(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("completion", "Print the completion of command lines for a shell");
+void addCompletion(CommandLine& app, int& status) {
+  Command command = app.add("completion", "Print the completion of command lines for a shell");
   auto shell = std::make_shared<std::string>();
-  command->add_option("SHELL", *shell, "The shell; bash and zsh read it from the file that they look for")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh"}));
-  command->callback([&app, shell, &status] {
+  command.option("SHELL", *shell, "The shell; bash and zsh read it from the file that they look for")
+      .required()
+      .oneOf({"bash", "zsh"});
+  command.onRun([&app, shell, &status] {
     std::cout << (*shell == "bash" ? bashCompletion(app) : zshCompletion(app));
     status = kOk;
   });

@@ -1,11 +1,12 @@
 // Completion of command lines in shells, from the description of the command line.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "tools/rungc/command_line.h"
 
 namespace rung::rungc {
 
-std::string bashCompletion(const CLI::App& app);
-std::string zshCompletion(const CLI::App& app);
+std::string bashCompletion(const CommandLine& app);
+std::string zshCompletion(const CommandLine& app);
 
 } // namespace rung::rungc

@@ -1,6 +1,9 @@
 // rungc convert: a GSK program in its other source form.
 #include <fmt/format.h>
 #include <iostream>
+#include <memory>
+#include <span>
+#include <string_view>
 
 #include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/dialects/gsk/gsk.h"
@@ -67,15 +70,15 @@ int run(const ConvertOptions& options) {
 
 } // namespace
 
-void addConvert(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("convert", "Write a GSK program in its other form: command list, ladder text");
+void addConvert(CommandLine& app, int& status) {
+  Command command = app.add("convert", "Write a GSK program in its other form: command list, ladder text");
   auto options = std::make_shared<ConvertOptions>();
-  addSourceOptions(*command, options->source);
-  command->add_option("--to", options->to, "list: command list (.pmc), ladder: ladder text (.lad)")
-      ->required()
-      ->check(CLI::IsMember({"list", "ladder"}));
-  command->add_option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
-  command->callback([options, &status] { status = run(*options); });
+  addSourceOptions(command, options->source);
+  command.option("--to", options->to, "list: command list (.pmc), ladder: ladder text (.lad)")
+      .required()
+      .oneOf({"list", "ladder"});
+  command.option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
+  command.onRun([options, &status] { status = run(*options); });
 }
 
 } // namespace rung::rungc

@@ -2,10 +2,12 @@
 #include "tools/rungc/coverage.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage_overlay.h"
@@ -82,19 +84,18 @@ std::string numbered(const std::string& path, size_t number) {
 
 } // namespace
 
-void addCoverageOptions(CLI::App& command, CoverageOptions& options) {
-  command.add_flag("--coverage", options.text,
-                   "Say which rungs ran, which contacts and coils were seen both ways, which conditions alone decided");
-  command.add_flag("--coverage-all", options.all, "The same with everything that is missing");
-  command.add_option("--coverage-json", options.json, "Write the coverage to this file, see docs/coverage-format.md");
-  command.add_option(
+void addCoverageOptions(Command command, CoverageOptions& options) {
+  command.flag("--coverage", options.text,
+               "Say which rungs ran, which contacts and coils were seen both ways, which conditions alone decided");
+  command.flag("--coverage-all", options.all, "The same with everything that is missing");
+  command.option("--coverage-json", options.json, "Write the coverage to this file, see docs/coverage-format.md");
+  command.option(
       "--coverage-html", options.html,
       "Write a page with the coverage on the drawing of the program; of several programs, FILE-2.html and so on");
-  command
-      .add_option("--coverage-merge", options.former, "Add the coverage of an earlier run, written by --coverage-json")
-      ->allow_extra_args(false);
-  command.add_option("--coverage-min", options.least, "Fail if one of the four shares is less than this percentage")
-      ->check(CLI::Range(0.0, 100.0));
+  command.option("--coverage-merge", options.former, "Add the coverage of an earlier run, written by --coverage-json")
+      .oneValue();
+  command.option("--coverage-min", options.least, "Fail if one of the four shares is less than this percentage")
+      .between(0.0, 100.0);
 }
 
 void CoverageRun::observe(scenario::RunOptions& run) {

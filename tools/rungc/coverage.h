@@ -1,12 +1,12 @@
 // Coverage of programs by scenarios: the options of `rungc test`, and what becomes of the counts.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "tools/coverage/collector.h"
+#include "tools/rungc/command_line.h"
 #include "tools/scenario/runner.h"
 
 namespace rung::rungc {
@@ -22,7 +22,7 @@ struct CoverageOptions {
   bool wanted() const { return text || all || !json.empty() || !html.empty() || !former.empty() || least > 0; }
 };
 
-void addCoverageOptions(CLI::App& command, CoverageOptions& options);
+void addCoverageOptions(Command command, CoverageOptions& options);
 
 // Counts what scenarios run, on the interpreter alone.
 class CoverageRun {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <iostream>
 #include <iterator>
+#include <memory>
 
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
@@ -66,15 +67,13 @@ int explainWord(const std::string& word) {
 
 } // namespace
 
-void addExplain(CLI::App& app, int& status) {
-  CLI::App* command =
-      app.add_subcommand("explain", "Explain a diagnostic, an instruction, a signal, a fault, a configuration key");
+void addExplain(CommandLine& app, int& status) {
+  Command command = app.add("explain", "Explain a diagnostic, an instruction, a signal, a fault, a configuration key");
   auto word = std::make_shared<std::string>();
-  command->add_option(
-      "WORD", *word,
-      "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF or F7.0, a fault such "
-      "as dead-loop, a key such as slot_steps, or a part of a word; without it the topics are listed");
-  command->callback([word, &status] {
+  command.option("WORD", *word,
+                 "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF or F7.0, a fault such "
+                 "as dead-loop, a key such as slot_steps, or a part of a word; without it the topics are listed");
+  command.onRun([word, &status] {
     if (word->empty())
       std::cout << plainText(compiler::explainTopics());
     else
@@ -82,11 +81,11 @@ void addExplain(CLI::App& app, int& status) {
   });
 }
 
-void addDoc(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("doc", "Print a page of the reference as Markdown");
+void addDoc(CommandLine& app, int& status) {
+  Command command = app.add("doc", "Print a page of the reference as Markdown");
   auto page = std::make_shared<std::string>();
-  command->add_option("PAGE", *page, "gsk, nct, technol, diagnostics or ir")->required();
-  command->callback([page, &status] {
+  command.option("PAGE", *page, "gsk, nct, technol, diagnostics or ir").required();
+  command.onRun([page, &status] {
     if (*page == "diagnostics")
       std::cout << compiler::diagnosticReference();
     else if (*page == "ir")

@@ -1,6 +1,7 @@
 // rungc key: keys to sign programs with.
 #include <cstdio>
 #include <fmt/format.h>
+#include <memory>
 
 #include "rtlib/host/file.h"
 #include "rtlib/host/sealing.h"
@@ -32,16 +33,16 @@ int newKey(const std::string& path) {
 
 } // namespace
 
-void addKey(CLI::App& app, int& status) {
+void addKey(CommandLine& app, int& status) {
   struct Options {
     std::string action;
     std::string file;
   };
-  CLI::App* command = app.add_subcommand("key", "Make a key to sign programs with");
+  Command command = app.add("key", "Make a key to sign programs with");
   auto options = std::make_shared<Options>();
-  command->add_option("ACTION", options->action, "new: make a key")->required()->check(CLI::IsMember({"new"}));
-  command->add_option("FILE", options->file, "The file of the secret key; FILE.pub is its public half")->required();
-  command->callback([options, &status] { status = newKey(options->file); });
+  command.option("ACTION", options->action, "new: make a key").required().oneOf({"new"});
+  command.option("FILE", options->file, "The file of the secret key; FILE.pub is its public half").required();
+  command.onRun([options, &status] { status = newKey(options->file); });
 }
 
 } // namespace rung::rungc

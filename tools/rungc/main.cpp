@@ -1,15 +1,16 @@
 // rungc: compiles, runs, tests and explains PLC programs of CNC controls. A thin main over libraries.
-#include <CLI/CLI.hpp>
+#include <optional>
 
+#include "ir/support/version.h"
+#include "tools/rungc/command_line.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/usage.h"
 
 int main(int argc, char** argv) {
   using namespace rung::rungc;
-  CLI::App app{"Compiler for the PLC programs of CNC machine tools (NCT2xx/3xx, GSK25i, MEFI TECHNOL)"};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "rungc 0.1");
-  app.footer("Exit status: 0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment.");
+  CommandLine app("Compiler for the PLC programs of CNC machine tools (NCT2xx/3xx, GSK25i, MEFI TECHNOL)",
+                  rung::compilerName(),
+                  "Exit status: 0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment.");
   int status = kOk;
   addNew(app, status);
   addCheck(app, status);
@@ -24,15 +25,9 @@ int main(int argc, char** argv) {
   addProfile(app, status);
   addExplain(app, status);
   addDoc(app, status);
+  addCompletion(app, status);
   addHelp(app, status);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::RuntimeError& error) {
-    return error.get_exit_code(); // the cause is printed
-  } catch (const CLI::Success& asked) {
-    return app.exit(asked); // --help, --version
-  } catch (const CLI::ParseError& error) {
-    return wrongUsage(app, error);
-  }
-  return status;
+  const std::optional<int> decided =
+      app.run(argc, argv, [&app](const WrongWords& words) { return wrongUsage(app, words); });
+  return decided.value_or(status);
 }

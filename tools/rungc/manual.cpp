@@ -2,9 +2,10 @@
 #include "tools/rungc/manual.h"
 
 #include <fmt/format.h>
+#include <string_view>
+#include <vector>
 
 #include "rtlib/text/letters.h"
-#include "tools/rungc/command_line.h"
 
 namespace rung::rungc {
 namespace {
@@ -43,8 +44,8 @@ std::string headOf(const OptionText& option) {
   return option.word.empty() ? head : head + " " + valueOf(option);
 }
 
-std::string synopsisOf(const CLI::App& command, const std::vector<OptionText>& options) {
-  std::string text = bold("rungc " + command.get_name()) + " [" + italic("OPTION") + "...]";
+std::string synopsisOf(Command command, const std::vector<OptionText>& options) {
+  std::string text = bold("rungc " + command.name()) + " [" + italic("OPTION") + "...]";
   for (const OptionText& option : options) {
     if (!option.names.empty()) continue;
     std::string word = italic(option.word) + (option.repeated ? "..." : "");
@@ -53,20 +54,20 @@ std::string synopsisOf(const CLI::App& command, const std::vector<OptionText>& o
   return text;
 }
 
-std::string pageName(const CLI::App& app, const CLI::App& command) {
-  return &app == &command ? "rungc" : "rungc-" + command.get_name();
+std::string pageName(const CommandLine& app, Command command) {
+  return command == app.root() ? "rungc" : "rungc-" + command.name();
 }
 
-std::string commandList(const CLI::App& app) {
+std::string commandList(const CommandLine& app) {
   std::string text = ".SH COMMANDS\n";
-  for (const CLI::App* command : commandsOf(app))
-    text += ".TP\n" + bold(command->get_name()) + "\n" + line(command->get_description());
+  for (const Command& command : app.commands())
+    text += ".TP\n" + bold(command.name()) + "\n" + line(command.description());
   return text;
 }
 
 // What --help says at its end: "Exit status: 0 ok, …".
-std::string exitStatus(const CLI::App& app) {
-  const std::string footer = app.get_footer();
+std::string exitStatus(const CommandLine& app) {
+  const std::string footer = app.footer();
   return ".SH EXIT STATUS\n" + line(footer.substr(footer.find(": ") + 2));
 }
 
@@ -78,13 +79,13 @@ std::string optionList(const std::vector<OptionText>& options) {
 
 } // namespace
 
-std::string manualPage(const CLI::App& app, const CLI::App& command) {
-  const bool whole = &app == &command;
-  const std::vector<OptionText> options = optionsOf(command);
+std::string manualPage(const CommandLine& app, Command command) {
+  const bool whole = command == app.root();
+  const std::vector<OptionText> options = command.options();
   const std::string name = pageName(app, command);
   // Without a date: the same command line gives the same page.
   std::string text = fmt::format(".TH \"{}\" 1 \"\" \"{}\" \"Rung\"\n", escaped(text::upper(name)), app.version());
-  text += ".SH NAME\n" + escaped(name) + " \\- " + escaped(command.get_description()) + "\n";
+  text += ".SH NAME\n" + escaped(name) + " \\- " + escaped(command.description()) + "\n";
   text += ".SH SYNOPSIS\n" +
           (whole ? bold("rungc") + " " + italic("COMMAND") + " [" + italic("ARGUMENT") + "...]"
                  : synopsisOf(command, options)) +
@@ -94,7 +95,7 @@ std::string manualPage(const CLI::App& app, const CLI::App& command) {
   text += exitStatus(app);
   text += ".SH SEE ALSO\n";
   if (!whole) return text + ".BR rungc (1)\n";
-  for (const CLI::App* other : commandsOf(app)) text += ".BR rungc\\-" + escaped(other->get_name()) + " (1),\n";
+  for (const Command& other : app.commands()) text += ".BR rungc\\-" + escaped(other.name()) + " (1),\n";
   return text + ".BR rung.toml (5),\n.BR rung\\-scenario (5),\n.BR rung\\-ladder (5),\n.BR rung\\-coverage (5),\n"
                 ".BR rung\\-profile (5),\n.BR rung_hal (9)\n";
 }

@@ -1,5 +1,6 @@
 // rungc new: a small complete project.
 #include <fmt/format.h>
+#include <memory>
 
 #include "ir/support/similar.h"
 #include "tools/project/new_project.h"
@@ -24,16 +25,16 @@ int makeNew(const std::string& dialect, const std::string& folder) {
 
 } // namespace
 
-void addNew(CLI::App& app, int& status) {
+void addNew(CommandLine& app, int& status) {
   struct Options {
     std::string dialect;
     std::string folder;
   };
-  CLI::App* command = app.add_subcommand("new", "Make a small complete project: program, scenario, project file");
+  Command command = app.add("new", "Make a small complete project: program, scenario, project file");
   auto options = std::make_shared<Options>();
-  command->add_option("DIALECT", options->dialect, "nct, gsk or technol")->required();
-  command->add_option("DIR", options->folder, "The folder to make; its name becomes that of the project")->required();
-  command->callback([options, &status] { status = makeNew(options->dialect, options->folder); });
+  command.option("DIALECT", options->dialect, "nct, gsk or technol").required();
+  command.option("DIR", options->folder, "The folder to make; its name becomes that of the project").required();
+  command.onRun([options, &status] { status = makeNew(options->dialect, options->folder); });
 }
 
 } // namespace rung::rungc

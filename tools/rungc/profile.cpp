@@ -1,9 +1,11 @@
 // rungc profile: what every rung and every scan costs while scenarios drive the program.
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <memory>
 
 #include "tools/console/working.h"
 #include "tools/profile/text.h"
@@ -101,31 +103,28 @@ int runProfile(const ProfileOptions& options) {
 
 } // namespace
 
-void addProfile(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("profile", "What every rung and every scan costs while scenarios run");
+void addProfile(CommandLine& app, int& status) {
+  Command command = app.add("profile", "What every rung and every scan costs while scenarios run");
   auto options = std::make_shared<ProfileOptions>();
-  command->add_option(
-      "FILE", options->files,
-      "Scenarios (.scn, folders) of one program, and its files instead of those that the scenarios name; "
-      "without any those of the project");
-  command->add_option("--scenario", options->scenarios, "Scenarios, as FILE");
-  command->add_option("--engine", options->engine, "Engine whose times are measured: interp, cpp, llvm or jit")
-      ->capture_default_str();
+  command.option("FILE", options->files,
+                 "Scenarios (.scn, folders) of one program, and its files instead of those that the scenarios name; "
+                 "without any those of the project");
+  command.option("--scenario", options->scenarios, "Scenarios, as FILE");
+  command.option("--engine", options->engine, "Engine whose times are measured: interp, cpp, llvm or jit")
+      .showDefault();
   command
-      ->add_option("--by", options->by,
-                   "Order: operations (exact, the same in every run) or time (of all scans, interruptions left out)")
-      ->check(CLI::IsMember({"operations", "time"}))
-      ->capture_default_str();
-  command->add_option("--repeat", options->repeat, "How many runs are timed")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--top", options->text.top, "Lines per table; 0: all")->capture_default_str();
-  command->add_flag("--never", options->text.never, "List the rungs that never ran");
-  command->add_option("--baseline", options->baseline, "Compare with a profile that --json wrote");
-  command->add_option("--html", options->html,
-                      "Write a page: the drawing of the program, its rungs coloured by their share");
-  command->add_flag("--json", options->json, "As JSON, with everything (docs/profile-format.md)");
-  command->callback([options, &status] { status = runProfile(*options); });
+      .option("--by", options->by,
+              "Order: operations (exact, the same in every run) or time (of all scans, interruptions left out)")
+      .oneOf({"operations", "time"})
+      .showDefault();
+  command.option("--repeat", options->repeat, "How many runs are timed").between(1, 1000).showDefault();
+  command.option("--top", options->text.top, "Lines per table; 0: all").showDefault();
+  command.flag("--never", options->text.never, "List the rungs that never ran");
+  command.option("--baseline", options->baseline, "Compare with a profile that --json wrote");
+  command.option("--html", options->html,
+                 "Write a page: the drawing of the program, its rungs coloured by their share");
+  command.flag("--json", options->json, "As JSON, with everything (docs/profile-format.md)");
+  command.onRun([options, &status] { status = runProfile(*options); });
 }
 
 } // namespace rung::rungc

@@ -2,6 +2,7 @@
 // its inputs, drive it with a scenario, or type at it.
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <fmt/format.h>
 #include <list>
 #include <memory>
@@ -426,59 +427,54 @@ int runProgram(RunOptions& options) {
 
 } // namespace
 
-void addRun(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("run", "Run a program, from source or from a shared object");
+void addRun(CommandLine& app, int& status) {
+  Command command = app.add("run", "Run a program, from source or from a shared object");
   auto options = std::make_shared<RunOptions>();
-  addSourceOptions(*command, options->source);
-  command->add_option("--engine", options->engine,
-                      "interp, cpp, llvm, jit, or tiered: interp until the code of jit is there. Default: tiered, with "
-                      "--debugger jit; a shared object brings its own");
-  CLI::Option* scans = command
-                           ->add_option("--scans", options->scans,
-                                        "Number of scans; default: 1, with --scenario or --prompt none of its own")
-                           ->check(CLI::Range(uint64_t{0}, kMostScans));
-  command->add_option("--for", options->duration, "Time to run, such as 2s or 500ms")->excludes(scans);
+  addSourceOptions(command, options->source);
+  command.option("--engine", options->engine,
+                 "interp, cpp, llvm, jit, or tiered: interp until the code of jit is there. Default: tiered, with "
+                 "--debugger jit; a shared object brings its own");
+  Option scans =
+      command
+          .option("--scans", options->scans, "Number of scans; default: 1, with --scenario or --prompt none of its own")
+          .between(uint64_t{0}, kMostScans);
+  command.option("--for", options->duration, "Time to run, such as 2s or 500ms").excludes(scans);
   command
-      ->add_option("--set", options->sets,
-                   "NAME=VALUE: an input, a variable or a signal of the NC, before the first scan; may be repeated")
-      ->allow_extra_args(false);
-  CLI::Option* scenario = command->add_option(
-      "--scenario", options->scenarioFile,
-      "Carry out the statements of a scenario first; without a FILE it runs the scenario's own program");
-  CLI::Option* prompt =
-      command->add_flag("-i,--prompt", options->prompt,
-                        "Then take statements from the terminal: set, scan, run 2s, toggle, watch, help …");
-  command->add_option("--watch", options->watch, "Names whose changes are printed");
-  command->add_option("--trace", options->trace,
-                      "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
-  CLI::Option* realtime = command->add_flag("--realtime", options->realtime, "On the machine's clock")
-                              ->excludes(scenario)
-                              ->excludes(prompt);
+      .option("--set", options->sets,
+              "NAME=VALUE: an input, a variable or a signal of the NC, before the first scan; may be repeated")
+      .oneValue();
+  Option scenario =
+      command.option("--scenario", options->scenarioFile,
+                     "Carry out the statements of a scenario first; without a FILE it runs the scenario's own program");
+  Option prompt = command.flag("-i,--prompt", options->prompt,
+                               "Then take statements from the terminal: set, scan, run 2s, toggle, watch, help …");
+  command.option("--watch", options->watch, "Names whose changes are printed");
+  command.option("--trace", options->trace,
+                 "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
+  Option realtime =
+      command.flag("--realtime", options->realtime, "On the machine's clock").excludes(scenario).excludes(prompt);
   command
-      ->add_option("--priority", options->thread.priority,
-                   "Real-time priority of the run, 1 to 99 (SCHED_FIFO); without it the machine's ordinary scheduling")
-      ->check(CLI::Range(1, 99))
-      ->needs(realtime);
-  command->add_flag("--lock-memory", options->thread.lockMemory, "Keep all memory of the run in RAM")->needs(realtime);
-  command->add_flag("--debugger", options->debugger, "Let gdb see code compiled in the process");
-  command->add_flag("--unsealed", options->unsealed,
-                    "Load a shared object that has no seal; a damaged one may then crash");
-  command->add_option(
+      .option("--priority", options->thread.priority,
+              "Real-time priority of the run, 1 to 99 (SCHED_FIFO); without it the machine's ordinary scheduling")
+      .between(1, 99)
+      .needs(realtime);
+  command.flag("--lock-memory", options->thread.lockMemory, "Keep all memory of the run in RAM").needs(realtime);
+  command.flag("--debugger", options->debugger, "Let gdb see code compiled in the process");
+  command.flag("--unsealed", options->unsealed, "Load a shared object that has no seal; a damaged one may then crash");
+  command.option(
       "--retain", options->retain,
       "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");
-  command->add_option("--cache", options->cache,
-                      "Folder for compiled code of engines jit and tiered, to start the same program faster");
-  addLevelOption(*command, options->level);
+  command.option("--cache", options->cache,
+                 "Folder for compiled code of engines jit and tiered, to start the same program faster");
+  addLevelOption(command, options->level);
   // The scenario may name the program, so it is read before the program is looked for.
-  command->parse_complete_callback([command, options] {
-    if (!command->remaining().empty()) return;
+  command.onParsed([options] {
     int wrong = kOk;
     if (!options->scenarioFile.empty())
       wrong = readRunScenario(options->scenarioFile, options->source, options->scenario);
-    if (wrong == kOk) wrong = takeProject(options->source);
-    if (wrong != kOk) throw CLI::RuntimeError(wrong);
+    return wrong == kOk ? takeProject(options->source) : wrong;
   });
-  command->callback([options, &status] { status = runProgram(*options); });
+  command.onRun([options, &status] { status = runProgram(*options); });
 }
 
 } // namespace rung::rungc

@@ -2,16 +2,17 @@
 #include "tools/rungc/scenario_trace.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace rung::rungc {
 
-void ScenarioTrace::addTo(CLI::App& command) {
-  CLI::Option* trace = command.add_option(
-      "--trace", path_,
-      "Write the values of names after every scan to FILE.vcd (changes) or FILE.csv (one row per scan)");
-  command.add_option("--watch", names_, "Names to trace; default: every name and address that the rungs use")
-      ->needs(trace)
-      ->allow_extra_args();
+void ScenarioTrace::addTo(Command command) {
+  Option trace =
+      command.option("--trace", path_,
+                     "Write the values of names after every scan to FILE.vcd (changes) or FILE.csv (one row per scan)");
+  command.option("--watch", names_, "Names to trace; default: every name and address that the rungs use")
+      .needs(trace)
+      .manyValues();
 }
 
 std::string ScenarioTrace::problem(size_t scenarios) const {

@@ -1,10 +1,10 @@
 // `rungc test --trace FILE --watch NAME…`: the values of names while one scenario runs, in a file.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "tools/rungc/command_line.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/trace.h"
 
@@ -12,7 +12,7 @@ namespace rung::rungc {
 
 class ScenarioTrace {
 public:
-  void addTo(CLI::App& command);
+  void addTo(Command command);
 
   bool wanted() const { return !path_.empty(); }
   // Why it cannot be for so many scenarios; "" when it can.

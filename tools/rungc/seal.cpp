@@ -4,7 +4,9 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <memory>
 #include <optional>
+#include <string_view>
 
 #include "rtlib/host/elf_file.h"
 #include "rtlib/host/file.h"
@@ -92,13 +94,13 @@ int writeProgram(const std::string& out, const std::string& file) {
   return wrong.empty() ? kOk : environmentError(wrong);
 }
 
-void addSeal(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("seal", "Seal shared objects that another linker made, or sign programs");
+void addSeal(CommandLine& app, int& status) {
+  Command command = app.add("seal", "Seal shared objects that another linker made, or sign programs");
   auto options = std::make_shared<SealOptions>();
-  command->add_option("FILE", options->files, "Compiled programs (.so); a seal that one has is replaced")->required();
-  command->add_option("--sign", options->key, "Sign with this secret key (see rungc help key)");
-  command->add_flag("-q,--quiet", options->quiet, "Nothing but errors");
-  command->callback([options, &status] { status = sealFiles(*options); });
+  command.option("FILE", options->files, "Compiled programs (.so); a seal that one has is replaced").required();
+  command.option("--sign", options->key, "Sign with this secret key (see rungc help key)");
+  command.flag("-q,--quiet", options->quiet, "Nothing but errors");
+  command.onRun([options, &status] { status = sealFiles(*options); });
 }
 
 } // namespace rung::rungc

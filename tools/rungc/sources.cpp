@@ -1,9 +1,12 @@
 // Options and steps that all compiling commands share.
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
 #include <iostream>
 #include <map>
 #include <set>
+#include <span>
+#include <string_view>
 #include <unistd.h>
 
 #include "ir/support/diag_render.h"
@@ -14,39 +17,33 @@
 
 namespace rung::rungc {
 
-void addSourceOptions(CLI::App& command, SourceOptions& options) {
-  command.add_option("FILE", options.files,
-                     "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
-                     "without any, the project (rung.toml) of the working directory or of a folder above it");
-  CLI::Option* project =
-      command.add_option("--project", options.projectFile, "The project file, or its folder, instead of the one found");
-  command.add_flag("--no-project", options.noProject, "Only the named files, without the project that they belong to")
-      ->excludes(project);
-  command.add_option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not name it");
-  command.add_option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated")
-      ->allow_extra_args(false);
-  command.add_flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
-  command.add_flag("--json", options.json, "Diagnostics as JSON on standard output");
-  command.add_flag("-q,--quiet", options.quiet, "Nothing but errors and warnings");
+void addSourceOptions(Command command, SourceOptions& options) {
+  command.option("FILE", options.files,
+                 "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
+                 "without any, the project (rung.toml) of the working directory or of a folder above it");
+  Option project =
+      command.option("--project", options.projectFile, "The project file, or its folder, instead of the one found");
+  command.flag("--no-project", options.noProject, "Only the named files, without the project that they belong to")
+      .excludes(project);
+  command.option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not name it");
+  command.option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated").oneValue();
+  command.flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
+  command.flag("--json", options.json, "Diagnostics as JSON on standard output");
+  command.flag("-q,--quiet", options.quiet, "Nothing but errors and warnings");
   addColorOption(command, options.color, "Colours in diagnostics");
-  command.parse_complete_callback([&command, &options] {
-    if (!command.remaining().empty()) return; // a word that it does not take: that is reported first
-    if (const int status = takeProject(options); status != kOk) throw CLI::RuntimeError(status);
-  });
+  command.onParsed([&options] { return takeProject(options); });
 }
 
-void addColorOption(CLI::App& command, std::string& color, const std::string& what) {
-  command.add_option("--color", color, what)->check(CLI::IsMember({"auto", "always", "never"}));
+void addColorOption(Command command, std::string& color, const std::string& what) {
+  command.option("--color", color, what).oneOf({"auto", "always", "never"});
 }
 
 bool wantsColor(const std::string& color, int file) {
   return color == "always" || (color == "auto" && isatty(file) != 0);
 }
 
-void addLevelOption(CLI::App& command, std::string& level) {
-  command.add_option("-O", level, "0: compile fast, 2: run fast")
-      ->check(CLI::IsMember({"0", "2"}))
-      ->capture_default_str();
+void addLevelOption(Command command, std::string& level) {
+  command.option("-O", level, "0: compile fast, 2: run fast").oneOf({"0", "2"}).showDefault();
 }
 
 int usageError(const std::string& message) {

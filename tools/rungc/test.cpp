@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
+#include <memory>
 #include <thread>
 #include <unistd.h>
 
@@ -148,35 +149,35 @@ int runTests(TestOptions& options) {
 
 } // namespace
 
-void addTest(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("test", "Run scenarios; several engines are compared after every scan");
+void addTest(CommandLine& app, int& status) {
+  Command command = app.add("test", "Run scenarios; several engines are compared after every scan");
   auto options = std::make_shared<TestOptions>();
-  command->add_option(
+  command.option(
       "SCENARIO", options->names,
       "Scenario files; folders: the scenarios of the project in it, else every *.scn below; without any, those of the "
       "project of the working directory");
   command
-      ->add_option("--engine", options->engines,
-                   "interp, cpp, llvm, jit, tiered, a list of them with commas, or all: the first four")
-      ->capture_default_str();
-  command->add_option("-j,--jobs", options->threads, "How many scenarios run at a time; default: one per processor")
-      ->check(CLI::Range(1u, 256u));
+      .option("--engine", options->engines,
+              "interp, cpp, llvm, jit, tiered, a list of them with commas, or all: the first four")
+      .showDefault();
+  command.option("-j,--jobs", options->threads, "How many scenarios run at a time; default: one per processor")
+      .between(1u, 256u);
   command
-      ->add_option("--filter", options->filters,
-                   "Only scenarios whose path contains this text; with * ? [ a pattern; may be repeated")
-      ->allow_extra_args(false);
-  command->add_flag("--fail-fast", options->failFast, "End at the first failure");
-  command->add_flag("--watch-files", options->watchFiles, "Run again when a scenario or a program changes");
-  addColorOption(*command, options->color, "Colours of ok and FAILED");
-  options->trace.addTo(*command);
-  command->add_option("--junit", options->junit, "Write the results as JUnit XML");
-  command->add_option("--cxx", options->cxx, "C++ compiler of the engine cpp");
-  addLevelOption(*command, options->level);
-  command->add_flag("--strict", options->strict,
-                    "Warnings that the control's own rules call errors are errors; a scenario must expect something");
-  addCoverageOptions(*command, options->coverage);
-  command->callback([command, options, &status] {
-    options->enginesGiven = command->count("--engine") > 0;
+      .option("--filter", options->filters,
+              "Only scenarios whose path contains this text; with * ? [ a pattern; may be repeated")
+      .oneValue();
+  command.flag("--fail-fast", options->failFast, "End at the first failure");
+  command.flag("--watch-files", options->watchFiles, "Run again when a scenario or a program changes");
+  addColorOption(command, options->color, "Colours of ok and FAILED");
+  options->trace.addTo(command);
+  command.option("--junit", options->junit, "Write the results as JUnit XML");
+  command.option("--cxx", options->cxx, "C++ compiler of the engine cpp");
+  addLevelOption(command, options->level);
+  command.flag("--strict", options->strict,
+               "Warnings that the control's own rules call errors are errors; a scenario must expect something");
+  addCoverageOptions(command, options->coverage);
+  command.onRun([command, options, &status] {
+    options->enginesGiven = command.given("--engine");
     status = runTests(*options);
   });
 }

@@ -4,21 +4,20 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
+#include <memory>
+#include <string_view>
 
 #include "ir/support/similar.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/manual.h"
 
 namespace rung::rungc {
 namespace {
 
-std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
-std::string shortHelp(const CLI::App& app) {
-  std::string text = app.get_description() + "\n\n";
-  for (const CLI::App* command : commandsOf(app))
-    text += fmt::format("  rungc {:<9} {}\n", command->get_name(), command->get_description());
+std::string shortHelp(const CommandLine& app) {
+  std::string text = app.root().description() + "\n\n";
+  for (const Command& command : app.commands())
+    text += fmt::format("  rungc {:<9} {}\n", command.name(), command.description());
   return text + "\nrungc help COMMAND says more about one; docs/guide.md shows them at work.\n";
 }
 
@@ -27,63 +26,60 @@ std::string didYouMean(const Similar& similar, std::string_view dashes = "") {
   return similar.best().empty() ? "" : fmt::format("; did you mean {}{}?", dashes, similar.best());
 }
 
-std::string unknownCommand(const CLI::App& app, const std::string& word) {
+std::string unknownCommand(const CommandLine& app, const std::string& word) {
   Similar similar(word);
-  for (const CLI::App* command : commandsOf(app)) similar.offer(command->get_name());
+  for (const Command& command : app.commands()) similar.offer(command.name());
   return fmt::format("there is no command '{}'{} `rungc help` lists them", word,
                      similar.best().empty() ? ";" : didYouMean(similar));
 }
 
-std::string unknownOption(const CLI::App& command, const std::string& word) {
+std::string unknownOption(Command command, const std::string& word) {
   const std::string name =
       word.substr(0, word.find('=')).substr(std::min<size_t>(word.find_first_not_of('-'), word.size()));
+  const std::vector<OptionText> options = command.options();
   Similar similar(name);
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& known : option->get_lnames()) similar.offer(known);
-  return fmt::format("rungc {} has no option '{}'{}", command.get_name(), word, didYouMean(similar, "--"));
+  for (const OptionText& option : options)
+    for (const std::string_view known : option.names)
+      if (known.starts_with("--")) similar.offer(known.substr(2));
+  return fmt::format("rungc {} has no option '{}'{}", command.name(), word, didYouMean(similar, "--"));
 }
 
-const CLI::App* commandOf(const CLI::App& app) {
-  const auto named = app.get_subcommands();
-  return named.empty() ? nullptr : named.front();
-}
-
-std::string wrongWord(const CLI::App& command, const std::string& word) {
+std::string wrongWord(Command command, const std::string& word) {
   if (word.starts_with('-')) return unknownOption(command, word);
-  return fmt::format("rungc {} takes no further word: '{}'", command.get_name(), word);
+  return fmt::format("rungc {} takes no further word: '{}'", command.name(), word);
 }
 
 } // namespace
 
-int wrongUsage(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App* command = commandOf(app);
-  const std::vector<std::string> unread = command == nullptr ? app.remaining() : command->remaining();
-  if (command == nullptr && unread.empty()) {
+int wrongUsage(const CommandLine& app, const WrongWords& words) {
+  if (!words.command && words.unread.empty()) {
     std::cerr << shortHelp(app);
     return kUsage;
   }
-  if (command == nullptr) return usageError(unknownCommand(app, unread.front()));
-  const std::string text =
-      unread.empty() ? fmt::format("{}: {}", command->get_name(), error.what()) : wrongWord(*command, unread.front());
-  return usageError(fmt::format("{}; `rungc help {}` shows what it takes", text, command->get_name()));
+  if (!words.command) return usageError(unknownCommand(app, words.unread.front()));
+  const Command& command = *words.command;
+  const std::string text = words.unread.empty() ? fmt::format("{}: {}", command.name(), words.text)
+                                                : wrongWord(command, words.unread.front());
+  return usageError(fmt::format("{}; `rungc help {}` shows what it takes", text, command.name()));
 }
 
-void addHelp(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("help", "List the commands, or say what one takes");
+void addHelp(CommandLine& app, int& status) {
+  Command command = app.add("help", "List the commands, or say what one takes");
   auto word = std::make_shared<std::string>();
-  command->add_option("COMMAND", *word, "The command");
-  command->callback([&app, word, &status] {
+  auto man = std::make_shared<bool>(false);
+  command.option("COMMAND", *word, "The command");
+  command.flag("--man", *man, "As the source of a manual page, for man -l -");
+  command.onRun([&app, word, man, &status] {
     if (word->empty()) {
-      std::cout << shortHelp(app);
+      std::cout << (*man ? manualPage(app, app.root()) : shortHelp(app));
       return;
     }
-    const std::vector<const CLI::App*> commands = commandsOf(app);
-    const auto named =
-        std::find_if(commands.begin(), commands.end(), [&](const CLI::App* c) { return c->get_name() == *word; });
+    const std::vector<Command> commands = app.commands();
+    const auto named = std::ranges::find(commands, *word, &Command::name);
     if (named == commands.end())
       status = usageError(unknownCommand(app, *word));
     else
-      std::cout << (*named)->help("rungc");
+      std::cout << (*man ? manualPage(app, *named) : named->help());
   });
 }
 

@@ -1,10 +1,10 @@
 // Help, and what is said about a wrong command line: one line with the word that was meant.
 #pragma once
-#include <CLI/CLI.hpp>
+#include "tools/rungc/command_line.h"
 
 namespace rung::rungc {
 
 // Prints what is wrong and gives kUsage.
-int wrongUsage(const CLI::App& app, const CLI::ParseError& error);
+int wrongUsage(const CommandLine& app, const WrongWords& words);
 
 } // namespace rung::rungc

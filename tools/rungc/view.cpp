@@ -1,6 +1,8 @@
 // rungc view: draws a ladder program as a page or a picture.
 #include <cstdio>
 #include <fmt/format.h>
+#include <memory>
+#include <span>
 
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
@@ -71,24 +73,24 @@ int run(ViewOptions options) {
 
 } // namespace
 
-void addView(CLI::App& app, int& status) {
-  CLI::App* command = app.add_subcommand("view", "Draw the ladder of a program, as a page or a picture");
+void addView(CommandLine& app, int& status) {
+  Command command = app.add("view", "Draw the ladder of a program, as a page or a picture");
   auto options = std::make_shared<ViewOptions>();
-  addSourceOptions(*command, options->source);
-  command->add_option("-o,--output", options->out,
-                      "The file to write: .html, a page for screen and paper; .svg; in a project NAME.html beside its "
-                      "rung.toml without it");
-  command->add_option(
+  addSourceOptions(command, options->source);
+  command.option("-o,--output", options->out,
+                 "The file to write: .html, a page for screen and paper; .svg; in a project NAME.html beside its "
+                 "rung.toml without it");
+  command.option(
       "--title", options->title,
       "The machine or program, as the page and its sheets of paper call it; default: the name of the project");
-  command->add_option("--date", options->date, "The date, to be printed on every sheet");
-  command->add_option("--revision", options->revision, "The revision, to be printed on every sheet");
+  command.option("--date", options->date, "The date, to be printed on every sheet");
+  command.option("--revision", options->revision, "The revision, to be printed on every sheet");
   command
-      ->add_option("--link", options->link,
-                   "The link of a line of the source: {file} as seen from the page, {path} in full, {line}; "
-                   "empty: nowhere")
-      ->capture_default_str();
-  command->callback([options, &status] { status = run(*options); });
+      .option("--link", options->link,
+              "The link of a line of the source: {file} as seen from the page, {path} in full, {line}; "
+              "empty: nowhere")
+      .showDefault();
+  command.onRun([options, &status] { status = run(*options); });
 }
 
 } // namespace rung::rungc

@@ -12,11 +12,13 @@ target_compile_options(rung_warnings INTERFACE
   $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>
   $<$<BOOL:${RUNG_WERROR}>:-Werror>)
 
-# lld-19 for both compilers; g++ finds it only through -B.
-add_link_options(-fuse-ld=lld "-B${LLVM_TOOLS_BINARY_DIR}")
+# lld-19 for both compilers; g++ finds it only through -B. The runtime alone has the compiler's own linker.
+if(RUNG_COMPILER)
+  add_link_options(-fuse-ld=lld "-B${LLVM_TOOLS_BINARY_DIR}")
+endif()
 
 # Same bytes whatever the folder of the clone.
-add_compile_options("-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=")
+add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=")
 
 set(rung_instrumentation "")
 if(RUNG_SANITIZE)
@@ -37,14 +39,22 @@ function(rung_do_not_instrument target)
     get_target_property(options ${target} ${property})
     if(options AND rung_instrumentation)
       list(REMOVE_ITEM options ${rung_instrumentation})
-      set_target_properties(${target} PROPERTIES ${property} "${options}")
+      set_target_properties(${target} PROPERTIES ${property} "${options}" DISABLE_PRECOMPILE_HEADERS ON)
     endif()
   endforeach()
 endfunction()
 
 find_program(RUNG_CCACHE ccache)
-if(RUNG_CCACHE)
+set(rung_caches_headers OFF)
+if(RUNG_CCACHE AND PROJECT_IS_TOP_LEVEL)
   set(CMAKE_C_COMPILER_LAUNCHER
-    env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1 "${RUNG_CCACHE}")
+    env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_PCH_EXTSUM=1 "${RUNG_CCACHE}")
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_C_COMPILER_LAUNCHER})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    set(rung_caches_headers ON) # see RungHeaders
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
+    # Of CMake's own way the cache does not see that it names a file.
+    set(CMAKE_CXX_COMPILE_OPTIONS_USE_PCH -include-pch <PCH_FILE>)
+  endif()
 endif()

@@ -1,22 +1,34 @@
 # Third-party packages, all from Debian, and the interface targets over them.
-list(APPEND CMAKE_PREFIX_PATH /usr/lib/llvm-19) # LLD's config file is found only with it
-
+# Of the runtime.
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
+find_path(RUNG_SODIUM_INCLUDE sodium.h REQUIRED)
+find_library(RUNG_SODIUM_LIBRARY sodium REQUIRED)
+
+# Digests and signatures; its package has no CMake config file.
+add_library(rung_sodium INTERFACE)
+target_include_directories(rung_sodium SYSTEM INTERFACE "${RUNG_SODIUM_INCLUDE}")
+target_link_libraries(rung_sodium INTERFACE "${RUNG_SODIUM_LIBRARY}")
+
+if(RUNG_TESTS)
+  find_package(GTest REQUIRED CONFIG)
+endif()
+if(NOT RUNG_COMPILER)
+  return()
+endif()
+
+# Of the compiler and its tools.
 find_package(fmt 9 REQUIRED CONFIG)
-find_package(GTest REQUIRED CONFIG)
-find_package(benchmark REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(EXPAT 2.5 REQUIRED)
-find_package(ZLIB REQUIRED)
 find_package(pugixml 1.13 REQUIRED CONFIG)
 find_package(tomlplusplus 3.3 REQUIRED CONFIG)
 find_path(RUNG_EDIT_INCLUDE histedit.h REQUIRED)
 find_library(RUNG_EDIT_LIBRARY edit REQUIRED)
-find_path(RUNG_SODIUM_INCLUDE sodium.h REQUIRED)
-find_library(RUNG_SODIUM_LIBRARY sodium REQUIRED)
 find_path(RUNG_UTF8PROC_INCLUDE utf8proc.h REQUIRED)
 find_library(RUNG_UTF8PROC_LIBRARY utf8proc REQUIRED)
+list(APPEND CMAKE_PREFIX_PATH /usr/lib/llvm-19) # LLD's config file is found only with it
 find_package(LLVM 19.1 REQUIRED CONFIG) # plain "19" is rejected by LLVM's version file
 find_package(LLD 19.1 REQUIRED CONFIG)
 
@@ -24,11 +36,6 @@ find_package(LLD 19.1 REQUIRED CONFIG)
 add_library(rung_edit INTERFACE)
 target_include_directories(rung_edit SYSTEM INTERFACE "${RUNG_EDIT_INCLUDE}")
 target_link_libraries(rung_edit INTERFACE "${RUNG_EDIT_LIBRARY}")
-
-# Digests and signatures; its package has no CMake config file.
-add_library(rung_sodium INTERFACE)
-target_include_directories(rung_sodium SYSTEM INTERFACE "${RUNG_SODIUM_INCLUDE}")
-target_link_libraries(rung_sodium INTERFACE "${RUNG_SODIUM_LIBRARY}")
 
 # Decoding and widths of characters; its package has no CMake config file.
 add_library(rung_utf8proc INTERFACE)

@@ -1,4 +1,5 @@
-# Where things are installed (GNUInstallDirs), and what makes the two libraries usable from other projects.
+# Where things are installed (GNUInstallDirs), and what makes the two libraries usable from other projects. A project that
+# has Rung as a part of it uses the same names, and installs itself alone.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -13,10 +14,13 @@ function(rung_below_prefix result folder)
 endfunction()
 
 # rung_install_library(NAME HEADERS file... DESCRIPTION text REQUIRES pkg-config...): the shared library rung_NAME as
-# Rung::NAME, with its headers "rung/FILE".
+# Rung::NAME, with its headers, which lie in a folder "rung" here and there.
 function(rung_install_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "DESCRIPTION;REQUIRES" "HEADERS")
   add_library(Rung::${name} ALIAS rung_${name})
+  if(NOT PROJECT_IS_TOP_LEVEL)
+    return()
+  endif()
   set_target_properties(rung_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(rung_${name} INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   install(TARGETS rung_${name} EXPORT rung-${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -39,6 +43,9 @@ function(rung_install_library name)
   install(FILES "${PROJECT_BINARY_DIR}/rung-${name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 endfunction()
 
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/RungConfig.cmake.in" "${PROJECT_BINARY_DIR}/RungConfig.cmake"
   INSTALL_DESTINATION "${rung_cmake_folder}" NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/RungConfigVersion.cmake" COMPATIBILITY SameMinorVersion)

@@ -18,7 +18,7 @@ its Instance may be read, by names that were read before, and nothing else. Pyth
 C is not here.
 
 The library is the file that the environment variable RUNG_RUNTIME names, else librung-runtime.so.0 beside this module,
-in ../lib or ../../lib, else the dynamic linker's. Without one of a fitting version the import is an ImportError.
+in ../.., ../lib or ../../lib, else the dynamic linker's. Without one of a fitting version the import is an ImportError.
 """
 import ctypes
 import enum
@@ -562,7 +562,7 @@ def _find():
         return os.path.abspath(given)
     name = "librung-runtime.so.0"
     here = os.path.dirname(os.path.abspath(__file__))
-    near = (os.path.join(here, *folders, name) for folders in ((), ("..", "lib"), ("..", "..", "lib")))
+    near = (os.path.join(here, *folders, name) for folders in ((), ("..", ".."), ("..", "lib"), ("..", "..", "lib")))
     return next(filter(os.path.exists, near), name)
 
 

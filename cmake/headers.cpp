@@ -1,0 +1,1 @@
+// Compiled with nothing but the headers before it (RungHeaders.cmake).

@@ -35,11 +35,12 @@ add_link_options(${rung_instrumentation})
 # Takes the instrumentation from a program that valgrind runs, or whose instructions are counted. Such a program has
 # sources of its own only: the libraries stay instrumented.
 function(rung_do_not_instrument target)
+  set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON) # which are instrumented
   foreach(property IN ITEMS COMPILE_OPTIONS LINK_OPTIONS)
     get_target_property(options ${target} ${property})
     if(options AND rung_instrumentation)
       list(REMOVE_ITEM options ${rung_instrumentation})
-      set_target_properties(${target} PROPERTIES ${property} "${options}" DISABLE_PRECOMPILE_HEADERS ON)
+      set_target_properties(${target} PROPERTIES ${property} "${options}")
     endif()
   endforeach()
 endfunction()

@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+#include "ir/support/put.h"
+
 namespace rung::test {
 namespace {
 
@@ -55,7 +57,7 @@ public:
 private:
   template <class... T>
   void line(fmt::format_string<T...> format, T&&... arguments) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<T>(arguments)...);
+    put(text_, format, std::forward<T>(arguments)...);
     text_ += '\n';
   }
   template <class... T>

@@ -12,6 +12,7 @@
 
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/layout/abi_fields.h"
+#include "ir/support/put.h"
 #include "tests/unit/llvm/sample_module.h"
 
 namespace rung::codegen {
@@ -27,10 +28,9 @@ size_t pointerBytes(std::string_view target) { return target.starts_with("armv7"
 void assertStruct(const StructInfo& info, size_t pointer, std::set<std::string_view>& done, std::string& out) {
   if (!done.insert(info.name).second) return;
   const TargetStruct there = targetStruct(info, pointer);
-  fmt::format_to(std::back_inserter(out), "_Static_assert(sizeof({}) == {}, \"\");\n", info.name, there.size);
+  put(out, "_Static_assert(sizeof({}) == {}, \"\");\n", info.name, there.size);
   for (size_t i = 0; i < info.fields.size(); ++i) {
-    fmt::format_to(std::back_inserter(out), "_Static_assert(offsetof({}, {}) == {}, \"\");\n", info.name,
-                   info.fields[i].name, there.offsets[i]);
+    put(out, "_Static_assert(offsetof({}, {}) == {}, \"\");\n", info.name, info.fields[i].name, there.offsets[i]);
     if (info.fields[i].element != nullptr) assertStruct(*info.fields[i].element, pointer, done, out);
   }
 }

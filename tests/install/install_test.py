@@ -20,18 +20,6 @@ HOME = PREFIX = None  # in it: the working directory, and what is installed
 HIDE = []  # before a command: it does not see source and build
 SUFFIXES_OF_TEXT = {".cmake", ".pc", ".h", ".hpp", ".py", ".xml", ".svg", ".md", ".1", ".5", ".9", ""}
 
-HOSTS = """cmake_minimum_required(VERSION 3.25)
-project(hosts LANGUAGES C CXX)
-set(CMAKE_CXX_STANDARD 20)
-find_package(Rung 0.1 REQUIRED COMPONENTS runtime compiler)
-add_executable(embed-c examples/embed-c/main.c)
-add_executable(embed-cpp examples/embed-cpp/main.cpp)
-add_executable(embed-jit examples/embed-jit/main.c)
-target_link_libraries(embed-c Rung::runtime)
-target_link_libraries(embed-cpp Rung::runtime)
-target_link_libraries(embed-jit Rung::compiler)
-target_compile_definitions(embed-c PRIVATE _GNU_SOURCE)
-"""
 PARENT = """cmake_minimum_required(VERSION 3.25)
 project(parent LANGUAGES C CXX)
 add_subdirectory("${RUNG}" rung)
@@ -98,8 +86,7 @@ class Hosts(unittest.TestCase):
             self.assertIn(f"{name} => {library_folder()}/", found)
 
     def test_cmake_package(self):
-        (HOME / "CMakeLists.txt").write_text(HOSTS)
-        run(CMAKE, "-S", ".", "-B", "hosts", f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DCMAKE_COMPILE_WARNING_AS_ERROR=ON",
+        run(CMAKE, "-S", "examples/embed-plc", "-B", "hosts", f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DCMAKE_COMPILE_WARNING_AS_ERROR=ON",
             "-DCMAKE_C_FLAGS=-Wall", "-DCMAKE_CXX_FLAGS=-Wall")
         run(CMAKE, "--build", "hosts")
         for name in ("embed-c", "embed-cpp"):

@@ -3,7 +3,8 @@
 
 namespace rung {
 
-// "rungc 0.1", as compiled programs name their compiler and as the command names itself.
+const char* version(); // "0.1"
+// "rungc 0.1", as compiled programs name their compiler.
 const char* compilerName();
 
 } // namespace rung

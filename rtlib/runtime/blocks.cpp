@@ -159,7 +159,7 @@ int32_t failBlock(const rung_instance& instance, const HostBlock& block, BlockSt
   const char* name = block.name.c_str();
   switch (state) {
   case BlockState::Good: break;
-  case BlockState::Gone: return failName(instance, name);
+  case BlockState::Gone: return failName(instance.running.program(), name);
   case BlockState::Constant: return fail(RUNG_WRONG_TYPE, "%s is a constant: it has no memory", name);
   case BlockState::WithinByte:
     return fail(RUNG_BAD_ARGUMENT, "%s does not begin with a byte: a block is made of whole bytes", name);

@@ -61,15 +61,15 @@ void CellTable::add(const LocatedCell& cell) {
   count_.store(number + 1, std::memory_order_release);
 }
 
-bool CellNames::find(const Surroundings& around, const CellTable& table, const CellName& name, CellState& state,
+bool CellNames::find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
                      rung_cell& cell) {
   const std::lock_guard lock(mutex_);
   if (const auto known = numbers_.find(name); known != numbers_.end()) {
     cell = known->second;
-    state = table.at(cell)->state;
+    state = locateCell(around, program, name, &types_[cell]).state;
     return true;
   }
-  const LocatedCell found = locateCell(around, table.program(), name);
+  const LocatedCell found = locateCell(around, program, name);
   state = found.state;
   if (state != CellState::Good) return true;
   if (names_.size() == CellTable::kMostCells) return false;
@@ -77,8 +77,14 @@ bool CellNames::find(const Surroundings& around, const CellTable& table, const C
   names_.push_back(&numbers_.emplace(name, cell).first->first);
   types_.push_back(found.type);
   for (CellTable* other : tables_)
-    other->add(other == &table ? found : locateCell(around, other->program(), name, &found.type));
+    other->add(&other->program() == &program ? found : locateCell(around, other->program(), name, &found.type));
   return true;
+}
+
+std::optional<LocatedCell> CellNames::locate(const Surroundings& around, const rung_program& program, rung_cell cell) {
+  const std::lock_guard lock(mutex_);
+  if (cell >= names_.size()) return std::nullopt;
+  return locateCell(around, program, *names_[cell], &types_[cell]);
 }
 
 std::optional<rung_type> CellNames::typeOf(rung_cell cell) {

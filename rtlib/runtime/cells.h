@@ -72,13 +72,15 @@ private:
 // lock.
 class CellNames {
 public:
-  // The cell of this name; it is located in every table. `state` says what of it is wrong in `table`'s program, where
-  // it is not entered then. False: there are too many cells.
-  bool find(const Surroundings& around, const CellTable& table, const CellName& name, CellState& state,
+  // The cell of this name; it is located in every table. `state` says what of it is wrong in the program, where it is
+  // not entered then. False: there are too many cells.
+  bool find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
             rung_cell& cell);
   // As it was found; nothing where no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
   std::string nameOf(rung_cell cell); // of a cell that there is
+  // Where it lies in the program; nothing where no cell has this number.
+  std::optional<LocatedCell> locate(const Surroundings& around, const rung_program& program, rung_cell cell);
   // From now on the table has all cells.
   void join(const Surroundings& around, CellTable& table);
   void leave(CellTable& table);

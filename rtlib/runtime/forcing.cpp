@@ -153,11 +153,11 @@ int32_t rung_forces_new(rung_instance* instance, rung_replacement* replacement, 
   if (cells == nullptr || count == 0)
     return fail(RUNG_BAD_ARGUMENT, "a set of forces needs a cell at least; null ends the forces in effect");
   return contained([&] {
-    std::shared_ptr<const Image> image = handle->images.find(*handle->program.load(std::memory_order_acquire));
+    std::shared_ptr<const Image> image = runningImage(*handle);
     if (replacement != nullptr) {
       if (const int32_t status = imageOf(*handle, replacement, image); status != RUNG_OK) return status;
     }
-    if (image == nullptr) return fail(RUNG_WRONG_STATE, "another program is taking over at this moment");
+    if (image == nullptr) return failRunningImage();
     return prepare(*handle, std::move(image), {cells, count}, *forces);
   });
 }

@@ -31,8 +31,22 @@ Call::Call(const rung_instance* handle, When when) noexcept : instance_(instance
   } else if (other != self) {
     status_ = fail(RUNG_WRONG_THREAD, "another thread is inside a call for this instance");
   } else if (when != When::Always) {
-    status_ = fail(RUNG_WRONG_STATE, "a callback of the instance may only read it");
+    status_ = failCallback();
   }
+}
+
+bool isInCallback(const rung_instance& instance) noexcept {
+  return instance.inside.load(std::memory_order_relaxed) == static_cast<uintptr_t>(pthread_self());
+}
+
+int32_t failCallback() noexcept { return fail(RUNG_WRONG_STATE, "a callback of the instance may only read it"); }
+
+std::shared_ptr<const Image> runningImage(rung_instance& instance) {
+  return instance.images.find(*instance.program.load(std::memory_order_acquire));
+}
+
+int32_t failRunningImage() noexcept {
+  return fail(RUNG_WRONG_STATE, "another program is taking over at this moment");
 }
 
 // ---- the schedule ------------------------------------------------------------------------------------------------

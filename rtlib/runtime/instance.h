@@ -122,5 +122,11 @@ private:
 
 // The same for what may be called at any time.
 rung_instance* instanceOf(const rung_instance* handle) noexcept;
+// This thread is inside a call for the instance.
+bool isInCallback(const rung_instance& instance) noexcept;
+int32_t failCallback() noexcept;
+// The image of the program that runs, for any thread; null while another program is taking over.
+std::shared_ptr<const Image> runningImage(rung_instance& instance);
+int32_t failRunningImage() noexcept;
 
 } // namespace rung::runtime

@@ -8,10 +8,10 @@
 
 namespace rung::runtime {
 
-int32_t failName(const rung_instance& instance, const char* name) noexcept {
+int32_t failName(const rung_program& program, const char* name) noexcept {
   return fail(RUNG_NOT_FOUND,
               "%s is not a name of the program %s, an address of its dialect or a signal of the NC's interface", name,
-              instance.running.program().name);
+              program.name);
 }
 
 namespace {
@@ -30,22 +30,25 @@ int32_t failState(CellState state) noexcept {
 }
 
 // The sentence for a name that is not entered.
-int32_t failName(const rung_instance& instance, const char* name, CellState state) {
-  const rung_program& program = instance.running.program();
+int32_t failName(const rung_instance& instance, const rung_program& program, const char* name, CellState state) {
   if (state == CellState::Retyped) return fail(RUNG_WRONG_TYPE, "%s has no room for a real", name);
   if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
-  if (state != CellState::Overwritten) return runtime::failName(instance, name);
+  if (state != CellState::Overwritten) return runtime::failName(program, name);
   const std::optional<host::Ref> place = instance.around->writePlace(program, name);
   const std::optional<host::Ref> source = place ? host::Overwritten(program).source(*place) : std::nullopt;
   return fail(RUNG_OVERWRITTEN, "%s is copied from %s before the program reads it: write there", name,
               source ? nc::describe(program, *source).c_str() : "another place");
 }
 
+int32_t failCell(rung_cell cell) noexcept {
+  return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell);
+}
+
 // The cell as it can be used now; null: `status` says what is wrong.
 const LocatedCell* usable(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {
   const LocatedCell* found = instance.cells->at(cell);
   if (found == nullptr)
-    status = fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell);
+    status = failCell(cell);
   else if (found->state != CellState::Good)
     status = failState(found->state);
   else if (writes && !found->writes)
@@ -90,11 +93,12 @@ const LocatedCell* elementsOf(const rung_instance& instance, rung_cell cell, boo
 
 } // namespace
 
-int32_t findCell(rung_instance& instance, const char* name, int32_t access, rung_cell& cell) {
+int32_t findCell(rung_instance& instance, const rung_program& program, const char* name, int32_t access,
+                 rung_cell& cell) {
   CellState state = CellState::Good;
-  if (!instance.names.find(*instance.around, *instance.cells, {name, access}, state, cell))
+  if (!instance.names.find(*instance.around, program, {name, access}, state, cell))
     return fail(RUNG_OUT_OF_MEMORY, "an instance has no more than %u cells", CellTable::kMostCells);
-  return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, name, state);
+  return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, program, name, state);
 }
 
 } // namespace rung::runtime
@@ -103,22 +107,28 @@ using namespace rung;
 using namespace rung::runtime;
 
 int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell) {
-  const Call call(instance);
-  if (!call.ok()) return call.status();
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  if (isInCallback(*handle)) return failCallback();
   if (name == nullptr || cell == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "the name or the pointer that receives the cell is null");
   if (access < 0 || access > (RUNG_WRITE | RUNG_REAL))
     return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, and RUNG_REAL, not %d", access);
-  return contained([&] { return findCell(*call, name, access, *cell); });
+  return contained([&] {
+    const std::shared_ptr<const Image> image = runningImage(*handle);
+    return image == nullptr ? failRunningImage() : findCell(*handle, image->program, name, access, *cell);
+  });
 }
 
 int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info) {
-  const Call call(instance, When::Always);
-  if (!call.ok()) return call.status();
-  int32_t status = RUNG_OK;
-  const LocatedCell* found = usable(*call, cell, false, status);
-  if (found == nullptr) return status;
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
   return contained([&] {
+    const std::shared_ptr<const Image> image = runningImage(*handle);
+    if (image == nullptr) return failRunningImage();
+    const std::optional<LocatedCell> found = handle->names.locate(*handle->around, image->program, cell);
+    if (!found) return failCell(cell);
+    if (found->state != CellState::Good) return failState(found->state);
     const bool constant = found->ref.kind == host::RefKind::Constant;
     rung_cell_info out{.type = found->type,
                        .count = found->ref.count,
@@ -126,7 +136,7 @@ int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_c
                        .space = found->ref.space,
                        .byte = found->ref.byte,
                        .bit = found->ref.bit};
-    if (!constant) putText(out.address, nc::cellAddress(call->running.program(), found->ref));
+    if (!constant) putText(out.address, nc::cellAddress(image->program, found->ref));
     return giveStruct(info, out);
   });
 }

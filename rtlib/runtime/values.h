@@ -5,9 +5,10 @@
 namespace rung::runtime {
 
 // A status, and a sentence where it is an error.
-int32_t findCell(rung_instance& instance, const char* name, int32_t access, rung_cell& cell);
+int32_t findCell(rung_instance& instance, const rung_program& program, const char* name, int32_t access,
+                 rung_cell& cell);
 // The program that runs has no place of this name.
-int32_t failName(const rung_instance& instance, const char* name) noexcept;
+int32_t failName(const rung_program& program, const char* name) noexcept;
 
 // A bit as 0 or 1, an integer extended by its sign.
 inline int64_t valueOf(const rt::Memory& memory, const rt::Place& place) noexcept {

@@ -141,9 +141,9 @@ int32_t checkVariable(const rung_variable& v, uint32_t number) noexcept {
 // of the program's own where there is no such place.
 int32_t findVariable(rung_instance& instance, const rung_variable& v, bool input, rung_cell& cell) {
   const int32_t real = (v.direction & RUNG_BOUND_REAL) != 0 ? RUNG_REAL : 0;
-  const int32_t status = findCell(instance, v.name, RUNG_WRITE | real, cell);
+  const int32_t status = findCell(instance, instance.running.program(), v.name, RUNG_WRITE | real, cell);
   if (input || (status != RUNG_OVERWRITTEN && status != RUNG_WRONG_TYPE)) return status;
-  return findCell(instance, v.name, RUNG_READ | real, cell);
+  return findCell(instance, instance.running.program(), v.name, RUNG_READ | real, cell);
 }
 
 } // namespace

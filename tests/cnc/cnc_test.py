@@ -134,7 +134,7 @@ def fault(bench, _options):
     bench.program(HERE / "stuck.pmc")
     bench.copy(HERE / "stuck.map", "program.map")
     show = "loadusr -w sleep 0.2\nshow pin box\n"
-    done = bench.halrun(LOAD.format(options="name=box", prefix="box") + "setp box.number 77\nsetp box.run 1\n" + show +
+    done = bench.halrun(LOAD.format(options="names=box", prefix="box") + "setp box.number 77\nsetp box.run 1\n" + show +
                         "setp box.stick 1\n" + show + "setp box.stick 0\n" + show + "setp box.reset 1\n" +
                         show + "show funct\n")
     values = {pin: shown(done.stdout, "box." + pin) for pin in ("lamp", "value", "fault", "fault-line", "scans")}
@@ -150,11 +150,27 @@ def fault(bench, _options):
     expect("box: the program has been restarted" in done.stdout, "no message of the restart")
 
 
+def instances(bench, _options):
+    """Two programs with a map each, in two threads."""
+    bench.program(HERE / "stuck.pmc")
+    bench.copy(HERE / "stuck.map", "program.map")
+    bench.file("other.map", 'param.limit = { type = "s32", name = "D8:4", value = 42 }\n'
+                            'out.limit-now = { type = "s32", name = "D8:4" }\n')
+    done = bench.halrun("loadrt threads name1=servo period1=1000000 name2=slow period2=8000000\n"
+                        "loadrt rung_hal names=left,right so=@DIR@/program.so map=@DIR@/program.map,@DIR@/other.map\n"
+                        "addf left.scan servo\naddf right.scan slow\nstart\nsetp left.run 1\n"
+                        "loadusr -w sleep 0.3\nshow pin left.lamp\nshow pin right.limit-now\n"
+                        "setp right.limit 43\nloadusr -w sleep 0.1\nshow pin right.limit-now\nshow param right.limit\n")
+    expect(shown(done.stdout, "left.lamp") == ["TRUE"], "left does not run")
+    expect(shown(done.stdout, "right.limit-now") == ["42", "43"], shown(done.stdout, "right.limit-now"))
+    expect(done.returncode == 0, done.returncode)
+
+
 def unload(bench, _options):
     """Unloaded while its thread runs, it switches its outputs off, and can be loaded again, many times."""
     bench.program(HERE / "stuck.pmc")
     bench.copy(HERE / "stuck.map", "program.map")
-    load = "loadrt rung_hal so=@DIR@/program.so map=@DIR@/program.map name=box\naddf box.scan servo\n"
+    load = "loadrt rung_hal so=@DIR@/program.so map=@DIR@/program.map names=box\naddf box.scan servo\n"
     again = "unloadrt rung_hal\nshow sig\n" + load + "net lamp box.lamp\nsetp box.run 1\nloadusr -w sleep 0.2\nshow sig\n"
     done = bench.halrun("loadrt threads name1=servo period1=1000000\nstart\nnewsig lamp bit\n" + load +
                         "net lamp box.lamp\nsetp box.run 1\nloadusr -w sleep 0.2\nshow sig\n" + 10 * again)
@@ -253,10 +269,20 @@ edge = "up"
     shutil.copy(bench.home / "program.so", bench.home / "nobodys.so")
     expect("nobodys.so: it belongs to user" in load("", "so=@DIR@/nobodys.so"), "a program that is not root's")
     expect("rung_hal: cannot read /nowhere.map" in load("", "map=/nowhere.map"), "a missing map")
+    output = load("", "names=a,b,c map=/nowhere.map,/nowhere.map")
+    expect("one for all instances or one for each of names=" in output, "two maps for three instances")
+    # Files are opened with the rights of the user: what only root can read stays unread.
+    secret = bench.folder / "secret.map"
+    secret.write_text("secret of root\n", encoding="utf-8")
+    secret.chmod(0o600)
+    output = load("", "map=@DIR@/../secret.map") + load('include = "../secret.map"\n')
+    expect(output.count("secret.map: Permission denied") == 2 and "secret of root" not in output, "root's file was read")
+    output = load("", "retain=@DIR@/../memory")
+    expect("/../memory" in output and not list(bench.folder.glob("memory*")), "root's folder was written")
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, unload, retained, turning_centre, machining_centre, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, instances, unload, retained, turning_centre, machining_centre, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

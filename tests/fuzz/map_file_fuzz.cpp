@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,13 +17,12 @@
 #include "tests/fuzz/mapped_programs.h"
 #include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
-#include "tools/rung-hal/binding.h"
-#include "tools/rung-hal/map_file.h"
+#include "tools/mapping/binding.h"
+#include "tools/mapping/file.h"
 
 namespace {
 
 using namespace rung;
-using namespace rung::hal;
 
 // Takes a number and what follows it off the text; false: they are not there.
 bool skipNumber(std::string_view& text, char after) {
@@ -33,45 +33,47 @@ bool skipNumber(std::string_view& text, char after) {
 }
 
 void checkError(std::string_view error) {
-  RUNG_CHECK(error.starts_with("f.map:"), "an error names the file");
+  RUNG_CHECK(error.starts_with("f.map:") || error.starts_with("i.map:"), "an error names the file");
   error.remove_prefix(6);
   RUNG_CHECK(skipNumber(error, ':') && skipNumber(error, ':'), "an error has a line and a column");
   RUNG_CHECK(error.size() > 1 && error[0] == ' ', "an error says what is wrong");
 }
 
-void checkPlace(const MapPosition& at) { RUNG_CHECK(at.line > 0 && at.column > 0, "an entry has a place"); }
+void checkPlace(const mapping::Position& at) { RUNG_CHECK(at.line > 0 && at.column > 0, "an entry has a place"); }
 
-void checkMap(const MapFile& map) {
+void checkMap(const mapping::File& map) {
   std::set<std::string_view> names;
-  for (const MapPin& pin : map.pins) {
+  for (const mapping::Pin& pin : map.pins) {
     RUNG_CHECK(!pin.name.empty() && names.insert(pin.name).second, "a pin is made once");
     checkPlace(pin.at);
   }
-  const auto pin = [&](uint32_t number) -> const MapPin& {
+  const auto pin = [&](uint32_t number) -> const mapping::Pin& {
     RUNG_CHECK(number < map.pins.size(), "an entry's pin is there");
     return map.pins[number];
   };
-  for (const auto* links : {&map.inputs, &map.outputs})
-    for (const MapLink& link : *links) {
-      RUNG_CHECK(pin(link.pin).output == (links == &map.outputs), "a pin has the direction of its entry");
-      RUNG_CHECK(std::isfinite(link.scale) && link.scale != 0, "a scale can be divided by");
-      RUNG_CHECK(!link.name.empty(), "an entry names a place");
-      checkPlace(link.at);
-    }
-  for (const MapConst& constant : map.constants) {
+  for (const mapping::Link& link : map.links) {
+    RUNG_CHECK(std::isfinite(link.scale) && link.scale != 0, "a scale can be divided by");
+    RUNG_CHECK(!link.name.empty(), "an entry names a place");
+    RUNG_CHECK(link.bits.empty() || link.bits.front() == link.pin, "the first bit's pin is the entry's");
+    for (const uint32_t bit : link.bits) RUNG_CHECK(pin(bit).type == mapping::PinType::Bit, "a bit has a pin of type bit");
+    RUNG_CHECK(!link.value || pin(link.pin).direction == mapping::Direction::Parameter, "only parameters have a value");
+    checkPlace(link.at);
+  }
+  for (const mapping::Constant& constant : map.constants) {
     RUNG_CHECK(!constant.name.empty() && std::isfinite(constant.value), "a constant has a name and a value");
     checkPlace(constant.at);
   }
-  const auto checkEdge = [&](const MapEdge& edge) {
-    RUNG_CHECK(!pin(edge.pin).output && pin(edge.pin).type == PinType::Bit, "an edge is of an input bit");
+  const auto checkEdge = [&](const mapping::Edge& edge) {
+    RUNG_CHECK(pin(edge.pin).direction == mapping::Direction::In && pin(edge.pin).type == mapping::PinType::Bit,
+               "an edge is of an input bit");
   };
-  for (const MapSend& send : map.sends) {
+  for (const mapping::Send& send : map.sends) {
     checkEdge(send.edge);
-    if (send.codePin) RUNG_CHECK(!pin(*send.codePin).output, "the code comes from HAL");
-    if (send.donePin) RUNG_CHECK(pin(*send.donePin).output, "the answer goes to HAL");
+    if (send.codePin) RUNG_CHECK(pin(*send.codePin).direction == mapping::Direction::In, "the code comes from HAL");
+    if (send.donePin) RUNG_CHECK(pin(*send.donePin).direction == mapping::Direction::Out, "the answer goes to HAL");
     checkPlace(send.at);
   }
-  for (const MapEdge& edge : map.aborts) checkEdge(edge);
+  for (const mapping::Edge& edge : map.aborts) checkEdge(edge);
   RUNG_CHECK(map.timeoutNs >= 0, "a time is not negative");
 }
 
@@ -104,24 +106,27 @@ void checkLink(const Instance& plc, const rung_program& program, const Link& lin
     RUNG_CHECK(rung_instance_find(plc.handle(), link.name.c_str(), RUNG_READ, &cell) == RUNG_OK, "it is found");
   const rung_cell_info info = plc.describe(cell);
   RUNG_CHECK(info.space != RUNG_NONE && info.type != RUNG_TYPE_TEXT, "a place holds a value");
-  RUNG_CHECK((info.type == RUNG_TYPE_BIT) == (link.type == PinType::Bit), "a bit is for a bit");
-  RUNG_CHECK(info.type != RUNG_TYPE_F64 || link.type == PinType::Float, "a real number is for a float");
+  RUNG_CHECK((info.type == RUNG_TYPE_BIT) == (link.type == mapping::PinType::Bit), "a bit is for a bit");
+  RUNG_CHECK(info.type != RUNG_TYPE_F64 || link.type == mapping::PinType::Float, "a real number is for a float");
   const uint32_t flags = program.spaces[info.space].flags;
   RUNG_CHECK(direction != RUNG_TO_PROGRAM || (flags & RUNG_SPACE_OUTPUT) == 0 || (flags & RUNG_SPACE_INPUT) != 0,
              "outputs are not written");
 }
 
-void checkBinding(const MapFile& map, const Bound& program) {
+void checkBinding(const mapping::File& map, const Bound& program) {
   std::vector<std::string> errors;
   const Instance plc(program.image); // a new one: what is bound stays
-  const Binding binding = bindMap(map, plc.handle(), program.image.program(), errors);
-  for (const PinLink& link : binding.inputs) checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
-  for (const PinLink& link : binding.outputs)
-    checkLink(plc, program.image.program(), link, link.scale, RUNG_FROM_PROGRAM);
-  for (const ConstLink& constant : binding.constants)
+  const mapping::Binding binding = mapping::bindMap(map, plc.handle(), program.image.program(), errors);
+  for (const mapping::PinLink& link : binding.links) {
+    if (mapping::toProgram(link.direction))
+      checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
+    if (mapping::fromProgram(link.direction))
+      checkLink(plc, program.image.program(), link, link.scale, RUNG_FROM_PROGRAM);
+  }
+  for (const mapping::ConstLink& constant : binding.constants)
     checkLink(plc, program.image.program(), constant, 1, RUNG_TO_PROGRAM);
-  const size_t links = binding.inputs.size() + binding.outputs.size() + binding.constants.size();
-  const size_t entries = map.inputs.size() + map.outputs.size() + map.constants.size();
+  const size_t links = binding.links.size() + binding.constants.size();
+  const size_t entries = map.links.size() + map.constants.size();
   RUNG_CHECK(links <= entries && entries - links <= errors.size(), "an entry is bound or has an error");
   for (const std::string& error : errors) {
     checkError(error);
@@ -135,7 +140,11 @@ void checkBinding(const MapFile& map, const Bound& program) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::vector<std::string> errors;
-  const MapFile map = parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors);
+  const auto included = [](const std::string& path) -> std::string {
+    if (path != "i.map") throw std::runtime_error("cannot read it");
+    return "timeout = 1\nin.a = { type = \"bit\", name = \"X0.0\" }\nin.wrong = 1\n";
+  };
+  const mapping::File map = mapping::parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors, included);
   checkMap(map);
   for (const std::string& error : errors) checkError(error);
   for (const Bound& program : programs()) checkBinding(map, program);

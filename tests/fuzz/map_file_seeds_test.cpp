@@ -11,7 +11,7 @@
 #include "tests/fuzz/mapped_programs.h"
 #include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
-#include "tools/rung-hal/binding.h"
+#include "tools/mapping/binding.h"
 
 namespace rung::fuzz {
 namespace {
@@ -25,8 +25,8 @@ TEST(MapFileSeeds, BindWithoutErrors) {
     const testing::CompiledProgram program(source.file, source.text, compiler::EngineKind::Interp);
     const Instance instance(test::adopted(program.program()));
     std::vector<std::string> errors;
-    const hal::MapFile map = hal::parseMap(text, path, errors);
-    hal::bindMap(map, instance.handle(), program.program(), errors);
+    const mapping::File map = mapping::parseMap(text, path, errors);
+    mapping::bindMap(map, instance.handle(), program.program(), errors);
     EXPECT_THAT(errors, ::testing::IsEmpty());
   }
 }

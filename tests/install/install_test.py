@@ -169,6 +169,20 @@ class Command(unittest.TestCase):
         done = run(PREFIX / "bin/rungc", "test", "examples/gsk-mill/power-up.scn", "examples/embed-plc")
         self.assertRegex(done.stdout, r"(?m)^2 passed, 0 failed")
 
+    def test_a_host_answers_rungctl(self):
+        environment = {"RUNG_SOCKETS": str(HOME / "sockets")}
+        run(PREFIX / "bin/rungc", "build", "-q", "examples/gsk-mill", "-o", "mill.so")
+        host = subprocess.Popen([*HIDE, PREFIX / "bin/rung-run", "mill.so", "examples/gsk-mill/mill.map", "--name", "mill"], cwd=HOME,
+                                env={"PATH": "/usr/bin:/bin", "HOME": str(HOME)} | environment, stderr=subprocess.PIPE, text=True)
+        try:
+            self.assertIn("listening at", host.stderr.readline())
+            done = run(PREFIX / "bin/rungctl", "get", "SA", **environment)
+            self.assertEqual(done.stdout, "SA = true\n")
+        finally:
+            host.terminate()
+            self.assertEqual(host.wait(10), 0)
+            host.stderr.close()
+
 
 class Headers(unittest.TestCase):
     def test_each_compiles_alone(self):
@@ -190,10 +204,12 @@ class System(unittest.TestCase):
 
     def test_manual_pages(self):
         pages = sorted((PREFIX / "share/man").glob("man?/*"))
-        commands = re.findall(r"(?m)^  rungc (\S+)", run(PREFIX / "bin/rungc", "help").stdout)
-        self.assertGreater(len(commands), 10)
-        names = {"rungc.1", *(f"rungc-{name}.1" for name in commands), "rung.toml.5", "rung-scenario.5", "rung-ladder.5",
+        names = {"rung-run.1", "rung.toml.5", "rung-scenario.5", "rung-ladder.5",
                  "rung-coverage.5", "rung-profile.5"}
+        for program in ("rungc", "rungctl"):
+            commands = re.findall(rf"(?m)^  {program} (\S+)", run(PREFIX / f"bin/{program}", "help").stdout)
+            self.assertGreater(len(commands), 10)
+            names |= {f"{program}.1", *(f"{program}-{name}.1" for name in commands)}
         if any(PREFIX.glob("lib/linuxcnc/modules/*")):
             names.add("rung_hal.9")
         self.assertEqual({page.name for page in pages}, names)
@@ -220,7 +236,8 @@ class System(unittest.TestCase):
         return run("bash", "-u", "-c", script, "bash", *words).stdout.split()
 
     def test_bash_completion(self):
-        run("bash", "-n", PREFIX / "share/bash-completion/completions/rungc")
+        for program in ("rungc", "rungctl"):
+            run("bash", "-n", PREFIX / "share/bash-completion/completions" / program)
         self.assertEqual(self.completions("rungc", "ru"), ["run"])
         self.assertIn("test", self.completions("rungc", ""))
         self.assertEqual(self.completions("rungc", "run", "--en"), ["--engine"])
@@ -231,9 +248,10 @@ class System(unittest.TestCase):
         self.assertEqual(self.completions("rungc", "run", ""), [])
 
     def test_zsh_completion(self):
-        file = PREFIX / "share/zsh/vendor-completions/_rungc"
-        run("zsh", "-n", file)
-        self.assertTrue(file.read_text().startswith("#compdef rungc\n"))
+        for program in ("rungc", "rungctl"):
+            file = PREFIX / f"share/zsh/vendor-completions/_{program}"
+            run("zsh", "-n", file)
+            self.assertTrue(file.read_text().startswith(f"#compdef {program}\n"))
 
     def test_types_of_files(self):
         space = "{http://www.freedesktop.org/standards/shared-mime-info}"

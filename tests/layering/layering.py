@@ -50,7 +50,9 @@ MODULES = {
 }
 # A host of the runtime's library sees its headers alone: neither the simulation nor the compiler, nor the runtime inside.
 OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
-IN_A_HOST_TOO = ("tools/rung-hal/", "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
+HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/remote", "tools/plc", "tools/mapping")
+IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/command-line/", "tools/remote/", "tools/plc/", "tools/mapping/",
+                 "rtlib/host/realtime.h", "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 
 # Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
@@ -111,7 +113,7 @@ def offence(root, path, target):
 def check_hosts(root):
     """What ships with a machine is built on the library."""
     found = []
-    for file in sorted((root / "tools/rung-hal").rglob("*")):
+    for file in sorted(file for folder in HOSTS for file in (root / folder).rglob("*")):
         if file.suffix in SUFFIXES:
             for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
                 target = match.group(1)

@@ -23,7 +23,7 @@ GOOD = {
     "codegen/cpp/emit.h": '#include "ir/core/module.h"\n',
     "codegen/llvm/emit.cpp": "#include <llvm/IR/Module.h>\n",
     "ir/support/similar.h": "#include <string>\n",
-    "tools/rung-hal/map_file.cpp": '#include "ir/support/similar.h"\n',
+    "tools/mapping/file.cpp": '#include "ir/support/similar.h"\n',
     "tools/rungc/main.cpp": '#include "codegen/cpp/emit.h"\n#include <CLI/CLI.hpp>\n',
 }
 BAD = {

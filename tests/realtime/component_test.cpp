@@ -63,6 +63,7 @@ protected:
   // A GSK program that never ends while pin stick is on, and one of TECHNOL that shows messages.
   static void SetUpTestSuite() {
     built = std::make_unique<TemporaryFolder>();
+    setenv("RUNG_SOCKETS", path("sockets").c_str(), 1); // other tests have components, too
     write("messages.plc", kMessages);
     write("messages.map", kMessagesMap);
     build("tests/cnc/stuck.pmc", "stuck.so");
@@ -129,8 +130,6 @@ TEST_F(Component, ScansBetweenItsPins) {
   EXPECT_TRUE(bit("lamp"));
   EXPECT_EQ(hal.value<double>("rung.value"), 7);
   EXPECT_FALSE(bit("fault"));
-  EXPECT_GT(number("scan-time"), 0u);
-  EXPECT_GE(number("scan-time-max"), number("scan-time"));
   hal.unload();
   EXPECT_THAT(hal.lines(), IsEmpty());
   EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.run")); // an input, which is HAL's
@@ -171,11 +170,12 @@ TEST_F(Component, MaxTimeStopsTheProgram) {
   expectNothingLeft();
 }
 
-TEST_F(Component, MessagesArePrintedInTheScan) {
+TEST_F(Component, MessagesArePrintedByTheService) {
   ASSERT_EQ(loadMessages(), 0);
   bit("show") = true;
   scan(60);
-  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung_hal: message ")));
+  EXPECT_TRUE(scanUntil([&] { return !hal.lines().empty(); }));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: message ")));
   EXPECT_THAT(hal.lines(), Contains(HasSubstr("99")));
   EXPECT_TRUE(bit("lamp"));
   hal.unload();

@@ -29,14 +29,14 @@ std::vector<std::string> exampleNames() {
 }
 
 // The maps that an example brings, and the one of all its bits.
-std::vector<hal::MapFile> mapsOf(const fs::path& example, const rung_program& program) {
-  std::vector<hal::MapFile> maps = {mapOfAll(program)};
+std::vector<mapping::File> mapsOf(const fs::path& example, const rung_program& program) {
+  std::vector<mapping::File> maps = {mapOfAll(program)};
   for (const fs::directory_entry& entry : fs::directory_iterator(example)) {
     if (entry.path().extension() != ".map") continue;
     std::ifstream file(entry.path(), std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     std::vector<std::string> errors;
-    maps.push_back(hal::parseMap(text, entry.path().string(), errors));
+    maps.push_back(mapping::parseMap(text, entry.path().string(), errors));
     for (const std::string& error : errors) ADD_FAILURE() << error;
   }
   return maps;
@@ -65,8 +65,8 @@ TEST_P(Example, IsCleanInRealTime) {
   ASSERT_NE(engine, nullptr) << error;
   const rung_program& program = engine->program();
   const auto retain = [&](const char* name) { return (folder / name).string(); };
-  for (const hal::MapFile& map : mapsOf(example, program)) {
-    SCOPED_TRACE(map.path);
+  for (const mapping::File& map : mapsOf(example, program)) {
+    SCOPED_TRACE(map.paths[0]);
     EXPECT_EXIT(exitWith("box", runInBox(program, map, retain("box"))), testing::ExitedWithCode(0), "box: ");
   }
   EXPECT_EXIT(exitWith("bare", runBare(program, retain("bare"))), testing::ExitedWithCode(0), "bare: ");

@@ -10,6 +10,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <ctime>
+#include <sstream>
 
 // The component, and where it keeps its parameters, as RTAPI finds them.
 extern "C" {
@@ -18,16 +19,14 @@ void rtapi_app_exit();
 extern void* rtapi_info_address_so;
 extern void* rtapi_info_address_map;
 extern void* rtapi_info_address_retain;
-extern void* rtapi_info_address_name;
+extern void* rtapi_info_address_names;
+extern int rtapi_info_size_names;
 }
 
 namespace rung::test {
 namespace {
 
 constexpr int kComponent = 7;
-void setParameter(void* place, const std::string& text) {
-  *static_cast<char**>(place) = text.empty() ? nullptr : const_cast<char*>(text.c_str());
-}
 
 } // namespace
 
@@ -43,11 +42,22 @@ FakeHal::~FakeHal() {
 
 int FakeHal::load(const std::string& program, const std::string& map, const std::string& retain,
                   const std::string& prefix) {
-  setParameter(rtapi_info_address_so, program);
-  setParameter(rtapi_info_address_map, map);
-  setParameter(rtapi_info_address_retain, retain);
-  setParameter(rtapi_info_address_name, prefix);
+  arguments_.clear();
+  setArgument(rtapi_info_address_so, program);
+  setArgument(rtapi_info_address_map, map);
+  setArgument(rtapi_info_address_retain, retain);
+  setArgument(rtapi_info_address_names, prefix);
   return rtapi_app_main();
+}
+
+// Words between commas, as RTAPI takes a list apart.
+void FakeHal::setArgument(void* place, const std::string& text) {
+  char** const list = static_cast<char**>(place);
+  std::fill(list, list + rtapi_info_size_names, nullptr);
+  std::istringstream words(text);
+  std::string word;
+  for (int i = 0; i < rtapi_info_size_names && std::getline(words, word, ','); ++i)
+    list[i] = arguments_.emplace_back(std::move(word)).data();
 }
 
 void FakeHal::unload() {
@@ -141,8 +151,17 @@ int hal_pin_new(const char* name, hal_type_t type, hal_pin_dir_t, void** cell, i
   return 0;
 }
 
+int hal_param_bit_new(const char* name, hal_param_dir_t, hal_bit_t* value, int) {
+  return FakeHal::the().addValue(name, const_cast<bool*>(value), true);
+}
+int hal_param_s32_new(const char* name, hal_param_dir_t, hal_s32_t* value, int) {
+  return FakeHal::the().addValue(name, const_cast<int32_t*>(value), false);
+}
 int hal_param_u32_new(const char* name, hal_param_dir_t, hal_u32_t* value, int) {
   return FakeHal::the().addValue(name, const_cast<uint32_t*>(value), false);
+}
+int hal_param_float_new(const char* name, hal_param_dir_t, hal_float_t* value, int) {
+  return FakeHal::the().addValue(name, const_cast<double*>(value), false);
 }
 
 int hal_export_funct(const char* name, void (*code)(void*, long), void* argument, int, int, int) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdarg>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <thread>
@@ -19,7 +20,8 @@ public:
   FakeHal(const FakeHal&) = delete;
   FakeHal& operator=(const FakeHal&) = delete;
 
-  // Loads the component as halcmd's loadrt does: what its entry returns. An empty text: the parameter is not given.
+  // Loads the component as halcmd's loadrt does: what its entry returns. An empty text: the argument is not given; of
+  // several instances they are separated by commas.
   int load(const std::string& program, const std::string& map, const std::string& retain = {},
            const std::string& prefix = {});
   void unload(); // and waits for the thread, which HAL does not
@@ -64,10 +66,13 @@ public:
   void print(const char* format, va_list arguments);
 
 private:
+  void setArgument(void* place, const std::string& text);
+
   static FakeHal* hal_;
   static constexpr size_t kLines = 200;
   static constexpr size_t kLineBytes = 400;
   std::vector<std::vector<double>> memory_; // as long as HAL
+  std::deque<std::string> arguments_; // of the last load
   std::map<std::string, void*> values_;
   std::map<std::string, bool> isBit_;
   std::map<std::string, Function> functions_;

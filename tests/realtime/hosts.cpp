@@ -9,7 +9,7 @@
 #include "tests/realtime/places.h"
 #include "tests/support/adopted_image.h"
 #include "tests/support/fake_clock.h"
-#include "tools/rung-hal/box.h"
+#include "tools/plc/box.h"
 
 namespace rung::test {
 namespace {
@@ -32,31 +32,31 @@ union PinValue {
 // Pins as HAL would have them.
 class Pins {
 public:
-  explicit Pins(const std::vector<hal::MapPin>& pins) : pins_(pins), values_(pins.size()) {
+  explicit Pins(const std::vector<mapping::Pin>& pins) : pins_(pins), values_(pins.size()) {
     for (PinValue& value : values_) cells_.push_back({.any = &value});
   }
-  const hal::PinCell* cells() const { return cells_.data(); }
+  const plc::PinCell* cells() const { return cells_.data(); }
 
   void toggle() {
     for (size_t i = 0; i < pins_.size(); ++i)
-      if (!pins_[i].output) toggle(pins_[i].type, values_[i]);
+      if (mapping::toProgram(pins_[i].direction)) toggle(pins_[i].type, values_[i]);
   }
 
 private:
-  void toggle(hal::PinType type, PinValue& value) {
+  void toggle(mapping::PinType type, PinValue& value) {
     switch (type) {
-    case hal::PinType::Bit: value.bit = toggles_.next(value.bit); return;
-    case hal::PinType::S32: value.s32 = toggles_.nextNumber(value.s32); return;
-    case hal::PinType::U32:
+    case mapping::PinType::Bit: value.bit = toggles_.next(value.bit); return;
+    case mapping::PinType::S32: value.s32 = toggles_.nextNumber(value.s32); return;
+    case mapping::PinType::U32:
       value.u32 = static_cast<uint32_t>(toggles_.nextNumber(static_cast<int32_t>(value.u32)));
       return;
-    case hal::PinType::Float: value.real = toggles_.nextNumber(static_cast<int32_t>(value.real)); return;
+    case mapping::PinType::Float: value.real = toggles_.nextNumber(static_cast<int32_t>(value.real)); return;
     }
   }
 
-  const std::vector<hal::MapPin>& pins_;
+  const std::vector<mapping::Pin>& pins_;
   std::vector<PinValue> values_;
-  std::vector<hal::PinCell> cells_;
+  std::vector<plc::PinCell> cells_;
   Toggles toggles_;
 };
 
@@ -130,34 +130,33 @@ private:
 
 } // namespace
 
-Outcome runInBox(const rung_program& program, hal::MapFile map, const std::string& retain) {
+Outcome runInBox(const rung_program& program, mapping::File map, const std::string& retain) {
   Outcome outcome;
   std::vector<std::string> errors;
   std::vector<std::string> reports;
-  const std::unique_ptr<hal::Box> box = hal::Box::make(test::adopted(program), std::move(map), errors, retain, reports);
+  const std::unique_ptr<plc::Box> box = plc::Box::make(test::adopted(program), std::move(map), errors, retain, reports);
   for (const std::string& error : errors) outcome.problem += error + "\n";
   if (!box) return outcome;
   Pins pins(box->pins());
   box->connect(pins.cells());
-  box->setMessageSink([](const rung_message_info&) { ++shown; });
-  shown = 0;
   Guard guard;
   bool reset = false;
   for (int ms = 0; ms < kRunMs && outcome.problem.empty(); ++ms) {
     pins.toggle();
-    hal::StepResult result;
+    plc::StepResult result;
     {
       const Guarded realTime(guard);
       if (box->running()) box->setTimeLimit(1000 * kNsInMs);
       result = box->step(kNsInMs, reset);
     }
     outcome.problem = inSlice(outcome.slices, guard.offences());
-    outcome.slices += result == hal::StepResult::Ran ? 1 : 0;
-    outcome.faults += result == hal::StepResult::Failed ? 1 : 0;
+    outcome.slices += result == plc::StepResult::Ran ? 1 : 0;
+    outcome.faults += result == plc::StepResult::Failed ? 1 : 0;
     reset = !box->running() && !reset;
     box->serve(reports);
+    rung_message_info message{};
+    while (box->nextMessage(message)) ++outcome.messages;
   }
-  outcome.messages = shown;
   const std::string error = box->close();
   if (outcome.problem.empty()) outcome.problem = error;
   return outcome;
@@ -197,7 +196,7 @@ Outcome runOnClock(const rung_program& program, const std::string& retain) {
   return bare.end();
 }
 
-hal::MapFile mapOfAll(const rung_program& program) {
+mapping::File mapOfAll(const rung_program& program) {
   const std::unique_ptr<nc::Control> control = nc::makeControl(program.dialect);
   const host::Instance instance(program, control.get());
   return mapOf(namesOf(instance, *control));

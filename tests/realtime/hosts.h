@@ -5,7 +5,7 @@
 #include <string>
 
 #include "rung/program.h"
-#include "tools/rung-hal/map_file.h"
+#include "tools/mapping/file.h"
 
 namespace rung::test {
 
@@ -21,13 +21,13 @@ struct Outcome {
 constexpr int kRunMs = 10'000;
 
 // In LinuxCNC's component, in a thread of 1 ms, with the pins of the map.
-Outcome runInBox(const rung_program& program, hal::MapFile map, const std::string& retain);
+Outcome runInBox(const rung_program& program, mapping::File map, const std::string& retain);
 // Slice by slice beside its control, as a host of its own does it.
 Outcome runBare(const rung_program& program, const std::string& retain);
 // In the loop on the machine's clock.
 Outcome runOnClock(const rung_program& program, const std::string& retain);
 
 // A pin for every bit that a machine could be connected to.
-hal::MapFile mapOfAll(const rung_program& program);
+mapping::File mapOfAll(const rung_program& program);
 
 } // namespace rung::test

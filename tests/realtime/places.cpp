@@ -50,16 +50,18 @@ Names namesOf(const host::Instance& instance, const nc::Control& control) {
   return names;
 }
 
-hal::MapFile mapOf(const Names& names) {
-  hal::MapFile map;
-  map.path = "all.map";
-  const auto add = [&](std::vector<hal::MapLink>& links, const std::string& name, bool output) {
+mapping::File mapOf(const Names& names) {
+  mapping::File map;
+  map.paths = {"all.map"};
+  const auto add = [&](const std::string& name, mapping::Direction direction) {
     const auto pin = static_cast<uint32_t>(map.pins.size());
-    map.pins.push_back({(output ? "out-" : "in-") + std::to_string(pin), hal::PinType::Bit, output, {pin + 1}});
-    links.push_back({pin, name, 1, {pin + 1}});
+    map.pins.push_back({.name = std::string(mapping::tableName(direction)) + "-" + std::to_string(pin),
+                        .direction = direction,
+                        .at = {pin + 1}});
+    map.links.push_back({.pin = pin, .name = name, .at = {pin + 1}});
   };
-  for (const std::string& name : names.inputs) add(map.inputs, name, false);
-  for (const std::string& name : names.outputs) add(map.outputs, name, true);
+  for (const std::string& name : names.inputs) add(name, mapping::Direction::In);
+  for (const std::string& name : names.outputs) add(name, mapping::Direction::Out);
   return map;
 }
 

@@ -6,7 +6,7 @@
 
 #include "rtlib/core/place_list.h"
 #include "rtlib/nc/control/control.h"
-#include "tools/rung-hal/map_file.h"
+#include "tools/mapping/file.h"
 
 namespace rung::test {
 
@@ -19,7 +19,7 @@ struct Names {
 Names namesOf(const host::Instance& instance, const nc::Control& control);
 
 // A pin for each.
-hal::MapFile mapOf(const Names& names);
+mapping::File mapOf(const Names& names);
 
 // Every value of a machine changes now and then; the same sequence in every run.
 class Toggles {

@@ -1,17 +1,18 @@
 // rung-bench: measures every engine on generated programs and prints docs/performance.md. Each case runs in a process
 // of its own, so that its resident memory is its own; figures are medians, and ratios are taken in one process.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "codegen/process/process.h"
 #include "ir/support/temporary_folder.h"
 #include "tools/bench/measure.h"
+#include "tools/command-line/usage.h"
 
 namespace {
 
@@ -165,20 +166,29 @@ some ns for each of the chunks.
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Measures the engines and prints docs/performance.md; with --engine one case, as JSON"};
+  namespace cli = rung::cli;
+  cli::CommandLine app({.name = "rung-bench",
+                        .description = "Measures the engines and prints docs/performance.md; with --engine one case, as JSON",
+                        .exitStatus = "0 ok, 1 a case cannot be measured, 2 wrong usage, 3 environment",
+                        .guide = "docs/performance.md",
+                        .seeAlso = {}});
   Case which;
   bool fast = false;
-  CLI::Option* const engine = app.add_option("--engine", which.engine, "interp, cpp, llvm or jit");
-  app.add_option("--compiler", which.compiler, "C++ compiler of engine cpp");
-  app.add_option("--program", which.program, "What to run")
-      ->check(CLI::IsMember({"bits", "gsk", "technol", "idle", "waiting"}));
-  app.add_option("--units", which.units, "Rungs of bits, steps of gsk, lines of technol, mechanisms");
   bool source = false;
-  app.add_flag("--source", source, "Print the generated program");
-  engine->needs(app.add_option("--hand", which.handWritten,
-                               "Shared object with the hand-written form; made there when there is none"));
-  app.add_flag("--fast", fast, "Compile fast");
-  CLI11_PARSE(app, argc, argv);
+  cli::Command options = app.root();
+  cli::Option engine = options.option("--engine", which.engine, "interp, cpp, llvm or jit");
+  options.option("--compiler", which.compiler, "C++ compiler of engine cpp");
+  options.option("--program", which.program, "What to run").oneOf({"bits", "gsk", "technol", "idle", "waiting"});
+  options.option("--units", which.units, "Rungs of bits, steps of gsk, lines of technol, mechanisms");
+  options.flag("--source", source, "Print the generated program");
+  engine.needs(options.option("--hand", which.handWritten,
+                              "Shared object with the hand-written form; made there when there is none"));
+  options.flag("--fast", fast, "Compile fast");
+  const std::optional<int> decided = app.run(argc, argv, [](const cli::WrongWords& words) {
+    std::cerr << "rung-bench: " << words.text << '\n';
+    return cli::kUsage;
+  });
+  if (decided) return *decided;
   which.optimise = !fast;
   if (source) {
     std::cout << rung::bench::sourceOf(which);

@@ -1,5 +1,5 @@
-// The LinuxCNC real-time component: loads a compiled PLC program and a mapping file, makes their HAL pins, and scans in
-// the thread that its function is added to. docs/linuxcnc.md is the user's description.
+// The LinuxCNC real-time component: loads compiled PLC programs and their mapping files, makes the HAL pins, and scans in
+// the threads that the functions are added to. docs/linuxcnc.md is the user's description.
 #include <hal.h>
 #include <rtapi.h>
 #include <rtapi_app.h>
@@ -9,27 +9,35 @@
 #include <cerrno>
 #include <chrono>
 #include <exception>
-#include <fstream>
-#include <iterator>
+#include <memory>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
-#include "tools/rung-hal/box.h"
+#include "tools/plc/box.h"
+#include "tools/remote/controller.h"
+#include "tools/remote/server.h"
+#include "tools/rung-hal/user_rights.h"
+
+namespace {
+constexpr int kMostInstances = 16;
+}
 
 extern "C" {
 int rtapi_app_main();
 void rtapi_app_exit();
 
 MODULE_LICENSE("Apache-2.0");
-MODULE_DESCRIPTION("Runs a PLC program compiled by rungc");
-static char* so = nullptr;
-RTAPI_MP_STRING(so, "compiled program, absolute path");
-static char* map = nullptr;
-RTAPI_MP_STRING(map, "mapping file, absolute path");
-static char* retain = nullptr;
-RTAPI_MP_STRING(retain, "file of the retained memory, absolute path");
-static char* name = nullptr;
-RTAPI_MP_STRING(name, "prefix of the pins and the function");
+MODULE_DESCRIPTION("Runs PLC programs compiled by rungc");
+static char* names[kMostInstances];
+RTAPI_MP_ARRAY_STRING(names, kMostInstances, "prefixes of the pins and functions of the instances");
+static char* so[kMostInstances];
+RTAPI_MP_ARRAY_STRING(so, kMostInstances, "compiled program of each instance, or one for all, absolute path");
+static char* map[kMostInstances];
+RTAPI_MP_ARRAY_STRING(map, kMostInstances, "mapping file of each instance, or one for all, absolute path");
+static char* retain[kMostInstances];
+RTAPI_MP_ARRAY_STRING(retain, kMostInstances, "file of the retained memory of each instance, absolute path");
 }
 
 namespace {
@@ -40,29 +48,43 @@ constexpr const char* kModule = "rung_hal"; // LinuxCNC wants the file's name he
 constexpr const char* kDefaultPrefix = "rung";
 
 struct StatusPins {
-  hal::PinCell fault;
-  hal::PinCell faultLine;
-  hal::PinCell scans;
-  hal::PinCell missed;
-  hal::PinCell scanTime; // ns
-  hal::PinCell scanTimeMax;
-  hal::PinCell functionsBusy;
-  hal::PinCell functionsTimeout;
-  hal::PinCell functionsLost;
-  hal::PinCell reset; // of HAL: restarts the program after a fault
+  plc::PinCell fault;
+  plc::PinCell faultLine;
+  plc::PinCell scans;
+  plc::PinCell missed;
+  plc::PinCell functionsBusy;
+  plc::PinCell functionsTimeout;
+  plc::PinCell functionsLost;
+  plc::PinCell reset; // of HAL: restarts the program after a fault
   hal_u32_t maxTime;  // parameter: microseconds that the program may run in one call; 0: its budgets alone count
 };
 
-struct Component {
+// What a parameter's cell points to.
+union ParameterValue {
+  hal_bit_t bit;
+  hal_s32_t s32;
+  hal_u32_t u32;
+  hal_float_t real;
+};
+
+// One program with its pins. It does not move: HAL calls its function with its address.
+struct PlcInstance {
   std::string prefix;
   std::optional<Image> image;
-  std::unique_ptr<hal::Box> box;
+  std::unique_ptr<plc::Box> box;
   StatusPins* status = nullptr;  // in HAL's memory
-  hal::PinCell* cells = nullptr; // in HAL's memory
-  std::thread service;           // reports faults, restarts
-  std::atomic<bool> ending{false};
+  plc::PinCell* cells = nullptr; // in HAL's memory
   std::atomic<bool> inScan{false};
   std::atomic<int64_t> periodNs{0};
+  const std::atomic<bool>* ending = nullptr; // of the component
+  std::unique_ptr<remote::Controller> controller;
+  std::unique_ptr<remote::Server> server; // for rungctl; null where there is no place for its socket
+};
+
+struct Component {
+  std::vector<std::unique_ptr<PlcInstance>> instances;
+  std::thread service; // reports faults, restarts
+  std::atomic<bool> ending{false};
 };
 
 constexpr std::chrono::milliseconds kServicePeriod(20);
@@ -75,49 +97,83 @@ void complain(const char* format, T... values) {
   rtapi_print_msg(RTAPI_MSG_ERR, format, values...);
 }
 
-std::optional<std::string> readFile(const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), {});
+// The arguments of the component, by instance.
+struct Request {
+  const char* name = nullptr;
+  const char* program = nullptr;
+  const char* map = nullptr;
+  const char* retain = nullptr;
+};
+
+size_t given(char* const (&list)[kMostInstances]) {
+  return static_cast<size_t>(std::find(std::begin(list), std::end(list), nullptr) - std::begin(list));
 }
 
-bool loadProgram(Component& c) {
-  if (so == nullptr || map == nullptr) {
-    complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed\n", kModule);
-    return false;
-  }
+// One for each instance, or one for all.
+const char* argument(char* const (&list)[kMostInstances], size_t instance) {
+  return given(list) == 1 ? list[0] : list[instance];
+}
+
+// Empty: they do not fit together, which is reported.
+std::vector<Request> requests() {
+  const size_t count = std::max<size_t>(1, given(names));
+  const auto isEach = [&](char* const (&list)[kMostInstances]) { return given(list) == count; };
+  if ((given(so) != 1 && !isEach(so)) || (given(map) != 1 && !isEach(map)))
+    return complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed, one for all instances or one for each of names=\n",
+                    kModule),
+           std::vector<Request>();
+  if (given(retain) != 0 && !isEach(retain))
+    return complain("%s: retain=FILE is needed for each instance of names=, or for none\n", kModule),
+           std::vector<Request>();
+  std::vector<Request> list(count);
+  for (size_t i = 0; i < count; ++i)
+    list[i] = {given(names) == 0 ? kDefaultPrefix : names[i], argument(so, i), argument(map, i), retain[i]};
+  return list;
+}
+
+// False: what is wrong has been reported.
+bool loadProgram(PlcInstance& c, const Request& request) {
   try {
-    c.image.emplace(so);
+    c.image.emplace(request.program);
   } catch (const Error& error) {
     complain("%s: %s\n", kModule, error.what());
     return false;
   }
-  const std::optional<std::string> text = readFile(map);
-  if (!text) {
-    complain("%s: cannot read %s\n", kModule, map);
-    return false;
-  }
   std::vector<std::string> errors;
-  hal::MapFile mapping = hal::parseMap(*text, map, errors);
-  // Both kinds of mistakes at once; a box is only made for a faultless map.
   std::vector<std::string> warnings;
-  c.box = hal::Box::make(*c.image, std::move(mapping), errors, retain != nullptr ? retain : "", warnings);
+  mapping::File mapping = mapping::loadMap(request.map, errors);
+  // Mistakes of the text and of names at once; a box is only made for a faultless map.
+  if (!mapping.paths.empty())
+    c.box = plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "", warnings);
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   return errors.empty();
 }
 
-hal_type_t halType(hal::PinType type) {
+bool loadPrograms(Component& c) {
+  const std::vector<Request> list = requests();
+  bool ok = !list.empty();
+  for (const Request& request : list) { // all their mistakes at once
+    auto made = std::make_unique<PlcInstance>();
+    made->prefix = request.name;
+    made->ending = &c.ending;
+    ok = loadProgram(*made, request) && ok;
+    c.instances.push_back(std::move(made));
+  }
+  return ok;
+}
+
+hal_type_t halType(mapping::PinType type) {
   switch (type) {
-  case hal::PinType::Bit: return HAL_BIT;
-  case hal::PinType::S32: return HAL_S32;
-  case hal::PinType::U32: return HAL_U32;
-  case hal::PinType::Float: return HAL_FLOAT;
+  case mapping::PinType::Bit: return HAL_BIT;
+  case mapping::PinType::S32: return HAL_S32;
+  case mapping::PinType::U32: return HAL_U32;
+  case mapping::PinType::Float: return HAL_FLOAT;
   }
   return HAL_BIT;
 }
 
-bool makePin(const Component& c, const char* pin, hal_type_t type, hal_pin_dir_t direction, void** cell) {
+bool makePin(const PlcInstance& c, const char* pin, hal_type_t type, hal_pin_dir_t direction, void** cell) {
   const std::string full = c.prefix + "." + pin;
   const int result = hal_pin_new(full.c_str(), type, direction, cell, componentId);
   if (result != 0)
@@ -125,76 +181,125 @@ bool makePin(const Component& c, const char* pin, hal_type_t type, hal_pin_dir_t
   return result == 0;
 }
 
-bool makeParameters(Component& c) {
-  const std::string full = c.prefix + ".max-time";
-  const int result = hal_param_u32_new(full.c_str(), HAL_RW, &c.status->maxTime, componentId);
-  if (result != 0) complain("%s: cannot make parameter %s (%d)\n", kModule, full.c_str(), result);
+int newParameter(const std::string& name, mapping::PinType type, ParameterValue& value) {
+  switch (type) {
+  case mapping::PinType::Bit: return hal_param_bit_new(name.c_str(), HAL_RW, &value.bit, componentId);
+  case mapping::PinType::S32: return hal_param_s32_new(name.c_str(), HAL_RW, &value.s32, componentId);
+  case mapping::PinType::U32: return hal_param_u32_new(name.c_str(), HAL_RW, &value.u32, componentId);
+  case mapping::PinType::Float: return hal_param_float_new(name.c_str(), HAL_RW, &value.real, componentId);
+  }
+  return -EINVAL;
+}
+
+bool makeParameter(const PlcInstance& c, const char* parameter, mapping::PinType type, void* place) {
+  const std::string full = c.prefix + "." + parameter;
+  const int result = newParameter(full, type, *static_cast<ParameterValue*>(place));
+  if (result != 0)
+    complain("%s: cannot make parameter %s (%d): is the name too long or taken?\n", kModule, full.c_str(), result);
   return result == 0;
 }
 
-bool makePins(Component& c) {
-  const std::vector<hal::MapPin>& pins = c.box->pins();
+// A pin or a parameter of the map.
+bool makeMapped(const PlcInstance& c, const mapping::Pin& pin, plc::PinCell& cell) {
+  constexpr hal_pin_dir_t kDirections[] = {HAL_IN, HAL_OUT, HAL_IO}; // by mapping::Direction
+  if (pin.direction != mapping::Direction::Parameter)
+    return makePin(c, pin.name.c_str(), halType(pin.type), kDirections[static_cast<size_t>(pin.direction)], &cell.any);
+  cell.any = hal_malloc(sizeof(ParameterValue));
+  if (cell.any != nullptr) return makeParameter(c, pin.name.c_str(), pin.type, cell.any);
+  complain("%s: HAL has no memory for the parameters\n", kModule);
+  return false;
+}
+
+bool makePins(PlcInstance& c) {
+  const std::vector<mapping::Pin>& pins = c.box->pins();
   c.status = static_cast<StatusPins*>(hal_malloc(sizeof(StatusPins)));
   if (c.status != nullptr)
-    c.cells = static_cast<hal::PinCell*>(hal_malloc(static_cast<long>((pins.size() + 1) * sizeof(hal::PinCell))));
+    c.cells = static_cast<plc::PinCell*>(hal_malloc(static_cast<long>((pins.size() + 1) * sizeof(plc::PinCell))));
   if (c.cells == nullptr) {
     complain("%s: HAL has no memory for the pins\n", kModule);
     return false;
   }
-  const auto status = [&c](const char* pin, hal_type_t type, hal::PinCell& cell) {
+  const auto status = [&c](const char* pin, hal_type_t type, plc::PinCell& cell) {
     return makePin(c, pin, type, HAL_OUT, &cell.any);
   };
   StatusPins& s = *c.status;
   bool ok = status("fault", HAL_BIT, s.fault) && status("fault-line", HAL_U32, s.faultLine) &&
             status("scans", HAL_U32, s.scans) && status("missed", HAL_U32, s.missed) &&
-            status("scan-time", HAL_U32, s.scanTime) && status("scan-time-max", HAL_U32, s.scanTimeMax) &&
             status("functions-busy", HAL_BIT, s.functionsBusy) &&
             status("functions-timeout", HAL_BIT, s.functionsTimeout) &&
-            status("functions-lost", HAL_U32, s.functionsLost) && makePin(c, "reset", HAL_BIT, HAL_IN, &s.reset.any);
-  for (size_t i = 0; i < pins.size() && ok; ++i)
-    ok = makePin(c, pins[i].name.c_str(), halType(pins[i].type), pins[i].output ? HAL_OUT : HAL_IN, &c.cells[i].any);
-  if (!ok || !makeParameters(c)) return false;
+            status("functions-lost", HAL_U32, s.functionsLost) && makePin(c, "reset", HAL_BIT, HAL_IN, &s.reset.any) &&
+            makeParameter(c, "max-time", mapping::PinType::U32, const_cast<uint32_t*>(&s.maxTime));
+  for (size_t i = 0; i < pins.size() && ok; ++i) ok = makeMapped(c, pins[i], c.cells[i]);
+  if (!ok) return false;
   c.box->connect(c.cells); // all of them are there
   return true;
 }
 
-void printMessage(const rung_message_info& message) {
-  if (message.op != RUNG_MESSAGE_CLEAR) rtapi_print("%s: message %s\n", kModule, message.text);
-}
-
-void runStep(Component& c, long periodNs) {
+void runStep(PlcInstance& c, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
-  const long long begin = rtapi_get_time();
   // While it does not run, the box may belong to the thread that restarts it.
   if (c.box->running()) c.box->setTimeLimit(int64_t{c.status->maxTime} * kNsInUs);
-  const hal::StepResult result = c.box->step(periodNs, *c.status->reset.bit);
+  const plc::StepResult result = c.box->step(periodNs, *c.status->reset.bit);
   const bool runs = c.box->running();
   *c.status->fault.bit = !runs;
   *c.status->functionsBusy.bit = runs && c.box->functions().busy();
   *c.status->functionsTimeout.bit = runs && c.box->functions().late();
   if (runs) *c.status->functionsLost.u32 = c.box->functions().lost();
-  if (result == hal::StepResult::Waiting) return;
-  const auto time = static_cast<uint32_t>(rtapi_get_time() - begin);
-  *c.status->scanTime.u32 = time;
-  if (time > *c.status->scanTimeMax.u32) *c.status->scanTimeMax.u32 = time;
-  if (result == hal::StepResult::Failed) return; // the instance is the service's now
+  if (result != plc::StepResult::Ran) return; // after a fault the instance is the service's
   const rung_state state = c.box->state();
   *c.status->scans.u32 = static_cast<uint32_t>(state.passes);
   *c.status->missed.u32 = static_cast<uint32_t>(state.missed);
 }
 
 void scan(void* argument, long periodNs) {
-  Component& c = *static_cast<Component*>(argument);
+  PlcInstance& c = *static_cast<PlcInstance*>(argument);
   c.periodNs.store(periodNs, std::memory_order_relaxed);
   c.inScan.store(true);
-  if (!c.ending.load()) runStep(c, periodNs);
+  if (!c.ending->load()) runStep(c, periodNs);
   c.inScan.store(false);
 }
 
-void serveOnce(Component& c) {
+// To LinuxCNC's log, and to who asks by rungctl.
+void report(PlcInstance& c, const std::string& text) {
+  if (c.controller) c.controller->report(text, c.server.get());
+}
+
+void passMessages(PlcInstance& c) {
+  rung_message_info message{};
+  while (c.box->nextMessage(message)) {
+    if (message.op == RUNG_MESSAGE_CLEAR) continue;
+    rtapi_print("%s: message %s\n", c.prefix.c_str(), message.text);
+    report(c, std::string("message ") + message.text);
+  }
+}
+
+void serveOnce(PlcInstance& c) {
   std::vector<std::string> reports;
   if (c.box->serve(reports)) *c.status->faultLine.u32 = c.box->faultLine();
-  for (const std::string& report : reports) complain("%s: %s\n", c.prefix.c_str(), report.c_str());
+  for (const std::string& text : reports) {
+    complain("%s: %s\n", c.prefix.c_str(), text.c_str());
+    report(c, text);
+  }
+  passMessages(c);
+}
+
+// Answers rungctl, or waits as long.
+void serveRemote(const PlcInstance& c, std::chrono::milliseconds wait) {
+  if (c.server == nullptr) return std::this_thread::sleep_for(wait);
+  c.server->serve(wait);
+  c.controller->sendEvents(*c.server);
+}
+
+// The program runs without it, too.
+void listen(PlcInstance& c) {
+  try {
+    c.controller = std::make_unique<remote::Controller>(
+        c.prefix, *c.box, c.image->program(),
+        [&c](const std::string& change) { complain("%s: %s\n", c.prefix.c_str(), change.c_str()); });
+    c.server = std::make_unique<remote::Server>(c.prefix, hal::UserRights::user(), *c.controller);
+  } catch (const std::exception& problem) {
+    complain("%s: rungctl cannot reach it: %s\n", c.prefix.c_str(), problem.what());
+  }
 }
 
 // No exception may leave the module: it would end the whole CNC.
@@ -211,46 +316,64 @@ int guarded(Action action) noexcept {
 }
 
 void serve(Component& c) {
-  while (!c.ending.load()) {
-    guarded([&] { return serveOnce(c), 0; });
-    std::this_thread::sleep_for(kServicePeriod);
-  }
+  const std::chrono::milliseconds wait = kServicePeriod / static_cast<int>(c.instances.size());
+  while (!c.ending.load())
+    for (const auto& instance : c.instances) {
+      guarded([&] { return serveOnce(*instance), 0; });
+      guarded([&] { return serveRemote(*instance, wait), 0; });
+    }
+}
+
+int exportScan(PlcInstance& c) {
+  const std::string function = c.prefix + ".scan";
+  const int result = hal_export_funct(function.c_str(), scan, &c, 1, 0, componentId);
+  if (result != 0) complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
+  return result;
 }
 
 int start() {
+  const hal::UserRights rights; // of the threads that are begun here, too
   component = new Component;
   Component& c = *component;
-  c.prefix = name != nullptr ? name : kDefaultPrefix;
-  if (!loadProgram(c) || !makePins(c)) return -EINVAL;
-  c.box->setMessageSink(printMessage);
+  if (!loadPrograms(c)) return -EINVAL;
+  for (const auto& instance : c.instances) {
+    if (!makePins(*instance)) return -EINVAL;
+    listen(*instance);
+  }
   c.service = std::thread([&c] { serve(c); });
-  const std::string function = c.prefix + ".scan";
-  const int result = hal_export_funct(function.c_str(), scan, component, 1, 0, componentId);
-  if (result == 0) return hal_ready(componentId);
-  complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
-  return result;
+  for (const auto& instance : c.instances)
+    if (const int result = exportScan(*instance); result != 0) return result;
+  return hal_ready(componentId);
+}
+
+void waitForScans(const Component& c) {
+  constexpr std::chrono::microseconds kLook(100);
+  for (const auto& instance : c.instances)
+    while (instance->inScan.load()) std::this_thread::sleep_for(kLook);
 }
 
 // HAL takes a function out of its thread without waiting for it: from here on it does nothing, and two periods later no
 // thread is about to call it.
 void endScans(Component& c) {
-  constexpr std::chrono::microseconds kLook(100);
   c.ending.store(true);
-  while (c.inScan.load()) std::this_thread::sleep_for(kLook);
+  waitForScans(c);
   if (c.service.joinable()) c.service.join();
 }
 
-void closeProgram(Component& c) {
+void closeProgram(PlcInstance& c) {
   if (!c.box) return;
   guarded([&] { return serveOnce(c), 0; }); // a fault of the last moment
   const std::string error = c.box->close();
+  passMessages(c);
   if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
 }
 
 void leaveHal(const Component& c) {
   hal_exit(componentId);
-  std::this_thread::sleep_for(std::chrono::nanoseconds(2 * c.periodNs.load()));
-  while (c.inScan.load()) std::this_thread::yield();
+  int64_t longest = 0;
+  for (const auto& instance : c.instances) longest = std::max(longest, instance->periodNs.load());
+  std::this_thread::sleep_for(std::chrono::nanoseconds(2 * longest));
+  waitForScans(c);
 }
 
 void end() {
@@ -259,7 +382,7 @@ void end() {
     return;
   }
   endScans(*component);
-  guarded([] { return closeProgram(*component), 0; });
+  for (const auto& instance : component->instances) guarded([&] { return closeProgram(*instance), 0; });
   leaveHal(*component);
   delete component;
   component = nullptr;

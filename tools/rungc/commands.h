@@ -8,11 +8,18 @@
 
 #include "tools/compiler/compile.h"
 #include "tools/project/project.h"
-#include "tools/rungc/command_line.h"
+#include "tools/command-line/command_line.h"
+#include "tools/command-line/usage.h"
 
 namespace rung::rungc {
 
-enum ExitStatus { kOk = 0, kWrong = 1, kUsage = 2, kEnvironment = 3 };
+using cli::Command;
+using cli::CommandLine;
+using cli::Option;
+using cli::kEnvironment;
+using cli::kOk;
+using cli::kUsage;
+using cli::kWrong;
 
 // What every command that compiles takes. When the command runs, files, dialect and configuration of the project are in
 // it already (see takeProject).
@@ -77,10 +84,9 @@ void addProfile(CommandLine& app, int& status);
 void addExplain(CommandLine& app, int& status);
 void addDoc(CommandLine& app, int& status);
 void addView(CommandLine& app, int& status);
-void addCompletion(CommandLine& app, int& status);
-void addHelp(CommandLine& app, int& status);
 void addNew(CommandLine& app, int& status);
 void addSeal(CommandLine& app, int& status);
 void addKey(CommandLine& app, int& status);
+void addMap(CommandLine& app, int& status);
 
 } // namespace rung::rungc

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tools/coverage/collector.h"
-#include "tools/rungc/command_line.h"
+#include "tools/command-line/command_line.h"
 #include "tools/scenario/runner.h"
 
 namespace rung::rungc {
@@ -22,7 +22,7 @@ struct CoverageOptions {
   bool wanted() const { return text || all || !json.empty() || !html.empty() || !former.empty() || least > 0; }
 };
 
-void addCoverageOptions(Command command, CoverageOptions& options);
+void addCoverageOptions(cli::Command command, CoverageOptions& options);
 
 // Counts what scenarios run, on the interpreter alone.
 class CoverageRun {

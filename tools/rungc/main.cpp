@@ -1,20 +1,25 @@
 // rungc: compiles, runs, tests and explains PLC programs of CNC controls. A thin main over libraries.
+#include <iostream>
 #include <optional>
 
-#include "ir/support/version.h"
-#include "tools/rungc/command_line.h"
+#include "tools/command-line/command_line.h"
 #include "tools/rungc/commands.h"
-#include "tools/rungc/usage.h"
+#include "tools/command-line/usage.h"
 
 int main(int argc, char** argv) {
   using namespace rung::rungc;
-  CommandLine app("Compiler for the PLC programs of CNC machine tools (NCT2xx/3xx, GSK25i, MEFI TECHNOL)",
-                  rung::compilerName(),
-                  "Exit status: 0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment.");
+  namespace cli = rung::cli;
+  CommandLine app({.name = "rungc",
+                   .description = "Compiler for the PLC programs of CNC machine tools (NCT2xx/3xx, GSK25i, MEFI TECHNOL)",
+                   .exitStatus = "0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment",
+                   .guide = "docs/guide.md",
+                   .seeAlso = {"rung.toml(5)", "rung-scenario(5)", "rung-ladder(5)", "rung-coverage(5)",
+                               "rung-profile(5)", "rung_hal(9)"}});
   int status = kOk;
   addNew(app, status);
   addCheck(app, status);
   addBuild(app, status);
+  addMap(app, status);
   addSeal(app, status);
   addKey(app, status);
   addEmit(app, status);
@@ -25,9 +30,10 @@ int main(int argc, char** argv) {
   addProfile(app, status);
   addExplain(app, status);
   addDoc(app, status);
-  addCompletion(app, status);
-  addHelp(app, status);
-  const std::optional<int> decided =
-      app.run(argc, argv, [&app](const WrongWords& words) { return wrongUsage(app, words); });
+  cli::addUsage(app, status);
+  const std::optional<int> decided = app.run(argc, argv, [&app](const cli::WrongWords& words) {
+    std::cerr << cli::wrongUsage(app, words);
+    return kUsage;
+  });
   return decided.value_or(status);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/rungc/command_line.h"
+#include "tools/command-line/command_line.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/trace.h"
 
@@ -12,7 +12,7 @@ namespace rung::rungc {
 
 class ScenarioTrace {
 public:
-  void addTo(Command command);
+  void addTo(cli::Command command);
 
   bool wanted() const { return !path_.empty(); }
   // Why it cannot be for so many scenarios; "" when it can.

@@ -4,40 +4,16 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <sstream>
-#include <tuple>
 
 #include "tools/scenario/names.h"
 #include "tools/scenario/place_names.h"
+#include "tools/scenario/used_places.h"
 
 namespace rung::scenario {
 
 namespace {
 
 bool isQuantity(std::string_view name) { return name.starts_with("NC."); }
-
-// Where a user would look: a latch that the compiler made shows under the name of what it was copied from.
-ir::BitRange namedPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
-  if ((program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) == 0) return place;
-  const std::vector<ir::BitRange> from = uses.copiedFrom(place);
-  return from.empty() ? place : from[0];
-}
-
-std::vector<ir::Use> usedPlaces(const rung_program& program, const ir::Uses& uses) {
-  std::vector<ir::Use> places;
-  for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
-    for (ir::Use use : uses.of(rung)) {
-      use.place = namedPlace(program, uses, use.place);
-      const bool hidden = (program.spaces[use.place.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
-      if (!use.computed && !hidden) places.push_back(use);
-    }
-  const auto order = [](const ir::Use& use) {
-    return std::tuple(use.place.space.index, use.place.first, use.place.count, static_cast<int>(use.type));
-  };
-  std::ranges::sort(places, {}, order);
-  const auto same = [&](const ir::Use& a, const ir::Use& b) { return order(a) == order(b); };
-  places.erase(std::unique(places.begin(), places.end(), same), places.end());
-  return places;
-}
 
 // The area of the place; "NC" for what lies in no memory.
 const char* areaOf(const rung_program& program, const std::optional<host::Ref>& place) {
@@ -58,7 +34,7 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   };
   if (uses != nullptr) {
-    for (const ir::Use& use : usedPlaces(program, *uses)) add(writtenName(program, refOf(use)));
+    for (const UsedPlace& place : usedPlaces(program, *uses)) add(writtenName(program, refOf(place.use)));
     return names;
   }
   for (uint32_t i = 0; i < program.symbol_count; ++i)

@@ -258,8 +258,8 @@ enum rung_access {
 
 /* Finds a cell by a name of the program, an address of the dialect or a signal of the NC's interface, with index, bit
  * or width as the dialect writes them. The same name gives the same cell. RUNG_NOT_FOUND; RUNG_OVERWRITTEN for
- * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE, or no room for RUNG_REAL.
- * `access`: enum rung_access, added up. */
+ * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE, or no room for RUNG_REAL;
+ * RUNG_WRONG_STATE: another program is taking over at this moment. `access`: enum rung_access, added up. Any thread. */
 RUNG_API int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell);
 
 typedef struct rung_cell_info {
@@ -274,6 +274,7 @@ typedef struct rung_cell_info {
   char address[64]; /* as the dialect writes it; cut off where it is longer */
 } rung_cell_info;
 
+/* In the program that runs now. Errors as of rung_instance_find. Any thread. */
 RUNG_API int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info);
 
 /* The value of an element. Cells of a real have a double; all others an integer, extended by its sign: cast it to an

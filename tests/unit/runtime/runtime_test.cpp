@@ -712,6 +712,7 @@ TEST_F(Runtime, OneThreadAtATime) {
   EXPECT_EQ(rung_instance_scan(plc.handle()), RUNG_WRONG_THREAD);
   EXPECT_EQ(rung_instance_free(plc.handle()), RUNG_WRONG_THREAD);
   EXPECT_FALSE(plc.nextMessage()) << "any thread may take messages";
+  EXPECT_EQ(plc.describe(plc.find("COUNT")).type, uint32_t{RUNG_TYPE_I8}) << "and look up names";
   rung::test::TestProgram next;
   build(next);
   const rung::Image image = adopted(next);

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""rungc map as a user sees it: templates without mistakes, and every mistake of a mapping file. map_test.py RUNGC"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+RUNGC = None
+OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
+EXAMPLES = ("gsk-mill", "nct-turning-centre", "technol-machining-centre")
+
+
+class Map(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return Path(self.folder.name) / name
+
+    def map(self, *args):
+        return subprocess.run([RUNGC, "map", *map(str, args)], capture_output=True, text=True, timeout=300)
+
+    def expect(self, done, status, out="", err=""):
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (status, out, err))
+
+    def test_a_template_has_no_mistakes(self):
+        for name in EXAMPLES:
+            with self.subTest(example=name):
+                made = self.path("made.map")
+                self.expect(self.map(f"examples/{name}", "--template", "-o", made), OK, f"wrote {made}\n")
+                text = made.read_text()
+                self.assertIn("\n[in]\n", text)
+                self.assertIn("\n[out]\n", text)
+                done = self.map(f"examples/{name}", "--check", made)
+                self.assertRegex(done.stdout, r"^\S+: \d+ pins, no mistakes\n$")
+                self.expect(done, OK, done.stdout)
+                self.expect(self.map(f"examples/{name}", "--template"), OK, text)
+
+    def test_pins_of_a_template_have_the_comments_of_the_program(self):
+        text = self.map("examples/gsk-mill", "--template").stdout
+        self.assertIn('lube-level = { type = "bit", name = "LUBE_LEVEL" } # oil level is good\n', text)
+        self.assertLess(text.index("[in]"), text.index("lube-level"))
+        self.assertLess(text.index("[out]"), text.index("spindle-cw = "))
+
+    def test_the_maps_of_the_examples(self):
+        for path in sorted(Path("examples").glob("*/*.map")):
+            self.assertEqual(self.map(path.parent, "--check", path).returncode, OK, path)
+
+    def test_a_shared_object(self):
+        program = self.path("mill.so")
+        subprocess.run([RUNGC, "build", "-q", "examples/gsk-mill", "-o", program], check=True)
+        self.expect(self.map(program, "--check", "examples/gsk-mill/mill.map", "-q"), OK)
+        done = self.map(program, "--template")
+        self.assertEqual((done.returncode, done.stdout), (USAGE, ""))
+        self.assertIn("a shared object does not say what its rungs use; name the sources", done.stderr)
+
+    def test_every_mistake(self):
+        self.path("part.map").write_text('in.c = { type = "bit", name = "NOWHERE" }\n')
+        wrong = self.path("wrong.map")
+        wrong.write_text('include = "part.map"\n[in]\na = { type = "bit", name = "X0.0" }\nb = { type = "bitt", name = "X0.1" }\n')
+        done = self.map("examples/gsk-mill", "--check", wrong)
+        self.assertEqual((done.returncode, done.stdout), (WRONG, ""))
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 2, done.stderr)
+        self.assertTrue(lines[0].startswith(f'{wrong}:4:14: in.b.type: found "bitt", expected "bit"'), lines[0])
+        self.assertTrue(lines[1].startswith(f"{self.path('part.map')}:1:31: in.c.name: found an unknown name NOWHERE"), lines[1])
+
+    def test_a_file_that_cannot_be_read(self):
+        none = self.path("none.map")
+        self.expect(self.map("examples/gsk-mill", "--check", none), ENVIRONMENT, "",
+                    f"rungc: cannot read {none}: No such file or directory\n")
+
+    def test_usage(self):
+        for words in ([], ["--template", "--check", "x.map"], ["--check", "x.map", "-o", "y.map"]):
+            done = self.map("examples/gsk-mill", *words)
+            self.assertEqual((done.returncode, done.stdout), (USAGE, ""), words)
+        self.assertEqual(self.map("/nowhere.pmc", "--template").returncode, ENVIRONMENT)
+
+
+if __name__ == "__main__":
+    RUNGC = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,373 @@
+#!/usr/bin/env python3
+"""rung-run and rungctl as a user sees them, and the socket between them: remote_test.py BIN"""
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+BIN = None
+OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
+PATIENCE = 10  # seconds until something counts as never happening
+
+# X0.0 lights Y0.0, X0.1 lets the program never end.
+PROGRAM = """dialect gsk
+FUNC END1
+LD   X0.0
+OUT  Y0.0
+FUNC LBL
+PRM  L1
+LD   X0.1
+FUNC JMPB
+PRM  L1
+FUNC END2
+"""
+MAP = """[in]
+run = { type = "bit", name = "X0.0" }
+[out]
+lamp = { type = "bit", name = "Y0.0" }
+[rungctl]
+allow = ["set", "force", "reload", "stop", "start", "reset"]
+never = ["X0.2"]
+"""
+
+
+def build(folder):
+    (folder / "stuck.pmc").write_text(PROGRAM)
+    subprocess.run([BIN / "rungc", "build", "-q", folder / "stuck.pmc", "-o", folder / "stuck.so"], check=True)
+    return folder / "stuck.so"
+
+
+class Host(unittest.TestCase):
+    map = MAP
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.home = Path(cls.folder.name)
+        cls.program = build(cls.home)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def setUp(self):
+        self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
+        (self.home / "plc.map").write_text(self.map)
+        self.log = open(self.home / "log", "w+")
+        self.addCleanup(self.log.close)
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"],
+                                     stderr=self.log, env=self.environment)
+        self.addCleanup(self.end)
+        self.socket = self.home / "sockets/plc.sock"
+        self.wait(lambda: self.socket.exists() and "listening at" in self.logged())
+
+    def end(self):
+        self.host.terminate()
+        self.assertEqual(self.host.wait(PATIENCE), OK)
+        self.assertFalse(self.socket.exists())
+
+    def logged(self):
+        return (self.home / "log").read_text()
+
+    def wait(self, condition):
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            self.assertLess(time.monotonic(), end, self.logged())
+            time.sleep(0.01)
+
+    def ctl(self, *words, status=OK):
+        done = subprocess.run([BIN / "rungctl", *map(str, words)], capture_output=True, text=True, timeout=60,
+                              env=self.environment)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout if status == OK else done.stdout + done.stderr
+
+    def get(self, name):
+        return json.loads(self.ctl("get", name, "--json"))["values"][name]
+
+    def connect(self):
+        made = socket.socket(socket.AF_UNIX)
+        self.addCleanup(made.close)
+        made.settimeout(PATIENCE)
+        made.connect(str(self.socket))
+        lines = made.makefile("r")
+        self.addCleanup(lines.close)
+        return made, lines
+
+
+class Commands(Host):
+    def test_status(self):
+        text = self.ctl("status")
+        self.assertRegex(text, r"^host plc, program stuck, dialect gsk\nrunning: \d+ passes, \d+ missed, [\d.]+ s of its time\n$")
+        answer = json.loads(self.ctl("status", "--json"))
+        self.assertEqual((answer["ok"], answer["scanned"], answer["faulted"]), (True, True, False))
+        self.assertEqual(self.ctl("hosts"), "plc\n")
+
+    def test_set_and_get(self):
+        self.assertEqual(self.ctl("set", "D8:2", "500"), "D8:2 = 500, before 0\n")
+        self.assertEqual(self.ctl("get", "D8:2", "X0.1"), "D8:2 = 500\nX0.1 = false\n")
+        self.assertEqual(self.ctl("set", "D8:2", "0x10"), "D8:2 = 16, before 500\n")
+        self.assertEqual(self.ctl("set", "D8:2", "-1"), "D8:2 = -1, before 16\n")
+        self.assertIn("found 65536 for D8:2, expected at most 65535", self.ctl("set", "D8:2", "65536", status=WRONG))
+        self.assertIn("found -32769 for D8:2, expected at least -32768", self.ctl("set", "D8:2", "-32769", status=WRONG))
+        self.assertIn('found "on" for X0.3, expected true or false', self.ctl("set", "X0.3", "on", status=WRONG))
+        self.assertIn("NOWHERE is not a name of the program stuck", self.ctl("set", "NOWHERE", "1", status=WRONG))
+        self.assertIn("X0.2 is never set or forced here", self.ctl("set", "X0.2", "1", status=WRONG))
+        self.assertIn("X0 is never set or forced here", self.ctl("set", "X0", "4", status=WRONG))  # that bit is in it
+        self.assertEqual(self.get("D8:2"), -1)
+        changes = re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d \S+ \(user \d+, process \d+\): (.*)", self.logged())
+        self.assertEqual(changes, ["set D8:2 from 0 to 500", "set D8:2 from 500 to 16", "set D8:2 from 16 to -1"])
+
+    def test_forces(self):
+        self.assertEqual(self.ctl("forced"), "nothing is forced\n")
+        self.assertEqual(self.ctl("force", "X0.0", "true"), "X0.0 is forced to true\n")
+        self.wait(lambda: self.get("Y0.0"))
+        self.ctl("force", "D8:2", "9")
+        names = {force["name"]: force["value"] for force in json.loads(self.ctl("forced", "--json"))["forced"]}
+        self.assertEqual(names, {"X0.0": True, "D8:2": 9})
+        self.assertIn("X0.2 is never set or forced here", self.ctl("force", "X0.2", "1", status=WRONG))
+        self.assertEqual(self.ctl("unforce", "X0.0"), "1 ended\n")
+        self.wait(lambda: not self.get("Y0.0"))
+        self.assertIn("X0.0 is not forced", self.ctl("unforce", "X0.0", status=WRONG))
+        self.assertEqual(self.ctl("unforce", "--all"), "1 ended\n")
+        self.assertEqual(self.ctl("forced"), "nothing is forced\n")
+        self.ctl("unforce", status=USAGE)
+
+    def test_stop_and_start(self):
+        self.ctl("stop")
+        self.assertIn("stopped by the operator", self.ctl("status"))
+        self.ctl("force", "D8:2", "1", status=WRONG)  # there is nothing to hold it
+        self.ctl("start")
+        self.ctl("force", "X0.0", "1")
+        self.wait(lambda: self.get("Y0.0"))
+        self.ctl("stop")
+        self.assertEqual(self.ctl("forced"), "nothing is forced\n")
+        time.sleep(0.05)
+        self.assertTrue(self.get("Y0.0"))  # it stays as it is
+        self.ctl("start")
+        self.wait(lambda: not self.get("Y0.0"))
+
+    def test_a_fault_and_reset(self):
+        self.assertIn("the program runs; a reset restarts one", self.ctl("reset", status=WRONG))
+        self.ctl("set", "X0.1", "1")
+        self.wait(lambda: "stopped by a fault: dead-loop (rung " in self.ctl("status"))
+        self.wait(lambda: "the program has stopped: dead-loop" in self.ctl("messages"))
+        self.ctl("set", "X0.1", "0")
+        self.ctl("reset")
+        self.wait(lambda: "\nrunning: " in self.ctl("status"))
+        self.assertFalse(self.get("X0.1"))
+
+    def test_reload_and_rollback(self):
+        self.assertIn("no program has been reloaded", self.ctl("rollback", status=WRONG))
+        self.ctl("set", "D8:2", "7")
+        text = self.ctl("reload", self.program)
+        self.assertRegex(text, r"kept: \d+ names, \d+ states of edges, timers and counters\nthe new program runs\n$")
+        self.assertEqual(self.get("D8:2"), 7)
+        self.assertEqual(self.ctl("rollback"), "the former program runs\n")
+        self.assertEqual(self.get("D8:2"), 7)
+        self.assertEqual(self.ctl("reload", self.home / "none.so", status=ENVIRONMENT),
+                         f"rungctl: there is no file {self.home}/none.so\n")
+        junk = self.home / "junk.so"
+        junk.write_text("not a program")
+        self.assertIn("junk.so", self.ctl("reload", junk, status=WRONG))
+        self.assertIn("running: ", self.ctl("status"))
+
+    def test_watch_shows_changes(self):
+        watching = subprocess.Popen([BIN / "rungctl", "watch", "D8:2", "--json"], stdout=subprocess.PIPE, text=True,
+                                    env=self.environment)
+        self.addCleanup(watching.stdout.close)
+        begun = json.loads(watching.stdout.readline())
+        self.assertEqual(begun["names"][0]["type"], "i16")
+        self.assertEqual(json.loads(watching.stdout.readline())["values"], [0])
+        self.ctl("set", "D8:2", "5")
+        self.assertEqual(json.loads(watching.stdout.readline())["values"], [5])
+        watching.send_signal(signal.SIGINT)
+        self.assertEqual(watching.wait(PATIENCE), OK)
+
+    def test_trace(self):
+        out = self.home / "trace.vcd"
+        tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "D8:2", "-o", out, "--for", "1"], env=self.environment,
+                                   stdout=subprocess.DEVNULL)
+        time.sleep(0.3)
+        self.ctl("set", "X0.3", "1")
+        self.ctl("set", "D8:2", "3")
+        self.assertEqual(tracing.wait(PATIENCE), OK)
+        text = out.read_text()
+        for wanted in ("$var wire 1 ! X0.3 $end", '$var wire 16 " D8:2 $end', "\n0!\n", "\n1!\n", '\nb11 "\n'):
+            self.assertIn(wanted, text)
+
+    def test_map(self):
+        self.assertEqual(self.ctl("map"), f"in    bit   run ({self.home}/plc.map:2)\nout   bit   lamp ({self.home}/plc.map:4)\n")
+
+    def test_messages_are_followed(self):
+        following = subprocess.Popen([BIN / "rungctl", "messages", "--follow"], stdout=subprocess.PIPE, text=True,
+                                     env=self.environment)
+        self.addCleanup(following.stdout.close)
+        time.sleep(0.3)
+        self.ctl("set", "X0.1", "1")
+        self.assertIn("the program has stopped: dead-loop", following.stdout.readline())
+        following.terminate()
+        following.wait(PATIENCE)
+
+
+class Rights(Host):
+    map = MAP[:MAP.index("[rungctl]")]
+
+    def test_without_a_word_in_the_map_nothing_is_changed(self):
+        for words, right in ((["set", "D8:2", "1"], "set"), (["force", "D8:2", "1"], "force"), (["unforce", "D8:2"], "force"),
+                             (["stop"], "stop"), (["start"], "start"), (["reset"], "reset"), (["rollback"], "reload"),
+                             (["reload", self.program], "reload")):
+            self.assertIn(f'"{right}" is not allowed here; the mapping file allows it: [rungctl] allow = ["{right}"]',
+                          self.ctl(*words, status=WRONG))
+        self.ctl("status")
+        self.assertEqual(self.ctl("get", "D8:2"), "D8:2 = 0\n")
+        self.ctl("map")
+        self.ctl("messages")
+        self.ctl("forced")
+
+
+class Protocol(Host):
+    def ask(self, connection, text):
+        made, lines = connection
+        made.sendall(text.encode() + b"\n")
+        return json.loads(lines.readline())
+
+    def test_the_greeting(self):
+        _, lines = self.connect()
+        self.assertEqual(json.loads(lines.readline()),
+                         {"rung": "host", "protocol": 1, "host": "plc", "program": "stuck", "dialect": "gsk"})
+
+    def test_wrong_requests_are_answered(self):
+        connection = self.connect()
+        connection[1].readline()
+        for text, error in (("{", "found a line that is not JSON, expected an object"),
+                            ("5", "found number, expected an object"),
+                            ("{}", 'found no text "do" in the request, expected one'),
+                            ('{"do":5}', 'found no text "do" in the request, expected one'),
+                            ('{"do":"dance"}', 'found "dance", expected a command of this protocol'),
+                            ('{"do":"get"}', 'found no list "names" of 1 to 256 texts in the request, expected one'),
+                            ('{"do":"get","names":[]}', 'found no list "names" of 1 to 256 texts in the request, expected one'),
+                            ('{"do":"set","name":"D8:2"}', 'found no "value" in the request, expected one'),
+                            ('{"do":"messages","follow":1}', 'found no true or false for "follow", expected one of them'),
+                            ('{"do":"reload","program":"x.so"}', "found the path x.so, expected an absolute one")):
+            answer = self.ask(connection, text)
+            self.assertEqual((answer["ok"], answer["error"]), (False, error), text)
+        answer = self.ask(connection, '{"do":"status","id":[1,"a"]}')
+        self.assertEqual((answer["ok"], answer["id"]), (True, [1, "a"]))
+        self.assertTrue(self.ask(connection, "[" * 30000)["error"])
+
+    def test_a_line_that_is_too_long_ends_the_connection(self):
+        made, lines = self.connect()
+        lines.readline()
+        with self.assertRaises((OSError, EOFError)):
+            made.sendall(b"x" * 200000)
+            if lines.readline() == "":
+                raise EOFError
+        self.ctl("status")
+
+    def test_many_requests_at_once(self):
+        made, lines = self.connect()
+        lines.readline()
+        made.sendall(b"".join(b'{"do":"map","id":%d}\n' % i for i in range(200)))
+        self.assertEqual([json.loads(lines.readline())["id"] for _ in range(200)], list(range(200)))
+
+    def test_only_so_many_are_served(self):
+        connections = [self.connect() for _ in range(16)]
+        for _, lines in connections:
+            self.assertIn("protocol", json.loads(lines.readline()))
+        _, lines = self.connect()
+        self.assertIn("the host serves 16 others already", json.loads(lines.readline())["error"])
+        connections[0][0].close()
+        connections[0][1].close()
+        self.wait(lambda: "protocol" in json.loads(self.connect()[1].readline()))
+
+    def test_one_who_does_not_read_does_not_hold_up_the_others(self):
+        made, lines = self.connect()
+        lines.readline()
+        made.sendall(b'{"do":"watch","names":["D8:2"],"all":true}\n' + b'{"do":"map"}\n' * 2000)
+        for _ in range(20):
+            self.ctl("status")
+
+    def test_the_place_is_the_users_alone(self):
+        self.assertEqual((self.home / "sockets").stat().st_mode & 0o777, 0o700)
+        self.assertEqual(self.socket.stat().st_mode & 0o777, 0o600)
+
+    def test_another_user_is_refused(self):
+        if os.geteuid() != 0:
+            self.skipTest("needs root, to be another user")
+        (self.home / "sockets").chmod(0o755)
+        self.addCleanup((self.home / "sockets").chmod, 0o700)
+        self.socket.chmod(0o666)
+        self.home.chmod(0o755)
+        code = f"import socket; s = socket.socket(socket.AF_UNIX); s.connect({str(self.socket)!r}); print(s.makefile().readline())"
+        done = subprocess.run(["python3", "-c", code], user=65534, group=65534, extra_groups=[], capture_output=True, text=True)
+        self.assertIn("only the user who has started the host, and root, may use it", done.stdout, done.stderr)
+
+    def test_a_second_host_of_the_name(self):
+        done = subprocess.run([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"], capture_output=True,
+                              text=True, env=self.environment, timeout=PATIENCE)
+        self.assertEqual(done.returncode, ENVIRONMENT)
+        self.assertIn("plc.sock: another host has the name plc; give this one another", done.stderr)
+        self.ctl("status")
+
+
+class WithoutAHost(unittest.TestCase):
+    def run_ctl(self, folder, *words):
+        return subprocess.run([BIN / "rungctl", *words], capture_output=True, text=True,
+                              env={**os.environ, "RUNG_SOCKETS": str(folder)}, timeout=60)
+
+    def test_no_host(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.run_ctl(folder, "status")
+            self.assertEqual((done.returncode, done.stderr), (WRONG, f"rungctl: no host is running: {folder} has no socket\n"))
+            done = self.run_ctl(folder, "status", "--host", "mill")
+            self.assertIn(f"cannot reach a host at {folder}/mill.sock: No such file or directory", done.stderr)
+            self.assertEqual(self.run_ctl(folder, "hosts").stdout, "no host is running\n")
+            self.assertEqual(self.run_ctl(folder, "dance").returncode, USAGE)
+
+    def test_a_host_that_was_killed_leaves_its_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            home = Path(folder)
+            program = build(home)
+            (home / "m.map").write_text("")
+            environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets")}
+            for _ in range(2):
+                host = subprocess.Popen([BIN / "rung-run", program, home / "m.map"], env=environment,
+                                        stderr=subprocess.PIPE, text=True)
+                self.assertIn("listening at", host.stderr.readline())
+                host.kill()
+                host.wait()
+                host.stderr.close()
+
+    def test_what_rung_run_refuses(self):
+        with tempfile.TemporaryDirectory() as folder:
+            home = Path(folder)
+            program = build(home)
+            (home / "wrong.map").write_text('in.a = { type = "bit", name = "NOWHERE" }\nin.b = 5\n')
+            environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets")}
+
+            def run(*words):
+                done = subprocess.run([BIN / "rung-run", *words], capture_output=True, text=True, env=environment, timeout=60)
+                return done.returncode, done.stderr
+
+            status, text = run(program, home / "wrong.map")
+            self.assertEqual((status, text.count("wrong.map:")), (WRONG, 2), text)
+            self.assertEqual(run(home / "none.so", home / "wrong.map")[0], ENVIRONMENT)
+            status, text = run(program, home / "none.map")
+            self.assertIn("cannot read", text)
+            self.assertEqual(run(program)[0], USAGE)
+            (home / "m.map").write_text("")
+            status, text = run(program, home / "m.map", "--name", "../x")
+            self.assertEqual(status, ENVIRONMENT)
+            self.assertIn("expected letters, digits, '-', '_' and '.'", text)
+
+
+if __name__ == "__main__":
+    BIN = Path(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,59 @@
+// First mapping files: they name what a program uses, and have no mistakes.
+#include "tools/mapping/template.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/adopted_image.h"
+#include "tests/unit/mapping/test_program.h"
+#include "tools/mapping/binding.h"
+
+namespace rung::mapping {
+namespace {
+
+using ::testing::IsEmpty;
+
+std::string templateOf(const rung_program& program, const std::vector<UsedName>& used) {
+  const Instance instance(test::adopted(program));
+  const std::string text = templateMap(instance.handle(), program, used);
+  std::vector<std::string> errors;
+  const File map = parseMap(text, "t.map", errors);
+  bindMap(map, instance.handle(), program, errors);
+  EXPECT_THAT(errors, IsEmpty());
+  return text;
+}
+
+constexpr const char* kHead = ": a first list, made of what its rungs use.\n"
+                              "# Remove what the machine does not connect, and give the pins names of your own. Signals "
+                              "that a\n# [[send]] table drives are for it alone.\n\n";
+
+TEST(Template, WhatTheMachineAndTheNcHave) {
+  const std::string text = templateOf(testing::gskProgram(), {{"X0.0", true, false},
+                                                              {"X10", true, false},
+                                                              {"SYM", true, true},
+                                                              {"X0.0", true, false},
+                                                              {"D8:4", false, true},
+                                                              {"D0:2", true, true},
+                                                              {"NOWHERE", true, false}});
+  const std::string begin = "# HAL pins of " + std::string(testing::gskProgram().name) + kHead +
+                            "[in]\n"
+                            "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
+                            "x10 = { type = \"u32\", name = \"X10\" }\n"
+                            "x0-0-2 = { type = \"bit\", name = \"X0.0\" }\n"
+                            "\n[out]\n"
+                            "sym = { type = \"bit\", name = \"SYM\" }\n"
+                            "d8-4 = { type = \"s32\", name = \"D8:4\" }\n"
+                            "\n# M, S and T functions: an edge of a pin hands one to the program.\n";
+  EXPECT_EQ(text.substr(0, begin.size()), begin);
+}
+
+TEST(Template, WhatBothSidesShareIsAComment) {
+  const std::string text =
+      templateOf(testing::nctProgram(), {{"0056.17", true, false}, {"0400.00", true, true}, {"0401", false, true}});
+  EXPECT_NE(text.find("[in]\n0056-17 = "), std::string::npos) << text;
+  EXPECT_NE(text.find("[out]\n0401 = "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# 0400-00 = { type = \"bit\", name = \"0400.00\" }\n"), std::string::npos) << text;
+}
+
+} // namespace
+} // namespace rung::mapping

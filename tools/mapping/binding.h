@@ -1,0 +1,41 @@
+// The entries of a mapping file with their names looked up in a program: what is to be bound to its cells.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rung/runtime.h"
+#include "tools/mapping/file.h"
+
+namespace rung::mapping {
+
+struct PinLink {
+  uint32_t pin = 0; // in File::pins; the first of `bits`
+  PinType type = PinType::Bit;
+  Direction direction = Direction::In;
+  std::string name;
+  double scale = 1;           // float: the program's units in one of HAL's
+  bool words = false;         // the real that words of the program hold
+  std::vector<uint32_t> bits; // pins of a cell's bits, from the lowest one on: the cell is of type U32 then
+  std::optional<double> value; // of a parameter, at the start
+};
+
+struct ConstLink {
+  PinType type = PinType::Bit;
+  std::string name;
+  double value = 0;
+  bool words = false;
+};
+
+struct Binding {
+  std::vector<PinLink> links;
+  std::vector<ConstLink> constants;
+};
+
+// Every name that does not exist or does not suit its entry is one text in `errors`, "PATH:LINE:COLUMN: what is wrong";
+// so are functions that the control does not hand over. `program`: the tables of the instance's image.
+Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
+                std::vector<std::string>& errors);
+
+} // namespace rung::mapping

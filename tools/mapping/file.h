@@ -1,0 +1,136 @@
+// The mapping file: which HAL pins there are, and which names of the PLC program they refer to. It is TOML;
+// docs/linuxcnc.md describes its tables. This is the file alone; binding.h looks the names up in a program.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rung/runtime.h"
+
+namespace rung::mapping {
+
+enum class PinType : uint8_t { Bit, S32, U32, Float };
+
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B"}; // by rung_function_kind
+
+// Line and column are from 1; columns count characters.
+struct Position {
+  uint32_t line = 1;
+  uint32_t column = 1;
+  uint32_t file = 0; // in File::paths
+  bool operator==(const Position&) const = default;
+};
+
+enum class Direction : uint8_t {
+  In,        // HAL to the program
+  Out,       // the program to HAL
+  Io,        // both: each takes what the other has written last
+  Parameter, // a person's, to the program
+};
+
+inline bool toProgram(Direction direction) { return direction != Direction::Out; }
+inline bool fromProgram(Direction direction) { return direction == Direction::Out || direction == Direction::Io; }
+
+// A HAL pin or parameter to make. One that is named in several places is made once.
+struct Pin {
+  std::string name;
+  PinType type = PinType::Bit;
+  Direction direction = Direction::In;
+  Position at;        // the first of these places
+  double safe = 0;    // the value where the program does not run: before its first scan, after a fault, at the end
+  bool holds = false; // it keeps its last value then instead
+};
+
+// in, out, io, param: the pin and the name are the same quantity.
+struct Link {
+  uint32_t pin = 0; // in File::pins
+  std::string name;
+  double scale = 1; // float: the program's units in one of HAL's; not 0, finite
+  // Not empty: pins for the bits of the cell from its lowest one on, `pin` is the first.
+  std::vector<uint32_t> bits;
+  std::optional<double> value; // of a parameter, at the start; else, and of io pins, what the program has then
+  Position at;                 // of the name
+};
+
+// true and false are bits; integers are S32 where they are negative and U32 otherwise.
+struct Constant {
+  PinType type = PinType::Bit;
+  std::string name;
+  double value = 0; // holds every 32-bit integer exactly; finite
+  Position at;
+};
+
+// A pin at a level that it has not had before.
+struct Edge {
+  uint32_t pin = 0; // in File::pins
+  bool rising = true;
+};
+
+// send: an edge of a pin hands a function to the program.
+struct Send {
+  Edge edge;
+  rung_function_kind kind = RUNG_FUNCTION_M;
+  uint32_t channel = 0; // of the control, from 0; the map counts from 1
+  int32_t code = 0;
+  std::optional<uint32_t> codePin; // instead of `code`
+  std::optional<uint32_t> donePin;
+  Position at;
+};
+
+// m-groups: the group that the machine has an M function in.
+struct Group {
+  uint32_t code = 0;
+  uint32_t group = 0;
+  Position at; // of the code
+};
+
+// rungctl: what may be done from outside while the program runs.
+enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset };
+inline constexpr std::string_view kRemoteNames[] = {"set", "force", "reload", "start", "stop", "reset"}; // by Remote
+
+// rungctl: a cell that is neither set nor forced.
+struct Protected {
+  std::string name;
+  Position at;
+};
+
+// Everything in the order of the files, where one is included.
+struct File {
+  std::vector<std::string> paths; // the file, and those that it includes
+  std::vector<Pin> pins;
+  std::vector<Link> links;
+  std::vector<Constant> constants;
+  std::vector<Send> sends;
+  std::vector<Group> groups;
+  bool allowed[std::size(kRemoteNames)] = {}; // by Remote
+  std::vector<Protected> never;
+  std::vector<Edge> aborts;          // reset, emergency stop: every function ends
+  int64_t timeoutNs = 0;             // of a function; 0: none
+  std::optional<Position> highSpeed; // where the high-speed handshake is asked for
+
+  // "PATH:LINE:COLUMN: what"
+  std::string message(Position at, std::string_view what) const;
+};
+
+// The text of a file; throws std::exception, whose text says why there is none: "cannot read PATH: …".
+using ReadFile = std::function<std::string(const std::string& path)>;
+
+// From the disk: regular files of at most 1 MB.
+std::string readFromDisk(const std::string& path);
+
+// Every mistake is one entry of `errors`, PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in
+// the order of the files; the entries without mistakes are in the result. Where a text is not TOML, nothing is in it,
+// and there is one error, the first of its syntax. Included files are read by `read`.
+File parseMap(std::string_view text, std::string path, std::vector<std::string>& errors,
+              const ReadFile& read = readFromDisk);
+// The same for a file that is read, too.
+File loadMap(const std::string& path, std::vector<std::string>& errors, const ReadFile& read = readFromDisk);
+
+std::string_view pinTypeName(PinType type);
+std::string_view tableName(Direction direction); // "in"
+
+} // namespace rung::mapping

@@ -1,0 +1,22 @@
+// A first mapping file for a program: its inputs, outputs and functions, as a person would begin to write them.
+#pragma once
+#include <span>
+#include <string>
+
+#include "rung/runtime.h"
+
+namespace rung::mapping {
+
+// A place that rungs of the program use, by its name.
+struct UsedName {
+  std::string name;
+  bool read = false;
+  bool written = false;
+};
+
+// A mapping file without mistakes. Input is what belongs to the machine or the NC, or what no rung writes; output what
+// goes there, or what no rung reads. What rungs write and read in memory that both sides share is in comments.
+// `program`: the tables of the instance's image.
+std::string templateMap(rung_instance* instance, const rung_program& program, std::span<const UsedName> used);
+
+} // namespace rung::mapping

@@ -1,0 +1,285 @@
+// The scan: pins in, due slices of the schedule, pins out.
+#include "tools/plc/box.h"
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <utility>
+
+namespace rung::plc {
+namespace {
+
+Value valueOf(mapping::PinType type, const PinCell& cell) noexcept {
+  switch (type) {
+  case mapping::PinType::Bit: return {.bit = *cell.bit};
+  case mapping::PinType::S32: return {.s32 = *cell.s32};
+  case mapping::PinType::U32: return {.u32 = *cell.u32};
+  case mapping::PinType::Float: return {.real = *cell.real};
+  }
+  return {};
+}
+
+Value constant(mapping::PinType type, double value) noexcept {
+  switch (type) {
+  case mapping::PinType::Bit: return {.bit = value != 0};
+  case mapping::PinType::S32: return {.s32 = static_cast<int32_t>(value)};
+  case mapping::PinType::U32: return {.u32 = static_cast<uint32_t>(value)};
+  case mapping::PinType::Float: return {.real = value};
+  }
+  return {};
+}
+
+Value bitsOf(const std::vector<uint32_t>& pins, const PinCell* cells) noexcept {
+  Value value{.u32 = 0};
+  for (size_t i = 0; i < pins.size(); ++i) value.u32 |= uint32_t{*cells[pins[i]].bit} << i;
+  return value;
+}
+
+void setPin(mapping::PinType type, const PinCell& cell, const Value& value) noexcept {
+  switch (type) {
+  case mapping::PinType::Bit: *cell.bit = value.bit; return;
+  case mapping::PinType::S32: *cell.s32 = value.s32; return;
+  case mapping::PinType::U32: *cell.u32 = value.u32; return;
+  case mapping::PinType::Float: *cell.real = value.real; return;
+  }
+}
+
+} // namespace
+
+Box::Box(const Image& image, mapping::File map, const std::string& retain)
+    : map_(std::move(map)), options_{.size = sizeof options_, .user = this, .log = &Box::log}, plc_(image, &options_),
+      kept_(!retain.empty()) {
+  if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
+}
+
+// No exception may go through the library, which is one of C.
+void Box::log(void* box, int32_t level, const char* text) try {
+  if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
+} catch (const std::bad_alloc&) {
+  static_cast<Box*>(box)->logged_.clear(); // room for what comes next
+}
+
+std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, std::vector<std::string>& errors,
+                               const std::string& retain, std::vector<std::string>& warnings) try {
+  std::unique_ptr<Box> box(new Box(image, std::move(map), retain));
+  box->binding_ = mapping::bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
+  if (!errors.empty()) return nullptr;
+  box->bindValues();
+  box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->plc_.handle());
+  const bool started = box->start(errors);
+  warnings = std::move(box->logged_);
+  for (const mapping::Pin& pin : box->map_.pins)
+    if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value where the program does not run");
+  return started ? std::move(box) : nullptr;
+} catch (const Error& error) {
+  errors.emplace_back(error.what());
+  return nullptr;
+}
+
+// Constants in every slice, too: neither a restart nor the control can undo them.
+void Box::bindValues() {
+  values_.resize(binding_.links.size());
+  constants_.resize(binding_.constants.size());
+  for (size_t i = 0; i < values_.size(); ++i) {
+    const mapping::PinLink& link = binding_.links[i];
+    if (mapping::toProgram(link.direction)) {
+      bind(link, values_[i], RUNG_TO_PROGRAM, link.scale);
+      toProgram_.push_back(i);
+    }
+    if (mapping::fromProgram(link.direction)) {
+      bind(link, values_[i], RUNG_FROM_PROGRAM, link.scale);
+      fromProgram_.push_back(i);
+    }
+  }
+  for (size_t i = 0; i < constants_.size(); ++i) {
+    const mapping::ConstLink& link = binding_.constants[i];
+    constants_[i] = constant(link.type, link.value);
+    bind(link, constants_[i], RUNG_TO_PROGRAM, 1);
+  }
+}
+
+template <class Link>
+void Box::bind(const Link& link, Value& value, rung_direction direction, double scale) {
+  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by mapping::PinType
+  const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
+  const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
+                               scale};
+  check(rung_instance_bind(plc_.handle(), &variable, 1));
+}
+
+// A fault at the power-on shows in the first step.
+bool Box::start(std::vector<std::string>& reports) {
+  const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
+  if (status < RUNG_OK) reports.emplace_back(rung_error_text());
+  const bool first = cells_ == nullptr;
+  for (const size_t link : toProgram_) beginWith(link, first);
+  return status >= RUNG_OK;
+}
+
+// What both sides write begins with the program's value; a parameter keeps a person's.
+void Box::beginWith(size_t index, bool first) noexcept {
+  const mapping::PinLink& link = binding_.links[index];
+  const bool parameter = link.direction == mapping::Direction::Parameter && first;
+  if (parameter && link.value)
+    values_[index] = constant(link.type, *link.value);
+  else if (parameter || link.direction == mapping::Direction::Io)
+    values_[index] = valueInProgram(link);
+  else
+    return;
+  if (cells_ != nullptr) setPins(link, values_[index]);
+}
+
+Value Box::valueInProgram(const mapping::PinLink& link) noexcept {
+  rung_cell cell = 0;
+  rung_cell_info info{};
+  info.size = sizeof info;
+  rung_value value{};
+  const int32_t access = link.words ? RUNG_WRITE | RUNG_REAL : RUNG_WRITE;
+  if (rung_instance_find(plc_.handle(), link.name.c_str(), access, &cell) != RUNG_OK ||
+      rung_instance_cell(plc_.handle(), cell, &info) != RUNG_OK ||
+      rung_instance_read(plc_.handle(), cell, 0, 1, &value) != RUNG_OK)
+    return {};
+  if (link.type != mapping::PinType::Float) return constant(link.type, static_cast<double>(value.integer));
+  const double real = info.type == RUNG_TYPE_F64 ? value.real : static_cast<double>(value.integer);
+  return {.real = real / link.scale};
+}
+
+void Box::connect(const PinCell* cells) noexcept {
+  cells_ = cells;
+  clearPins();
+  for (const size_t i : toProgram_)
+    if (binding_.links[i].direction != mapping::Direction::In) setPins(binding_.links[i], values_[i]);
+}
+
+bool Box::serve(std::vector<std::string>& reports) {
+  const State state = state_.load(std::memory_order_acquire);
+  if (state == State::Running) return false;
+  bool isNew = false;
+  if (const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault()) { // or the scan thread has it
+    isNew = reported_ = true;
+    faultLine_.store(info->line, std::memory_order_relaxed);
+    reports.push_back("the program has stopped: " + std::string(info->text) +
+                      "; output pins have their safe values until pin reset rises");
+  }
+  if (state == State::Stopped) return isNew;
+  functions_->restart();
+  const bool started = start(reports);
+  std::ranges::move(logged_, std::back_inserter(reports));
+  logged_.clear();
+  reports.emplace_back(started ? "the program has been restarted" : "the program cannot be restarted");
+  reported_ = !started;
+  state_.store(started ? State::Running : State::Stopped, std::memory_order_release);
+  return true;
+}
+
+std::string Box::close() {
+  std::string error;
+  const int32_t status = rung_instance_power_off(plc_.handle());
+  if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // it may be off
+  if (cells_ != nullptr) clearPins();
+  return error;
+}
+
+StepResult Box::step(int64_t ns, bool reset) noexcept {
+  const bool asked = reset && !wasReset_;
+  wasReset_ = reset;
+  orders_.take([this](Order& order) { return obey(order); });
+  const State state = state_.load(std::memory_order_acquire);
+  if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
+  if (state != State::Running) return StepResult::Waiting;
+  functions_->sample(cells_, ns);
+  return run(ns);
+}
+
+StepResult Box::run(int64_t ns) noexcept {
+  const rung_state before = state();
+  if (before.wait_ns <= ns) {
+    functions_->advance(cells_);
+    readPins();
+  }
+  const int32_t status = rung_instance_run_due(plc_.handle(), ns);
+  if (status == RUNG_FAULTED) {
+    clearPins();
+    state_.store(State::Stopped, std::memory_order_release);
+    return StepResult::Failed;
+  }
+  if (before.wait_ns > ns) return StepResult::Waiting;
+  writePins();
+  return StepResult::Ran;
+}
+
+rung_state Box::state() const noexcept {
+  rung_state state{};
+  state.size = sizeof state;
+  rung_instance_state(plc_.handle(), &state);
+  return state;
+}
+
+std::optional<rung_fault_info> Box::fault() const noexcept {
+  rung_fault_info info{};
+  info.size = sizeof info;
+  return rung_instance_fault(plc_.handle(), &info) == RUNG_OK ? std::optional(info) : std::nullopt;
+}
+
+void Box::readPins() noexcept {
+  for (const size_t i : toProgram_) {
+    const mapping::PinLink& link = binding_.links[i];
+    values_[i] = link.bits.empty() ? valueOf(link.type, cells_[link.pin]) : bitsOf(link.bits, cells_);
+  }
+}
+
+void Box::writePins() noexcept {
+  for (const size_t i : fromProgram_) setPins(binding_.links[i], values_[i]);
+}
+
+void Box::setPins(const mapping::PinLink& link, const Value& value) noexcept {
+  if (link.bits.empty()) return setPin(link.type, cells_[link.pin], value);
+  for (size_t bit = 0; bit < link.bits.size(); ++bit) *cells_[link.bits[bit]].bit = (value.u32 >> bit & 1) != 0;
+}
+
+void Box::clearPins() noexcept {
+  for (size_t i = 0; i < map_.pins.size(); ++i) {
+    const mapping::Pin& pin = map_.pins[i];
+    if (mapping::fromProgram(pin.direction) && !pin.holds) setPin(pin.type, cells_[i], constant(pin.type, pin.safe));
+  }
+}
+
+bool Box::nextMessage(rung_message_info& message) const noexcept {
+  message.size = sizeof message;
+  return rung_instance_next_message(plc_.handle(), &message) == RUNG_OK;
+}
+
+int32_t Box::obey(Order& order) noexcept {
+  const State now = state_.load(std::memory_order_acquire);
+  if (order.kind == Order::Kind::Restart && now == State::Stopped) {
+    state_.store(State::Restarting, std::memory_order_release);
+    return RUNG_OK;
+  }
+  if (now == State::Restarting) return RUNG_LATER; // the instance is another thread's
+  if (order.kind == Order::Kind::Restart) return RUNG_EMPTY;
+  const int32_t status = obeyRunning(order);
+  return status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status; // of a stopped program: who serves it
+}
+
+int32_t Box::obeyRunning(Order& order) noexcept {
+  rung_instance* plc = plc_.handle();
+  switch (order.kind) {
+  case Order::Kind::State: order.state = state(); return RUNG_OK;
+  case Order::Kind::Write: {
+    const int32_t status = rung_instance_read(plc, order.cell, 0, 1, &order.former);
+    return status != RUNG_OK ? status : rung_instance_write(plc, order.cell, 0, 1, &order.value);
+  }
+  case Order::Kind::Forced:
+    order.force.size = sizeof order.force;
+    return rung_instance_forced(plc, order.index, &order.force);
+  case Order::Kind::Force: return rung_instance_force(plc, order.forces);
+  case Order::Kind::Replace: return rung_instance_replace(plc, order.replacement);
+  case Order::Kind::Shadow: return rung_instance_shadow(plc, order.shadow);
+  case Order::Kind::Stop: return rung_instance_stop(plc);
+  case Order::Kind::Start: return rung_instance_start(plc);
+  case Order::Kind::Restart: break; // obey
+  }
+  return RUNG_EMPTY;
+}
+
+} // namespace rung::plc

@@ -1,0 +1,119 @@
+// A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the box is
+// made; `step` allocates nothing, takes no lock and makes no system call.
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rung/runtime.hpp"
+#include "tools/mapping/binding.h"
+#include "tools/plc/function_queue.h"
+#include "tools/plc/orders.h"
+#include "tools/mapping/file.h"
+#include "tools/plc/pin_cell.h"
+
+namespace rung::plc {
+
+enum class StepResult : uint8_t {
+  Waiting, // no part of the schedule was due, or the program has stopped
+  Ran,
+  Failed, // a fault has stopped the program in this step
+};
+
+// A value of a pin, or of a constant.
+union Value {
+  bool bit;
+  int32_t s32;
+  uint32_t u32;
+  double real = 0;
+};
+
+class Box {
+public:
+  // Null, and `errors` say why, when the map does not fit the program. The start is cold, or with the memory that
+  // `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the retained memory.
+  static std::unique_ptr<Box> make(const Image& image, mapping::File map, std::vector<std::string>& errors,
+                                   const std::string& retain, std::vector<std::string>& warnings);
+  // After the last step, or where none can come any more: the program's last scans run, output pins have their
+  // safe values then, and what is retained is on disk; "" or why not.
+  std::string close();
+
+  const std::vector<mapping::Pin>& pins() const { return map_.pins; }
+  // As many cells as there are pins, in their order; they outlive the box. They get the values that they begin with.
+  void connect(const PinCell* cells) noexcept;
+
+  // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
+  // runs nothing only watches for edges. After a fault all output pins have their safe values, until `reset` rises and
+  // `serve` has restarted the program.
+  StepResult step(int64_t ns, bool reset = false) noexcept;
+  // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
+  void setTimeLimit(int64_t ns) noexcept {
+    constexpr int64_t kHour = 3'600'000'000'000; // more is none
+    rung_instance_limit(plc_.handle(), std::min(ns, kHour));
+  }
+  // Any thread but the scan's, which does it in its next step (see orders.h).
+  Answer order(Order& order, std::chrono::milliseconds time = kPatience) { return orders_.give(order, time); }
+  static constexpr std::chrono::milliseconds kPatience{1000};
+  // One thread at a time, any. False: the program has shown nothing since.
+  bool nextMessage(rung_message_info& message) const noexcept;
+  rung_instance* instance() const noexcept { return plc_.handle(); }
+  const mapping::File& map() const noexcept { return map_; }
+
+  // Not the scan thread, again and again: what a step must not do itself, a fault in words, and the restart after it.
+  // True: there was something of that, and `reports` says what the operator should know of it.
+  bool serve(std::vector<std::string>& reports);
+  bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
+
+  // While it does not run, for the thread that serves it.
+  std::optional<rung_fault_info> fault() const noexcept;
+  // The line of the last fault that `serve` has reported; 0: none.
+  uint32_t faultLine() const noexcept { return faultLine_.load(std::memory_order_relaxed); }
+  // Of the instance; while it runs, for the scan thread.
+  rung_state state() const noexcept;
+  bool failsToSave() const noexcept { return (state().flags & RUNG_STATE_UNSAVED) != 0; }
+  const FunctionQueue& functions() const { return *functions_; }
+
+private:
+  Box(const Image& image, mapping::File map, const std::string& retain);
+
+  // Stopped: by a fault. Restarting: the instance belongs to `serve`.
+  enum class State : uint8_t { Running, Stopped, Restarting };
+
+  template <class Link>
+  void bind(const Link& link, Value& value, rung_direction direction, double scale);
+  void bindValues();
+  void beginWith(size_t link, bool first) noexcept;
+  Value valueInProgram(const mapping::PinLink& link) noexcept;
+  void setPins(const mapping::PinLink& link, const Value& value) noexcept;
+  bool start(std::vector<std::string>& reports);
+  StepResult run(int64_t ns) noexcept;
+  void readPins() noexcept;
+  void writePins() noexcept;
+  void clearPins() noexcept;
+  int32_t obey(Order& order) noexcept;
+  int32_t obeyRunning(Order& order) noexcept;
+  static void log(void* box, int32_t level, const char* text);
+
+  mapping::File map_;
+  std::vector<std::string> logged_;
+  rung_instance_options options_;
+  Instance plc_;
+  bool kept_; // there is a file for retained memory
+  mapping::Binding binding_;
+  std::vector<Value> values_, constants_;           // bound to the program; by binding_
+  std::vector<size_t> toProgram_, fromProgram_;     // links
+  std::unique_ptr<FunctionQueue> functions_;        // once the map is bound
+  const PinCell* cells_ = nullptr;
+  OrderSlot orders_;
+  bool wasReset_ = false;
+  bool reported_ = false; // the fault that has stopped it: by `serve`
+  std::atomic<uint32_t> faultLine_{0};
+  std::atomic<State> state_{State::Running};
+};
+
+} // namespace rung::plc

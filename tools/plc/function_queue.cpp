@@ -1,0 +1,94 @@
+// The queue of functions on their way to the program (see function_queue.h).
+#include "tools/plc/function_queue.h"
+
+#include <algorithm>
+
+namespace rung::plc {
+
+FunctionQueue::FunctionQueue(const mapping::File& map, rung_instance* instance)
+    : instance_(instance), sends_(map.sends), wasTriggered_(sends_.size()), aborts_(map.aborts),
+      wasAborted_(aborts_.size()), timeoutNs_(map.timeoutNs), calls_(kRoom) {
+  for (const mapping::Send& send : sends_) channels_ = std::max(channels_, send.channel + 1);
+  restart();
+}
+
+void FunctionQueue::restart() noexcept {
+  count_ = 0;
+  late_ = false;
+  for (size_t i = 0; i < sends_.size(); ++i) wasTriggered_[i] = !sends_[i].edge.rising;
+  for (size_t i = 0; i < aborts_.size(); ++i) wasAborted_[i] = !aborts_[i].rising;
+}
+
+void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {
+  late_ = false;
+  for (uint32_t i = 0; i < count_; ++i) {
+    calls_[i].ageNs += ns;
+    late_ = late_ || (timeoutNs_ != 0 && calls_[i].ageNs > timeoutNs_);
+  }
+  // First, so that what the same event sends, a spindle's stop, goes to the program at once.
+  for (uint32_t i = 0; i < aborts_.size(); ++i) {
+    const bool now = triggered(aborts_[i], pins);
+    if (now && !wasAborted_[i]) abort();
+    wasAborted_[i] = now;
+  }
+  for (uint32_t i = 0; i < sends_.size(); ++i) {
+    const mapping::Send& send = sends_[i];
+    const bool now = triggered(send.edge, pins);
+    const int32_t code = send.codePin ? *pins[*send.codePin].s32 : send.code;
+    if (!now) withdraw(i, pins);
+    if (now && !wasTriggered_[i]) queue({.send = i, .code = static_cast<uint32_t>(code)});
+    wasTriggered_[i] = now;
+  }
+}
+
+void FunctionQueue::queue(Call call) noexcept {
+  const mapping::Send& send = sends_[call.send];
+  if (count_ == kRoom || rung_instance_carries_function(instance_, send.channel, send.kind, call.code) != RUNG_OK)
+    ++lost_;
+  else
+    calls_[count_++] = call;
+}
+
+// The function itself is carried out all the same.
+void FunctionQueue::withdraw(uint32_t send, const PinCell* pins) noexcept {
+  for (uint32_t i = 0; i < count_; ++i)
+    if (calls_[i].send == send) calls_[i].wanted = false;
+  if (const auto& done = sends_[send].donePin) *pins[*done].bit = false;
+}
+
+void FunctionQueue::abort() noexcept {
+  count_ = 0;
+  late_ = false;
+  for (uint32_t channel = 0; channel < channels_; ++channel) rung_instance_abort_functions(instance_, channel);
+}
+
+void FunctionQueue::advance(const PinCell* pins) noexcept {
+  if (count_ == 0) return;
+  const auto first = calls_.begin();
+  const auto kept = std::remove_if(first, first + count_, [&](const Call& call) { return finish(call, pins); });
+  count_ = static_cast<uint32_t>(kept - first);
+  for (uint32_t i = 0; i < count_; ++i) start(i);
+}
+
+// Unless an older one of its kind and channel waits.
+void FunctionQueue::start(uint32_t index) noexcept {
+  Call& call = calls_[index];
+  const mapping::Send& send = sends_[call.send];
+  const auto overtakes = [&](const Call& older) {
+    const mapping::Send& before = sends_[older.send];
+    return !older.line && before.kind == send.kind && before.channel == send.channel;
+  };
+  if (call.line || std::any_of(calls_.begin(), calls_.begin() + index, overtakes)) return;
+  uint32_t line = 0;
+  if (rung_instance_begin_function(instance_, send.channel, send.kind, call.code, &line) == RUNG_OK) call.line = line;
+}
+
+// The acknowledge is for a cause that is still there, and not for a later one on the same pin.
+bool FunctionQueue::finish(const Call& call, const PinCell* pins) const noexcept {
+  const mapping::Send& send = sends_[call.send];
+  if (!call.line || rung_instance_function_done(instance_, send.channel, *call.line) != RUNG_OK) return false;
+  if (send.donePin && call.wanted) *pins[*send.donePin].bit = true;
+  return true;
+}
+
+} // namespace rung::plc

@@ -1,0 +1,70 @@
+// M, S and T functions for programs that expect the handshake of their NC, while HAL has levels: an edge of a pin
+// queues a function, the dialect's handshake hands it to the program, and the acknowledge pin comes on when the program
+// has finished it; it falls with the pin that caused the function.
+//
+// Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
+// begins as soon as the handshake takes it.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rung/runtime.h"
+#include "tools/mapping/file.h"
+#include "tools/plc/pin_cell.h"
+
+namespace rung::plc {
+
+class FunctionQueue {
+public:
+  static constexpr uint32_t kRoom = 64;
+
+  // The control of the instance, which outlives the queue, has the channels of all sends.
+  FunctionQueue(const mapping::File& map, rung_instance* instance);
+
+  // In every call of the scan function: notices edges, and an abort, which empties the queue and ends what the program
+  // was doing. `ns`: time since the last call.
+  void sample(const PinCell* pins, int64_t ns) noexcept;
+  // Before every slice of the program.
+  void advance(const PinCell* pins) noexcept;
+
+  // The program is switched on anew. All pins count as 0 before, as at the first start: what is on already is an edge.
+  void restart() noexcept;
+
+  // A function was handed over, or waits.
+  bool busy() const noexcept { return count_ != 0; }
+  // One has not been finished within the map's time since it was queued.
+  bool late() const noexcept { return late_; }
+  // Functions that found the queue full, and those whose code the dialect's signals do not hold.
+  uint32_t lost() const noexcept { return lost_; }
+
+private:
+  struct Call {
+    uint32_t send = 0;
+    uint32_t code = 0;
+    int64_t ageNs = 0;
+    bool wanted = true;           // the pin has kept the level that caused it
+    std::optional<uint32_t> line; // of the handshake, once it has begun
+  };
+
+  bool triggered(const mapping::Edge& edge, const PinCell* pins) const noexcept { return *pins[edge.pin].bit == edge.rising; }
+  void queue(Call call) noexcept;
+  void withdraw(uint32_t send, const PinCell* pins) noexcept;
+  void abort() noexcept;
+  bool finish(const Call& call, const PinCell* pins) const noexcept;
+  void start(uint32_t index) noexcept;
+
+  rung_instance* instance_;
+  std::vector<mapping::Send> sends_;
+  std::vector<bool> wasTriggered_; // by sends_
+  std::vector<mapping::Edge> aborts_;
+  std::vector<bool> wasAborted_; // by aborts_
+  uint32_t channels_ = 0;        // that sends are for: those below this number
+  int64_t timeoutNs_;            // 0: none
+  std::vector<Call> calls_;      // the oldest first; room for kRoom
+  uint32_t count_ = 0;
+  uint32_t lost_ = 0;
+  bool late_ = false;
+};
+
+} // namespace rung::plc

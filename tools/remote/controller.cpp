@@ -1,0 +1,450 @@
+// See controller.h.
+#include "tools/remote/controller.h"
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "rung/types.hpp"
+#include "tools/remote/values.h"
+
+namespace rung::remote {
+
+using nlohmann::json;
+using plc::Order;
+
+namespace {
+
+constexpr size_t kMostNames = 256;  // of a watch
+constexpr size_t kMostReports = 200;   // messages that are kept
+constexpr uint32_t kMostForces = 64;
+constexpr size_t kMostChanges = 1000; // that a report lists
+constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
+
+std::string timeNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
+}
+
+std::string textOf(const json& request, const char* key) {
+  const auto found = request.find(key);
+  if (found == request.end() || !found->is_string())
+    throw Refused(std::string("found no text \"") + key + "\" in the request, expected one");
+  return found->get<std::string>();
+}
+
+bool flagOf(const json& request, const char* key) {
+  const auto found = request.find(key);
+  if (found == request.end()) return false;
+  if (!found->is_boolean()) throw Refused(std::string("found no true or false for \"") + key + "\", expected one of them");
+  return found->get<bool>();
+}
+
+std::vector<std::string> namesOf(const json& request) {
+  const auto found = request.find("names");
+  const bool good = found != request.end() && found->is_array() && !found->empty() && found->size() <= kMostNames &&
+                    std::ranges::all_of(*found, &json::is_string);
+  if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
+  return found->get<std::vector<std::string>>();
+}
+
+void check(const plc::Answer& answer) {
+  if (!answer.ok()) throw Refused(answer.problem);
+}
+
+// A status of the library.
+void checkCall(int32_t status) {
+  if (status < RUNG_OK) throw Refused(rung_error_text());
+}
+
+std::string shown(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
+
+const char* changeName(uint32_t kind) {
+  constexpr const char* kNames[] = {"new", "removed", "moved", "renamed", "retyped", "released"}; // enum rung_change_kind
+  return kind < std::size(kNames) ? kNames[kind] : "changed";
+}
+
+bool loses(uint32_t kind) {
+  return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_RELEASED;
+}
+
+} // namespace
+
+struct Controller::Watching {
+  Watching(rung_instance* instance, const std::vector<rung_cell>& cells, std::vector<uint32_t> types, bool everyPass)
+      : types(std::move(types)), all(everyPass), values(cells.size()), sent(cells.size()) {
+    checkCall(rung_watch_new(instance, cells.data(), static_cast<uint32_t>(cells.size()), all ? kPassesKept : 0, &watch));
+  }
+  ~Watching() { rung_watch_free(watch); }
+  Watching(const Watching&) = delete;
+  Watching& operator=(const Watching&) = delete;
+
+  bool hasChanged() const {
+    return std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0;
+  }
+  json event(const rung_sample& sample) {
+    json list = json::array();
+    for (size_t i = 0; i < values.size(); ++i) list.push_back(toJson(types[i], values[i]));
+    sent = values;
+    begun = true;
+    return {{"event", "values"}, {"pass", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
+  }
+
+  rung_watch* watch = nullptr;
+  std::vector<uint32_t> types;
+  bool all;
+  bool begun = false;
+  std::vector<rung_value> values, sent;
+};
+
+const Controller::Command Controller::kCommands[] = {
+    {"status", std::nullopt, &Controller::status},
+    {"messages", std::nullopt, &Controller::messages},
+    {"get", std::nullopt, &Controller::get},
+    {"watch", std::nullopt, &Controller::watch},
+    {"map", std::nullopt, &Controller::map},
+    {"set", mapping::Remote::Set, &Controller::set},
+    {"force", mapping::Remote::Force, &Controller::force},
+    {"unforce", mapping::Remote::Force, &Controller::unforce},
+    {"forced", std::nullopt, &Controller::forced},
+    {"reload", mapping::Remote::Reload, &Controller::reload},
+    {"rollback", mapping::Remote::Reload, &Controller::rollback},
+    {"stop", mapping::Remote::Stop, &Controller::stop},
+    {"start", mapping::Remote::Start, &Controller::start},
+    {"reset", mapping::Remote::Reset, &Controller::reset},
+};
+
+Controller::Controller(std::string host, plc::Box& box, const rung_program& program,
+                       std::function<void(const std::string&)> log)
+    : host_(std::move(host)), box_(box), program_(program.name), dialect_(program.dialect), log_(std::move(log)) {
+  for (const mapping::Protected& cell : box_.map().never) {
+    const std::vector<Range> ranges = rangesOf(cell.name);
+    protected_.insert(protected_.end(), ranges.begin(), ranges.end());
+  }
+}
+
+Controller::~Controller() = default;
+
+json Controller::greeting() {
+  return {{"rung", "host"}, {"protocol", kProtocol}, {"host", host_}, {"program", program_}, {"dialect", dialect_}};
+}
+
+json Controller::answer(const Peer& peer, const json& request) {
+  json answer = json::object();
+  try {
+    if (!request.is_object()) throw Refused("found " + std::string(request.type_name()) + ", expected an object");
+    const std::string wanted = textOf(request, "do");
+    const auto* command = std::ranges::find(kCommands, wanted, &Command::name);
+    if (command == std::end(kCommands)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
+    if (command->permission && !box_.map().allowed[static_cast<size_t>(*command->permission)]) {
+      const std::string right(mapping::kRemoteNames[static_cast<size_t>(*command->permission)]);
+      throw Refused("\"" + right + "\" is not allowed here; the mapping file allows it: [rungctl] allow = [\"" + right +
+                    "\"]");
+    }
+    answer = (this->*command->run)(peer, request);
+    if (!answer.contains("ok")) answer["ok"] = true;
+  } catch (const std::exception& problem) { // Refused, or no memory
+    answer = {{"ok", false}, {"error", problem.what()}};
+  }
+  if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
+  return answer;
+}
+
+void Controller::gone(const Peer& peer) {
+  watching_.erase(peer.number);
+  std::erase(following_, peer.number);
+}
+
+// ---- looking -------------------------------------------------------------------------------------------------------
+
+json Controller::status(const Peer&, const json&) {
+  json out = {{"host", host_}, {"program", program_}, {"dialect", dialect_}};
+  Order order{.kind = Order::Kind::State};
+  const plc::Answer answer = box_.order(order);
+  out["scanned"] = answer.ok();
+  if (!answer.ok()) return out;
+  const uint32_t flags = order.state.flags;
+  out["passes"] = order.state.passes;
+  out["missed"] = order.state.missed;
+  out["us"] = order.state.now_us;
+  out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
+  out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
+  out["faulted"] = (flags & RUNG_STATE_FAULTED) != 0;
+  if (const std::optional<rung_fault_info> fault = box_.running() ? std::nullopt : box_.fault()) {
+    out["fault"] = fault->text;
+    out["file"] = fault->file;
+    out["line"] = fault->line;
+  }
+  return out;
+}
+
+json Controller::messages(const Peer& peer, const json& request) {
+  if (flagOf(request, "follow") && std::ranges::find(following_, peer.number) == following_.end())
+    following_.push_back(peer.number);
+  return {{"messages", reports_}};
+}
+
+void Controller::report(const std::string& text, Server* server) {
+  reports_.push_back(timeNow() + " " + text);
+  if (reports_.size() > kMostReports) reports_.pop_front();
+  if (server == nullptr) return;
+  for (const uint32_t peer : following_) server->send(peer, {{"event", "message"}, {"text", reports_.back()}});
+}
+
+Controller::Found Controller::find(const std::string& name, int32_t access) const {
+  Found found;
+  found.info.size = sizeof found.info;
+  checkCall(rung_instance_find(box_.instance(), name.c_str(), access, &found.cell));
+  checkCall(rung_instance_cell(box_.instance(), found.cell, &found.info));
+  if (found.info.type == RUNG_TYPE_TEXT) throw Refused(name + " is a text, expected a bit or a number");
+  return found;
+}
+
+json Controller::watch(const Peer& peer, const json& request) {
+  const std::vector<std::string> names = namesOf(request);
+  std::vector<rung_cell> cells;
+  std::vector<uint32_t> types;
+  json described = json::array();
+  for (const std::string& name : names) {
+    const Found found = find(name, RUNG_READ);
+    cells.push_back(found.cell);
+    types.push_back(found.info.type);
+    described.push_back({{"name", name}, {"type", typeName(found.info.type)}, {"address", found.info.address}});
+  }
+  watching_[peer.number] = std::make_unique<Watching>(box_.instance(), cells, types, flagOf(request, "all"));
+  return {{"names", described}};
+}
+
+// The values at the end of a pass.
+json Controller::get(const Peer& peer, const json& request) {
+  const std::vector<std::string> names = namesOf(request);
+  std::vector<rung_cell> cells;
+  std::vector<uint32_t> types;
+  for (const std::string& name : names) {
+    const Found found = find(name, RUNG_READ);
+    cells.push_back(found.cell);
+    types.push_back(found.info.type);
+  }
+  (void)peer;
+  Watching once(box_.instance(), cells, types, false);
+  auto sample = sized<rung_sample>();
+  const auto end = std::chrono::steady_clock::now() + plc::Box::kPatience;
+  while (rung_watch_newest(once.watch, once.values.data(), &sample) != RUNG_OK) {
+    if (std::chrono::steady_clock::now() >= end) throw Refused("no pass of the program has ended within a second");
+    Order look{.kind = Order::Kind::State}; // waits for a step of the scan thread
+    box_.order(look);
+  }
+  json values = json::object();
+  for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(types[i], once.values[i]);
+  return {{"pass", sample.pass}, {"us", sample.now_us}, {"values", values}};
+}
+
+void Controller::sendEvents(Server& server) {
+  constexpr int kMostPasses = 500; // in a turn
+  for (auto& [peer, watching] : watching_) {
+    auto sample = sized<rung_sample>();
+    if (watching->all) {
+      for (int i = 0; i < kMostPasses; ++i) {
+        if (rung_watch_next(watching->watch, watching->values.data(), &sample) != RUNG_OK) break;
+        server.send(peer, watching->event(sample));
+      }
+    } else if (rung_watch_newest(watching->watch, watching->values.data(), &sample) == RUNG_OK &&
+               (!watching->begun || watching->hasChanged())) {
+      server.send(peer, watching->event(sample));
+    }
+  }
+}
+
+json Controller::map(const Peer&, const json&) {
+  const mapping::File& map = box_.map();
+  json pins = json::array();
+  for (const mapping::Pin& pin : map.pins)
+    pins.push_back({{"name", pin.name},
+                    {"type", mapping::pinTypeName(pin.type)},
+                    {"table", mapping::tableName(pin.direction)},
+                    {"file", map.paths[pin.at.file]},
+                    {"line", pin.at.line}});
+  json allowed = json::array();
+  for (size_t i = 0; i < std::size(mapping::kRemoteNames); ++i)
+    if (map.allowed[i]) allowed.push_back(mapping::kRemoteNames[i]);
+  json never = json::array();
+  for (const mapping::Protected& cell : map.never) never.push_back(cell.name);
+  return {{"files", map.paths}, {"pins", pins}, {"allow", allowed}, {"never", never}};
+}
+
+// ---- changing ------------------------------------------------------------------------------------------------------
+
+void Controller::logChange(const Peer& peer, const std::string& text) {
+  log_(timeNow() + " " + peer.name + " (user " + std::to_string(peer.user) + ", process " +
+       std::to_string(peer.process) + "): " + text);
+}
+
+// The place that the program reads, and the one that the machine writes.
+std::vector<Controller::Range> Controller::rangesOf(const std::string& name) const {
+  std::vector<Range> ranges;
+  for (const int32_t access : {RUNG_READ, RUNG_WRITE}) {
+    rung_cell cell = 0;
+    auto info = sized<rung_cell_info>();
+    if (rung_instance_find(box_.instance(), name.c_str(), access, &cell) != RUNG_OK ||
+        rung_instance_cell(box_.instance(), cell, &info) != RUNG_OK || info.space == RUNG_NONE)
+      continue;
+    constexpr uint64_t kBitsOfAByte = 8;
+    ranges.push_back({info.space, info.byte * kBitsOfAByte + info.bit,
+                      uint64_t{elementBits(info.type)} * std::max<uint32_t>(1, info.count)});
+  }
+  return ranges;
+}
+
+void Controller::refuseProtected(const std::string& name) const {
+  for (const Range& wanted : rangesOf(name))
+    for (const Range& kept : protected_)
+      if (wanted.space == kept.space && wanted.first < kept.first + kept.count && kept.first < wanted.first + wanted.count)
+        throw Refused(name + " is never set or forced here: the mapping file says so ([rungctl] never)");
+}
+
+Order Controller::give(Order order, std::chrono::milliseconds time) {
+  check(box_.order(order, time));
+  return order;
+}
+
+json Controller::set(const Peer& peer, const json& request) {
+  const std::string name = textOf(request, "name");
+  if (!request.contains("value")) throw Refused("found no \"value\" in the request, expected one");
+  const Found found = find(name, RUNG_WRITE);
+  refuseProtected(name);
+  const rung_value value = fromJson(found.info.type, request["value"], name);
+  const Order done = give({.kind = Order::Kind::Write, .cell = found.cell, .value = value});
+  logChange(peer, "set " + name + " from " + shown(found.info.type, done.former) + " to " + shown(found.info.type, value));
+  return {{"name", name}, {"former", toJson(found.info.type, done.former)}, {"value", toJson(found.info.type, value)}};
+}
+
+std::vector<rung_force_info> Controller::forcesInEffect() {
+  std::vector<rung_force_info> list;
+  for (uint32_t i = 0; i < kMostForces; ++i) {
+    Order order{.kind = Order::Kind::Forced, .index = i};
+    const plc::Answer answer = box_.order(order);
+    check(answer);
+    if (answer.status == RUNG_EMPTY) break;
+    list.push_back(order.force);
+  }
+  return list;
+}
+
+void Controller::putInEffect(const std::vector<rung_forced_cell>& cells) {
+  rung_forces* made = nullptr;
+  if (!cells.empty())
+    checkCall(rung_forces_new(box_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
+  std::unique_ptr<rung_forces, EndForces> forces(made);
+  give({.kind = Order::Kind::Force, .forces = made});
+  forces_ = std::move(forces); // the former set has ended
+}
+
+json Controller::force(const Peer& peer, const json& request) {
+  const std::string name = textOf(request, "name");
+  if (!request.contains("value")) throw Refused("found no \"value\" in the request, expected one");
+  const Found found = find(name, RUNG_READ);
+  refuseProtected(name);
+  const rung_value value = fromJson(found.info.type, request["value"], name);
+  std::vector<rung_forced_cell> cells = {{name.c_str(), peer.name.c_str(), value, RUNG_READ, 0}};
+  for (const rung_force_info& force : forcesInEffect())
+    if (force.name != name) cells.push_back({force.name, force.owner, force.value, RUNG_READ, 0});
+  if (cells.size() > kMostForces) throw Refused("64 cells are forced already; end a force first");
+  putInEffect(cells);
+  logChange(peer, "force " + name + " to " + shown(found.info.type, value));
+  return {{"name", name}, {"value", toJson(found.info.type, value)}};
+}
+
+json Controller::unforce(const Peer& peer, const json& request) {
+  const bool all = flagOf(request, "all");
+  const std::string name = all ? "" : textOf(request, "name");
+  std::vector<rung_forced_cell> left;
+  size_t ended = 0;
+  for (const rung_force_info& force : forcesInEffect()) {
+    if (all || force.name == name)
+      ++ended;
+    else
+      left.push_back({force.name, force.owner, force.value, RUNG_READ, 0});
+  }
+  if (!all && ended == 0) throw Refused(name + " is not forced");
+  if (ended != 0) {
+    putInEffect(left);
+    logChange(peer, all ? "unforce all" : "unforce " + name);
+  }
+  return {{"ended", ended}};
+}
+
+json Controller::forced(const Peer&, const json&) {
+  json list = json::array();
+  for (const rung_force_info& force : forcesInEffect())
+    list.push_back({{"name", force.name},
+                    {"value", toJson(force.type, force.value)},
+                    {"owner", force.owner},
+                    {"since_us", force.since_us}});
+  return {{"forced", list}};
+}
+
+json Controller::reload(const Peer& peer, const json& request) {
+  const std::string path = textOf(request, "program");
+  if (!path.starts_with('/')) throw Refused("found the path " + path + ", expected an absolute one");
+  Image image(path);
+  rung_replacement* made = nullptr;
+  checkCall(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
+  std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
+  auto info = sized<rung_replacement_info>();
+  checkCall(rung_replacement_report(made, &info));
+  json changes = json::array();
+  std::string lost;
+  auto change = sized<rung_change>();
+  for (uint32_t i = 0; i < kMostChanges && rung_replacement_change(made, i, &change) == RUNG_OK; ++i) {
+    changes.push_back({{"kind", changeName(change.kind)}, {"name", change.name}, {"former", change.former}, {"state", change.is_state != 0}});
+    if (loses(change.kind)) lost += (lost.empty() ? "" : ", ") + std::string(change.name);
+  }
+  json report = {{"program", path}, {"kept_cells", info.kept_cells}, {"kept_states", info.kept_states}, {"changes", changes}, {"bound", info.bound}};
+  if (!lost.empty() && !flagOf(request, "yes")) {
+    report["ok"] = false;
+    report["needs"] = "yes";
+    report["error"] = "the new program loses state: " + lost;
+    return report;
+  }
+  if (flagOf(request, "late")) checkCall(rung_replacement_allow_late(made));
+  constexpr std::chrono::seconds kTime(3);
+  give({.kind = Order::Kind::Replace, .replacement = made}, kTime);
+  forces_.reset(); // they have ended
+  replacement_ = std::move(replacement);
+  former_ = std::exchange(program_, image.program().name);
+  logChange(peer, "reload " + path);
+  return report;
+}
+
+json Controller::rollback(const Peer& peer, const json&) {
+  if (replacement_ == nullptr) throw Refused("no program has been reloaded, so there is none to go back to");
+  constexpr std::chrono::seconds kTime(3);
+  give({.kind = Order::Kind::Replace, .replacement = replacement_.get()}, kTime);
+  forces_.reset();
+  std::swap(former_, program_);
+  logChange(peer, "rollback to " + program_);
+  return {{"program", program_}};
+}
+
+json Controller::simple(Order::Kind kind, const Peer& peer, const char* what) {
+  give({.kind = kind});
+  logChange(peer, what);
+  return json::object();
+}
+
+json Controller::stop(const Peer& peer, const json&) { return simple(Order::Kind::Stop, peer, "stop"); }
+json Controller::start(const Peer& peer, const json&) { return simple(Order::Kind::Start, peer, "start"); }
+
+json Controller::reset(const Peer& peer, const json&) {
+  if (box_.running()) throw Refused("the program runs; a reset restarts one that a fault has stopped");
+  return simple(Order::Kind::Restart, peer, "reset");
+}
+
+} // namespace rung::remote

@@ -1,0 +1,103 @@
+// What rungctl may ask of a program that runs between the pins of a host: docs/control-protocol.md lists it.
+#pragma once
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "rung/runtime.hpp"
+#include "tools/plc/box.h"
+#include "tools/remote/server.h"
+
+namespace rung::remote {
+
+// For the thread that serves the box; orders go to the scan thread, which it waits for.
+class Controller final : public Handler {
+public:
+  static constexpr int kProtocol = 1;
+
+  // `program` is the one that the box began with. `log` takes a line for every change that somebody has made.
+  Controller(std::string host, plc::Box& box, const rung_program& program,
+             std::function<void(const std::string&)> log);
+  ~Controller() override; // before the box
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+
+  nlohmann::json greeting() override;
+  nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
+  void gone(const Peer& peer) override;
+
+  // A message of the program, or a report of the host, for those who ask later and for those who follow.
+  void report(const std::string& text, Server* server);
+  // Sends what has changed to those who watch.
+  void sendEvents(Server& server);
+
+private:
+  struct Watching;
+  struct Range { // of bits of a space
+    uint32_t space = 0;
+    uint64_t first = 0;
+    uint64_t count = 0;
+  };
+  struct Command {
+    const char* name;
+    std::optional<mapping::Remote> permission; // that the mapping file must give
+    nlohmann::json (Controller::*run)(const Peer&, const nlohmann::json&);
+  };
+  static const Command kCommands[];
+
+  nlohmann::json status(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json messages(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json watch(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json get(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json set(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json force(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json unforce(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json forced(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json reload(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json rollback(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json stop(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json start(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json reset(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json map(const Peer& peer, const nlohmann::json& request);
+
+  struct Found {
+    rung_cell cell = 0;
+    rung_cell_info info{};
+  };
+  Found find(const std::string& name, int32_t access) const;
+  std::vector<Range> rangesOf(const std::string& name) const;
+  void refuseProtected(const std::string& name) const;
+  plc::Order give(plc::Order order, std::chrono::milliseconds time = plc::Box::kPatience);
+  void replace(std::chrono::milliseconds time);
+  std::vector<rung_force_info> forcesInEffect();
+  void putInEffect(const std::vector<rung_forced_cell>& cells);
+  nlohmann::json simple(plc::Order::Kind kind, const Peer& peer, const char* what);
+  void logChange(const Peer& peer, const std::string& text);
+
+  std::string host_;
+  plc::Box& box_;
+  std::string program_; // the name of the one that runs
+  std::string former_;  // of the one that `rollback` puts back
+  std::string dialect_;
+  std::function<void(const std::string&)> log_;
+  std::vector<Range> protected_;
+  std::deque<std::string> reports_;
+  std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
+  std::vector<uint32_t> following_;                        // messages
+  struct EndForces {
+    void operator()(rung_forces* forces) const noexcept { rung_forces_free(forces); }
+  };
+  std::unique_ptr<rung_forces, EndForces> forces_;
+  struct EndReplacement {
+    void operator()(rung_replacement* replacement) const noexcept { rung_replacement_free(replacement); }
+  };
+  std::unique_ptr<rung_replacement, EndReplacement> replacement_; // has put program_ in the place of former_
+};
+
+} // namespace rung::remote

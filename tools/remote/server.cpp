@@ -1,0 +1,146 @@
+// See server.h.
+#include "tools/remote/server.h"
+
+#include <poll.h>
+#include <pwd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/remote/place.h"
+
+namespace rung::remote {
+namespace {
+
+using nlohmann::json;
+
+sockaddr_un addressOf(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
+}
+
+[[noreturn]] void refuse(const std::string& path) {
+  throw std::runtime_error("cannot listen at " + path + ": " + std::strerror(errno));
+}
+
+// Somebody listens there.
+bool isAlive(const sockaddr_un& address) {
+  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const bool alive = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
+  close(probe);
+  return alive;
+}
+
+std::string nameOf(uid_t user) {
+  std::array<char, 4096> buffer{};
+  passwd entry{};
+  passwd* found = nullptr;
+  if (getpwuid_r(user, &entry, buffer.data(), buffer.size(), &found) == 0 && found != nullptr) return found->pw_name;
+  return std::to_string(user);
+}
+
+json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}}; }
+
+} // namespace
+
+Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(user), handler_(handler) {
+  if (!isHostName(host))
+    throw std::runtime_error("found the name \"" + host + "\" of a host, expected letters, digits, '-', '_' and '.'");
+  prepareFolder(user);
+  path_ = socketPath(user, host);
+  const sockaddr_un address = addressOf(path_);
+  if (isAlive(address)) throw std::runtime_error(path_ + ": another host has the name " + host + "; give this one another");
+  unlink(path_.c_str()); // of a host that was killed
+  socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (socket_ < 0) refuse(path_);
+  // Who may use the folder may connect; who has connected is asked for his user.
+  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      chmod(path_.c_str(), 0600) != 0 || listen(socket_, static_cast<int>(kMostPeers)) != 0) {
+    close(socket_);
+    refuse(path_);
+  }
+}
+
+Server::~Server() {
+  close(socket_);
+  unlink(path_.c_str());
+}
+
+void Server::serve(std::chrono::milliseconds wait) {
+  std::vector<pollfd> waiting = {{socket_, POLLIN, 0}};
+  const bool hasLines = std::ranges::any_of(clients_, [](const Client& c) { return c.connection.hasLine(); });
+  if (hasLines) wait = std::chrono::milliseconds(0);
+  for (const Client& client : clients_)
+    waiting.push_back({client.connection.socket(),
+                       static_cast<short>(POLLIN | (client.connection.wantsToSend() ? POLLOUT : 0)), 0});
+  if (poll(waiting.data(), waiting.size(), static_cast<int>(wait.count())) <= 0 && !hasLines) return;
+  auto event = waiting.begin() + 1;
+  for (Client& client : clients_) {
+    if ((event->revents & POLLOUT) != 0) client.connection.sendMore();
+    if ((event->revents & ~POLLOUT) != 0 || client.connection.hasLine()) read(client);
+    ++event;
+  }
+  if (waiting.front().revents != 0) accept();
+  forget();
+}
+
+void Server::accept() {
+  const int made = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (made < 0) return;
+  Client client{{.number = ++lastPeer_}, Connection(made, Connection::kLongestRequest)};
+  ucred who{};
+  socklen_t size = sizeof who;
+  const bool known = getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) == 0;
+  client.peer.user = who.uid;
+  client.peer.process = who.pid;
+  client.peer.name = nameOf(who.uid);
+  if (!known || (who.uid != user_ && who.uid != 0))
+    return client.connection.send(problemOf("only the user who has started the host, and root, may use it").dump());
+  if (clients_.size() == kMostPeers)
+    return client.connection.send(problemOf("the host serves " + std::to_string(kMostPeers) + " others already").dump());
+  client.connection.send(handler_.greeting().dump());
+  clients_.push_back(std::move(client));
+}
+
+// A line at a time: others ask, too.
+void Server::read(Client& client) {
+  client.connection.receive();
+  const std::optional<std::string> line = client.connection.line();
+  if (!line) return;
+  const json request = json::parse(*line, nullptr, false);
+  const json answer = request.is_discarded() ? problemOf("found a line that is not JSON, expected an object")
+                                             : handler_.answer(client.peer, request);
+  client.connection.send(answer.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+void Server::forget() {
+  for (auto client = clients_.begin(); client != clients_.end();) {
+    if (client->connection.ended()) {
+      handler_.gone(client->peer);
+      client = clients_.erase(client);
+    } else {
+      ++client;
+    }
+  }
+}
+
+void Server::send(uint32_t peer, const json& event) {
+  for (Client& client : clients_)
+    if (client.peer.number == peer)
+      client.connection.send(event.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+} // namespace rung::remote

@@ -1,0 +1,68 @@
+// The socket of a host: its user, and root, may send requests, one JSON object a line (docs/control-protocol.md).
+#pragma once
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <list>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tools/remote/connection.h"
+
+namespace rung::remote {
+
+// Who asks, as the system knows him.
+struct Peer {
+  uint32_t number = 0; // of the connection, from 1, never used again
+  uid_t user = 0;
+  pid_t process = 0;
+  std::string name; // of the user; his number where he has none
+};
+
+class Handler {
+public:
+  virtual ~Handler() = default;
+  // What the host says first.
+  virtual nlohmann::json greeting() = 0;
+  // The answer to one request, any JSON.
+  virtual nlohmann::json answer(const Peer& peer, const nlohmann::json& request) = 0;
+  virtual void gone(const Peer& peer) = 0;
+};
+
+// For one thread.
+class Server {
+public:
+  static constexpr size_t kMostPeers = 16;
+
+  // Listens at the place of this host. Throws std::runtime_error: something is wrong with it, or another host has it.
+  Server(const std::string& host, uid_t user, Handler& handler);
+  ~Server(); // nothing is left of the socket
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // Answers what has come; waits for it no longer than that.
+  void serve(std::chrono::milliseconds wait);
+  // To one of those who have asked; to nobody where he has gone.
+  void send(uint32_t peer, const nlohmann::json& event);
+  const std::string& path() const { return path_; }
+
+private:
+  struct Client {
+    Peer peer;
+    Connection connection;
+  };
+  void accept();
+  void read(Client& client);
+  void forget();
+
+  std::string path_;
+  uid_t user_;
+  Handler& handler_;
+  int socket_ = -1;
+  uint32_t lastPeer_ = 0;
+  std::list<Client> clients_;
+};
+
+} // namespace rung::remote

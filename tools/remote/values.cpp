@@ -1,0 +1,63 @@
+// See values.h.
+#include "tools/remote/values.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include "rung/types.hpp"
+
+namespace rung::remote {
+
+using nlohmann::json;
+
+std::string typeName(uint32_t type) {
+  switch (type) {
+  case RUNG_TYPE_BIT: return "bit";
+  case RUNG_TYPE_F64: return "real";
+  case RUNG_TYPE_TEXT: return "text";
+  default: return "i" + std::to_string(elementBits(type));
+  }
+}
+
+json toJson(uint32_t type, rung_value value) {
+  if (type == RUNG_TYPE_BIT) return value.integer != 0;
+  if (type != RUNG_TYPE_F64) return value.integer;
+  return std::isfinite(value.real) ? json(value.real) : json();
+}
+
+rung_value fromJson(uint32_t type, const json& value, const std::string& name) {
+  const auto refuse = [&](const std::string& expected) {
+    throw Refused("found " + value.dump() + " for " + name + ", expected " + expected);
+  };
+  rung_value made{};
+  if (type == RUNG_TYPE_BIT) {
+    if (value.is_boolean())
+      made.integer = value.get<bool>() ? 1 : 0;
+    else if (value == 0 || value == 1)
+      made.integer = value == 1 ? 1 : 0;
+    else
+      refuse("true or false, because it is a bit");
+    return made;
+  }
+  if (type == RUNG_TYPE_F64) {
+    if (!value.is_number()) refuse("a number");
+    made.real = value.get<double>();
+    return made;
+  }
+  const uint32_t bits = elementBits(type);
+  if (!value.is_number_integer()) refuse("an integer, because the cell has " + std::to_string(bits) + " bits");
+  if (value.is_number_unsigned()) {
+    const auto number = value.get<uint64_t>();
+    if (bits < 64 && number >> bits != 0) refuse("at most " + std::to_string((uint64_t{1} << bits) - 1));
+    std::memcpy(&made.integer, &number, sizeof number);
+    return made;
+  }
+  made.integer = value.get<int64_t>();
+  if (bits < 64 && made.integer < -(int64_t{1} << (bits - 1)))
+    refuse("at least " + std::to_string(-(int64_t{1} << (bits - 1))));
+  return made;
+}
+
+} // namespace rung::remote

@@ -1,0 +1,144 @@
+// rung-run: runs a compiled program with a mapping file on the machine's clock, without LinuxCNC. rungctl reaches it.
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "rtlib/host/realtime.h"
+#include "tools/command-line/usage.h"
+#include "tools/plc/box.h"
+#include "tools/remote/controller.h"
+#include "tools/rung-run/pins.h"
+#include "tools/rung-run/scan_thread.h"
+
+namespace {
+
+using namespace rung;
+
+volatile std::sig_atomic_t gEnd = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
+
+struct Options {
+  std::string program;
+  std::string map;
+  std::string name = "rung";
+  std::string retain;
+  unsigned periodUs = 1000;
+  int priority = 0;
+  bool lockMemory = false;
+  bool unsealed = false;
+};
+
+void print(const std::string& line) { std::cerr << "rung-run: " << line << '\n'; }
+
+void catchSignals() {
+  struct sigaction action{};
+  action.sa_handler = [](int) { gEnd = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+// One program with its pins, which rungctl can see: what is between its start and its end.
+class Run {
+public:
+  Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box)
+      : box_(std::move(box)), pins_(*box_), controller_(options.name, *box_, image.program(), print),
+        server_(options.name, getuid(), controller_),
+        scans_(*box_, {.periodNs = int64_t{options.periodUs} * 1000,
+                       .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {}
+
+  int run() {
+    constexpr std::chrono::milliseconds kTurn(20);
+    if (const std::string wrong = scans_.start(); !wrong.empty()) return print(wrong), int{cli::kEnvironment};
+    print("listening at " + server_.path());
+    while (gEnd == 0) {
+      server_.serve(kTurn);
+      serveBox();
+      controller_.sendEvents(server_);
+    }
+    return end();
+  }
+
+private:
+  void serveBox() {
+    std::vector<std::string> reports;
+    box_->serve(reports);
+    for (const std::string& report : reports) {
+      print(report);
+      controller_.report(report, &server_);
+    }
+    rung_message_info message{};
+    while (box_->nextMessage(message)) {
+      if (message.op == RUNG_MESSAGE_CLEAR) continue;
+      print(std::string("message ") + message.text);
+      controller_.report(message.text, &server_);
+    }
+  }
+
+  int end() {
+    scans_.end();
+    serveBox(); // a fault of the last moment
+    const std::string error = box_->close();
+    print(scans_.report());
+    if (!error.empty()) print(error);
+    return error.empty() ? cli::kOk : cli::kEnvironment;
+  }
+
+  std::unique_ptr<plc::Box> box_;
+  rung_run::Pins pins_;
+  remote::Controller controller_;
+  remote::Server server_;
+  rung_run::ScanThread scans_;
+};
+
+int run(const Options& options) try {
+  const rung_image_options how{.size = sizeof how, .allow_unsealed = options.unsealed ? 1u : 0u, .keys_folder = nullptr};
+  const Image image(options.program, &how);
+  std::vector<std::string> errors, warnings;
+  mapping::File map = mapping::loadMap(options.map, errors);
+  std::unique_ptr<plc::Box> box;
+  if (!map.paths.empty()) box = plc::Box::make(image, std::move(map), errors, options.retain, warnings);
+  for (const std::string& text : warnings) print(text);
+  for (const std::string& text : errors) print(text);
+  if (box == nullptr) return cli::kWrong;
+  catchSignals();
+  return Run(options, image, std::move(box)).run();
+} catch (const std::exception& error) { // the program, the socket
+  print(error.what());
+  return cli::kEnvironment;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  cli::CommandLine app({.name = "rung-run",
+                        .description = "Runs a compiled PLC program with a mapping file on the machine's clock",
+                        .exitStatus = "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 environment",
+                        .guide = "docs/rung-run.md",
+                        .seeAlso = {"rungctl(1)", "rungc(1)", "rung_hal(9)"}});
+  Options options;
+  cli::Command command = app.root();
+  command.option("PROGRAM", options.program, "The compiled program (.so)").required();
+  command.option("MAP", options.map, "The mapping file").required();
+  command.option("--name", options.name, "The name for rungctl").showDefault();
+  command.option("--period", options.periodUs, "Microseconds between two looks at the clock").between(50u, 100000u).showDefault();
+  command.option("--retain", options.retain, "Keep the retained memory in FILE.a and FILE.b");
+  command.option("--priority", options.priority, "Real-time priority, 1 to 99 (SCHED_FIFO); without it the ordinary scheduling")
+      .between(1, 99);
+  command.flag("--lock-memory", options.lockMemory, "Keep all memory in RAM");
+  command.flag("--unsealed", options.unsealed, "Load a program that has no seal");
+  int status = cli::kOk;
+  cli::addUsage(app, status);
+  const std::optional<int> decided = app.run(argc, argv, [](const cli::WrongWords& words) {
+    print(words.text + "; `rung-run --help` shows what it takes");
+    return cli::kUsage;
+  });
+  return decided ? *decided : run(options);
+}

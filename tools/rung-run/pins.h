@@ -1,0 +1,32 @@
+// The pins of a mapping file in the memory of the process.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "tools/plc/box.h"
+
+namespace rung::rung_run {
+
+class Pins {
+public:
+  // Connects the box, which ends after it.
+  explicit Pins(plc::Box& box) : values_(box.pins().size()) {
+    for (Value& value : values_) cells_.push_back({.any = &value});
+    cells_.push_back({}); // a box without pins has cells, too
+    box.connect(cells_.data());
+  }
+  Pins(const Pins&) = delete;
+  Pins& operator=(const Pins&) = delete;
+
+private:
+  union Value {
+    bool bit;
+    int32_t s32;
+    uint32_t u32;
+    double real = 0;
+  };
+  std::vector<Value> values_;
+  std::vector<plc::PinCell> cells_;
+};
+
+} // namespace rung::rung_run

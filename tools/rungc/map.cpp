@@ -1,0 +1,110 @@
+// rungc map: a first mapping file for a program, and the mistakes of one that is there.
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+#include "rung/runtime.hpp"
+#include "tools/compiler/engines.h"
+#include "tools/mapping/binding.h"
+#include "tools/mapping/template.h"
+#include "tools/rungc/commands.h"
+#include "tools/scenario/place_names.h"
+#include "tools/scenario/used_places.h"
+
+namespace rung::rungc {
+namespace {
+
+struct MapOptions {
+  SourceOptions source;
+  bool makeTemplate = false;
+  std::string check; // a mapping file
+  std::string out;
+};
+
+// A program as a host would see it. What is compiled ends after the image.
+struct MappedProgram {
+  std::optional<compiler::Compiled> compiled; // nothing of a shared object
+  std::unique_ptr<host::Engine> engine;
+  std::optional<Image> image;
+};
+
+std::optional<MappedProgram> openProgram(const SourceOptions& source, int& status) {
+  MappedProgram program;
+  if (source.files.size() == 1 && source.files[0].ends_with(".so")) {
+    const rung_image_options options{.size = sizeof options, .allow_unsealed = 0, .keys_folder = nullptr};
+    try {
+      program.image.emplace(source.files[0], &options);
+    } catch (const Error& error) {
+      status = environmentError(error.what());
+      return std::nullopt;
+    }
+    return program;
+  }
+  SourceManager sources;
+  program.compiled = compileSources(sources, source, {}, status);
+  if (!program.compiled) return std::nullopt;
+  Result<std::unique_ptr<host::Engine>> engine =
+      compiler::makeEngine(compiler::EngineKind::Interp, *program.compiled, {});
+  if (!engine.ok()) {
+    status = environmentError(engine.error());
+    return std::nullopt;
+  }
+  program.engine = std::move(engine).value();
+  rung_image* image = nullptr;
+  check(rung_image_adopt(&program.engine->program(), program.engine->context(), nullptr, nullptr, &image));
+  program.image.emplace(image);
+  return program;
+}
+
+int writeTemplate(const MapOptions& options, const MappedProgram& program) {
+  if (!program.compiled)
+    return usageError("map --template: a shared object does not say what its rungs use; name the sources");
+  std::vector<mapping::UsedName> used;
+  const rung_program& tables = program.image->program();
+  for (const scenario::UsedPlace& place : scenario::usedPlaces(tables, *program.compiled->uses)) {
+    std::string name = scenario::writtenName(tables, scenario::refOf(place.use));
+    if (!name.empty()) used.push_back({std::move(name), place.read, place.written});
+  }
+  const Instance instance(*program.image);
+  const std::string text = mapping::templateMap(instance.handle(), tables, used);
+  if (options.out.empty()) {
+    fmt::print("{}", text);
+    return kOk;
+  }
+  return sayWrote(writeFile(text, options.out), options.out, options.source);
+}
+
+int checkMap(const MapOptions& options, const MappedProgram& program) {
+  std::vector<std::string> errors;
+  const mapping::File map = mapping::loadMap(options.check, errors);
+  if (map.paths.empty()) return environmentError(errors.front());
+  const Instance instance(*program.image);
+  mapping::bindMap(map, instance.handle(), program.image->program(), errors);
+  for (const std::string& error : errors) fmt::print(stderr, "{}\n", error);
+  if (!errors.empty()) return kWrong;
+  if (!options.source.quiet) fmt::print("{}: {} pins, no mistakes\n", options.check, map.pins.size());
+  return kOk;
+}
+
+int run(const MapOptions& options) {
+  if (options.makeTemplate == !options.check.empty()) return usageError("map: expected --template or --check MAP");
+  int status = kOk;
+  const std::optional<MappedProgram> program = openProgram(options.source, status);
+  if (!program) return status;
+  return options.makeTemplate ? writeTemplate(options, *program) : checkMap(options, *program);
+}
+
+} // namespace
+
+void addMap(CommandLine& app, int& status) {
+  Command command = app.add("map", "Write a first mapping file for LinuxCNC, or check one against its program");
+  auto options = std::make_shared<MapOptions>();
+  addSourceOptions(command, options->source);
+  Option check = command.option("--check", options->check, "Report all mistakes of this mapping file");
+  command.flag("--template", options->makeTemplate, "Write one, made of what the rungs of the program use")
+      .excludes(check);
+  command.option("-o,--output", options->out, "File for the template instead of standard output").excludes(check);
+  command.onRun([options, &status] { status = run(*options); });
+}
+
+} // namespace rung::rungc

@@ -1,0 +1,98 @@
+// See client.h.
+#include "tools/rungctl/client.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "tools/remote/controller.h"
+#include "tools/remote/place.h"
+
+namespace rung::rungctl {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int kAnswerMs = 15000;
+
+int connected(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return made;
+  const int problem = errno;
+  close(made);
+  throw std::runtime_error("cannot reach a host at " + path + ": " + std::strerror(problem) +
+                           "; is it running, and yours?");
+}
+
+// That of the name, or the only one.
+std::string chosen(const std::string& host) {
+  if (!host.empty()) return host;
+  const std::vector<std::string> hosts = remote::hostsOf(geteuid());
+  if (hosts.size() == 1) return hosts.front();
+  const std::string folder = remote::socketFolder(geteuid());
+  if (hosts.empty()) throw std::runtime_error("no host is running: " + folder + " has no socket");
+  std::string names;
+  for (const std::string& name : hosts) names += (names.empty() ? "" : ", ") + name;
+  throw std::runtime_error("several hosts are running; choose one by --host: " + names);
+}
+
+} // namespace
+
+Client::Client(const std::string& host)
+    : host_(chosen(host)), connection_(connected(remote::socketPath(geteuid(), host_)), remote::Connection::kLongestAnswer) {
+  const std::optional<json> first = next(kAnswerMs);
+  if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
+  if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());
+  greeting_ = *first;
+  if (greeting_.value("rung", "") != "host" || greeting_.value("protocol", 0) != remote::Controller::kProtocol)
+    throw std::runtime_error("the host " + host_ + " speaks another protocol: " + greeting_.dump());
+}
+
+json Client::ask(const json& request) {
+  connection_.send(request.dump());
+  while (const std::optional<json> line = next(kAnswerMs)) {
+    if (!line->contains("event")) return *line;
+    events_.push_back(*line);
+  }
+  throw std::runtime_error("the host " + host_ + " does not answer");
+}
+
+std::optional<json> Client::event(const volatile int& stop) {
+  constexpr int kTurnMs = 100;
+  while (stop == 0 && events_.empty()) {
+    const std::optional<json> line = next(kTurnMs);
+    if (line && line->contains("event")) return line;
+    if (connection_.ended()) throw std::runtime_error("the host " + host_ + " has ended");
+  }
+  if (events_.empty()) return std::nullopt;
+  json first = events_.front();
+  events_.pop_front();
+  return first;
+}
+
+// The next line, nothing within that time; or the host has gone.
+std::optional<json> Client::next(int waitMs) {
+  while (true) {
+    if (const std::optional<std::string> line = connection_.line()) {
+      json parsed = json::parse(*line, nullptr, false);
+      if (parsed.is_object()) return parsed;
+      throw std::runtime_error("the host " + host_ + " sent a line that is not a JSON object");
+    }
+    if (connection_.ended()) return std::nullopt;
+    pollfd waiting{connection_.socket(), POLLIN, 0};
+    if (poll(&waiting, 1, waitMs) <= 0) return std::nullopt;
+    connection_.receive();
+  }
+}
+
+} // namespace rung::rungctl

@@ -1,0 +1,33 @@
+// A host's socket as rungctl uses it: a request and its answer, and what the host sends by itself.
+#pragma once
+#include <deque>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/remote/connection.h"
+
+namespace rung::rungctl {
+
+class Client {
+public:
+  // Throws std::runtime_error: there is no host, or not this one, or it speaks another protocol.
+  explicit Client(const std::string& host);
+
+  const nlohmann::json& greeting() const { return greeting_; }
+  // Waits for the answer. Throws std::runtime_error where the host has gone.
+  nlohmann::json ask(const nlohmann::json& request);
+  // The next event; waits for it, until `stop` is not 0.
+  std::optional<nlohmann::json> event(const volatile int& stop);
+
+private:
+  std::optional<nlohmann::json> next(int waitMs);
+
+  std::string host_;
+  remote::Connection connection_;
+  nlohmann::json greeting_;
+  std::deque<nlohmann::json> events_;
+};
+
+} // namespace rung::rungctl

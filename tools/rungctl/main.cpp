@@ -1,0 +1,342 @@
+// rungctl: looks at and changes a program that runs in a host, by the host's socket (docs/control-protocol.md).
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/command-line/usage.h"
+#include "tools/remote/place.h"
+#include "tools/rungctl/client.h"
+#include "tools/rungctl/trace.h"
+
+namespace {
+
+using namespace rung;
+using nlohmann::json;
+using rungctl::Client;
+
+volatile int gStop = 0; // of SIGINT and SIGTERM
+
+// What all commands take.
+struct Common {
+  std::string host;
+  bool asJson = false;
+};
+
+// A command, its words, and what it does with a host.
+struct Words {
+  Common common;
+  std::vector<std::string> names;
+  std::string name;
+  std::string value;
+  std::string file;
+  double seconds = 0;
+  bool all = false;
+  bool follow = false;
+  bool yes = false;
+  bool late = false;
+};
+
+int fail(const std::string& text) {
+  std::cerr << "rungctl: " << text << '\n';
+  return cli::kWrong;
+}
+
+// The answer, where it is good.
+json asked(Client& client, const json& request) {
+  json answer = client.ask(request);
+  if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
+  return answer;
+}
+
+std::string shown(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+void print(const Words& words, const json& answer, const std::string& text) {
+  if (words.common.asJson)
+    std::cout << answer.dump() << std::endl;
+  else if (!text.empty())
+    std::cout << text << (text.ends_with('\n') ? "" : "\n") << std::flush;
+}
+
+// A number, true or false; anything else stays a text, which the host refuses with what it expected.
+json valueOf(const std::string& text) {
+  std::string digits = text;
+  if (text.starts_with("0x") || text.starts_with("0X")) { // JSON has none
+    char* end = nullptr;
+    const unsigned long long number = std::strtoull(text.c_str(), &end, 16);
+    if (*end == '\0') return number;
+  }
+  json value = json::parse(text, nullptr, false);
+  return value.is_discarded() || value.is_structured() ? json(text) : value;
+}
+
+int status(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "status"}});
+  std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
+                                 shown(answer["dialect"]));
+  if (!answer.value("scanned", false))
+    text += "nobody scans it: the host's thread does not run\n";
+  else if (answer.value("faulted", false))
+    text += fmt::format("stopped by a fault: {}\n", answer.value("fault", ""));
+  else
+    text += fmt::format("{}: {} passes, {} missed, {:.3f} s of its time{}\n",
+                        answer.value("stopped", false) ? "stopped by the operator" : "running",
+                        answer.value("passes", uint64_t{0}), answer.value("missed", uint64_t{0}),
+                        static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
+                        answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
+  print(words, answer, text);
+  return cli::kOk;
+}
+
+int messages(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "messages"}, {"follow", words.follow}});
+  std::string text;
+  for (const json& message : answer["messages"]) text += shown(message) + "\n";
+  print(words, answer, text);
+  while (words.follow && gStop == 0)
+    if (const std::optional<json> event = client.event(gStop)) print(words, *event, shown((*event)["text"]));
+  return cli::kOk;
+}
+
+int get(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "get"}, {"names", words.names}});
+  std::string text;
+  for (const std::string& name : words.names) text += fmt::format("{} = {}\n", name, shown(answer["values"][name]));
+  print(words, answer, text);
+  return cli::kOk;
+}
+
+int watch(Client& client, const Words& words) {
+  const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", words.all}});
+  if (words.common.asJson) print(words, begun, "");
+  json last = json::array();
+  while (gStop == 0) {
+    const std::optional<json> event = client.event(gStop);
+    if (!event || event->value("event", "") != "values") continue;
+    std::string text;
+    for (size_t i = 0; i < words.names.size(); ++i)
+      if (i >= last.size() || last[i] != (*event)["values"][i])
+        text += fmt::format("{:.3f} {} = {}\n", static_cast<double>(event->value("us", int64_t{0})) / 1e6, words.names[i],
+                            shown((*event)["values"][i]));
+    last = (*event)["values"];
+    print(words, *event, text);
+  }
+  return cli::kOk;
+}
+
+int trace(Client& client, const Words& words) {
+  std::ofstream file(words.file, std::ios::binary);
+  if (!file) return fail("cannot write " + words.file), cli::kEnvironment;
+  const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
+  rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
+  while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
+    if (const std::optional<json> event = client.event(gStop); event && event->value("event", "") == "values")
+      trace.add(*event);
+  trace.end();
+  if (!file.flush()) return fail("cannot write " + words.file), cli::kEnvironment;
+  print(words, {{"ok", true}, {"passes", trace.passes()}}, fmt::format("wrote {}: {} passes", words.file, trace.passes()));
+  return cli::kOk;
+}
+
+int set(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "set"}, {"name", words.name}, {"value", valueOf(words.value)}});
+  print(words, answer, fmt::format("{} = {}, before {}", words.name, shown(answer["value"]), shown(answer["former"])));
+  return cli::kOk;
+}
+
+int force(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "force"}, {"name", words.name}, {"value", valueOf(words.value)}});
+  print(words, answer, fmt::format("{} is forced to {}", words.name, shown(answer["value"])));
+  return cli::kOk;
+}
+
+int unforce(Client& client, const Words& words) {
+  if (words.all == !words.name.empty()) return fail("unforce: expected a NAME or --all"), cli::kUsage;
+  json request = {{"do", "unforce"}, {"all", words.all}};
+  if (!words.all) request["name"] = words.name;
+  const json answer = asked(client, request);
+  print(words, answer, fmt::format("{} ended", answer["ended"].dump()));
+  return cli::kOk;
+}
+
+int forced(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "forced"}});
+  std::string text;
+  for (const json& force : answer["forced"])
+    text += fmt::format("{} = {}, by {}\n", shown(force["name"]), shown(force["value"]), shown(force["owner"]));
+  print(words, answer, text.empty() ? "nothing is forced" : text);
+  return cli::kOk;
+}
+
+std::string reportOf(const json& answer) {
+  std::string text;
+  for (const json& change : answer.value("changes", json::array()))
+    text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
+                        change.value("former", "").empty() ? "" : ", before " + shown(change["former"]));
+  return text + fmt::format("kept: {} names, {} states of edges, timers and counters\n",
+                            answer.value("kept_cells", 0), answer.value("kept_states", 0));
+}
+
+int reload(Client& client, const Words& words) {
+  const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.file.c_str(), nullptr), &std::free);
+  if (path == nullptr) return fail("there is no file " + words.file), cli::kEnvironment;
+  const json answer =
+      client.ask({{"do", "reload"}, {"program", path.get()}, {"yes", words.yes}, {"late", words.late}});
+  if (answer.value("ok", false)) {
+    print(words, answer, reportOf(answer) + "the new program runs");
+    return cli::kOk;
+  }
+  if (words.common.asJson) std::cout << answer.dump() << '\n';
+  if (answer.contains("needs")) {
+    if (!words.common.asJson) std::cout << reportOf(answer);
+    return fail(answer.value("error", "") + "; nothing has changed; with --yes it is done all the same");
+  }
+  return fail(answer.value("error", "the host refuses"));
+}
+
+int simple(Client& client, const Words& words, const char* command, const char* text) {
+  print(words, asked(client, {{"do", command}}), text);
+  return cli::kOk;
+}
+
+int map(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "map"}});
+  std::string text;
+  for (const json& pin : answer["pins"])
+    text += fmt::format("{:<5} {:<5} {} ({}:{})\n", shown(pin["table"]), shown(pin["type"]), shown(pin["name"]),
+                        shown(pin["file"]), pin["line"].dump());
+  print(words, answer, text);
+  return cli::kOk;
+}
+
+int hosts(const Words& words) {
+  const std::vector<std::string> names = remote::hostsOf(geteuid());
+  std::string text;
+  for (const std::string& name : names) text += name + "\n";
+  print(words, json(names), text.empty() ? "no host is running" : text);
+  return cli::kOk;
+}
+
+class Commands {
+public:
+  Commands(cli::CommandLine& app, int& status) : app_(app), status_(status) {}
+
+  using Run = std::function<int(Client&, const Words&)>;
+  // Adds one; `words` gives it its own words.
+  void add(const char* name, const char* description, const std::function<void(cli::Command&, Words&)>& words, Run run) {
+    cli::Command command = app_.add(name, description);
+    auto taken = std::make_shared<Words>();
+    words(command, *taken);
+    command.option("--host", taken->common.host, "The name of the host; without it the only one that is running");
+    command.flag("--json", taken->common.asJson, "The answer as JSON");
+    command.onRun([this, taken, run = std::move(run)] { status_ = begin(*taken, run); });
+  }
+  void addHosts() {
+    cli::Command command = app_.add("hosts", "List the hosts that are running");
+    auto taken = std::make_shared<Words>();
+    command.flag("--json", taken->common.asJson, "As JSON");
+    command.onRun([this, taken] { status_ = hosts(*taken); });
+  }
+
+private:
+  static int begin(const Words& words, const Run& run) try {
+    Client client(words.common.host);
+    return run(client, words);
+  } catch (const std::exception& problem) {
+    return fail(problem.what());
+  }
+
+  cli::CommandLine& app_;
+  int& status_;
+};
+
+void addAll(Commands& commands) {
+  const auto none = [](cli::Command&, Words&) {};
+  const auto names = [](cli::Command& command, Words& words) {
+    command.option("NAME", words.names, "Names or addresses of the program").required();
+  };
+  const auto oneValue = [](cli::Command& command, Words& words) {
+    command.option("NAME", words.name, "A name or an address of the program").required();
+    command.option("VALUE", words.value, "true, false or a number").required();
+  };
+  commands.addHosts();
+  commands.add("status", "Say what the program does", none, status);
+  commands.add("messages", "Show what the program and its host have reported",
+               [](cli::Command& command, Words& words) {
+                 command.flag("-f,--follow", words.follow, "And what they report from now on");
+               }, messages);
+  commands.add("get", "Show values at the end of a pass", names, get);
+  commands.add("watch", "Show values whenever they change",
+               [&](cli::Command& command, Words& words) {
+                 names(command, words);
+                 command.flag("--all", words.all, "Look at every pass, not at a few a second");
+               }, watch);
+  commands.add("trace", "Write the values of every pass to a file for wave viewers",
+               [&](cli::Command& command, Words& words) {
+                 names(command, words);
+                 command.option("-o,--output", words.file, "The file, FILE.vcd").required();
+                 command.option("--for", words.seconds, "Seconds; without it until Ctrl+C").between(0.001, 1e6);
+               }, trace);
+  commands.add("set", "Write a value into a cell, once", oneValue, set);
+  commands.add("force", "Hold a cell at a value", oneValue, force);
+  commands.add("unforce", "Let go of a cell that is forced",
+               [](cli::Command& command, Words& words) {
+                 command.option("NAME", words.name, "The name that is forced");
+                 command.flag("--all", words.all, "All of them");
+               }, unforce);
+  commands.add("forced", "List the cells that are forced", none, forced);
+  commands.add("reload", "Replace the program by another one, between two passes",
+               [](cli::Command& command, Words& words) {
+                 command.option("FILE", words.file, "The compiled program (.so)").required();
+                 command.flag("--yes", words.yes, "Also where state is lost");
+                 command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
+               }, reload);
+  commands.add("rollback", "Put back the program before the last reload", none, [](Client& client, const Words& words) {
+    return simple(client, words, "rollback", "the former program runs");
+  });
+  commands.add("stop", "Stop the program; its outputs stay as they are", none, [](Client& client, const Words& words) {
+    return simple(client, words, "stop", "stopped");
+  });
+  commands.add("start", "Let a stopped program run on", none, [](Client& client, const Words& words) {
+    return simple(client, words, "start", "running");
+  });
+  commands.add("reset", "Restart a program that a fault has stopped", none, [](Client& client, const Words& words) {
+    return simple(client, words, "reset", "restarted");
+  });
+  commands.add("map", "Show the pins of the mapping file", none, map);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  struct sigaction action{};
+  action.sa_handler = [](int) { gStop = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  cli::CommandLine app({.name = "rungctl",
+                        .description = "Looks at and changes a PLC program that runs in LinuxCNC or in rung-run",
+                        .exitStatus = "0 ok, 1 the host refuses or is not there, 2 wrong usage, 3 a file cannot be written or read",
+                        .guide = "docs/rungctl.md",
+                        .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
+  int status = cli::kOk;
+  Commands commands(app, status);
+  addAll(commands);
+  cli::addUsage(app, status);
+  const std::optional<int> decided = app.run(argc, argv, [&app](const cli::WrongWords& words) {
+    std::cerr << cli::wrongUsage(app, words);
+    return cli::kUsage;
+  });
+  return decided.value_or(status);
+}

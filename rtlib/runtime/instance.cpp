@@ -45,9 +45,7 @@ std::shared_ptr<const Image> runningImage(rung_instance& instance) {
   return instance.images.find(*instance.program.load(std::memory_order_acquire));
 }
 
-int32_t failRunningImage() noexcept {
-  return fail(RUNG_WRONG_STATE, "another program is taking over at this moment");
-}
+int32_t failRunningImage() noexcept { return fail(RUNG_WRONG_STATE, "another program is taking over at this moment"); }
 
 // ---- the schedule ------------------------------------------------------------------------------------------------
 

@@ -40,9 +40,7 @@ int32_t failName(const rung_instance& instance, const rung_program& program, con
               source ? nc::describe(program, *source).c_str() : "another place");
 }
 
-int32_t failCell(rung_cell cell) noexcept {
-  return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell);
-}
+int32_t failCell(rung_cell cell) noexcept { return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell); }
 
 // The cell as it can be used now; null: `status` says what is wrong.
 const LocatedCell* usable(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {

@@ -68,8 +68,8 @@ class Bench:
         shutil.copy(options.module, link)
         self.rungc = options.rungc
 
-    def program(self, source):
-        subprocess.run([self.rungc, "build", source, "-o", self.home / "program.so"], check=True)
+    def program(self, source, name="program.so"):
+        subprocess.run([self.rungc, "build", source, "-o", self.home / name], check=True)
 
     def file(self, name, text):
         path = self.home / name
@@ -83,7 +83,7 @@ class Bench:
 
     def run(self, *command):
         for path in [self.home, *self.home.rglob("*")]:
-            if path.name != "program.so":  # LinuxCNC's rtapi_app runs what is root's
+            if path.suffix != ".so":  # LinuxCNC's rtapi_app runs what is root's
                 shutil.chown(path, "nobody")
         shell = ["sh", "-ec", INSIDE.format(modules=MODULES), "sh", *command]
         done = subprocess.run(unshare(shell), env={**os.environ, "D": str(self.folder)}, stdin=subprocess.DEVNULL,
@@ -102,10 +102,31 @@ def expect(condition, what):
         raise AssertionError(what)
 
 
+# A change of the programs of `remote`, by the ending of their files: a rung more.
+EDITS = {".pmc": ("FUNC END2", "LD   COOLANT_FLOW\nOUT  R90.0\n\nFUNC END2"),
+         ".lad": ("rung\n|--{END}", "rung\n|--[COOLANT_FLOW]--(7000.00)\n\nrung\n|--{END}"),
+         ".plc": ("OUT0\nMODULE_MAIN_END", "OUT0\n        LDR  COOLANT_FLOW\n        WR   COOLANT_FLOW\nMODULE_MAIN_END")}
+REMOTE = '\n[rungctl]\nallow = ["set", "force", "reload"]\nnever = ["ESTOP_OK"]\n'
+
+
+def prepare_remote(bench, options):
+    program = Path(options.program)
+    text = program.read_text(encoding="utf-8")
+    old, new = EDITS[program.suffix]
+    expect(text.count(old) == 1, f"{old} is not once in {program}")
+    bench.program(bench.file("edited" + program.suffix, text.replace(old, new)), "edited.so")
+    shutil.copy(Path(options.rungc).parent / "rungctl", bench.home / "rungctl")
+    bench.file("flow.txt", options.flow)
+
+
 def session(bench, options):
     """A whole LinuxCNC: spindle, coolant, tool change, a part program, emergency stop."""
     bench.program(options.program)
-    bench.file("program.map", "".join(Path(path).read_text(encoding="utf-8") for path in options.map))
+    map_text = "".join(Path(path).read_text(encoding="utf-8") for path in options.map)
+    if "remote" in options.steps.split():
+        prepare_remote(bench, options)
+        map_text += REMOTE
+    bench.file("program.map", map_text)
     for name in ("machine.ini", "machine.hal", "tool.tbl", "drive.py"):
         bench.copy(HERE / name)
     bench.file("steps.txt", options.steps)
@@ -288,7 +309,8 @@ def main():
     parser.add_argument("--module", default="", help="the component; empty when it was not built")
     parser.add_argument("--rungc", required=True)
     parser.add_argument("--program", default=HERE / "handshake.pmc", help="source of the PLC program of `session`")
-    parser.add_argument("--steps", default="spindle coolant tools part counters emergency_stop", help="what `session` does, in order")
+    parser.add_argument("--steps", default="spindle coolant tools part counters remote emergency_stop", help="what `session` does, in order")
+    parser.add_argument("--flow", default="COOLANT_FLOW", help="the program's flow switch, which no rung writes")
     parser.add_argument("--map", nargs="+", default=[HERE / "handshake.map"], help="its mapping file, in one or several pieces")
     options = parser.parse_args()
     check_machine(options.module)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Runs inside LinuxCNC in place of its display: commands functions and looks at the pins of the PLC program."""
+import subprocess
 import sys
 import time
 import traceback
@@ -132,6 +133,45 @@ def counters():
     check(0 < pin("scan.time") <= hal.get_value("rung.scan.tmax"), "the times that HAL measures")
 
 
+def rungctl(*words, refused=False):
+    """What it prints."""
+    ran = subprocess.run(["./rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=30)
+    check((ran.returncode != 0) == refused, f"rungctl {' '.join(words)}: {ran.stdout}")
+    return ran.stdout
+
+
+def remote():
+    """While an axis moves, the program is watched, traced, forced, and replaced by an edited one, and back."""
+    with open("flow.txt", encoding="ascii") as file:
+        flow = file.read()
+    mdi("M8")
+    pins(coolant_lamp=True)
+    command.mdi("G1 X20 F300")  # 4 s
+    check("running: " in rungctl("status"), "status")
+    tracing = subprocess.Popen(["./rungctl", "trace", flow, "COOLANT_LAMP", "-o", "cut.vcd", "--for", "1"])
+    rungctl("force", flow, "false")
+    pins(coolant_lamp=False, coolant_pump=True)
+    check(f"{flow} = false" in rungctl("forced"), "forced")
+    rungctl("unforce", flow)
+    pins(coolant_lamp=True)
+    check("the new program runs" in rungctl("reload", "edited.so"), "reload")
+    check("is never set or forced here" in rungctl("set", "ESTOP_OK", "false", refused=True), "the emergency stop was set")
+    check("\"stop\" is not allowed here" in rungctl("stop", refused=True), "stop")
+    status.poll()
+    check(not status.inpos, "the motion was over before the changes")
+    done("the motion")
+    pins(coolant_lamp=True, enable=True)
+    check(tracing.wait(PATIENCE) == 0, "trace")
+    with open("cut.vcd", encoding="ascii") as file:
+        picture = file.read()
+    check(all(f"\n{value}{name}\n" in picture for value in "01" for name in "!\""), picture)
+    mdi("M9")
+    pins(coolant_lamp=False, coolant_pump=False)
+    check(rungctl("rollback") == "the former program runs\n", "rollback")
+    check(rungctl("get", "COOLANT_PUMP") == "COOLANT_PUMP = false\n", "get")
+    mdi("G1 X0 F6000")
+
+
 def emergency_stop():
     mdi("M3 S1000")
     pins(spindle_cw=True)
@@ -145,7 +185,7 @@ def main():
     component.ready()
     switch_on()
     set_mode(linuxcnc.MODE_MDI)
-    steps = {step.__name__: step for step in (spindle, coolant, tools, part, counters, emergency_stop)}
+    steps = {step.__name__: step for step in (spindle, coolant, tools, part, counters, remote, emergency_stop)}
     with open("steps.txt", encoding="ascii") as file:
         for name in file.read().split():
             set_mode(linuxcnc.MODE_MDI)

@@ -55,7 +55,8 @@ void checkMap(const mapping::File& map) {
     RUNG_CHECK(std::isfinite(link.scale) && link.scale != 0, "a scale can be divided by");
     RUNG_CHECK(!link.name.empty(), "an entry names a place");
     RUNG_CHECK(link.bits.empty() || link.bits.front() == link.pin, "the first bit's pin is the entry's");
-    for (const uint32_t bit : link.bits) RUNG_CHECK(pin(bit).type == mapping::PinType::Bit, "a bit has a pin of type bit");
+    for (const uint32_t bit : link.bits)
+      RUNG_CHECK(pin(bit).type == mapping::PinType::Bit, "a bit has a pin of type bit");
     RUNG_CHECK(!link.value || pin(link.pin).direction == mapping::Direction::Parameter, "only parameters have a value");
     checkPlace(link.at);
   }
@@ -118,8 +119,7 @@ void checkBinding(const mapping::File& map, const Bound& program) {
   const Instance plc(program.image); // a new one: what is bound stays
   const mapping::Binding binding = mapping::bindMap(map, plc.handle(), program.image.program(), errors);
   for (const mapping::PinLink& link : binding.links) {
-    if (mapping::toProgram(link.direction))
-      checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
+    if (mapping::toProgram(link.direction)) checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
     if (mapping::fromProgram(link.direction))
       checkLink(plc, program.image.program(), link, link.scale, RUNG_FROM_PROGRAM);
   }

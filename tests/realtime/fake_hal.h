@@ -72,7 +72,7 @@ private:
   static constexpr size_t kLines = 200;
   static constexpr size_t kLineBytes = 400;
   std::vector<std::vector<double>> memory_; // as long as HAL
-  std::deque<std::string> arguments_; // of the last load
+  std::deque<std::string> arguments_;       // of the last load
   std::map<std::string, void*> values_;
   std::map<std::string, bool> isBit_;
   std::map<std::string, Function> functions_;

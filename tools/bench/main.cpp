@@ -167,11 +167,12 @@ some ns for each of the chunks.
 
 int main(int argc, char** argv) {
   namespace cli = rung::cli;
-  cli::CommandLine app({.name = "rung-bench",
-                        .description = "Measures the engines and prints docs/performance.md; with --engine one case, as JSON",
-                        .exitStatus = "0 ok, 1 a case cannot be measured, 2 wrong usage, 3 environment",
-                        .guide = "docs/performance.md",
-                        .seeAlso = {}});
+  cli::CommandLine app(
+      {.name = "rung-bench",
+       .description = "Measures the engines and prints docs/performance.md; with --engine one case, as JSON",
+       .exitStatus = "0 ok, 1 a case cannot be measured, 2 wrong usage, 3 environment",
+       .guide = "docs/performance.md",
+       .seeAlso = {}});
   Case which;
   bool fast = false;
   bool source = false;

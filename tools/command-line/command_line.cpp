@@ -113,7 +113,9 @@ void Command::textFlag(const std::string& name, const std::string& description, 
 
 const std::string& Command::name() const { return app_->get_name(); }
 std::string Command::description() const { return app_->get_description(); }
-std::string Command::help() const { return app_->help(app_->get_parent() == nullptr ? "" : app_->get_parent()->get_name()); }
+std::string Command::help() const {
+  return app_->help(app_->get_parent() == nullptr ? "" : app_->get_parent()->get_name());
+}
 
 std::vector<OptionText> Command::options() const {
   std::vector<OptionText> texts;

@@ -1,5 +1,5 @@
-// The command line of a program: commands with their options, and what becomes of the words that a user has typed. CLI11 does it,
-// which command_line.cpp alone includes, as compiling it takes long.
+// The command line of a program: commands with their options, and what becomes of the words that a user has typed.
+// CLI11 does it, which command_line.cpp alone includes, as compiling it takes long.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -100,7 +100,7 @@ public:
   Command add(const std::string& name, const std::string& description);
   Command root() const;
   const ProgramText& text() const { return text_; }
-  std::string version() const; // "rungc 0.1"
+  std::string version() const;           // "rungc 0.1"
   std::vector<Command> commands() const; // in the order in which they are listed
 
   // Runs the command that is named. The exit status where the command line itself decides it: --help, a wrong project;

@@ -25,7 +25,7 @@ struct Entry {
   Position at;
   Use use = Use::Input;
   PinType type = PinType::Bit;
-  double value = 0; // of a constant, or of a parameter at the start
+  double value = 0;  // of a constant, or of a parameter at the start
   uint32_t bits = 0; // that have a pin each
 };
 
@@ -198,7 +198,8 @@ private:
     entry.value = link.value.value_or(0);
     const std::optional<Place> place = find(entry);
     if (!place || (link.value && link.scale == 1 && !fits(entry, *place))) return;
-    links.push_back({link.pin, entry.type, pin.direction, link.name, link.scale, inWords(entry), link.bits, link.value});
+    links.push_back(
+        {link.pin, entry.type, pin.direction, link.name, link.scale, inWords(entry), link.bits, link.value});
   }
 
   // Of pins for bits what they have in common.

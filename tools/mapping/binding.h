@@ -15,9 +15,9 @@ struct PinLink {
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
   std::string name;
-  double scale = 1;           // float: the program's units in one of HAL's
-  bool words = false;         // the real that words of the program hold
-  std::vector<uint32_t> bits; // pins of a cell's bits, from the lowest one on: the cell is of type U32 then
+  double scale = 1;            // float: the program's units in one of HAL's
+  bool words = false;          // the real that words of the program hold
+  std::vector<uint32_t> bits;  // pins of a cell's bits, from the lowest one on: the cell is of type U32 then
   std::optional<double> value; // of a parameter, at the start
 };
 

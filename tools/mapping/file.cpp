@@ -252,8 +252,8 @@ private:
     const std::optional<double> seconds = numberOf(node);
     if (!seconds || !(*seconds >= kShortestTimeout && *seconds <= kLongestTimeout)) return false;
     if (timeoutAt_)
-      fail(positionOf(node), "timeout: found a second one, expected that of " + lineOf(*timeoutAt_) +
-                                 " alone; remove one of them");
+      fail(positionOf(node),
+           "timeout: found a second one, expected that of " + lineOf(*timeoutAt_) + " alone; remove one of them");
     timeoutAt_ = positionOf(node);
     map.timeoutNs = static_cast<int64_t>(*seconds * 1e9);
     return true;
@@ -419,8 +419,8 @@ const Reader::Key<File> Reader::kRemoteKeys[] = {
 
 const Reader::Key<PinRow> Reader::kType = {"type", true, "\"bit\", \"s32\", \"u32\" or \"float\"", "type = \"bit\"",
                                            &Reader::takeType};
-const Reader::Key<PinRow> Reader::kName = {"name", true, "a name of the program, or a list of names",
-                                           "name = \"X0.0\"", &Reader::takeNames};
+const Reader::Key<PinRow> Reader::kName = {"name", true, "a name of the program, or a list of names", "name = \"X0.0\"",
+                                           &Reader::takeNames};
 const Reader::Key<PinRow> Reader::kScale = {"scale", false, "a number other than 0", "scale = 1000",
                                             &Reader::takeScale};
 const Reader::Key<PinRow> Reader::kBits = {"bits", false, "how many bits of a cell have a pin, 1 to 32", "bits = 8",
@@ -485,7 +485,8 @@ void Reader::include(const toml::node& node) {
   try {
     text = read_(path);
   } catch (const std::exception& error) {
-    return wrongFile(textOf(node), std::string("a file (") + error.what() + "); write its path, from the folder of this file");
+    return wrongFile(textOf(node),
+                     std::string("a file (") + error.what() + "); write its path, from the folder of this file");
   }
   read(text, path);
 }
@@ -499,8 +500,7 @@ bool Reader::takePins(const toml::node& node, Direction direction, const Key<Pin
 }
 
 template <size_t N>
-void Reader::readPin(const toml::key& key, const toml::node& node, Direction direction,
-                     const Key<PinRow> (&keys)[N]) {
+void Reader::readPin(const toml::key& key, const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]) {
   const Place name{std::string(key.str()), positionOf(key.source())};
   const std::string where = std::string(tableName(direction)) + "." + name.text;
   if (!isPinName(name.text))

@@ -78,10 +78,11 @@ public:
   }
 
   std::string text() const {
-    std::string text = "# HAL pins of " + std::string(program_.name) +
-                       ": a first list, made of what its rungs use.\n"
-                       "# Remove what the machine does not connect, and give the pins names of your own. Signals that a\n"
-                       "# [[send]] table drives are for it alone.\n\n";
+    std::string text =
+        "# HAL pins of " + std::string(program_.name) +
+        ": a first list, made of what its rungs use.\n"
+        "# Remove what the machine does not connect, and give the pins names of your own. Signals that a\n"
+        "# [[send]] table drives are for it alone.\n\n";
     text += table("in", inputs_, "");
     text += table("out", outputs_, "");
     if (!others_.empty()) text += "# Rungs write these, and read them, too:\n" + rows(others_, "# ") + '\n';
@@ -113,8 +114,8 @@ private:
   static std::string rows(const std::vector<Row>& list, const std::string& before) {
     std::string text;
     for (const Row& row : list)
-      text += before + row.pin + " = { type = \"" + std::string(pinTypeName(row.type)) + "\", name = " +
-              inToml(row.name) + " }" + (row.comment.empty() ? "" : " # " + row.comment) + '\n';
+      text += before + row.pin + " = { type = \"" + std::string(pinTypeName(row.type)) +
+              "\", name = " + inToml(row.name) + " }" + (row.comment.empty() ? "" : " # " + row.comment) + '\n';
     return text;
   }
 
@@ -128,8 +129,9 @@ private:
 
   std::string functions() const {
     if (!carries(RUNG_FUNCTION_M)) return {};
-    std::string text = "# M, S and T functions: an edge of a pin hands one to the program.\n"
-                       "#\n# [[send]]\n# pin = \"spindle-forward\"\n# edge = \"rise\"\n# function = \"M\"\n# code = 3\n";
+    std::string text =
+        "# M, S and T functions: an edge of a pin hands one to the program.\n"
+        "#\n# [[send]]\n# pin = \"spindle-forward\"\n# edge = \"rise\"\n# function = \"M\"\n# code = 3\n";
     if (carries(RUNG_FUNCTION_T))
       text += "#\n# [[send]]\n# pin = \"tool-prepare\"\n# edge = \"rise\"\n# function = \"T\"\n"
               "# code = \"tool-number\"\n# done = \"tool-prepared\"\n";

@@ -100,7 +100,8 @@ void Box::bindValues() {
 
 template <class Link>
 void Box::bind(const Link& link, Value& value, rung_direction direction, double scale) {
-  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by mapping::PinType
+  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32,
+                                       RUNG_HOST_F64}; // by mapping::PinType
   const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
   const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
                                scale};

@@ -12,9 +12,9 @@
 
 #include "rung/runtime.hpp"
 #include "tools/mapping/binding.h"
+#include "tools/mapping/file.h"
 #include "tools/plc/function_queue.h"
 #include "tools/plc/orders.h"
-#include "tools/mapping/file.h"
 #include "tools/plc/pin_cell.h"
 
 namespace rung::plc {
@@ -105,9 +105,9 @@ private:
   Instance plc_;
   bool kept_; // there is a file for retained memory
   mapping::Binding binding_;
-  std::vector<Value> values_, constants_;           // bound to the program; by binding_
-  std::vector<size_t> toProgram_, fromProgram_;     // links
-  std::unique_ptr<FunctionQueue> functions_;        // once the map is bound
+  std::vector<Value> values_, constants_;       // bound to the program; by binding_
+  std::vector<size_t> toProgram_, fromProgram_; // links
+  std::unique_ptr<FunctionQueue> functions_;    // once the map is bound
   const PinCell* cells_ = nullptr;
   OrderSlot orders_;
   bool wasReset_ = false;

@@ -47,7 +47,9 @@ private:
     std::optional<uint32_t> line; // of the handshake, once it has begun
   };
 
-  bool triggered(const mapping::Edge& edge, const PinCell* pins) const noexcept { return *pins[edge.pin].bit == edge.rising; }
+  bool triggered(const mapping::Edge& edge, const PinCell* pins) const noexcept {
+    return *pins[edge.pin].bit == edge.rising;
+  }
   void queue(Call call) noexcept;
   void withdraw(uint32_t send, const PinCell* pins) noexcept;
   void abort() noexcept;

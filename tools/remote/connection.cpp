@@ -10,8 +10,8 @@
 namespace rung::remote {
 
 Connection::Connection(Connection&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1)), longest_(other.longest_), ended_(other.ended_), problem_(std::move(other.problem_)),
-      in_(std::move(other.in_)), out_(std::move(other.out_)) {}
+    : socket_(std::exchange(other.socket_, -1)), longest_(other.longest_), ended_(other.ended_),
+      problem_(std::move(other.problem_)), in_(std::move(other.in_)), out_(std::move(other.out_)) {}
 
 Connection& Connection::operator=(Connection&& other) noexcept {
   std::swap(socket_, other.socket_);

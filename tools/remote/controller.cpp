@@ -18,10 +18,10 @@ using plc::Order;
 
 namespace {
 
-constexpr size_t kMostNames = 256;  // of a watch
-constexpr size_t kMostReports = 200;   // messages that are kept
+constexpr size_t kMostNames = 256;   // of a watch
+constexpr size_t kMostReports = 200; // messages that are kept
 constexpr uint32_t kMostForces = 64;
-constexpr size_t kMostChanges = 1000; // that a report lists
+constexpr size_t kMostChanges = 1000;  // that a report lists
 constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
 
 std::string timeNow() {
@@ -43,7 +43,8 @@ std::string textOf(const json& request, const char* key) {
 bool flagOf(const json& request, const char* key) {
   const auto found = request.find(key);
   if (found == request.end()) return false;
-  if (!found->is_boolean()) throw Refused(std::string("found no true or false for \"") + key + "\", expected one of them");
+  if (!found->is_boolean())
+    throw Refused(std::string("found no true or false for \"") + key + "\", expected one of them");
   return found->get<bool>();
 }
 
@@ -67,7 +68,8 @@ void checkCall(int32_t status) {
 std::string shown(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
 
 const char* changeName(uint32_t kind) {
-  constexpr const char* kNames[] = {"new", "removed", "moved", "renamed", "retyped", "released"}; // enum rung_change_kind
+  constexpr const char* kNames[] = {"new",     "removed", "moved",
+                                    "renamed", "retyped", "released"}; // enum rung_change_kind
   return kind < std::size(kNames) ? kNames[kind] : "changed";
 }
 
@@ -80,15 +82,14 @@ bool loses(uint32_t kind) {
 struct Controller::Watching {
   Watching(rung_instance* instance, const std::vector<rung_cell>& cells, std::vector<uint32_t> types, bool everyPass)
       : types(std::move(types)), all(everyPass), values(cells.size()), sent(cells.size()) {
-    checkCall(rung_watch_new(instance, cells.data(), static_cast<uint32_t>(cells.size()), all ? kPassesKept : 0, &watch));
+    checkCall(
+        rung_watch_new(instance, cells.data(), static_cast<uint32_t>(cells.size()), all ? kPassesKept : 0, &watch));
   }
   ~Watching() { rung_watch_free(watch); }
   Watching(const Watching&) = delete;
   Watching& operator=(const Watching&) = delete;
 
-  bool hasChanged() const {
-    return std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0;
-  }
+  bool hasChanged() const { return std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0; }
   json event(const rung_sample& sample) {
     json list = json::array();
     for (size_t i = 0; i < values.size(); ++i) list.push_back(toJson(types[i], values[i]));
@@ -305,7 +306,8 @@ std::vector<Controller::Range> Controller::rangesOf(const std::string& name) con
 void Controller::refuseProtected(const std::string& name) const {
   for (const Range& wanted : rangesOf(name))
     for (const Range& kept : protected_)
-      if (wanted.space == kept.space && wanted.first < kept.first + kept.count && kept.first < wanted.first + wanted.count)
+      if (wanted.space == kept.space && wanted.first < kept.first + kept.count &&
+          kept.first < wanted.first + wanted.count)
         throw Refused(name + " is never set or forced here: the mapping file says so ([rungctl] never)");
 }
 
@@ -321,7 +323,8 @@ json Controller::set(const Peer& peer, const json& request) {
   refuseProtected(name);
   const rung_value value = fromJson(found.info.type, request["value"], name);
   const Order done = give({.kind = Order::Kind::Write, .cell = found.cell, .value = value});
-  logChange(peer, "set " + name + " from " + shown(found.info.type, done.former) + " to " + shown(found.info.type, value));
+  logChange(peer,
+            "set " + name + " from " + shown(found.info.type, done.former) + " to " + shown(found.info.type, value));
   return {{"name", name}, {"former", toJson(found.info.type, done.former)}, {"value", toJson(found.info.type, value)}};
 }
 
@@ -403,10 +406,17 @@ json Controller::reload(const Peer& peer, const json& request) {
   std::string lost;
   auto change = sized<rung_change>();
   for (uint32_t i = 0; i < kMostChanges && rung_replacement_change(made, i, &change) == RUNG_OK; ++i) {
-    changes.push_back({{"kind", changeName(change.kind)}, {"name", change.name}, {"former", change.former}, {"state", change.is_state != 0}});
+    changes.push_back({{"kind", changeName(change.kind)},
+                       {"name", change.name},
+                       {"former", change.former},
+                       {"state", change.is_state != 0}});
     if (loses(change.kind)) lost += (lost.empty() ? "" : ", ") + std::string(change.name);
   }
-  json report = {{"program", path}, {"kept_cells", info.kept_cells}, {"kept_states", info.kept_states}, {"changes", changes}, {"bound", info.bound}};
+  json report = {{"program", path},
+                 {"kept_cells", info.kept_cells},
+                 {"kept_states", info.kept_states},
+                 {"changes", changes},
+                 {"bound", info.bound}};
   if (!lost.empty() && !flagOf(request, "yes")) {
     report["ok"] = false;
     report["needs"] = "yes";

@@ -22,8 +22,7 @@ public:
   static constexpr int kProtocol = 1;
 
   // `program` is the one that the box began with. `log` takes a line for every change that somebody has made.
-  Controller(std::string host, plc::Box& box, const rung_program& program,
-             std::function<void(const std::string&)> log);
+  Controller(std::string host, plc::Box& box, const rung_program& program, std::function<void(const std::string&)> log);
   ~Controller() override; // before the box
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;

@@ -39,7 +39,8 @@ sockaddr_un addressOf(const std::string& path) {
 // Somebody listens there.
 bool isAlive(const sockaddr_un& address) {
   const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const bool alive = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
+  const bool alive =
+      connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
   close(probe);
   return alive;
 }
@@ -62,7 +63,8 @@ Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(us
   prepareFolder(user);
   path_ = socketPath(user, host);
   const sockaddr_un address = addressOf(path_);
-  if (isAlive(address)) throw std::runtime_error(path_ + ": another host has the name " + host + "; give this one another");
+  if (isAlive(address))
+    throw std::runtime_error(path_ + ": another host has the name " + host + "; give this one another");
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) refuse(path_);
@@ -84,8 +86,8 @@ void Server::serve(std::chrono::milliseconds wait) {
   const bool hasLines = std::ranges::any_of(clients_, [](const Client& c) { return c.connection.hasLine(); });
   if (hasLines) wait = std::chrono::milliseconds(0);
   for (const Client& client : clients_)
-    waiting.push_back({client.connection.socket(),
-                       static_cast<short>(POLLIN | (client.connection.wantsToSend() ? POLLOUT : 0)), 0});
+    waiting.push_back(
+        {client.connection.socket(), static_cast<short>(POLLIN | (client.connection.wantsToSend() ? POLLOUT : 0)), 0});
   if (poll(waiting.data(), waiting.size(), static_cast<int>(wait.count())) <= 0 && !hasLines) return;
   auto event = waiting.begin() + 1;
   for (Client& client : clients_) {
@@ -110,7 +112,8 @@ void Server::accept() {
   if (!known || (who.uid != user_ && who.uid != 0))
     return client.connection.send(problemOf("only the user who has started the host, and root, may use it").dump());
   if (clients_.size() == kMostPeers)
-    return client.connection.send(problemOf("the host serves " + std::to_string(kMostPeers) + " others already").dump());
+    return client.connection.send(
+        problemOf("the host serves " + std::to_string(kMostPeers) + " others already").dump());
   client.connection.send(handler_.greeting().dump());
   clients_.push_back(std::move(client));
 }
@@ -139,8 +142,7 @@ void Server::forget() {
 
 void Server::send(uint32_t peer, const json& event) {
   for (Client& client : clients_)
-    if (client.peer.number == peer)
-      client.connection.send(event.dump(-1, ' ', false, json::error_handler_t::replace));
+    if (client.peer.number == peer) client.connection.send(event.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 } // namespace rung::remote

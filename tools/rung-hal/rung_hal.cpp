@@ -1,5 +1,5 @@
-// The LinuxCNC real-time component: loads compiled PLC programs and their mapping files, makes the HAL pins, and scans in
-// the threads that the functions are added to. docs/linuxcnc.md is the user's description.
+// The LinuxCNC real-time component: loads compiled PLC programs and their mapping files, makes the HAL pins, and scans
+// in the threads that the functions are added to. docs/linuxcnc.md is the user's description.
 #include <hal.h>
 #include <rtapi.h>
 #include <rtapi_app.h>
@@ -117,10 +117,11 @@ const char* argument(char* const (&list)[kMostInstances], size_t instance) {
 // Empty: they do not fit together, which is reported.
 std::vector<Request> requests() {
   const size_t count = std::max<size_t>(1, given(names));
-  const auto isEach = [&](char* const (&list)[kMostInstances]) { return given(list) == count; };
+  const auto isEach = [&](char* const(&list)[kMostInstances]) { return given(list) == count; };
   if ((given(so) != 1 && !isEach(so)) || (given(map) != 1 && !isEach(map)))
-    return complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed, one for all instances or one for each of names=\n",
-                    kModule),
+    return complain(
+               "%s: so=PROGRAM.so and map=MAPPING_FILE are needed, one for all instances or one for each of names=\n",
+               kModule),
            std::vector<Request>();
   if (given(retain) != 0 && !isEach(retain))
     return complain("%s: retain=FILE is needed for each instance of names=, or for none\n", kModule),
@@ -144,7 +145,8 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   mapping::File mapping = mapping::loadMap(request.map, errors);
   // Mistakes of the text and of names at once; a box is only made for a faultless map.
   if (!mapping.paths.empty())
-    c.box = plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "", warnings);
+    c.box =
+        plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "", warnings);
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   return errors.empty();
@@ -293,9 +295,10 @@ void serveRemote(const PlcInstance& c, std::chrono::milliseconds wait) {
 // The program runs without it, too.
 void listen(PlcInstance& c) {
   try {
-    c.controller = std::make_unique<remote::Controller>(
-        c.prefix, *c.box, c.image->program(),
-        [&c](const std::string& change) { complain("%s: %s\n", c.prefix.c_str(), change.c_str()); });
+    c.controller =
+        std::make_unique<remote::Controller>(c.prefix, *c.box, c.image->program(), [&c](const std::string& change) {
+          rtapi_print("%s: %s\n", c.prefix.c_str(), change.c_str());
+        });
     c.server = std::make_unique<remote::Server>(c.prefix, hal::UserRights::user(), *c.controller);
   } catch (const std::exception& problem) {
     complain("%s: rungctl cannot reach it: %s\n", c.prefix.c_str(), problem.what());

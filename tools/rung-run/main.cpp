@@ -99,7 +99,8 @@ private:
 };
 
 int run(const Options& options) try {
-  const rung_image_options how{.size = sizeof how, .allow_unsealed = options.unsealed ? 1u : 0u, .keys_folder = nullptr};
+  const rung_image_options how{
+      .size = sizeof how, .allow_unsealed = options.unsealed ? 1u : 0u, .keys_folder = nullptr};
   const Image image(options.program, &how);
   std::vector<std::string> errors, warnings;
   mapping::File map = mapping::loadMap(options.map, errors);
@@ -128,9 +129,13 @@ int main(int argc, char** argv) {
   command.option("PROGRAM", options.program, "The compiled program (.so)").required();
   command.option("MAP", options.map, "The mapping file").required();
   command.option("--name", options.name, "The name for rungctl").showDefault();
-  command.option("--period", options.periodUs, "Microseconds between two looks at the clock").between(50u, 100000u).showDefault();
+  command.option("--period", options.periodUs, "Microseconds between two looks at the clock")
+      .between(50u, 100000u)
+      .showDefault();
   command.option("--retain", options.retain, "Keep the retained memory in FILE.a and FILE.b");
-  command.option("--priority", options.priority, "Real-time priority, 1 to 99 (SCHED_FIFO); without it the ordinary scheduling")
+  command
+      .option("--priority", options.priority,
+              "Real-time priority, 1 to 99 (SCHED_FIFO); without it the ordinary scheduling")
       .between(1, 99);
   command.flag("--lock-memory", options.lockMemory, "Keep all memory in RAM");
   command.flag("--unsealed", options.unsealed, "Load a program that has no seal");

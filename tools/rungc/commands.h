@@ -6,20 +6,20 @@
 #include <utility>
 #include <vector>
 
-#include "tools/compiler/compile.h"
-#include "tools/project/project.h"
 #include "tools/command-line/command_line.h"
 #include "tools/command-line/usage.h"
+#include "tools/compiler/compile.h"
+#include "tools/project/project.h"
 
 namespace rung::rungc {
 
 using cli::Command;
 using cli::CommandLine;
-using cli::Option;
 using cli::kEnvironment;
 using cli::kOk;
 using cli::kUsage;
 using cli::kWrong;
+using cli::Option;
 
 // What every command that compiles takes. When the command runs, files, dialect and configuration of the project are in
 // it already (see takeProject).

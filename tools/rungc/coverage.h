@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/coverage/collector.h"
 #include "tools/command-line/command_line.h"
+#include "tools/coverage/collector.h"
 #include "tools/scenario/runner.h"
 
 namespace rung::rungc {

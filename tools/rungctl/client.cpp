@@ -49,7 +49,8 @@ std::string chosen(const std::string& host) {
 } // namespace
 
 Client::Client(const std::string& host)
-    : host_(chosen(host)), connection_(connected(remote::socketPath(geteuid(), host_)), remote::Connection::kLongestAnswer) {
+    : host_(chosen(host)),
+      connection_(connected(remote::socketPath(geteuid(), host_)), remote::Connection::kLongestAnswer) {
   const std::optional<json> first = next(kAnswerMs);
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());

@@ -127,8 +127,8 @@ int watch(Client& client, const Words& words) {
     std::string text;
     for (size_t i = 0; i < words.names.size(); ++i)
       if (i >= last.size() || last[i] != (*event)["values"][i])
-        text += fmt::format("{:.3f} {} = {}\n", static_cast<double>(event->value("us", int64_t{0})) / 1e6, words.names[i],
-                            shown((*event)["values"][i]));
+        text += fmt::format("{:.3f} {} = {}\n", static_cast<double>(event->value("us", int64_t{0})) / 1e6,
+                            words.names[i], shown((*event)["values"][i]));
     last = (*event)["values"];
     print(words, *event, text);
   }
@@ -146,7 +146,8 @@ int trace(Client& client, const Words& words) {
       trace.add(*event);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file), cli::kEnvironment;
-  print(words, {{"ok", true}, {"passes", trace.passes()}}, fmt::format("wrote {}: {} passes", words.file, trace.passes()));
+  print(words, {{"ok", true}, {"passes", trace.passes()}},
+        fmt::format("wrote {}: {} passes", words.file, trace.passes()));
   return cli::kOk;
 }
 
@@ -185,15 +186,14 @@ std::string reportOf(const json& answer) {
   for (const json& change : answer.value("changes", json::array()))
     text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
                         change.value("former", "").empty() ? "" : ", before " + shown(change["former"]));
-  return text + fmt::format("kept: {} names, {} states of edges, timers and counters\n",
-                            answer.value("kept_cells", 0), answer.value("kept_states", 0));
+  return text + fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
+                            answer.value("kept_states", 0));
 }
 
 int reload(Client& client, const Words& words) {
   const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.file.c_str(), nullptr), &std::free);
   if (path == nullptr) return fail("there is no file " + words.file), cli::kEnvironment;
-  const json answer =
-      client.ask({{"do", "reload"}, {"program", path.get()}, {"yes", words.yes}, {"late", words.late}});
+  const json answer = client.ask({{"do", "reload"}, {"program", path.get()}, {"yes", words.yes}, {"late", words.late}});
   if (answer.value("ok", false)) {
     print(words, answer, reportOf(answer) + "the new program runs");
     return cli::kOk;
@@ -235,7 +235,8 @@ public:
 
   using Run = std::function<int(Client&, const Words&)>;
   // Adds one; `words` gives it its own words.
-  void add(const char* name, const char* description, const std::function<void(cli::Command&, Words&)>& words, Run run) {
+  void add(const char* name, const char* description, const std::function<void(cli::Command&, Words&)>& words,
+           Run run) {
     cli::Command command = app_.add(name, description);
     auto taken = std::make_shared<Words>();
     words(command, *taken);
@@ -273,48 +274,55 @@ void addAll(Commands& commands) {
   };
   commands.addHosts();
   commands.add("status", "Say what the program does", none, status);
-  commands.add("messages", "Show what the program and its host have reported",
-               [](cli::Command& command, Words& words) {
-                 command.flag("-f,--follow", words.follow, "And what they report from now on");
-               }, messages);
+  commands.add(
+      "messages", "Show what the program and its host have reported",
+      [](cli::Command& command, Words& words) {
+        command.flag("-f,--follow", words.follow, "And what they report from now on");
+      },
+      messages);
   commands.add("get", "Show values at the end of a pass", names, get);
-  commands.add("watch", "Show values whenever they change",
-               [&](cli::Command& command, Words& words) {
-                 names(command, words);
-                 command.flag("--all", words.all, "Look at every pass, not at a few a second");
-               }, watch);
-  commands.add("trace", "Write the values of every pass to a file for wave viewers",
-               [&](cli::Command& command, Words& words) {
-                 names(command, words);
-                 command.option("-o,--output", words.file, "The file, FILE.vcd").required();
-                 command.option("--for", words.seconds, "Seconds; without it until Ctrl+C").between(0.001, 1e6);
-               }, trace);
+  commands.add(
+      "watch", "Show values whenever they change",
+      [&](cli::Command& command, Words& words) {
+        names(command, words);
+        command.flag("--all", words.all, "Look at every pass, not at a few a second");
+      },
+      watch);
+  commands.add(
+      "trace", "Write the values of every pass to a file for wave viewers",
+      [&](cli::Command& command, Words& words) {
+        names(command, words);
+        command.option("-o,--output", words.file, "The file, FILE.vcd").required();
+        command.option("--for", words.seconds, "Seconds; without it until Ctrl+C").between(0.001, 1e6);
+      },
+      trace);
   commands.add("set", "Write a value into a cell, once", oneValue, set);
   commands.add("force", "Hold a cell at a value", oneValue, force);
-  commands.add("unforce", "Let go of a cell that is forced",
-               [](cli::Command& command, Words& words) {
-                 command.option("NAME", words.name, "The name that is forced");
-                 command.flag("--all", words.all, "All of them");
-               }, unforce);
+  commands.add(
+      "unforce", "Let go of a cell that is forced",
+      [](cli::Command& command, Words& words) {
+        command.option("NAME", words.name, "The name that is forced");
+        command.flag("--all", words.all, "All of them");
+      },
+      unforce);
   commands.add("forced", "List the cells that are forced", none, forced);
-  commands.add("reload", "Replace the program by another one, between two passes",
-               [](cli::Command& command, Words& words) {
-                 command.option("FILE", words.file, "The compiled program (.so)").required();
-                 command.flag("--yes", words.yes, "Also where state is lost");
-                 command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
-               }, reload);
+  commands.add(
+      "reload", "Replace the program by another one, between two passes",
+      [](cli::Command& command, Words& words) {
+        command.option("FILE", words.file, "The compiled program (.so)").required();
+        command.flag("--yes", words.yes, "Also where state is lost");
+        command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
+      },
+      reload);
   commands.add("rollback", "Put back the program before the last reload", none, [](Client& client, const Words& words) {
     return simple(client, words, "rollback", "the former program runs");
   });
-  commands.add("stop", "Stop the program; its outputs stay as they are", none, [](Client& client, const Words& words) {
-    return simple(client, words, "stop", "stopped");
-  });
-  commands.add("start", "Let a stopped program run on", none, [](Client& client, const Words& words) {
-    return simple(client, words, "start", "running");
-  });
-  commands.add("reset", "Restart a program that a fault has stopped", none, [](Client& client, const Words& words) {
-    return simple(client, words, "reset", "restarted");
-  });
+  commands.add("stop", "Stop the program; its outputs stay as they are", none,
+               [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); });
+  commands.add("start", "Let a stopped program run on", none,
+               [](Client& client, const Words& words) { return simple(client, words, "start", "running"); });
+  commands.add("reset", "Restart a program that a fault has stopped", none,
+               [](Client& client, const Words& words) { return simple(client, words, "reset", "restarted"); });
   commands.add("map", "Show the pins of the mapping file", none, map);
 }
 
@@ -325,11 +333,12 @@ int main(int argc, char** argv) {
   action.sa_handler = [](int) { gStop = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  cli::CommandLine app({.name = "rungctl",
-                        .description = "Looks at and changes a PLC program that runs in LinuxCNC or in rung-run",
-                        .exitStatus = "0 ok, 1 the host refuses or is not there, 2 wrong usage, 3 a file cannot be written or read",
-                        .guide = "docs/rungctl.md",
-                        .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
+  cli::CommandLine app(
+      {.name = "rungctl",
+       .description = "Looks at and changes a PLC program that runs in LinuxCNC or in rung-run",
+       .exitStatus = "0 ok, 1 the host refuses or is not there, 2 wrong usage, 3 a file cannot be written or read",
+       .guide = "docs/rungctl.md",
+       .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
   int status = cli::kOk;
   Commands commands(app, status);
   addAll(commands);

@@ -348,21 +348,22 @@ param.delay = { type = "u32", name = "D0:2", value = 65535 }
 }
 
 TEST(Binding, BitsAndParametersThatDoNotFit) {
-  EXPECT_THAT(gskErrors(R"(
+  EXPECT_THAT(
+      gskErrors(R"(
 in.a = { type = "bit", name = "X10", bits = 9 }
 in.b = { type = "bit", name = "X10.0", bits = 2 }
 io.c = { type = "bit", name = "Y0.0" }
 param.d = { type = "u32", name = "D0:2", value = 65536 }
 param.e = { type = "u32", name = "Y0", value = 1 }
 )"),
-              ElementsAre("m.map:2:31: in.a.name: found the cell of 8 bits X10 for 9 pins, expected a cell with as many "
-                          "bits; write bits = 8 or less",
-                          "m.map:3:31: in.b.name: found the bit X10.0 for 2 pins, expected a cell; remove bits",
-                          "m.map:4:31: io.c.name: found Y0.0, an output of the program, expected a name that HAL may "
-                          "write; move the pin to [out]",
-                          StartsWith("m.map:5:34: param.d.name: found 65536, expected -32768 to 65535, what the cell of "
-                                     "16 bits holds"),
-                          StartsWith("m.map:6:34: param.e.name: found Y0, an output of the program, ")));
+      ElementsAre("m.map:2:31: in.a.name: found the cell of 8 bits X10 for 9 pins, expected a cell with as many "
+                  "bits; write bits = 8 or less",
+                  "m.map:3:31: in.b.name: found the bit X10.0 for 2 pins, expected a cell; remove bits",
+                  "m.map:4:31: io.c.name: found Y0.0, an output of the program, expected a name that HAL may "
+                  "write; move the pin to [out]",
+                  StartsWith("m.map:5:34: param.d.name: found 65536, expected -32768 to 65535, what the cell of "
+                             "16 bits holds"),
+                  StartsWith("m.map:6:34: param.e.name: found Y0, an output of the program, ")));
 }
 
 } // namespace

@@ -171,23 +171,24 @@ R = 1.5e-3
 }
 
 TEST(MapFile, EveryMistakeIsReportedInTheOrderOfTheFile) {
-  EXPECT_THAT(errorsOf(R"(timout = 5
+  EXPECT_THAT(
+      errorsOf(R"(timout = 5
 [out]
 a = { type = "word", name = "Y0.0" }
 [in]
 b = { typ = "bit", name = "X0.0" }
 c = 5
 )"),
-              ElementsAre("m.map:1:1: the file: found an unknown key timout, expected include, timeout, high-speed, in, "
-                          "out, io, param, const, send, m-groups, abort, rungctl; did you mean timeout?",
-                          "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
-                          "write for example type = \"bit\"",
-                          "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "
-                          "for example type = \"bit\"",
-                          "m.map:5:7: in.b: found an unknown key typ, expected type, name, scale, bits; did you mean "
-                          "type?",
-                          "m.map:6:5: in.c: found 5, expected a table; write for example c = { type = \"bit\", name = "
-                          "\"X0.0\" }"));
+      ElementsAre("m.map:1:1: the file: found an unknown key timout, expected include, timeout, high-speed, in, "
+                  "out, io, param, const, send, m-groups, abort, rungctl; did you mean timeout?",
+                  "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
+                  "write for example type = \"bit\"",
+                  "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "
+                  "for example type = \"bit\"",
+                  "m.map:5:7: in.b: found an unknown key typ, expected type, name, scale, bits; did you mean "
+                  "type?",
+                  "m.map:6:5: in.c: found 5, expected a table; write for example c = { type = \"bit\", name = "
+                  "\"X0.0\" }"));
 }
 
 TEST(MapFile, MistakesOfSyntaxEndTheReading) {
@@ -420,7 +421,8 @@ pump = { type = "bit", name = "Y0.2" }
 }
 
 TEST(MapFile, KeysThatDoNotFitTheirPin) {
-  EXPECT_THAT(errorsOf(R"([in]
+  EXPECT_THAT(
+      errorsOf(R"([in]
 a = { type = "u32", name = "X10", bits = 8 }
 b = { type = "bit", name = "X10", bits = 33 }
 c = { type = "bit", name = "X0.0", safe = true }
@@ -435,21 +437,21 @@ h = { type = "bit", name = ["R0.0", "R0.1"] }
 i = { type = "u32", name = "D0:2", value = -1 }
 j = { type = "u32", name = "D0:2", bits = 2 }
 )"),
-              ElementsAre("m.map:2:42: in.a.bits: found pins of type u32, expected type bit, one for each bit of the "
-                          "cell; write type = \"bit\", or remove it",
-                          "m.map:3:42: in.b.bits: found 33, expected how many bits of a cell have a pin, 1 to 32; write "
-                          "for example bits = 8",
-                          "m.map:4:36: in.c: found an unknown key safe, expected type, name, scale, bits",
-                          "m.map:6:43: out.d.safe: found 1, expected true or false, because the type is bit; write such "
-                          "a value, or another type",
-                          "m.map:7:41: out.e.safe: found 2147483648, expected an integer from -2147483648 to "
-                          "2147483647, because the type is s32; write such a value, or another type",
-                          StartsWith("m.map:8:43: out.f.safe: found true, expected a number, because"),
-                          StartsWith("m.map:9:43: out.g.safe: found \"off\", expected true, false, a number or \"hold\""),
-                          "m.map:11:37: io.h.name: found several names, expected one, because an io pin has one source; "
-                          "give the other names pins of their own",
-                          StartsWith("m.map:13:44: param.i.value: found -1, expected an integer from 0 to 4294967295"),
-                          StartsWith("m.map:14:36: param.j: found an unknown key bits, expected type, name, scale, value")));
+      ElementsAre("m.map:2:42: in.a.bits: found pins of type u32, expected type bit, one for each bit of the "
+                  "cell; write type = \"bit\", or remove it",
+                  "m.map:3:42: in.b.bits: found 33, expected how many bits of a cell have a pin, 1 to 32; write "
+                  "for example bits = 8",
+                  "m.map:4:36: in.c: found an unknown key safe, expected type, name, scale, bits",
+                  "m.map:6:43: out.d.safe: found 1, expected true or false, because the type is bit; write such "
+                  "a value, or another type",
+                  "m.map:7:41: out.e.safe: found 2147483648, expected an integer from -2147483648 to "
+                  "2147483647, because the type is s32; write such a value, or another type",
+                  StartsWith("m.map:8:43: out.f.safe: found true, expected a number, because"),
+                  StartsWith("m.map:9:43: out.g.safe: found \"off\", expected true, false, a number or \"hold\""),
+                  "m.map:11:37: io.h.name: found several names, expected one, because an io pin has one source; "
+                  "give the other names pins of their own",
+                  StartsWith("m.map:13:44: param.i.value: found -1, expected an integer from 0 to 4294967295"),
+                  StartsWith("m.map:14:36: param.j: found an unknown key bits, expected type, name, scale, value")));
   EXPECT_THAT(errorsOf(R"([in]
 "key-1" = { type = "u32", name = "X0" }
 key = { type = "bit", name = "X10", bits = 2 }
@@ -465,12 +467,13 @@ TEST(MapFile, WhatRungctlMayDo) {
   ASSERT_EQ(map.never.size(), 2u);
   EXPECT_EQ(map.never[1].name, "ESTOP");
   EXPECT_EQ(map.never[1].at, (Position{3, 18}));
-  EXPECT_THAT(errorsOf("[rungctl]\nallow = [\"sett\"]\nnever = \"X0.0\"\nalways = 1\n"),
-              ElementsAre("m.map:2:9: rungctl.allow: found a list, expected a list of \"set\", \"force\", \"reload\", "
-                          "\"start\", \"stop\" and \"reset\"; write for example allow = [\"set\"]",
-                          "m.map:3:9: rungctl.never: found \"X0.0\", expected a list of names of the program; write for "
-                          "example never = [\"X0.0\"]",
-                          "m.map:4:1: rungctl: found an unknown key always, expected allow, never"));
+  EXPECT_THAT(
+      errorsOf("[rungctl]\nallow = [\"sett\"]\nnever = \"X0.0\"\nalways = 1\n"),
+      ElementsAre("m.map:2:9: rungctl.allow: found a list, expected a list of \"set\", \"force\", \"reload\", "
+                  "\"start\", \"stop\" and \"reset\"; write for example allow = [\"set\"]",
+                  "m.map:3:9: rungctl.never: found \"X0.0\", expected a list of names of the program; write for "
+                  "example never = [\"X0.0\"]",
+                  "m.map:4:1: rungctl: found an unknown key always, expected allow, never"));
 }
 
 // Files by their paths.
@@ -499,10 +502,11 @@ TEST(MapFile, Includes) {
 }
 
 TEST(MapFile, MistakesOfIncludes) {
-  const auto read = files({{"m.map", "include = [\"b.map\", \"none.map\", \"b.map\", \"c.map\", \"m.map\"]\ntimeout = 2\n"
-                                     "in.a = { type = \"bit\", name = \"X0.0\" }\n"},
-                           {"b.map", "timeout = 1\nin.a = { type = \"u32\", name = \"X1\" }\nwrong = 1\n"},
-                           {"c.map", "in bit a"}});
+  const auto read =
+      files({{"m.map", "include = [\"b.map\", \"none.map\", \"b.map\", \"c.map\", \"m.map\"]\ntimeout = 2\n"
+                       "in.a = { type = \"bit\", name = \"X0.0\" }\n"},
+             {"b.map", "timeout = 1\nin.a = { type = \"u32\", name = \"X1\" }\nwrong = 1\n"},
+             {"c.map", "in bit a"}});
   std::vector<std::string> errors;
   loadMap("m.map", errors, read);
   EXPECT_THAT(errors, ElementsAre("m.map:1:21: include: found none.map, expected a file (cannot read none.map: No such "
@@ -518,8 +522,9 @@ TEST(MapFile, MistakesOfIncludes) {
   errors.clear();
   EXPECT_THAT(loadMap("none.map", errors, read).paths, IsEmpty());
   EXPECT_THAT(errors, ElementsAre("cannot read none.map: No such file or directory"));
-  EXPECT_THAT(errorsOf("include = 5"), ElementsAre("m.map:1:11: include: found 5, expected the path of a file, or a list "
-                                                   "of paths; write for example include = \"panel.map\""));
+  EXPECT_THAT(errorsOf("include = 5"),
+              ElementsAre("m.map:1:11: include: found 5, expected the path of a file, or a list "
+                          "of paths; write for example include = \"panel.map\""));
 }
 
 TEST(MapFile, OnlyRegularFilesAreRead) {
@@ -527,9 +532,9 @@ TEST(MapFile, OnlyRegularFilesAreRead) {
   loadMap("/dev/zero", errors);
   loadMap("/", errors);
   loadMap("/nowhere/m.map", errors);
-  EXPECT_THAT(errors, ElementsAre("cannot read /dev/zero: it is not a regular file",
-                                  "cannot read /: it is not a regular file",
-                                  "cannot read /nowhere/m.map: No such file or directory"));
+  EXPECT_THAT(errors,
+              ElementsAre("cannot read /dev/zero: it is not a regular file", "cannot read /: it is not a regular file",
+                          "cannot read /nowhere/m.map: No such file or directory"));
 }
 
 } // namespace

@@ -23,9 +23,10 @@ std::string templateOf(const rung_program& program, const std::vector<UsedName>&
   return text;
 }
 
-constexpr const char* kHead = ": a first list, made of what its rungs use.\n"
-                              "# Remove what the machine does not connect, and give the pins names of your own. Signals "
-                              "that a\n# [[send]] table drives are for it alone.\n\n";
+constexpr const char* kHead =
+    ": a first list, made of what its rungs use.\n"
+    "# Remove what the machine does not connect, and give the pins names of your own. Signals "
+    "that a\n# [[send]] table drives are for it alone.\n\n";
 
 TEST(Template, WhatTheMachineAndTheNcHave) {
   const std::string text = templateOf(testing::gskProgram(), {{"X0.0", true, false},

@@ -45,7 +45,7 @@ public:
     return list;
   }
   template <class T>
-  std::vector<T> messages(T rung_message_info::*member) const {
+  std::vector<T> messages(T rung_message_info::* member) const {
     std::vector<T> list;
     for (const rung_message_info& message : messages()) list.push_back(message.*member);
     return list;

@@ -13,9 +13,9 @@
 #include "rtlib/host/retain.h"
 #include "rtlib/nc/technol/signals.h"
 #include "tests/support/count_allocations.h"
-#include "tests/unit/rtlib/test_program.h"
-#include "tests/unit/plc/bench.h"
 #include "tests/unit/mapping/test_program.h"
+#include "tests/unit/plc/bench.h"
+#include "tests/unit/rtlib/test_program.h"
 
 namespace rung::plc {
 namespace {
@@ -492,9 +492,9 @@ out.code = { type = "u32", name = "N_ACTMSG" }
   cycle();
   cycle();
   EXPECT_TRUE(b["on"].bit);
-  EXPECT_THAT(b.messages(&rung_message_info::op),
-              ElementsAre(uint32_t{RUNG_MESSAGE_SHOW_LOG}, uint32_t{RUNG_MESSAGE_CLEAR},
-                          uint32_t{RUNG_MESSAGE_SHOW_LOG}));
+  EXPECT_THAT(
+      b.messages(&rung_message_info::op),
+      ElementsAre(uint32_t{RUNG_MESSAGE_SHOW_LOG}, uint32_t{RUNG_MESSAGE_CLEAR}, uint32_t{RUNG_MESSAGE_SHOW_LOG}));
 }
 
 TEST(Box, RefusesMapsThatDoNotFit) {
@@ -522,8 +522,10 @@ out.count = { type = "u32", name = "D0:2" }
   EXPECT_FALSE(b["o"].bit);
   std::vector<std::string> reports;
   EXPECT_TRUE(b.box->serve(reports));
-  EXPECT_THAT(reports, ElementsAre("the program has stopped: dead-loop (rung 1 \"all of it\", main.pmc:42); output pins have their safe "
-                                   "values until pin reset rises"));
+  EXPECT_THAT(
+      reports,
+      ElementsAre("the program has stopped: dead-loop (rung 1 \"all of it\", main.pmc:42); output pins have their safe "
+                  "values until pin reset rises"));
   reports.clear();
   EXPECT_FALSE(b.box->serve(reports)); // nobody has asked
   b["bad"].bit = false;
@@ -848,7 +850,7 @@ TEST(Functions, PinsOfAbortsAreEdgesAfterARestart) {
 send = [{ pin = "a", edge = "rise", function = "M", code = 3 }]
 abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
 )",
-                               "m.map", errors);
+                                              "m.map", errors);
   ASSERT_THAT(errors, IsEmpty());
   bool a = false, on = true, off = false;
   const PinCell cells[] = {{.bit = &a}, {.bit = &on}, {.bit = &off}};

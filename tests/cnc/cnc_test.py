@@ -24,7 +24,7 @@ mount --bind "$D/tmp" /tmp
 mount --bind {modules} "$D/original"
 mount --bind "$D/modules" {modules}
 cd "$D/home"
-exec runuser -u nobody -- env -i PATH=/usr/bin:/bin HOME="$D/home" LANG=C.UTF-8 "$@"
+exec runuser -u nobody -- env -i PATH="$D/home:/usr/bin:/bin" HOME="$D/home" LANG=C.UTF-8 "$@"
 """
 
 
@@ -115,7 +115,9 @@ def prepare_remote(bench, options):
     old, new = EDITS[program.suffix]
     expect(text.count(old) == 1, f"{old} is not once in {program}")
     bench.program(bench.file("edited" + program.suffix, text.replace(old, new)), "edited.so")
-    shutil.copy(Path(options.rungc).parent / "rungctl", bench.home / "rungctl")
+    if "alarm" in options.steps.split():
+        endless = text.replace(old, "FUNC LBL\nPRM  L9\nLD   ESTOP_OK\nFUNC JMPB\nPRM  L9\n\n" + old)
+        bench.program(bench.file("endless.pmc", endless), "endless.so")
     bench.file("flow.txt", options.flow)
 
 
@@ -127,6 +129,8 @@ def session(bench, options):
         prepare_remote(bench, options)
         map_text += REMOTE
     bench.file("program.map", map_text)
+    for tool in (Path(options.rungc).parent / "rungctl", HERE.parents[1] / "tools/rung-hal/rung-operator"):
+        shutil.copy(tool, bench.home)
     for name in ("machine.ini", "machine.hal", "tool.tbl", "drive.py"):
         bench.copy(HERE / name)
     bench.file("steps.txt", options.steps)
@@ -309,7 +313,7 @@ def main():
     parser.add_argument("--module", default="", help="the component; empty when it was not built")
     parser.add_argument("--rungc", required=True)
     parser.add_argument("--program", default=HERE / "handshake.pmc", help="source of the PLC program of `session`")
-    parser.add_argument("--steps", default="spindle coolant tools part counters remote emergency_stop", help="what `session` does, in order")
+    parser.add_argument("--steps", default="spindle coolant tools part counters remote alarm emergency_stop", help="what `session` does, in order")
     parser.add_argument("--flow", default="COOLANT_FLOW", help="the program's flow switch, which no rung writes")
     parser.add_argument("--map", nargs="+", default=[HERE / "handshake.map"], help="its mapping file, in one or several pieces")
     options = parser.parse_args()

@@ -135,7 +135,7 @@ def counters():
 
 def rungctl(*words, refused=False):
     """What it prints."""
-    ran = subprocess.run(["./rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=30)
+    ran = subprocess.run(["rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=30)
     check((ran.returncode != 0) == refused, f"rungctl {' '.join(words)}: {ran.stdout}")
     return ran.stdout
 
@@ -148,7 +148,7 @@ def remote():
     pins(coolant_lamp=True)
     command.mdi("G1 X20 F300")  # 4 s
     check("running: " in rungctl("status"), "status")
-    tracing = subprocess.Popen(["./rungctl", "trace", flow, "COOLANT_LAMP", "-o", "cut.vcd", "--for", "1"])
+    tracing = subprocess.Popen(["rungctl", "trace", flow, "COOLANT_LAMP", "-o", "cut.vcd", "--for", "1"])
     rungctl("force", flow, "false")
     pins(coolant_lamp=False, coolant_pump=True)
     check(f"{flow} = false" in rungctl("forced"), "forced")
@@ -172,6 +172,29 @@ def remote():
     mdi("G1 X0 F6000")
 
 
+def alarm():
+    """A program that never ends takes over: the machine stops, the operator learns why, and a reset goes back."""
+    while errors.poll():
+        pass
+    check("the new program runs" in rungctl("reload", "endless.so", "--yes"), "reload")
+    pins(fault=True, enable=False)
+    wait("e-stop", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP)[1])
+    shown = []
+
+    def reported():
+        shown.append(errors.poll())
+        return any(error and "the program has stopped: dead-loop (rung" in error[1] for error in shown)
+
+    wait("the fault at the operator", reported)
+    check("stopped by a fault: dead-loop" in rungctl("status"), "status")
+    hal.set_p("rung.reset", "1")
+    pins(fault=False)
+    hal.set_p("rung.reset", "0")
+    switch_on()
+    set_mode(linuxcnc.MODE_MDI)
+    coolant()
+
+
 def emergency_stop():
     mdi("M3 S1000")
     pins(spindle_cw=True)
@@ -185,7 +208,7 @@ def main():
     component.ready()
     switch_on()
     set_mode(linuxcnc.MODE_MDI)
-    steps = {step.__name__: step for step in (spindle, coolant, tools, part, counters, remote, emergency_stop)}
+    steps = {step.__name__: step for step in (spindle, coolant, tools, part, counters, remote, alarm, emergency_stop)}
     with open("steps.txt", encoding="ascii") as file:
         for name in file.read().split():
             set_mode(linuxcnc.MODE_MDI)

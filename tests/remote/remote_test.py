@@ -2,6 +2,7 @@
 """rung-run and rungctl as a user sees them, and the socket between them: remote_test.py BIN"""
 import json
 import os
+import random
 import re
 import signal
 import socket
@@ -261,6 +262,42 @@ class Protocol(Host):
         answer = self.ask(connection, '{"do":"status","id":[1,"a"]}')
         self.assertEqual((answer["ok"], answer["id"]), (True, [1, "a"]))
         self.assertTrue(self.ask(connection, "[" * 30000)["error"])
+
+    def test_mutated_requests_do_no_harm(self):
+        """From a seed: bytes and words of good requests in other places."""
+        chance = random.Random(4711)
+        good = ['{"do":"status","id":1}', '{"do":"get","names":["X0.0","D8:2"]}', '{"do":"watch","names":["D8:2"],"all":false}',
+                '{"do":"set","name":"D8:2","value":-5}', '{"do":"force","name":"X0.3","value":true}', '{"do":"forced"}',
+                '{"do":"unforce","all":true}', '{"do":"reload","program":"/dev/zero","yes":true}', '{"do":"messages"}',
+                '{"do":"map"}', '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
+        words = sorted({word for line in good for word in re.findall(r'"[^"]*"|-?\d+|true|false|[{}:,\[\]]', line)} | {"null", "1.5", '""'})
+        made, lines = self.connect()
+        lines.readline()
+        answers = 0
+        for _ in range(400):
+            line = chance.choice(good)
+            if chance.randrange(2):  # a value of another kind, or none
+                request = json.loads(line)
+                request[chance.choice(list(request))] = chance.choice([None, 0, -1, 2**70, 1.5, "", "D8:2", "X0.3", True, [], ["X0.0"], {}])
+                line = json.dumps(request)
+            for _ in range(chance.randrange(0, 3)):
+                at = chance.randrange(len(line) + 1)
+                kind = chance.randrange(3)
+                if kind == 0:
+                    line = line[:at] + chance.choice(words) + line[at + chance.randrange(8):]
+                elif kind == 1:
+                    line = line[:at] + chr(chance.randrange(32, 0x2000)) + line[at + 1:]
+                else:
+                    line = line[:at] + line[at + chance.randrange(1, 6):]
+            made.sendall(line.encode("utf-8", "replace").replace(b"\n", b" ") + b"\n")
+            while "event" in (answer := json.loads(lines.readline())):
+                pass
+            self.assertIn("ok", answer, line)
+            self.assertEqual("error" in answer, not answer["ok"], line)
+            answers += answer["ok"]
+        self.assertGreater(answers, 20)
+        self.ctl("unforce", "--all")
+        self.assertIn("running: ", self.ctl("status"))
 
     def test_a_line_that_is_too_long_ends_the_connection(self):
         made, lines = self.connect()

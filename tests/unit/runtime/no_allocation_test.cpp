@@ -90,7 +90,7 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
 // The controls have their places in the new program beforehand, and room for its messages.
 class ReplacingInRealTime : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Dialects, ReplacingInRealTime, testing::Values("gsk", "nct", "technol"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& dialect) { return std::string(dialect.param); });
 
 TEST_P(ReplacingInRealTime, NeitherAllocatesNorEntersTheKernel) {
   constexpr uint32_t kBytesOfABox = 8, kBoxes = 500;

@@ -9,11 +9,13 @@ namespace rung::runtime {
 
 class ScanUse {
 public:
-  // Scan thread.
-  void enter() noexcept { inside_.store(true); }
+  // Scan thread. An exchange and a fence where a store and a load would do: emulators of processors let a load overtake
+  // the store before it, which the processors themselves do not.
+  void enter() noexcept { inside_.exchange(true); }
   void leave() noexcept { inside_.store(false); }
   // The other one.
   void wait() const noexcept {
+    std::atomic_thread_fence(std::memory_order_seq_cst);
     while (inside_.load()) std::this_thread::yield();
   }
 

@@ -80,7 +80,7 @@ struct rung_instance {
   std::shared_ptr<const rung::runtime::Image> faultImage; // of the program that has faulted, where it runs no longer
   rung_fault fault{};                                     // of that program
   rung_forces* forces = nullptr;                          // in effect
-  rung_shadow* shadow = nullptr;                          // that has begun
+  std::atomic<rung_shadow*> shadow{nullptr};              // that has begun
   bool on = false;
   bool faultReported = false; // to the host's callback
   bool wasOn = false;         // its memory holds something to be retained

@@ -34,13 +34,14 @@ struct rung_shadow {
 namespace rung::runtime {
 
 void shadowRequest(rung_instance& instance, const rt::ServiceRequest& request) noexcept {
-  if (instance.shadow != nullptr) instance.shadow->shadow.requested(request);
+  if (rung_shadow* shadow = instance.shadow.load(std::memory_order_relaxed)) shadow->shadow.requested(request);
 }
 
 void endShadow(rung_instance& instance) noexcept {
-  if (instance.shadow == nullptr) return;
-  instance.shadow->shadow.end(instance.running);
-  instance.shadow = nullptr;
+  rung_shadow* shadow = instance.shadow.load(std::memory_order_relaxed);
+  if (shadow == nullptr) return;
+  shadow->shadow.end(instance.running);
+  instance.shadow.store(nullptr, std::memory_order_release); // another thread may free it now
 }
 
 namespace {
@@ -88,10 +89,10 @@ int32_t rung_shadow_free(rung_shadow* shadow) {
   if (shadow == nullptr) return RUNG_OK;
   rung_shadow* handle = checked(shadow, kShadowMark);
   if (handle == nullptr) return failHandle("a shadow");
-  {
+  if (handle->instance.shadow.load(std::memory_order_acquire) == handle) {
     const Call call(&handle->instance);
     if (!call.ok()) return call.status();
-    if (call->shadow == handle) endShadow(*call);
+    endShadow(*call);
   }
   release(handle);
   return RUNG_OK;

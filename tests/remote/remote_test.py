@@ -179,6 +179,22 @@ class Commands(Host):
         self.assertIn("junk.so", self.ctl("reload", junk, status=WRONG))
         self.assertIn("running: ", self.ctl("status"))
 
+    def test_a_shadow_before_a_reload(self):
+        other = self.home / "other.pmc"
+        other.write_text(PROGRAM.replace("LD   X0.0", "LDI  X0.0"))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        text = self.ctl("reload", self.home / "other.so", "--shadow", "5", status=WRONG)
+        self.assertIn("finished, ", text)
+        self.assertIn("Y0.0: false now, true in the new program\n", text)
+        self.assertIn("nothing has changed", text)
+        self.assertFalse(self.get("Y0.0"))
+        text = self.ctl("reload", self.program, "--shadow", "5")
+        self.assertIn(", 0 differences\n", text)
+        self.assertTrue(text.endswith("the new program runs\n"))
+        self.ctl("reload", self.home / "other.so", "--shadow", "5", "--yes")
+        self.wait(lambda: self.get("Y0.0"))
+        self.ctl("reload", self.program, "--shadow", "0", status=USAGE)
+
     def test_watch_shows_changes(self):
         watching = subprocess.Popen([BIN / "rungctl", "watch", "D8:2", "--json"], stdout=subprocess.PIPE, text=True,
                                     env=self.environment)
@@ -269,7 +285,8 @@ class Protocol(Host):
         good = ['{"do":"status","id":1}', '{"do":"get","names":["X0.0","D8:2"]}', '{"do":"watch","names":["D8:2"],"all":false}',
                 '{"do":"set","name":"D8:2","value":-5}', '{"do":"force","name":"X0.3","value":true}', '{"do":"forced"}',
                 '{"do":"unforce","all":true}', '{"do":"reload","program":"/dev/zero","yes":true}', '{"do":"messages"}',
-                '{"do":"map"}', '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
+                '{"do":"map"}', '{"do":"shadow","program":"/x","passes":5}', '{"do":"compared"}',
+                '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
         words = sorted({word for line in good for word in re.findall(r'"[^"]*"|-?\d+|true|false|[{}:,\[\]]', line)} | {"null", "1.5", '""'})
         made, lines = self.connect()
         lines.readline()

@@ -21,7 +21,9 @@ namespace {
 constexpr size_t kMostNames = 256;   // of a watch
 constexpr size_t kMostReports = 200; // messages that are kept
 constexpr uint32_t kMostForces = 64;
-constexpr size_t kMostChanges = 1000;  // that a report lists
+constexpr size_t kMostChanges = 1000; // that a report lists
+constexpr uint32_t kMostShadowPasses = 100'000;
+constexpr uint32_t kShadowRoom = 256;  // runs of tasks that wait to be compared
 constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
 
 std::string timeNow() {
@@ -54,6 +56,12 @@ std::vector<std::string> namesOf(const json& request) {
                     std::ranges::all_of(*found, &json::is_string);
   if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
   return found->get<std::vector<std::string>>();
+}
+
+std::string programOf(const json& request) {
+  std::string path = textOf(request, "program");
+  if (!path.starts_with('/')) throw Refused("found the path " + path + ", expected an absolute one");
+  return path;
 }
 
 void check(const plc::Answer& answer) {
@@ -116,6 +124,8 @@ const Controller::Command Controller::kCommands[] = {
     {"unforce", mapping::Remote::Force, &Controller::unforce},
     {"forced", std::nullopt, &Controller::forced},
     {"reload", mapping::Remote::Reload, &Controller::reload},
+    {"shadow", mapping::Remote::Reload, &Controller::shadow},
+    {"compared", std::nullopt, &Controller::compared},
     {"rollback", mapping::Remote::Reload, &Controller::rollback},
     {"stop", mapping::Remote::Stop, &Controller::stop},
     {"start", mapping::Remote::Start, &Controller::start},
@@ -394,8 +404,7 @@ json Controller::forced(const Peer&, const json&) {
 }
 
 json Controller::reload(const Peer& peer, const json& request) {
-  const std::string path = textOf(request, "program");
-  if (!path.starts_with('/')) throw Refused("found the path " + path + ", expected an absolute one");
+  const std::string path = programOf(request);
   Image image(path);
   rung_replacement* made = nullptr;
   checkCall(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
@@ -431,6 +440,57 @@ json Controller::reload(const Peer& peer, const json& request) {
   former_ = std::exchange(program_, image.program().name);
   logChange(peer, "reload " + path);
   return report;
+}
+
+// Its end is an order, too: the scan thread writes into it.
+void Controller::endShadow() {
+  if (shadow_ == nullptr) return;
+  give({.kind = Order::Kind::Shadow, .shadow = nullptr});
+  shadow_.reset();
+}
+
+json Controller::shadow(const Peer& peer, const json& request) {
+  const std::string path = programOf(request);
+  const auto passes = request.find("passes");
+  if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
+    throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
+  const Image image(path);
+  endShadow();
+  rung_shadow* made = nullptr;
+  checkCall(rung_shadow_new(box_.instance(), image.handle(), passes->get<uint32_t>(), kShadowRoom, &made));
+  shadow_.reset(made);
+  constexpr std::chrono::seconds kTime(3);
+  give({.kind = Order::Kind::Shadow, .shadow = made}, kTime);
+  logChange(peer, "shadow " + path + " for " + std::to_string(passes->get<uint32_t>()) + " passes");
+  return json::object();
+}
+
+json Controller::compared(const Peer&, const json&) {
+  if (shadow_ == nullptr) throw Refused("no program runs beside this one; \"shadow\" begins one");
+  auto info = sized<rung_shadow_info>();
+  checkCall(rung_shadow_report(shadow_.get(), &info));
+  constexpr const char* kStates[] = {"prepared", "running", "finished",
+                                     "too-slow", "stopped", "faulted"}; // by rung_shadow_state
+  json differences = json::array();
+  auto difference = sized<rung_difference>();
+  for (uint32_t i = 0; i < kMostChanges && rung_shadow_difference(shadow_.get(), i, &difference) == RUNG_OK; ++i) {
+    json row = {{"name", difference.name}, {"runs", difference.runs}, {"first_us", difference.first_us}};
+    if (difference.type != 0) { // else it is a service that the new program alone requests
+      row["running"] = toJson(difference.type, difference.running);
+      row["next"] = toJson(difference.type, difference.next);
+    }
+    differences.push_back(row);
+  }
+  return {{"state", info.state < std::size(kStates) ? kStates[info.state] : "unknown"},
+          {"runs", info.runs},
+          {"fault", info.fault},
+          {"differences", differences}};
+}
+
+void Controller::work() {
+  constexpr int kMostRuns = 200;
+  for (int i = 0; shadow_ != nullptr && i < kMostRuns; ++i)
+    if (rung_shadow_work(shadow_.get()) != RUNG_OK) return;
 }
 
 json Controller::rollback(const Peer& peer, const json&) {

@@ -35,6 +35,8 @@ public:
   void report(const std::string& text, Server* server);
   // Sends what has changed to those who watch.
   void sendEvents(Server& server);
+  // Compares what a shadow has recorded, for a part of a turn.
+  void work();
 
 private:
   struct Watching;
@@ -59,6 +61,8 @@ private:
   nlohmann::json unforce(const Peer& peer, const nlohmann::json& request);
   nlohmann::json forced(const Peer& peer, const nlohmann::json& request);
   nlohmann::json reload(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json shadow(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json compared(const Peer& peer, const nlohmann::json& request);
   nlohmann::json rollback(const Peer& peer, const nlohmann::json& request);
   nlohmann::json stop(const Peer& peer, const nlohmann::json& request);
   nlohmann::json start(const Peer& peer, const nlohmann::json& request);
@@ -76,6 +80,7 @@ private:
   void replace(std::chrono::milliseconds time);
   std::vector<rung_force_info> forcesInEffect();
   void putInEffect(const std::vector<rung_forced_cell>& cells);
+  void endShadow();
   nlohmann::json simple(plc::Order::Kind kind, const Peer& peer, const char* what);
   void logChange(const Peer& peer, const std::string& text);
 
@@ -93,6 +98,10 @@ private:
     void operator()(rung_forces* forces) const noexcept { rung_forces_free(forces); }
   };
   std::unique_ptr<rung_forces, EndForces> forces_;
+  struct EndShadow {
+    void operator()(rung_shadow* shadow) const noexcept { rung_shadow_free(shadow); }
+  };
+  std::unique_ptr<rung_shadow, EndShadow> shadow_;
   struct EndReplacement {
     void operator()(rung_replacement* replacement) const noexcept { rung_replacement_free(replacement); }
   };

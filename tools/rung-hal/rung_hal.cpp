@@ -290,6 +290,7 @@ void serveRemote(const PlcInstance& c, std::chrono::milliseconds wait) {
   if (c.server == nullptr) return std::this_thread::sleep_for(wait);
   c.server->serve(wait);
   c.controller->sendEvents(*c.server);
+  c.controller->work();
 }
 
 // The program runs without it, too.

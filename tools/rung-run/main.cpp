@@ -62,6 +62,7 @@ public:
       server_.serve(kTurn);
       serveBox();
       controller_.sendEvents(server_);
+      controller_.work();
     }
     return end();
   }

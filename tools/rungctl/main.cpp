@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct Words {
   double seconds = 0;
   bool all = false;
   bool follow = false;
+  unsigned shadow = 0; // passes
   bool yes = false;
   bool late = false;
 };
@@ -190,9 +192,31 @@ std::string reportOf(const json& answer) {
                             answer.value("kept_states", 0));
 }
 
+// The program runs beside the other one until it has been compared. False: its outputs differ, or it cannot run so.
+bool runsTheSame(Client& client, const Words& words, const std::string& path) {
+  asked(client, {{"do", "shadow"}, {"program", path}, {"passes", words.shadow}});
+  json report;
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    report = asked(client, {{"do", "compared"}});
+  } while (gStop == 0 && (report["state"] == "running" || report["state"] == "prepared"));
+  std::string text = fmt::format("beside the program that runs: {}, {} runs of tasks compared, {} differences\n",
+                                 shown(report["state"]), report["runs"].dump(), report["differences"].size());
+  for (const json& difference : report["differences"])
+    text += difference.contains("next")
+                ? fmt::format("{}: {} now, {} in the new program\n", shown(difference["name"]),
+                              shown(difference["running"]), shown(difference["next"]))
+                : fmt::format("{}: only the new program asks for it\n", shown(difference["name"]));
+  if (!report.value("fault", "").empty()) text += shown(report["fault"]) + "\n";
+  print(words, report, text);
+  return report["state"] == "finished" && report["differences"].empty();
+}
+
 int reload(Client& client, const Words& words) {
   const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.file.c_str(), nullptr), &std::free);
   if (path == nullptr) return fail("there is no file " + words.file), cli::kEnvironment;
+  if (words.shadow != 0 && !runsTheSame(client, words, path.get()) && !words.yes)
+    return fail("the new program does not do the same; nothing has changed; with --yes it takes over all the same");
   const json answer = client.ask({{"do", "reload"}, {"program", path.get()}, {"yes", words.yes}, {"late", words.late}});
   if (answer.value("ok", false)) {
     print(words, answer, reportOf(answer) + "the new program runs");
@@ -310,7 +334,9 @@ void addAll(Commands& commands) {
       "reload", "Replace the program by another one, between two passes",
       [](cli::Command& command, Words& words) {
         command.option("FILE", words.file, "The compiled program (.so)").required();
-        command.flag("--yes", words.yes, "Also where state is lost");
+        command.option("--shadow", words.shadow, "First run it beside the other for so many passes, and compare")
+            .between(1u, 100000u);
+        command.flag("--yes", words.yes, "Also where state is lost or outputs differ");
         command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
       },
       reload);

@@ -589,7 +589,8 @@ enum rung_shadow_state {
  * meanwhile, but must neither be given another program nor be freed. RUNG_REFUSED: of another dialect or schedule. */
 RUNG_API int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t passes, uint32_t room,
                                  rung_shadow** shadow);
-/* Ends it, too. Null is allowed. The thread of the instance, before that is freed; no other uses the shadow. */
+/* Ends it, too, in the thread of the instance; one that has ended (rung_instance_shadow with null) may be freed by any.
+ * Null is allowed. Before its instance; no other thread uses the shadow. */
 RUNG_API int32_t rung_shadow_free(rung_shadow* shadow);
 
 /* The shadow begins with the state that the instance has now; null: it ends. While it runs, every run of a task copies

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -398,6 +399,24 @@ class WithoutAHost(unittest.TestCase):
                 host.kill()
                 host.wait()
                 host.stderr.close()
+
+    def test_a_stranger_in_the_place_of_a_host(self):
+        if os.geteuid() != 0:
+            self.skipTest("needs root, to be two other users")
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder).chmod(0o777)
+            code = ("import socket, sys; s = socket.socket(socket.AF_UNIX); s.bind(sys.argv[1]); s.listen(); print(1, flush=True); "
+                    "s.accept()[0].sendall(b'{\"rung\": \"host\", \"protocol\": 1}\\n'); sys.stdin.read()")
+            stranger = subprocess.Popen(["python3", "-c", f"import os; os.umask(0); {code}", f"{folder}/plc.sock"], user=1, group=1,
+                                        extra_groups=[], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            stranger.stdout.readline()
+            shutil.copy(BIN / "rungctl", folder)
+            done = subprocess.run([f"{folder}/rungctl", "status"], user=65534, group=65534, extra_groups=[], capture_output=True,
+                                  text=True, env={**os.environ, "RUNG_SOCKETS": folder}, timeout=60)
+            stranger.kill()
+            stranger.communicate()
+            self.assertEqual((done.returncode, done.stderr),
+                             (WRONG, f"rungctl: the host at {folder}/plc.sock belongs to user 1, and is not used\n"))
 
     def test_what_rung_run_refuses(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -21,13 +21,28 @@ namespace {
 
 constexpr int kAnswerMs = 15000;
 
+// Who listens there: somebody else could have made the folder first. "" of the user himself, and of root.
+std::string strangerOf(int made) {
+  ucred who{};
+  socklen_t size = sizeof who;
+  if (getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0) return "does not say whose it is";
+  if (geteuid() == 0 || who.uid == geteuid() || who.uid == 0) return {};
+  return "belongs to user " + std::to_string(who.uid) + ", and is not used";
+}
+
 int connected(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return made;
+  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+    if (const std::string wrong = strangerOf(made); !wrong.empty()) {
+      close(made);
+      throw std::runtime_error("the host at " + path + " " + wrong);
+    }
+    return made;
+  }
   const int problem = errno;
   close(made);
   throw std::runtime_error("cannot reach a host at " + path + ": " + std::strerror(problem) +

@@ -15,16 +15,14 @@
 namespace rung::host {
 
 namespace {
-
 constexpr int64_t kNsPerSecond = 1'000'000'000;
+}
 
-void sleepUntil(int64_t ns) {
+void sleepUntil(int64_t ns) noexcept {
   const timespec due = {static_cast<time_t>(ns / kNsPerSecond), static_cast<long>(ns % kNsPerSecond)};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) == EINTR) {
   }
 }
-
-} // namespace
 
 RealTimeThread::RealTimeThread(const RealTimeOptions& options) {
   if (options.priority > 0) raise(options.priority);

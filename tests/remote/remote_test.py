@@ -20,6 +20,7 @@ PATIENCE = 10  # seconds until something counts as never happening
 
 # X0.0 lights Y0.0, X0.1 lets the program never end.
 PROGRAM = """dialect gsk
+symbol GUARD X0.2
 FUNC END1
 LD   X0.0
 OUT  Y0.0
@@ -248,6 +249,21 @@ class Rights(Host):
         self.ctl("map")
         self.ctl("messages")
         self.ctl("forced")
+
+
+class Protected(Host):
+    map = MAP.replace('never = ["X0.2"]', 'never = ["GUARD"]')
+
+    def test_a_name_is_protected_where_a_reload_has_moved_it(self):
+        moved = self.home / "moved.pmc"
+        moved.write_text(PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.4"))
+        subprocess.run([BIN / "rungc", "build", "-q", moved, "-o", self.home / "moved.so"], check=True)
+        self.assertIn("X0.2 is never set or forced here", self.ctl("set", "X0.2", "1", status=WRONG))
+        self.ctl("set", "X0.4", "0")
+        self.ctl("reload", self.home / "moved.so", "--yes")
+        for words in (("set", "X0.4", "1"), ("force", "X0.4", "1"), ("set", "GUARD", "1")):
+            self.assertIn("is never set or forced here", self.ctl(*words, status=WRONG))
+        self.ctl("set", "X0.2", "0")
 
 
 class Protocol(Host):

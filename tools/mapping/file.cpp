@@ -666,7 +666,7 @@ std::optional<uint32_t> Reader::pin(const Place& name, PinType type, Direction d
     map_.pins.push_back({.name = name.text, .type = type, .direction = direction, .at = name.at});
     return static_cast<uint32_t>(map_.pins.size() - 1);
   }
-  // One input may feed several names and functions; all else stands for one name.
+  // One input may feed several names and functions; every other pin has one name.
   const bool same = old->direction == direction && old->type == type;
   if (same && direction == Direction::In) return static_cast<uint32_t>(old - map_.pins.begin());
   const auto kind = [](Direction which, PinType itsType) {

@@ -64,15 +64,6 @@ std::string programOf(const json& request) {
   return path;
 }
 
-void check(const plc::Answer& answer) {
-  if (!answer.ok()) throw Refused(answer.problem);
-}
-
-// A status of the library.
-void checkCall(int32_t status) {
-  if (status < RUNG_OK) throw Refused(rung_error_text());
-}
-
 std::string shown(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
 
 const char* changeName(uint32_t kind) {
@@ -88,10 +79,11 @@ bool loses(uint32_t kind) {
 } // namespace
 
 struct Controller::Watching {
-  Watching(rung_instance* instance, const std::vector<rung_cell>& cells, std::vector<uint32_t> types, bool everyPass)
-      : types(std::move(types)), all(everyPass), values(cells.size()), sent(cells.size()) {
-    checkCall(
-        rung_watch_new(instance, cells.data(), static_cast<uint32_t>(cells.size()), all ? kPassesKept : 0, &watch));
+  Watching(rung_instance* instance, const FoundCells& found, bool everyPass)
+      : all(everyPass), values(found.cells.size()), sent(found.cells.size()) {
+    for (const rung_cell_info& info : found.infos) types.push_back(info.type);
+    check(rung_watch_new(instance, found.cells.data(), static_cast<uint32_t>(found.cells.size()), all ? kPassesKept : 0,
+                         &watch));
   }
   ~Watching() { rung_watch_free(watch); }
   Watching(const Watching&) = delete;
@@ -134,12 +126,7 @@ const Controller::Command Controller::kCommands[] = {
 
 Controller::Controller(std::string host, plc::Box& box, const rung_program& program,
                        std::function<void(const std::string&)> log)
-    : host_(std::move(host)), box_(box), program_(program.name), dialect_(program.dialect), log_(std::move(log)) {
-  for (const mapping::Protected& cell : box_.map().never) {
-    const std::vector<Range> ranges = rangesOf(cell.name);
-    protected_.insert(protected_.end(), ranges.begin(), ranges.end());
-  }
-}
+    : host_(std::move(host)), box_(box), program_(program.name), dialect_(program.dialect), log_(std::move(log)) {}
 
 Controller::~Controller() = default;
 
@@ -202,6 +189,26 @@ json Controller::messages(const Peer& peer, const json& request) {
   return {{"messages", reports_}};
 }
 
+bool Controller::serveBox(Server* server, const Print& print) {
+  std::vector<std::string> reports;
+  const bool served = box_.serve(reports);
+  for (const std::string& text : reports) {
+    print(text);
+    report(text, server);
+  }
+  return served;
+}
+
+void Controller::passMessages(Server* server, const Print& print) {
+  rung_message_info message{};
+  while (box_.nextMessage(message)) {
+    if (message.op == RUNG_MESSAGE_CLEAR) continue;
+    const std::string text = std::string("message ") + message.text;
+    print(text);
+    report(text, server);
+  }
+}
+
 void Controller::report(const std::string& text, Server* server) {
   reports_.push_back(timeNow() + " " + text);
   if (reports_.size() > kMostReports) reports_.pop_front();
@@ -212,39 +219,38 @@ void Controller::report(const std::string& text, Server* server) {
 Controller::Found Controller::find(const std::string& name, int32_t access) const {
   Found found;
   found.info.size = sizeof found.info;
-  checkCall(rung_instance_find(box_.instance(), name.c_str(), access, &found.cell));
-  checkCall(rung_instance_cell(box_.instance(), found.cell, &found.info));
+  check(rung_instance_find(box_.instance(), name.c_str(), access, &found.cell));
+  check(rung_instance_cell(box_.instance(), found.cell, &found.info));
   if (found.info.type == RUNG_TYPE_TEXT) throw Refused(name + " is a text, expected a bit or a number");
   return found;
 }
 
-json Controller::watch(const Peer& peer, const json& request) {
-  const std::vector<std::string> names = namesOf(request);
-  std::vector<rung_cell> cells;
-  std::vector<uint32_t> types;
-  json described = json::array();
+Controller::FoundCells Controller::findAll(const std::vector<std::string>& names) const {
+  FoundCells all;
   for (const std::string& name : names) {
     const Found found = find(name, RUNG_READ);
-    cells.push_back(found.cell);
-    types.push_back(found.info.type);
-    described.push_back({{"name", name}, {"type", typeName(found.info.type)}, {"address", found.info.address}});
+    all.cells.push_back(found.cell);
+    all.infos.push_back(found.info);
   }
-  watching_[peer.number] = std::make_unique<Watching>(box_.instance(), cells, types, flagOf(request, "all"));
+  return all;
+}
+
+json Controller::watch(const Peer& peer, const json& request) {
+  const std::vector<std::string> names = namesOf(request);
+  const FoundCells found = findAll(names);
+  watching_[peer.number] = std::make_unique<Watching>(box_.instance(), found, flagOf(request, "all"));
+  json described = json::array();
+  for (size_t i = 0; i < names.size(); ++i)
+    described.push_back(
+        {{"name", names[i]}, {"type", typeName(found.infos[i].type)}, {"address", found.infos[i].address}});
   return {{"names", described}};
 }
 
 // The values at the end of a pass.
-json Controller::get(const Peer& peer, const json& request) {
+json Controller::get(const Peer&, const json& request) {
   const std::vector<std::string> names = namesOf(request);
-  std::vector<rung_cell> cells;
-  std::vector<uint32_t> types;
-  for (const std::string& name : names) {
-    const Found found = find(name, RUNG_READ);
-    cells.push_back(found.cell);
-    types.push_back(found.info.type);
-  }
-  (void)peer;
-  Watching once(box_.instance(), cells, types, false);
+  const FoundCells found = findAll(names);
+  Watching once(box_.instance(), found, false);
   auto sample = sized<rung_sample>();
   const auto end = std::chrono::steady_clock::now() + plc::Box::kPatience;
   while (rung_watch_newest(once.watch, once.values.data(), &sample) != RUNG_OK) {
@@ -253,7 +259,7 @@ json Controller::get(const Peer& peer, const json& request) {
     box_.order(look);
   }
   json values = json::object();
-  for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(types[i], once.values[i]);
+  for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(once.types[i], once.values[i]);
   return {{"pass", sample.pass}, {"us", sample.now_us}, {"values", values}};
 }
 
@@ -313,16 +319,23 @@ std::vector<Controller::Range> Controller::rangesOf(const std::string& name) con
   return ranges;
 }
 
+// By where the names are in the program that runs: a reload may have moved them.
 void Controller::refuseProtected(const std::string& name) const {
-  for (const Range& wanted : rangesOf(name))
-    for (const Range& kept : protected_)
-      if (wanted.space == kept.space && wanted.first < kept.first + kept.count &&
-          kept.first < wanted.first + wanted.count)
-        throw Refused(name + " is never set or forced here: the mapping file says so ([rungctl] never)");
+  const std::vector<Range> wanted = rangesOf(name);
+  const auto overlaps = [&](const Range& kept) {
+    return std::ranges::any_of(wanted, [&](const Range& range) {
+      return range.space == kept.space && range.first < kept.first + kept.count &&
+             kept.first < range.first + range.count;
+    });
+  };
+  for (const mapping::Protected& cell : box_.map().never)
+    if (std::ranges::any_of(rangesOf(cell.name), overlaps))
+      throw Refused(name + " is never set or forced here: the mapping file says so ([rungctl] never)");
 }
 
 Order Controller::give(Order order, std::chrono::milliseconds time) {
-  check(box_.order(order, time));
+  const plc::Answer answer = box_.order(order, time);
+  if (!answer.ok()) throw Refused(answer.problem);
   return order;
 }
 
@@ -343,7 +356,7 @@ std::vector<rung_force_info> Controller::forcesInEffect() {
   for (uint32_t i = 0; i < kMostForces; ++i) {
     Order order{.kind = Order::Kind::Forced, .index = i};
     const plc::Answer answer = box_.order(order);
-    check(answer);
+    if (!answer.ok()) throw Refused(answer.problem);
     if (answer.status == RUNG_EMPTY) break;
     list.push_back(order.force);
   }
@@ -353,7 +366,7 @@ std::vector<rung_force_info> Controller::forcesInEffect() {
 void Controller::putInEffect(const std::vector<rung_forced_cell>& cells) {
   rung_forces* made = nullptr;
   if (!cells.empty())
-    checkCall(rung_forces_new(box_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
+    check(rung_forces_new(box_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
   std::unique_ptr<rung_forces, EndForces> forces(made);
   give({.kind = Order::Kind::Force, .forces = made});
   forces_ = std::move(forces); // the former set has ended
@@ -407,10 +420,10 @@ json Controller::reload(const Peer& peer, const json& request) {
   const std::string path = programOf(request);
   Image image(path);
   rung_replacement* made = nullptr;
-  checkCall(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
+  check(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
   std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
   auto info = sized<rung_replacement_info>();
-  checkCall(rung_replacement_report(made, &info));
+  check(rung_replacement_report(made, &info));
   json changes = json::array();
   std::string lost;
   auto change = sized<rung_change>();
@@ -432,7 +445,7 @@ json Controller::reload(const Peer& peer, const json& request) {
     report["error"] = "the new program loses state: " + lost;
     return report;
   }
-  if (flagOf(request, "late")) checkCall(rung_replacement_allow_late(made));
+  if (flagOf(request, "late")) check(rung_replacement_allow_late(made));
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Replace, .replacement = made}, kTime);
   forces_.reset(); // they have ended
@@ -457,7 +470,7 @@ json Controller::shadow(const Peer& peer, const json& request) {
   const Image image(path);
   endShadow();
   rung_shadow* made = nullptr;
-  checkCall(rung_shadow_new(box_.instance(), image.handle(), passes->get<uint32_t>(), kShadowRoom, &made));
+  check(rung_shadow_new(box_.instance(), image.handle(), passes->get<uint32_t>(), kShadowRoom, &made));
   shadow_.reset(made);
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Shadow, .shadow = made}, kTime);
@@ -468,7 +481,7 @@ json Controller::shadow(const Peer& peer, const json& request) {
 json Controller::compared(const Peer&, const json&) {
   if (shadow_ == nullptr) throw Refused("no program runs beside this one; \"shadow\" begins one");
   auto info = sized<rung_shadow_info>();
-  checkCall(rung_shadow_report(shadow_.get(), &info));
+  check(rung_shadow_report(shadow_.get(), &info));
   constexpr const char* kStates[] = {"prepared", "running", "finished",
                                      "too-slow", "stopped", "faulted"}; // by rung_shadow_state
   json differences = json::array();

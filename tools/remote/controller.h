@@ -31,8 +31,11 @@ public:
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
 
-  // A message of the program, or a report of the host, for those who ask later and for those who follow.
-  void report(const std::string& text, Server* server);
+  // What the box needs from time to time and reports then, and what the program has shown: each line goes to `print`,
+  // is kept for those who ask later, and is sent to those who follow. `server` may be null. True: there was a report.
+  using Print = std::function<void(const std::string&)>;
+  bool serveBox(Server* server, const Print& print);
+  void passMessages(Server* server, const Print& print);
   // Sends what has changed to those who watch.
   void sendEvents(Server& server);
   // Compares what a shadow has recorded, for a part of a turn.
@@ -73,7 +76,12 @@ private:
     rung_cell cell = 0;
     rung_cell_info info{};
   };
+  struct FoundCells {
+    std::vector<rung_cell> cells;
+    std::vector<rung_cell_info> infos;
+  };
   Found find(const std::string& name, int32_t access) const;
+  FoundCells findAll(const std::vector<std::string>& names) const;
   std::vector<Range> rangesOf(const std::string& name) const;
   void refuseProtected(const std::string& name) const;
   plc::Order give(plc::Order order, std::chrono::milliseconds time = plc::Box::kPatience);
@@ -81,6 +89,7 @@ private:
   std::vector<rung_force_info> forcesInEffect();
   void putInEffect(const std::vector<rung_forced_cell>& cells);
   void endShadow();
+  void report(const std::string& text, Server* server);
   nlohmann::json simple(plc::Order::Kind kind, const Peer& peer, const char* what);
   void logChange(const Peer& peer, const std::string& text);
 
@@ -90,7 +99,6 @@ private:
   std::string former_;  // of the one that `rollback` puts back
   std::string dialect_;
   std::function<void(const std::string&)> log_;
-  std::vector<Range> protected_;
   std::deque<std::string> reports_;
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages

@@ -2,6 +2,7 @@
 #include "tools/remote/place.h"
 
 #include <dirent.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -31,6 +32,14 @@ std::string socketFolder(uid_t user) {
 
 std::string socketPath(uid_t user, const std::string& host) {
   return socketFolder(user) + "/" + host + std::string(kEnding);
+}
+
+sockaddr_un socketAddress(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
 }
 
 bool isHostName(const std::string& name) {

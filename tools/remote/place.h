@@ -1,6 +1,7 @@
 // Where the sockets are by which rungctl reaches the hosts of a user.
 #pragma once
 #include <sys/types.h>
+#include <sys/un.h>
 
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@ namespace rung::remote {
 // its user does not look at; else /run/user/NUMBER/rung, or /tmp/rung-NUMBER where the system has no /run/user.
 std::string socketFolder(uid_t user);
 std::string socketPath(uid_t user, const std::string& host);
+// Throws std::runtime_error where the path is too long for a socket.
+sockaddr_un socketAddress(const std::string& path);
 
 // A host's name: letters, digits, '-', '_' and '.', not at the beginning.
 bool isHostName(const std::string& name);

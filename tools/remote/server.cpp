@@ -5,7 +5,6 @@
 #include <pwd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,14 +22,6 @@ namespace rung::remote {
 namespace {
 
 using nlohmann::json;
-
-sockaddr_un addressOf(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
-  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-  return address;
-}
 
 [[noreturn]] void refuse(const std::string& path) {
   throw std::runtime_error("cannot listen at " + path + ": " + std::strerror(errno));
@@ -62,7 +53,7 @@ Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(us
     throw std::runtime_error("found the name \"" + host + "\" of a host, expected letters, digits, '-', '_' and '.'");
   prepareFolder(user);
   path_ = socketPath(user, host);
-  const sockaddr_un address = addressOf(path_);
+  const sockaddr_un address = socketAddress(path_);
   if (isAlive(address))
     throw std::runtime_error(path_ + ": another host has the name " + host + "; give this one another");
   unlink(path_.c_str()); // of a host that was killed

@@ -114,18 +114,23 @@ const char* argument(char* const (&list)[kMostInstances], size_t instance) {
   return given(list) == 1 ? list[0] : list[instance];
 }
 
-// Empty: they do not fit together, which is reported.
+// False: they do not fit together, which is reported.
+bool checkArguments(size_t count) {
+  const auto isEach = [&](char* const(&list)[kMostInstances]) { return given(list) == count; };
+  if ((given(so) != 1 && !isEach(so)) || (given(map) != 1 && !isEach(map))) {
+    complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed, one for all instances or one for each of names=\n",
+             kModule);
+    return false;
+  }
+  if (given(retain) == 0 || isEach(retain)) return true;
+  complain("%s: retain=FILE is needed for each instance of names=, or for none\n", kModule);
+  return false;
+}
+
+// Empty where they do not fit together.
 std::vector<Request> requests() {
   const size_t count = std::max<size_t>(1, given(names));
-  const auto isEach = [&](char* const(&list)[kMostInstances]) { return given(list) == count; };
-  if ((given(so) != 1 && !isEach(so)) || (given(map) != 1 && !isEach(map)))
-    return complain(
-               "%s: so=PROGRAM.so and map=MAPPING_FILE are needed, one for all instances or one for each of names=\n",
-               kModule),
-           std::vector<Request>();
-  if (given(retain) != 0 && !isEach(retain))
-    return complain("%s: retain=FILE is needed for each instance of names=, or for none\n", kModule),
-           std::vector<Request>();
+  if (!checkArguments(count)) return {};
   std::vector<Request> list(count);
   for (size_t i = 0; i < count; ++i)
     list[i] = {given(names) == 0 ? kDefaultPrefix : names[i], argument(so, i), argument(map, i), retain[i]};
@@ -149,7 +154,10 @@ bool loadProgram(PlcInstance& c, const Request& request) {
         plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "", warnings);
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
-  return errors.empty();
+  if (c.box == nullptr) return false;
+  const auto logged = [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); };
+  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, c.image->program(), logged);
+  return true;
 }
 
 bool loadPrograms(Component& c) {
@@ -261,27 +269,14 @@ void scan(void* argument, long periodNs) {
   c.inScan.store(false);
 }
 
-// To LinuxCNC's log, and to who asks by rungctl.
-void report(PlcInstance& c, const std::string& text) {
-  if (c.controller) c.controller->report(text, c.server.get());
-}
-
 void passMessages(PlcInstance& c) {
-  rung_message_info message{};
-  while (c.box->nextMessage(message)) {
-    if (message.op == RUNG_MESSAGE_CLEAR) continue;
-    rtapi_print("%s: message %s\n", c.prefix.c_str(), message.text);
-    report(c, std::string("message ") + message.text);
-  }
+  c.controller->passMessages(
+      c.server.get(), [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); });
 }
 
 void serveOnce(PlcInstance& c) {
-  std::vector<std::string> reports;
-  if (c.box->serve(reports)) *c.status->faultLine.u32 = c.box->faultLine();
-  for (const std::string& text : reports) {
-    complain("%s: %s\n", c.prefix.c_str(), text.c_str());
-    report(c, text);
-  }
+  const auto print = [&c](const std::string& text) { complain("%s: %s\n", c.prefix.c_str(), text.c_str()); };
+  if (c.controller->serveBox(c.server.get(), print)) *c.status->faultLine.u32 = c.box->faultLine();
   passMessages(c);
 }
 
@@ -293,13 +288,9 @@ void serveRemote(const PlcInstance& c, std::chrono::milliseconds wait) {
   c.controller->work();
 }
 
-// The program runs without it, too.
+// The program runs without a socket, too.
 void listen(PlcInstance& c) {
   try {
-    c.controller =
-        std::make_unique<remote::Controller>(c.prefix, *c.box, c.image->program(), [&c](const std::string& change) {
-          rtapi_print("%s: %s\n", c.prefix.c_str(), change.c_str());
-        });
     c.server = std::make_unique<remote::Server>(c.prefix, hal::UserRights::user(), *c.controller);
   } catch (const std::exception& problem) {
     complain("%s: rungctl cannot reach it: %s\n", c.prefix.c_str(), problem.what());
@@ -365,7 +356,7 @@ void endScans(Component& c) {
 }
 
 void closeProgram(PlcInstance& c) {
-  if (!c.box) return;
+  if (!c.controller) return;                // it was not loaded
   guarded([&] { return serveOnce(c), 0; }); // a fault of the last moment
   const std::string error = c.box->close();
   passMessages(c);

@@ -60,7 +60,8 @@ public:
     print("listening at " + server_.path());
     while (gEnd == 0) {
       server_.serve(kTurn);
-      serveBox();
+      controller_.serveBox(&server_, print);
+      controller_.passMessages(&server_, print);
       controller_.sendEvents(server_);
       controller_.work();
     }
@@ -68,25 +69,11 @@ public:
   }
 
 private:
-  void serveBox() {
-    std::vector<std::string> reports;
-    box_->serve(reports);
-    for (const std::string& report : reports) {
-      print(report);
-      controller_.report(report, &server_);
-    }
-    rung_message_info message{};
-    while (box_->nextMessage(message)) {
-      if (message.op == RUNG_MESSAGE_CLEAR) continue;
-      print(std::string("message ") + message.text);
-      controller_.report(message.text, &server_);
-    }
-  }
-
   int end() {
     scans_.end();
-    serveBox(); // a fault of the last moment
+    controller_.serveBox(&server_, print); // a fault of the last moment
     const std::string error = box_->close();
+    controller_.passMessages(&server_, print);
     print(scans_.report());
     if (!error.empty()) print(error);
     return error.empty() ? cli::kOk : cli::kEnvironment;

@@ -2,18 +2,11 @@
 #include "tools/rung-run/scan_thread.h"
 
 #include <algorithm>
-#include <ctime>
 #include <fmt/format.h>
 #include <utility>
 
 namespace rung::rung_run {
 namespace {
-
-void sleepUntil(int64_t ns) noexcept {
-  constexpr int64_t kNsPerSecond = 1'000'000'000;
-  const timespec due = {static_cast<time_t>(ns / kNsPerSecond), static_cast<long>(ns % kNsPerSecond)};
-  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr); // a signal is taken by another thread
-}
 
 double microseconds(int64_t ns) { return static_cast<double>(ns) / 1e3; }
 
@@ -37,11 +30,11 @@ void ScanThread::run(std::promise<std::string> begun) {
   if (!realTime.problem().empty()) return;
   int64_t last = host::monotonicNs();
   for (int64_t due = last + options_.periodNs; !ending_; due += options_.periodNs) {
-    sleepUntil(due);
+    host::sleepUntil(due);
     step(due, last);
     // Periods that have passed meanwhile are over: the next step catches up what is due.
-    const int64_t behind = host::monotonicNs() - due;
-    if (behind > options_.periodNs) due += behind / options_.periodNs * options_.periodNs;
+    const int64_t late = host::monotonicNs() - due;
+    if (late > options_.periodNs) due += late / options_.periodNs * options_.periodNs;
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,10 +30,7 @@ std::string strangerOf(int made) {
 }
 
 int connected(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
-  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  const sockaddr_un address = remote::socketAddress(path);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
     if (const std::string wrong = strangerOf(made); !wrong.empty()) {

@@ -50,9 +50,9 @@ struct Words {
   bool late = false;
 };
 
-int fail(const std::string& text) {
+int fail(const std::string& text, int status = cli::kWrong) {
   std::cerr << "rungctl: " << text << '\n';
-  return cli::kWrong;
+  return status;
 }
 
 // The answer, where it is good.
@@ -139,7 +139,7 @@ int watch(Client& client, const Words& words) {
 
 int trace(Client& client, const Words& words) {
   std::ofstream file(words.file, std::ios::binary);
-  if (!file) return fail("cannot write " + words.file), cli::kEnvironment;
+  if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
   rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
@@ -147,7 +147,7 @@ int trace(Client& client, const Words& words) {
     if (const std::optional<json> event = client.event(gStop); event && event->value("event", "") == "values")
       trace.add(*event);
   trace.end();
-  if (!file.flush()) return fail("cannot write " + words.file), cli::kEnvironment;
+  if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
   print(words, {{"ok", true}, {"passes", trace.passes()}},
         fmt::format("wrote {}: {} passes", words.file, trace.passes()));
   return cli::kOk;
@@ -166,7 +166,7 @@ int force(Client& client, const Words& words) {
 }
 
 int unforce(Client& client, const Words& words) {
-  if (words.all == !words.name.empty()) return fail("unforce: expected a NAME or --all"), cli::kUsage;
+  if (words.all == !words.name.empty()) return fail("unforce: expected a NAME or --all", cli::kUsage);
   json request = {{"do", "unforce"}, {"all", words.all}};
   if (!words.all) request["name"] = words.name;
   const json answer = asked(client, request);
@@ -214,7 +214,7 @@ bool runsTheSame(Client& client, const Words& words, const std::string& path) {
 
 int reload(Client& client, const Words& words) {
   const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.file.c_str(), nullptr), &std::free);
-  if (path == nullptr) return fail("there is no file " + words.file), cli::kEnvironment;
+  if (path == nullptr) return fail("there is no file " + words.file, cli::kEnvironment);
   if (words.shadow != 0 && !runsTheSame(client, words, path.get()) && !words.yes)
     return fail("the new program does not do the same; nothing has changed; with --yes it takes over all the same");
   const json answer = client.ask({{"do", "reload"}, {"program", path.get()}, {"yes", words.yes}, {"late", words.late}});

@@ -333,4 +333,25 @@ void Runner::slice() noexcept {
   while (more && !faulted_) more = stepOnce() && list_[position_].op != RUNG_STEP_ADVANCE;
 }
 
+// The steps of the slice that begins here up to its first run of the fast task; 0: there is none, or the slice has
+// begun.
+uint32_t Runner::stepsToFast() const noexcept {
+  if (withinSlice()) return 0;
+  const std::span<const rung_step> list = pass(true);
+  for (uint32_t i = position_; i < list.size(); ++i) {
+    if (i > position_ && list[i].op == RUNG_STEP_ADVANCE) return 0;
+    if (list[i].op == RUNG_STEP_RUN && list[i].task == program_->fast_task) return i + 1 - position_;
+  }
+  return 0;
+}
+
+void Runner::sliceToFast() noexcept {
+  const FloatEnvironment environment(defaultFloats_);
+  startTime();
+  hold();
+  const uint32_t steps = stepsToFast();
+  list_ = pass(true);
+  for (uint32_t i = 0; i < steps && !faulted_; ++i) stepOnce();
+}
+
 } // namespace rung::rt

@@ -102,6 +102,10 @@ public:
   // continues it stays in it.
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
+  // A slice comes next in which the fast task runs.
+  bool fastAhead() const noexcept { return stepsToFast() != 0; }
+  // That slice, up to the first such run in it; `slice` then runs its rest.
+  void sliceToFast() noexcept;
 
   // The host stops the program, as a fault of its own would. False: it is stopped already, or a task is running.
   bool halt(uint32_t fault) noexcept;
@@ -109,6 +113,8 @@ public:
   int64_t nowUs() const noexcept { return ctx_->now_us; }
   void advance(int64_t us) noexcept { ctx_->now_us += us; }
   bool atListStart() const noexcept { return position_ == 0; }
+  // A slice has been begun by `sliceToFast` and waits for its rest.
+  bool withinSlice() const noexcept { return position_ != 0 && list_[position_].op != RUNG_STEP_ADVANCE; }
 
   bool faulted() const noexcept { return faulted_; }
   const rung_fault& fault() const noexcept { return ctx_->fault; }
@@ -142,6 +148,7 @@ private:
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
   std::span<const rung_step> pass(bool realClock) const noexcept;
   bool stepOnce() noexcept;
+  uint32_t stepsToFast() const noexcept;
 
   void beginProgram() noexcept;
 

@@ -194,6 +194,11 @@ void Instance::slice() {
   runner_.slice();
 }
 
+void Instance::sliceToFast() {
+  port_->services.deliver();
+  runner_.sliceToFast();
+}
+
 void Instance::runFor(int64_t us) {
   const int64_t end = nowUs() + us;
   int64_t before = nowUs() - 1;

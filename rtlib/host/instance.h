@@ -100,6 +100,9 @@ public:
   void setTimeLimit(rt::TimeLimit limit) { runner_.setTimeLimit(limit); }
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
   void slice();
+  bool fastAhead() const { return runner_.fastAhead(); }
+  void sliceToFast();
+  bool withinSlice() const { return runner_.withinSlice(); }
 
   // See rt::Runner. False: a fault has stopped the program.
   bool force(const Forcing& forcing) {

@@ -496,6 +496,7 @@ _FUNCTIONS = {
     "rung_instance_stop": (c_int32, _Handle),
     "rung_instance_start": (c_int32, _Handle),
     "rung_instance_run_due": (c_int32, _Handle, _I64),
+    "rung_instance_run_due_fast": (c_int32, _Handle, _I64),
     "rung_instance_slice": (c_int32, _Handle),
     "rung_instance_scan": (c_int32, _Handle),
     "rung_instance_slot": (c_int32, _Handle),
@@ -877,6 +878,11 @@ class Instance(_Closing):
         """Runs what is due once the host's clock has advanced by so many nanoseconds, 0 to one hour. What is late is
         caught up, up to ten passes. Error: WRONG_STATE, the program is off, or its schedule has no period."""
         return self._ran(_library.rung_instance_run_due, ns)
+
+    def run_due_fast(self, ns):
+        """The same up to the end of the fast task of the slice that is due; its rest, and what is late, runs in the
+        next `run_due`, which is given the time since this call."""
+        return self._ran(_library.rung_instance_run_due_fast, ns)
 
     def slice(self):
         """Runs one slice of the schedule, whatever the time. Error: WRONG_STATE, the program is off."""

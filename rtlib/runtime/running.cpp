@@ -20,6 +20,15 @@ void stepFunctions(rung_instance& instance) noexcept {
   instance.running.hold();
 }
 
+void endSlice(rung_instance& instance) noexcept {
+  instance.around->afterPart(instance.running);
+  instance.running.hold();
+  if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
+    (void)instance.retention->flush();
+    (void)instance.retention->afterSlice();
+  }
+}
+
 void endPass(rung_instance& instance) noexcept {
   ++instance.passes;
   instance.watches.sample(instance);
@@ -39,12 +48,8 @@ void beforePart(rung_instance& instance) noexcept {
 void afterPart(rung_instance& instance) noexcept {
   host::Instance& running = instance.running;
   takeMessages(instance);
-  instance.around->afterPart(running);
-  running.hold();
-  if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
-    (void)instance.retention->flush();
-    (void)instance.retention->afterSlice();
-  }
+  const bool sliceEnds = !running.withinSlice() || running.faulted();
+  if (sliceEnds) endSlice(instance);
   if (running.faulted()) {
     settleForces(instance);
     clearOutputs(instance);
@@ -56,7 +61,7 @@ void afterPart(rung_instance& instance) noexcept {
   writeOutputs(instance);
   instance.blockPlan->write(running.block().data());
   if (running.atListStart()) endPass(instance);
-  stepFunctions(instance);
+  if (sliceEnds) stepFunctions(instance);
 }
 
 void reportFault(rung_instance& instance) noexcept {
@@ -87,6 +92,21 @@ int32_t runCall(rung_instance* handle, Part part) noexcept {
   return statusOf(*call);
 }
 
+// `run` does what is due once the time has passed.
+template <class Run>
+int32_t runElapsed(rung_instance* handle, int64_t elapsedNs, Run run) noexcept {
+  const Call call(handle, When::On);
+  if (!call.ok()) return call.status();
+  if (elapsedNs < 0 || elapsedNs > kHourNs)
+    return fail(RUNG_BAD_ARGUMENT, "the elapsed time is 0 to 3600000000000 ns, not %lld",
+                static_cast<long long>(elapsedNs));
+  if (!call->pace.hasPeriod())
+    return fail(RUNG_WRONG_STATE, "the program's schedule has no period: run it by rung_instance_scan");
+  call->pace.elapse(elapsedNs);
+  run(*call);
+  return statusOf(*call);
+}
+
 } // namespace
 } // namespace rung::runtime
 
@@ -107,16 +127,15 @@ int32_t rung_instance_fast(rung_instance* instance) {
 }
 
 int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns) {
-  const Call call(instance, When::On);
-  if (!call.ok()) return call.status();
-  if (elapsed_ns < 0 || elapsed_ns > kHourNs)
-    return fail(RUNG_BAD_ARGUMENT, "the elapsed time is 0 to 3600000000000 ns, not %lld",
-                static_cast<long long>(elapsed_ns));
-  if (!call->pace.hasPeriod())
-    return fail(RUNG_WRONG_STATE, "the program's schedule has no period: run it by rung_instance_scan");
-  call->pace.elapse(elapsed_ns);
-  while (!call->running.faulted() && call->pace.take()) runPart(*call, [&] { call->running.slice(); });
-  return statusOf(*call);
+  return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
+    while (!due.running.faulted() && due.pace.take()) runPart(due, [&] { due.running.slice(); });
+  });
+}
+
+int32_t rung_instance_run_due_fast(rung_instance* instance, int64_t elapsed_ns) {
+  return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
+    if (due.running.fastAhead() && due.pace.take()) runPart(due, [&] { due.running.sliceToFast(); });
+  });
 }
 
 int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {

@@ -277,6 +277,49 @@ TEST_F(Component, UnloadsBesideARunningThread) {
   }
 }
 
+// Level 1 and a part of Level 2 run in the eighth millisecond, in one function or in two.
+TEST_F(Component, TheFastTaskHasAFunctionOfItsOwn) {
+  ASSERT_EQ(loadStuck(), 0);
+  bit("run") = true;
+  const FakeHal::Function fast = hal.function("rung.fast");
+  Guard guard;
+  for (int ms = 0; ms < 8; ++ms) {
+    EXPECT_FALSE(bit("lamp"));
+    const Guarded realTime(guard);
+    fast.call(kMs);
+    hal.function("rung.scan").call(kMs);
+  }
+  EXPECT_EQ(guard.offences(), "");
+  EXPECT_TRUE(bit("lamp"));
+  EXPECT_EQ(number("scans"), 1u);
+  hal.unload();
+  expectNothingLeft();
+}
+
+// Whichever comes first.
+TEST_F(Component, FunctionsInDifferentThreadsDoNotRun) {
+  for (const char* threads : {"rung.scan", "rung.fast"}) {
+    SCOPED_TRACE(threads);
+    ASSERT_EQ(loadStuck(), 0);
+    bit("run") = true;
+    const FakeHal::Function other = hal.function(std::string(threads) == "rung.scan" ? "rung.fast" : "rung.scan");
+    hal.startThread(threads, kMs);
+    while (hal.calls() < 30) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int i = 0; i < 1000 && !(bit("fault") && !bit("lamp")); ++i) {
+      other.call(kMs);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(bit("fault"));
+    EXPECT_FALSE(bit("lamp"));
+    bit("reset") = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_TRUE(bit("fault"));
+    EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung.fast and rung.scan are in different threads")));
+    hal.unload();
+    expectNothingLeft();
+  }
+}
+
 // The thread scans while the restart is made ready.
 TEST_F(Component, RestartsBesideARunningThread) {
   ASSERT_EQ(loadStuck(path("restarts")), 0);

@@ -68,6 +68,7 @@ TEST_P(Example, IsCleanInRealTime) {
   for (const mapping::File& map : mapsOf(example, program)) {
     SCOPED_TRACE(map.paths[0]);
     EXPECT_EXIT(exitWith("box", runInBox(program, map, retain("box"))), testing::ExitedWithCode(0), "box: ");
+    EXPECT_EXIT(exitWith("apart", runFastApart(program, map)), testing::ExitedWithCode(0), "apart: ");
   }
   EXPECT_EXIT(exitWith("bare", runBare(program, retain("bare"))), testing::ExitedWithCode(0), "bare: ");
   EXPECT_EXIT(exitWith("clock", runOnClock(program, retain("clock"))), testing::ExitedWithCode(0), "clock: ");

@@ -41,6 +41,12 @@ public:
     for (size_t i = 0; i < pins_.size(); ++i)
       if (mapping::toProgram(pins_[i].direction)) toggle(pins_[i].type, values_[i]);
   }
+  // The first pin that has another value there; "" where none has.
+  std::string difference(const Pins& other) const {
+    for (size_t i = 0; i < pins_.size(); ++i)
+      if (values_[i].u32 != other.values_[i].u32) return pins_[i].name;
+    return {};
+  }
 
 private:
   void toggle(mapping::PinType type, PinValue& value) {
@@ -159,6 +165,37 @@ Outcome runInBox(const rung_program& program, mapping::File map, const std::stri
   }
   const std::string error = box->close();
   if (outcome.problem.empty()) outcome.problem = error;
+  return outcome;
+}
+
+Outcome runFastApart(const rung_program& program, const mapping::File& map) {
+  Outcome outcome;
+  std::vector<std::string> reports;
+  const std::unique_ptr<plc::Box> whole = plc::Box::make(test::adopted(program), map, reports, {}, reports);
+  const std::unique_ptr<plc::Box> apart = plc::Box::make(test::adopted(program), map, reports, {}, reports);
+  Pins wholePins(whole->pins());
+  Pins apartPins(apart->pins());
+  whole->connect(wholePins.cells());
+  apart->connect(apartPins.cells());
+  Guard guard;
+  bool reset = false;
+  for (int ms = 0; ms < kRunMs && outcome.problem.empty(); ++ms) {
+    wholePins.toggle();
+    apartPins.toggle();
+    outcome.slices += whole->step(kNsInMs, reset) == plc::StepResult::Ran ? 1 : 0;
+    {
+      const Guarded realTime(guard);
+      apart->stepFast(kNsInMs, reset);
+      apart->step(0, reset);
+    }
+    outcome.problem = inSlice(outcome.slices, guard.offences());
+    if (const std::string pin = wholePins.difference(apartPins); !pin.empty())
+      outcome.problem = inSlice(outcome.slices, "pin " + pin + " differs");
+    outcome.faults += whole->running() ? 0 : 1;
+    reset = !whole->running() && !reset;
+    whole->serve(reports);
+    apart->serve(reports);
+  }
   return outcome;
 }
 

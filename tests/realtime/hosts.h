@@ -22,6 +22,9 @@ constexpr int kRunMs = 10'000;
 
 // In LinuxCNC's component, in a thread of 1 ms, with the pins of the map.
 Outcome runInBox(const rung_program& program, mapping::File map, const std::string& retain);
+// The same with the fast task in a place of its own, beside a box that runs everything in one: pins that differ are a
+// problem.
+Outcome runFastApart(const rung_program& program, const mapping::File& map);
 // Slice by slice beside its control, as a host of its own does it.
 Outcome runBare(const rung_program& program, const std::string& retain);
 // In the loop on the machine's clock.

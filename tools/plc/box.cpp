@@ -182,23 +182,39 @@ std::string Box::close() {
 }
 
 StepResult Box::step(int64_t ns, bool reset) noexcept {
+  if (!beginStep(ns, reset)) return StepResult::Waiting;
+  const StepResult result = run(ns, &rung_instance_run_due);
+  sliceBegun_ = false;
+  return result;
+}
+
+StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
+  if (!beginStep(ns, reset)) return StepResult::Waiting;
+  const StepResult result = run(ns, &rung_instance_run_due_fast);
+  sliceBegun_ = result == StepResult::Ran;
+  return result;
+}
+
+// False: the program does not run.
+bool Box::beginStep(int64_t ns, bool reset) noexcept {
   const bool asked = reset && !wasReset_;
   wasReset_ = reset;
   orders_.take([this](Order& order) { return obey(order); });
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
-  if (state != State::Running) return StepResult::Waiting;
+  if (state != State::Running) return false;
   functions_->sample(cells_, ns);
-  return run(ns);
+  return true;
 }
 
-StepResult Box::run(int64_t ns) noexcept {
+// Functions begin where a slice does.
+StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
   const rung_state before = state();
   if (before.wait_ns <= ns) {
-    functions_->advance(cells_);
+    if (!sliceBegun_) functions_->advance(cells_);
     readPins();
   }
-  const int32_t status = rung_instance_run_due(plc_.handle(), ns);
+  const int32_t status = due(plc_.handle(), ns);
   if (status == RUNG_FAULTED) {
     clearPins();
     state_.store(State::Stopped, std::memory_order_release);

@@ -4,7 +4,10 @@
 #include <rtapi.h>
 #include <rtapi_app.h>
 
+#include <pthread.h>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -67,14 +70,22 @@ union ParameterValue {
   hal_float_t real;
 };
 
-// One program with its pins. It does not move: HAL calls its function with its address.
+enum Function : size_t { kScan, kFast };
+
+// One program with its pins. It does not move: HAL calls its functions with its address.
 struct PlcInstance {
   std::string prefix;
   std::optional<Image> image;
   std::unique_ptr<plc::Box> box;
-  StatusPins* status = nullptr;  // in HAL's memory
-  plc::PinCell* cells = nullptr; // in HAL's memory
-  std::atomic<bool> inScan{false};
+  StatusPins* status = nullptr;    // in HAL's memory
+  plc::PinCell* cells = nullptr;   // in HAL's memory
+  std::atomic<uint32_t> inside{0}; // calls of its functions under way
+  // The threads that HAL calls its functions in, 0: it has not yet. A program is one thread's: where they differ, it is
+  // apart for good, and does not run.
+  std::array<std::atomic<pthread_t>, 2> callers{};
+  std::atomic<bool> apart{false};
+  bool apartReported = false;
+  bool fastCalled = false; // since the scan before
   std::atomic<int64_t> periodNs{0};
   const std::atomic<bool>* ending = nullptr; // of the component
   std::unique_ptr<remote::Controller> controller;
@@ -245,11 +256,20 @@ bool makePins(PlcInstance& c) {
   return true;
 }
 
-void runStep(PlcInstance& c, long periodNs) {
+// The call of the scan is given the time since that of the fast task, where HAL has both.
+plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
+  const bool reset = *c.status->reset.bit;
+  const bool hasElapsed = c.fastCalled;
+  c.fastCalled = function == kFast;
+  if (function == kFast) return c.box->stepFast(periodNs, reset);
+  return c.box->step(hasElapsed ? 0 : periodNs, reset);
+}
+
+void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   // While it does not run, the box may belong to the thread that restarts it.
   if (c.box->running()) c.box->setTimeLimit(int64_t{c.status->maxTime} * kNsInUs);
-  const plc::StepResult result = c.box->step(periodNs, *c.status->reset.bit);
+  const plc::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.box->running();
   *c.status->fault.bit = !runs;
   *c.status->functionsBusy.bit = runs && c.box->functions().busy();
@@ -261,20 +281,49 @@ void runStep(PlcInstance& c, long periodNs) {
   *c.status->missed.u32 = static_cast<uint32_t>(state.missed);
 }
 
-void scan(void* argument, long periodNs) {
-  PlcInstance& c = *static_cast<PlcInstance*>(argument);
-  c.periodNs.store(periodNs, std::memory_order_relaxed);
-  c.inScan.store(true);
-  if (!c.ending->load()) runStep(c, periodNs);
-  c.inScan.store(false);
+bool isApart(PlcInstance& c, Function function) {
+  const pthread_t self = pthread_self();
+  c.callers[function].store(self);
+  const pthread_t other = c.callers[function == kScan ? kFast : kScan].load();
+  if (other != 0 && other != self) c.apart.store(true);
+  return c.apart.load();
 }
+
+void stayApart(PlcInstance& c) {
+  c.box->clearPins();
+  *c.status->fault.bit = true;
+}
+
+void call(PlcInstance& c, Function function, long periodNs) {
+  c.periodNs.store(periodNs, std::memory_order_relaxed);
+  c.inside.fetch_add(1);
+  if (!c.ending->load()) {
+    if (!isApart(c, function))
+      runStep(c, function, periodNs);
+    else if (function == kScan) // again and again: the other thread may have been about to end its call
+      stayApart(c);
+  }
+  c.inside.fetch_sub(1);
+}
+
+void scan(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argument), kScan, periodNs); }
+void fast(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argument), kFast, periodNs); }
 
 void passMessages(PlcInstance& c) {
   c.controller->passMessages(
       c.server.get(), [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); });
 }
 
+void reportApart(PlcInstance& c) {
+  if (!c.apart.load() || c.apartReported) return;
+  c.apartReported = true;
+  complain("%s: %s.fast and %s.scan are in different threads, but work on the memory of one program: it does not run. "
+           "Add both to one thread (addf), and start again\n",
+           kModule, c.prefix.c_str(), c.prefix.c_str());
+}
+
 void serveOnce(PlcInstance& c) {
+  reportApart(c);
   const auto print = [&c](const std::string& text) { complain("%s: %s\n", c.prefix.c_str(), text.c_str()); };
   if (c.controller->serveBox(c.server.get(), print)) *c.status->faultLine.u32 = c.box->faultLine();
   passMessages(c);
@@ -319,11 +368,16 @@ void serve(Component& c) {
     }
 }
 
-int exportScan(PlcInstance& c) {
-  const std::string function = c.prefix + ".scan";
-  const int result = hal_export_funct(function.c_str(), scan, &c, 1, 0, componentId);
+int exportFunction(PlcInstance& c, const char* name, void (*code)(void*, long)) {
+  const std::string function = c.prefix + "." + name;
+  const int result = hal_export_funct(function.c_str(), code, &c, 1, 0, componentId);
   if (result != 0) complain("%s: cannot make the function %s (%d)\n", kModule, function.c_str(), result);
   return result;
+}
+
+int exportFunctions(PlcInstance& c) {
+  const int result = exportFunction(c, "scan", scan);
+  return result != 0 ? result : exportFunction(c, "fast", fast);
 }
 
 int start() {
@@ -337,14 +391,14 @@ int start() {
   }
   c.service = std::thread([&c] { serve(c); });
   for (const auto& instance : c.instances)
-    if (const int result = exportScan(*instance); result != 0) return result;
+    if (const int result = exportFunctions(*instance); result != 0) return result;
   return hal_ready(componentId);
 }
 
 void waitForScans(const Component& c) {
   constexpr std::chrono::microseconds kLook(100);
   for (const auto& instance : c.instances)
-    while (instance->inScan.load()) std::this_thread::sleep_for(kLook);
+    while (instance->inside.load() != 0) std::this_thread::sleep_for(kLook);
 }
 
 // HAL takes a function out of its thread without waiting for it: from here on it does nothing, and two periods later no

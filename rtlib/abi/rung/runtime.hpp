@@ -79,6 +79,7 @@ public:
   void powerOff() { check(rung_instance_power_off(handle())); }
 
   int32_t runDue(int64_t elapsedNs) noexcept { return rung_instance_run_due(handle(), elapsedNs); }
+  int32_t runDueFast(int64_t elapsedNs) noexcept { return rung_instance_run_due_fast(handle(), elapsedNs); }
   int32_t slice() noexcept { return rung_instance_slice(handle()); }
   int32_t scan() noexcept { return rung_instance_scan(handle()); }
 

@@ -40,6 +40,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_stop(plc));
   BAD_HANDLE(rung_instance_start(plc));
   BAD_HANDLE(rung_instance_run_due(plc, 0));
+  BAD_HANDLE(rung_instance_run_due_fast(plc, 0));
   BAD_HANDLE(rung_instance_slice(plc));
   BAD_HANDLE(rung_instance_scan(plc));
   BAD_HANDLE(rung_instance_slot(plc));

@@ -110,7 +110,7 @@ private:
     case 4: return rung_instance_power_on(plc, static_cast<int32_t>(number()));
     case 5: return chance(20) ? rung_instance_power_off(plc) : rung_instance_start(plc);
     case 6: return chance(20) ? rung_instance_stop(plc) : rung_instance_start(plc);
-    case 7:
+    case 7: return rung_instance_run_due_fast(plc, time());
     case 8: return rung_instance_run_due(plc, time());
     case 9:
     case 10: return rung_instance_slice(plc);

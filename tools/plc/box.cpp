@@ -207,11 +207,11 @@ bool Box::beginStep(int64_t ns, bool reset) noexcept {
   return true;
 }
 
-// Functions begin where a slice does.
+// Functions begin where a slice does, and so do inputs.
 StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
   const rung_state before = state();
-  if (before.wait_ns <= ns) {
-    if (!sliceBegun_) functions_->advance(cells_);
+  if (before.wait_ns <= ns && !sliceBegun_) {
+    functions_->advance(cells_);
     readPins();
   }
   const int32_t status = due(plc_.handle(), ns);

@@ -189,9 +189,9 @@ RUNG_API int32_t rung_instance_start(rung_instance* instance);
 RUNG_API int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns);
 
 /* The same for a host that runs the fast task (INT0, Level 1, MODULE_FAST) in a place of its own: a slice that is due
- * runs up to the end of its fast task, and the rest of it with what is late in the next rung_instance_run_due, whose
- * `elapsed_ns` is what has passed since. Where no slice is due, or it has no fast task, nothing runs. The same thread.
- * RUNG_FAULTED. [rt] */
+ * runs up to the end of its fast task, and the rest of it, with the same inputs, and what is late in the next
+ * rung_instance_run_due, whose `elapsed_ns` is what has passed since. Where no slice is due, or it has no fast task,
+ * nothing runs. The same thread. RUNG_FAULTED. [rt] */
 RUNG_API int32_t rung_instance_run_due_fast(rung_instance* instance, int64_t elapsed_ns);
 
 /* One slice of the schedule: the clock advances to its time, and what belongs there runs (see `due_us` of rung_state).

@@ -1,5 +1,5 @@
 // The mapping file: which HAL pins there are, and which names of the PLC program they refer to. It is TOML;
-// docs/linuxcnc.md describes its tables. This is the file alone; binding.h looks the names up in a program.
+// docs/mapping-file.md describes its tables. This is the file alone; binding.h looks the names up in a program.
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
                         .description = "Runs a compiled PLC program with a mapping file on the machine's clock",
                         .exitStatus = "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 environment",
                         .guide = "docs/rung-run.md",
-                        .seeAlso = {"rungctl(1)", "rungc(1)", "rung_hal(9)"}});
+                        .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
   Options options;
   cli::Command command = app.root();
   command.option("PROGRAM", options.program, "The compiled program (.so)").required();

@@ -529,6 +529,7 @@ _FUNCTIONS = {
     "rung_instance_unsaved": (c_int32, _Handle, c_char_p, c_size_t),
     "rung_instance_profile": (c_int32, _Handle, _U32, POINTER(rung_profile)),
     "rung_instance_worst_rung": (c_int32, _Handle, POINTER(rung_profile)),
+    "rung_instance_clear_profile": (c_int32, _Handle),
     "rung_watch_new": (c_int32, _Handle, _Cells, _U32, _U32, _New),
     "rung_watch_free": (c_int32, _Handle),
     "rung_watch_newest": (c_int32, _Handle, _Values, POINTER(rung_sample)),
@@ -1078,6 +1079,10 @@ class Instance(_Closing):
         worst = rung_profile()
         status = _call(_library.rung_instance_worst_rung, self, byref(worst))
         return None if status == Status.EMPTY else worst.shown()
+
+    def clear_profile(self):
+        """Counts and times of all rungs begin anew. Errors as of profile."""
+        _call(_library.rung_instance_clear_profile, self)
 
     # -- another program --
 

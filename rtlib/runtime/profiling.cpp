@@ -41,6 +41,14 @@ int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, run
   return giveStruct(profile, profileOf(*call, index));
 }
 
+int32_t rung_instance_clear_profile(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (call->running.profile().empty()) return failProfile();
+  call->running.clearProfile();
+  return RUNG_OK;
+}
+
 int32_t rung_instance_worst_rung(const rung_instance* instance, rung_profile* profile) {
   const Call call(instance, When::Always);
   if (!call.ok()) return call.status();

@@ -36,25 +36,26 @@ run = { type = "bit", name = "X0.0" }
 [out]
 lamp = { type = "bit", name = "Y0.0" }
 [rungctl]
-allow = ["set", "force", "reload", "stop", "start", "reset"]
+allow = ["set", "force", "reload", "stop", "start", "reset", "profile"]
 never = ["X0.2"]
 """
 
 
-def build(folder):
+def build(folder, *options):
     (folder / "stuck.pmc").write_text(PROGRAM)
-    subprocess.run([BIN / "rungc", "build", "-q", folder / "stuck.pmc", "-o", folder / "stuck.so"], check=True)
+    subprocess.run([BIN / "rungc", "build", "-q", folder / "stuck.pmc", "-o", folder / "stuck.so", *options], check=True)
     return folder / "stuck.so"
 
 
 class Host(unittest.TestCase):
     map = MAP
+    build_options = ()
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.home = Path(cls.folder.name)
-        cls.program = build(cls.home)
+        cls.program = build(cls.home, *cls.build_options)
 
     @classmethod
     def tearDownClass(cls):
@@ -235,6 +236,40 @@ class Commands(Host):
         following.wait(PATIENCE)
 
 
+class Profile(Host):
+    build_options = ("--profile",)
+
+    def rows(self, *words):
+        answer = json.loads(self.ctl("profile", "--json", *words))
+        return answer, {row["line"]: row for row in answer["rungs"] if row["rung"] != 0}
+
+    def test_counts_and_times(self):
+        self.wait(lambda: self.rows()[1].get(4, {"executions": 0})["executions"] > 5)
+        answer, rows = self.rows()
+        self.assertEqual(answer["ran"], len(answer["rungs"]))
+        self.assertLessEqual(answer["ran"], answer["count"])
+        self.assertEqual(rows[4]["file"], str(self.home / "stuck.pmc"))
+        times = [row["time_ns"] for row in answer["rungs"]]
+        self.assertEqual(times, sorted(times, reverse=True))
+        self.assertAlmostEqual(sum(times), answer["time_ns"], delta=1)
+        longest = [row["max_ns"] for row in self.rows("--by", "longest")[0]["rungs"]]
+        self.assertEqual(longest, sorted(longest, reverse=True))
+        self.assertEqual(len(self.rows("--top", "1")[0]["rungs"]), 1)
+        text = self.ctl("profile", "--top", "1")
+        self.assertRegex(text, r"^  rung  executions   share    mean ns     max ns  place\n +\d+ +\d+ ")
+        self.assertRegex(text, r"\.\.\. and \d+ more\n\d+ of \d+ rungs have run\n$")
+
+    def test_reset(self):
+        self.wait(lambda: self.rows()[1].get(4, {"executions": 0})["executions"] > 200)
+        self.assertTrue(self.ctl("profile", "--reset").endswith("from now on they are counted anew\n"))
+        self.assertLess(self.rows()[1].get(4, {"executions": 0})["executions"], 150)
+        self.assertIn(": clear the profile", self.logged())
+
+    def test_wrong_words(self):
+        self.ctl("profile", "--by", "name", status=USAGE)
+        self.ctl("profile", "--top", "0", status=USAGE)
+
+
 class Rights(Host):
     map = MAP[:MAP.index("[rungctl]")]
 
@@ -245,10 +280,15 @@ class Rights(Host):
             self.assertIn(f'"{right}" is not allowed here; the mapping file allows it: [rungctl] allow = ["{right}"]',
                           self.ctl(*words, status=WRONG))
         self.ctl("status")
+        self.assertIn("build it with rungc build --profile", self.ctl("profile", status=WRONG))
         self.assertEqual(self.ctl("get", "D8:2"), "D8:2 = 0\n")
         self.ctl("map")
         self.ctl("messages")
         self.ctl("forced")
+        made, lines = self.connect()
+        lines.readline()
+        made.sendall(b'{"do":"clear-profile"}\n')
+        self.assertIn('"profile" is not allowed here', json.loads(lines.readline())["error"])
 
 
 class Protected(Host):
@@ -289,7 +329,9 @@ class Protocol(Host):
                             ('{"do":"get","names":[]}', 'found no list "names" of 1 to 256 texts in the request, expected one'),
                             ('{"do":"set","name":"D8:2"}', 'found no "value" in the request, expected one'),
                             ('{"do":"messages","follow":1}', 'found no true or false for "follow", expected one of them'),
-                            ('{"do":"reload","program":"x.so"}', "found the path x.so, expected an absolute one")):
+                            ('{"do":"reload","program":"x.so"}', "found the path x.so, expected an absolute one"),
+                            ('{"do":"profile","top":0}', 'found 0 for "top", expected a number from 1 to 10000'),
+                            ('{"do":"profile","by":5}', 'found 5 for "by", expected "time" or "longest"')):
             answer = self.ask(connection, text)
             self.assertEqual((answer["ok"], answer["error"]), (False, error), text)
         answer = self.ask(connection, '{"do":"status","id":[1,"a"]}')
@@ -302,7 +344,7 @@ class Protocol(Host):
         good = ['{"do":"status","id":1}', '{"do":"get","names":["X0.0","D8:2"]}', '{"do":"watch","names":["D8:2"],"all":false}',
                 '{"do":"set","name":"D8:2","value":-5}', '{"do":"force","name":"X0.3","value":true}', '{"do":"forced"}',
                 '{"do":"unforce","all":true}', '{"do":"reload","program":"/dev/zero","yes":true}', '{"do":"messages"}',
-                '{"do":"map"}', '{"do":"shadow","program":"/x","passes":5}', '{"do":"compared"}',
+                '{"do":"map"}', '{"do":"profile","top":5,"by":"longest"}', '{"do":"clear-profile"}', '{"do":"shadow","program":"/x","passes":5}', '{"do":"compared"}',
                 '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
         words = sorted({word for line in good for word in re.findall(r'"[^"]*"|-?\d+|true|false|[{}:,\[\]]', line)} | {"null", "1.5", '""'})
         made, lines = self.connect()

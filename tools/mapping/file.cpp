@@ -412,8 +412,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
 };
 
 const Reader::Key<File> Reader::kRemoteKeys[] = {
-    {"allow", false, "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\" and \"reset\"", "allow = [\"set\"]",
-     &Reader::takeAllowed},
+    {"allow", false, "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\" and \"profile\"",
+     "allow = [\"set\"]", &Reader::takeAllowed},
     {"never", false, "a list of names of the program", "never = [\"X0.0\"]", &Reader::takeNever},
 };
 

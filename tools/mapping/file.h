@@ -89,8 +89,9 @@ struct Group {
 };
 
 // rungctl: what may be done from outside while the program runs.
-enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset };
-inline constexpr std::string_view kRemoteNames[] = {"set", "force", "reload", "start", "stop", "reset"}; // by Remote
+enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile };
+inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload", "start",
+                                                    "stop", "reset", "profile"}; // by Remote
 
 // rungctl: a cell that is neither set nor forced.
 struct Protected {

@@ -35,6 +35,18 @@ Value bitsOf(const std::vector<uint32_t>& pins, const PinCell* cells) noexcept {
   return value;
 }
 
+int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
+  const uint32_t wanted = std::exchange(order.count, 0);
+  int32_t status = RUNG_OK;
+  while (order.count < wanted && status == RUNG_OK) {
+    rung_profile& profile = order.profiles[order.count];
+    profile.size = sizeof profile;
+    status = rung_instance_profile(plc, order.index + order.count, &profile);
+    if (status == RUNG_OK) ++order.count;
+  }
+  return status;
+}
+
 void setPin(mapping::PinType type, const PinCell& cell, const Value& value) noexcept {
   switch (type) {
   case mapping::PinType::Bit: *cell.bit = value.bit; return;
@@ -294,6 +306,8 @@ int32_t Box::obeyRunning(Order& order) noexcept {
   case Order::Kind::Shadow: return rung_instance_shadow(plc, order.shadow);
   case Order::Kind::Stop: return rung_instance_stop(plc);
   case Order::Kind::Start: return rung_instance_start(plc);
+  case Order::Kind::Profile: return readProfile(plc, order);
+  case Order::Kind::ClearProfile: return rung_instance_clear_profile(plc);
   case Order::Kind::Restart: break; // obey
   }
   return RUNG_EMPTY;

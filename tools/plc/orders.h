@@ -22,14 +22,19 @@ struct Order {
     Stop,
     Start,
     Restart, // after a fault
+    Profile, // the counters of the rungs from `index` on, `count` of them at most, into `profiles`; `count`: of how
+             // many
+    ClearProfile,
   };
   Kind kind = Kind::State;
   rung_cell cell = 0;
   rung_value value{};
   uint32_t index = 0;
+  uint32_t count = 0;
   rung_forces* forces = nullptr;
   rung_replacement* replacement = nullptr;
   rung_shadow* shadow = nullptr;
+  rung_profile* profiles = nullptr; // of whoever gives the order
   // Results.
   rung_value former{};
   rung_state state{};

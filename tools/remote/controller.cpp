@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rung/types.hpp"
+#include "tools/remote/profile.h"
 #include "tools/remote/values.h"
 
 namespace rung::remote {
@@ -111,6 +112,8 @@ const Controller::Command Controller::kCommands[] = {
     {"get", std::nullopt, &Controller::get},
     {"watch", std::nullopt, &Controller::watch},
     {"map", std::nullopt, &Controller::map},
+    {"profile", std::nullopt, &Controller::profile},
+    {"clear-profile", mapping::Remote::Profile, &Controller::clearProfile},
     {"set", mapping::Remote::Set, &Controller::set},
     {"force", mapping::Remote::Force, &Controller::force},
     {"unforce", mapping::Remote::Force, &Controller::unforce},
@@ -294,6 +297,12 @@ json Controller::map(const Peer&, const json&) {
   json never = json::array();
   for (const mapping::Protected& cell : map.never) never.push_back(cell.name);
   return {{"files", map.paths}, {"pins", pins}, {"allow", allowed}, {"never", never}};
+}
+
+json Controller::profile(const Peer&, const json& request) { return profileOf(box_, request); }
+
+json Controller::clearProfile(const Peer& peer, const json&) {
+  return simple(Order::Kind::ClearProfile, peer, "clear the profile");
 }
 
 // ---- changing ------------------------------------------------------------------------------------------------------

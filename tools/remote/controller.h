@@ -71,6 +71,8 @@ private:
   nlohmann::json start(const Peer& peer, const nlohmann::json& request);
   nlohmann::json reset(const Peer& peer, const nlohmann::json& request);
   nlohmann::json map(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json profile(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json clearProfile(const Peer& peer, const nlohmann::json& request);
 
   struct Found {
     rung_cell cell = 0;

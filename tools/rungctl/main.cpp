@@ -48,6 +48,9 @@ struct Words {
   unsigned shadow = 0; // passes
   bool yes = false;
   bool late = false;
+  unsigned top = 20;
+  std::string by = "time";
+  bool reset = false;
 };
 
 int fail(const std::string& text, int status = cli::kWrong) {
@@ -245,6 +248,35 @@ int map(Client& client, const Words& words) {
   return cli::kOk;
 }
 
+std::string placeOf(const json& rung) {
+  const std::string title = shown(rung["title"]);
+  const std::string file = shown(rung["file"]);
+  const std::string place = file.empty() ? "added by the compiler" : fmt::format("{}:{}", file, rung["line"].dump());
+  return title.empty() ? place : place + "  " + title;
+}
+
+std::string profileText(const json& answer) {
+  const double whole = answer["time_ns"].get<double>();
+  std::string text = "  rung  executions   share    mean ns     max ns  place\n";
+  for (const json& rung : answer["rungs"]) {
+    const double time = rung["time_ns"].get<double>();
+    const auto executions = rung["executions"].get<uint64_t>();
+    text += fmt::format("{:>6} {:>11} {:>6.1f}% {:>10.1f} {:>10.1f}  {}\n", rung["rung"].dump(), executions,
+                        whole > 0 ? 100 * time / whole : 0, time / static_cast<double>(executions),
+                        rung["max_ns"].get<double>(), placeOf(rung));
+  }
+  const size_t ran = answer["ran"].get<size_t>();
+  if (ran > answer["rungs"].size()) text += fmt::format("  ... and {} more\n", ran - answer["rungs"].size());
+  return text + fmt::format("{} of {} rungs have run\n", ran, answer["count"].dump());
+}
+
+int profile(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "profile"}, {"top", words.top}, {"by", words.by}});
+  if (words.reset) asked(client, {{"do", "clear-profile"}});
+  print(words, answer, profileText(answer) + (words.reset ? "from now on they are counted anew\n" : ""));
+  return cli::kOk;
+}
+
 int hosts(const Words& words) {
   const std::vector<std::string> names = remote::hostsOf(geteuid());
   std::string text;
@@ -350,6 +382,16 @@ void addAll(Commands& commands) {
   commands.add("reset", "Restart a program that a fault has stopped", none,
                [](Client& client, const Words& words) { return simple(client, words, "reset", "restarted"); });
   commands.add("map", "Show the pins of the mapping file", none, map);
+  commands.add(
+      "profile", "Show what the rungs of a program built with --profile cost",
+      [](cli::Command& command, Words& words) {
+        command.option("--by", words.by, "Order: all the time that a rung took, or its longest run")
+            .oneOf({"time", "longest"})
+            .showDefault();
+        command.option("--top", words.top, "Rungs in the table").between(1u, 10000u).showDefault();
+        command.flag("--reset", words.reset, "Then count and time anew");
+      },
+      profile);
 }
 
 } // namespace

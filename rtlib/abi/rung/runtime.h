@@ -459,12 +459,15 @@ typedef struct rung_profile {
   double max_ns;
 } rung_profile;
 
-/* Of the index-th rung of the program's tables, since the power-on. RUNG_EMPTY: there are not so many;
- * RUNG_WRONG_STATE: the program was not built for it (rungc build --profile). */
+/* Of the index-th rung of the program's tables, since the power-on or rung_instance_clear_profile. RUNG_EMPTY: there are
+ * not so many; RUNG_WRONG_STATE: the program was not built for it (rungc build --profile). [rt] */
 RUNG_API int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, rung_profile* profile);
 
 /* The rung whose longest run took longest. RUNG_EMPTY: none has run. */
 RUNG_API int32_t rung_instance_worst_rung(const rung_instance* instance, rung_profile* profile);
+
+/* Counts and times of all rungs begin anew. RUNG_WRONG_STATE as above. [rt] */
+RUNG_API int32_t rung_instance_clear_profile(rung_instance* instance);
 
 /* ---- watching --------------------------------------------------------------------------------------------------- */
 

@@ -159,6 +159,7 @@ public:
     auto out = sized<rung_profile>();
     return check(rung_instance_worst_rung(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
   }
+  void clearProfile() { check(rung_instance_clear_profile(handle())); }
 
 private:
   template <class T>

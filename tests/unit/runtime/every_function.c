@@ -73,6 +73,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_unsaved(plc, text, sizeof text));
   BAD_HANDLE(rung_instance_profile(plc, 0, &profile));
   BAD_HANDLE(rung_instance_worst_rung(plc, &profile));
+  BAD_HANDLE(rung_instance_clear_profile(plc));
   BAD_HANDLE(rung_instance_replace(plc, NULL));
 }
 

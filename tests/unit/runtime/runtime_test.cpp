@@ -961,6 +961,8 @@ TEST_F(Runtime, RungsAreProfiled) {
   auto profile = rung::sized<rung_profile>();
   EXPECT_EQ(rung_instance_profile(plc.handle(), 0, &profile), RUNG_OK);
   EXPECT_EQ(rung_instance_profile(plc.handle(), 1, &profile), RUNG_EMPTY);
+  plc.clearProfile();
+  EXPECT_EQ(statusOf([&] { plain.clearProfile(); }), RUNG_WRONG_STATE);
 }
 
 TEST_F(Runtime, TimesOfPasses) {

@@ -38,6 +38,14 @@ class Map(unittest.TestCase):
                 self.expect(done, OK, done.stdout)
                 self.expect(self.map(f"examples/{name}", "--template"), OK, text)
 
+    def test_signals_have_the_direction_of_the_nc_interface(self):
+        """NCT's memory is both sides'; what its outputs are, the table of signals says, also where rungs read them."""
+        text = self.map("tests/cnc/handshake.lad", "--template").stdout
+        inputs, outputs = text.split("[out]")
+        self.assertIn('estop-ok = { type = "bit", name = "ESTOP_OK" }', inputs)
+        self.assertIn('\nenable = { type = "bit", name = "ENABLE" } # to the CNC: 0 stops\n', outputs)
+        self.assertIn('\ncp-m1ack = { type = "bit", name = "CP_M1ACK" }', outputs)
+
     def test_pins_of_a_template_have_the_comments_of_the_program(self):
         text = self.map("examples/gsk-mill", "--template").stdout
         self.assertIn('lube-level = { type = "bit", name = "LUBE_LEVEL" } # oil level is good\n', text)

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/nc/signals.h"
 #include "tools/mapping/file.h"
 
 namespace rung::mapping {
@@ -54,16 +55,35 @@ std::string inToml(std::string_view text) {
   return made + '"';
 }
 
+constexpr uint64_t kBitsInByte = 8;
+
+uint64_t firstBit(const rung_cell_info& info) {
+  return info.byte * kBitsInByte + (info.type == RUNG_TYPE_BIT ? info.bit : 0);
+}
+
+uint64_t bitsOf(uint32_t type) {
+  switch (type) {
+  case RUNG_TYPE_BIT: return 1;
+  case RUNG_TYPE_I8: return 8;
+  case RUNG_TYPE_I16: return 16;
+  case RUNG_TYPE_I32: return 32;
+  default: return 64;
+  }
+}
+
 class Template {
 public:
-  Template(rung_instance* instance, const rung_program& program) : instance_(instance), program_(program) {}
+  Template(rung_instance* instance, const rung_program& program) : instance_(instance), program_(program) {
+    if (const nc::SignalTable* signals = nc::signalsOf(program.dialect))
+      for (const nc::Signal& signal : *signals) addSignal(signal);
+  }
 
   void add(const UsedName& used) {
     rung_cell_info info{};
-    const bool writable = find(used.name, RUNG_WRITE, info);
-    if (!writable && !find(used.name, RUNG_READ, info)) return;
+    const bool writable = find(used.name, RUNG_WRITE, info); // perhaps of another place, which the NC writes
+    if (!find(used.name, RUNG_READ, info)) return;
     if (info.space == RUNG_NONE || info.type == RUNG_TYPE_TEXT || info.count != 1) return;
-    const uint32_t flags = program_.spaces[info.space].flags;
+    const uint32_t flags = sidesOf(info);
     constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
     const bool input = (flags & kBoth) == RUNG_SPACE_INPUT || ((flags & kBoth) != RUNG_SPACE_OUTPUT && !used.written);
     const bool output = (flags & kBoth) == RUNG_SPACE_OUTPUT || (!input && !used.read);
@@ -90,6 +110,30 @@ public:
   }
 
 private:
+  // Bits of a space that the table of the NC's signals has.
+  struct SignalPlace {
+    uint32_t space;
+    uint64_t first;
+    uint64_t end;
+    uint32_t side; // enum rung_space_flags
+  };
+
+  void addSignal(const nc::Signal& signal) {
+    rung_cell_info info{};
+    if (signal.direction == nc::Direction::InOut || !find(signal.symbol, RUNG_READ, info)) return;
+    const uint64_t first = firstBit(info);
+    signals_.push_back({info.space, first, first + bitsOf(info.type) * info.count,
+                        signal.direction == nc::Direction::In ? RUNG_SPACE_INPUT : RUNG_SPACE_OUTPUT});
+  }
+
+  // Whose the cell is: a signal's direction says more than the memory that it lies in.
+  uint32_t sidesOf(const rung_cell_info& info) const {
+    const uint64_t first = firstBit(info);
+    for (const SignalPlace& place : signals_)
+      if (place.space == info.space && place.first <= first && first < place.end) return place.side;
+    return program_.spaces[info.space].flags;
+  }
+
   bool find(const std::string& name, int32_t access, rung_cell_info& info) const {
     rung_cell cell = 0;
     info = {};
@@ -141,6 +185,7 @@ private:
   rung_instance* instance_;
   const rung_program& program_;
   std::set<std::string> pins_;
+  std::vector<SignalPlace> signals_;
   std::vector<Row> inputs_, outputs_, others_;
 };
 

@@ -136,6 +136,19 @@ TEST_F(Component, ScansBetweenItsPins) {
   expectNothingLeft();
 }
 
+TEST_F(Component, FillsTheCellsOfItsPins) {
+  ASSERT_EQ(loadStuck(), 0);
+  bit("run") = true;
+  volatile uint64_t& scans = hal.value<uint64_t>("rung.scans");
+  volatile uint64_t& lamp = hal.value<uint64_t>("rung.lamp");
+  scans = ~uint64_t{0};
+  lamp = ~uint64_t{0};
+  scan(8);
+  EXPECT_EQ(scans, FakeHal::hasReferences() ? 1 : 0xffff'ffff'0000'0001);
+  EXPECT_EQ(lamp, FakeHal::hasReferences() ? 1 : 0xffff'ffff'ffff'ff01);
+  hal.unload();
+}
+
 TEST_F(Component, AFaultIsReportedAndResetRestarts) {
   ASSERT_EQ(loadStuck(), 0);
   bit("run") = true;

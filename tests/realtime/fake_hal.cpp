@@ -1,7 +1,6 @@
 // See fake_hal.h.
 #include "tests/realtime/fake_hal.h"
 
-#include <hal.h>
 #include <rtapi.h>
 
 #include <algorithm>
@@ -11,6 +10,9 @@
 #include <cstdio>
 #include <ctime>
 #include <sstream>
+#include <type_traits>
+
+#include "tools/rung-hal/hal_api.h"
 
 // The component, and where it keeps its parameters, as RTAPI finds them.
 extern "C" {
@@ -31,6 +33,8 @@ constexpr int kComponent = 7;
 } // namespace
 
 FakeHal* FakeHal::hal_ = nullptr;
+
+bool FakeHal::hasReferences() { return RUNG_HAL_REFERENCES != 0; }
 
 FakeHal::FakeHal() { hal_ = this; }
 
@@ -137,12 +141,95 @@ void FakeHal::print(const char* format, va_list arguments) {
 
 using rung::test::FakeHal;
 
+namespace {
+
+#if RUNG_HAL_REFERENCES
+void fill(void* place, rtapi_bool value) { hal_set_bool(static_cast<hal_bool_t>(place), value); }
+void fill(void* place, rtapi_s32 value) { hal_set_si32(static_cast<hal_sint_t>(place), value); }
+void fill(void* place, rtapi_u32 value) { hal_set_ui32(static_cast<hal_uint_t>(place), value); }
+void fill(void* place, rtapi_real value) { hal_set_real(static_cast<hal_real_t>(place), value); }
+
+template <class Reference, class Value>
+int newReference(Reference* cell, Value start, const char* format, va_list arguments) {
+  std::array<char, HAL_NAME_LEN + 2> name{}; // one too long is noticed
+  std::vsnprintf(name.data(), name.size(), format, arguments);
+  void* const place = FakeHal::the().addPin(name.data(), std::is_same_v<Value, rtapi_bool>);
+  if (place == nullptr) return -EINVAL;
+  fill(place, start);
+  *cell = static_cast<Reference>(place);
+  return 0;
+}
+#endif
+
+} // namespace
+
 extern "C" {
 
 int hal_init(const char*) { return FakeHal::the().begin(); }
 int hal_exit(int component) { return FakeHal::the().end(component); }
 int hal_ready(int) { return FakeHal::the().fails() ? -EINVAL : 0; }
 void* hal_malloc(long size) { return FakeHal::the().allocate(size); }
+
+#if RUNG_HAL_REFERENCES
+
+int hal_pin_new_bool(int, hal_pdir_t, hal_bool_t* cell, rtapi_bool start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_pin_new_si32(int, hal_pdir_t, hal_sint_t* cell, rtapi_s32 start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_pin_new_ui32(int, hal_pdir_t, hal_uint_t* cell, rtapi_u32 start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_pin_new_real(int, hal_pdir_t, hal_real_t* cell, rtapi_real start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_param_new_bool(int, hal_pdir_t, hal_bool_t* cell, rtapi_bool start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_param_new_si32(int, hal_pdir_t, hal_sint_t* cell, rtapi_s32 start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_param_new_ui32(int, hal_pdir_t, hal_uint_t* cell, rtapi_u32 start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+int hal_param_new_real(int, hal_pdir_t, hal_real_t* cell, rtapi_real start, const char* format, ...) {
+  va_list name;
+  va_start(name, format);
+  const int result = newReference(cell, start, format, name);
+  va_end(name);
+  return result;
+}
+
+#else
 
 int hal_pin_new(const char* name, hal_type_t type, hal_pin_dir_t, void** cell, int) {
   void* const value = FakeHal::the().addPin(name, type == HAL_BIT);
@@ -163,6 +250,8 @@ int hal_param_u32_new(const char* name, hal_param_dir_t, hal_u32_t* value, int) 
 int hal_param_float_new(const char* name, hal_param_dir_t, hal_float_t* value, int) {
   return FakeHal::the().addValue(name, const_cast<double*>(value), false);
 }
+
+#endif
 
 int hal_export_funct(const char* name, void (*code)(void*, long), void* argument, int, int, int) {
   return FakeHal::the().addFunction(name, {code, argument});

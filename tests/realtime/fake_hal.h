@@ -26,6 +26,8 @@ public:
            const std::string& prefix = {});
   void unload(); // and waits for the thread, which HAL does not
 
+  // Pins are references to cells of 64 bits (see hal_api.h), and not pointers to variables.
+  static bool hasReferences();
   // Of a pin or parameter that is there.
   template <class T>
   volatile T& value(const std::string& name) {

@@ -9,16 +9,6 @@
 namespace rung::plc {
 namespace {
 
-Value valueOf(mapping::PinType type, const PinCell& cell) noexcept {
-  switch (type) {
-  case mapping::PinType::Bit: return {.bit = *cell.bit};
-  case mapping::PinType::S32: return {.s32 = *cell.s32};
-  case mapping::PinType::U32: return {.u32 = *cell.u32};
-  case mapping::PinType::Float: return {.real = *cell.real};
-  }
-  return {};
-}
-
 Value constant(mapping::PinType type, double value) noexcept {
   switch (type) {
   case mapping::PinType::Bit: return {.bit = value != 0};
@@ -29,9 +19,9 @@ Value constant(mapping::PinType type, double value) noexcept {
   return {};
 }
 
-Value bitsOf(const std::vector<uint32_t>& pins, const PinCell* cells) noexcept {
+Value bitsOf(const std::vector<uint32_t>& numbers, const Pins& pins) noexcept {
   Value value{.u32 = 0};
-  for (size_t i = 0; i < pins.size(); ++i) value.u32 |= uint32_t{*cells[pins[i]].bit} << i;
+  for (size_t i = 0; i < numbers.size(); ++i) value.u32 |= uint32_t{pins[numbers[i]].bit} << i;
   return value;
 }
 
@@ -47,20 +37,11 @@ int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
   return status;
 }
 
-void setPin(mapping::PinType type, const PinCell& cell, const Value& value) noexcept {
-  switch (type) {
-  case mapping::PinType::Bit: *cell.bit = value.bit; return;
-  case mapping::PinType::S32: *cell.s32 = value.s32; return;
-  case mapping::PinType::U32: *cell.u32 = value.u32; return;
-  case mapping::PinType::Float: *cell.real = value.real; return;
-  }
-}
-
 } // namespace
 
 Box::Box(const Image& image, mapping::File map, const std::string& retain)
     : map_(std::move(map)), options_{.size = sizeof options_, .user = this, .log = &Box::log}, plc_(image, &options_),
-      kept_(!retain.empty()) {
+      kept_(!retain.empty()), pins_(map_.pins) {
   if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
 }
 
@@ -124,8 +105,9 @@ void Box::bind(const Link& link, Value& value, rung_direction direction, double 
 bool Box::start(std::vector<std::string>& reports) {
   const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
   if (status < RUNG_OK) reports.emplace_back(rung_error_text());
-  const bool first = cells_ == nullptr;
+  const bool first = !pins_.connected();
   for (const size_t link : toProgram_) beginWith(link, first);
+  if (!first) pins_.write();
   return status >= RUNG_OK;
 }
 
@@ -139,7 +121,7 @@ void Box::beginWith(size_t index, bool first) noexcept {
     values_[index] = valueInProgram(link);
   else
     return;
-  if (cells_ != nullptr) setPins(link, values_[index]);
+  if (!first) setPins(link, values_[index]);
 }
 
 Value Box::valueInProgram(const mapping::PinLink& link) noexcept {
@@ -157,11 +139,12 @@ Value Box::valueInProgram(const mapping::PinLink& link) noexcept {
   return {.real = real / link.scale};
 }
 
-void Box::connect(const PinCell* cells) noexcept {
-  cells_ = cells;
+void Box::connect(const PinCell* cells, const PinAccess& access) noexcept {
+  pins_.connect(cells, access);
   clearPins();
   for (const size_t i : toProgram_)
     if (binding_.links[i].direction != mapping::Direction::In) setPins(binding_.links[i], values_[i]);
+  pins_.write();
 }
 
 bool Box::serve(std::vector<std::string>& reports) {
@@ -189,7 +172,7 @@ std::string Box::close() {
   std::string error;
   const int32_t status = rung_instance_power_off(plc_.handle());
   if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // it may be off
-  if (cells_ != nullptr) clearPins();
+  if (pins_.connected()) clearPins();
   return error;
 }
 
@@ -215,7 +198,8 @@ bool Box::beginStep(int64_t ns, bool reset) noexcept {
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
   if (state != State::Running) return false;
-  functions_->sample(cells_, ns);
+  pins_.read();
+  functions_->sample(pins_, ns);
   return true;
 }
 
@@ -223,7 +207,7 @@ bool Box::beginStep(int64_t ns, bool reset) noexcept {
 StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
   const rung_state before = state();
   if (before.wait_ns <= ns && !sliceBegun_) {
-    functions_->advance(cells_);
+    functions_->advance(pins_);
     readPins();
   }
   const int32_t status = due(plc_.handle(), ns);
@@ -232,9 +216,10 @@ StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcep
     state_.store(State::Stopped, std::memory_order_release);
     return StepResult::Failed;
   }
-  if (before.wait_ns > ns) return StepResult::Waiting;
-  writePins();
-  return StepResult::Ran;
+  const bool wasDue = before.wait_ns <= ns;
+  if (wasDue) writePins();
+  pins_.write();
+  return wasDue ? StepResult::Ran : StepResult::Waiting;
 }
 
 rung_state Box::state() const noexcept {
@@ -253,7 +238,7 @@ std::optional<rung_fault_info> Box::fault() const noexcept {
 void Box::readPins() noexcept {
   for (const size_t i : toProgram_) {
     const mapping::PinLink& link = binding_.links[i];
-    values_[i] = link.bits.empty() ? valueOf(link.type, cells_[link.pin]) : bitsOf(link.bits, cells_);
+    values_[i] = link.bits.empty() ? pins_[link.pin] : bitsOf(link.bits, pins_);
   }
 }
 
@@ -262,15 +247,16 @@ void Box::writePins() noexcept {
 }
 
 void Box::setPins(const mapping::PinLink& link, const Value& value) noexcept {
-  if (link.bits.empty()) return setPin(link.type, cells_[link.pin], value);
-  for (size_t bit = 0; bit < link.bits.size(); ++bit) *cells_[link.bits[bit]].bit = (value.u32 >> bit & 1) != 0;
+  if (link.bits.empty()) return pins_.set(link.pin, value);
+  for (size_t bit = 0; bit < link.bits.size(); ++bit) pins_.set(link.bits[bit], {.bit = (value.u32 >> bit & 1) != 0});
 }
 
 void Box::clearPins() noexcept {
-  for (size_t i = 0; i < map_.pins.size(); ++i) {
+  for (uint32_t i = 0; i < map_.pins.size(); ++i) {
     const mapping::Pin& pin = map_.pins[i];
-    if (mapping::fromProgram(pin.direction) && !pin.holds) setPin(pin.type, cells_[i], constant(pin.type, pin.safe));
+    if (mapping::fromProgram(pin.direction) && !pin.holds) pins_.set(i, constant(pin.type, pin.safe));
   }
+  pins_.write();
 }
 
 bool Box::nextMessage(rung_message_info& message) const noexcept {

@@ -16,6 +16,7 @@
 #include "tools/plc/function_queue.h"
 #include "tools/plc/orders.h"
 #include "tools/plc/pin_cell.h"
+#include "tools/plc/pins.h"
 
 namespace rung::plc {
 
@@ -23,14 +24,6 @@ enum class StepResult : uint8_t {
   Waiting, // no part of the schedule was due, or the program has stopped
   Ran,
   Failed, // a fault has stopped the program in this step
-};
-
-// A value of a pin, or of a constant.
-union Value {
-  bool bit;
-  int32_t s32;
-  uint32_t u32;
-  double real = 0;
 };
 
 class Box {
@@ -45,7 +38,7 @@ public:
 
   const std::vector<mapping::Pin>& pins() const { return map_.pins; }
   // As many cells as there are pins, in their order; they outlive the box. They get the values that they begin with.
-  void connect(const PinCell* cells) noexcept;
+  void connect(const PinCell* cells, const PinAccess& access = kVariables) noexcept;
 
   // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
   // runs nothing only watches for edges. After a fault all output pins have their safe values, until `reset` rises and
@@ -113,7 +106,7 @@ private:
   std::vector<Value> values_, constants_;       // bound to the program; by binding_
   std::vector<size_t> toProgram_, fromProgram_; // links
   std::unique_ptr<FunctionQueue> functions_;    // once the map is bound
-  const PinCell* cells_ = nullptr;
+  Pins pins_;
   OrderSlot orders_;
   bool wasReset_ = false;
   bool sliceBegun_ = false; // by `stepFast`

@@ -19,7 +19,7 @@ void FunctionQueue::restart() noexcept {
   for (size_t i = 0; i < aborts_.size(); ++i) wasAborted_[i] = !aborts_[i].rising;
 }
 
-void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {
+void FunctionQueue::sample(Pins& pins, int64_t ns) noexcept {
   late_ = false;
   for (uint32_t i = 0; i < count_; ++i) {
     calls_[i].ageNs += ns;
@@ -34,7 +34,7 @@ void FunctionQueue::sample(const PinCell* pins, int64_t ns) noexcept {
   for (uint32_t i = 0; i < sends_.size(); ++i) {
     const mapping::Send& send = sends_[i];
     const bool now = triggered(send.edge, pins);
-    const int32_t code = send.codePin ? *pins[*send.codePin].s32 : send.code;
+    const int32_t code = send.codePin ? pins[*send.codePin].s32 : send.code;
     if (!now) withdraw(i, pins);
     if (now && !wasTriggered_[i]) queue({.send = i, .code = static_cast<uint32_t>(code)});
     wasTriggered_[i] = now;
@@ -50,10 +50,10 @@ void FunctionQueue::queue(Call call) noexcept {
 }
 
 // The function itself is carried out all the same.
-void FunctionQueue::withdraw(uint32_t send, const PinCell* pins) noexcept {
+void FunctionQueue::withdraw(uint32_t send, Pins& pins) noexcept {
   for (uint32_t i = 0; i < count_; ++i)
     if (calls_[i].send == send) calls_[i].wanted = false;
-  if (const auto& done = sends_[send].donePin) *pins[*done].bit = false;
+  if (const auto& done = sends_[send].donePin) pins.set(*done, {.bit = false});
 }
 
 void FunctionQueue::abort() noexcept {
@@ -62,7 +62,7 @@ void FunctionQueue::abort() noexcept {
   for (uint32_t channel = 0; channel < channels_; ++channel) rung_instance_abort_functions(instance_, channel);
 }
 
-void FunctionQueue::advance(const PinCell* pins) noexcept {
+void FunctionQueue::advance(Pins& pins) noexcept {
   if (count_ == 0) return;
   const auto first = calls_.begin();
   const auto kept = std::remove_if(first, first + count_, [&](const Call& call) { return finish(call, pins); });
@@ -84,10 +84,10 @@ void FunctionQueue::start(uint32_t index) noexcept {
 }
 
 // The acknowledge is for a cause that is still there, and not for a later one on the same pin.
-bool FunctionQueue::finish(const Call& call, const PinCell* pins) const noexcept {
+bool FunctionQueue::finish(const Call& call, Pins& pins) const noexcept {
   const mapping::Send& send = sends_[call.send];
   if (!call.line || rung_instance_function_done(instance_, send.channel, *call.line) != RUNG_OK) return false;
-  if (send.donePin && call.wanted) *pins[*send.donePin].bit = true;
+  if (send.donePin && call.wanted) pins.set(*send.donePin, {.bit = true});
   return true;
 }
 

@@ -11,7 +11,7 @@
 
 #include "rung/runtime.h"
 #include "tools/mapping/file.h"
-#include "tools/plc/pin_cell.h"
+#include "tools/plc/pins.h"
 
 namespace rung::plc {
 
@@ -24,9 +24,9 @@ public:
 
   // In every call of the scan function: notices edges, and an abort, which empties the queue and ends what the program
   // was doing. `ns`: time since the last call.
-  void sample(const PinCell* pins, int64_t ns) noexcept;
+  void sample(Pins& pins, int64_t ns) noexcept;
   // Before every slice of the program.
-  void advance(const PinCell* pins) noexcept;
+  void advance(Pins& pins) noexcept;
 
   // The program is switched on anew. All pins count as 0 before, as at the first start: what is on already is an edge.
   void restart() noexcept;
@@ -47,13 +47,13 @@ private:
     std::optional<uint32_t> line; // of the handshake, once it has begun
   };
 
-  bool triggered(const mapping::Edge& edge, const PinCell* pins) const noexcept {
-    return *pins[edge.pin].bit == edge.rising;
+  bool triggered(const mapping::Edge& edge, const Pins& pins) const noexcept {
+    return pins[edge.pin].bit == edge.rising;
   }
   void queue(Call call) noexcept;
-  void withdraw(uint32_t send, const PinCell* pins) noexcept;
+  void withdraw(uint32_t send, Pins& pins) noexcept;
   void abort() noexcept;
-  bool finish(const Call& call, const PinCell* pins) const noexcept;
+  bool finish(const Call& call, Pins& pins) const noexcept;
   void start(uint32_t index) noexcept;
 
   rung_instance* instance_;

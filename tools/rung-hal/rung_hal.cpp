@@ -1,6 +1,5 @@
 // The LinuxCNC real-time component: loads compiled PLC programs and their mapping files, makes the HAL pins, and scans
 // in the threads that the functions are added to. docs/linuxcnc.md is the user's description.
-#include <hal.h>
 #include <rtapi.h>
 #include <rtapi_app.h>
 
@@ -21,6 +20,7 @@
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
 #include "tools/remote/server.h"
+#include "tools/rung-hal/hal_api.h"
 #include "tools/rung-hal/user_rights.h"
 
 namespace {
@@ -58,16 +58,8 @@ struct StatusPins {
   plc::PinCell functionsBusy;
   plc::PinCell functionsTimeout;
   plc::PinCell functionsLost;
-  plc::PinCell reset; // of HAL: restarts the program after a fault
-  hal_u32_t maxTime;  // parameter: microseconds that the program may run in one call; 0: its budgets alone count
-};
-
-// What a parameter's cell points to.
-union ParameterValue {
-  hal_bit_t bit;
-  hal_s32_t s32;
-  hal_u32_t u32;
-  hal_float_t real;
+  plc::PinCell reset;   // of HAL: restarts the program after a fault
+  plc::PinCell maxTime; // parameter: microseconds that the program may run in one call; 0: its budgets alone count
 };
 
 enum Function : size_t { kScan, kFast };
@@ -184,51 +176,28 @@ bool loadPrograms(Component& c) {
   return ok;
 }
 
-hal_type_t halType(mapping::PinType type) {
-  switch (type) {
-  case mapping::PinType::Bit: return HAL_BIT;
-  case mapping::PinType::S32: return HAL_S32;
-  case mapping::PinType::U32: return HAL_U32;
-  case mapping::PinType::Float: return HAL_FLOAT;
-  }
-  return HAL_BIT;
+bool isMade(int result, const char* what, const std::string& name) {
+  const char* const why = result == -ENOMEM ? "HAL has no memory left" : "is the name too long or taken?";
+  if (result != 0) complain("%s: cannot make %s %s (%d): %s\n", kModule, what, name.c_str(), result, why);
+  return result == 0;
 }
 
-bool makePin(const PlcInstance& c, const char* pin, hal_type_t type, hal_pin_dir_t direction, void** cell) {
+bool makePin(const PlcInstance& c, const char* pin, mapping::PinType type, hal_pin_dir_t direction,
+             plc::PinCell& cell) {
   const std::string full = c.prefix + "." + pin;
-  const int result = hal_pin_new(full.c_str(), type, direction, cell, componentId);
-  if (result != 0)
-    complain("%s: cannot make pin %s (%d): is the name too long or taken?\n", kModule, full.c_str(), result);
-  return result == 0;
+  return isMade(hal::newPin(full, type, direction, cell, componentId), "pin", full);
 }
 
-int newParameter(const std::string& name, mapping::PinType type, ParameterValue& value) {
-  switch (type) {
-  case mapping::PinType::Bit: return hal_param_bit_new(name.c_str(), HAL_RW, &value.bit, componentId);
-  case mapping::PinType::S32: return hal_param_s32_new(name.c_str(), HAL_RW, &value.s32, componentId);
-  case mapping::PinType::U32: return hal_param_u32_new(name.c_str(), HAL_RW, &value.u32, componentId);
-  case mapping::PinType::Float: return hal_param_float_new(name.c_str(), HAL_RW, &value.real, componentId);
-  }
-  return -EINVAL;
-}
-
-bool makeParameter(const PlcInstance& c, const char* parameter, mapping::PinType type, void* place) {
+bool makeParameter(const PlcInstance& c, const char* parameter, mapping::PinType type, plc::PinCell& cell) {
   const std::string full = c.prefix + "." + parameter;
-  const int result = newParameter(full, type, *static_cast<ParameterValue*>(place));
-  if (result != 0)
-    complain("%s: cannot make parameter %s (%d): is the name too long or taken?\n", kModule, full.c_str(), result);
-  return result == 0;
+  return isMade(hal::newParameter(full, type, cell, componentId), "parameter", full);
 }
 
 // A pin or a parameter of the map.
 bool makeMapped(const PlcInstance& c, const mapping::Pin& pin, plc::PinCell& cell) {
   constexpr hal_pin_dir_t kDirections[] = {HAL_IN, HAL_OUT, HAL_IO}; // by mapping::Direction
-  if (pin.direction != mapping::Direction::Parameter)
-    return makePin(c, pin.name.c_str(), halType(pin.type), kDirections[static_cast<size_t>(pin.direction)], &cell.any);
-  cell.any = hal_malloc(sizeof(ParameterValue));
-  if (cell.any != nullptr) return makeParameter(c, pin.name.c_str(), pin.type, cell.any);
-  complain("%s: HAL has no memory for the parameters\n", kModule);
-  return false;
+  if (pin.direction == mapping::Direction::Parameter) return makeParameter(c, pin.name.c_str(), pin.type, cell);
+  return makePin(c, pin.name.c_str(), pin.type, kDirections[static_cast<size_t>(pin.direction)], cell);
 }
 
 bool makePins(PlcInstance& c) {
@@ -240,25 +209,24 @@ bool makePins(PlcInstance& c) {
     complain("%s: HAL has no memory for the pins\n", kModule);
     return false;
   }
-  const auto status = [&c](const char* pin, hal_type_t type, plc::PinCell& cell) {
-    return makePin(c, pin, type, HAL_OUT, &cell.any);
+  using enum mapping::PinType;
+  const auto status = [&c](const char* pin, mapping::PinType type, plc::PinCell& cell) {
+    return makePin(c, pin, type, HAL_OUT, cell);
   };
   StatusPins& s = *c.status;
-  bool ok = status("fault", HAL_BIT, s.fault) && status("fault-line", HAL_U32, s.faultLine) &&
-            status("scans", HAL_U32, s.scans) && status("missed", HAL_U32, s.missed) &&
-            status("functions-busy", HAL_BIT, s.functionsBusy) &&
-            status("functions-timeout", HAL_BIT, s.functionsTimeout) &&
-            status("functions-lost", HAL_U32, s.functionsLost) && makePin(c, "reset", HAL_BIT, HAL_IN, &s.reset.any) &&
-            makeParameter(c, "max-time", mapping::PinType::U32, const_cast<uint32_t*>(&s.maxTime));
+  bool ok = status("fault", Bit, s.fault) && status("fault-line", U32, s.faultLine) && status("scans", U32, s.scans) &&
+            status("missed", U32, s.missed) && status("functions-busy", Bit, s.functionsBusy) &&
+            status("functions-timeout", Bit, s.functionsTimeout) && status("functions-lost", U32, s.functionsLost) &&
+            makePin(c, "reset", Bit, HAL_IN, s.reset) && makeParameter(c, "max-time", U32, s.maxTime);
   for (size_t i = 0; i < pins.size() && ok; ++i) ok = makeMapped(c, pins[i], c.cells[i]);
   if (!ok) return false;
-  c.box->connect(c.cells); // all of them are there
+  c.box->connect(c.cells, hal::kAccess); // all of them are there
   return true;
 }
 
 // The call of the scan is given the time since that of the fast task, where HAL has both.
 plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
-  const bool reset = *c.status->reset.bit;
+  const bool reset = hal::bit(c.status->reset);
   const bool hasElapsed = c.fastCalled;
   c.fastCalled = function == kFast;
   if (function == kFast) return c.box->stepFast(periodNs, reset);
@@ -268,17 +236,17 @@ plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   // While it does not run, the box may belong to the thread that restarts it.
-  if (c.box->running()) c.box->setTimeLimit(int64_t{c.status->maxTime} * kNsInUs);
+  if (c.box->running()) c.box->setTimeLimit(int64_t{hal::u32(c.status->maxTime)} * kNsInUs);
   const plc::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.box->running();
-  *c.status->fault.bit = !runs;
-  *c.status->functionsBusy.bit = runs && c.box->functions().busy();
-  *c.status->functionsTimeout.bit = runs && c.box->functions().late();
-  if (runs) *c.status->functionsLost.u32 = c.box->functions().lost();
+  hal::setBit(c.status->fault, !runs);
+  hal::setBit(c.status->functionsBusy, runs && c.box->functions().busy());
+  hal::setBit(c.status->functionsTimeout, runs && c.box->functions().late());
+  if (runs) hal::setU32(c.status->functionsLost, c.box->functions().lost());
   if (result != plc::StepResult::Ran) return; // after a fault the instance is the service's
   const rung_state state = c.box->state();
-  *c.status->scans.u32 = static_cast<uint32_t>(state.passes);
-  *c.status->missed.u32 = static_cast<uint32_t>(state.missed);
+  hal::setU32(c.status->scans, static_cast<uint32_t>(state.passes));
+  hal::setU32(c.status->missed, static_cast<uint32_t>(state.missed));
 }
 
 bool isApart(PlcInstance& c, Function function) {
@@ -291,7 +259,7 @@ bool isApart(PlcInstance& c, Function function) {
 
 void stayApart(PlcInstance& c) {
   c.box->clearPins();
-  *c.status->fault.bit = true;
+  hal::setBit(c.status->fault, true);
 }
 
 void call(PlcInstance& c, Function function, long periodNs) {
@@ -325,7 +293,7 @@ void reportApart(PlcInstance& c) {
 void serveOnce(PlcInstance& c) {
   reportApart(c);
   const auto print = [&c](const std::string& text) { complain("%s: %s\n", c.prefix.c_str(), text.c_str()); };
-  if (c.controller->serveBox(c.server.get(), print)) *c.status->faultLine.u32 = c.box->faultLine();
+  if (c.controller->serveBox(c.server.get(), print)) hal::setU32(c.status->faultLine, c.box->faultLine());
   passMessages(c);
 }
 

@@ -59,6 +59,49 @@ out.back = { type = "float", name = "F20:2" }
   EXPECT_EQ(b["back"].real, 32767.0); // saturated
 }
 
+struct Counted {
+  Value value;
+  int reads = 0;
+  int writes = 0;
+};
+
+TEST(Box, ReadsAndWritesEachPinOnceAStep) {
+  Bench b(mapping::testing::gskProgram(), R"(
+in.i = { type = "bit", name = "X0.0" }
+out.o = { type = "bit", name = "Y0.0" }
+send = [
+  { pin = "i", edge = "rise", function = "M", code = 3, done = "done" },
+  { pin = "i", edge = "fall", function = "M", code = 5 },
+]
+abort = [{ pin = "i", edge = "fall" }]
+)");
+  ASSERT_THAT(b.errors, IsEmpty());
+  const PinAccess access{[](mapping::PinType, const PinCell& cell) noexcept {
+                           Counted& pin = *static_cast<Counted*>(cell.any);
+                           ++pin.reads;
+                           return pin.value;
+                         },
+                         [](mapping::PinType, const PinCell& cell, const Value& value) noexcept {
+                           Counted& pin = *static_cast<Counted*>(cell.any);
+                           ++pin.writes;
+                           pin.value = value;
+                         }};
+  Counted i, o, done;
+  const PinCell cells[] = {{.any = &i}, {.any = &o}, {.any = &done}};
+  b.box->connect(cells, access);
+  i.reads = o.writes = done.writes = 0;
+  b.scans(1);
+  EXPECT_EQ(i.reads, 1);
+  EXPECT_EQ(o.writes, 1);
+  EXPECT_EQ(done.writes, 1);
+  i.value.bit = true;
+  b.scans(1);
+  EXPECT_TRUE(o.value.bit);
+  EXPECT_EQ(i.reads, 2);
+  EXPECT_EQ(o.writes, 2);
+  EXPECT_EQ(i.writes + o.reads + done.reads, 0);
+}
+
 TEST(Box, ASliceRunsWhenItsTimeHasCome) {
   Bench b(mapping::testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })");
   ASSERT_THAT(b.errors, IsEmpty());
@@ -854,6 +897,8 @@ abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
   ASSERT_THAT(errors, IsEmpty());
   bool a = false, on = true, off = false;
   const PinCell cells[] = {{.bit = &a}, {.bit = &on}, {.bit = &off}};
+  Pins pins(map.pins);
+  pins.connect(cells, kVariables);
   Instance plc(test::adopted(mapping::testing::gskProgram()));
   plc.powerOn();
   // Whether a function that is under way is still so after the pins have been looked at.
@@ -863,7 +908,8 @@ abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
     for (int i = 0; i < 20 && rung_instance_begin_function(plc.handle(), 0, RUNG_FUNCTION_M, 3, &line) != RUNG_OK; ++i)
       plc.scan();
     EXPECT_EQ(rung_instance_function_done(plc.handle(), 0, line), RUNG_LATER);
-    functions.sample(cells, kMs);
+    pins.read();
+    functions.sample(pins, kMs);
     const bool goesOn = rung_instance_function_done(plc.handle(), 0, line) == RUNG_LATER;
     rung_instance_abort_functions(plc.handle(), 0);
     return goesOn;

@@ -28,6 +28,8 @@ find_path(RUNG_EDIT_INCLUDE histedit.h REQUIRED)
 find_library(RUNG_EDIT_LIBRARY edit REQUIRED)
 find_path(RUNG_UTF8PROC_INCLUDE utf8proc.h REQUIRED)
 find_library(RUNG_UTF8PROC_LIBRARY utf8proc REQUIRED)
+find_path(RUNG_SECCOMP_INCLUDE seccomp.h REQUIRED)
+find_library(RUNG_SECCOMP_LIBRARY seccomp REQUIRED)
 list(APPEND CMAKE_PREFIX_PATH /usr/lib/llvm-19) # LLD's config file is found only with it
 find_package(LLVM 19.1 REQUIRED CONFIG) # plain "19" is rejected by LLVM's version file
 find_package(LLD 19.1 REQUIRED CONFIG)
@@ -41,6 +43,11 @@ target_link_libraries(rung_edit INTERFACE "${RUNG_EDIT_LIBRARY}")
 add_library(rung_utf8proc INTERFACE)
 target_include_directories(rung_utf8proc SYSTEM INTERFACE "${RUNG_UTF8PROC_INCLUDE}")
 target_link_libraries(rung_utf8proc INTERFACE "${RUNG_UTF8PROC_LIBRARY}")
+
+# Filters of system calls; its package has no CMake config file.
+add_library(rung_seccomp INTERFACE)
+target_include_directories(rung_seccomp SYSTEM INTERFACE "${RUNG_SECCOMP_INCLUDE}")
+target_link_libraries(rung_seccomp INTERFACE "${RUNG_SECCOMP_LIBRARY}")
 
 # The shared libLLVM; the only way our code links LLVM.
 add_library(rung_llvm INTERFACE)

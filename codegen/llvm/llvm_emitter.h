@@ -37,4 +37,9 @@ Result<std::string> emitObject(const ir::Layout& layout, uint64_t codeHash, cons
 // division and remainder of 32 and 64 bits and for i64 to and from f64).
 Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 
+// The same for a process that cannot open files: the linker writes to its standard output, which is a memory file and
+// nobody else's. The linker opens nothing but /proc/self/fd/N, N being a file that is open already, to read it.
+Result<std::string> buildLlvmSharedObjectByOutput(const ir::Layout& layout, uint64_t codeHash,
+                                                  const LlvmOptions& options);
+
 } // namespace rung::codegen

@@ -45,7 +45,8 @@ private:
 };
 
 Result<void> link(const std::string& object, const std::string& out, bool mayNeedHelpers) {
-  std::vector<const char*> args{"ld.lld", "-shared", "--hash-style=gnu", "--build-id=sha1", "-znow", "-zrelro"};
+  std::vector<const char*> args{"ld.lld", "-shared", "--hash-style=gnu", "--build-id=sha1",
+                                "-znow",  "-zrelro", "--threads=1"}; // for one small object
   if (!mayNeedHelpers) args.push_back("-zdefs");
   args.insert(args.end(), {"-o", out.c_str(), object.c_str()});
   std::string text;
@@ -62,6 +63,34 @@ Result<void> link(const std::string& object, const std::string& out, bool mayNee
 }
 
 } // namespace
+
+namespace {
+
+// What standard output has got.
+Result<std::string> contentsOfOutput() {
+  std::string bytes(1 << 16, '\0');
+  std::string all;
+  ssize_t got = 0;
+  while ((got = pread(STDOUT_FILENO, bytes.data(), bytes.size(), static_cast<off_t>(all.size()))) != 0) {
+    if (got > 0) all.append(bytes, 0, static_cast<size_t>(got));
+    if (got < 0 && errno != EINTR) return failure(fmt::format("cannot read standard output: {}", std::strerror(errno)));
+  }
+  return all;
+}
+
+} // namespace
+
+Result<std::string> buildLlvmSharedObjectByOutput(const ir::Layout& layout, uint64_t codeHash,
+                                                  const LlvmOptions& options) {
+  Result<std::string> object = emitObject(layout, codeHash, options);
+  if (!object.ok()) return object.failure();
+  const MemoryFile file(object.value());
+  if (!file.ok() || ftruncate(STDOUT_FILENO, 0) != 0 || lseek(STDOUT_FILENO, 0, SEEK_SET) != 0)
+    return failure(fmt::format("cannot hold the object file in memory: {}", std::strerror(errno)));
+  const Result<void> linked = link(file.path(), "-", options.target.starts_with("arm"));
+  if (!linked.ok()) return linked.failure();
+  return contentsOfOutput();
+}
 
 Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options) {
   Result<std::string> object = emitObject(layout, codeHash, options);

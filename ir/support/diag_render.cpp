@@ -166,4 +166,21 @@ std::string renderText(const Diagnostics& diagnostics, const SourceManager& sour
   return renderer.take();
 }
 
+namespace {
+
+std::string counted(size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+} // namespace
+
+std::string closingLine(const Diagnostics& diagnostics) {
+  const std::vector<const Diagnostic*> sorted = diagnostics.sorted();
+  const auto first = std::ranges::find(sorted, Severity::Error, &Diagnostic::severity);
+  if (first == sorted.end()) return "";
+  std::string text = counted(diagnostics.errorCount(), "error");
+  if (diagnostics.warningCount() > 0) text += ", " + counted(diagnostics.warningCount(), "warning");
+  return fmt::format("{}; try `rungc explain {}`\n", text, diagInfo((*first)->id).code);
+}
+
 } // namespace rung

@@ -17,6 +17,9 @@ struct RenderOptions {
 /// notes and fixes; at the end how many were left out, if any.
 std::string renderText(const Diagnostics& diagnostics, const SourceManager& sources, RenderOptions options = {});
 
+/// "2 errors, 1 warning; try `rungc explain CODE`", a line; "" without an error.
+std::string closingLine(const Diagnostics& diagnostics);
+
 /// One array of objects with code, severity, message, file, line, column, endLine, endColumn, labels, notes, fixes. A
 /// diagnostic without a place has file "" and zeros.
 std::string renderJson(const Diagnostics& diagnostics, const SourceManager& sources);

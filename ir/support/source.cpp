@@ -80,18 +80,41 @@ Result<std::string> readAll(const std::string& path) {
   return text;
 }
 
+Result<std::string> textOf(const std::map<std::string, std::string>& texts, const std::string& path) {
+  const auto found = texts.find(path);
+  if (found == texts.end()) return failure("is not among the files of the program");
+  return found->second;
+}
+
 } // namespace
 
 SourceManager::SourceManager() = default;
+SourceManager::SourceManager(std::map<std::string, std::string> texts) : texts_(std::move(texts)) {}
 SourceManager::~SourceManager() = default;
 SourceManager::SourceManager(SourceManager&&) noexcept = default;
 SourceManager& SourceManager::operator=(SourceManager&&) noexcept = default;
 
 Result<FileId> SourceManager::addFile(const std::string& path) {
-  Result<std::string> text = readAll(path);
+  Result<std::string> text = texts_ ? textOf(*texts_, path) : readAll(path);
   if (!text) return text.failure();
   if (text.value().size() >= std::numeric_limits<uint32_t>::max() - nextBase_) return failure("too much source text");
   return addBuffer(path, std::move(text).value());
+}
+
+std::vector<std::string> SourceManager::namesIn(const std::string& folder) const {
+  std::vector<std::string> names;
+  if (!texts_) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+  const std::string prefix = folder.empty() || folder.ends_with('/') ? folder : folder + "/";
+  for (auto text = texts_->lower_bound(prefix); text != texts_->end() && text->first.starts_with(prefix); ++text) {
+    const std::string rest = text->first.substr(prefix.size());
+    names.push_back(rest.substr(0, rest.find('/')));
+  }
+  return names;
 }
 
 FileId SourceManager::addBuffer(std::string name, std::string text) {

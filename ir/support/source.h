@@ -6,7 +6,9 @@
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +51,8 @@ struct LineCol {
 class SourceManager {
 public:
   SourceManager();
+  /// Files are these and no others, by their paths as they are asked for; nothing is read from a disk.
+  explicit SourceManager(std::map<std::string, std::string> texts);
   ~SourceManager();
   SourceManager(SourceManager&&) noexcept;
   SourceManager& operator=(SourceManager&&) noexcept;
@@ -56,6 +60,8 @@ public:
   /// Reads a file. Fails when it cannot be read or when the positions are used up (4 GB of text).
   Result<FileId> addFile(const std::string& path);
   FileId addBuffer(std::string name, std::string text);
+  /// What is in a folder, "" for the working directory, in no order; nothing where there is no such folder.
+  std::vector<std::string> namesIn(const std::string& folder) const;
 
   size_t fileCount() const { return files_.size(); }
   std::string_view name(FileId file) const;
@@ -86,6 +92,7 @@ private:
   struct File;
   const File& file(FileId id) const;
 
+  std::optional<std::map<std::string, std::string>> texts_; // nothing: files of the system
   std::vector<std::unique_ptr<File>> files_;
   uint32_t nextBase_ = 1;
 };

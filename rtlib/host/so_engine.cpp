@@ -21,13 +21,14 @@ std::string becauseOfErrno() { return std::strerror(errno); }
 
 // ---- the file ----
 
+constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
+
 // A descriptor that nobody can write to any more, with the bytes of another.
 File sealedCopy(int from, std::string& problem) {
   std::string bytes;
   problem = readAll(from, kMostBytes, bytes);
   if (!problem.empty()) return File();
   File copy(::memfd_create("rung-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
   if (!copy.ok() || !writeAll(copy.fd(), bytes) || ::fcntl(copy.fd(), F_ADD_SEALS, kSeals) != 0) {
     problem = "it cannot be copied to memory: " + becauseOfErrno();
     return File();
@@ -87,6 +88,23 @@ File openTrusted(const std::string& path, const SoOptions& options, std::string&
   return problem.empty() ? std::move(file) : File();
 }
 
+// The same of a memory file that the caller trusts.
+File openSealed(int from, std::string& problem) {
+  const int seals = ::fcntl(from, F_GET_SEALS);
+  if (seals < 0 || (seals & kSeals) != kSeals) {
+    problem = seals < 0 ? "it is not a memory file" : "it is not sealed, so others could still change it";
+    return File();
+  }
+  std::string bytes;
+  problem = readAll(from, kMostBytes, bytes);
+  if (!problem.empty()) return File();
+  constexpr FileFacts kNobodyCanChangeIt{.uid = 0, .gid = 0, .mode = 0400};
+  problem = contentProblem(bytes, kNobodyCanChangeIt, idsOfThisThread(), {});
+  File file(problem.empty() ? ::fcntl(from, F_DUPFD_CLOEXEC, 0) : -1);
+  if (problem.empty() && !file.ok()) problem = becauseOfErrno();
+  return file;
+}
+
 // ---- the library ----
 
 // A path of the descriptor that this process has not used for another: the dynamic linker takes a library that it has
@@ -136,10 +154,20 @@ std::optional<size_t> SoEngine::readFile(uint64_t first, std::span<char> to) con
 std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& error, const SoOptions& options) {
   std::string problem;
   File file = openTrusted(path, options, problem);
-  if (!problem.empty()) {
-    error = "cannot load " + path + ": " + problem;
-    return nullptr;
-  }
+  if (problem.empty()) return load(path, std::move(file), error, options.loaded);
+  error = "cannot load " + path + ": " + problem;
+  return nullptr;
+}
+
+std::unique_ptr<SoEngine> SoEngine::openMemory(int file, const std::string& name, std::string& error) {
+  std::string problem;
+  File own = openSealed(file, problem);
+  if (problem.empty()) return load(name, std::move(own), error, Loaded::WithEngine);
+  error = "cannot load " + name + ": " + problem;
+  return nullptr;
+}
+
+std::unique_ptr<SoEngine> SoEngine::load(const std::string& path, File file, std::string& error, Loaded loaded) {
   const std::string name = freshNameOf(file.fd());
   void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
@@ -158,7 +186,7 @@ std::unique_ptr<SoEngine> SoEngine::open(const std::string& path, std::string& e
     return nullptr;
   }
   std::unique_ptr<SoEngine> engine(new SoEngine(library, program, path, std::move(file)));
-  if (options.loaded == Loaded::WithProcess) engine->keepWithProcess(name);
+  if (loaded == Loaded::WithProcess) engine->keepWithProcess(name);
   return engine;
 }
 

@@ -172,6 +172,17 @@ std::optional<FileFacts> factsOf(int fd) {
                    .isRegular = S_ISREG(status.st_mode)};
 }
 
+std::string rootsFileProblem(const std::string& path) {
+  std::string problem;
+  const File folder = openRootsFolder(folderOf(path), problem);
+  if (!folder.ok()) return problem.empty() ? folderOf(path) + " is not there" : problem;
+  const std::string name = path.substr(path.rfind('/') + 1);
+  const File file(::openat(folder.fd(), name.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
+  const std::optional<FileFacts> facts = factsOf(file.fd());
+  if (!facts) return std::strerror(errno);
+  return facts->isRegular && isRoots(*facts) ? "" : "it is not root's alone to write to";
+}
+
 std::optional<PublicKey> findKey(const KeyId& id, const std::string& folder, const ProcessIds& ids,
                                  std::string& problem) {
   File opened = openKeysFolder(folder, ids, problem);

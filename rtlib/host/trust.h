@@ -56,6 +56,10 @@ std::string dependencyProblem(const ElfObject& object);
 
 // ---- what the system says ----
 
+// Why somebody else than root could change a file, or put another in its place; empty: nobody can. `path` is absolute,
+// and none of its parts is a link.
+std::string rootsFileProblem(const std::string& path);
+
 // Public keys, NAME.pub. In a privileged process the only place, and a constant: neither an option nor the environment
 // may choose who is trusted.
 inline constexpr const char* kKeysFolder = "/etc/rung/keys.d";

@@ -65,6 +65,18 @@ int32_t rung_image_open(const char* path, const rung_image_options* options, run
   });
 }
 
+int32_t rung_image_open_memory(int file, const char* name, rung_image** image) {
+  if (name == nullptr || image == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "rung_image_open_memory needs a name and a place for the image");
+  return contained([&] {
+    std::string error;
+    std::unique_ptr<host::SoEngine> loaded = host::SoEngine::openMemory(file, name, error);
+    if (loaded == nullptr) return fail(RUNG_REFUSED, "%s", error.c_str());
+    *image = new rung_image{.image = std::make_shared<const Image>(std::move(loaded))};
+    return int32_t{RUNG_OK};
+  });
+}
+
 int32_t rung_image_adopt(const rung_program* program, void* engine, void (*release)(void* owner), void* owner,
                          rung_image** image) {
   if (program == nullptr || image == nullptr)

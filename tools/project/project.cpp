@@ -251,4 +251,17 @@ std::optional<Project> load(SourceManager& sources, const std::string& file, Dia
   return project;
 }
 
+std::map<std::string, SourceRange> placesOf(const Project& project, const std::map<std::string, std::string>& config,
+                                            SourceManager& sources) {
+  std::map<std::string, SourceRange> places;
+  const Result<FileId> file = sources.addFile(project.file);
+  if (!file.ok()) return places;
+  for (const Setting& setting : project.config) {
+    const auto used = config.find(setting.key);
+    if (used != config.end() && used->second == setting.value) // else another value goes before it
+      places[setting.key] = sources.range(file.value(), setting.begin, setting.end);
+  }
+  return places;
+}
+
 } // namespace rung::project

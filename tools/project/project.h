@@ -1,5 +1,6 @@
 // The project file rung.toml: what a program consists of and how it is configured (docs/project-file.md).
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,10 @@ struct Project {
 
 // Reports every mistake of the file, and the files that are missing. Nothing when there are errors.
 std::optional<Project> load(SourceManager& sources, const std::string& file, Diagnostics& diagnostics);
+
+// The project file was read into another SourceManager; the places of its values in this one, where `config` has them.
+std::map<std::string, SourceRange> placesOf(const Project& project, const std::map<std::string, std::string>& config,
+                                            SourceManager& sources);
 
 // The project file of this folder or of the nearest one above it that has one; "" is the working directory.
 std::optional<std::string> findUpwards(const std::string& folder);

@@ -80,16 +80,6 @@ size_t rungsOf(const ir::Module& module) {
   return numbers.size();
 }
 
-std::string closingLine(const Diagnostics& diagnostics) {
-  const std::vector<const Diagnostic*> sorted = diagnostics.sorted();
-  const auto first =
-      std::find_if(sorted.begin(), sorted.end(), [](const Diagnostic* d) { return d->severity == Severity::Error; });
-  std::string text = counted(diagnostics.errorCount(), "error");
-  if (diagnostics.warningCount() > 0) text += ", " + counted(diagnostics.warningCount(), "warning");
-  if (first == sorted.end()) return text + "\n";
-  return fmt::format("{}; try `rungc explain {}`\n", text, diagInfo((*first)->id).code);
-}
-
 } // namespace
 
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options) {
@@ -100,7 +90,7 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
   RenderOptions render;
   render.color = wantsColor(options.color, STDERR_FILENO);
   std::cerr << renderText(diagnostics, sources, render);
-  if (diagnostics.hasErrors()) std::cerr << closingLine(diagnostics);
+  std::cerr << closingLine(diagnostics);
 }
 
 void printSummary(const compiler::Compiled& compiled, const SourceOptions& options, const std::string& written) {
@@ -128,18 +118,6 @@ std::optional<ConfigPairs> configPairs(const std::vector<std::string>& config, i
 }
 
 namespace {
-
-// The project file was read into another SourceManager; the same places in this one.
-std::map<std::string, SourceRange> placesOf(const project::Project& project,
-                                            const std::map<std::string, std::string>& config, SourceManager& sources) {
-  std::map<std::string, SourceRange> places;
-  const Result<FileId> file = sources.addFile(project.file);
-  if (!file.ok()) return places;
-  for (const project::Setting& setting : project.config)
-    if (config.at(setting.key) == setting.value) // else --config goes before it
-      places[setting.key] = sources.range(file.value(), setting.begin, setting.end);
-  return places;
-}
 
 const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const FileId> files,
                                    const SourceOptions& options) {
@@ -177,7 +155,7 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
   }
   if (options.project) {
     compile.includePaths = options.project->includePaths;
-    compile.configPlaces = placesOf(*options.project, compile.config, sources);
+    compile.configPlaces = project::placesOf(*options.project, compile.config, sources);
   }
   const frontend::Dialect* dialect = dialectOf(sources, files.value(), options);
   if (dialect != nullptr) status = checkNamedConfig(*dialect, *pairs);

@@ -1,7 +1,6 @@
 // The lines of a file, what it includes, and its macros (see file_reader.h).
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/file_reader.h"
@@ -127,18 +126,15 @@ std::string_view trimmed(std::string_view text) {
 }
 
 // The file that `path` names when the case of its last part, `name`, does not count; "" when there is none.
-std::string inAnyCase(const std::string& path, std::string_view name) {
+std::string inAnyCase(const SourceManager& sources, const std::string& path, std::string_view name) {
   std::string found = path.substr(0, path.size() - name.size());
   while (!name.empty()) {
     const std::string_view part = name.substr(0, name.find('/'));
     name.remove_prefix(std::min(part.size() + 1, name.size()));
     std::string entryName;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(found.empty() ? "." : found, error)) {
-      const std::string candidate = entry.path().filename().string();
+    for (const std::string& candidate : sources.namesIn(found))
       if (text::equalsIgnoringCase(part, candidate) && (entryName.empty() || candidate < entryName))
         entryName = candidate;
-    }
     if (entryName.empty()) return "";
     found += entryName + (name.empty() ? "" : "/");
   }
@@ -206,7 +202,7 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
   }
   for (const bool anyCase : {false, true})
     for (const std::string& candidate : paths) {
-      const std::string real = anyCase ? inAnyCase(candidate, path) : candidate;
+      const std::string real = anyCase ? inAnyCase(program_.sources, candidate, path) : candidate;
       if (std::find(including_.begin(), including_.end(), real) != including_.end()) return {real, std::nullopt};
       if (Result<FileId> file = real.empty() ? Result<FileId>(failure("")) : program_.sources.addFile(real); file)
         return {real, file.value()};

@@ -51,6 +51,11 @@ public:
     image_.reset(image);
   }
   explicit Image(rung_image* image) : image_(image) {} // which it ends
+  static Image ofMemory(int file, const std::string& name) {
+    rung_image* image = nullptr;
+    check(rung_image_open_memory(file, name.c_str(), &image));
+    return Image(image);
+  }
   rung_image* handle() const noexcept { return image_.get(); }
   const rung_program& program() const noexcept { return *rung_image_program(image_.get()); }
 

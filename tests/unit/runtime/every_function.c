@@ -16,6 +16,7 @@ static void expect(int32_t status, int32_t wanted, const char* what, int line) {
 }
 #define BAD_HANDLE(call) expect(call, RUNG_BAD_HANDLE, #call, __LINE__)
 #define BAD_ARGUMENT(call) expect(call, RUNG_BAD_ARGUMENT, #call, __LINE__)
+#define REFUSED(call) expect(call, RUNG_REFUSED, #call, __LINE__)
 
 static void images(rung_image* image) {
   rung_symbol_info symbol = {.size = sizeof symbol};
@@ -148,6 +149,8 @@ int callEveryFunction(void* no_handle) {
   }
   BAD_ARGUMENT(rung_image_open(NULL, NULL, &image));
   BAD_ARGUMENT(rung_image_open("file.so", NULL, NULL));
+  BAD_ARGUMENT(rung_image_open_memory(-1, NULL, &image));
+  REFUSED(rung_image_open_memory(-1, "nothing", &image));
   BAD_ARGUMENT(rung_image_adopt(NULL, NULL, NULL, NULL, &image));
   if (rung_image_close(NULL) != RUNG_OK || rung_instance_free(NULL) != RUNG_OK ||
       rung_replacement_free(NULL) != RUNG_OK || rung_shadow_free(NULL) != RUNG_OK ||

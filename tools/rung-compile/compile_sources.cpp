@@ -1,0 +1,78 @@
+// See compile_sources.h.
+#include "tools/rung-compile/compile_sources.h"
+
+#include <fmt/format.h>
+#include <new>
+#include <vector>
+
+#include "codegen/llvm/llvm_emitter.h"
+#include "ir/support/check.h"
+#include "ir/support/diag_render.h"
+#include "rtlib/host/sealing.h"
+#include "tools/compiler/compile.h"
+#include "tools/compiler/configuration.h"
+#include "tools/sources/limits.h"
+#include "tools/sources/sources.h"
+
+namespace rung::rung_compile {
+namespace {
+
+Outcome failed(std::string why) { return {.verdict = sources::kVerdictFailed, .report = std::move(why), .image = {}}; }
+
+compiler::CompileRequest requestOf(const sources::Sources& sources) {
+  compiler::CompileRequest request;
+  request.dialect = sources.dialect;
+  request.options.config = sources.config;
+  request.options.includePaths = sources.includePaths;
+  request.instrument = sources.profile;
+  return request;
+}
+
+// As `rungc build`.
+void checkNames(const compiler::Compiled& compiled, const SourceManager& sources, Diagnostics& diagnostics) {
+  const std::vector<std::pair<std::string, std::string>> pairs(compiled.options.config.begin(),
+                                                               compiled.options.config.end());
+  for (const compiler::ConfigProblem& problem : compiler::checkNamesOfProgram(*compiled.dialect, sources, pairs))
+    compiler::report(problem, *compiled.dialect, {}, diagnostics);
+}
+
+std::string reportOf(const Diagnostics& diagnostics, const SourceManager& sources) {
+  std::string report = renderText(diagnostics, sources) + closingLine(diagnostics);
+  constexpr std::string_view kCut = "\n(more has been left out)\n";
+  if (report.size() <= sources::kMostReport - kCut.size()) return report;
+  report.resize(sources::kMostReport - kCut.size());
+  return report.append(kCut);
+}
+
+Outcome compile(const sources::Sources& given) {
+  SourceManager sources(given.texts);
+  std::vector<FileId> files;
+  for (const std::string& name : given.files) files.push_back(sources.addFile(name).value());
+  Diagnostics diagnostics;
+  const auto compiled = compiler::compile(sources, files, requestOf(given), diagnostics);
+  if (compiled) checkNames(*compiled, sources, diagnostics);
+  std::string report = reportOf(diagnostics, sources);
+  if (!compiled || diagnostics.hasErrors())
+    return {.verdict = sources::kVerdictErrors, .report = std::move(report), .image = {}};
+  codegen::LlvmOptions options;
+  options.debugInfo = false;
+  const Result<std::string> object =
+      codegen::buildLlvmSharedObjectByOutput(*compiled->layout, compiled->codeHash, options);
+  if (!object.ok()) return failed(object.error());
+  return {.verdict = sources::kVerdictCompiled, .report = std::move(report), .image = host::sealed(object.value())};
+}
+
+} // namespace
+
+Outcome compileSources(std::string_view packed) try {
+  const ThrowingChecks throwing;
+  std::string problem;
+  const std::optional<sources::Sources> given = sources::unpacked(packed, problem);
+  return given ? compile(*given) : failed(std::move(problem));
+} catch (const std::bad_alloc&) {
+  return failed(fmt::format("the program needs more than {} MB to be compiled", sources::kMostMemory >> 20));
+} catch (const std::exception& error) { // of the compiler itself
+  return failed(error.what());
+}
+
+} // namespace rung::rung_compile

@@ -1,0 +1,116 @@
+// rung-compile: compiles sources for a host that starts it, with no rights of the host's (docs/security.md); or reads
+// them for it, with the rights of their user.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/host/file.h"
+#include "tools/rung-compile/collect.h"
+#include "tools/rung-compile/compile_sources.h"
+#include "tools/rung-compile/sandbox.h"
+#include "tools/sources/limits.h"
+
+namespace {
+
+using namespace rung;
+using rung_compile::Limits;
+
+constexpr int kWrongUsage = 2;
+constexpr Limits kLimits{.processorSeconds = sources::kMostProcessorSeconds,
+                         .memory = sources::kMostMemory,
+                         .fileSize = sources::kMostImage};
+
+int answer(std::string_view verdict, std::string_view text) {
+  const std::string line = std::string(verdict) + "\n";
+  return host::writeAll(sources::kAnswerFile, line) && host::writeAll(sources::kAnswerFile, text) ? 0 : 1;
+}
+
+// The linker's.
+bool makeOutput() {
+  const int file = memfd_create("rung-linked", MFD_CLOEXEC);
+  return file >= 0 && dup2(file, STDOUT_FILENO) >= 0 && close(file) == 0;
+}
+
+// What the compiler opens and loads, it does in its first compilation: before anything is read that somebody sent.
+std::string warmUp() {
+  if (!makeOutput()) return std::string("cannot make a memory file: ") + std::strerror(errno);
+  const std::string name = "warm-up.pmc";
+  const std::string text = "dialect gsk\nFUNC END1\nLD X0.0\nOUT Y0.0\nFUNC END2\n";
+  const rung_compile::Outcome outcome =
+      rung_compile::compileSources(packed(sources::Sources{.files = {name}, .texts = {{name, text}}}));
+  return outcome.verdict == sources::kVerdictCompiled ? "" : "the compiler does not work: " + outcome.report;
+}
+
+// False: there is more than may be.
+bool readInput(std::string& bytes) {
+  constexpr size_t kPiece = size_t{1} << 20;
+  size_t used = 0;
+  ssize_t got = 1;
+  while (got != 0 && used <= sources::kMostBytes) {
+    bytes.resize(used + kPiece);
+    got = read(sources::kInputFile, bytes.data() + used, kPiece);
+    if (got > 0) used += static_cast<size_t>(got);
+    if (got < 0 && errno != EINTR) got = 0;
+  }
+  bytes.resize(used);
+  return used <= sources::kMostBytes;
+}
+
+// "" or why not. Nobody can change it from then on.
+std::string writeImage(std::string_view bytes) {
+  constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
+  if (host::writeAll(sources::kImageFile, bytes) && fcntl(sources::kImageFile, F_ADD_SEALS, kSeals) == 0) return "";
+  return std::string("cannot write the program: ") + std::strerror(errno);
+}
+
+int compileInput() {
+  std::string bytes;
+  if (!readInput(bytes))
+    return answer(sources::kVerdictFailed,
+                  "the sources have more than " + std::to_string(sources::kMostBytes) + " bytes, expected no more");
+  const rung_compile::Outcome outcome = rung_compile::compileSources(bytes);
+  if (outcome.verdict != sources::kVerdictCompiled) return answer(outcome.verdict, outcome.report);
+  const std::string problem = writeImage(outcome.image);
+  return problem.empty() ? answer(outcome.verdict, outcome.report) : answer(sources::kVerdictFailed, problem);
+}
+
+int compileForHost() {
+  std::string problem = rung_compile::giveUpRights(sources::kImageFile, kLimits);
+  if (problem.empty()) problem = warmUp();
+  if (problem.empty()) problem = rung_compile::enterSandbox();
+  return problem.empty() ? compileInput() : answer(sources::kVerdictFailed, problem);
+}
+
+int collectForHost(std::string_view number, const std::vector<std::string>& files) {
+  uid_t user = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), user);
+  if (error != std::errc() || end != number.data() + number.size() || files.empty()) return kWrongUsage;
+  if (const std::string problem = rung_compile::becomeUser(user, kLimits); !problem.empty())
+    return answer(sources::kVerdictFailed, problem);
+  const rung_compile::Collected collected = rung_compile::collect(files);
+  return collected.sources ? answer(sources::kVerdictSources, packed(*collected.sources))
+                           : answer(sources::kVerdictErrors, collected.report);
+}
+
+bool isOpen(int file) { return fcntl(file, F_GETFD) >= 0; }
+
+} // namespace
+
+// Without words: packed sources come by standard input. --collect --user NUMBER -- FILE…: it reads files.
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty() && fcntl(sources::kImageFile, F_GET_SEALS) >= 0 && isOpen(sources::kAnswerFile))
+    return compileForHost();
+  if (words.size() > 4 && words[0] == "--collect" && words[1] == "--user" && isOpen(sources::kAnswerFile))
+    return collectForHost(words[2], {words.begin() + 4, words.end()});
+  std::cerr << "rung-compile: hosts of PLC programs start it, as rung_hal and rung-run; nobody else does\n";
+  return kWrongUsage;
+}

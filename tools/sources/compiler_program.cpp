@@ -1,0 +1,43 @@
+// See compiler_program.h.
+#include "tools/sources/compiler_program.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+
+#include "rtlib/host/trust.h"
+
+namespace rung::sources {
+namespace {
+
+constexpr const char* kProgram = RUNG_COMPILE_PROGRAM; // where it is installed
+
+std::string fileProblem(const std::string& path, const host::ProcessIds& ids) {
+  const int file = open(path.c_str(), O_PATH | O_CLOEXEC);
+  const std::optional<host::FileFacts> facts = host::factsOf(file);
+  const std::string problem = facts ? host::ownerProblem(*facts, ids) : std::strerror(errno);
+  if (file >= 0) close(file);
+  return problem;
+}
+
+} // namespace
+
+std::string compilerProgram(std::string& problem) {
+  const host::ProcessIds ids = host::idsOfThisThread();
+  std::string path = kProgram;
+  if (host::isPrivileged(ids)) {
+    problem = host::rootsFileProblem(path);
+  } else {
+    if (const char* named = secure_getenv("RUNG_COMPILE"); named != nullptr && *named == '/') path = named;
+    problem = fileProblem(path, ids);
+  }
+  if (problem.empty()) return path;
+  problem = "sources cannot be compiled here: " + path + ": " + problem + "; the package rung has this program";
+  return {};
+}
+
+} // namespace rung::sources

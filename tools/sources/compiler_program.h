@@ -1,0 +1,12 @@
+// The program that a host starts to compile sources, rung-compile(8).
+#pragma once
+#include <string>
+
+namespace rung::sources {
+
+// Its path. An unprivileged process (rtlib/host/trust.h) takes the one of the environment variable RUNG_COMPILE, if
+// that is set: a build that is not installed has it elsewhere. Empty, and `problem` says why: it is not there, or
+// others than root, or the process's own user, could have changed it.
+std::string compilerProgram(std::string& problem);
+
+} // namespace rung::sources

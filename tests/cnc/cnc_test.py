@@ -23,6 +23,7 @@ ip link set lo up
 mount --bind "$D/tmp" /tmp
 mount --bind {modules} "$D/original"
 mount --bind "$D/modules" {modules}
+if [ -n "{libexec}" ]; then mkdir -p "{libexec}"; mount --bind "$D/libexec" "{libexec}"; fi
 cd "$D/home"
 exec runuser -u nobody -- env -i PATH="$D/home:/usr/bin:/bin" HOME="$D/home" LANG=C.UTF-8 "$@"
 """
@@ -67,6 +68,10 @@ class Bench:
         link.unlink(missing_ok=True)
         shutil.copy(options.module, link)
         self.rungc = options.rungc
+        self.libexec = options.libexec
+        if self.libexec:  # where the component looks for its compiler
+            (self.folder / "libexec").mkdir()
+            shutil.copy(Path(options.rungc).parent / "rung-compile", self.folder / "libexec")
 
     def program(self, source, name="program.so"):
         subprocess.run([self.rungc, "build", source, "-o", self.home / name], check=True)
@@ -85,7 +90,7 @@ class Bench:
         for path in [self.home, *self.home.rglob("*")]:
             if path.name not in ("program.so", "edited.so", "endless.so"):  # LinuxCNC's rtapi_app runs what is root's
                 shutil.chown(path, "nobody")
-        shell = ["sh", "-ec", INSIDE.format(modules=MODULES), "sh", *command]
+        shell = ["sh", "-ec", INSIDE.format(modules=MODULES, libexec=self.libexec), "sh", *command]
         done = subprocess.run(unshare(shell), env={**os.environ, "D": str(self.folder)}, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                               timeout=TIMEOUT, check=False)
@@ -306,12 +311,48 @@ edge = "up"
     expect("/../memory" in output and not list(bench.folder.glob("memory*")), "root's folder was written")
 
 
+def sources(bench, options):
+    """LinuxCNC's process, which has root's rights, compiles sources at its start and for rungctl."""
+    source = (HERE / "stuck.pmc").read_text(encoding="utf-8")
+    for name, text in {"first.pmc": source, "edited.pmc": source.replace("LD   X1.0", "LDI  X1.0", 1),
+                       "wrong.pmc": source.replace("OUT  Y0.0", "OUT  X0.5")}.items():
+        expect(name == "first.pmc" or text != source, f"{name} is the same")
+        bench.file(name, text)
+    map_text = (HERE / "stuck.map").read_text(encoding="utf-8")
+    bench.file("program.map", map_text + '\n[rungctl]\nallow = ["reload"]\n')
+    shutil.copy(Path(options.rungc).parent / "rungctl", bench.home)
+    load = LOAD.format(options="names=box", prefix="box").replace("so=@DIR@/program.so", "source=@DIR@/first.pmc")
+    show = "loadusr -w sleep 0.2\nshow pin box\n"
+    done = bench.halrun(load + "setp box.run 1\n" + show + "loadusr -w rungctl reload @DIR@/edited.pmc\n" + show +
+                        "loadusr -w rungctl rollback\n" + show)
+    expect(shown(done.stdout, "box.lamp") == ["TRUE", "FALSE", "TRUE"], shown(done.stdout, "box.lamp"))
+    expect("reload edited, compiled here from sources" in done.stdout, "no message of the reload")
+
+    def refused(source):
+        done = bench.halrun(load.replace("@DIR@/first.pmc", source))
+        expect(done.returncode != 0, f"loaded {source}")
+        return done.stdout
+
+    wrong = refused("@DIR@/wrong.pmc")
+    expect("home/wrong.pmc:" in wrong and "error: " in wrong, "no place of the mistake")
+    secret = bench.folder / "secret.pmc"  # whose rights are those of its user
+    secret.write_text(source, encoding="utf-8")
+    secret.chmod(0o600)
+    expect("secret.pmc': Permission denied" in refused("@DIR@/../secret.pmc"), "root's file was read")
+    expect("exclude each other" in refused("@DIR@/first.pmc so=@DIR@/program.so"), "both")
+    shutil.chown(bench.folder / "libexec/rung-compile", "nobody")
+    expect("it is not root's alone to write to" in refused("@DIR@/first.pmc"), "a compiler that is not root's was started")
+    (bench.folder / "libexec/rung-compile").unlink()
+    expect("the package rung has this program" in refused("@DIR@/first.pmc"), "no message of the missing compiler")
+
+
 def main():
-    cases = {case.__name__: case for case in (session, fault, instances, unload, retained, turning_centre, machining_centre, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, sources, instances, unload, retained, turning_centre, machining_centre, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")
     parser.add_argument("--rungc", required=True)
+    parser.add_argument("--libexec", default="", help="the folder in which the component looks for rung-compile")
     parser.add_argument("--program", default=HERE / "handshake.pmc", help="source of the PLC program of `session`")
     parser.add_argument("--steps", default="spindle coolant tools part counters remote alarm emergency_stop", help="what `session` does, in order")
     parser.add_argument("--flow", default="COOLANT_FLOW", help="the program's flow switch, which no rung writes")

@@ -170,9 +170,15 @@ class Command(unittest.TestCase):
         self.assertRegex(done.stdout, r"(?m)^2 passed, 0 failed")
 
     def test_a_host_answers_rungctl(self):
-        environment = {"RUNG_SOCKETS": str(HOME / "sockets")}
         run(PREFIX / "bin/rungc", "build", "-q", "examples/gsk-mill", "-o", "mill.so")
-        host = subprocess.Popen([*HIDE, PREFIX / "bin/rung-run", "mill.so", "examples/gsk-mill/mill.map", "--name", "mill"], cwd=HOME,
+        self.host_answers("mill.so")
+
+    def test_a_host_compiles_sources(self):
+        self.host_answers("examples/gsk-mill")
+
+    def host_answers(self, program):
+        environment = {"RUNG_SOCKETS": str(HOME / "sockets"), "RUNG_COMPILE": str(PREFIX / "libexec/rung/rung-compile")}
+        host = subprocess.Popen([*HIDE, PREFIX / "bin/rung-run", program, "examples/gsk-mill/mill.map", "--name", "mill"], cwd=HOME,
                                 env={"PATH": "/usr/bin:/bin", "HOME": str(HOME)} | environment, stderr=subprocess.PIPE, text=True)
         try:
             self.assertIn("listening at", host.stderr.readline())

@@ -344,7 +344,8 @@ class Protocol(Host):
         good = ['{"do":"status","id":1}', '{"do":"get","names":["X0.0","D8:2"]}', '{"do":"watch","names":["D8:2"],"all":false}',
                 '{"do":"set","name":"D8:2","value":-5}', '{"do":"force","name":"X0.3","value":true}', '{"do":"forced"}',
                 '{"do":"unforce","all":true}', '{"do":"reload","program":"/dev/zero","yes":true}', '{"do":"messages"}',
-                '{"do":"map"}', '{"do":"profile","top":5,"by":"longest"}', '{"do":"clear-profile"}', '{"do":"shadow","program":"/x","passes":5}', '{"do":"compared"}',
+                '{"do":"map"}', '{"do":"profile","top":5,"by":"longest"}', '{"do":"clear-profile"}', '{"do":"compile"}', '{"do":"compiled"}',
+                '{"do":"sources","first":true,"piece":"cnVuZw=="}', '{"do":"reload","compiled":true}', '{"do":"shadow","program":"/x","passes":5}', '{"do":"compared"}',
                 '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
         words = sorted({word for line in good for word in re.findall(r'"[^"]*"|-?\d+|true|false|[{}:,\[\]]', line)} | {"null", "1.5", '""'})
         made, lines = self.connect()

@@ -118,6 +118,9 @@ const Controller::Command Controller::kCommands[] = {
     {"force", mapping::Remote::Force, &Controller::force},
     {"unforce", mapping::Remote::Force, &Controller::unforce},
     {"forced", std::nullopt, &Controller::forced},
+    {"sources", mapping::Remote::Reload, &Controller::sources},
+    {"compile", mapping::Remote::Reload, &Controller::compile},
+    {"compiled", mapping::Remote::Reload, &Controller::compiled},
     {"reload", mapping::Remote::Reload, &Controller::reload},
     {"shadow", mapping::Remote::Reload, &Controller::shadow},
     {"compared", std::nullopt, &Controller::compared},
@@ -161,6 +164,7 @@ json Controller::answer(const Peer& peer, const json& request) {
 void Controller::gone(const Peer& peer) {
   watching_.erase(peer.number);
   std::erase(following_, peer.number);
+  desk_.gone(peer);
 }
 
 // ---- looking -------------------------------------------------------------------------------------------------------
@@ -425,9 +429,32 @@ json Controller::forced(const Peer&, const json&) {
   return {{"forced", list}};
 }
 
+json Controller::sources(const Peer& peer, const json& request) { return desk_.sources(peer, request); }
+
+json Controller::compile(const Peer& peer, const json& request) {
+  json answer = desk_.compile(peer, request);
+  logChange(peer, "compile " + answer["bytes"].dump() + " bytes of sources");
+  return answer;
+}
+
+json Controller::compiled(const Peer& peer, const json& request) { return desk_.compiled(peer, request); }
+
+// A file, or what has been compiled for this client.
+Controller::NextProgram Controller::nextProgram(const Peer& peer, const json& request) const {
+  NextProgram next;
+  if (flagOf(request, "compiled")) {
+    next.image = &desk_.image(peer);
+    next.text = std::string(next.image->program().name) + ", compiled here from sources";
+  } else {
+    next.text = programOf(request);
+    next.opened.emplace(next.text);
+  }
+  return next;
+}
+
 json Controller::reload(const Peer& peer, const json& request) {
-  const std::string path = programOf(request);
-  Image image(path);
+  const NextProgram next = nextProgram(peer, request);
+  const Image& image = next.get();
   rung_replacement* made = nullptr;
   check(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
   std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
@@ -443,7 +470,7 @@ json Controller::reload(const Peer& peer, const json& request) {
                        {"state", change.is_state != 0}});
     if (loses(change.kind)) lost += (lost.empty() ? "" : ", ") + std::string(change.name);
   }
-  json report = {{"program", path},
+  json report = {{"program", next.text},
                  {"kept_cells", info.kept_cells},
                  {"kept_states", info.kept_states},
                  {"changes", changes},
@@ -460,7 +487,7 @@ json Controller::reload(const Peer& peer, const json& request) {
   forces_.reset(); // they have ended
   replacement_ = std::move(replacement);
   former_ = std::exchange(program_, image.program().name);
-  logChange(peer, "reload " + path);
+  logChange(peer, "reload " + next.text);
   return report;
 }
 
@@ -472,18 +499,17 @@ void Controller::endShadow() {
 }
 
 json Controller::shadow(const Peer& peer, const json& request) {
-  const std::string path = programOf(request);
   const auto passes = request.find("passes");
   if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
     throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
-  const Image image(path);
+  const NextProgram next = nextProgram(peer, request);
   endShadow();
   rung_shadow* made = nullptr;
-  check(rung_shadow_new(box_.instance(), image.handle(), passes->get<uint32_t>(), kShadowRoom, &made));
+  check(rung_shadow_new(box_.instance(), next.get().handle(), passes->get<uint32_t>(), kShadowRoom, &made));
   shadow_.reset(made);
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Shadow, .shadow = made}, kTime);
-  logChange(peer, "shadow " + path + " for " + std::to_string(passes->get<uint32_t>()) + " passes");
+  logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " passes");
   return json::object();
 }
 

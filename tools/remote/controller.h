@@ -13,6 +13,7 @@
 #include "rung/runtime.hpp"
 #include "tools/plc/box.h"
 #include "tools/remote/server.h"
+#include "tools/remote/source_desk.h"
 
 namespace rung::remote {
 
@@ -63,6 +64,9 @@ private:
   nlohmann::json force(const Peer& peer, const nlohmann::json& request);
   nlohmann::json unforce(const Peer& peer, const nlohmann::json& request);
   nlohmann::json forced(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json sources(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json compile(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json compiled(const Peer& peer, const nlohmann::json& request);
   nlohmann::json reload(const Peer& peer, const nlohmann::json& request);
   nlohmann::json shadow(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compared(const Peer& peer, const nlohmann::json& request);
@@ -87,7 +91,13 @@ private:
   std::vector<Range> rangesOf(const std::string& name) const;
   void refuseProtected(const std::string& name) const;
   plc::Order give(plc::Order order, std::chrono::milliseconds time = plc::Box::kPatience);
-  void replace(std::chrono::milliseconds time);
+  struct NextProgram { // that a request names
+    std::optional<Image> opened;
+    const Image* image = nullptr;
+    std::string text; // for people
+    const Image& get() const { return opened ? *opened : *image; }
+  };
+  NextProgram nextProgram(const Peer& peer, const nlohmann::json& request) const;
   std::vector<rung_force_info> forcesInEffect();
   void putInEffect(const std::vector<rung_forced_cell>& cells);
   void endShadow();
@@ -104,6 +114,7 @@ private:
   std::deque<std::string> reports_;
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages
+  SourceDesk desk_;
   struct EndForces {
     void operator()(rung_forces* forces) const noexcept { rung_forces_free(forces); }
   };

@@ -22,6 +22,7 @@
 #include "tools/remote/server.h"
 #include "tools/rung-hal/hal_api.h"
 #include "tools/rung-hal/user_rights.h"
+#include "tools/sources/image.h"
 
 namespace {
 constexpr int kMostInstances = 16;
@@ -37,6 +38,9 @@ static char* names[kMostInstances];
 RTAPI_MP_ARRAY_STRING(names, kMostInstances, "prefixes of the pins and functions of the instances");
 static char* so[kMostInstances];
 RTAPI_MP_ARRAY_STRING(so, kMostInstances, "compiled program of each instance, or one for all, absolute path");
+static char* source[kMostInstances];
+RTAPI_MP_ARRAY_STRING(source, kMostInstances,
+                      "in the place of so: source file or project, which is compiled at the start");
 static char* map[kMostInstances];
 RTAPI_MP_ARRAY_STRING(map, kMostInstances, "mapping file of each instance, or one for all, absolute path");
 static char* retain[kMostInstances];
@@ -104,6 +108,7 @@ void complain(const char* format, T... values) {
 struct Request {
   const char* name = nullptr;
   const char* program = nullptr;
+  bool isSource = false;
   const char* map = nullptr;
   const char* retain = nullptr;
 };
@@ -120,8 +125,14 @@ const char* argument(char* const (&list)[kMostInstances], size_t instance) {
 // False: they do not fit together, which is reported.
 bool checkArguments(size_t count) {
   const auto isEach = [&](char* const(&list)[kMostInstances]) { return given(list) == count; };
-  if ((given(so) != 1 && !isEach(so)) || (given(map) != 1 && !isEach(map))) {
-    complain("%s: so=PROGRAM.so and map=MAPPING_FILE are needed, one for all instances or one for each of names=\n",
+  const auto fits = [&](char* const(&list)[kMostInstances]) { return given(list) == 1 || isEach(list); };
+  if (given(so) != 0 && given(source) != 0) {
+    complain("%s: so=PROGRAM.so and source=PROGRAM exclude each other\n", kModule);
+    return false;
+  }
+  if (!fits(given(source) != 0 ? source : so) || !fits(map)) {
+    complain("%s: so=PROGRAM.so, or source=PROGRAM, and map=MAPPING_FILE are needed, one for all instances or one for "
+             "each of names=\n",
              kModule);
     return false;
   }
@@ -135,17 +146,36 @@ std::vector<Request> requests() {
   const size_t count = std::max<size_t>(1, given(names));
   if (!checkArguments(count)) return {};
   std::vector<Request> list(count);
+  const bool isSource = given(source) != 0;
   for (size_t i = 0; i < count; ++i)
-    list[i] = {given(names) == 0 ? kDefaultPrefix : names[i], argument(so, i), argument(map, i), retain[i]};
+    list[i] = {given(names) == 0 ? kDefaultPrefix : names[i], argument(isSource ? source : so, i), isSource,
+               argument(map, i), retain[i]};
   return list;
+}
+
+// RTAPI's messages are short.
+void complainLines(const std::string& text) {
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    complain("%s: %s\n", kModule, text.substr(at, end - at).c_str());
+    at = end + 1;
+  }
+}
+
+Image imageOf(const Request& request) {
+  if (!request.isSource) return Image(request.program);
+  std::string warnings;
+  Image image = sources::compiledImage(request.program, hal::UserRights::user(), warnings);
+  complainLines(warnings);
+  return image;
 }
 
 // False: what is wrong has been reported.
 bool loadProgram(PlcInstance& c, const Request& request) {
   try {
-    c.image.emplace(request.program);
-  } catch (const Error& error) {
-    complain("%s: %s\n", kModule, error.what());
+    c.image.emplace(imageOf(request));
+  } catch (const std::exception& error) {
+    complainLines(error.what());
     return false;
   }
   std::vector<std::string> errors;

@@ -18,6 +18,7 @@
 #include "tools/remote/controller.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/scan_thread.h"
+#include "tools/sources/image.h"
 
 namespace {
 
@@ -86,10 +87,18 @@ private:
   rung_run::ScanThread scans_;
 };
 
-int run(const Options& options) try {
+Image imageOf(const Options& options) {
   const rung_image_options how{
       .size = sizeof how, .allow_unsealed = options.unsealed ? 1u : 0u, .keys_folder = nullptr};
-  const Image image(options.program, &how);
+  if (options.program.ends_with(".so")) return Image(options.program, &how);
+  std::string warnings;
+  Image image = sources::compiledImage(options.program, getuid(), warnings);
+  std::cerr << warnings;
+  return image;
+}
+
+int run(const Options& options) try {
+  const Image image = imageOf(options);
   std::vector<std::string> errors, warnings;
   mapping::File map = mapping::loadMap(options.map, errors);
   std::unique_ptr<plc::Box> box;
@@ -114,7 +123,7 @@ int main(int argc, char** argv) {
                         .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
   Options options;
   cli::Command command = app.root();
-  command.option("PROGRAM", options.program, "The compiled program (.so)").required();
+  command.option("PROGRAM", options.program, "The compiled program (.so); or a source file, or a project").required();
   command.option("MAP", options.map, "The mapping file").required();
   command.option("--name", options.name, "The name for rungctl").showDefault();
   command.option("--period", options.periodUs, "Microseconds between two looks at the clock")

@@ -1,5 +1,4 @@
 // rungctl: looks at and changes a program that runs in a host, by the host's socket (docs/control-protocol.md).
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -10,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -19,60 +17,17 @@
 #include "tools/command-line/usage.h"
 #include "tools/remote/place.h"
 #include "tools/rungctl/client.h"
+#include "tools/rungctl/reload.h"
 #include "tools/rungctl/trace.h"
+#include "tools/rungctl/words.h"
 
 namespace {
 
 using namespace rung;
+using namespace rung::rungctl;
 using nlohmann::json;
-using rungctl::Client;
 
 volatile int gStop = 0; // of SIGINT and SIGTERM
-
-// What all commands take.
-struct Common {
-  std::string host;
-  bool asJson = false;
-};
-
-// A command, its words, and what it does with a host.
-struct Words {
-  Common common;
-  std::vector<std::string> names;
-  std::string name;
-  std::string value;
-  std::string file;
-  double seconds = 0;
-  bool all = false;
-  bool follow = false;
-  unsigned shadow = 0; // passes
-  bool yes = false;
-  bool late = false;
-  unsigned top = 20;
-  std::string by = "time";
-  bool reset = false;
-};
-
-int fail(const std::string& text, int status = cli::kWrong) {
-  std::cerr << "rungctl: " << text << '\n';
-  return status;
-}
-
-// The answer, where it is good.
-json asked(Client& client, const json& request) {
-  json answer = client.ask(request);
-  if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
-  return answer;
-}
-
-std::string shown(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
-void print(const Words& words, const json& answer, const std::string& text) {
-  if (words.common.asJson)
-    std::cout << answer.dump() << std::endl;
-  else if (!text.empty())
-    std::cout << text << (text.ends_with('\n') ? "" : "\n") << std::flush;
-}
 
 // A number, true or false; anything else stays a text, which the host refuses with what it expected.
 json valueOf(const std::string& text) {
@@ -184,53 +139,6 @@ int forced(Client& client, const Words& words) {
     text += fmt::format("{} = {}, by {}\n", shown(force["name"]), shown(force["value"]), shown(force["owner"]));
   print(words, answer, text.empty() ? "nothing is forced" : text);
   return cli::kOk;
-}
-
-std::string reportOf(const json& answer) {
-  std::string text;
-  for (const json& change : answer.value("changes", json::array()))
-    text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
-                        change.value("former", "").empty() ? "" : ", before " + shown(change["former"]));
-  return text + fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
-                            answer.value("kept_states", 0));
-}
-
-// The program runs beside the other one until it has been compared. False: its outputs differ, or it cannot run so.
-bool runsTheSame(Client& client, const Words& words, const std::string& path) {
-  asked(client, {{"do", "shadow"}, {"program", path}, {"passes", words.shadow}});
-  json report;
-  do {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    report = asked(client, {{"do", "compared"}});
-  } while (gStop == 0 && (report["state"] == "running" || report["state"] == "prepared"));
-  std::string text = fmt::format("beside the program that runs: {}, {} runs of tasks compared, {} differences\n",
-                                 shown(report["state"]), report["runs"].dump(), report["differences"].size());
-  for (const json& difference : report["differences"])
-    text += difference.contains("next")
-                ? fmt::format("{}: {} now, {} in the new program\n", shown(difference["name"]),
-                              shown(difference["running"]), shown(difference["next"]))
-                : fmt::format("{}: only the new program asks for it\n", shown(difference["name"]));
-  if (!report.value("fault", "").empty()) text += shown(report["fault"]) + "\n";
-  print(words, report, text);
-  return report["state"] == "finished" && report["differences"].empty();
-}
-
-int reload(Client& client, const Words& words) {
-  const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.file.c_str(), nullptr), &std::free);
-  if (path == nullptr) return fail("there is no file " + words.file, cli::kEnvironment);
-  if (words.shadow != 0 && !runsTheSame(client, words, path.get()) && !words.yes)
-    return fail("the new program does not do the same; nothing has changed; with --yes it takes over all the same");
-  const json answer = client.ask({{"do", "reload"}, {"program", path.get()}, {"yes", words.yes}, {"late", words.late}});
-  if (answer.value("ok", false)) {
-    print(words, answer, reportOf(answer) + "the new program runs");
-    return cli::kOk;
-  }
-  if (words.common.asJson) std::cout << answer.dump() << '\n';
-  if (answer.contains("needs")) {
-    if (!words.common.asJson) std::cout << reportOf(answer);
-    return fail(answer.value("error", "") + "; nothing has changed; with --yes it is done all the same");
-  }
-  return fail(answer.value("error", "the host refuses"));
 }
 
 int simple(Client& client, const Words& words, const char* command, const char* text) {
@@ -365,13 +273,18 @@ void addAll(Commands& commands) {
   commands.add(
       "reload", "Replace the program by another one, between two passes",
       [](cli::Command& command, Words& words) {
-        command.option("FILE", words.file, "The compiled program (.so)").required();
+        command
+            .option("FILE", words.files,
+                    "The compiled program (.so); or its source files in order, or the folder of a project, which the "
+                    "host compiles")
+            .required();
+        command.flag("--profile", words.profile, "Of sources: count and time every rung");
         command.option("--shadow", words.shadow, "First run it beside the other for so many passes, and compare")
             .between(1u, 100000u);
         command.flag("--yes", words.yes, "Also where state is lost or outputs differ");
         command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
       },
-      reload);
+      [](Client& client, const Words& words) { return reload(client, words, gStop); });
   commands.add("rollback", "Put back the program before the last reload", none, [](Client& client, const Words& words) {
     return simple(client, words, "rollback", "the former program runs");
   });

@@ -1,4 +1,4 @@
-// The program that a host starts to compile sources, rung-compile(8).
+// The program that a host starts to compile sources, rung-compile.
 #pragma once
 #include <string>
 

@@ -1,0 +1,123 @@
+// See reload.h.
+#include "tools/rungctl/reload.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "tools/remote/base64.h"
+#include "tools/rung-compile/collect.h"
+
+namespace rung::rungctl {
+
+using nlohmann::json;
+
+namespace {
+
+std::string reportOf(const json& answer) {
+  std::string text;
+  for (const json& change : answer.value("changes", json::array()))
+    text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
+                        change.value("former", "").empty() ? "" : ", before " + shown(change["former"]));
+  return text + fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
+                            answer.value("kept_states", 0));
+}
+
+// The program runs beside the other one until it has been compared. False: its outputs differ, or it cannot run so.
+bool runsTheSame(Client& client, const Words& words, const volatile int& stop, json request) {
+  request["do"] = "shadow";
+  request["passes"] = words.shadow;
+  asked(client, request);
+  json report;
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    report = asked(client, {{"do", "compared"}});
+  } while (stop == 0 && (report["state"] == "running" || report["state"] == "prepared"));
+  std::string text = fmt::format("beside the program that runs: {}, {} runs of tasks compared, {} differences\n",
+                                 shown(report["state"]), report["runs"].dump(), report["differences"].size());
+  for (const json& difference : report["differences"])
+    text += difference.contains("next")
+                ? fmt::format("{}: {} now, {} in the new program\n", shown(difference["name"]),
+                              shown(difference["running"]), shown(difference["next"]))
+                : fmt::format("{}: only the new program asks for it\n", shown(difference["name"]));
+  if (!report.value("fault", "").empty()) text += shown(report["fault"]) + "\n";
+  print(words, report, text);
+  return report["state"] == "finished" && report["differences"].empty();
+}
+
+// What is wrong with the sources, as rungc prints it.
+int failSources(const Words& words, const std::string& report, const std::string& diagnostics) {
+  if (words.common.asJson) {
+    json answer = {{"ok", false}, {"error", report}};
+    if (!diagnostics.empty()) answer["diagnostics"] = json::parse(diagnostics);
+    std::cout << answer.dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
+  } else if (!report.empty()) {
+    std::cerr << report << (report.ends_with('\n') ? "" : "\n");
+  }
+  return fail("nothing has changed");
+}
+
+void sendSources(Client& client, const std::string& packed) {
+  constexpr size_t kPiece = 45'000; // a request has 64 kB at most
+  for (size_t at = 0; at < packed.size(); at += kPiece)
+    asked(client, {{"do", "sources"}, {"first", at == 0}, {"piece", remote::toBase64(packed.substr(at, kPiece))}});
+}
+
+// The host has compiled them, where the status is kOk; else what is wrong has been said.
+int compileThere(Client& client, const Words& words, const volatile int& stop) {
+  rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
+  if (!collected.sources) return failSources(words, collected.report, collected.diagnostics);
+  collected.sources->profile = words.profile;
+  sendSources(client, packed(*collected.sources));
+  asked(client, {{"do", "compile"}});
+  json answer;
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    answer = asked(client, {{"do", "compiled"}});
+  } while (stop == 0 && answer["state"] == "compiling");
+  const std::string report = answer.value("report", "");
+  if (answer["state"] != "compiled") return failSources(words, report, "");
+  if (!words.common.asJson) std::cerr << report; // warnings
+  return cli::kOk;
+}
+
+// The program, as requests name it; with another status than kOk there is none.
+int programOf(Client& client, const Words& words, const volatile int& stop, json& request) {
+  if (words.files.size() == 1 && words.files.front().ends_with(".so")) {
+    const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.files.front().c_str(), nullptr), &std::free);
+    if (path == nullptr) return fail("there is no file " + words.files.front(), cli::kEnvironment);
+    request["program"] = path.get();
+    return cli::kOk;
+  }
+  request["compiled"] = true;
+  return compileThere(client, words, stop);
+}
+
+} // namespace
+
+int reload(Client& client, const Words& words, const volatile int& stop) {
+  json request = json::object();
+  if (const int status = programOf(client, words, stop, request); status != cli::kOk) return status;
+  if (words.shadow != 0 && !runsTheSame(client, words, stop, request) && !words.yes)
+    return fail("the new program does not do the same; nothing has changed; with --yes it takes over all the same");
+  request.update({{"do", "reload"}, {"yes", words.yes}, {"late", words.late}});
+  const json answer = client.ask(request);
+  if (answer.value("ok", false)) {
+    print(words, answer, reportOf(answer) + "the new program runs");
+    return cli::kOk;
+  }
+  if (words.common.asJson) std::cout << answer.dump() << '\n';
+  if (answer.contains("needs")) {
+    if (!words.common.asJson) std::cout << reportOf(answer);
+    return fail(answer.value("error", "") + "; nothing has changed; with --yes it is done all the same");
+  }
+  return fail(answer.value("error", "the host refuses"));
+}
+
+} // namespace rung::rungctl

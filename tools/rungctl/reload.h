@@ -1,0 +1,10 @@
+// rungctl reload: a compiled program, or sources, which the host compiles.
+#pragma once
+#include "tools/rungctl/words.h"
+
+namespace rung::rungctl {
+
+// The exit status. `stop` is not 0 where nobody waits for it any more.
+int reload(Client& client, const Words& words, const volatile int& stop);
+
+} // namespace rung::rungctl

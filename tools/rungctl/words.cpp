@@ -1,0 +1,31 @@
+// See words.h.
+#include "tools/rungctl/words.h"
+
+#include <iostream>
+#include <stdexcept>
+
+namespace rung::rungctl {
+
+using nlohmann::json;
+
+int fail(const std::string& text, int status) {
+  std::cerr << "rungctl: " << text << '\n';
+  return status;
+}
+
+json asked(Client& client, const json& request) {
+  json answer = client.ask(request);
+  if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
+  return answer;
+}
+
+std::string shown(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+void print(const Words& words, const json& answer, const std::string& text) {
+  if (words.common.asJson)
+    std::cout << answer.dump() << std::endl;
+  else if (!text.empty())
+    std::cout << text << (text.ends_with('\n') ? "" : "\n") << std::flush;
+}
+
+} // namespace rung::rungctl

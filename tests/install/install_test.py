@@ -217,7 +217,7 @@ class System(unittest.TestCase):
             self.assertGreater(len(commands), 10)
             names |= {f"{program}.1", *(f"{program}-{name}.1" for name in commands)}
         if any(PREFIX.glob("lib/linuxcnc/modules/*")):
-            names |= {"rung_hal.9", "rung-operator.1"}
+            names |= {"rung_hal.9", "rung-operator.1", "rung-services.1"}
         self.assertEqual({page.name for page in pages}, names)
         for page in pages:
             with self.subTest(page=page.name):

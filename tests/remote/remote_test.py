@@ -41,21 +41,22 @@ never = ["X0.2"]
 """
 
 
-def build(folder, *options):
-    (folder / "stuck.pmc").write_text(PROGRAM)
+def build(folder, *options, source=PROGRAM):
+    (folder / "stuck.pmc").write_text(source)
     subprocess.run([BIN / "rungc", "build", "-q", folder / "stuck.pmc", "-o", folder / "stuck.so", *options], check=True)
     return folder / "stuck.so"
 
 
 class Host(unittest.TestCase):
     map = MAP
+    source = PROGRAM
     build_options = ()
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.home = Path(cls.folder.name)
-        cls.program = build(cls.home, *cls.build_options)
+        cls.program = build(cls.home, *cls.build_options, source=cls.source)
 
     @classmethod
     def tearDownClass(cls):

@@ -40,7 +40,8 @@ int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
 } // namespace
 
 Box::Box(const Image& image, mapping::File map, const std::string& retain)
-    : map_(std::move(map)), options_{.size = sizeof options_, .user = this, .log = &Box::log}, plc_(image, &options_),
+    : map_(std::move(map)),
+      options_{.size = sizeof options_, .user = this, .log = &Box::log, .request = &Box::request}, plc_(image, &options_),
       kept_(!retain.empty()), pins_(map_.pins) {
   if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
 }
@@ -50,6 +51,10 @@ void Box::log(void* box, int32_t level, const char* text) try {
   if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
 } catch (const std::bad_alloc&) {
   static_cast<Box*>(box)->logged_.clear(); // room for what comes next
+}
+
+int32_t Box::request(void* box, rung_instance*, const rung_request* request, rung_reply* reply) {
+  return services::atOnce(*request, static_cast<Box*>(box)->live_, *reply);
 }
 
 std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, std::vector<std::string>& errors,
@@ -262,6 +267,13 @@ void Box::clearPins() noexcept {
 bool Box::nextMessage(rung_message_info& message) const noexcept {
   message.size = sizeof message;
   return rung_instance_next_message(plc_.handle(), &message) == RUNG_OK;
+}
+
+bool Box::nextRequest(services::Request& request) const {
+  request.given.size = sizeof request.given;
+  if (rung_instance_next_request(plc_.handle(), &request.given) != RUNG_OK) return false;
+  request.service = request.given.service;
+  return true;
 }
 
 int32_t Box::obey(Order& order) noexcept {

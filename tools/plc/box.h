@@ -17,6 +17,7 @@
 #include "tools/plc/orders.h"
 #include "tools/plc/pin_cell.h"
 #include "tools/plc/pins.h"
+#include "tools/services/translate.h"
 
 namespace rung::plc {
 
@@ -59,6 +60,11 @@ public:
   static constexpr std::chrono::milliseconds kPatience{1000};
   // One thread at a time, any. False: the program has shown nothing since.
   bool nextMessage(rung_message_info& message) const noexcept;
+  // What the program asks of a CNC that somebody stands for (`live().served`), for one thread at a time. False: no
+  // request waits.
+  services::Live& live() noexcept { return live_; }
+  bool nextRequest(services::Request& request) const;
+  void answer(const rung_reply& reply) const noexcept { rung_instance_answer(plc_.handle(), &reply); }
   rung_instance* instance() const noexcept { return plc_.handle(); }
   const mapping::File& map() const noexcept { return map_; }
 
@@ -96,9 +102,11 @@ private:
   int32_t obey(Order& order) noexcept;
   int32_t obeyRunning(Order& order) noexcept;
   static void log(void* box, int32_t level, const char* text);
+  static int32_t request(void* box, rung_instance* instance, const rung_request* request, rung_reply* reply);
 
   mapping::File map_;
   std::vector<std::string> logged_;
+  services::Live live_;
   rung_instance_options options_;
   Instance plc_;
   bool kept_; // there is a file for retained memory

@@ -128,11 +128,14 @@ const Controller::Command Controller::kCommands[] = {
     {"stop", mapping::Remote::Stop, &Controller::stop},
     {"start", mapping::Remote::Start, &Controller::start},
     {"reset", mapping::Remote::Reset, &Controller::reset},
+    {"serve", mapping::Remote::Serve, &Controller::serve},
+    {"live", mapping::Remote::Serve, &Controller::live},
+    {"served", mapping::Remote::Serve, &Controller::served},
 };
 
 Controller::Controller(std::string host, plc::Box& box, const rung_program& program,
                        std::function<void(const std::string&)> log)
-    : host_(std::move(host)), box_(box), program_(program.name), dialect_(program.dialect), log_(std::move(log)) {}
+    : host_(std::move(host)), box_(box), services_(box), program_(program.name), dialect_(program.dialect), log_(std::move(log)) {}
 
 Controller::~Controller() = default;
 
@@ -165,6 +168,7 @@ void Controller::gone(const Peer& peer) {
   watching_.erase(peer.number);
   std::erase(following_, peer.number);
   desk_.gone(peer);
+  services_.gone(peer);
 }
 
 // ---- looking -------------------------------------------------------------------------------------------------------
@@ -284,6 +288,7 @@ void Controller::sendEvents(Server& server) {
       server.send(peer, watching->event(sample));
     }
   }
+  services_.work(server);
 }
 
 json Controller::map(const Peer&, const json&) {
@@ -564,5 +569,9 @@ json Controller::reset(const Peer& peer, const json&) {
   if (box_.running()) throw Refused("the program runs; a reset restarts one that a fault has stopped");
   return simple(Order::Kind::Restart, peer, "reset");
 }
+
+json Controller::serve(const Peer& peer, const json&) { return services_.serve(peer); }
+json Controller::live(const Peer& peer, const json& request) { return services_.live(peer, request); }
+json Controller::served(const Peer& peer, const json& request) { return services_.served(peer, request); }
 
 } // namespace rung::remote

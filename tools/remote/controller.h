@@ -13,6 +13,7 @@
 #include "rung/runtime.hpp"
 #include "tools/plc/box.h"
 #include "tools/remote/server.h"
+#include "tools/remote/services.h"
 #include "tools/remote/source_desk.h"
 
 namespace rung::remote {
@@ -37,7 +38,7 @@ public:
   using Print = std::function<void(const std::string&)>;
   bool serveBox(Server* server, const Print& print);
   void passMessages(Server* server, const Print& print);
-  // Sends what has changed to those who watch.
+  // Sends what has changed to those who watch, and what the program asks to who serves it.
   void sendEvents(Server& server);
   // Compares what a shadow has recorded, for a part of a turn.
   void work();
@@ -77,6 +78,9 @@ private:
   nlohmann::json map(const Peer& peer, const nlohmann::json& request);
   nlohmann::json profile(const Peer& peer, const nlohmann::json& request);
   nlohmann::json clearProfile(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json serve(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json live(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json served(const Peer& peer, const nlohmann::json& request);
 
   struct Found {
     rung_cell cell = 0;
@@ -107,6 +111,7 @@ private:
 
   std::string host_;
   plc::Box& box_;
+  Services services_;
   std::string program_; // the name of the one that runs
   std::string former_;  // of the one that `rollback` puts back
   std::string dialect_;

@@ -21,6 +21,9 @@ public:
   // The next event; waits for it, until `stop` is not 0.
   std::optional<nlohmann::json> event(const volatile int& stop);
 
+  // For lines that are passed on as they are.
+  remote::Connection& connection() { return connection_; }
+
 private:
   std::optional<nlohmann::json> next(int waitMs);
 

@@ -17,6 +17,7 @@
 #include "tools/command-line/usage.h"
 #include "tools/remote/place.h"
 #include "tools/rungctl/client.h"
+#include "tools/rungctl/relay.h"
 #include "tools/rungctl/reload.h"
 #include "tools/rungctl/trace.h"
 #include "tools/rungctl/words.h"
@@ -185,6 +186,12 @@ int profile(Client& client, const Words& words) {
   return cli::kOk;
 }
 
+int serve(Client& client, const Words&) {
+  std::cout << asked(client, {{"do", "serve"}}).dump() << std::endl;
+  rungctl::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
+  return cli::kOk;
+}
+
 int hosts(const Words& words) {
   const std::vector<std::string> names = remote::hostsOf(geteuid());
   std::string text;
@@ -305,6 +312,8 @@ void addAll(Commands& commands) {
         command.flag("--reset", words.reset, "Then count and time anew");
       },
       profile);
+  commands.add("serve", "Answer what the program asks of its CNC: lines of the protocol on standard input and output",
+               none, serve);
 }
 
 } // namespace

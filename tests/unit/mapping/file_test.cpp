@@ -470,7 +470,7 @@ TEST(MapFile, WhatRungctlMayDo) {
   EXPECT_THAT(
       errorsOf("[rungctl]\nallow = [\"sett\"]\nnever = \"X0.0\"\nalways = 1\n"),
       ElementsAre("m.map:2:9: rungctl.allow: found a list, expected a list of \"set\", \"force\", \"reload\", "
-                  "\"start\", \"stop\", \"reset\" and \"profile\"; write for example allow = [\"set\"]",
+                  "\"start\", \"stop\", \"reset\", \"profile\" and \"serve\"; write for example allow = [\"set\"]",
                   "m.map:3:9: rungctl.never: found \"X0.0\", expected a list of names of the program; write for "
                   "example never = [\"X0.0\"]",
                   "m.map:4:1: rungctl: found an unknown key always, expected allow, never"));

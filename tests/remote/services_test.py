@@ -1,0 +1,205 @@
+#!/usr/bin/env python3
+"""What a program asks of its CNC, answered through the host's socket: services_test.py BIN CLASS"""
+import json
+import random
+import subprocess
+import sys
+import time
+import unittest
+
+import remote_test
+from remote_test import Host, PATIENCE, WRONG
+
+# X0.0 reads variable 500 into D14:4, end code in R20; X0.1 writes D34:4 to the tool number, end code in R22;
+# X0.2 reads the machine position of axis D46:2 into D50:4 at once, end code in R24.
+WINDOWS = """dialect gsk
+FUNC END1
+LD   X0.0
+FUNC WINDR
+PRM  D0
+PRM  R20
+OUT  R10.0
+LD   X0.1
+FUNC WINDW
+PRM  D20
+PRM  R22
+OUT  R10.1
+LD   X0.2
+FUNC WINDR
+PRM  D40
+PRM  R24
+OUT  R10.2
+FUNC END2
+"""
+BLOCKS = {"D0:2": 9, "D4:2": 4, "D6:2": 500, "D20:2": 31, "D24:2": 4, "D40:2": 17, "D44:2": 4, "D48:2": 2}
+VARIABLE = {"event": "service", "quantity": "macro-variable", "channel": 0, "number": 500, "axis": 0}
+TOOL = {"event": "service", "quantity": "tool-number", "channel": 0, "number": 0, "axis": 0, "value": 7.0}
+
+
+class Services(Host):
+    map = '[rungctl]\nallow = ["set", "serve"]\n'
+    source = WINDOWS
+
+    def setUp(self):
+        super().setUp()
+        for name, value in BLOCKS.items():
+            self.ctl("set", name, value)
+
+    def end_of(self, name, condition, output):
+        """The end code after the condition has come, and without it again."""
+        self.ctl("set", condition, "1")
+        self.wait(lambda: self.get(output))
+        code = self.get(name)
+        self.ctl("set", condition, "0")
+        self.wait(lambda: not self.get(output))
+        return code
+
+    def provider(self):
+        made, lines = self.connect()
+        lines.readline()
+        self.assertTrue(self.ask((made, lines), do="serve")["ok"])
+        return made, lines
+
+    def ask(self, connection, **request):
+        made, lines = connection
+        made.sendall(json.dumps(request).encode() + b"\n")
+        while "event" in (answer := json.loads(lines.readline())):
+            pass
+        return answer
+
+    def event(self, connection):
+        return json.loads(connection[1].readline())
+
+    def test_without_a_provider_requests_are_refused_at_once(self):
+        self.assertEqual(self.end_of("R20:2", "X0.0", "R10.0"), 6)
+        self.assertEqual(self.end_of("R22:2", "X0.1", "R10.1"), 6)
+        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 6)
+
+    def test_a_variable_is_read(self):
+        provider = self.provider()
+        self.ctl("set", "X0.0", "1")
+        asked = self.event(provider)
+        ticket = asked.pop("ticket")
+        self.assertEqual(asked, VARIABLE)
+        self.assertTrue(self.ask(provider, do="served", ticket=ticket, outcome="done", value=-2.5)["ok"])
+        self.wait(lambda: self.get("R10.0"))
+        self.assertEqual((self.get("D10:4"), self.get("R20:2")), (-25000, 0))
+        self.ctl("set", "X0.0", "0")
+        self.assertIn(f"no request with ticket {ticket} waits",
+                      self.ask(provider, do="served", ticket=ticket, outcome="done", value=1)["error"])
+
+    def test_every_outcome_has_its_end_code(self):
+        provider = self.provider()
+        for outcome, read, write in (("no-quantity", 6, 6), ("no-number", 3, 3), ("no-axis", 4, 4), ("bad-value", 5, 5),
+                                     ("not-now", 6, 7), ("done", 2, 0)):  # 2: the value is too long
+            for condition, output, name, code in (("X0.0", "R10.0", "R20:2", read), ("X0.1", "R10.1", "R22:2", write)):
+                self.ctl("set", "D30:4", "70000")
+                self.ctl("set", condition, "1")
+                asked = self.event(provider)
+                if condition == "X0.1":
+                    self.assertEqual({**asked, "ticket": 0}, {**TOOL, "ticket": 0})
+                self.ask(provider, do="served", ticket=asked["ticket"], outcome=outcome, value=1e9)
+                self.wait(lambda: self.get(output))
+                self.assertEqual(self.get(name), code, (outcome, condition))
+                self.ctl("set", condition, "0")
+                self.wait(lambda: not self.get(output))
+
+    def test_a_position_is_there_at_once(self):
+        provider = self.provider()
+        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 6)  # nothing is known yet
+        self.assertTrue(self.ask(provider, do="live", machine=[1, -2.5], line=3)["ok"])
+        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 0)
+        self.assertEqual(self.get("D50:4"), -2500)
+        self.ask(provider, do="live", machine=[1], line=3)
+        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 4)
+
+    def test_what_a_provider_leaves_is_refused(self):
+        provider = self.provider()
+        self.ctl("set", "X0.0", "1")
+        self.event(provider)
+        provider[0].shutdown(2)
+        provider[1].close()
+        self.wait(lambda: self.get("R10.0"))
+        self.assertEqual(self.get("R20:2"), 6)
+
+    def test_what_is_not_answered_is_refused(self):
+        provider = self.provider()
+        begin = time.monotonic()
+        self.ctl("set", "X0.0", "1")
+        asked = self.event(provider)
+        self.wait(lambda: self.get("R10.0"))
+        self.assertTrue(4 < time.monotonic() - begin < 8)
+        self.assertEqual(self.get("R20:2"), 6)
+        self.assertIn("or was too late", self.ask(provider, do="served", ticket=asked["ticket"], outcome="done", value=1)["error"])
+
+    def test_one_serves_at_a_time(self):
+        provider = self.provider()
+        other = self.connect()
+        other[1].readline()
+        self.assertIn("somebody else serves this program already", self.ask(other, do="serve")["error"])
+        for request in ({"do": "live", "machine": [], "line": 0}, {"do": "served", "ticket": 1, "outcome": "done"}):
+            self.assertIn("this connection does not serve the program", self.ask(other, **request)["error"])
+        self.assertTrue(self.ask(provider, do="serve")["ok"])
+
+    def test_wrong_answers(self):
+        provider = self.provider()
+        self.ctl("set", "X0.0", "1")
+        ticket = self.event(provider)["ticket"]
+        for request, error in (({"do": "served"}, 'found no number "ticket" from 0 to 4294967295'),
+                               ({"do": "served", "ticket": ticket}, 'found null for "outcome", expected one of done, no-quantity'),
+                               ({"do": "served", "ticket": ticket, "outcome": "good"}, 'found "good" for "outcome"'),
+                               ({"do": "served", "ticket": ticket, "outcome": "done"}, 'found null for "value", expected a number'),
+                               ({"do": "served", "ticket": ticket, "outcome": "done", "value": "1"}, 'found "1" for "value"'),
+                               ({"do": "live"}, 'found no list "machine" of at most 9 numbers'),
+                               ({"do": "live", "machine": [0] * 10, "line": 0}, 'found no list "machine" of at most 9 numbers'),
+                               ({"do": "live", "machine": [None], "line": 0}, 'found null for "machine", expected a number'),
+                               ({"do": "live", "machine": [0], "line": -1}, 'found no number "line" from 0 to 99999999')):
+            answer = self.ask(provider, **request)
+            self.assertFalse(answer["ok"], request)
+            self.assertIn(error, answer["error"])
+        self.assertTrue(self.ask(provider, do="served", ticket=ticket, outcome="done", value=3)["ok"])
+        self.wait(lambda: self.get("D10:4") == 30000)
+
+    def test_mutated_answers_do_no_harm(self):
+        chance = random.Random(4711)
+        provider = self.provider()
+        values = [None, 0, 1, -1, 2**70, 1e300, 1.5, "", "done", "no-axis", True, [], [1, 2], [[]], {}]
+        good = 0
+        self.ctl("set", "X0.0", "1")
+        for ticket in range(300):
+            request = chance.choice([{"do": "served", "ticket": ticket % 4, "outcome": "done", "value": 2},
+                                     {"do": "live", "machine": [1, 2, 3], "line": 4}])
+            if chance.randrange(4):
+                request[chance.choice(list(request))] = chance.choice(values)
+            answer = self.ask(provider, **request)
+            self.assertEqual("error" in answer, not answer["ok"], request)
+            good += answer["ok"]
+        self.assertGreater(good, 20)
+        self.assertIn("running: ", self.ctl("status"))
+
+    def test_rungctl_serve(self):
+        serving = subprocess.Popen([remote_test.BIN / "rungctl", "serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                   env=self.environment)
+        self.addCleanup(serving.stdout.close)
+        self.assertEqual(json.loads(serving.stdout.readline()), {"ok": True})
+        self.ctl("set", "X0.0", "1")
+        asked = json.loads(serving.stdout.readline())
+        serving.stdin.write(json.dumps({"do": "served", "ticket": asked["ticket"], "outcome": "done", "value": 4}) + "\n")
+        serving.stdin.flush()
+        self.assertEqual(json.loads(serving.stdout.readline()), {"ok": True})
+        self.wait(lambda: self.get("D10:4") == 40000)
+        serving.stdin.close()
+        self.assertEqual(serving.wait(PATIENCE), 0)
+        self.ctl("set", "X0.0", "0")
+        self.wait(lambda: not self.get("R10.0"))
+        self.assertEqual(self.end_of("R20:2", "X0.0", "R10.0"), 6)
+
+
+class ServiceRights(Host):
+    def test_the_mapping_file_must_allow_it(self):
+        self.assertIn('"serve" is not allowed here; the mapping file allows it', self.ctl("serve", status=WRONG))
+
+
+if __name__ == "__main__":
+    remote_test.BIN = remote_test.Path(sys.argv[1]).resolve()
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)

@@ -1,0 +1,149 @@
+// See services.h.
+#include "tools/remote/services.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/remote/values.h"
+
+namespace rung::remote {
+namespace {
+
+using nlohmann::json;
+using services::Outcome;
+
+constexpr uint32_t kHighestLine = 99'999'999;
+
+uint32_t numberOf(const json& request, const char* key, uint32_t most) {
+  const auto found = request.find(key);
+  if (found == request.end() || !found->is_number_unsigned() || *found > most)
+    throw Refused(std::string("found no number \"") + key + "\" from 0 to " + std::to_string(most) +
+                  " in the request, expected one");
+  return found->get<uint32_t>();
+}
+
+double realOf(const json& value, const char* key) {
+  const bool good = value.is_number() && std::isfinite(value.get<double>());
+  if (!good) throw Refused(std::string("found ") + value.dump() + " for \"" + key + "\", expected a number");
+  return value.get<double>();
+}
+
+Outcome outcomeOf(const json& request) {
+  const json word = request.value("outcome", json());
+  const auto* known = word.is_string() ? std::ranges::find(services::kOutcomeNames, word.get<std::string>())
+                                       : std::end(services::kOutcomeNames);
+  if (known != std::end(services::kOutcomeNames)) return static_cast<Outcome>(known - services::kOutcomeNames);
+  std::string names;
+  for (const std::string_view name : services::kOutcomeNames) names += (names.empty() ? "" : ", ") + std::string(name);
+  throw Refused("found " + word.dump() + " for \"outcome\", expected one of " + names);
+}
+
+std::vector<double> positionsOf(const json& request) {
+  const auto found = request.find("machine");
+  if (found == request.end() || !found->is_array() || found->size() > services::kMostAxes)
+    throw Refused("found no list \"machine\" of at most " + std::to_string(services::kMostAxes) +
+                  " numbers in the request, expected one");
+  std::vector<double> positions;
+  for (const json& position : *found) positions.push_back(realOf(position, "machine"));
+  return positions;
+}
+
+json eventOf(uint32_t ticket, const services::Operation& o) {
+  json event = {{"event", "service"},
+                {"ticket", ticket},
+                {"quantity", services::kQuantityNames[static_cast<size_t>(o.quantity)]},
+                {"channel", o.channel},
+                {"number", o.number},
+                {"axis", o.axis}};
+  if (o.write) event["value"] = o.value;
+  return event;
+}
+
+} // namespace
+
+json Services::serve(const Peer& peer) {
+  if (provider_ != 0 && provider_ != peer.number)
+    throw Refused("somebody else serves this program already; end that connection first");
+  provider_ = peer.number;
+  box_.live().served.store(true, std::memory_order_release);
+  return json::object();
+}
+
+void Services::checkProvider(const Peer& peer) const {
+  if (peer.number != provider_) throw Refused("this connection does not serve the program; \"serve\" begins it");
+}
+
+json Services::live(const Peer& peer, const json& request) {
+  checkProvider(peer);
+  const std::vector<double> positions = positionsOf(request);
+  const uint32_t line = numberOf(request, "line", kHighestLine);
+  services::Live& live = box_.live();
+  for (size_t i = 0; i < positions.size(); ++i) live.machine[i].store(positions[i], std::memory_order_relaxed);
+  live.axes.store(static_cast<uint32_t>(positions.size()), std::memory_order_relaxed);
+  live.line.store(line, std::memory_order_relaxed);
+  live.known.store(true, std::memory_order_release);
+  return json::object();
+}
+
+json Services::served(const Peer& peer, const json& request) {
+  checkProvider(peer);
+  const uint32_t ticket = numberOf(request, "ticket", UINT32_MAX);
+  const auto found = waiting_.find(ticket);
+  if (found == waiting_.end())
+    throw Refused("no request with ticket " + std::to_string(ticket) + " waits: it is answered, or was too late");
+  const services::Request& asked = found->second.request;
+  services::Answer answer{.outcome = outcomeOf(request)};
+  if (answer.outcome == Outcome::Done && asked.reads()) answer.value = realOf(request.value("value", json()), "value");
+  box_.answer(services::replyOf(asked, answer));
+  waiting_.erase(found);
+  return json::object();
+}
+
+// Nobody answers what waits.
+void Services::gone(const Peer& peer) {
+  if (peer.number != provider_) return;
+  provider_ = 0;
+  services::Live& live = box_.live();
+  live.served.store(false, std::memory_order_release);
+  live.known.store(false, std::memory_order_release);
+  for (const auto& [ticket, waiting] : waiting_) refuse(waiting.request);
+  waiting_.clear();
+}
+
+void Services::work(Server& server) {
+  refuseLate();
+  services::Request request;
+  while (box_.nextRequest(request)) pass(server, std::exchange(request, {}));
+}
+
+void Services::pass(Server& server, services::Request request) {
+  rung_reply refusal{};
+  const std::optional<services::Operation> operation = services::operationOf(request, refusal);
+  if (!operation) {
+    box_.answer(refusal);
+    return;
+  }
+  if (provider_ == 0) return refuse(request); // it has gone since the program asked
+  const uint32_t ticket = request.given.ticket;
+  waiting_[ticket] = {std::move(request), std::chrono::steady_clock::now() + kPatience};
+  server.send(provider_, eventOf(ticket, *operation));
+}
+
+void Services::refuseLate() {
+  const auto now = std::chrono::steady_clock::now();
+  std::erase_if(waiting_, [&](const auto& entry) {
+    const bool late = entry.second.end <= now;
+    if (late) refuse(entry.second.request);
+    return late;
+  });
+}
+
+// As the control does where nobody serves (rtlib/nc/control/refuse.h).
+void Services::refuse(const services::Request& request) {
+  box_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
+}
+
+} // namespace rung::remote

@@ -1,0 +1,22 @@
+// The dialects' parts of translate.h. `is` tells whether a request is the dialect's, and may wait for an answer.
+#pragma once
+#include "tools/services/translate.h"
+
+namespace rung::services {
+
+// The window functions of GSK25i (man. §9.3). Those of high speed are answered at once, or by no one.
+namespace gsk {
+bool is(std::string_view service) noexcept;
+int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
+std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
+rung_reply replyOf(const Request& request, const Answer& answer);
+} // namespace gsk
+
+// MACR and MACW of NCT (man. §6.16).
+namespace nct {
+bool is(std::string_view service) noexcept;
+std::optional<Operation> operationOf(const Request& request);
+rung_reply replyOf(const Request& request, const Answer& answer);
+} // namespace nct
+
+} // namespace rung::services

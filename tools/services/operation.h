@@ -1,0 +1,47 @@
+// What a PLC program asks of its CNC and what it gets, in the words of no dialect: docs/control-protocol.md has the
+// names. Lengths are in mm, angles in degrees, axes count from 0 in the order of the machine.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace rung::services {
+
+enum class Quantity : uint8_t {
+  MacroVariable,
+  ToolLength, // of the tool or offset `number`; so are the next three
+  ToolLengthWear,
+  ToolRadius,
+  ToolRadiusWear,
+  WorkOffset, // `number` 0: of all work coordinate systems; 1 to 6: G54 to G59; from 7 on the further ones
+  ToolNumber, // `number` 0: in the spindle; 1: preselected
+};
+inline constexpr std::string_view kQuantityNames[] = {
+    "macro-variable",   "tool-length", "tool-length-wear", "tool-radius",
+    "tool-radius-wear", "work-offset", "tool-number"}; // by Quantity
+
+struct Operation {
+  Quantity quantity = Quantity::MacroVariable;
+  bool write = false;
+  uint32_t channel = 0; // from 0
+  uint32_t number = 0;
+  uint32_t axis = 0; // of a work offset
+  double value = 0;  // to be written
+};
+
+enum class Outcome : uint8_t {
+  Done,
+  NoQuantity, // the CNC has nothing of the kind
+  NoNumber,   // but none of this number, or no such channel
+  NoAxis,
+  BadValue,
+  NotNow, // it is not switched on, or at work, or locked; and where nobody answers
+};
+inline constexpr std::string_view kOutcomeNames[] = {"done",    "no-quantity", "no-number",
+                                                     "no-axis", "bad-value",   "not-now"}; // by Outcome
+
+struct Answer {
+  Outcome outcome = Outcome::NotNow;
+  double value = 0; // that was read
+};
+
+} // namespace rung::services

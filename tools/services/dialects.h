@@ -1,4 +1,4 @@
-// The dialects' parts of translate.h. `is` tells whether a request is the dialect's, and may wait for an answer.
+// The dialects' parts of translate.h. `is` says whether a request is the dialect's, and may wait for an answer.
 #pragma once
 #include "tools/services/translate.h"
 

@@ -59,3 +59,20 @@ target_link_libraries(rung_llvm INTERFACE LLVM)
 # The in-process ELF linker: static lld on the shared LLVM.
 add_library(rung_lld INTERFACE)
 target_link_libraries(rung_lld INTERFACE lldELF lldCommon rung_llvm)
+
+# Clang's shared library, for the program that reads headers for rungc bind.
+if(RUNG_CLANG)
+  find_path(RUNG_CLANG_INCLUDE clang/Tooling/Tooling.h HINTS ${LLVM_INCLUDE_DIRS})
+  find_library(RUNG_CLANG_LIBRARY NAMES clang-cpp libclang-cpp.so.${LLVM_VERSION_MAJOR}.${LLVM_VERSION_MINOR}
+    HINTS "${LLVM_LIBRARY_DIR}" NO_DEFAULT_PATH)
+  if(NOT RUNG_CLANG_INCLUDE OR NOT RUNG_CLANG_LIBRARY)
+    message(FATAL_ERROR "rungc bind reads headers by libTooling of clang ${LLVM_VERSION_MAJOR}, which is not there: "
+      "install libclang-${LLVM_VERSION_MAJOR}-dev, or leave the command out by -DRUNG_CLANG=OFF")
+  endif()
+  add_library(rung_clang INTERFACE)
+  target_include_directories(rung_clang SYSTEM INTERFACE "${RUNG_CLANG_INCLUDE}")
+  # Its own headers (stddef.h) are found by their folder, whatever program has it loaded.
+  target_compile_definitions(rung_clang INTERFACE
+    RUNG_CLANG_HEADERS="${LLVM_LIBRARY_DIR}/clang/${LLVM_VERSION_MAJOR}")
+  target_link_libraries(rung_clang INTERFACE "${RUNG_CLANG_LIBRARY}" rung_llvm)
+endif()

@@ -67,7 +67,7 @@ if(RUNG_CLANG)
     HINTS "${LLVM_LIBRARY_DIR}" NO_DEFAULT_PATH)
   if(NOT RUNG_CLANG_INCLUDE OR NOT RUNG_CLANG_LIBRARY)
     message(FATAL_ERROR "rungc bind reads headers by libTooling of clang ${LLVM_VERSION_MAJOR}, which is not there: "
-      "install libclang-${LLVM_VERSION_MAJOR}-dev, or leave the command out by -DRUNG_CLANG=OFF")
+      "install libclang-${LLVM_VERSION_MAJOR}-dev and libclang-cpp${LLVM_VERSION_MAJOR}, or leave the command out by -DRUNG_CLANG=OFF")
   endif()
   add_library(rung_clang INTERFACE)
   target_include_directories(rung_clang SYSTEM INTERFACE "${RUNG_CLANG_INCLUDE}")

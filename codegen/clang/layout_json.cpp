@@ -9,10 +9,17 @@ namespace {
 using nlohmann::json;
 
 json jsonOf(const HostMember& m) {
-  return {{"name", m.name},       {"type", m.type},           {"kind", static_cast<int>(m.kind)},
-          {"signed", m.isSigned}, {"bit", m.bit},             {"bits", m.bits},
-          {"bytes", m.bytes},     {"lengths", m.lengths},     {"record", m.record},
-          {"why", m.why},         {"constants", m.constants}};
+  return {{"name", m.name},
+          {"type", m.type},
+          {"kind", static_cast<int>(m.kind)},
+          {"signed", m.isSigned},
+          {"bit", m.bit},
+          {"bits", m.bits},
+          {"bytes", m.bytes},
+          {"lengths", m.lengths},
+          {"record", m.record},
+          {"why", m.why},
+          {"constants", m.constants}};
 }
 
 HostMember memberOf(const json& j) {

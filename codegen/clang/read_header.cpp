@@ -8,6 +8,7 @@
 #include <clang/AST/ASTConsumer.h>
 #include <clang/AST/ASTContext.h>
 #include <clang/AST/DeclCXX.h>
+#include <clang/AST/DeclTemplate.h>
 #include <clang/AST/RecordLayout.h>
 #include <clang/Basic/TargetInfo.h>
 #include <clang/Frontend/CompilerInstance.h>
@@ -50,6 +51,8 @@ private:
     for (const Decl* decl : context.decls()) {
       if (const auto* record = dyn_cast<RecordDecl>(decl); record && !record->getName().empty())
         structs_.try_emplace(record->getQualifiedNameAsString(), record, record);
+      if (const auto* pattern = dyn_cast<ClassTemplateDecl>(decl))
+        structs_.try_emplace(pattern->getQualifiedNameAsString(), pattern->getTemplatedDecl(), pattern);
       if (const auto* alias = dyn_cast<TypedefNameDecl>(decl))
         if (const RecordDecl* record = alias->getUnderlyingType()->getAsRecordDecl())
           structs_[alias->getQualifiedNameAsString()] = {record, alias};
@@ -63,7 +66,10 @@ private:
 // From the declarations of a record to its members.
 class LayoutReader {
 public:
-  LayoutReader(ASTContext& context, HostLayout& layout) : context_(context), layout_(layout) {}
+  LayoutReader(ASTContext& context, HostLayout& layout)
+      : context_(context), layout_(layout), policy_(context.getPrintingPolicy()) {
+    policy_.AnonymousTagLocations = 0;
+  }
 
   uint32_t add(const RecordDecl& record) {
     const auto [known, isNew] = numbers_.try_emplace(&record, static_cast<uint32_t>(layout_.records.size()));
@@ -99,7 +105,7 @@ private:
       member.lengths.push_back(array->getSize().getZExtValue());
       type = array->getElementType();
     }
-    member.type = type.getUnqualifiedType().getAsString(context_.getPrintingPolicy());
+    member.type = type.getUnqualifiedType().getAsString(policy_);
     if (field.isBitField()) member.bits = field.getBitWidthValue(context_);
     describe(type, member);
     if (field.getAccess() == AS_private || field.getAccess() == AS_protected)
@@ -137,12 +143,17 @@ private:
     if (member.bytes > 8 || type->isBitIntType()) return becomeOther(member, "an integer of no width that a PLC has");
     member.kind = MemberKind::Integer;
     member.isSigned = type->isSignedIntegerOrEnumerationType();
-    const auto* enumeration = type->getAs<EnumType>();
-    if (enumeration == nullptr) return;
-    for (const EnumConstantDecl* constant : enumeration->getDecl()->enumerators()) {
-      member.constants.push_back(static_cast<uint32_t>(layout_.constants.size()));
+    if (const auto* enumeration = type->getAs<EnumType>()) member.constants = constantsOf(*enumeration->getDecl());
+  }
+
+  std::vector<uint32_t> constantsOf(const EnumDecl& enumeration) {
+    const auto [known, isNew] = constants_.try_emplace(&enumeration);
+    if (!isNew) return known->second;
+    for (const EnumConstantDecl* constant : enumeration.enumerators()) {
+      known->second.push_back(static_cast<uint32_t>(layout_.constants.size()));
       layout_.constants.push_back({constant->getQualifiedNameAsString(), constant->getInitVal().getExtValue()});
     }
+    return known->second;
   }
 
   static std::string whatIs(const Type& type) {
@@ -156,7 +167,9 @@ private:
 
   ASTContext& context_;
   HostLayout& layout_;
+  PrintingPolicy policy_; // of types
   std::map<const RecordDecl*, uint32_t> numbers_;
+  std::map<const EnumDecl*, std::vector<uint32_t>> constants_;
 };
 
 class Consumer final : public ASTConsumer {
@@ -230,7 +243,12 @@ private:
 
 std::unique_ptr<tooling::CompilationDatabase> flagsOf(const HeaderRequest& request, std::string& problem) {
   if (request.buildFolder.empty()) return std::make_unique<tooling::FixedCompilationDatabase>(".", request.flags);
-  return tooling::CompilationDatabase::loadFromDirectory(request.buildFolder, problem);
+  std::string error; // of each kind of database, over several lines
+  auto database = tooling::CompilationDatabase::loadFromDirectory(request.buildFolder, error);
+  if (!database)
+    problem = "there is no compile_commands.json in " + request.buildFolder +
+              " that can be read; CMake writes one with CMAKE_EXPORT_COMPILE_COMMANDS=ON";
+  return database;
 }
 
 // The headers that belong to clang (stddef.h) lie with its library, not with this program. Warnings of a host's header
@@ -254,8 +272,8 @@ HeaderOutcome readHeader(const HeaderRequest& request) {
   }
   const std::unique_ptr<tooling::CompilationDatabase> flags = flagsOf(request, outcome.problem);
   if (!flags) return outcome;
-  outcome.problem.clear();
   tooling::ClangTool tool(*flags, {request.header});
+  tool.setPrintErrorMessage(false);
   tool.appendArgumentsAdjuster(ourFlags());
   ActionFactory actions(request, outcome);
   const int status = tool.run(&actions);

@@ -173,6 +173,17 @@ int32_t failBlock(const rung_instance& instance, const HostBlock& block, BlockSt
 }
 
 } // namespace
+
+int32_t checkPlace(const rung_instance& instance, const HostBlock& block) {
+  const BlockState state = locateBlock(*instance.around, instance.running.program(), block).state;
+  return state == BlockState::Good ? int32_t{RUNG_OK} : failBlock(instance, block, state);
+}
+
+void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given) {
+  instance.blocks.add(*instance.around, given);
+  if (std::ranges::any_of(given, &HostBlock::input)) instance.running.setLatching(true);
+}
+
 } // namespace rung::runtime
 
 using namespace rung::runtime;
@@ -189,11 +200,9 @@ int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blo
                                                             .address = static_cast<uint8_t*>(blocks[i].address),
                                                             .bytes = blocks[i].bytes,
                                                             .input = blocks[i].direction == RUNG_TO_PROGRAM});
-      const BlockState state = locateBlock(*call->around, call->running.program(), block).state;
-      if (state != BlockState::Good) return failBlock(*call, block, state);
+      if (const int32_t status = checkPlace(*call, block); status != RUNG_OK) return status;
     }
-    call->blocks.add(*call->around, given);
-    if (std::ranges::any_of(given, &HostBlock::input)) call->running.setLatching(true);
+    addBlocks(*call, given);
     return int32_t{RUNG_OK};
   });
 }

@@ -86,4 +86,9 @@ private:
   std::vector<BlockPlan*> plans_;
 };
 
+// A block in the program that runs: RUNG_OK, or what is wrong.
+int32_t checkPlace(const rung_instance& instance, const HostBlock& block);
+// Blocks whose places are good.
+void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given);
+
 } // namespace rung::runtime

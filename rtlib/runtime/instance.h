@@ -15,6 +15,7 @@
 #include "rtlib/profile/clock.h"
 #include "rtlib/runtime/blocks.h"
 #include "rtlib/runtime/cells.h"
+#include "rtlib/runtime/host_struct.h"
 #include "rtlib/runtime/image.h"
 #include "rtlib/runtime/scan_use.h"
 #include "rtlib/runtime/surroundings.h"
@@ -25,6 +26,9 @@ namespace rung::runtime {
 struct BoundVariable {
   rung_cell cell = 0;
   rung_host_type type = RUNG_HOST_BOOL;
+  bool truth = false; // the cell takes whether the variable is 0
+  // Of a bit-field: its lowest bit in the byte at the address, how many bits, in how many bytes; bits 0: it is none.
+  uint8_t bit = 0, bits = 0, bytes = 0;
   void* address = nullptr;
   double scale = 1;
 };
@@ -67,6 +71,7 @@ struct rung_instance {
   std::unique_ptr<rung::runtime::CellTable> cells;
   std::vector<rung::runtime::BoundVariable> inputs, outputs;
   rung::runtime::HostBlocks blocks;
+  rung::runtime::HostStructs structs;
   std::unique_ptr<rung::runtime::BlockPlan> blockPlan; // of the program that runs
   rung::runtime::Watches watches;
   rung::rt::FixedRing<rung_message, rung::rt::kMessageCapacity> messages;

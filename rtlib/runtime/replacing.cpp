@@ -136,6 +136,7 @@ int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* m
   const rung_program& program = next->image->program;
   if (const int32_t status = checkDialect(*handle, program); status != RUNG_OK) return status;
   if (const int32_t status = checkMemory(program, memory, memory_bytes); status != RUNG_OK) return status;
+  if (const int32_t status = handle->structs.check(program); status != RUNG_OK) return status;
   return contained([&] {
     *replacement = new rung_replacement(*handle, next->image, static_cast<uint8_t*>(memory));
     return int32_t{RUNG_OK};

@@ -42,6 +42,7 @@ void endPass(rung_instance& instance) noexcept {
 // The rest of a slice has the inputs that it has begun with.
 void beforePart(rung_instance& instance) noexcept {
   if (instance.running.withinSlice()) return;
+  instance.structs.takeAll();
   readInputs(instance);
   instance.blockPlan->readRest(instance.running.block().data());
   instance.around->beforePart(instance.running);

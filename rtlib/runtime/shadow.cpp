@@ -75,6 +75,7 @@ int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t pas
     return fail(RUNG_BAD_ARGUMENT, "a shadow runs for 1 to %u passes and has room for 1 to %u runs, not for %u and %u",
                 RUNG_MOST_SHADOW_PASSES, RUNG_MOST_SHADOW_ROOM, passes, room);
   if (const int32_t status = checkDialect(*handle, next->image->program); status != RUNG_OK) return status;
+  if (const int32_t status = handle->structs.check(next->image->program); status != RUNG_OK) return status;
   const rung_program& running = *handle->program.load(std::memory_order_acquire);
   return contained([&] {
     auto made = std::make_unique<rung_shadow>(*handle, handle->images.find(running), next->image, passes, room);

@@ -22,7 +22,31 @@ void store(void* to, T value) noexcept {
   std::memcpy(to, &value, sizeof value);
 }
 
+bool isUnsigned(rung_host_type type) noexcept {
+  return type == RUNG_HOST_U8 || type == RUNG_HOST_U16 || type == RUNG_HOST_U32;
+}
+
+uint64_t maskOf(const BoundVariable& v) noexcept { return ~uint64_t{0} >> (64 - v.bits); }
+
+int64_t bitFieldOf(const BoundVariable& v) noexcept {
+  uint64_t word = 0;
+  std::memcpy(&word, v.address, v.bytes);
+  word = word >> v.bit & maskOf(v);
+  const bool negative = !isUnsigned(v.type) && v.type != RUNG_HOST_BOOL && (word >> (v.bits - 1) & 1) != 0;
+  return static_cast<int64_t>(negative ? word | ~maskOf(v) : word);
+}
+
+// The bits beside it stay.
+void setBitField(const BoundVariable& v, int64_t value) noexcept {
+  uint64_t word = 0;
+  std::memcpy(&word, v.address, v.bytes);
+  const uint64_t bits = v.type == RUNG_HOST_BOOL ? value != 0 : static_cast<uint64_t>(value) & maskOf(v);
+  word = (word & ~(maskOf(v) << v.bit)) | bits << v.bit;
+  std::memcpy(v.address, &word, v.bytes);
+}
+
 int64_t integerOf(const BoundVariable& v) noexcept {
+  if (v.bits != 0) return bitFieldOf(v);
   switch (v.type) {
   case RUNG_HOST_BOOL: return load<uint8_t>(v.address) != 0 ? 1 : 0;
   case RUNG_HOST_I8: return load<int8_t>(v.address);
@@ -39,6 +63,7 @@ int64_t integerOf(const BoundVariable& v) noexcept {
 }
 
 void setInteger(const BoundVariable& v, int64_t value) noexcept {
+  if (v.bits != 0) return setBitField(v, value);
   switch (v.type) {
   case RUNG_HOST_BOOL: return store<uint8_t>(v.address, value != 0 ? 1 : 0);
   case RUNG_HOST_I8:
@@ -57,10 +82,6 @@ int64_t nearest(double value) noexcept {
   constexpr double kLimit = 9.2e18;
   if (std::isnan(value)) return 0;
   return std::llrint(std::fmax(-kLimit, std::fmin(kLimit, value)));
-}
-
-bool isUnsigned(rung_host_type type) noexcept {
-  return type == RUNG_HOST_U8 || type == RUNG_HOST_U16 || type == RUNG_HOST_U32;
 }
 
 bool isReal(rung_host_type type) noexcept { return type == RUNG_HOST_F32 || type == RUNG_HOST_F64; }
@@ -88,6 +109,8 @@ void readInputs(rung_instance& instance) noexcept {
       memory.writeReal(cell.place, realOf(v));
     else if (cell.place.real)
       memory.writeReal(cell.place, static_cast<double>(integerOf(v)));
+    else if (v.truth)
+      memory.write(cell.place, integerOf(v) != 0 ? 1 : 0);
     else
       memory.write(cell.place, static_cast<uint64_t>(integerOf(v)));
   }
@@ -139,7 +162,7 @@ int32_t checkVariable(const rung_variable& v, uint32_t number) noexcept {
 
 // A variable from the program has the value that the machine sees: that of the place which the machine may write, and
 // of the program's own where there is no such place.
-int32_t findVariable(rung_instance& instance, const rung_variable& v, bool input, rung_cell& cell) {
+int32_t findPlace(rung_instance& instance, const rung_variable& v, bool input, rung_cell& cell) {
   const int32_t real = (v.direction & RUNG_BOUND_REAL) != 0 ? RUNG_REAL : 0;
   const int32_t status = findCell(instance, instance.running.program(), v.name, RUNG_WRITE | real, cell);
   if (input || (status != RUNG_OVERWRITTEN && status != RUNG_WRONG_TYPE)) return status;
@@ -147,6 +170,15 @@ int32_t findVariable(rung_instance& instance, const rung_variable& v, bool input
 }
 
 } // namespace
+
+uint32_t widthOf(rung_host_type type) noexcept { return kWidths[type]; }
+
+int32_t findVariable(rung_instance& instance, const rung_variable& variable, bool input, rung_cell& cell) {
+  if (const int32_t status = findPlace(instance, variable, input, cell); status != RUNG_OK) return status;
+  if (instance.cells->at(cell)->type != RUNG_TYPE_TEXT) return RUNG_OK;
+  return fail(RUNG_WRONG_TYPE, "%s is a text: no variable can be bound to it", variable.name);
+}
+
 } // namespace rung::runtime
 
 using namespace rung::runtime;
@@ -166,8 +198,6 @@ int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variabl
       BoundVariable bound{
           .type = static_cast<rung_host_type>(v.type), .address = v.address, .scale = v.scale != 0 ? v.scale : 1};
       if (const int32_t status = findVariable(*call, v, input, bound.cell); status != RUNG_OK) return status;
-      if (call->cells->at(bound.cell)->type == RUNG_TYPE_TEXT)
-        return fail(RUNG_WRONG_TYPE, "%s is a text: no variable can be bound to it", v.name);
       (input ? inputs : outputs).push_back(bound);
     }
     call->inputs = std::move(inputs);

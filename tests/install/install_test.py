@@ -111,6 +111,17 @@ class Hosts(unittest.TestCase):
         self.assertIn("-lrung-runtime", asked("--libs", "rung-compiler"))
         self.assertEqual(asked("--modversion", "rung-compiler"), asked("--modversion", "rung-runtime"))
 
+    def test_bound_by_its_header(self):
+        if not (Path(BUILD) / "bin/rung-layout").exists():
+            self.skipTest("this build leaves rungc bind out")
+        toy = "examples/embed-struct"
+        run(PREFIX / "bin/rungc", "bind", f"{toy}/nc_block.h", f"{toy}/panel.lad", "--no-project", "--struct", "nc_block", "--members", f"{toy}/nc.bind",
+            "-o", "nc_binding.h")
+        run(PREFIX / "bin/rungc", "build", f"{toy}/panel.lad", "--no-project", "-q", "--binding", "nc_binding.h", "-o", "panel.so")
+        run("cc", "-std=c11", "-Wall", "-Werror", f"-I{PREFIX}/include", "-I.", f"-I{toy}", f"{toy}/main.c", "-o", "by-header",
+            library_folder() / "librung-runtime.so", f"-Wl,-rpath,{library_folder()}")
+        self.assertIn("; no whole copy for 5 slices\n", run(HOME / "by-header", "panel.so").stdout)
+
     def test_python(self):
         folder = str(next(PREFIX.glob("lib/python3/**/rung.py")).parent)
         found = run("python3", "-c", "import rung; print(rung.__file__, rung._library._name)", PYTHONPATH=folder)
@@ -210,7 +221,7 @@ class System(unittest.TestCase):
 
     def test_manual_pages(self):
         pages = sorted((PREFIX / "share/man").glob("man?/*"))
-        names = {"rung-run.1", "rung.toml.5", "rung-map.5", "rung-scenario.5", "rung-ladder.5",
+        names = {"rung-run.1", "rung.toml.5", "rung-map.5", "rung-binding.5", "rung-scenario.5", "rung-ladder.5",
                  "rung-coverage.5", "rung-profile.5"}
         for program in ("rungc", "rungctl"):
             commands = re.findall(rf"(?m)^  {program} (\S+)", run(PREFIX / f"bin/{program}", "help").stdout)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "ir/support/version.h"
@@ -145,9 +146,25 @@ std::vector<Command> CommandLine::commands() const {
   return commands;
 }
 
+void CommandLine::takeRest(Command command, std::vector<std::string>& words) { rests_[command.name()] = &words; }
+
+namespace {
+
+// Where a -- is among the words; their number where there is none.
+int dashesIn(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (std::string_view(argv[i]) == "--") return i;
+  return argc;
+}
+
+} // namespace
+
 std::optional<int> CommandLine::run(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong) {
+  const auto rest = argc > 1 ? rests_.find(argv[1]) : rests_.end();
+  const int words = rest == rests_.end() ? argc : dashesIn(argc, argv);
+  if (words < argc) rest->second->assign(argv + words + 1, argv + argc);
   try {
-    app_->parse(argc, argv);
+    app_->parse(words, argv);
     return std::nullopt;
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code(); // the cause is printed

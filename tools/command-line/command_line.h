@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -103,6 +104,9 @@ public:
   std::string version() const;           // "rungc 0.1"
   std::vector<Command> commands() const; // in the order in which they are listed
 
+  // What follows a -- among the words of the command goes into `words`, which lives until it has run.
+  void takeRest(Command command, std::vector<std::string>& words);
+
   // Runs the command that is named. The exit status where the command line itself decides it: --help, a wrong project;
   // `wrong` is called for wrong words and gives it. Nothing where the command has run.
   std::optional<int> run(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong);
@@ -110,6 +114,7 @@ public:
 private:
   ProgramText text_;
   std::unique_ptr<CLI::App> app_;
+  std::map<std::string, std::vector<std::string>*> rests_; // by command
 };
 
 } // namespace rung::cli

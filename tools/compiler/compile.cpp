@@ -22,6 +22,14 @@ void checkModule(const ir::Module& module, ir::Mode mode) {
   RUNG_CHECK(errors.empty(), ir::render(module, errors).c_str());
 }
 
+void addClaim(ir::Module& module, const LayoutClaim& claim) {
+  module.symbols.push_back({.name = claim.symbol,
+                            .comment = claim.text,
+                            .type = RUNG_TYPE_I64,
+                            .flags = RUNG_SYMBOL_CONST | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_READONLY,
+                            .value = claim.hash});
+}
+
 } // namespace
 
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
@@ -66,6 +74,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (request.marks) options.marks = &out.marks;
   out.module = out.dialect->compile(sources, files, options, diagnostics);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
+  for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
   ir::orderOperations(*out.module, options.marks);
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   checkModule(*out.module, ir::Mode::Built);

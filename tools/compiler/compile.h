@@ -15,6 +15,13 @@
 
 namespace rung::compiler {
 
+// The layout of a host's struct that a program is compiled for (RUNG_LAYOUT_SYMBOL): it becomes a hidden constant.
+struct LayoutClaim {
+  std::string symbol;
+  std::string text;
+  int64_t hash = 0;
+};
+
 struct CompileRequest {
   std::string dialect;              // empty: the files say it
   frontend::CompileOptions options; // configuration and strictness
@@ -23,6 +30,7 @@ struct CompileRequest {
   bool optimise = true;
   bool keepBuilt = false; // for those who make its code again (recompiler.h)
   ir::LayoutOptions layout;
+  std::vector<LayoutClaim> layouts;
 };
 
 struct Compiled {

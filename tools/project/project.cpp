@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 7> kKeys = {"name", "dialect", "files", "include", "nc", "scenarios", "config"};
+constexpr std::array<std::string_view, 8> kKeys = {"name", "dialect",   "files",    "include",
+                                                   "nc",   "scenarios", "bindings", "config"};
 
 std::string_view kindOf(const toml::node& node) {
   switch (node.type()) {
@@ -76,7 +77,8 @@ private:
     if (!similar.best().empty())
       report.note(fmt::format("did you mean {}?", similar.best()));
     else
-      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios; those of the dialect's "
+      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings; those of the "
+                  "dialect's "
                   "configuration belong in the table [config]");
   }
 
@@ -90,6 +92,7 @@ private:
     if (const toml::node* node = table.get("include")) readInclude(*node);
     if (const toml::node* node = table.get("nc")) readNc(*node);
     if (const toml::node* node = table.get("scenarios")) readScenarios(*node);
+    if (const toml::node* node = table.get("bindings")) readBindings(*node);
     if (const toml::node* node = table.get("config")) readConfig(*node);
     for (Setting& setting : project_.config) placeFile(setting);
     std::stable_sort(project_.config.begin(), project_.config.end(),
@@ -186,6 +189,12 @@ private:
         if (std::find(project_.scenarios.begin(), project_.scenarios.end(), file) == project_.scenarios.end())
           project_.scenarios.push_back(file);
     });
+  }
+
+  // They may be missing: rungc bind makes them of the project.
+  void readBindings(const toml::node& node) {
+    forTexts("bindings", node, "[\"nc_binding.h\"]",
+             [&](const std::string& name, const toml::node&) { project_.bindings.push_back(inFolder(name)); });
   }
 
   void addSetting(const std::string& key, std::string value, const toml::node& node) {

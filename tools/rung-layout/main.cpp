@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
     std::fputs("rung-layout is a part of rungc bind: HEADER STRUCT FOLDER [FLAG...]\n", stderr);
     return 2;
   }
-  const rung::codegen::HeaderOutcome read =
-      rung::codegen::readHeader({.header = argv[1], .name = argv[2], .buildFolder = argv[3], .flags = {argv + 4, argv + argc}});
+  const rung::codegen::HeaderOutcome read = rung::codegen::readHeader(
+      {.header = argv[1], .name = argv[2], .buildFolder = argv[3], .flags = {argv + 4, argv + argc}});
   if (read.layout) return std::fputs(rung::codegen::toJson(*read.layout).c_str(), stdout) < 0 ? 3 : 0;
   std::fprintf(stderr, "rungc: %s\n", read.problem.c_str());
   return 1;

@@ -8,9 +8,11 @@
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/text/text.h"
 #include "rtlib/host/sealing.h"
+#include "tools/bind/claim.h"
 #include "tools/compiler/engines.h"
 #include "tools/compiler/kept_ir.h"
 #include "tools/console/working.h"
+#include "tools/mapping/file.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -27,7 +29,8 @@ struct BuildOptions {
   std::string level = "2";
   bool debugInfo = false;
   bool profile = false;
-  bool noIr = false; // build only
+  bool noIr = false;                 // build only
+  std::vector<std::string> bindings; // files of rungc bind; build only
 };
 
 void addCodeOptions(Command command, BuildOptions& options) {
@@ -44,6 +47,28 @@ compiler::CompileRequest requestOf(const BuildOptions& options) {
   request.instrument = options.profile;
   request.optimise = options.level != "0";
   return request;
+}
+
+// What the program is compiled for, from the files of rungc bind.
+bool takeBindings(const BuildOptions& options, compiler::CompileRequest& request, int& status) {
+  for (const std::string& path : options.bindings) {
+    std::string file;
+    try {
+      file = mapping::readFromDisk(path);
+    } catch (const std::exception& error) {
+      status = environmentError(error.what());
+      return false;
+    }
+    const Result<bind::Claim> claim = bind::claimIn(file);
+    if (!claim.ok()) {
+      fmt::print(stderr, "rungc: {}: {}\n", path, claim.error());
+      status = kWrong;
+      return false;
+    }
+    request.layouts.push_back({RUNG_LAYOUT_SYMBOL + claim.value().name, claim.value().text,
+                               static_cast<int64_t>(bind::hashOf(claim.value().text))});
+  }
+  return true;
 }
 
 codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
@@ -126,6 +151,10 @@ void addBuild(CommandLine& app, int& status) {
   command.option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one").oneOf({"llvm", "cpp"});
   command.option("--cxx", options->cxx, "C++ compiler for --via cpp");
   command.flag("--no-ir", options->noIr, "Leave out the program's IR: cells that it writes cannot be forced then");
+  command
+      .option("--binding", options->bindings,
+              "A file of rungc bind: the program runs only in hosts with the same layout; may be repeated")
+      .oneValue();
   command.option("--listing", options->listing,
                  "Write the program's numbered lines, to which name_LINE refers (technol)");
   command.onRun([options, &status] {
@@ -137,6 +166,10 @@ void addBuild(CommandLine& app, int& status) {
     SourceManager sources;
     compiler::CompileRequest request = requestOf(*options);
     request.keepBuilt = !options->noIr;
+    if (options->source.project)
+      options->bindings.insert(options->bindings.begin(), options->source.project->bindings.begin(),
+                               options->source.project->bindings.end());
+    if (!takeBindings(*options, request, status)) return;
     auto compiled = compileSources(sources, options->source, request, status);
     if (!compiled) return;
     if (!options->listing.empty()) status = writeListing(sources, *compiled, options->listing);

@@ -88,5 +88,6 @@ void addNew(CommandLine& app, int& status);
 void addSeal(CommandLine& app, int& status);
 void addKey(CommandLine& app, int& status);
 void addMap(CommandLine& app, int& status);
+void addBind(CommandLine& app, int& status);
 
 } // namespace rung::rungc

@@ -14,13 +14,14 @@ int main(int argc, char** argv) {
        .description = "Compiler for the PLC programs of CNC machine tools (NCT2xx/3xx, GSK25i, MEFI TECHNOL)",
        .exitStatus = "0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment",
        .guide = "docs/guide.md",
-       .seeAlso = {"rung.toml(5)", "rung-map(5)", "rung-scenario(5)", "rung-ladder(5)", "rung-coverage(5)",
-                   "rung-profile(5)", "rung_hal(9)"}});
+       .seeAlso = {"rung.toml(5)", "rung-map(5)", "rung-binding(5)", "rung-scenario(5)", "rung-ladder(5)",
+                   "rung-coverage(5)", "rung-profile(5)", "rung_hal(9)"}});
   int status = kOk;
   addNew(app, status);
   addCheck(app, status);
   addBuild(app, status);
   addMap(app, status);
+  addBind(app, status);
   addSeal(app, status);
   addKey(app, status);
   addEmit(app, status);

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "rung/runtime.hpp"
-#include "tools/compiler/engines.h"
 #include "tools/mapping/binding.h"
 #include "tools/mapping/template.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/opened_program.h"
 #include "tools/scenario/place_names.h"
 #include "tools/scenario/used_places.h"
 
@@ -21,42 +21,7 @@ struct MapOptions {
   std::string out;
 };
 
-// A program as a host would see it. What is compiled ends after the image.
-struct MappedProgram {
-  std::optional<compiler::Compiled> compiled; // nothing of a shared object
-  std::unique_ptr<host::Engine> engine;
-  std::optional<Image> image;
-};
-
-std::optional<MappedProgram> openProgram(const SourceOptions& source, int& status) {
-  MappedProgram program;
-  if (source.files.size() == 1 && source.files[0].ends_with(".so")) {
-    const rung_image_options options{.size = sizeof options, .allow_unsealed = 0, .keys_folder = nullptr};
-    try {
-      program.image.emplace(source.files[0], &options);
-    } catch (const Error& error) {
-      status = environmentError(error.what());
-      return std::nullopt;
-    }
-    return program;
-  }
-  SourceManager sources;
-  program.compiled = compileSources(sources, source, {}, status);
-  if (!program.compiled) return std::nullopt;
-  Result<std::unique_ptr<host::Engine>> engine =
-      compiler::makeEngine(compiler::EngineKind::Interp, *program.compiled, {});
-  if (!engine.ok()) {
-    status = environmentError(engine.error());
-    return std::nullopt;
-  }
-  program.engine = std::move(engine).value();
-  rung_image* image = nullptr;
-  check(rung_image_adopt(&program.engine->program(), program.engine->context(), nullptr, nullptr, &image));
-  program.image.emplace(image);
-  return program;
-}
-
-int writeTemplate(const MapOptions& options, const MappedProgram& program) {
+int writeTemplate(const MapOptions& options, const OpenedProgram& program) {
   if (!program.compiled)
     return usageError("map --template: a shared object does not say what its rungs use; name the sources");
   std::vector<mapping::UsedName> used;
@@ -74,7 +39,7 @@ int writeTemplate(const MapOptions& options, const MappedProgram& program) {
   return sayWrote(writeFile(text, options.out), options.out, options.source);
 }
 
-int checkMap(const MapOptions& options, const MappedProgram& program) {
+int checkMap(const MapOptions& options, const OpenedProgram& program) {
   std::vector<std::string> errors;
   const mapping::File map = mapping::loadMap(options.check, errors);
   if (map.paths.empty()) return environmentError(errors.front());
@@ -89,7 +54,7 @@ int checkMap(const MapOptions& options, const MappedProgram& program) {
 int run(const MapOptions& options) {
   if (options.makeTemplate == !options.check.empty()) return usageError("map: expected --template or --check MAP");
   int status = kOk;
-  const std::optional<MappedProgram> program = openProgram(options.source, status);
+  const std::optional<OpenedProgram> program = openProgram(options.source, status);
   if (!program) return status;
   return options.makeTemplate ? writeTemplate(options, *program) : checkMap(options, *program);
 }

@@ -18,6 +18,9 @@ extern "C" {
 
 #define RUNG_ABI_VERSION 4u
 #define RUNG_PROGRAM_SYMBOL "rung_program_v1"
+/* Of a constant that says which layout of a host's struct the program was compiled for: then comes the struct's name.
+ * Its value is the hash, its comment the text of rung_layout (rung/runtime.h). */
+#define RUNG_LAYOUT_SYMBOL "struct "
 #define RUNG_NONE 0xFFFFFFFFu     /* "not there" in every index field */
 #define RUNG_PC_DONE 0xFFFFFFFFu  /* a chunk returns this when the task's run has ended */
 #define RUNG_PC_FAULT 0xFFFFFFFEu /* a chunk returns this after it filled ctx->fault */

@@ -383,6 +383,50 @@ typedef struct rung_block {
  * RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
 RUNG_API int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blocks, uint32_t count);
 
+/* A member of a struct of the host that is bound to a cell; rungc bind makes these tables (docs/bind.md). */
+typedef struct rung_member {
+  const char* name;   /* of the cell, as for rung_instance_find; of a block, of its first one */
+  const char* member; /* as C writes it, "axis[0].position" */
+  uint32_t offset;    /* in the struct */
+  uint32_t bytes;     /* of the member; of a bit-field those that it has bits in; at most 8 but for blocks */
+  uint32_t type; /* enum rung_host_type; of a bit-field its sign counts alone; 0: a block of bytes, see rung_block */
+  uint32_t direction; /* enum rung_direction, added up */
+  uint32_t bit;       /* of a bit-field: the lowest, 0 to 7 of the byte at `offset` */
+  uint32_t bits;      /* of a bit-field: how many, bit + bits at most 64; 0: it is none */
+  double scale;       /* as in rung_variable */
+} rung_member;
+
+/* A struct of the host, as its compiler lays it out, and its members that are bound. */
+typedef struct rung_layout {
+  uint32_t size;
+  uint32_t bytes;             /* of the host's struct */
+  const char* name;           /* "NcBlock" */
+  const char* text;           /* what is bound where, a line a member: for sentences */
+  uint64_t hash;              /* of that */
+  const rung_member* members; /* valid for the life of the instance, as all of this */
+  uint32_t member_count;
+  /* Counters by which a reader knows a whole copy: the writer counts `head` up, writes, and sets `tail` to `head`. */
+  uint32_t counter_bytes; /* 1, 2, 4 or 8; 0: there are none */
+  uint32_t head;          /* offsets */
+  uint32_t tail;
+  /* A bit-field that the host's compiler lays elsewhere than the table says, or null; null: it has none. */
+  const char* (*moved)(void);
+} rung_layout;
+
+/* Binds a struct, in addition to what is bound. Members are copied as bound variables are, and as blocks where they are
+ * blocks, with these differences: a bit takes whether an integer is 0, and no member needs to be aligned. All or none.
+ *
+ * With counters the members to the program are copied as a whole before every slice, and checked: of a copy during
+ * which the host wrote, after some tries, the program sees nothing, but the last whole one again; 0 before the first.
+ *
+ * RUNG_REFUSED: the program was compiled for another layout of the struct (rungc build --binding); the same is said of
+ * a program that is to replace it. Other errors as of rung_instance_bind and rung_instance_bind_blocks. */
+RUNG_API int32_t rung_instance_bind_struct(rung_instance* instance, const rung_layout* layout, void* address);
+
+/* How many slices in a row, up to now, no whole copy of the struct at this address could be had. RUNG_NOT_FOUND: none
+ * with counters is bound there. [rt] */
+RUNG_API int32_t rung_instance_torn(const rung_instance* instance, const void* address, uint32_t* slices);
+
 /* ---- messages -------------------------------------------------------------------------------------------------- */
 
 typedef struct rung_message_info {

@@ -59,6 +59,8 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_write_text(plc, cell, "a"));
   BAD_HANDLE(rung_instance_bind(plc, NULL, 0));
   BAD_HANDLE(rung_instance_bind_blocks(plc, NULL, 0));
+  BAD_HANDLE(rung_instance_bind_struct(plc, NULL, NULL));
+  BAD_HANDLE(rung_instance_torn(plc, NULL, NULL));
   BAD_HANDLE(rung_instance_next_message(plc, &message));
   BAD_HANDLE(rung_instance_shown(plc, 0, &message));
   BAD_HANDLE(rung_instance_next_request(plc, &request));

@@ -43,6 +43,13 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
   uint8_t output = 0;
   plc.bindInput("DOOR", input);
   plc.bindOutput("COUNT", output);
+  struct {
+    uint32_t head, tail;
+    bool door;
+  } block{1, 1, false};
+  const rung_member member{"DOOR", "door", 8, 1, RUNG_HOST_BOOL, RUNG_TO_PROGRAM, 0, 0, 0};
+  const rung_layout layout{sizeof layout, sizeof block, "Block", "", 1, &member, 1, 4, 0, 4, nullptr};
+  rung::check(rung_instance_bind_struct(plc.handle(), &layout, &block));
   plc.keep(testing::TempDir() + "rung_runtime_no_allocation");
   plc.powerOn();
   const rung_cell cells[] = {plc.find("COUNT"), plc.find("WORDS", rung::Access::Write)};
@@ -66,6 +73,8 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
       rung_instance_write_all(p, cells, 2, values); // COUNT was found for reading
       rung_instance_force(p, i % 3 != 0 ? forces.handle() : nullptr), rung_instance_forced(p, 0, &force);
       rung_instance_state(p, &state), rung_instance_limit(p, 0);
+      block.head += i % 2; // torn, now and then
+      rung_instance_torn(p, &block, &reply.ticket);
       rung_instance_stop(p), rung_instance_start(p);
       while (rung_instance_next_message(p, &message) == RUNG_OK) {
       }

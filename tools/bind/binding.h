@@ -1,0 +1,50 @@
+// Members of a host's struct and names of a program, looked up and fitted to each other: the rows of a rung_layout.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "codegen/clang/layout.h"
+#include "rung/runtime.h"
+#include "tools/bind/file.h"
+#include "tools/bind/member.h"
+
+namespace rung::bind {
+
+// As in rung_member.
+struct Row {
+  std::string name;
+  std::string member;
+  uint32_t offset = 0;
+  uint32_t bytes = 0;
+  uint32_t type = 0; // enum rung_host_type; 0: a block
+  uint32_t direction = RUNG_TO_PROGRAM;
+  uint32_t bit = 0;
+  uint32_t bits = 0;
+  double scale = 0;
+  Member at;
+};
+
+struct CounterRow {
+  std::string member;
+  uint32_t offset = 0;
+};
+
+struct Binding {
+  std::vector<Row> rows;
+  CounterRow head, tail;
+  uint32_t counterBytes = 0; // 0: there are none
+};
+
+// Every row that does not fit is an entry of `errors`. `program`: the tables of the instance's image; the instance is
+// not used afterwards.
+Binding bind(const File& file, const codegen::HostLayout& layout, rung_instance* instance, const rung_program& program,
+             std::vector<Error>& errors);
+
+// What is bound where, a line a row: rung_layout::text.
+std::string describe(const Binding& binding, const codegen::HostLayout& layout);
+
+// "i32", "bool", "3 bits", "16 bytes"
+std::string typeText(const Row& row);
+
+} // namespace rung::bind

@@ -21,7 +21,7 @@ RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Pages whose commands are run, in the order in which a newcomer reads them; all write into the scratch folder alone.
-RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "linuxcnc.md", "embedding.md", "bind.md", "security.md"))]
+RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "linuxcnc.md", "rung-run.md", "embedding.md", "bind.md", "security.md"))]
 SCRATCH = "out"
 # Not run: what builds, what is interactive, and what tests/debug runs.
 SKIPPED_COMMANDS = ("./dev", "gdb", "valgrind", "callgrind_annotate", "perf")
@@ -217,7 +217,8 @@ class Reader:
             return ""
         state = self.folder / "build" / "state"
         script = f'{command}\nstatus=$?\nprintf "%s\\n" "$PWD" "$PATH" > "{state}"\nexit $status\n'
-        done = subprocess.run(["bash", "-c", script], cwd=self.place, env={**os.environ, "PATH": self.path}, stdin=subprocess.DEVNULL,
+        done = subprocess.run(["bash", "-c", script], cwd=self.place, env={**os.environ, "PATH": self.path, "RUNG_SOCKETS": str(self.folder / "build" / "sockets")},
+                              stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
         printed = done.stdout.decode()
         self.test.assertEqual(done.returncode, status, f"{shown(self.page)}: {command}\n{printed[-1600:]}")

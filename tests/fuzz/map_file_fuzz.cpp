@@ -76,6 +76,17 @@ void checkMap(const mapping::File& map) {
   }
   for (const mapping::Edge& edge : map.aborts) checkEdge(edge);
   RUNG_CHECK(map.timeoutNs >= 0, "a time is not negative");
+  for (const mapping::Connection& connection : map.connections) {
+    RUNG_CHECK(connection.timeoutNs > 0 && connection.periodNs > 0 && connection.requests > 0 &&
+                   connection.connections > 0,
+               "a connection has its times and limits");
+    for (const mapping::ConnectedPin& one : connection.pins) {
+      const mapping::Direction direction = pin(one.pin).direction;
+      RUNG_CHECK(direction == mapping::Direction::In || direction == mapping::Direction::Out, "it has one source");
+      RUNG_CHECK(one.place < 65536 && std::isfinite(one.safe), "a pin has a place and a safe value");
+      RUNG_CHECK(one.area != mapping::Area::Memory || one.place % mapping::bytesOf(one.format) == 0, "it is aligned");
+    }
+  }
 }
 
 // ---- binding -------------------------------------------------------------------------------------------------------

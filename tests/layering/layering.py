@@ -50,9 +50,9 @@ MODULES = {
 }
 # A host of the runtime's library sees its headers alone: neither the simulation nor the compiler, nor the runtime inside.
 OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
-HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
-IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/command-line/", "tools/remote/", "tools/sources/", "tools/plc/",
-                 "tools/mapping/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
+HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
+IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
+                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
 TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects, for tools/services
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
@@ -67,6 +67,7 @@ FOREIGN = {
     "nlohmann/": ("ir/support", "codegen"),
     "CLI/": (),
     "expat.h": (),
+    "modbus.h": (),
     "pugixml.hpp": (),
     "toml++/": (),
     "utf8proc.h": ("ir/support",),

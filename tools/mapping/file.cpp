@@ -7,26 +7,21 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <iterator>
-#include <limits>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include <toml++/toml.h>
 
-#include "ir/support/similar.h"
 #include "rtlib/text/number.h"
+#include "tools/mapping/connections.h"
+#include "tools/mapping/reading.h"
 
 namespace rung::mapping {
 namespace {
 
 constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinType::Float};
-constexpr int64_t kLeast = std::numeric_limits<int32_t>::min(); // of the integers of a constant
-constexpr int64_t kMost = std::numeric_limits<uint32_t>::max();
 constexpr double kLongestTimeout = 1e6; // seconds
 constexpr double kShortestTimeout = 1e-9;
 
@@ -34,82 +29,12 @@ constexpr int64_t kMostBits = 32;
 constexpr size_t kMostFiles = 64; // one that includes others, and so on
 constexpr size_t kMostBytes = size_t{1} << 20;
 
-// False: no constant has such a value.
-bool takeValue(const toml::node& node, Constant& constant) {
-  if (const auto bit = node.value_exact<bool>()) {
-    constant.value = *bit ? 1 : 0;
-    return true;
-  }
-  if (const auto integer = node.value_exact<int64_t>()) {
-    constant.type = *integer < 0 ? PinType::S32 : PinType::U32;
-    constant.value = static_cast<double>(*integer);
-    return *integer >= kLeast && *integer <= kMost;
-  }
-  const auto real = node.value_exact<double>();
-  constant.type = PinType::Float;
-  constant.value = real.value_or(0);
-  return real && std::isfinite(*real);
-}
-
-// A value as a file has it; of tables and lists the kind.
-std::string shown(const toml::node& node) {
-  if (node.is_table()) return "a table";
-  if (node.is_array()) return "a list";
-  if (const auto text = node.value_exact<std::string>()) return "\"" + *text + "\"";
-  if (const auto integer = node.value_exact<int64_t>()) return std::to_string(*integer);
-  if (const auto boolean = node.value_exact<bool>()) return *boolean ? "true" : "false";
-  if (const auto real = node.value_exact<double>()) {
-    char text[32];
-    return {text, std::to_chars(std::begin(text), std::end(text), *real).ptr};
-  }
-  return "a date or a time";
-}
-
-// "" where the value is not a text.
-std::string textOf(const toml::node& node) { return node.value_exact<std::string>().value_or(""); }
-
-std::optional<double> numberOf(const toml::node& node) {
-  if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
-  if (const auto real = node.value_exact<double>(); real && std::isfinite(*real)) return real;
-  return std::nullopt;
-}
-
 // NAME.REST = … is the key REST of a table NAME.
 bool isUnquotedName(const toml::node& node) {
   const toml::table* table = node.as_table();
   return table != nullptr && !table->empty() &&
          std::ranges::all_of(*table, [](const auto& entry) { return entry.second.is_table(); });
 }
-
-bool isPinName(std::string_view word) {
-  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  return !word.empty() && word.find_first_not_of(kAllowed) == std::string_view::npos;
-}
-
-using Entry = std::pair<const toml::key*, const toml::node*>;
-
-// toml++ keeps the keys of a table sorted by name.
-std::vector<Entry> inFileOrder(const toml::table& table) {
-  std::vector<Entry> entries;
-  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
-  std::ranges::sort(entries, {}, [](const Entry& entry) {
-    const toml::source_position& begin = entry.first->source().begin;
-    return std::pair(begin.line, begin.column);
-  });
-  return entries;
-}
-
-struct Place { // of a value
-  std::string text;
-  Position at;
-};
-
-struct Number {
-  double value = 0;
-  PinType type = PinType::Float; // Bit: true or false; S32, U32: an integer
-  std::string found;
-  Position at;
-};
 
 // An entry of [in], [out], [io] or [param].
 struct PinRow {
@@ -161,88 +86,29 @@ struct SendRow {
   uint32_t channel = 1;
 };
 
-class Reader {
+class Reader : public Reading {
 public:
-  Reader(File& map, const ReadFile& read) : map_(map), read_(read) {}
+  Reader(File& map, const ReadFile& read) : Reading(map), read_(read) {}
 
   // The text of a file that is not in File::paths yet.
   void read(std::string_view text, const std::string& path);
-
-  std::vector<std::string> errors() {
-    std::ranges::stable_sort(errors_, {}, [](const auto& error) {
-      const Position& at = error.first;
-      return std::tuple(at.file, at.line, at.column);
-    });
-    std::vector<std::string> texts;
-    for (const auto& [at, what] : errors_) texts.push_back(map_.message(at, what));
-    return texts;
-  }
+  // When all files have been read.
+  void resolve() { connections_.resolve(); }
 
 private:
-  // A key of a table that is read into a Row.
   template <class Row>
-  struct Key {
-    std::string_view name;
-    bool needed = false;
-    std::string_view expected;
-    std::string_view example;
-    bool (Reader::*take)(const toml::node&, Row&) = nullptr; // false: it is not what is expected
-  };
+  using Key = mapping::Key<Reader, Row>;
 
-  static const Key<File> kFileKeys[12];
+  static const Key<File> kFileKeys[15];
   static const Key<File> kRemoteKeys[2];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
   static const Key<SendRow> kSendKeys[6];
   static const Key<EdgeRow> kAbortKeys[2];
 
-  Position positionOf(const toml::source_region& region) const {
-    return {region.begin.line, region.begin.column, file_};
-  }
-  Position positionOf(const toml::node& node) const { return positionOf(node.source()); }
-  // "line 5", with its file where that is another one.
-  std::string lineOf(Position at) const {
-    return "line " + std::to_string(at.line) + (at.file == file_ ? "" : " of " + map_.paths[at.file]);
-  }
-
-  void fail(Position at, std::string what) { errors_.emplace_back(at, std::move(what)); }
-  void wrong(Position at, const std::string& where, const std::string& found, std::string_view expected,
-             std::string_view example) {
-    fail(at, where + ": found " + found + ", expected " + std::string(expected) + "; write for example " +
-                 std::string(example));
-  }
-
-  // Reads a table by its keys; `where` is its name in messages, "" for the file. False: there were mistakes.
   template <class Row, size_t N>
   bool readKeys(const toml::table& table, std::string_view where, const Key<Row> (&keys)[N], Row& row) {
-    const size_t before = errors_.size();
-    const std::string prefix = where.empty() ? "" : std::string(where) + ".";
-    for (const auto& [key, node] : inFileOrder(table)) {
-      const auto known = std::ranges::find(keys, key->str(), &Key<Row>::name);
-      if (known == std::end(keys))
-        unknownKey(*key, where, keys);
-      else if (!(this->*known->take)(*node, row))
-        wrong(positionOf(*node), prefix + std::string(known->name), shown(*node), known->expected, known->example);
-    }
-    for (const Key<Row>& key : keys)
-      if (key.needed && !table.contains(key.name))
-        fail(positionOf(table), std::string(where) + ": found no key " + std::string(key.name) + ", expected " +
-                                    std::string(key.expected) + "; write for example " + std::string(key.example));
-    return errors_.size() == before;
-  }
-
-  template <class Row, size_t N>
-  void unknownKey(const toml::key& key, std::string_view where, const Key<Row> (&keys)[N]) {
-    Similar similar(key.str());
-    std::string all;
-    for (const Key<Row>& known : keys) {
-      similar.offer(known.name);
-      all += (all.empty() ? "" : ", ") + std::string(known.name);
-    }
-    std::string text = (where.empty() ? "the file" : std::string(where)) + ": found an unknown key " +
-                       std::string(key.str()) + ", expected " + all;
-    if (!similar.best().empty()) text += "; did you mean " + std::string(similar.best()) + "?";
-    fail(positionOf(key.source()), std::move(text));
+    return Reading::readKeys(*this, table, where, keys, row);
   }
 
   // The file's keys.
@@ -271,6 +137,9 @@ private:
   bool takeSends(const toml::node& node, File& map);
   bool takeGroups(const toml::node& node, File& map);
   bool takeAborts(const toml::node& node, File& map);
+  bool takeClients(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::ModbusClient); }
+  bool takeServers(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::ModbusServer); }
+  bool takeMemories(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::SharedMemory); }
   bool takeRemote(const toml::node& node, File& map) {
     const toml::table* table = node.as_table();
     if (table != nullptr) readKeys(*table, "rungctl", kRemoteKeys, map);
@@ -298,7 +167,6 @@ private:
   template <size_t N>
   void readPin(const toml::key& key, const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]);
   bool checkRow(const PinRow& row, Direction direction, const std::string& where);
-  void checkNumber(const std::optional<Number>& number, PinType type, const std::string& where);
   bool makePins(const Place& name, const PinRow& row, Direction direction, Link& link);
   template <class Row, size_t N, class Add>
   bool takeList(const toml::node& node, std::string_view name, const Key<Row> (&keys)[N], Add add);
@@ -331,10 +199,8 @@ private:
     return row.bits >= 1 && row.bits <= kMostBits;
   }
   bool takeNumber(const toml::node& node, std::optional<Number>& number) {
-    Constant value;
-    if (!takeValue(node, value)) return false;
-    number = {value.value, value.type, shown(node), positionOf(node)};
-    return true;
+    number = numberWithType(node);
+    return number.has_value();
   }
   bool takeParameterValue(const toml::node& node, PinRow& row) { return takeNumber(node, row.value); }
   bool takeSafe(const toml::node& node, PinRow& row) {
@@ -389,11 +255,9 @@ private:
   }
   void addSend(const SendRow& row, Position at);
 
-  File& map_;
   const ReadFile& read_;
-  uint32_t file_ = 0; // that is being read
+  ConnectionReader connections_{*this};
   std::optional<Position> timeoutAt_;
-  std::vector<std::pair<Position, std::string>> errors_;
 };
 
 const Reader::Key<File> Reader::kFileKeys[] = {
@@ -409,6 +273,10 @@ const Reader::Key<File> Reader::kFileKeys[] = {
     {"m-groups", false, "a table", "[m-groups] and CODE = GROUP in the lines after it", &Reader::takeGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
     {"rungctl", false, "a table", "[rungctl] and allow = [ … ] in the lines after it", &Reader::takeRemote},
+    {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
+     &Reader::takeClients},
+    {"modbus-server", false, "a table", "[modbus-server] and its keys in the lines after it", &Reader::takeServers},
+    {"shared-memory", false, "a table", "[shared-memory] and its keys in the lines after it", &Reader::takeMemories},
 };
 
 const Reader::Key<File> Reader::kRemoteKeys[] = {
@@ -448,16 +316,16 @@ const Reader::Key<EdgeRow> Reader::kAbortKeys[] = {
 };
 
 void Reader::read(std::string_view text, const std::string& path) {
-  const uint32_t before = file_;
-  file_ = static_cast<uint32_t>(map_.paths.size());
-  map_.paths.push_back(path);
+  const uint32_t before = file();
+  setFile(static_cast<uint32_t>(map().paths.size()));
+  map().paths.push_back(path);
   try {
-    readKeys(toml::parse(text), "", kFileKeys, map_);
+    readKeys(toml::parse(text), "", kFileKeys, map());
   } catch (const toml::parse_error& error) {
     fail(positionOf(error.source()),
          std::string(error.description()) + "; the file must be TOML, and further mistakes are found once this is");
   }
-  file_ = before;
+  setFile(before);
 }
 
 bool Reader::takeIncludes(const toml::node& node, File&) {
@@ -473,13 +341,13 @@ bool Reader::takeIncludes(const toml::node& node, File&) {
 }
 
 void Reader::include(const toml::node& node) {
-  const std::string path = beside(map_.paths[file_], textOf(node));
+  const std::string path = beside(map().paths[file()], textOf(node));
   const auto wrongFile = [&](const std::string& found, const std::string& expectedAndFix) {
     fail(positionOf(node), "include: found " + found + ", expected " + expectedAndFix);
   };
-  if (std::ranges::find(map_.paths, path) != map_.paths.end())
+  if (std::ranges::find(map().paths, path) != map().paths.end())
     return wrongFile(path + " again", "each file once; remove it here");
-  if (map_.paths.size() == kMostFiles)
+  if (map().paths.size() == kMostFiles)
     return wrongFile("one more file", "at most " + std::to_string(kMostFiles) + "; write several into one");
   std::string text;
   try {
@@ -520,13 +388,13 @@ void Reader::readPin(const toml::key& key, const toml::node& node, Direction dir
   for (Place& place : row.names) {
     link.name = std::move(place.text);
     link.at = place.at;
-    map_.links.push_back(link);
+    map().links.push_back(link);
   }
 }
 
 // What the keys of a pin have to do with each other.
 bool Reader::checkRow(const PinRow& row, Direction direction, const std::string& where) {
-  const size_t before = errors_.size();
+  const size_t before = mistakes();
   if (row.scale && row.type != PinType::Float)
     fail(row.scaleAt, where + ".scale: found a scale of type " + std::string(pinTypeName(*row.type)) +
                           ", expected one of type float only; remove it, or write type = \"float\"");
@@ -539,30 +407,7 @@ bool Reader::checkRow(const PinRow& row, Direction direction, const std::string&
                               " has one source; give the other names pins of their own");
   checkNumber(row.value, *row.type, where + ".value");
   checkNumber(row.safe, *row.type, where + ".safe");
-  return errors_.size() == before;
-}
-
-// True or false for a bit, a number for the others, an integer where the type has no others.
-void Reader::checkNumber(const std::optional<Number>& number, PinType type, const std::string& where) {
-  if (!number) return;
-  const bool isBit = number->type == PinType::Bit;
-  const bool isInteger = number->type == PinType::S32 || number->type == PinType::U32;
-  const double least = type == PinType::S32 ? std::numeric_limits<int32_t>::min() : 0;
-  const double most = type == PinType::S32 ? std::numeric_limits<int32_t>::max() : static_cast<double>(kMost);
-  const auto wanted = [&](bool good, const std::string& expected) {
-    if (good) return;
-    fail(number->at, where + ": found " + number->found + ", expected " + expected + ", because the type is " +
-                         std::string(pinTypeName(type)) + "; write such a value, or another type");
-  };
-  switch (type) {
-  case PinType::Bit: return wanted(isBit, "true or false");
-  case PinType::Float: return wanted(!isBit, "a number");
-  case PinType::S32:
-  case PinType::U32:
-    return wanted(isInteger && number->value >= least && number->value <= most,
-                  "an integer from " + std::to_string(static_cast<int64_t>(least)) + " to " +
-                      std::to_string(static_cast<int64_t>(most)));
-  }
+  return mistakes() == before;
 }
 
 // The pin of a row, or one for each of its bits.
@@ -570,8 +415,8 @@ bool Reader::makePins(const Place& name, const PinRow& row, Direction direction,
   const auto make = [&](const std::string& text) {
     const std::optional<uint32_t> index = pin({text, name.at}, *row.type, direction);
     if (!index || !fromProgram(direction)) return index;
-    map_.pins[*index].holds = row.holds;
-    map_.pins[*index].safe = row.safe ? row.safe->value : 0;
+    map().pins[*index].holds = row.holds;
+    map().pins[*index].safe = row.safe ? row.safe->value : 0;
     return index;
   };
   for (int64_t bit = 0; bit < row.bits; ++bit) {
@@ -592,8 +437,8 @@ bool Reader::takeConstants(const toml::node& node, File& map) {
     const std::string where = "const." + constant.name;
     if (constant.name.empty())
       fail(constant.at, "const: found \"\", expected a name of the program; write for example \"X0.0\" = true");
-    else if (takeValue(*value, constant))
-      map.constants.push_back(std::move(constant));
+    else if (const std::optional<Number> number = numberWithType(*value))
+      map.constants.push_back({number->type, constant.name, number->value, constant.at});
     else if (value->is_table())
       fail(constant.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
                             constant.name + ".1\" = true");
@@ -652,23 +497,23 @@ bool Reader::takeAborts(const toml::node& node, File& map) {
 }
 
 void Reader::addSend(const SendRow& row, Position at) {
-  const size_t before = errors_.size();
+  const size_t before = mistakes();
   Send sent{.kind = row.kind, .channel = row.channel - 1, .code = row.code, .at = at};
   sent.edge = edge(row.edge).value_or(Edge{});
   if (row.codePin) sent.codePin = pin(*row.codePin, PinType::S32, Direction::In);
   if (row.donePin) sent.donePin = pin(*row.donePin, PinType::Bit, Direction::Out);
-  if (errors_.size() == before) map_.sends.push_back(sent);
+  if (mistakes() == before) map().sends.push_back(sent);
 }
 
 std::optional<uint32_t> Reader::pin(const Place& name, PinType type, Direction direction) {
-  const auto old = std::ranges::find(map_.pins, name.text, &Pin::name);
-  if (old == map_.pins.end()) {
-    map_.pins.push_back({.name = name.text, .type = type, .direction = direction, .at = name.at});
-    return static_cast<uint32_t>(map_.pins.size() - 1);
+  const auto old = std::ranges::find(map().pins, name.text, &Pin::name);
+  if (old == map().pins.end()) {
+    map().pins.push_back({.name = name.text, .type = type, .direction = direction, .at = name.at});
+    return static_cast<uint32_t>(map().pins.size() - 1);
   }
   // One input may feed several names and functions; every other pin has one name.
   const bool same = old->direction == direction && old->type == type;
-  if (same && direction == Direction::In) return static_cast<uint32_t>(old - map_.pins.begin());
+  if (same && direction == Direction::In) return static_cast<uint32_t>(old - map().pins.begin());
   const auto kind = [](Direction which, PinType itsType) {
     return std::string(pinKind(which)) + " of type " + std::string(pinTypeName(itsType));
   };
@@ -735,6 +580,7 @@ File parseMap(std::string_view text, std::string path, std::vector<std::string>&
   File map;
   Reader reader(map, read);
   reader.read(text, path);
+  reader.resolve();
   for (std::string& error : reader.errors()) errors.push_back(std::move(error));
   return map;
 }

@@ -99,6 +99,54 @@ struct Protected {
   Position at;
 };
 
+// Where the value of a pin is on the other side of a connection.
+enum class Area : uint8_t { Coil, DiscreteInput, HoldingRegister, InputRegister, Memory };
+
+// How it is written there.
+enum class Format : uint8_t {
+  Bit, // a byte of memory: 0 or 1
+  S16, // a register
+  U16,
+  S32, // two registers, or four bytes of memory
+  U32,
+  F32,
+  F64, // eight bytes of memory
+};
+uint32_t registersOf(Format format); // 1 or 2
+uint32_t bytesOf(Format format);     // of memory; 0: it is for registers alone
+
+struct ConnectedPin {
+  uint32_t pin = 0; // in File::pins
+  Area area = Area::Coil;
+  uint32_t place = 0; // of Modbus from 0, of memory in bytes
+  Format format = Format::Bit;
+  bool lowFirst = false; // of two registers the first has the lower bits
+  double safe = 0;       // of an input: its value while the connection is silent
+  bool holds = false;    // it keeps its last value then instead
+  Position at;           // of the place
+};
+
+// modbus-client, modbus-server, shared-memory: a way by which values of pins come and go. rung-run serves them.
+struct Connection {
+  enum class Kind : uint8_t { ModbusClient, ModbusServer, SharedMemory };
+  Kind kind = Kind::ModbusClient;
+  std::string host = "127.0.0.1"; // an IP address: of the device, or where the server listens
+  uint16_t port = 502;
+  uint8_t unit = 1;                  // of the device
+  std::string name;                  // of the shared memory
+  int64_t periodNs = 10'000'000;     // of a client and of shared memory, between two exchanges
+  int64_t timeoutNs = 1'000'000'000; // after which a silent connection counts as lost
+  uint32_t connections = 8;          // that a server accepts at a time
+  uint32_t requests = 1000;          // that a server answers in a second, of each of them
+  std::optional<uint32_t> statusPin; // in File::pins: an input bit, on while the connection is not lost
+  std::vector<ConnectedPin> pins;
+  Position at;
+
+  // "modbus-client 192.168.0.10:502"
+  std::string title() const;
+};
+std::string_view kindName(Connection::Kind kind); // the table
+
 // Everything in the order of the files, where one is included.
 struct File {
   std::vector<std::string> paths; // the file, and those that it includes
@@ -109,6 +157,7 @@ struct File {
   std::vector<Group> groups;
   bool allowed[std::size(kRemoteNames)] = {}; // by Remote
   std::vector<Protected> never;
+  std::vector<Connection> connections;
   std::vector<Edge> aborts;          // reset, emergency stop: every function ends
   int64_t timeoutNs = 0;             // of a function; 0: none
   std::optional<Position> highSpeed; // where the high-speed handshake is asked for
@@ -130,6 +179,9 @@ File parseMap(std::string_view text, std::string path, std::vector<std::string>&
               const ReadFile& read = readFromDisk);
 // The same for a file that is read, too.
 File loadMap(const std::string& path, std::vector<std::string>& errors, const ReadFile& read = readFromDisk);
+
+// For hosts that serve no connections: each is a mistake.
+void refuseConnections(const File& map, std::string_view host, std::vector<std::string>& errors);
 
 std::string_view pinTypeName(PinType type);
 std::string_view tableName(Direction direction); // "in"

@@ -175,6 +175,7 @@ void Controller::gone(const Peer& peer) {
 
 json Controller::status(const Peer&, const json&) {
   json out = {{"host", host_}, {"program", program_}, {"dialect", dialect_}};
+  if (addToStatus_) addToStatus_(out);
   Order order{.kind = Order::Kind::State};
   const plc::Answer answer = box_.order(order);
   out["scanned"] = answer.ok();

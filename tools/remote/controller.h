@@ -29,6 +29,9 @@ public:
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
+  // What the host adds to its status. Before the first request.
+  void addToStatus(std::function<void(nlohmann::json&)> add) { addToStatus_ = std::move(add); }
+
   nlohmann::json greeting() override;
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
@@ -116,6 +119,7 @@ private:
   std::string former_;  // of the one that `rollback` puts back
   std::string dialect_;
   std::function<void(const std::string&)> log_;
+  std::function<void(nlohmann::json&)> addToStatus_;
   std::deque<std::string> reports_;
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages

@@ -181,6 +181,7 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
   mapping::File mapping = mapping::loadMap(request.map, errors);
+  mapping::refuseConnections(mapping, "LinuxCNC, where HAL connects the pins", errors);
   // Mistakes of the text and of names at once; a box is only made for a faultless map.
   if (!mapping.paths.empty())
     c.box =

@@ -12,12 +12,13 @@
 #include <thread>
 #include <vector>
 
-#include "rtlib/host/realtime.h"
 #include "tools/command-line/usage.h"
+#include "tools/connections/connections.h"
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/scan_thread.h"
+#include "tools/rung-run/status.h"
 #include "tools/sources/image.h"
 
 namespace {
@@ -50,19 +51,28 @@ void catchSignals() {
 class Run {
 public:
   Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box)
-      : box_(std::move(box)), pins_(*box_), controller_(options.name, *box_, image.program(), print),
-        server_(options.name, getuid(), controller_),
-        scans_(*box_, {.periodNs = int64_t{options.periodUs} * 1000,
-                       .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {}
+      : box_(std::move(box)), pins_(*box_), connections_(box_->map()),
+        controller_(options.name, *box_, image.program(), print), server_(options.name, getuid(), controller_),
+        scans_(*box_, pins_, connections_,
+               {.periodNs = int64_t{options.periodUs} * 1000,
+                .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
+    controller_.addToStatus([this](nlohmann::json& status) {
+      rung_run::addStatus(status, scans_.periodNs(), scans_.figures(), connections_.figures());
+    });
+  }
 
   int run() {
     constexpr std::chrono::milliseconds kTurn(20);
+    for (const std::string& line : connections_.warnings()) print(line);
+    connections_.writeOutputs(pins_.cells()); // their safe values
+    connections_.start();
     if (const std::string wrong = scans_.start(); !wrong.empty()) return print(wrong), int{cli::kEnvironment};
     print("listening at " + server_.path());
     while (gEnd == 0) {
       server_.serve(kTurn);
       controller_.serveBox(&server_, print);
       controller_.passMessages(&server_, print);
+      connections_.report(print);
       controller_.sendEvents(server_);
       controller_.work();
     }
@@ -75,13 +85,16 @@ private:
     controller_.serveBox(&server_, print); // a fault of the last moment
     const std::string error = box_->close();
     controller_.passMessages(&server_, print);
-    print(scans_.report());
+    connections_.writeOutputs(pins_.cells()); // their safe values
+    connections_.end();
+    for (const std::string& line : rung_run::report(scans_.figures(), connections_.figures())) print(line);
     if (!error.empty()) print(error);
     return error.empty() ? cli::kOk : cli::kEnvironment;
   }
 
   std::unique_ptr<plc::Box> box_;
   rung_run::Pins pins_;
+  connections::Connections connections_;
   remote::Controller controller_;
   remote::Server server_;
   rung_run::ScanThread scans_;

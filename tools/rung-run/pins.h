@@ -18,6 +18,9 @@ public:
   Pins(const Pins&) = delete;
   Pins& operator=(const Pins&) = delete;
 
+  // In the order of the map, and one more.
+  const plc::PinCell* cells() const noexcept { return cells_.data(); }
+
 private:
   union Value {
     bool bit;

@@ -1,4 +1,5 @@
-// The thread that scans a program on the machine's clock: a step of the box at each multiple of the period.
+// The thread that scans a program on the machine's clock: a step of the box at each multiple of the period, between the
+// newest inputs of its connections and their outputs.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -7,7 +8,10 @@
 #include <thread>
 
 #include "rtlib/host/realtime.h"
+#include "tools/connections/connections.h"
 #include "tools/plc/box.h"
+#include "tools/rung-run/pins.h"
+#include "tools/rung-run/step_times.h"
 
 namespace rung::rung_run {
 
@@ -16,17 +20,10 @@ struct ScanOptions {
   host::RealTimeOptions thread;
 };
 
-// Figures of all steps so far, each by itself.
-struct ScanFigures {
-  uint64_t steps = 0;
-  uint64_t overruns = 0; // steps that began a whole period late, or later
-  int64_t lateNs = 0;    // the latest beginning of a step
-  int64_t worstNs = 0;   // the longest step
-};
-
 class ScanThread {
 public:
-  ScanThread(plc::Box& box, const ScanOptions& options) : box_(box), options_(options) {}
+  ScanThread(plc::Box& box, const Pins& pins, connections::Connections& connections, const ScanOptions& options)
+      : box_(box), pins_(pins), connections_(connections), options_(options) {}
   ~ScanThread() { end(); }
   ScanThread(const ScanThread&) = delete;
   ScanThread& operator=(const ScanThread&) = delete;
@@ -36,19 +33,21 @@ public:
   // After the step that is under way.
   void end();
 
-  ScanFigures figures() const noexcept;
-  std::string report() const; // for people
+  int64_t periodNs() const noexcept { return options_.periodNs; }
+  StepFigures figures() const { return times_.figures(); }
 
 private:
   void run(std::promise<std::string> begun);
   void step(int64_t due, int64_t& last) noexcept;
 
   plc::Box& box_;
+  const Pins& pins_;
+  connections::Connections& connections_;
   ScanOptions options_;
   std::thread thread_;
   std::atomic<bool> ending_{false};
-  std::atomic<uint64_t> steps_{0}, overruns_{0};
-  std::atomic<int64_t> lateNs_{0}, worstNs_{0};
+  int64_t begunNs_ = 0;
+  StepTimes times_;
 };
 
 } // namespace rung::rung_run

@@ -42,6 +42,34 @@ json valueOf(const std::string& text) {
   return value.is_discarded() || value.is_structured() ? json(text) : value;
 }
 
+// What rung-run adds: its clock and its connections.
+std::string clockOf(const json& answer) {
+  if (!answer.contains("clock")) return {};
+  const json& clock = answer["clock"];
+  const auto figure = [&](const char* key) { return clock.value(key, 0.0); };
+  std::string text =
+      fmt::format("every {:.0f} us: {} steps, {} overruns, from step to step {:.1f} to {:.1f} us\n"
+                  "start late: 99% within {:.1f} us, 99.9% within {:.1f} us, the latest {:.1f} us\n"
+                  "a step took {:.1f} us on average; the longest:",
+                  figure("period_us"), clock.value("steps", uint64_t{0}), clock.value("overruns", uint64_t{0}),
+                  figure("shortest_period_us"), figure("longest_period_us"), figure("late_99_us"),
+                  figure("late_999_us"), figure("latest_us"), figure("mean_us"));
+  for (const json& step : clock.value("worst", json::array()))
+    text += fmt::format(" {:.1f} us (at {:.3f} s)", step.value("us", 0.0), step.value("at_s", 0.0));
+  return text + "\n";
+}
+
+std::string connectionsOf(const json& answer) {
+  std::string text;
+  for (const json& one : answer.value("connections", json::array())) {
+    const std::string problem = one.value("problem", "");
+    text += fmt::format("{}: {}, {} exchanges, lost {} times{}\n", shown(one["name"]),
+                        one.value("alive", false) ? "connected" : "silent", one.value("exchanges", uint64_t{0}),
+                        one.value("losses", uint64_t{0}), problem.empty() ? "" : "; the last problem: " + problem);
+  }
+  return text;
+}
+
 int status(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "status"}});
   std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
@@ -56,7 +84,7 @@ int status(Client& client, const Words& words) {
                         answer.value("passes", uint64_t{0}), answer.value("missed", uint64_t{0}),
                         static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
                         answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
-  print(words, answer, text);
+  print(words, answer, text + clockOf(answer) + connectionsOf(answer));
   return cli::kOk;
 }
 

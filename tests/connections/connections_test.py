@@ -1,0 +1,633 @@
+#!/usr/bin/env python3
+"""Pins of rung-run by Modbus TCP and shared memory, and what goes wrong at the other side: connections_test.py BIN"""
+import mmap
+import os
+import random
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from pymodbus.client import ModbusTcpClient
+
+from sides import PATIENCE, PINS, Cable, Client, Device, Host, frame, free_port, wait_until, writing_client
+
+BIN = None
+OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
+SERVER = """[modbus-server]
+port = {port}
+timeout = 0.3
+status = "ok"
+[modbus-server.coils]
+run = 0
+door = {{ at = 1, safe = true }}
+other-is = 2
+[modbus-server.discrete-inputs]
+lamp = 0
+door-is = 1
+[modbus-server.holding-registers]
+speed = {{ at = 0, safe = -5 }}
+turns = {{ at = 1, format = "s32", order = "high-first" }}
+load = {{ at = 3, format = "f32", order = "low-first", safe = "hold" }}
+[modbus-server.input-registers]
+speed-is = 0
+turns-is = {{ at = 1, format = "s32", order = "low-first" }}
+load-is = {{ at = 3, format = "f32", order = "high-first" }}
+"""
+FUNCTION, ADDRESS, VALUE = 1, 2, 3  # exceptions of Modbus
+
+
+class WithHost(unittest.TestCase):
+    def begin(self, connections, options=()):
+        self.host = Host(BIN, PINS + connections, options=options)
+        self.addCleanup(self.end_host)
+
+    def end_host(self):
+        log = self.host.logged()
+        self.assertEqual(self.host.end(), OK, log)
+
+    def sees(self, value, *names):
+        """The program has these values before long."""
+        self.assertTrue(wait_until(lambda: self.host.get(*names) == value),
+                        f"{names} are {self.host.get(*names)}, expected {value}\n{self.host.logged()}")
+
+    def connection(self):
+        return self.host.status()["connections"][0]
+
+
+class WithServer(WithHost):
+    def setUp(self):
+        self.port = free_port()
+        self.begin(SERVER.format(port=self.port))
+
+    def client(self, port=None):
+        made = Client(port or self.port)
+        self.addCleanup(made.close)
+        return made
+
+    def keeps_working(self, client=None):
+        """Somebody else is served as ever."""
+        client = client or self.client()
+        for value in (11, 12):
+            self.assertEqual(client.write(0, value), struct.pack(">BHH", 16, 0, 1))
+            self.assertTrue(wait_until(lambda: client.read(0, 1) == (value,)))
+
+
+class Server(WithServer):
+    def test_values_go_both_ways_by_pymodbus(self):
+        client = ModbusTcpClient("127.0.0.1", port=self.port)
+        self.assertTrue(client.connect())
+        self.addCleanup(client.close)
+        client.write_coils(0, [True, True], slave=1)
+        self.assertFalse(client.write_registers(0, [0xFFFE, 0x1234, 0x5678], slave=1).isError())
+        low, high = struct.unpack(">HH", struct.pack(">f", 1.5))[::-1]
+        client.write_registers(3, [low, high], slave=1)
+        self.sees((True, True, -2, 0x12345678, 150, True), "X0.0", "X0.1", "D8:2", "D12:4", "D16:4", "X0.7")
+        client.write_coil(0, True, slave=1)
+        self.assertEqual(client.read_discrete_inputs(0, 2, slave=1).bits[:2], [True, True])
+        self.assertEqual(client.read_input_registers(0, 5, slave=1).registers,
+                         [0xFFFE, 0x5678, 0x1234, *struct.unpack(">HH", struct.pack(">f", 1.5))])
+        self.assertEqual(client.read_coils(0, 3, slave=1).bits[:3], [True, True, False])
+
+    def test_values_by_mbpoll(self):
+        def mbpoll(*words):
+            return subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.port), "-0", "-1", *words], capture_output=True, text=True, timeout=30)
+        self.assertEqual(mbpoll("-r", "0", "-t", "4", "127.0.0.1", "321").returncode, 0)
+        self.sees(321, "D8:2")
+        mbpoll("-r", "0", "-t", "4", "127.0.0.1", "322")
+        self.assertTrue(wait_until(lambda: "322" in mbpoll("-r", "0", "-t", "3", "127.0.0.1").stdout or mbpoll("-r", "0", "-t", "4", "127.0.0.1", "322") is None))
+        done = mbpoll("-r", "0", "-t", "1:", "127.0.0.1", "1")  # no such kind: its own mistake
+        self.assertNotEqual(done.returncode, 0)
+
+    def test_only_inputs_are_written(self):
+        client = self.client()
+        for pdu, exception in (
+            (struct.pack(">BHH", 5, 2, 0xFF00), ADDRESS),                   # the coil of an output
+            (struct.pack(">BHHBB", 15, 0, 3, 1, 7), ADDRESS),               # with inputs before it
+            (struct.pack(">BHH", 5, 3, 0xFF00), ADDRESS),                   # no coil
+            (struct.pack(">BHH", 6, 5, 1), ADDRESS),                        # no register
+            (struct.pack(">BHH", 6, 1, 1), ADDRESS),                        # half a value
+            (struct.pack(">BHHBHH", 16, 0, 2, 4, 1, 2), ADDRESS),           # a value and a half
+            (struct.pack(">BHHBHHH", 16, 2, 3, 6, 1, 2, 3), ADDRESS),
+            (struct.pack(">BHHBHH", 16, 3, 2, 4, 0, 0x7FC0), VALUE),        # not a number
+            (struct.pack(">BHH", 1, 0, 4), ADDRESS),
+            (struct.pack(">BHH", 4, 0, 6), ADDRESS),
+            (struct.pack(">BHH", 3, 0xFFFF, 2), ADDRESS),
+            (struct.pack(">BHH", 3, 0, 0), VALUE),
+            (struct.pack(">BHH", 3, 0, 126), VALUE),
+            (struct.pack(">BHH", 1, 0, 2001), VALUE),
+            (struct.pack(">BHH", 5, 0, 1), VALUE),
+            (struct.pack(">BHHBB", 15, 0, 2, 2, 3), VALUE),                 # wrong lengths
+            (struct.pack(">BHHBH", 16, 0, 1, 4, 3), VALUE),
+            (struct.pack(">BHHB", 16, 0, 1, 2), VALUE),
+            (struct.pack(">BH", 3, 0), VALUE),
+            (struct.pack(">B", 3), VALUE),
+            (struct.pack(">BHH", 3, 0, 1) + b"x", VALUE),
+            (struct.pack(">BHHH", 22, 0, 1, 1), FUNCTION),
+            (struct.pack(">BHHHHBH", 23, 0, 1, 0, 1, 2, 1), FUNCTION),
+            (b"\x2b\x0e\x01\x00", FUNCTION),
+            (b"\x00", FUNCTION),
+            (b"\x7f" + b"x" * 200, FUNCTION),
+        ):
+            self.assertEqual(client.ask(pdu), bytes([pdu[0] & 0xFF | 0x80, exception]), pdu.hex())
+        self.assertEqual(self.host.get("D8:2", "D12:4", "D16:4", "X0.0", "X0.1", "Y0.2"), (-5, 0, 0, False, True, False))
+        self.assertFalse(self.connection()["alive"])  # nothing was written
+        self.keeps_working(client)
+        for wrong in (frame(b"\xff\x00"), b"\0\1\0\1\0\6" + bytes(6), b"\0\1\0\0\0\1" + bytes(6), b"\0\1\0\0\1\0" + bytes(6), b"GET / HTTP"):
+            lost = self.client()
+            lost.socket.sendall(wrong)
+            self.assertIsNone(lost.answer(), wrong)
+
+    def test_a_client_that_is_killed(self):
+        writing = writing_client(self.port)
+        self.addCleanup(writing.kill)
+        self.sees((True, 100, True), "X0.0", "D8:2", "X0.7")
+        writing.kill()
+        writing.wait()
+        self.sees((False, -5, True, False), "X0.0", "D8:2", "X0.1", "X0.7")
+        self.assertTrue(wait_until(lambda: "lost; its inputs have their safe values" in self.host.logged()))
+        self.assertEqual((self.connection()["alive"], self.connection()["losses"]), (False, 1))
+        # Who comes back has not written all of them yet: the others are safe, not as they were.
+        client = self.client()
+        client.write(0, 7)
+        self.sees((False, 7, True), "X0.0", "D8:2", "X0.7")
+
+    def test_a_client_that_is_stopped(self):
+        writing = writing_client(self.port)
+        self.addCleanup(writing.kill)
+        self.sees((True, 100), "X0.0", "D8:2")
+        writing.send_signal(signal.SIGSTOP)
+        self.sees((False, -5, False), "X0.0", "D8:2", "X0.7")
+        self.keeps_working()
+        writing.send_signal(signal.SIGCONT)
+        self.sees((True, 100, True), "X0.0", "D8:2", "X0.7")
+        writing.kill()
+        writing.wait()
+
+    def test_a_cable_that_is_pulled(self):
+        cable = Cable(self.port)
+        self.addCleanup(cable.close)
+        client = self.client(cable.port)
+        self.assertIn(f"pin load holds its last value while modbus-server 127.0.0.1:{self.port} is lost\n", self.host.logged())
+        client.write(3, 0, 0x3F80)  # a value that is held
+        client.write(0, 9)
+        self.sees((9, 100, True), "D8:2", "D16:4", "X0.7")
+        cable.pulled.set()
+        self.sees((-5, 100, False), "D8:2", "D16:4", "X0.7")
+        cable.pulled.clear()
+        client.write(0, 10)
+        self.sees((10, 100, True), "D8:2", "D16:4", "X0.7")
+
+    def test_a_reader_does_not_keep_a_dead_writer_alive(self):
+        writer, reader = self.client(), self.client()
+        writer.write(0, 9)
+        self.sees(9, "D8:2")
+        end = time.monotonic() + 1
+        while time.monotonic() < end:
+            reader.read(0, 1)
+        self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
+
+    def test_a_client_that_stops_in_mid_message(self):
+        half = self.client()
+        whole = frame(struct.pack(">BHHBH", 16, 0, 1, 2, 77))
+        half.socket.sendall(whole[:9])
+        before = self.host.status()["clock"]["overruns"]
+        begin = time.monotonic()
+        self.keeps_working()
+        self.assertLess(time.monotonic() - begin, 2)
+        self.assertNotEqual(self.host.get("D8:2"), 77)
+        self.assertIsNone(half.answer(), "it is not waited for")
+        self.assertIsInstance(before, int)
+
+    def test_bytes_in_pieces_are_one_message(self):
+        client = self.client()
+        for byte in frame(struct.pack(">BHHBH", 16, 0, 1, 2, 78)):
+            client.socket.sendall(bytes([byte]))
+            time.sleep(0.002)
+        self.assertEqual(client.answer(), struct.pack(">BHH", 16, 0, 1))
+        self.sees(78, "D8:2")
+
+    def test_messages_together_are_answered_one_by_one(self):
+        client = self.client()
+        client.socket.sendall(b"".join(frame(struct.pack(">BHH", 4, 0, 1), transaction=i) for i in range(100)))
+        for _ in range(100):
+            self.assertEqual(len(client.answer()), 4)
+
+    def test_mutated_messages_do_no_harm(self):
+        """From a seed: bytes of good messages changed, removed, doubled."""
+        chance = random.Random(4711)
+        good = [frame(pdu) for pdu in (struct.pack(">BHH", 3, 0, 5), struct.pack(">BHH", 4, 1, 2), struct.pack(">BHH", 1, 0, 3),
+                                       struct.pack(">BHHBB", 15, 0, 2, 1, 3), struct.pack(">BHHBHHH", 16, 0, 3, 6, 1, 2, 3),
+                                       struct.pack(">BHH", 5, 0, 0xFF00), struct.pack(">BHH", 6, 0, 1))]
+        for _ in range(600):
+            data = bytearray(chance.choice(good))
+            for _ in range(chance.randint(1, 4)):
+                at = chance.randrange(len(data))
+                change = chance.randrange(4)
+                if change == 0:
+                    data[at] = chance.randrange(256)
+                elif change == 1:
+                    data[at] ^= 1 << chance.randrange(8)
+                elif change == 2 and len(data) > 1:
+                    del data[at]
+                else:
+                    data[at:at] = data[at:at + chance.randrange(1, 9)]
+            client = Client(self.port)
+            client.socket.sendall(bytes(data) + good[0])
+            client.socket.shutdown(socket.SHUT_WR)
+            client.socket.settimeout(2)
+            try:
+                while client.socket.recv(4096):
+                    pass
+            except (ConnectionError, TimeoutError):
+                pass
+            client.close()
+        self.assertEqual(self.host.get("Y0.2"), False)  # not an input
+        self.keeps_working()
+
+
+class Limits(WithHost):
+    def server(self, more):
+        self.port = free_port()
+        self.begin(SERVER.format(port=self.port).replace("timeout = 0.3", more))
+
+    def client(self):
+        made = Client(self.port)
+        self.addCleanup(made.close)
+        return made
+
+    def test_as_many_clients_as_may_be(self):
+        self.server("timeout = 0.5\nconnections = 2")
+        first, second = self.client(), self.client()
+        first.write(0, 1)
+        second.write(0, 2)
+        third = self.client()
+        self.assertIsNone(third.write(0, 3), "there are two")
+        self.sees(2, "D8:2")
+        # The place of one that is silent for longer is free.
+        end = time.monotonic() + 0.7
+        while time.monotonic() < end:
+            second.write(0, 2)
+        fourth = self.client()
+        self.assertEqual(fourth.write(0, 4), struct.pack(">BHH", 16, 0, 1))
+        self.assertIsNone(first.write(0, 1))
+        self.assertEqual(second.write(0, 2), struct.pack(">BHH", 16, 0, 1))
+
+    def test_no_more_requests_than_may_be(self):
+        self.server("timeout = 0.5\nrequests = 100")
+        client = self.client()
+        begin, count = time.monotonic(), 0
+        while time.monotonic() - begin < 1:
+            client.write(0, count)
+            count += 1
+        self.assertGreater(count, 70)
+        self.assertLess(count, 130)
+
+    def test_a_client_that_floods(self):
+        """It sends without end and takes no answers; another one is served, and the scans come as ever."""
+        self.server("timeout = 0.5\nrequests = 500")
+        client = self.client()
+        client.write(0, 0)
+        flood = socket.create_connection(("127.0.0.1", self.port))
+        self.addCleanup(flood.close)
+        flood.setblocking(False)
+        data = frame(struct.pack(">BHH", 4, 0, 5)) * 200
+        steps = self.host.status()["clock"]["steps"]
+        begin, served = time.monotonic(), 0
+        while time.monotonic() - begin < 2:
+            try:
+                flood.send(data)
+            except BlockingIOError:
+                pass
+            except ConnectionError:
+                flood = socket.create_connection(("127.0.0.1", self.port))
+                self.addCleanup(flood.close)
+                flood.setblocking(False)
+            self.assertIsNotNone(client.write(0, served % 100))
+            served += 1
+        self.assertGreater(served, 200)
+        self.assertGreater(self.host.status()["clock"]["steps"] - steps, 1000)  # of 2000
+        self.assertTrue(self.host.get("X0.7"))
+
+
+CLIENT = """[[modbus-client]]
+host = "127.0.0.1"
+port = {port}
+period = 0.02
+timeout = 0.3
+status = "ok"
+[modbus-client.discrete-inputs]
+door = {{ at = 4, safe = true }}
+[modbus-client.coils]
+run = 0
+lamp = 1
+[modbus-client.holding-registers]
+speed = {{ at = 0, safe = -5 }}
+turns = {{ at = 1, format = "s32", order = "high-first" }}
+speed-is = 10
+turns-is = {{ at = 11, format = "s32", order = "low-first" }}
+load-is = {{ at = 20, format = "f32", order = "high-first" }}
+[modbus-client.input-registers]
+load = {{ at = 0, format = "u16", safe = "hold" }}
+"""
+
+
+class ClientSide(WithHost):
+    def panel(self, port):
+        """Another client of the device, who sees and sets what is in it."""
+        made = ModbusTcpClient("127.0.0.1", port=port)
+        self.assertTrue(made.connect())
+        self.addCleanup(made.close)
+        return made
+
+    def registers(self, panel, first, count):
+        return panel.read_holding_registers(first, count, slave=1).registers
+
+
+class ClientOfDevice(ClientSide):
+    def begin_with(self, port):
+        self.begin(CLIENT.format(port=port))
+
+    def set(self, panel, speed):
+        panel.write_registers(0, [speed & 0xFFFF, 0xFFFF, 0xFFF0], slave=1)
+        panel.write_coil(0, True, slave=1)
+
+    def test_values_go_both_ways(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        self.begin_with(device.port)
+        panel = self.panel(device.port)
+        self.set(panel, -300)
+        self.sees((True, -300, -16, True), "X0.0", "D8:2", "D12:4", "X0.7")
+        self.assertTrue(wait_until(lambda: self.registers(panel, 10, 3) == [0xFED4, 0xFFF0, 0xFFFF]))
+        self.assertTrue(panel.read_coils(1, 1, slave=1).bits[0])
+
+    def test_a_device_that_is_killed_and_comes_back(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        self.begin_with(device.port)
+        self.set(self.panel(device.port), 3)
+        self.sees((True, 3, False, True), "X0.0", "D8:2", "X0.1", "X0.7")
+        device.kill()
+        self.sees((False, -5, True, False), "X0.0", "D8:2", "X0.1", "X0.7")
+        self.assertIn("cannot connect: Connection refused", self.connection()["problem"])
+        again = Device(device.port)
+        self.addCleanup(again.kill)
+        self.sees((0, True), "D8:2", "X0.7")
+        self.set(self.panel(device.port), 4)
+        self.sees((True, 4), "X0.0", "D8:2")
+        self.assertEqual(self.connection()["losses"], 1)
+
+    def test_a_device_that_hangs(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        self.begin_with(device.port)
+        self.sees(True, "X0.7")
+        device.process.send_signal(signal.SIGSTOP)
+        self.sees((-5, False), "D8:2", "X0.7")
+        steps = self.host.status()["clock"]["steps"]
+        time.sleep(0.3)
+        self.assertGreater(self.host.status()["clock"]["steps"], steps + 100)  # the scan waits for nobody
+        device.process.send_signal(signal.SIGCONT)
+        self.sees((0, True), "D8:2", "X0.7")
+
+    def test_a_cable_that_is_pulled(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        cable = Cable(device.port)
+        self.addCleanup(cable.close)
+        self.begin_with(cable.port)
+        self.sees(True, "X0.7")
+        cable.pulled.set()
+        self.sees((-5, False), "D8:2", "X0.7")
+        cable.pulled.clear()
+        self.sees((0, True), "D8:2", "X0.7")
+
+    def test_a_device_without_a_register(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        self.begin(CLIENT.format(port=device.port).replace("speed-is = 10", "speed-is = 100"))
+        self.assertTrue(wait_until(lambda: "cannot write holding register 100: Illegal data address" == self.connection()["problem"]),
+                        self.connection()["problem"])
+        self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
+
+    def test_a_device_that_answers_nonsense(self):
+        """From a seed: anything but answers."""
+        chance = random.Random(4711)
+        with socket.create_server(("127.0.0.1", 0)) as listening:
+            listening.settimeout(PATIENCE)
+            self.begin_with(listening.getsockname()[1])
+            for _ in range(12):
+                made, _ = listening.accept()
+                with made:
+                    made.settimeout(PATIENCE)
+                    asked = made.recv(300)
+                    answer = bytearray(asked[:8] + bytes(chance.randrange(256) for _ in range(chance.randrange(260))))
+                    for _ in range(chance.randrange(4)):
+                        answer[chance.randrange(len(answer))] = chance.randrange(256)
+                    made.sendall(answer)
+            self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
+
+    def test_the_device_has_safe_outputs_at_the_end(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        self.begin(CLIENT.format(port=device.port))
+        panel = self.panel(device.port)
+        self.set(panel, 3)
+        self.assertTrue(wait_until(lambda: self.registers(panel, 10, 1) == [3]))
+        self.host.process.terminate()
+        self.host.process.wait(PATIENCE)
+        self.assertEqual(self.registers(panel, 10, 1), [0])
+        self.assertFalse(panel.read_coils(1, 1, slave=1).bits[0])
+
+
+MEMORY = """[shared-memory]
+name = "{name}"
+period = 0.005
+timeout = 0.3
+status = "ok"
+[shared-memory.pins]
+run = 0
+door = {{ at = 1, safe = true }}
+speed = {{ at = 4, safe = -5 }}
+load = 8
+lamp = 0
+door-is = 1
+speed-is = 4
+load-is = 8
+"""
+
+
+class Peer:
+    """The other side, as docs/mapping-file.md says."""
+
+    def __init__(self, path):
+        with open(path, "r+b") as file:
+            self.map = mmap.mmap(file.fileno(), 0)
+        magic, version, self.outputs, self.outputs_size, self.inputs, self.inputs_size = struct.unpack_from("6I", self.map)
+        assert (magic, version) == (0x474E5552, 1)
+
+    def sequence(self, at):
+        return struct.unpack_from("I", self.map, at)[0]
+
+    def begin_writing(self):
+        struct.pack_into("I", self.map, 28, self.sequence(28) | 1)
+
+    def write(self, run, door, speed, load):
+        self.begin_writing()
+        struct.pack_into("??xxid", self.map, self.inputs, run, door, speed, load)
+        struct.pack_into("I", self.map, 28, (self.sequence(28) + 1) % 2**32)
+
+    def read(self):
+        while True:
+            before = self.sequence(24)
+            values = struct.unpack_from("??xxid", self.map, self.outputs)
+            if before % 2 == 0 and self.sequence(24) == before:
+                return values
+
+    def close(self):
+        self.map.close()
+
+
+class Memory(WithHost):
+    def setUp(self):
+        self.name = f"test-{os.getpid()}"
+        self.path = Path(f"/dev/shm/rung-{self.name}")
+
+    def begin_with_peer(self):
+        self.begin(MEMORY.format(name=self.name))
+        self.peer = Peer(self.path)
+        self.addCleanup(self.peer.close)
+
+    def refused(self, text):
+        host = Host(BIN, PINS + MEMORY.format(name=self.name))
+        log = host.logged()
+        self.assertEqual(host.end(), ENVIRONMENT, log)
+        self.assertIn(text, log)
+
+    def test_values_go_both_ways(self):
+        self.begin_with_peer()
+        about = os.stat(self.path)
+        self.assertEqual((about.st_mode & 0o7777, about.st_uid), (0o600, os.geteuid()))
+        self.assertEqual((self.peer.outputs, self.peer.outputs_size, self.peer.inputs, self.peer.inputs_size), (32, 16, 48, 16))
+        self.assertEqual(self.host.get("D8:2", "X0.1", "X0.7"), (-5, True, False))
+        def exchange():
+            self.peer.write(True, False, -77, 2.5)
+            return self.peer.read() == (True, False, -77, 2.5)
+        self.assertTrue(wait_until(exchange))
+        self.assertEqual(self.host.end(), OK)
+        self.assertFalse(self.path.exists())
+        self.assertEqual(self.peer.read(), (False, False, 0, 0.0))  # safe values
+        self.host = Host(BIN, PINS)  # for the end of the test
+
+    def test_a_peer_that_falls_silent_and_comes_back(self):
+        self.begin_with_peer()
+        def write(speed):
+            self.peer.write(True, False, speed, 1)
+            return self.host.get("D8:2") == speed
+        self.assertTrue(wait_until(lambda: write(5)))
+        self.sees((False, True, -5, False), "X0.0", "X0.1", "D8:2", "X0.7")
+        self.assertTrue(wait_until(lambda: write(6)))
+        self.assertGreaterEqual(self.connection()["losses"], 1)
+
+    def test_a_peer_that_dies_while_it_writes(self):
+        self.begin_with_peer()
+        self.peer.begin_writing()
+        struct.pack_into("i", self.peer.map, self.peer.inputs + 4, 55)
+        time.sleep(0.4)
+        self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
+        self.assertTrue(wait_until(lambda: self.peer.write(True, True, 56, 1) or self.host.get("D8:2") == 56))
+
+    def test_a_value_that_is_not_a_number(self):
+        self.begin_with_peer()
+        self.peer.write(True, True, 57, float("nan"))
+        self.assertTrue(wait_until(lambda: self.connection()["problem"] == "the input at 8 is not a number"))
+        self.assertEqual(self.host.get("D8:2"), -5)
+
+    def test_memory_that_is_shortened(self):
+        self.begin_with_peer()
+        self.assertTrue(wait_until(lambda: self.peer.write(True, True, 58, 1) or self.host.get("D8:2") == 58))
+        os.truncate(self.path, 0)
+        self.peer.close()
+        self.assertTrue(wait_until(lambda: self.connection()["problem"] != ""), "it is noticed")
+        self.sees((-5, False), "D8:2", "X0.7")
+
+    def test_what_a_killed_host_leaves_is_taken_over(self):
+        self.begin_with_peer()
+        self.host.process.kill()
+        self.host.process.wait()
+        self.assertTrue(self.path.exists())
+        left = self.host
+        self.host = Host(BIN, PINS + MEMORY.format(name=self.name))
+        self.assertTrue(wait_until(lambda: self.peer.write(True, True, 58, 1) or self.host.get("D8:2") == 58), "the map of before is the same")
+        left.end()
+
+    def test_memory_of_others_is_not_used(self):
+        victim = Path("/dev/shm") / f"victim-{os.getpid()}"
+        victim.write_text("x" * 100)
+        self.addCleanup(victim.unlink)
+        self.path.symlink_to(victim)
+        try:
+            self.refused(f"cannot open /dev/shm/rung-{self.name}: Too many levels of symbolic links")
+            self.assertEqual(victim.read_text(), "x" * 100)
+        finally:
+            self.path.unlink()
+        self.path.write_text("y" * 100)
+        try:
+            self.path.chmod(0o644)
+            self.refused(f"/dev/shm/rung-{self.name} may be used by others than its user; remove it")
+            self.path.chmod(0o600)
+            if os.geteuid() == 0:
+                os.chown(self.path, 65534, 65534)
+                self.refused(f"/dev/shm/rung-{self.name} belongs to user 65534, expected 0, who runs this")
+                os.chown(self.path, 0, 0)
+            os.link(self.path, str(self.path) + "-2")
+            try:
+                self.refused("is not a file of its own")
+            finally:
+                os.unlink(str(self.path) + "-2")
+            self.assertEqual(self.path.read_text(), "y" * 100)
+        finally:
+            self.path.unlink()
+
+    def test_one_host_uses_it(self):
+        self.begin_with_peer()
+        self.refused(f"another process uses /dev/shm/rung-{self.name}; end it, or give this one another name")
+        self.assertTrue(self.path.exists())
+
+
+class Mistakes(unittest.TestCase):
+    def refused(self, connections, status, *texts):
+        host = Host(BIN, PINS + connections)
+        log = host.logged()
+        self.assertEqual(host.end(), status, log)
+        for text in texts:
+            self.assertIn(text, log)
+
+    def test_mistakes_of_the_map_are_listed(self):
+        self.refused('[modbus-server]\nport = 0\ncoils = { lmp = 0 }\n[shared-memory]\n', WRONG,
+                     'p.map:17:8: modbus-server.port: found 0, expected the number of a port, 1 to 65535; write for example port = 502\n',
+                     "p.map:18:11: modbus-server.coils.lmp: found no pin lmp, expected a pin of this map; did you mean lamp?\n",
+                     "p.map:19:1: shared-memory: found no key name, expected")
+
+    def test_a_port_that_is_taken(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            self.refused(f"[modbus-server]\nport = {port}\n", ENVIRONMENT,
+                         f"modbus-server 127.0.0.1:{port}: cannot listen: Address already in use; another program has this port")
+
+    def test_the_server_is_for_this_machine_alone(self):
+        port = free_port()
+        host = Host(BIN, PINS + f"[modbus-server]\nport = {port}\n")
+        self.addCleanup(host.end)
+        listening = [line.split()[3] for line in subprocess.run(["ss", "-Hltn"], capture_output=True, text=True, check=True).stdout.splitlines()]
+        self.assertEqual([where for where in listening if where.endswith(f":{port}")], [f"127.0.0.1:{port}"])
+
+
+if __name__ == "__main__":
+    BIN = Path(sys.argv.pop(1)).resolve()
+    unittest.main()

@@ -1,0 +1,85 @@
+// See connections.h.
+#include "tools/connections/connections.h"
+
+#include <csignal>
+
+#include "tools/connections/modbus_client.h"
+#include "tools/connections/modbus_server.h"
+#include "tools/connections/shared_memory.h"
+
+namespace rung::connections {
+namespace {
+
+std::unique_ptr<Service> serviceOf(const mapping::Connection& connection, Exchange& exchange) {
+  switch (connection.kind) {
+  case mapping::Connection::Kind::ModbusClient: return std::make_unique<ModbusClient>(connection, exchange);
+  case mapping::Connection::Kind::ModbusServer: return std::make_unique<ModbusServer>(connection, exchange);
+  case mapping::Connection::Kind::SharedMemory: return std::make_unique<SharedMemory>(connection, exchange);
+  }
+  return nullptr;
+}
+
+// They are for the thread that waits for them.
+void blockSignals() {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
+} // namespace
+
+Connections::Served::Served(const mapping::File& map, const mapping::Connection& connection)
+    : title(connection.title()), exchange(map, connection), service(serviceOf(connection, exchange)) {}
+
+Connections::Connections(const mapping::File& map) {
+  for (const mapping::Connection& connection : map.connections) {
+    served_.emplace_back(map, connection);
+    for (const mapping::ConnectedPin& pin : connection.pins)
+      if (pin.holds)
+        warnings_.push_back("pin " + map.pins[pin.pin].name + " holds its last value while " + connection.title() +
+                            " is lost");
+  }
+}
+
+void Connections::start() {
+  for (Served& served : served_)
+    served.thread = std::thread([this, &served] {
+      blockSignals();
+      served.service->run(ending_);
+    });
+}
+
+void Connections::end() {
+  ending_ = true;
+  for (Served& served : served_)
+    if (served.thread.joinable()) served.thread.join();
+}
+
+void Connections::readInputs(const plc::PinCell* pins, int64_t nowNs) noexcept {
+  for (Served& served : served_) served.exchange.readInputs(pins, nowNs);
+}
+
+void Connections::writeOutputs(const plc::PinCell* pins) noexcept {
+  for (Served& served : served_) served.exchange.writeOutputs(pins);
+}
+
+void Connections::report(const std::function<void(const std::string&)>& print) {
+  for (Served& served : served_) {
+    const bool alive = served.exchange.isAlive();
+    if (alive == served.reported) continue;
+    served.reported = alive;
+    const std::string problem = served.service->problem();
+    print(served.title + (alive ? ": connected" : ": lost; its inputs have their safe values") +
+          (alive || problem.empty() ? "" : " (" + problem + ")"));
+  }
+}
+
+std::vector<Figures> Connections::figures() const {
+  std::vector<Figures> all;
+  for (const Served& served : served_)
+    all.push_back({served.title, served.exchange.isAlive(), served.exchange.exchanges(), served.exchange.losses(),
+                   served.service->problem()});
+  return all;
+}
+
+} // namespace rung::connections

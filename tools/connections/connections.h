@@ -1,0 +1,67 @@
+// All connections of a mapping file, each served on a thread of its own.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tools/connections/exchange.h"
+#include "tools/connections/service.h"
+#include "tools/mapping/file.h"
+#include "tools/plc/pin_cell.h"
+
+namespace rung::connections {
+
+struct Figures {
+  std::string title; // "modbus-server 127.0.0.1:502"
+  bool alive = false;
+  uint64_t exchanges = 0; // in which inputs came
+  uint64_t losses = 0;    // how often it has been lost
+  std::string problem;    // the last one; "" while there is none
+};
+
+class Connections {
+public:
+  // Servers listen, and memory is shared, from now on. Throws std::runtime_error where that cannot be.
+  explicit Connections(const mapping::File& map);
+  ~Connections() { end(); }
+  Connections(const Connections&) = delete;
+  Connections& operator=(const Connections&) = delete;
+
+  // What an operator should know before it begins.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  // After the first `writeOutputs`.
+  void start();
+  // After the last one, which goes to the other sides.
+  void end();
+
+  // The thread that scans, before and after each step; `pins` are the cells of File::pins, `nowNs` of the monotonic
+  // clock.
+  void readInputs(const plc::PinCell* pins, int64_t nowNs) noexcept;
+  void writeOutputs(const plc::PinCell* pins) noexcept;
+
+  // For the thread that serves the host: what has been lost, or has come back, since the last call.
+  void report(const std::function<void(const std::string&)>& print);
+  std::vector<Figures> figures() const;
+
+private:
+  struct Served {
+    Served(const mapping::File& map, const mapping::Connection& connection);
+
+    std::string title;
+    Exchange exchange;
+    std::unique_ptr<Service> service;
+    std::thread thread;
+    bool reported = false; // alive, the last time
+  };
+
+  std::vector<std::string> warnings_;
+  std::list<Served> served_;
+  std::atomic<bool> ending_{false};
+};
+
+} // namespace rung::connections

@@ -1,0 +1,54 @@
+// A client of Modbus TCP: at each period it writes the outputs of a connection to a device and reads the inputs there.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <modbus.h>
+
+#include "tools/connections/exchange.h"
+#include "tools/connections/service.h"
+
+namespace rung::connections {
+
+class ModbusClient final : public Service {
+public:
+  // Throws std::bad_alloc. The device need not be there yet.
+  ModbusClient(const mapping::Connection& connection, Exchange& exchange);
+  void run(const std::atomic<bool>& ending) noexcept override;
+
+private:
+  // Places without a gap, for one request.
+  struct Block {
+    mapping::Area area = mapping::Area::Coil;
+    uint32_t first = 0;
+    uint32_t count = 0;
+    std::vector<size_t> pins; // in Exchange::inputs() or outputs()
+  };
+  struct Free {
+    void operator()(modbus_t* context) const noexcept { modbus_free(context); }
+  };
+  static std::vector<Block> blocksOf(const std::vector<ExchangedPin>& pins, bool writes);
+
+  bool connect();
+  void disconnect();
+  bool turn();
+  bool write();
+  bool writeBlock(const Block& block, const std::vector<double>& values);
+  bool read();
+  bool readBlock(const Block& block);
+  bool takeBlock(const Block& block);
+  bool fail(const std::string& what);
+
+  Exchange& exchange_;
+  int64_t periodNs_;
+  std::unique_ptr<modbus_t, Free> context_;
+  std::vector<Block> reads_, writes_;
+  std::vector<uint8_t> bits_;       // of a block
+  std::vector<uint16_t> registers_; // of a block
+  std::vector<double> inputs_;
+  bool connected_ = false;
+};
+
+} // namespace rung::connections

@@ -600,6 +600,78 @@ class Memory(WithHost):
         self.assertTrue(self.path.exists())
 
 
+class Simulated(unittest.TestCase):
+    """A part program against the simulated control, with the program of the scenario tests."""
+
+    def begin(self, map_text, options):
+        self.host = Host(BIN, map_text, options=options, program=Path("tests/scenarios/gsk/nc-mst.pmc").read_text())
+        self.addCleanup(self.host.end)
+
+    def sees(self, value, *names):
+        self.assertTrue(wait_until(lambda: self.host.get(*names) == value), f"{names} are {self.host.get(*names)}, expected {value}")
+
+    def test_the_functions_of_a_part_program(self):
+        self.begin("""[rungctl]
+allow = ["set"]
+[in]
+start = { type = "bit", name = "X7.2" }
+estop-ok = { type = "bit", name = "X8.4" }
+answer = { type = "bit", name = "X10.0" }
+[out]
+m-code = { type = "u32", name = "F10:4" }
+[shared-memory]
+name = "NAME"
+timeout = 60
+pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
+""".replace("NAME", f"test-{os.getpid()}"), ["--simulate", "--config", "param.2402=0"])
+        peer = Peer(f"/dev/shm/rung-test-{os.getpid()}")
+        self.addCleanup(peer.close)
+        def inputs(*values):
+            peer.begin_writing()
+            struct.pack_into("???", peer.map, peer.inputs, *values)
+            struct.pack_into("I", peer.map, 28, (peer.sequence(28) + 1) % 2**32)
+        inputs(False, True, False)
+        self.sees(True, "F0.6")  # servo ready
+        self.sees((0x20, False), "F3", "F1.1")  # automatic mode, the reset has ended
+        self.host.ctl("event", "program", "blocks=O12 N10 M3 S1500; N20 T5; N30 M30")
+        inputs(True, True, False)
+        time.sleep(0.1)
+        inputs(False, True, False)
+        self.sees((3, 1500, 5), "F10:4", "F22:4", "F7")  # M3 and S1500, with MF and SF
+        self.assertTrue(wait_until(lambda: struct.unpack_from("I", peer.map, peer.outputs)[0] == 3))
+        time.sleep(0.1)
+        self.assertEqual(self.host.get("F7"), 5)  # it waits for FIN
+        inputs(False, True, True)
+        self.sees((5, False), "F26:4", "F0.5")  # T5, and the program has ended
+
+    def test_mistakes(self):
+        self.begin("", ["--simulate"])
+        def refused(*words):
+            done = subprocess.run([BIN / "rungctl", "event", *words], capture_output=True, text=True, env=self.host.environment)
+            self.assertNotEqual(done.returncode, OK)
+            return done.stderr
+        self.assertIn('"set" is not allowed here', refused("reset"))
+        self.assertIn("expected KEY=VALUE", refused("program", "G0"))
+        self.assertEqual(self.host.end(), OK)
+        self.begin('[rungctl]\nallow = ["set"]\n', ["--simulate"])
+        self.assertIn("block 1: a number is missing after 'Y'", refused("program", "blocks=G0 X7 Y"))
+        self.assertIn("dance", refused("dance"))
+
+    def test_without_a_simulation_there_are_no_events(self):
+        self.begin('[rungctl]\nallow = ["set"]\n', [])
+        done = subprocess.run([BIN / "rungctl", "event", "reset"], capture_output=True, text=True, env=self.host.environment)
+        self.assertIn("no control is simulated here; rung-run --simulate does it", done.stderr)
+
+    def test_wrong_configurations_end_it(self):
+        for options, status, text in ((["--config", "a=b"], USAGE, "--simulate"),
+                                      (["--simulate", "--config", "dance=1"], ENVIRONMENT, "--config: "),
+                                      (["--simulate", "--config", "param"], ENVIRONMENT, "--config: found param, expected KEY=VALUE")):
+            host = Host(BIN, "", options=options)
+            log = host.logged()
+            self.assertEqual(host.end(), status, log)
+            self.assertIn(text, log)
+
+
 class Mistakes(unittest.TestCase):
     def refused(self, connections, status, *texts):
         host = Host(BIN, PINS + connections)

@@ -51,13 +51,14 @@ def wait_until(condition, patience=PATIENCE):
 class Host:
     """A rung-run with PROGRAM and a map, in a folder of its own."""
 
-    def __init__(self, programs, map_text, name="plc", options=()):
+    def __init__(self, programs, map_text, name="plc", options=(), program=PROGRAM):
         self.programs = programs
+        self.status_at_end = None
         self.folder = tempfile.TemporaryDirectory()
         self.home = Path(self.folder.name)
         self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
         self.name = name
-        (self.home / "p.pmc").write_text(PROGRAM)
+        (self.home / "p.pmc").write_text(program)
         (self.home / "p.map").write_text(map_text)
         subprocess.run([programs / "rungc", "build", "-q", self.home / "p.pmc", "-o", self.home / "p.so"], check=True)
         self.log = open(self.home / "log", "w+")
@@ -84,13 +85,15 @@ class Host:
         return self.ctl("status")
 
     def end(self):
-        """Its status."""
+        """Its status; a second time as well."""
+        if self.status_at_end is not None:
+            return self.status_at_end
         if self.process.poll() is None:
             self.process.terminate()
-        status = self.process.wait(PATIENCE)
+        self.status_at_end = self.process.wait(PATIENCE)
         self.log.close()
         self.folder.cleanup()
-        return status
+        return self.status_at_end
 
 
 class Cable:

@@ -39,10 +39,10 @@ int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
 
 } // namespace
 
-Box::Box(const Image& image, mapping::File map, const std::string& retain)
-    : map_(std::move(map)),
-      options_{.size = sizeof options_, .user = this, .log = &Box::log, .request = &Box::request}, plc_(image, &options_),
-      kept_(!retain.empty()), pins_(map_.pins) {
+Box::Box(const Image& image, mapping::File map, const std::string& retain, const NewInstance& newInstance)
+    : map_(std::move(map)), options_{.size = sizeof options_, .user = this, .log = &Box::log, .request = &Box::request},
+      plc_(newInstance ? newInstance(image, options_) : Instance(image, &options_)), kept_(!retain.empty()),
+      pins_(map_.pins) {
   if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
 }
 
@@ -58,8 +58,9 @@ int32_t Box::request(void* box, rung_instance*, const rung_request* request, run
 }
 
 std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, std::vector<std::string>& errors,
-                               const std::string& retain, std::vector<std::string>& warnings) try {
-  std::unique_ptr<Box> box(new Box(image, std::move(map), retain));
+                               const std::string& retain, std::vector<std::string>& warnings,
+                               const NewInstance& newInstance) try {
+  std::unique_ptr<Box> box(new Box(image, std::move(map), retain, newInstance));
   box->binding_ = mapping::bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
   if (!errors.empty()) return nullptr;
   box->bindValues();
@@ -306,6 +307,7 @@ int32_t Box::obeyRunning(Order& order) noexcept {
   case Order::Kind::Start: return rung_instance_start(plc);
   case Order::Kind::Profile: return readProfile(plc, order);
   case Order::Kind::ClearProfile: return rung_instance_clear_profile(plc);
+  case Order::Kind::Act: return order.act(order.actor), RUNG_OK;
   case Order::Kind::Restart: break; // obey
   }
   return RUNG_EMPTY;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,8 +32,11 @@ class Box {
 public:
   // Null, and `errors` say why, when the map does not fit the program. The start is cold, or with the memory that
   // `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the retained memory.
+  // `newInstance`: of a program that is not in a control alone.
+  using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
   static std::unique_ptr<Box> make(const Image& image, mapping::File map, std::vector<std::string>& errors,
-                                   const std::string& retain, std::vector<std::string>& warnings);
+                                   const std::string& retain, std::vector<std::string>& warnings,
+                                   const NewInstance& newInstance = {});
   // After the last step, or where none can come any more: the program's last scans run, output pins have their
   // safe values then, and what is retained is on disk; "" or why not.
   std::string close();
@@ -83,7 +87,7 @@ public:
   const FunctionQueue& functions() const { return *functions_; }
 
 private:
-  Box(const Image& image, mapping::File map, const std::string& retain);
+  Box(const Image& image, mapping::File map, const std::string& retain, const NewInstance& newInstance);
 
   // Stopped: by a fault. Restarting: the instance belongs to `serve`.
   enum class State : uint8_t { Running, Stopped, Restarting };

@@ -22,6 +22,7 @@ struct Order {
     Stop,
     Start,
     Restart, // after a fault
+    Act,     // `act` does it, with `actor`
     Profile, // the counters of the rungs from `index` on, `count` of them at most, into `profiles`; `count`: of how
              // many
     ClearProfile,
@@ -34,6 +35,8 @@ struct Order {
   rung_forces* forces = nullptr;
   rung_replacement* replacement = nullptr;
   rung_shadow* shadow = nullptr;
+  void (*act)(void* actor) = nullptr;
+  void* actor = nullptr;
   rung_profile* profiles = nullptr; // of whoever gives the order
   // Results.
   rung_value former{};

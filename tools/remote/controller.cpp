@@ -115,6 +115,7 @@ const Controller::Command Controller::kCommands[] = {
     {"profile", std::nullopt, &Controller::profile},
     {"clear-profile", mapping::Remote::Profile, &Controller::clearProfile},
     {"set", mapping::Remote::Set, &Controller::set},
+    {"event", mapping::Remote::Set, &Controller::event},
     {"force", mapping::Remote::Force, &Controller::force},
     {"unforce", mapping::Remote::Force, &Controller::unforce},
     {"forced", std::nullopt, &Controller::forced},
@@ -368,6 +369,29 @@ json Controller::set(const Peer& peer, const json& request) {
   logChange(peer,
             "set " + name + " from " + shown(found.info.type, done.former) + " to " + shown(found.info.type, value));
   return {{"name", name}, {"former", toJson(found.info.type, done.former)}, {"value", toJson(found.info.type, value)}};
+}
+
+json Controller::event(const Peer& peer, const json& request) {
+  if (!simulation_) throw Refused("no control is simulated here; rung-run --simulate does it");
+  const json keys = request.value("keys", json::object());
+  if (!keys.is_object() || !std::ranges::all_of(keys, [](const json& v) { return v.is_string() || v.is_number(); }))
+    throw Refused("found no object \"keys\" of texts and numbers in the request, expected one");
+  struct {
+    const Event& act;
+    const std::string name;
+    const json& keys;
+    std::string problem;
+  } doing{simulation_, textOf(request, "name"), keys, ""};
+  give({.kind = Order::Kind::Act,
+        .act =
+            [](void* actor) {
+              auto& what = *static_cast<decltype(doing)*>(actor);
+              what.problem = what.act(what.name, what.keys);
+            },
+        .actor = &doing});
+  if (!doing.problem.empty()) throw Refused(doing.problem);
+  logChange(peer, "event " + doing.name + " " + keys.dump());
+  return json::object();
 }
 
 std::vector<rung_force_info> Controller::forcesInEffect() {

@@ -32,6 +32,11 @@ public:
   // What the host adds to its status. Before the first request.
   void addToStatus(std::function<void(nlohmann::json&)> add) { addToStatus_ = std::move(add); }
 
+  // A simulated control around the program: `act` does an event of it, in the scan thread, and says what is wrong.
+  // Before the first request.
+  using Event = std::function<std::string(const std::string& name, const nlohmann::json& keys)>;
+  void setSimulation(Event act) { simulation_ = std::move(act); }
+
   nlohmann::json greeting() override;
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
@@ -79,6 +84,7 @@ private:
   nlohmann::json start(const Peer& peer, const nlohmann::json& request);
   nlohmann::json reset(const Peer& peer, const nlohmann::json& request);
   nlohmann::json map(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json event(const Peer& peer, const nlohmann::json& request);
   nlohmann::json profile(const Peer& peer, const nlohmann::json& request);
   nlohmann::json clearProfile(const Peer& peer, const nlohmann::json& request);
   nlohmann::json serve(const Peer& peer, const nlohmann::json& request);
@@ -120,6 +126,7 @@ private:
   std::string dialect_;
   std::function<void(const std::string&)> log_;
   std::function<void(nlohmann::json&)> addToStatus_;
+  Event simulation_; // empty: there is none
   std::deque<std::string> reports_;
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages

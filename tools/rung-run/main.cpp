@@ -18,6 +18,7 @@
 #include "tools/remote/controller.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/scan_thread.h"
+#include "tools/rung-run/simulation.h"
 #include "tools/rung-run/status.h"
 #include "tools/sources/image.h"
 
@@ -36,6 +37,8 @@ struct Options {
   int priority = 0;
   bool lockMemory = false;
   bool unsealed = false;
+  bool simulate = false;
+  std::vector<std::string> config; // KEY=VALUE
 };
 
 void print(const std::string& line) { std::cerr << "rung-run: " << line << '\n'; }
@@ -50,7 +53,7 @@ void catchSignals() {
 // One program with its pins, which rungctl can see: what is between its start and its end.
 class Run {
 public:
-  Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box)
+  Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box, rung_run::Simulation* simulation)
       : box_(std::move(box)), pins_(*box_), connections_(box_->map()),
         controller_(options.name, *box_, image.program(), print), server_(options.name, getuid(), controller_),
         scans_(*box_, pins_, connections_,
@@ -59,6 +62,9 @@ public:
     controller_.addToStatus([this](nlohmann::json& status) {
       rung_run::addStatus(status, scans_.periodNs(), scans_.figures(), connections_.figures());
     });
+    if (simulation != nullptr)
+      controller_.setSimulation(
+          [simulation](const std::string& name, const nlohmann::json& keys) { return simulation->event(name, keys); });
   }
 
   int run() {
@@ -114,13 +120,21 @@ int run(const Options& options) try {
   const Image image = imageOf(options);
   std::vector<std::string> errors, warnings;
   mapping::File map = mapping::loadMap(options.map, errors);
+  std::unique_ptr<rung_run::Simulation> simulation;
+  plc::Box::NewInstance newInstance;
+  if (options.simulate) {
+    simulation = rung_run::loadSimulation(image.program().dialect, options.config);
+    newInstance = [&simulation](const Image& of, const rung_instance_options& with) {
+      return simulation->instance(of, with);
+    };
+  }
   std::unique_ptr<plc::Box> box;
-  if (!map.paths.empty()) box = plc::Box::make(image, std::move(map), errors, options.retain, warnings);
+  if (!map.paths.empty()) box = plc::Box::make(image, std::move(map), errors, options.retain, warnings, newInstance);
   for (const std::string& text : warnings) print(text);
   for (const std::string& text : errors) print(text);
   if (box == nullptr) return cli::kWrong;
   catchSignals();
-  return Run(options, image, std::move(box)).run();
+  return Run(options, image, std::move(box), simulation.get()).run();
 } catch (const std::exception& error) { // the program, the socket
   print(error.what());
   return cli::kEnvironment;
@@ -148,6 +162,9 @@ int main(int argc, char** argv) {
               "Real-time priority, 1 to 99 (SCHED_FIFO); without it the ordinary scheduling")
       .between(1, 99);
   command.flag("--lock-memory", options.lockMemory, "Keep all memory in RAM");
+  const cli::Option simulate =
+      command.flag("--simulate", options.simulate, "Simulate the control of the program's dialect");
+  command.option("--config", options.config, "KEY=VALUE of the simulated control; may be repeated").needs(simulate);
   command.flag("--unsealed", options.unsealed, "Load a program that has no seal");
   int status = cli::kOk;
   cli::addUsage(app, status);

@@ -146,6 +146,20 @@ int set(Client& client, const Words& words) {
   return cli::kOk;
 }
 
+// NAME KEY=VALUE…: numbers are numbers, all else is text.
+int event(Client& client, const Words& words) {
+  json keys = json::object();
+  for (const std::string& word : words.names) {
+    const size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return fail("event: found " + word + ", expected KEY=VALUE", cli::kUsage);
+    const json value = valueOf(word.substr(equals + 1));
+    keys[word.substr(0, equals)] = value.is_number() ? value : json(word.substr(equals + 1));
+  }
+  print(words, asked(client, {{"do", "event"}, {"name", words.name}, {"keys", keys}}), "done");
+  return cli::kOk;
+}
+
 int force(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "force"}, {"name", words.name}, {"value", valueOf(words.value)}});
   print(words, answer, fmt::format("{} is forced to {}", words.name, shown(answer["value"])));
@@ -296,6 +310,13 @@ void addAll(Commands& commands) {
       },
       trace);
   commands.add("set", "Write a value into a cell, once", oneValue, set);
+  commands.add(
+      "event", "Do something at the simulated control of rung-run",
+      [](cli::Command& command, Words& words) {
+        command.option("NAME", words.name, "The event, as in scenarios").required();
+        command.option("KEY=VALUE", words.names, "What belongs to it");
+      },
+      event);
   commands.add("force", "Hold a cell at a value", oneValue, force);
   commands.add(
       "unforce", "Let go of a cell that is forced",

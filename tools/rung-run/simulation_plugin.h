@@ -1,0 +1,40 @@
+// What the plug-in with the simulated controls offers rung-run, which loads it where that is asked for. Both are of one
+// build, which is checked: what goes between them is C++.
+#pragma once
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "rung/runtime.hpp"
+
+namespace rung::rung_run {
+
+// A control that is simulated around one program. Texts say what is wrong; "" is nothing.
+class Simulation {
+public:
+  virtual ~Simulation() = default;
+
+  // ---- before the instance
+
+  virtual std::string config(const std::string& key, const std::string& value) = 0;
+  // Once: the program within the simulated control, which it owns.
+  virtual Instance instance(const Image& image, const rung_instance_options& options) = 0;
+
+  // ---- the thread that scans, between two slices
+
+  // As `event NAME KEY=VALUE…` of a scenario; `keys` is an object of texts and numbers. It may allocate.
+  virtual std::string event(const std::string& name, const nlohmann::json& keys) = 0;
+};
+
+// What the plug-in exports: a simulation for a dialect, which the caller deletes, and the build that it belongs to.
+using MakeSimulation = Simulation* (*)(const char* dialect);
+using SimulationBuild = const char* (*)();
+inline constexpr const char* kMakeSimulation = "rung_make_simulation";
+inline constexpr const char* kSimulationBuild = "rung_simulation_build";
+
+// Of whoever includes this; it changes with every version, compiler and interface between host and plug-in.
+inline std::string simulationBuild() {
+  return std::string(RUNG_BUILD) + " " + __VERSION__ + " " + std::to_string(sizeof(rung_instance_options)) + " 1";
+}
+
+} // namespace rung::rung_run

@@ -1,0 +1,72 @@
+// The plug-in of rung-run: a simulated control around a program. It has the runtime in it a second time, which makes
+// the instance and the simulation; the host runs that instance by its own, of the same build.
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "rtlib/runtime/surroundings.h"
+#include "tools/rung-run/simulation_plugin.h"
+#include "tools/sim/simulated_nc.h"
+
+namespace rung::rung_run {
+namespace {
+
+sim::NcArgument argumentOf(const std::string& key, const nlohmann::json& value) {
+  sim::NcArgument argument{.key = key};
+  argument.isText = value.is_string();
+  argument.isReal = value.is_number_float();
+  if (argument.isText) argument.text = value.get<std::string>();
+  if (argument.isReal) argument.real = value.get<double>();
+  if (value.is_number_integer()) argument.integer = value.get<int64_t>();
+  return argument;
+}
+
+class SimulatedControl final : public Simulation {
+public:
+  explicit SimulatedControl(const char* dialect) : made_(sim::makeSimulatedNc(dialect)), nc_(*made_) {
+    // That of a dialect which also has one that scenarios play; the others know no such key.
+    (void)nc_.config("nc", "simulated");
+    nc_.setRealTime();
+  }
+
+  std::string config(const std::string& key, const std::string& value) override { return nc_.config(key, value); }
+
+  Instance instance(const Image& image, const rung_instance_options& options) override {
+    rung_instance_options own = options;
+    own.request = nullptr; // the simulated control answers
+    check(runtime::newInstance(image.handle(), &own, std::move(made_), &instance_));
+    return Instance(instance_);
+  }
+
+  std::string event(const std::string& name, const nlohmann::json& keys) override try {
+    std::vector<sim::NcArgument> arguments;
+    for (const auto& [key, value] : keys.items()) arguments.push_back(argumentOf(key, value));
+    std::string problem = nc_.event(runtime::insideOf(*instance_), name, arguments);
+    runtime::takeMessages(*instance_);
+    return problem;
+  } catch (const std::exception& problem) {
+    return problem.what();
+  }
+
+private:
+  std::unique_ptr<sim::SimulatedNc> made_; // until the instance has it
+  sim::SimulatedNc& nc_;
+  rung_instance* instance_ = nullptr; // the host's
+};
+
+} // namespace
+} // namespace rung::rung_run
+
+// What is C++ between the two is of one build: rung-run compares them.
+extern "C" const char* rung_simulation_build() {
+  static const std::string build = rung::rung_run::simulationBuild();
+  return build.c_str();
+}
+
+extern "C" rung::rung_run::Simulation* rung_make_simulation(const char* dialect) {
+  return new rung::rung_run::SimulatedControl(dialect);
+}

@@ -66,11 +66,14 @@ void Connections::writeOutputs(const plc::PinCell* pins) noexcept {
 void Connections::report(const std::function<void(const std::string&)>& print) {
   for (Served& served : served_) {
     const bool alive = served.exchange.isAlive();
-    if (alive == served.reported) continue;
+    if (alive != served.reported)
+      print(served.title + (alive ? ": connected" : ": lost; its inputs have their safe values"));
+    if (alive != served.reported) served.explained = false;
     served.reported = alive;
-    const std::string problem = served.service->problem();
-    print(served.title + (alive ? ": connected" : ": lost; its inputs have their safe values") +
-          (alive || problem.empty() ? "" : " (" + problem + ")"));
+    const std::string problem = alive || served.explained ? "" : served.service->problem();
+    if (problem.empty()) continue;
+    print(served.title + ": " + problem);
+    served.explained = true;
   }
 }
 

@@ -56,7 +56,8 @@ private:
     Exchange exchange;
     std::unique_ptr<Service> service;
     std::thread thread;
-    bool reported = false; // alive, the last time
+    bool reported = false;  // alive, the last time
+    bool explained = false; // a problem has been reported since
   };
 
   std::vector<std::string> warnings_;

@@ -73,11 +73,17 @@ void SharedMemory::layOut() {
   header_.inputsAt = header_.outputsAt + header_.outputsSize;
   header_.inputsSize = static_cast<uint32_t>(inputs_.size());
   const off_t size = header_.inputsAt + header_.inputsSize;
-  if (ftruncate(file_.number(), size) != 0 || posix_fallocate(file_.number(), 0, size) != 0 ||
+  if (ftruncate(file_.number(), size) != 0 || !reserve(size) ||
       !get(&taken_, sizeof taken_, offsetof(Header, inputsSequence)) ||
       !get(&header_.outputsSequence, sizeof header_.outputsSequence, offsetof(Header, outputsSequence)) ||
       !put(&header_, offsetof(Header, inputsSequence), 0))
     refuse("cannot write /dev/shm" + name_ + ": " + std::strerror(errno));
+}
+
+// A later write finds the memory there.
+bool SharedMemory::reserve(int64_t size) const {
+  errno = posix_fallocate(file_.number(), 0, size);
+  return errno == 0;
 }
 
 bool SharedMemory::get(void* to, size_t size, uint32_t at) const {

@@ -16,6 +16,8 @@ constexpr double kShortestTime = 0.001; // seconds
 constexpr double kLongestTime = 3600;
 constexpr int64_t kMostPlaces = 65536; // of an area of Modbus
 constexpr int64_t kMostMemory = 65536; // bytes, each way
+constexpr int64_t kLastUnit = 247;
+constexpr int64_t kNoUnit = 255; // the device itself, of Modbus TCP
 constexpr int64_t kMostConnections = 64;
 constexpr int64_t kMostRequests = 100'000;
 constexpr size_t kLongestName = 64;
@@ -91,7 +93,7 @@ const ConnectionReader::Key<ConnectionReader::Row> ConnectionReader::kInputRegis
 const ConnectionReader::Key<ConnectionReader::Row> ConnectionReader::kClientKeys[] = {
     {"host", true, kHost.expected, "host = \"192.168.0.10\"", &ConnectionReader::takeHost},
     kPort,
-    {"unit", false, "the number of a unit, 0 to 255", "unit = 1", &ConnectionReader::takeUnit},
+    {"unit", false, "the number of a unit, 0 to 247, or 255", "unit = 1", &ConnectionReader::takeUnit},
     kPeriod,
     kTimeout,
     kStatus,
@@ -177,7 +179,8 @@ bool ConnectionReader::takePort(const toml::node& node, Row& row) {
 }
 
 bool ConnectionReader::takeUnit(const toml::node& node, Row& row) {
-  const std::optional<int64_t> unit = integerIn(node, 0, 255);
+  std::optional<int64_t> unit = integerIn(node, 0, 255);
+  if (unit > kLastUnit && unit != kNoUnit) unit.reset();
   row.connection.unit = static_cast<uint8_t>(unit.value_or(0));
   return unit.has_value();
 }

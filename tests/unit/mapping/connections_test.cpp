@@ -146,11 +146,12 @@ TEST(Connections, WithWrongKeysSayWhatIsExpected) {
           "coils, discrete-inputs, holding-registers, input-registers",
           "9:9: modbus-server.coils: found 5, expected a table; write for example coils = { start = 0 }"));
   EXPECT_THAT(
-      errorsOf("[[modbus-client]]\nunit = 256\nperiod = 2\ntimeout = 2\n"),
+      errorsOf("[[modbus-client]]\nunit = 248\nperiod = 2\ntimeout = 2\n"),
       ElementsAre(
           "1:1: modbus-client: found no key host, expected an IP address, because a name would have to be looked up "
           "while the program runs; write for example host = \"192.168.0.10\"",
-          "2:8: modbus-client.unit: found 256, expected the number of a unit, 0 to 255; write for example unit = 1"));
+          "2:8: modbus-client.unit: found 248, expected the number of a unit, 0 to 247, or 255; write for example unit "
+          "= 1"));
   EXPECT_THAT(errorsOf("[[modbus-client]]\nhost = \"10.0.0.1\"\nperiod = 2\ntimeout = 2\n"),
               ElementsAre("4:11: modbus-client.timeout: found no more than the period, expected a longer time; write "
                           "for example twice the period"));

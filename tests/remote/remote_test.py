@@ -223,6 +223,22 @@ class Commands(Host):
         for wanted in ("$var wire 1 ! X0.3 $end", '$var wire 16 " D8:2 $end', "\n0!\n", "\n1!\n", '\nb11 "\n'):
             self.assertIn(wanted, text)
 
+    def test_sigrok_reads_a_trace(self):
+        out = self.home / "sigrok.vcd"
+        tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "Y0.0", "D8:2", "-o", out, "--for", "1"],
+                                   env=self.environment, stdout=subprocess.DEVNULL)
+        time.sleep(0.3)
+        for value in (1, 0, 1):
+            self.ctl("set", "X0.3", value)
+            time.sleep(0.1)
+        self.assertEqual(tracing.wait(PATIENCE), OK)
+        done = subprocess.run(["sigrok-cli", "-I", "vcd:downsample=1000", "-i", out, "-O", "csv:header=false:label=off"],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        bits = [line.split(",") for line in done.stdout.splitlines() if re.match("[01],[01]", line)]  # it leaves numbers out
+        changes = [now for before, now in zip([None, *bits], bits) if now != before]
+        self.assertEqual(changes, [["0", "0"], ["1", "0"], ["0", "0"], ["1", "0"]], done.stdout[:500] + done.stderr)
+
     def test_map(self):
         self.assertEqual(self.ctl("map"), f"in    bit   run ({self.home}/plc.map:2)\nout   bit   lamp ({self.home}/plc.map:4)\n")
 

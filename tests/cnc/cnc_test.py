@@ -69,12 +69,14 @@ class Bench:
         shutil.copy(options.module, link)
         self.rungc = options.rungc
         self.libexec = options.libexec
+        self.programs = set()
         if self.libexec:  # where the component looks for its compiler
             (self.folder / "libexec").mkdir()
             shutil.copy(Path(options.rungc).parent / "rung-compile", self.folder / "libexec")
 
     def program(self, source, name="program.so"):
         subprocess.run([self.rungc, "build", source, "-o", self.home / name], check=True)
+        self.programs.add(self.home / name)
 
     def file(self, name, text):
         path = self.home / name
@@ -86,14 +88,18 @@ class Bench:
         path = self.file(name or Path(source).name, text)
         shutil.copymode(source, path)
 
-    def run(self, *command):
+    def inside(self, *command):
+        """The command line that runs it in the session's namespaces, as an ordinary user, and its environment."""
         for path in [self.home, *self.home.rglob("*")]:
-            if path.name not in ("program.so", "edited.so", "endless.so"):  # LinuxCNC's rtapi_app runs what is root's
+            if path not in self.programs:  # LinuxCNC's rtapi_app runs what is root's
                 shutil.chown(path, "nobody")
         shell = ["sh", "-ec", INSIDE.format(modules=MODULES, libexec=self.libexec), "sh", *command]
-        done = subprocess.run(unshare(shell), env={**os.environ, "D": str(self.folder)}, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                              timeout=TIMEOUT, check=False)
+        return unshare(shell), {**os.environ, "D": str(self.folder)}
+
+    def run(self, *command):
+        line, environment = self.inside(*command)
+        done = subprocess.run(line, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT, check=False)
         print(done.stdout)
         return done
 

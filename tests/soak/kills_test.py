@@ -124,6 +124,8 @@ def kill_rung_run(host, memory, moment):
 
 
 class Figures:
+    """Of the kills of one host with one program."""
+
     def __init__(self):
         self.kills, self.ages, self.problems = 0, [], []
 
@@ -140,6 +142,10 @@ class Figures:
               f"median {statistics.median(ages):.0f} ms, oldest {max(ages):.0f} ms")
         for problem in self.problems[:5]:
             print("  " + problem)
+
+    def fine(self):
+        """Most hosts have come so far that they have shown a number."""
+        return not self.problems and len(self.ages) >= self.kills / 2
 
 
 def work(jobs, options, make_memory, figures, lock):
@@ -183,7 +189,7 @@ def rung_run(rung, options, place):
     for dialect, program in programs.items():
         figures[dialect].show(f"rung-run, {dialect}", program.period)
     done = sum(figure.kills for figure in figures.values())
-    return done == options.count and not any(figure.problems for figure in figures.values())
+    return done == options.count and all(figure.fine() for figure in figures.values())
 
 
 HAL = """loadrt threads name1=servo period1=1000000
@@ -216,7 +222,7 @@ def hal(rung, options, program, place):
         problem, age = memory.check(kill_rtapi_app(bench, memory, moment))
         figures.add(f"kill {index} after {moment * 1000:.0f} ms", problem, age)
     figures.show(f"rtapi_app, {program.dialect}", program.period)
-    return not figures.problems
+    return figures.fine()
 
 
 def main():

@@ -65,7 +65,7 @@ int32_t rung_image_open(const char* path, const rung_image_options* options, run
   });
 }
 
-int32_t rung_image_open_memory(int file, const char* name, rung_image** image) {
+int32_t rung_image_open_memory(int32_t file, const char* name, rung_image** image) {
   if (name == nullptr || image == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "rung_image_open_memory needs a name and a place for the image");
   return contained([&] {

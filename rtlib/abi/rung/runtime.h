@@ -88,7 +88,7 @@ RUNG_API int32_t rung_image_open(const char* path, const rung_image_options* opt
  * own compiler. Whose it is is not looked at; it must be sealed against every change (F_SEAL_WRITE, F_SEAL_SHRINK,
  * F_SEAL_GROW, F_SEAL_SEAL). Its contents are checked as those of a file. The descriptor stays the caller's; `name` is
  * what errors call it. RUNG_REFUSED, RUNG_OUT_OF_MEMORY. */
-RUNG_API int32_t rung_image_open_memory(int file, const char* name, rung_image** image);
+RUNG_API int32_t rung_image_open_memory(int32_t file, const char* name, rung_image** image);
 
 /* An image over a program that is in memory already: linked into the host, or made by a compiler. `engine` is what its
  * chunks find in rung_ctx::engine. `release`, which may be null, is called with `owner` when nothing uses the image any

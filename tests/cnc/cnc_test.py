@@ -115,7 +115,6 @@ def expect(condition, what):
 
 # A change of the programs of `remote`, by the ending of their files: a rung more.
 EDITS = {".pmc": ("FUNC END2", "LD   COOLANT_FLOW\nOUT  R90.0\n\nFUNC END2"),
-         ".lad": ("rung\n|--{END}", "rung\n|--[COOLANT_FLOW]--(7000.00)\n\nrung\n|--{END}"),
          ".plc": ("OUT0\nMODULE_MAIN_END", "OUT0\n        LDR  COOLANT_FLOW\n        WR   COOLANT_FLOW\nMODULE_MAIN_END")}
 REMOTE = '\n[rungctl]\nallow = ["set", "force", "reload"]\nnever = ["ESTOP_OK"]\n'
 
@@ -241,25 +240,6 @@ def example(bench, options, commands, pins):
     return {pin: shown(done.stdout, "rung." + pin) for pin in pins}
 
 
-def turning_centre(bench, options):
-    """NCT: machine on, M8, M9, and T of channel 2."""
-    values = example(bench, options, [
-        # doors shut, turrets clamped on place 1, chucks open, quill back; contactors, hydraulics follow
-        "inputs-0 0x63B31F", "inputs-1 0x227", "inputs-2 0x27", "probe 1", "spindle-stopped 1", "wait 0.2", "show",
-        "estop-ok 1", "wait 0.1", "machine-on 1", "wait 0.1", "show",
-        "wait 0.5", "inputs-0 0x63BB3F", "wait 0.2", "coolant-flood 1", "wait 0.2", "show",
-        "coolant-flood 0", "turret-2-place 1", "turret-2-turn 1", "wait 0.3", "show",
-    ], ["enable", "outputs-0", "outputs-1", "finished", "turret-2-there", "functions-busy", "functions-lost", "fault"])
-    expect(values["enable"] == ["FALSE", "TRUE", "TRUE", "TRUE"], values)
-    expect(values["finished"] == 4 * ["TRUE"], values)
-    pump = [int(value, 0) >> 6 & 1 for value in values["outputs-1"]]
-    expect(pump == [0, 0, 1, 0], values)
-    expect(values["turret-2-there"] == ["FALSE", "FALSE", "FALSE", "TRUE"], values)
-    expect(values["functions-busy"] == 4 * ["FALSE"], values)
-    expect([int(value, 0) for value in values["functions-lost"]] == 4 * [0], values)
-    expect(values["fault"] == 4 * ["FALSE"], values)
-
-
 def machining_centre(bench, options):
     """TECHNOL: machine on, M8 and M9 as blocks."""
     values = example(bench, options, [
@@ -353,7 +333,7 @@ def sources(bench, options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, sources, instances, unload, retained, turning_centre, machining_centre, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, sources, instances, unload, retained, machining_centre, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

@@ -203,12 +203,12 @@ def emergency_stop():
     wait("e-stop", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP)[1])
 
 
-def main():
+def session(steps):
+    """Switches on and does what steps.txt names, in its order."""
     component = hal.component("driver")  # get_value needs one
     component.ready()
     switch_on()
     set_mode(linuxcnc.MODE_MDI)
-    steps = {step.__name__: step for step in (spindle, coolant, tools, part, counters, remote, alarm, emergency_stop)}
     with open("steps.txt", encoding="ascii") as file:
         for name in file.read().split():
             set_mode(linuxcnc.MODE_MDI)
@@ -216,11 +216,17 @@ def main():
             print("driver:", name, "ok", flush=True)
 
 
-try:
-    main()
-    result = "passed"
-except BaseException:
-    result = traceback.format_exc()
-with open("result.txt", "w", encoding="utf-8") as out:
-    out.write(result)
-sys.exit(0 if result == "passed" else 1)
+def run(work):
+    """Leaves "passed" in result.txt, or what went wrong."""
+    try:
+        work()
+        result = "passed"
+    except BaseException:
+        result = traceback.format_exc()
+    with open("result.txt", "w", encoding="utf-8") as out:
+        out.write(result)
+    sys.exit(0 if result == "passed" else 1)
+
+
+if __name__ == "__main__":
+    run(lambda: session({step.__name__: step for step in (spindle, coolant, tools, part, counters, remote, alarm, emergency_stop)}))

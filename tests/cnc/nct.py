@@ -255,9 +255,9 @@ def signals():
     mdi("M19 R0")
     mdi("G0 Z-95")
     mdi("G38.2 Z-120 F600")
-    check(state("probed_position")[2] < -99.9, "probed")
+    wait("the probe's position", lambda: near(state("probed_position")[2], -100, 0.2))
     mdi("M66 P0 L3 Q2")
-    check(state("din")[0] == 1, "M66")
+    wait("M66", lambda: state("din")[0] == 1)
     mdi("G0 Z-90")
 
 

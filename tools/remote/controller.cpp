@@ -218,15 +218,15 @@ void Controller::passMessages(Server* server, const Print& print) {
     if (message.op == RUNG_MESSAGE_CLEAR) continue;
     const std::string text = std::string("message ") + message.text;
     print(text);
-    report(text, server);
+    report(text, server, message.op == RUNG_MESSAGE_LOG);
   }
 }
 
-void Controller::report(const std::string& text, Server* server) {
+void Controller::report(const std::string& text, Server* server, bool logged) {
   reports_.push_back(timeNow() + " " + text);
   if (reports_.size() > kMostReports) reports_.pop_front();
   if (server == nullptr) return;
-  for (const uint32_t peer : following_) server->send(peer, {{"event", "message"}, {"text", reports_.back()}});
+  for (const uint32_t peer : following_) server->send(peer, {{"event", "message"}, {"text", reports_.back()}, {"logged", logged}});
 }
 
 Controller::Found Controller::find(const std::string& name, int32_t access) const {

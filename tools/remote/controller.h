@@ -114,7 +114,8 @@ private:
   std::vector<rung_force_info> forcesInEffect();
   void putInEffect(const std::vector<rung_forced_cell>& cells);
   void endShadow();
-  void report(const std::string& text, Server* server);
+  // `logged`: for the log alone, not for the operator.
+  void report(const std::string& text, Server* server, bool logged = false);
   nlohmann::json simple(plc::Order::Kind kind, const Peer& peer, const char* what);
   void logChange(const Peer& peer, const std::string& text);
 

@@ -38,7 +38,7 @@ def configure(bench, options):
         expect(text.count(old) == 1, f"{old} is not once in machine.ini")
         text = text.replace(old, new)
     ini.write_text(text, encoding="utf-8")
-    for tool in (Path(options.rungc).parent / "rungctl", TOOLS / "rung-hal/rung-operator", HERE / "drive.py", options.driver):
+    for tool in (Path(options.rungc).parent / "rungctl", TOOLS / "rung-hal/rung-operator", TOOLS / "rung-hal/rung-services", HERE / "drive.py", options.driver):
         shutil.copy(tool, bench.home)
 
 

@@ -253,6 +253,25 @@ def counted():
     check(told is None, f"the operator was told {told}")
 
 
+def bar_feeder():
+    """M75: the program reads #505, opens the chuck, pushes the bar by an axis of its own, clamps and draws back."""
+    mdi("#505 = 40")
+    before = hal.get_value("joint.2.motor-pos-cmd")
+    mdi("M75")
+    wait("the bar pusher", lambda: near(hal.get_value("joint.2.motor-pos-cmd"), before + 35))
+    pins(chuck_1_is_out=False, bar_done=True)
+    mdi("M76")
+    wait("the bar pusher at home", lambda: near(hal.get_value("joint.2.motor-pos-cmd"), 0))
+
+
+def variables():
+    """The program writes #501 when LinuxCNC is at rest, and asks where an axis is at once."""
+    total = int(rungctl("get", "PARTS").split()[-1])
+    mdi("M68 E1 Q[#501]")
+    wait(f"#501 = {total}", lambda: (mdi("M68 E1 Q[#501]"), near(hal.get_value("motion.analog-out-01"), total))[1])
+    wait("where the probe touched", lambda: near(pin("macro-value-in-0"), -100, 1))
+
+
 def signals():
     """M62 to M68 are the interface variables; the probe is seen by LinuxCNC and by the program."""
     mdi("M64 P1")
@@ -337,13 +356,13 @@ def emergency_stop():
     mdi("M5")
 
 
-STEPS = (power, reference, by_hand, functions, part, counted, signals, remote, alarm, emergency_stop)
+STEPS = (power, reference, by_hand, functions, bar_feeder, part, counted, signals, variables, remote, alarm, emergency_stop)
 
 
 def session():
     connect()
     for step in STEPS:
-        if step in (counted, signals, remote, alarm, emergency_stop):
+        if step in (counted, signals, variables, remote, alarm, emergency_stop):
             set_mode(linuxcnc.MODE_MDI)
         begin = time.monotonic()
         step()

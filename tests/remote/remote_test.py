@@ -41,22 +41,23 @@ never = ["X0.2"]
 """
 
 
-def build(folder, *options, source=PROGRAM):
-    (folder / "stuck.pmc").write_text(source)
-    subprocess.run([BIN / "rungc", "build", "-q", folder / "stuck.pmc", "-o", folder / "stuck.so", *options], check=True)
+def build(folder, *options, source=PROGRAM, name="stuck.pmc"):
+    (folder / name).write_text(source)
+    subprocess.run([BIN / "rungc", "build", "-q", folder / name, "-o", folder / "stuck.so", *options], check=True)
     return folder / "stuck.so"
 
 
 class Host(unittest.TestCase):
     map = MAP
     source = PROGRAM
+    source_name = "stuck.pmc"
     build_options = ()
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.home = Path(cls.folder.name)
-        cls.program = build(cls.home, *cls.build_options, source=cls.source)
+        cls.program = build(cls.home, *cls.build_options, source=cls.source, name=cls.source_name)
 
     @classmethod
     def tearDownClass(cls):

@@ -31,28 +31,48 @@ PRM  R24
 OUT  R10.2
 FUNC END2
 """
+# 7000.00 moves axis 5 by 12.5 at 600, .01 sends it to its reference point, .02 moves it by a feed per revolution, .03 asks
+# where the second axis is; 7003.00: at -2.5.
+AXES = """dialect nct
+module MAIN
+
+rung
+|--[7000.00]--[/7001.00]--[/7002.00]--{MOVCMND #5 #3 *600.0 *12.5}--(S 7001.00)
+
+rung
+|--[7000.00]--[FL_ER]--(S 7002.00)
+
+rung
+|--[7000.01]--[/7001.01]--[/7002.01]--{MOVCMND #5 #7 *0.0 *0.0}--(S 7001.01)
+
+rung
+|--[7000.01]--[FL_ER]--(S 7002.01)
+
+rung
+|--[7000.02]--[/7001.02]--[/7002.02]--{MOVCMND #5 #5 *1.0 *1.0}--(S 7001.02)
+
+rung
+|--[7000.02]--[FL_ER]--(S 7002.02)
+
+rung
+|--[7000.03]--[/7001.03]--[/7002.03]--{SCP 7010 ActPosAx #2 #0}--(S 7001.03)
+
+rung
+|--[7000.03]--[FL_ER]--(S 7002.03)
+
+rung
+|--{FLEQ 7010 *-2.5}--(7003.00)
+
+rung
+|--{END}
+"""
 BLOCKS = {"D0:2": 9, "D4:2": 4, "D6:2": 500, "D20:2": 31, "D24:2": 4, "D40:2": 17, "D44:2": 4, "D48:2": 2}
 VARIABLE = {"event": "service", "quantity": "macro-variable", "channel": 0, "number": 500, "axis": 0}
 TOOL = {"event": "service", "quantity": "tool-number", "channel": 0, "number": 0, "axis": 0, "value": 7.0}
 
 
-class Services(Host):
+class Provider(Host):
     map = '[rungctl]\nallow = ["set", "serve"]\n'
-    source = WINDOWS
-
-    def setUp(self):
-        super().setUp()
-        for name, value in BLOCKS.items():
-            self.ctl("set", name, value)
-
-    def end_of(self, name, condition, output):
-        """The end code after the condition has come, and without it again."""
-        self.ctl("set", condition, "1")
-        self.wait(lambda: self.get(output))
-        code = self.get(name)
-        self.ctl("set", condition, "0")
-        self.wait(lambda: not self.get(output))
-        return code
 
     def provider(self):
         made, lines = self.connect()
@@ -69,6 +89,24 @@ class Services(Host):
 
     def event(self, connection):
         return json.loads(connection[1].readline())
+
+
+class Services(Provider):
+    source = WINDOWS
+
+    def setUp(self):
+        super().setUp()
+        for name, value in BLOCKS.items():
+            self.ctl("set", name, value)
+
+    def end_of(self, name, condition, output):
+        """The end code after the condition has come, and without it again."""
+        self.ctl("set", condition, "1")
+        self.wait(lambda: self.get(output))
+        code = self.get(name)
+        self.ctl("set", condition, "0")
+        self.wait(lambda: not self.get(output))
+        return code
 
     def test_without_a_provider_requests_are_refused_at_once(self):
         self.assertEqual(self.end_of("R20:2", "X0.0", "R10.0"), 6)
@@ -193,6 +231,54 @@ class Services(Host):
         self.ctl("set", "X0.0", "0")
         self.wait(lambda: not self.get("R10.0"))
         self.assertEqual(self.end_of("R20:2", "X0.0", "R10.0"), 6)
+
+
+class NctServices(Provider):
+    """Bits of 7000 begin requests, those of 7001 say that one was done, those of 7002 that it failed."""
+    source = AXES
+    source_name = "axes.lad"
+
+    def ends(self, bit):
+        """Whether the request was done, once it has ended; it may begin anew."""
+        self.wait(lambda: self.get(f"7001.{bit:02}") or self.get(f"7002.{bit:02}"))
+        done = self.get(f"7001.{bit:02}")
+        self.ctl("set", f"7000.{bit:02}", "false")
+        for word in ("7001", "7002"):
+            self.ctl("set", f"{word}.{bit:02}", "false")
+        return done
+
+    def test_without_a_provider_requests_are_refused_at_once(self):
+        for bit in range(4):
+            self.ctl("set", f"7000.{bit:02}", "true")
+            self.assertFalse(self.ends(bit), bit)
+
+    def test_an_axis_of_the_program_is_moved(self):
+        provider = self.provider()
+        for bit, way in ((0, {"way": "by", "value": 12.5, "speed": 600.0}), (1, {"way": "home", "value": 0.0, "speed": 0.0})):
+            self.ctl("set", f"7000.{bit:02}", "true")
+            asked = self.event(provider)
+            ticket = asked.pop("ticket")
+            self.assertEqual(asked, {"event": "service", "quantity": "axis-move", "channel": 0, "number": 0, "axis": 5, **way})
+            self.ask(provider, do="served", ticket=ticket, outcome="done")
+            self.assertTrue(self.ends(bit))
+        self.ctl("set", "7000.00", "true")
+        self.ask(provider, do="served", ticket=self.event(provider)["ticket"], outcome="no-axis")
+        self.assertFalse(self.ends(0))
+
+    def test_what_no_cnc_moves_is_refused(self):
+        provider = self.provider()
+        self.ctl("set", "7000.02", "true")  # feed per revolution
+        self.assertFalse(self.ends(2))
+        self.ask(provider, do="live", machine=[], line=0)
+
+    def test_a_position_is_there_at_once(self):
+        provider = self.provider()
+        self.ctl("set", "7000.03", "true")
+        self.assertFalse(self.ends(3))  # nothing is known yet
+        self.ask(provider, do="live", machine=[1, -2.5], line=0)
+        self.ctl("set", "7000.03", "true")
+        self.assertTrue(self.ends(3))
+        self.wait(lambda: self.get("7003.00"))
 
 
 class ServiceRights(Host):

@@ -59,6 +59,10 @@ json eventOf(uint32_t ticket, const services::Operation& o) {
                 {"number", o.number},
                 {"axis", o.axis}};
   if (o.write) event["value"] = o.value;
+  if (o.quantity == services::Quantity::AxisMove) {
+    event["way"] = services::kWayNames[static_cast<size_t>(o.way)];
+    event["speed"] = o.speed;
+  }
   return event;
 }
 

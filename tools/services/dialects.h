@@ -12,9 +12,10 @@ std::optional<Operation> operationOf(const Request& request, rung_reply& refusal
 rung_reply replyOf(const Request& request, const Answer& answer);
 } // namespace gsk
 
-// MACR and MACW of NCT (man. §6.16).
+// MACR, MACW, MOVCMND and SCP of NCT (man. §6.15-§6.17). SCP is answered at once, or by no one.
 namespace nct {
 bool is(std::string_view service) noexcept;
+int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
 std::optional<Operation> operationOf(const Request& request);
 rung_reply replyOf(const Request& request, const Answer& answer);
 } // namespace nct

@@ -14,18 +14,32 @@ enum class Quantity : uint8_t {
   ToolRadiusWear,
   WorkOffset, // `number` 0: of all work coordinate systems; 1 to 6: G54 to G59; from 7 on the further ones
   ToolNumber, // `number` 0: in the spindle; 1: preselected
+  AxisMove,   // of an axis that the program has for itself: always a write
 };
 inline constexpr std::string_view kQuantityNames[] = {
     "macro-variable",   "tool-length", "tool-length-wear", "tool-radius",
-    "tool-radius-wear", "work-offset", "tool-number"}; // by Quantity
+    "tool-radius-wear", "work-offset", "tool-number", "axis-move"}; // by Quantity
+
+// What an axis of the program does, until the next move or its reset.
+enum class Way : uint8_t {
+  To,    // a position in its coordinate system
+  By,    // a distance
+  At,    // a position in machine coordinates
+  Home,  // its reference point
+  Dwell, // `value` seconds
+  Jog,   // by the program's signals
+};
+inline constexpr std::string_view kWayNames[] = {"to", "by", "at", "home", "dwell", "jog"}; // by Way
 
 struct Operation {
   Quantity quantity = Quantity::MacroVariable;
   bool write = false;
   uint32_t channel = 0; // from 0
   uint32_t number = 0;
-  uint32_t axis = 0; // of a work offset
+  uint32_t axis = 0; // of a work offset; of a move, from 0 in the order of the program
   double value = 0;  // to be written
+  Way way = Way::To; // of a move
+  double speed = 0;  // of a move, per minute; 0: rapid
 };
 
 enum class Outcome : uint8_t {

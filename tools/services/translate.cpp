@@ -8,7 +8,7 @@ namespace rung::services {
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
   if (!live.served.load(std::memory_order_acquire)) return RUNG_REFUSE;
   if (gsk::is(request.service)) return gsk::atOnce(request, live, reply);
-  return nct::is(request.service) ? RUNG_QUEUE : RUNG_REFUSE;
+  return nct::is(request.service) ? nct::atOnce(request, live, reply) : RUNG_REFUSE;
 }
 
 std::optional<Operation> operationOf(const Request& request, rung_reply& refusal) {

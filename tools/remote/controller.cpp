@@ -136,7 +136,8 @@ const Controller::Command Controller::kCommands[] = {
 
 Controller::Controller(std::string host, plc::Box& box, const rung_program& program,
                        std::function<void(const std::string&)> log)
-    : host_(std::move(host)), box_(box), services_(box), program_(program.name), dialect_(program.dialect), log_(std::move(log)) {}
+    : host_(std::move(host)), box_(box), services_(box), program_(program.name), dialect_(program.dialect),
+      log_(std::move(log)) {}
 
 Controller::~Controller() = default;
 
@@ -226,7 +227,8 @@ void Controller::report(const std::string& text, Server* server, bool logged) {
   reports_.push_back(timeNow() + " " + text);
   if (reports_.size() > kMostReports) reports_.pop_front();
   if (server == nullptr) return;
-  for (const uint32_t peer : following_) server->send(peer, {{"event", "message"}, {"text", reports_.back()}, {"logged", logged}});
+  for (const uint32_t peer : following_)
+    server->send(peer, {{"event", "message"}, {"text", reports_.back()}, {"logged", logged}});
 }
 
 Controller::Found Controller::find(const std::string& name, int32_t access) const {

@@ -18,9 +18,21 @@ struct Motion {
   bool rapid = true;
 };
 constexpr bool kFeed = false;
-constexpr std::array<Motion, 15> kMotions = {
-    {{Way::To}, {Way::By}, {Way::To, kFeed}, {Way::By, kFeed}, {}, {}, {Way::At}, {Way::Home}, {}, {}, {}, {Way::Dwell},
-     {}, {Way::Jog, kFeed}, {}}}; // by the codes of axis_codes.h
+constexpr std::array<Motion, 15> kMotions = {{{Way::To},
+                                              {Way::By},
+                                              {Way::To, kFeed},
+                                              {Way::By, kFeed},
+                                              {},
+                                              {},
+                                              {Way::At},
+                                              {Way::Home},
+                                              {},
+                                              {},
+                                              {},
+                                              {Way::Dwell},
+                                              {},
+                                              {Way::Jog, kFeed},
+                                              {}}}; // by the codes of axis_codes.h
 
 std::optional<Operation> moveOf(const int64_t* args) {
   const bool known = args[0] >= 0 && args[0] < rung::nc::nct::kAxes && args[1] >= 0 && args[1] < std::ssize(kMotions);

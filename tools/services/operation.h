@@ -16,9 +16,9 @@ enum class Quantity : uint8_t {
   ToolNumber, // `number` 0: in the spindle; 1: preselected
   AxisMove,   // of an axis that the program has for itself: always a write
 };
-inline constexpr std::string_view kQuantityNames[] = {
-    "macro-variable",   "tool-length", "tool-length-wear", "tool-radius",
-    "tool-radius-wear", "work-offset", "tool-number", "axis-move"}; // by Quantity
+inline constexpr std::string_view kQuantityNames[] = {"macro-variable", "tool-length",      "tool-length-wear",
+                                                      "tool-radius",    "tool-radius-wear", "work-offset",
+                                                      "tool-number",    "axis-move"}; // by Quantity
 
 // What an axis of the program does, until the next move or its reset.
 enum class Way : uint8_t {

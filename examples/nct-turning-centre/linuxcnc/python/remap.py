@@ -5,12 +5,12 @@ import os
 from interpreter import INTERP_OK
 
 ADDED = 200  # to the number of an M function that LinuxCNC itself has: M251 is the machine's M51
-SHARED = range(500, 1000)  # variables that the PLC program may ask for meanwhile
+SHARED = range(500, 1000)  # variables that the PLC program may ask for
 PUBLISHED = "variables.json"
 
 
 def publish(params):
-    """LinuxCNC gives nobody its variables while a program runs: rung-services finds them in this file."""
+    """LinuxCNC gives nobody its variables while a part program runs: rung-services finds them in this file."""
     values = {str(number): params[number] for number in SHARED if params[number] != 0}
     with open(PUBLISHED + ".new", "w", encoding="ascii") as file:
         json.dump(values, file)

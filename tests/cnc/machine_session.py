@@ -50,6 +50,7 @@ def main():
     parser.add_argument("--program", required=True, help="the program's path in machine.ini")
     parser.add_argument("--module", default="", help="the component; empty when it was not built")
     parser.add_argument("--rungc", required=True)
+    parser.set_defaults(libexec="")  # nothing is compiled there
     options = parser.parse_args()
     check_machine(options.module)
     with tempfile.TemporaryDirectory(dir="/var/tmp", prefix="rung-cnc-") as folder:

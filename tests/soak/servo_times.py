@@ -25,7 +25,7 @@ QUIET, FIRST_CHANGE = 1, 2  # marks of servo_drive.py
 COLUMNS = ("period", "motion", "mill", "turning", "centre", "bits", "ladder")
 # Sources, maps, milliseconds between two parts of the schedule, titles.
 MACHINES = {"mill": ("examples/gsk-mill", "examples/gsk-mill/mill.map", 8, "examples/gsk-mill, 511 rungs, GSK"),
-            "turning": ("examples/nct-turning-centre", "examples/nct-turning-centre/centre.map", 10,
+            "turning": ("examples/nct-turning-centre", "examples/nct-turning-centre/linuxcnc/centre.map", 10,
                         "examples/nct-turning-centre, 590 rungs, NCT"),
             "centre": ("examples/technol-machining-centre", "examples/technol-machining-centre/centre.map", 20,
                        "examples/technol-machining-centre, 584 rungs, TECHNOL")}
@@ -57,7 +57,8 @@ def prepare(bench, options):
     for name, (source, map_file, _, _) in MACHINES.items():
         for end in ("", "-again"):
             bench.programs.add(compiled(bench.rungc, ROOT / source, bench.home / f"{name}{end}.so"))
-        bench.file(name + ".map", (ROOT / map_file).read_text(encoding="utf-8") + ALLOW)
+        text = (ROOT / map_file).read_text(encoding="utf-8")
+        bench.file(name + ".map", text if "[rungctl]" in text else text + ALLOW)
     bench.programs.add(compiled(bench.rungc, bench.file("bits.pmc", ladders.gsk(RUNGS)), bench.home / "bits.so"))
     bench.file("bits.map", "".join(f'out.out-{i} = {{ type = "bit", name = "Y{i // 8}.{i % 8}" }}\n' for i in range(10)))
     bench.file("bits.clp", ladders.classic_ladder(RUNGS))

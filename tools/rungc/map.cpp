@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "rung/runtime.hpp"
+#include "tools/map-template/template.h"
 #include "tools/mapping/binding.h"
-#include "tools/mapping/template.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
 #include "tools/scenario/place_names.h"
@@ -24,14 +24,14 @@ struct MapOptions {
 int writeTemplate(const MapOptions& options, const OpenedProgram& program) {
   if (!program.compiled)
     return usageError("map --template: a shared object does not say what its rungs use; name the sources");
-  std::vector<mapping::UsedName> used;
+  std::vector<map_template::UsedName> used;
   const rung_program& tables = program.image->program();
   for (const scenario::UsedPlace& place : scenario::usedPlaces(tables, *program.compiled->uses)) {
     std::string name = scenario::writtenName(tables, scenario::refOf(place.use));
     if (!name.empty()) used.push_back({std::move(name), place.read, place.written});
   }
   const Instance instance(*program.image);
-  const std::string text = mapping::templateMap(instance.handle(), tables, used);
+  const std::string text = map_template::templateMap(instance.handle(), tables, used);
   if (options.out.empty()) {
     fmt::print("{}", text);
     return kOk;

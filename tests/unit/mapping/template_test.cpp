@@ -1,5 +1,5 @@
 // First mapping files: they name what a program uses, and have no mistakes.
-#include "tools/mapping/template.h"
+#include "tools/map-template/template.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@ namespace {
 
 using ::testing::IsEmpty;
 
-std::string templateOf(const rung_program& program, const std::vector<UsedName>& used) {
+std::string templateOf(const rung_program& program, const std::vector<map_template::UsedName>& used) {
   const Instance instance(test::adopted(program));
-  const std::string text = templateMap(instance.handle(), program, used);
+  const std::string text = map_template::templateMap(instance.handle(), program, used);
   std::vector<std::string> errors;
   const File map = parseMap(text, "t.map", errors);
   bindMap(map, instance.handle(), program, errors);

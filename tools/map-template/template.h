@@ -5,7 +5,7 @@
 
 #include "rung/runtime.h"
 
-namespace rung::mapping {
+namespace rung::map_template {
 
 // A place that rungs of the program use, by its name.
 struct UsedName {
@@ -19,4 +19,4 @@ struct UsedName {
 // `program`: the tables of the instance's image.
 std::string templateMap(rung_instance* instance, const rung_program& program, std::span<const UsedName> used);
 
-} // namespace rung::mapping
+} // namespace rung::map_template

@@ -1,5 +1,5 @@
 // See template.h.
-#include "tools/mapping/template.h"
+#include "tools/map-template/template.h"
 
 #include <cstring>
 #include <iterator>
@@ -11,7 +11,10 @@
 #include "rtlib/nc/signals.h"
 #include "tools/mapping/file.h"
 
-namespace rung::mapping {
+namespace rung::map_template {
+
+using mapping::PinType;
+
 namespace {
 
 constexpr size_t kLongestPin = 38; // HAL's names have 47 characters, with the prefix
@@ -158,7 +161,7 @@ private:
   static std::string rows(const std::vector<Row>& list, const std::string& before) {
     std::string text;
     for (const Row& row : list)
-      text += before + row.pin + " = { type = \"" + std::string(pinTypeName(row.type)) +
+      text += before + row.pin + " = { type = \"" + std::string(mapping::pinTypeName(row.type)) +
               "\", name = " + inToml(row.name) + " }" + (row.comment.empty() ? "" : " # " + row.comment) + '\n';
     return text;
   }
@@ -197,4 +200,4 @@ std::string templateMap(rung_instance* instance, const rung_program& program, st
   return made.text();
 }
 
-} // namespace rung::mapping
+} // namespace rung::map_template

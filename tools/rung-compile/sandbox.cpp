@@ -98,6 +98,7 @@ long statInstead(long file, const char* path, void* to) {
 }
 
 // What the kernel has refused, done otherwise or not at all. Only what a signal handler may call.
+// NOLINTBEGIN(performance-no-int-to-ptr): arguments of calls are words
 long doInstead(int call, long a, long b, long c) {
   switch (call) {
 #ifdef SYS_open
@@ -108,6 +109,7 @@ long doInstead(int call, long a, long b, long c) {
   default: return -EPERM;
   }
 }
+// NOLINTEND(performance-no-int-to-ptr)
 
 void onRefused(int, siginfo_t* info, void* context) {
   const int before = errno;

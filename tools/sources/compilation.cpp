@@ -249,9 +249,8 @@ void Compilation::compile(const std::string& packedSources) {
   } else if (outcome.verdict == kVerdictErrors) {
     end(State::Errors, std::move(outcome.answer));
   } else {
-    const bool said = outcome.verdict == kVerdictFailed;
-    const std::string other = outcome.problem.empty() ? "the compiler process answered nothing known" : outcome.problem;
-    end(State::Failed, said ? std::move(outcome.answer) : other);
+    if (outcome.problem.empty()) outcome.problem = "the compiler process answered nothing known";
+    end(State::Failed, std::move(outcome.verdict == kVerdictFailed ? outcome.answer : outcome.problem));
   }
 }
 

@@ -15,7 +15,7 @@ void putLength(std::string& out, size_t length) {
 }
 
 void put(std::string& out, Entry entry, std::string_view key, std::string_view value = {}) {
-  out += entry;
+  out += static_cast<char>(entry);
   putLength(out, key.size());
   putLength(out, value.size());
   out += key;

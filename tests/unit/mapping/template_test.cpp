@@ -50,10 +50,12 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
 
 TEST(Template, WhatBothSidesShareIsAComment) {
   const std::string text =
-      templateOf(testing::nctProgram(), {{"0056.17", true, false}, {"0400.00", true, true}, {"0401", false, true}});
+      templateOf(testing::nctProgram(),
+                 {{"0056.17", true, false}, {"OUT000.00", true, true}, {"2000.00", true, true}, {"2001", false, true}});
   EXPECT_NE(text.find("[in]\n0056-17 = "), std::string::npos) << text;
-  EXPECT_NE(text.find("[out]\n0401 = "), std::string::npos) << text;
-  EXPECT_NE(text.find("\n# 0400-00 = { type = \"bit\", name = \"0400.00\" }\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("[out]\nout000-00 = "), std::string::npos) << "a signal of the NC's interface\n" << text;
+  EXPECT_NE(text.find("\n2001 = "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# 2000-00 = { type = \"bit\", name = \"2000.00\" }\n"), std::string::npos) << text;
 }
 
 } // namespace

@@ -86,11 +86,13 @@ class Direction(enum.IntEnum):
 
 
 class FunctionKind(enum.IntEnum):
-    """Functions of a part program."""
+    """Functions of a part program; KEY: one of the panel or the screen, which is pressed and released."""
     M = 0
     S = 1
     T = 2
     B = 3
+    H = 4
+    KEY = 5
 
 
 class LogLevel(enum.IntEnum):
@@ -170,7 +172,7 @@ class _InstanceFlags(enum.IntFlag):
 COLD, WARM = Power
 READ, WRITE, REAL = Access
 TO_PROGRAM, FROM_PROGRAM, BOUND_REAL = Direction
-M, S, T, B = FunctionKind
+M, S, T, B, H, KEY = FunctionKind
 QUEUE = _Answering.QUEUE
 
 # enum rung_host_type. One of 64 bits without a sign has the bits of one with a sign.

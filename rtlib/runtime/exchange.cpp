@@ -34,12 +34,12 @@ int32_t failChannel(uint32_t channel) noexcept {
 }
 
 int32_t checkFunction(rung_instance& instance, uint32_t channel, int32_t kind, uint32_t code) noexcept {
-  if (kind < RUNG_FUNCTION_M || kind > RUNG_FUNCTION_B)
+  if (kind < RUNG_FUNCTION_M || kind > RUNG_FUNCTION_KEY)
     return fail(RUNG_BAD_ARGUMENT, "%d is not an enum rung_function_kind", kind);
   const nc::Functions* functions = functionsOf(instance, channel);
   if (functions == nullptr) return failChannel(channel);
   if (functions->carries(static_cast<nc::FunctionKind>(kind), code)) return RUNG_OK;
-  return fail(RUNG_NOT_FOUND, "the dialect has no signals for %c%u", nc::kFunctionKinds[kind][0], code);
+  return fail(RUNG_NOT_FOUND, "the dialect has no signals for %s%u", nc::kFunctionKinds[kind].data(), code);
 }
 
 } // namespace

@@ -11,6 +11,7 @@ public:
   explicit ControlAlone(std::string_view dialect) : control_(nc::makeControl(dialect)) {}
   nc::Control& control() override { return *control_; }
   const nc::Control& control() const override { return *control_; }
+  void beforePart(host::Instance& instance) override { control_->beforeSlice(instance); }
 
 private:
   std::unique_ptr<nc::Control> control_;

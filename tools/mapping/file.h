@@ -15,7 +15,7 @@ namespace rung::mapping {
 
 enum class PinType : uint8_t { Bit, S32, U32, Float };
 
-inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B"}; // by rung_function_kind
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // by rung_function_kind
 
 // Line and column are from 1; columns count characters.
 struct Position {

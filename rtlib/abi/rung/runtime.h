@@ -458,9 +458,16 @@ RUNG_API int32_t rung_instance_answer(rung_instance* instance, const rung_reply*
 
 /* ---- functions of a part program -------------------------------------------------------------------------------- */
 
-enum rung_function_kind { RUNG_FUNCTION_M = 0, RUNG_FUNCTION_S = 1, RUNG_FUNCTION_T = 2, RUNG_FUNCTION_B = 3 };
+enum rung_function_kind {
+  RUNG_FUNCTION_M = 0,
+  RUNG_FUNCTION_S = 1,
+  RUNG_FUNCTION_T = 2,
+  RUNG_FUNCTION_B = 3,
+  RUNG_FUNCTION_H = 4,
+  RUNG_FUNCTION_KEY = 5 /* one of the panel or the screen: it is pressed and released */
+};
 
-/* Hands an M, S, T or B function of a channel (from 0) over to the program, by the handshake of its dialect; `line` is
+/* Hands a function of a channel (from 0) over to the program, by the handshake of its dialect; `line` is
  * its own until it is finished. RUNG_LATER: the signals that it needs are in use; RUNG_NOT_FOUND: the control has no
  * such channel, or no signals for this function. [rt] */
 RUNG_API int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code,

@@ -55,6 +55,8 @@ public:
   // The same for a host that has not looked them up beforehand.
   void onReplace(host::Instance& instance) override;
 
+  // Before a scan, a slot or a slice, where a host moves a real machine: it has written its signals.
+  virtual void beforeSlice(host::Instance& instance) { (void)instance; }
   // After a scan, a slot or a slice.
   virtual void afterSlice(host::Instance& instance) { (void)instance; }
 

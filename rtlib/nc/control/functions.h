@@ -1,6 +1,6 @@
-// M, S, T and further functions of a part program on their way from the NC to the PLC program, by the dialect's own
-// handshake. A simulated NC and a host that drives a machine hand functions over by the same class. Everything here is
-// for the scan thread and allocates nothing.
+// M, S, T and further functions of a part program, and keys, on their way from the NC to the PLC program, by the
+// dialect's own handshake. A simulated NC and a host that drives a machine hand functions over by the same class.
+// Everything here is for the scan thread and allocates nothing.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -8,8 +8,9 @@
 
 namespace rung::nc {
 
-enum class FunctionKind : uint8_t { M, S, T, B };                          // B: the second auxiliary function
-inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B"}; // by FunctionKind
+// B: the second auxiliary function; Key: one of the panel that is pressed and released.
+enum class FunctionKind : uint8_t { M, S, T, B, H, Key };
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // by FunctionKind
 
 // The functions of one channel of the control (Control::functions). They are ready once the program is switched on; a
 // power-on leaves none under way.

@@ -53,6 +53,7 @@ Blocks::Places::Places(const rung_program& program) {
   statusRestart = interfaceCell(program, "STATUS_RESTART");
   blockInProgress = interfaceCell(program, "PO_F");
   positionReached = interfaceCell(program, "PO_POL");
+  stopDone = interfaceCell(program, "PO_STOP");
   annulment = interfaceCell(program, "CAPI");
   const rt::Memory memory(program, nullptr); // for its places only
   for (const Signal& signal : technolSignals()) {
@@ -90,6 +91,7 @@ bool Blocks::reached(host::Instance& instance) {
 
 void Blocks::annul(host::Instance& instance) {
   if (busy()) finish(instance);
+  put(instance, places_->stopDone, 0);
   const CommandValue mode[] = {{.place = places_->annulment, .integer = 1}};
   start(instance, mode);
   reached(instance);

@@ -39,7 +39,8 @@ public:
   private:
     friend class Blocks;
     Module init, done;
-    rt::Place initOwed, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, annulment;
+    rt::Place initOwed, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, stopDone,
+        annulment;
     std::vector<rt::Place> lastOneBlock; // zero again at the end of the block
     std::vector<rt::Place> motionBits;   // PO_OS...
     std::vector<rt::Place> untilNextStart;
@@ -57,8 +58,10 @@ public:
   // in motion.
   bool reached(host::Instance& instance);
   bool busy() const { return phase_ != Phase::Idle; }
+  // MODULE_BLOCK_INIT has run through: the axes may move.
+  bool inMotion() const { return phase_ == Phase::Motion; }
   // Central annulment: the block under way is given up where it is, and a block in that mode, without motion, follows
-  // (man. l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447).
+  // (man. l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447). A stop ends with it.
   void annul(host::Instance& instance);
   // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
   void supervise(host::Instance& instance);

@@ -13,9 +13,10 @@ namespace {
 
 struct TechnolPlaces final : Places {
   explicit TechnolPlaces(const rung_program& program)
-      : blocks(program), functions(program), backup(technol::Backup::locate(program)) {}
+      : blocks(program), operation(program), functions(program), backup(technol::Backup::locate(program)) {}
 
   technol::Blocks::Places blocks;
+  technol::Operation::Places operation;
   TechnolFunctions::Places functions;
   rt::Place backup;
 };
@@ -26,6 +27,8 @@ void TechnolControl::prepare(host::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   messages_.clear();
   blocks_.reset();
+  operation_.reset();
+  functions_.reset();
 }
 
 std::unique_ptr<Places> TechnolControl::locate(const rung_program& program) const {
@@ -35,6 +38,7 @@ std::unique_ptr<Places> TechnolControl::locate(const rung_program& program) cons
 void TechnolControl::usePlaces(host::Instance& instance, Places& places) noexcept {
   const auto& of = static_cast<const TechnolPlaces&>(places);
   blocks_.use(of.blocks);
+  operation_.use(of.operation);
   functions_.use(instance, of.functions);
   backup_.use(of.backup);
 }
@@ -46,7 +50,13 @@ void TechnolControl::onHook(host::Instance& instance, uint32_t work) {
 
 void TechnolControl::onFault(host::Instance& instance) { technol::runWith(instance, "HALT", 0, false); }
 
+void TechnolControl::beforeSlice(host::Instance& instance) {
+  driven_ = true;
+  if (instance.atListStart() && !instance.stopped()) operation_.beforePass(instance);
+}
+
 void TechnolControl::afterSlice(host::Instance& instance) {
+  if (driven_) operation_.afterSlice(instance);
   if (instance.atListStart()) life_.afterScan(instance);
 }
 

@@ -5,6 +5,7 @@
 #include "rtlib/nc/control/technol/backup.h"
 #include "rtlib/nc/control/technol/blocks.h"
 #include "rtlib/nc/control/technol/messages.h"
+#include "rtlib/nc/control/technol/operation.h"
 #include "rtlib/nc/control/technol/program_life.h"
 #include "rtlib/nc/control/technol/technol_functions.h"
 
@@ -18,6 +19,7 @@ public:
   void onHook(host::Instance& instance, uint32_t work) override;
   void onFault(host::Instance& instance) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
+  void beforeSlice(host::Instance& instance) override;
   void afterSlice(host::Instance& instance) override;
 
   void accept(const rung_message& message) override { messages_.accept(message); }
@@ -52,6 +54,8 @@ protected:
 
 private:
   technol::Blocks blocks_;
+  technol::Operation operation_{blocks_};
+  bool driven_ = false; // beforeSlice is called
   TechnolFunctions functions_{blocks_};
   technol::ProgramLife life_;
   technol::Messages messages_;

@@ -91,13 +91,19 @@ TechnolFunctions::Places::Places(const rung_program& program) {
   blockToolChanged = cell(program, "BLK[0].TProg");
   blockTool = cell(program, "BLK[0].T");
   for (uint32_t i = 0; i < toolDigits.size(); ++i) toolDigits[i] = cell(program, kToolCells[i]);
+  hChanged = cell(program, "ZMSHPI");
+  hCode = cell(program, "PB05");
+  blockHChanged = cell(program, "BLK[0].HProg");
+  blockH = cell(program, "BLK[0].H");
 }
 
 bool TechnolFunctions::carries(FunctionKind kind, uint32_t code) const {
   switch (kind) {
-  case FunctionKind::M: return code <= kMostM;
+  case FunctionKind::M:
+  case FunctionKind::H: return code <= kMostM;
   case FunctionKind::S: return code <= static_cast<uint32_t>(std::numeric_limits<int32_t>::max());
   case FunctionKind::T: return code <= kMostTool;
+  case FunctionKind::Key: return true;
   case FunctionKind::B: return false;
   }
   return false;
@@ -105,6 +111,7 @@ bool TechnolFunctions::carries(FunctionKind kind, uint32_t code) const {
 
 // The block is one of the automatic mode (l.6748-6755).
 std::optional<uint32_t> TechnolFunctions::start(FunctionKind kind, uint32_t code) {
+  if (kind == FunctionKind::Key) return press(code);
   if (blocks_.busy()) return std::nullopt;
   Values values;
   values.add(places_->automatic, 1);
@@ -112,11 +119,29 @@ std::optional<uint32_t> TechnolFunctions::start(FunctionKind kind, uint32_t code
   case FunctionKind::M: addM(values, code); break;
   case FunctionKind::S: addSpeed(values, code); break;
   case FunctionKind::T: addTool(values, code); break;
-  case FunctionKind::B: return std::nullopt;
+  case FunctionKind::H: addH(values, code); break;
+  case FunctionKind::B:
+  case FunctionKind::Key: return std::nullopt;
   }
   blocks_.start(*instance_, std::span(values.all).first(values.count));
   blocks_.reached(*instance_); // it has no motion
-  return 0;
+  return kBlockLine;
+}
+
+std::optional<uint32_t> TechnolFunctions::press(uint32_t code) {
+  if (key_ != Key::None) return std::nullopt;
+  key_ = Key::Waits;
+  keyCode_ = code;
+  return kKeyLine;
+}
+
+// Between two passes.
+void TechnolFunctions::step() {
+  if (key_ == Key::None || !instance_->atListStart()) return;
+  const auto code = static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(keyCode_)));
+  const bool pressed = key_ == Key::Waits;
+  if (!instance_->stopped()) technol::runWith(*instance_, "_ON_CMD", code, pressed);
+  key_ = pressed ? Key::Pressed : Key::None;
 }
 
 void TechnolFunctions::addM(Values& values, uint32_t code) const {
@@ -145,6 +170,13 @@ void TechnolFunctions::addTool(Values& values, uint32_t code) const {
   values.add(places_->blockTool, code);
   for (uint32_t i = 0; i < places_->toolDigits.size(); ++i)
     values.add(places_->toolDigits[i], bcd(code) >> 8 * i & 0xFF);
+}
+
+void TechnolFunctions::addH(Values& values, uint32_t code) const {
+  values.add(places_->hChanged, 1);
+  values.add(places_->hCode, bcd(code));
+  values.add(places_->blockHChanged, 1);
+  values.addReal(places_->blockH, code);
 }
 
 } // namespace rung::nc

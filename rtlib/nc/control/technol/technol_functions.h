@@ -1,7 +1,9 @@
-// M, S and T functions of TECHNOL: a function is a block of the part program without motion. The control writes its
+// M, S, T and H functions of TECHNOL: a function is a block of the part program without motion. The control writes its
 // code and its change bit into the command block (man. l.6682-6968, 6978-7136) and sends the block through
 // MODULE_BLOCK_INIT and MODULE_BLOCK_DONE (blocks.h); the function is finished when the block is. Blocks follow each
 // other, so functions do (l.2682-2711). Reset and emergency stop are the central annulment (Blocks::annul).
+// A key is a PLCCommand of the control's configuration: _ON_CMD learns that it is pressed, and in the next pass that it
+// is released (l.1614-1624).
 #pragma once
 #include <array>
 
@@ -15,6 +17,8 @@ class TechnolFunctions final : public Functions {
   static constexpr uint32_t kGroups = 14; // of M functions, from 1
   static constexpr uint32_t kDecoded = 21;
   static constexpr uint32_t kMostValues = 16; // of a block
+  static constexpr uint32_t kBlockLine = 0, kKeyLine = 1;
+  enum class Key : uint8_t { None, Waits, Pressed };
 
   struct Group {
     rt::Place changed, code;           // ZMMxPI; PBxx
@@ -35,6 +39,7 @@ public:
     std::array<rt::Place, kDecoded> decoded;
     rt::Place speedChanged, speed;
     rt::Place toolChanged, blockToolChanged, blockTool;
+    rt::Place hChanged, blockHChanged, hCode, blockH;
     std::array<rt::Place, 4> toolDigits;
   };
 
@@ -47,14 +52,17 @@ public:
     places_ = &places;
   }
 
+  // At power-on: no key is pressed.
+  void reset() { key_ = Key::None; }
   // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
   // in a group (l.7184-7214).
   bool setGroup(uint32_t code, uint32_t group) override;
-  // M up to 99, T up to 99999999: what their BCD cells hold. No B: the command block has no second auxiliary function.
+  // M and H up to 99, T up to 99999999: what their BCD cells hold. No B: the command block has no second auxiliary
+  // function.
   bool carries(FunctionKind kind, uint32_t code) const override;
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
-  void step() override {}
-  bool busy(uint32_t) const override { return blocks_.busy(); }
+  void step() override;
+  bool busy(uint32_t line) const override { return line == kKeyLine ? key_ != Key::None : blocks_.busy(); }
   void abort() override { blocks_.annul(*instance_); }
 
 private:
@@ -72,6 +80,8 @@ private:
   void addM(Values& values, uint32_t code) const;
   void addSpeed(Values& values, uint32_t code) const;
   void addTool(Values& values, uint32_t code) const;
+  void addH(Values& values, uint32_t code) const;
+  std::optional<uint32_t> press(uint32_t code);
 
   static const Places kNothing;
 
@@ -79,6 +89,8 @@ private:
   host::Instance* instance_ = nullptr;
   const Places* places_ = &kNothing;
   std::array<uint8_t, kMostM + 1> groupOfM_ = {}; // by code
+  Key key_ = Key::None;
+  uint32_t keyCode_ = 0;
 };
 
 } // namespace rung::nc

@@ -1,0 +1,2 @@
+"""What LinuxCNC's interpreter loads at its start."""
+import remap

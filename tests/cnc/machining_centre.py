@@ -4,12 +4,20 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 
+# A change that the session loads while the machine works.
+EDIT = "        LDR  I_COOL_LEVEL\n        WR   I_COOL_LEVEL\n"
+
 
 def prepare(bench, options):
     """The folder of the example's configuration, as a user has it, and the compiled program."""
     program = Path(options.program)
     shutil.copytree(program / "linuxcnc", bench.home, dirs_exist_ok=True)
     bench.program(program)
+    edited = bench.home / "edited"
+    shutil.copytree(program, edited)
+    supply = edited / "supply.plc"
+    supply.write_text(supply.read_text(encoding="utf-8").replace("MODULE_MAIN_END", EDIT + "MODULE_MAIN_END"), encoding="utf-8")
+    bench.program(edited, "edited.so")
     machine = bench.home / "machine.ini"
     text = machine.read_text(encoding="utf-8")
     text = text.replace("/usr/local/lib/rung/centre.so", str(bench.home / "program.so"))

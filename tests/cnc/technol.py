@@ -62,14 +62,330 @@ def power():
     pins(x_homed=True, y_homed=True, z_homed=True, table_homed=True, table_clamped=True, lamp_homed=True)
 
 
-STEPS = [power]
+def position(axis):
+    return state("actual_position")["xyza".index(axis)]
+
+
+def at(axis, wanted):
+    wait(f"{axis} at {wanted}", lambda: abs(position(axis) - wanted) < 0.05)
+
+
+def operator(text):
+    """LinuxCNC's user interface shows it."""
+    shown = []
+
+    def comes():
+        shown.append(errors.poll())
+        return any(error and text in error[1] for error in shown)
+
+    wait(f"'{text}' at the operator", comes)
+
+
+def stands():
+    """X does, and the program knows it."""
+    pins(x_moves=False)
+    time.sleep(0.1)
+
+
+def mode(key, wanted):
+    press("panel-" + key)
+    wait(f"mode {key}", lambda: state("task_mode") == wanted)
+
+
+def machine_m(code):
+    """One of the machine's own functions, to its acknowledge."""
+    mdi(f"M{code}")
+    idle()
+
+
+def by_hand():
+    """A key of the panel and the hand wheel move X; the open door stops it."""
+    mode("manual", linuxcnc.MODE_MANUAL)
+    wait("axes are jogged, not joints", lambda: hal.get_value("halui.mode.is-teleop"))
+    pins(by_hand=True, hand_enabled=True)
+    put("panel-x-minus", True)
+    wait("x jogs", lambda: position("x") < -1)
+    pins(x_moves=True, x_jogs_minus=True)
+    put("key-door", True)  # refused while an axis moves
+    time.sleep(0.1)
+    put("key-door", False)
+    check(not pin("door-free"), "the door opened beside a moving axis")
+    put("panel-x-minus", False)
+    pins(x_moves=False)
+    put("wheel-x", True)
+    stood = position("x")
+    put("wheel-counts", 100)
+    at("x", stood + 1)
+    put("wheel-x", False)
+    stands()
+    press("key-door")
+    pins(door_free=True, hand_enabled=False, lamp_door=True)
+    stood = position("x")
+    put("panel-x-minus", True)
+    time.sleep(0.2)
+    put("panel-x-minus", False)
+    check(abs(position("x") - stood) < 0.01, "an axis moved with the door free")
+    press("key-door")
+    pins(door_free=False, door_locked=True, hand_enabled=True)
+    while errors.poll():
+        pass
+
+
+def spindle():
+    """A direction contactor, the speed at the drive, feed that waits for it; the other way; orientation; gears."""
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("M3 S1000")
+    began = time.monotonic()
+    mdi("G1 X5 F6000")
+    check(time.monotonic() - began > 0.2, "the feed did not wait for the spindle")
+    pins(spindle_cw=True, cw_in=True, spindle_reached=True)
+    check(abs(pin("spindle-volt") - 2.5) < 0.01, f"{pin('spindle-volt')} V")
+    mdi("M4 S2000")
+    pins(spindle_cw=False, spindle_ccw=True, spindle_reached=True)
+    command.spindleoverride(0.5)
+    wait("half the speed", lambda: abs(pin("spindle-volt") - 2.5) < 0.01)
+    command.spindleoverride(1.0)
+    mdi("M5")
+    pins(spindle_ccw=False, spindle_at_rest=True, functions_busy=False)
+    machine_m(42)
+    check(pin("gear-2-in"), "M42 was done before the gear")
+    machine_m(41)
+    check(pin("gear-1-in"), "M41 was done before the gear")
+    mdi("M19 R0")
+    wait("orientation", lambda: hal.get_value("spindle.0.is-oriented"))
+    pins(orient=True, functions_busy=False)
+    mdi("M5")
+    mdi("G0 X0")
+
+
+def coolant():
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("M8")
+    pins(coolant_2=True, coolant_1=False)
+    mdi("M9")
+    pins(coolant_2=False)
+    mdi("M7")
+    pins(coolant_1=True)
+    mdi("M9")
+    pins(coolant_1=False)
+    machine_m(251)  # M51 of the machine
+    pins(blast=True)
+    machine_m(253)
+    pins(blast=False)
+    press("soft-conveyor")
+    pins(conveyor_plus=True)
+    machine_m(271)
+    pins(conveyor_plus=False)
+
+
+def tools():
+    """T turns the magazine, M6 swings the arm where Z stands on its reference."""
+    mdi("G0 Z-20")
+    mdi("T2")
+    mdi("M6")
+    check(state("tool_in_spindle") == 2 and pin("tool") == 2, f"tool {state('tool_in_spindle')}, {pin('tool')}")
+    at("z", 0)
+    pins(tool_in_spindle=True, arm_home=True, arm_at_180=True, pocket_up=True, orient=False)
+
+
+def table():
+    """The program lets the table go before it moves, and clamps it afterwards."""
+    seen = set()
+    command.mdi("G0 A30")
+
+    def arrived():
+        seen.update(name for name in ("table-free", "table-clamped") if pin(name))
+        return abs(position("a") - 30) < 0.01
+
+    wait("a at 30", arrived)
+    done("G0 A30")
+    check("table-free" in seen, f"the table moved while it was clamped: {seen}")
+    pins(table_clamped=True, free_table=False)
+    mdi("G0 A0")
+
+
+def probing():
+    mode("mdi", linuxcnc.MODE_MDI)
+    machine_m(84)
+    pins(probe_power=True)
+    mdi("G38.2 Z-100 F1200")
+    check(abs(state("probed_position")[2] + 50) < 0.5, f"probed at {state('probed_position')[2]}")
+    pins(touches=1, stop=True)  # the program stops with each touch
+    press("panel-start")
+    pins(stop=False)
+    machine_m(85)
+    mdi("G0 Z0")
+    pins(probe_power=False)
+
+
+def load(text):
+    with open("test.ngc", "w", encoding="ascii") as file:
+        file.write("G21 G17 G90 G94\n" + text)
+    mode("auto", linuxcnc.MODE_AUTO)
+    command.program_open("test.ngc")
+    done("program open")
+
+
+def idle():
+    wait("the program's end", lambda: state("interp_state") == linuxcnc.INTERP_IDLE)
+
+
+def part():
+    """The example's part program, from the key START to the counted workpiece."""
+    mode("auto", linuxcnc.MODE_AUTO)
+    command.program_open("part.ngc")
+    done("program open")
+    before = pin("workpieces")
+    press("panel-start")
+    seen = set()
+
+    def finished():
+        seen.update(name for name in ("spindle-cw", "coolant-2", "lamp-green", "table-free", "block-runs") if pin(name))
+        return pin("workpieces") == before + 1 and state("interp_state") == linuxcnc.INTERP_IDLE
+
+    wait("a workpiece", finished)
+    check(len(seen) == 5, f"during the part program only {seen} came on")
+    pins(spindle_cw=False, coolant_2=False, work_free=True, tool=2)
+
+
+def stops():
+    """Feed hold and START by the panel, the open door, M64 and M66, the feed override, single blocks."""
+    mdi_inputs = "M64 P0\nM66 P0 L3 Q2\nM65 P0\n"
+    load("M10\n" + mdi_inputs + "G1 X30 F600\nX0\nM2\n")
+    press("panel-start")
+    wait("x moves", lambda: position("x") > 2)
+    check(state("din")[0] == 1 and pin("light"), "M66 and M64")
+    command.auto(linuxcnc.AUTO_PAUSE)
+    pins(stop=True, x_enabled=False, x_moves=False, block_runs=True)
+    stands()
+    stood = position("x")
+    press("key-door")
+    pins(door_free=True)
+    press("panel-start")  # START locks the door, then the feed goes on
+    pins(door_free=False, door_locked=True, stop=False, x_enabled=True)
+    command.feedrate(0.2)
+    wait("x moves on", lambda: position("x") > stood + 0.2)
+    wait("slowly", lambda: abs(state("current_vel") - 2) < 0.1)
+    command.feedrate(1.5)
+    wait("fast", lambda: abs(state("current_vel") - 15) < 0.2)
+    command.feedrate(1.0)
+    idle()
+    put("panel-single-block", True)
+    load("G1 X5 F6000\nX10\nX0\nM2\n")
+    for wanted in (5, 10, 0):
+        wait("a step is taken", lambda: step_to(wanted))
+    put("panel-single-block", False)
+    press("panel-start")
+    idle()
+
+
+def step_to(wanted):
+    press("panel-start")
+    time.sleep(0.1)
+    return abs(position("x") - wanted) < 0.05
+
+
+def alarm():
+    """A tool that no pocket has: the block waits, the operator reads why; RESET gives it up."""
+    while errors.poll():
+        pass
+    with open("tool.tbl", "a", encoding="ascii") as file:
+        file.write("T77 P77 D8 Z0\n")
+    command.load_tool_table()
+    mode("mdi", linuxcnc.MODE_MDI)
+    command.mdi("T77")
+    operator("PLC00040")
+    pins(buzzer=True, tool_prepared=False)
+    press("key-reset")
+    pins(buzzer=False, functions_busy=False)
+    wait("LinuxCNC has given up", lambda: state("interp_state") == linuxcnc.INTERP_IDLE)
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("M8")
+    pins(coolant_2=True)
+    mdi("M9")
+
+
+def remote():
+    """While an axis cuts, the program is watched, traced, forced, and replaced by an edited one, and back."""
+    mdi("M8")
+    pins(coolant_2=True)
+    command.mdi("G1 X40 F600")  # 4 s
+    check("running: " in rungctl("status"), "status")
+    watching = drive.subprocess.Popen(["rungctl", "watch", "O_LIGHT"], stdout=drive.subprocess.PIPE, text=True)
+    was = pin("light")
+    tracing = drive.subprocess.Popen(["rungctl", "trace", "K_LIGHT", "O_LIGHT", "-o", "cut.vcd", "--for", "1"])
+    time.sleep(0.3)
+    command.set_digital_output(0, 1)  # the key of the light
+    pins(light=not was)
+    # Of this program, which writes by computed addresses, only the block's cells are nobody's but the control's.
+    check("writes a cell that is to be forced" in rungctl("force", "K_LIGHT", "true", refused=True), "K_LIGHT was forced")
+    rungctl("force", "BLK[0].T", "3")
+    check("BLK[0].T = 3" in rungctl("forced"), "forced")
+    rungctl("unforce", "BLK[0].T")
+    command.set_digital_output(0, 0)
+    check("the new program runs" in rungctl("reload", "edited.so"), "reload")
+    check("is never set or forced here" in rungctl("set", "P1IN.0", "false", refused=True), "the emergency chain was set")
+    check(not state("inpos"), "the motion was over before the changes")
+    done("the motion")
+    check(tracing.wait(10) == 0, "trace")
+    watching.terminate()
+    seen = watching.communicate()[0]
+    check("true" in seen and "false" in seen, f"watched: {seen}")
+    with open("cut.vcd", encoding="ascii") as file:
+        picture = file.read()
+    check(all(f"\n{value}{name}\n" in picture for value in "01" for name in "!\""), picture)
+    pins(coolant_2=True)
+    check(rungctl("rollback") == "the former program runs\n", "rollback")
+    mdi("M9")
+    mdi("G0 X0")
+
+
+def emergency_stop():
+    """In the cut: everything stops, LinuxCNC too; then the machine is switched on and works again."""
+    mdi("M3 S1000")
+    command.mdi("G1 X40 F600")
+    wait("x moves", lambda: position("x") > 2)
+    put("estop-chain", False)
+    pins(spindle_cw=False, main_contactor=False, power=False, lamp_red=True)
+    is_state(linuxcnc.STATE_ESTOP)
+    stood = position("x")
+    check(stood < 35, "the axis went on")
+    put("estop-chain", True)
+    time.sleep(0.2)
+    check(not pin("main-contactor") and abs(position("x") - stood) < 0.01, "something started by itself")
+    command.state(linuxcnc.STATE_ESTOP_RESET)
+    is_state(linuxcnc.STATE_ESTOP_RESET)
+    press("key-reset")
+    command.state(linuxcnc.STATE_ON)
+    is_state(linuxcnc.STATE_ON)
+    pins(power=True, spindle_cw=False, hand_enabled=True)
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("M3 S1000")
+    mdi("G1 X0 F6000")
+    pins(spindle_cw=True, fault=False)
+    mdi("M5")
+    pins(spindle_cw=False, functions_busy=False, functions_lost=0)
+
+
+STEPS = [power, by_hand, probing, alarm, remote, emergency_stop]
+
+
+def DEBUG():
+    names = "READY POWER FAULT FAULT_NO FAULT_PAR UNIT_MOVES MOVING CHANGE MAG_TURN SPD_ORIENT GEAR_SHIFT PO_F PO_STOP SPD_STANDS START_DISABLE START_SUSPEND STATUS_RESTART SF_RUN SF_STOP SF_NOTINPOS SF_MANUALMODE MPX MPXPI MPYPI MPZPI AUTPI CAPI DOOR_SAFE O_DOOR_FREE I_DOOR_SHUT PROGRAM SPD_MISS SPD_OK WANT_CW O_CW AXES_FREE ARM_SAFE CHG_STEP MAG_POS MAG_TARGET MAG_LOST EN_AUTMAN PREPARE PB20PI LAST_MSG DOOR_MAY_OPEN SPD_STOP P5IN P4IN P6IN P2IN P0OUT P2OUT O_ORIENT I_ORIENTED SPD_CW".split()
+    out = "\n".join(drive.subprocess.run(["rungctl", "get", n], capture_output=True, text=True).stdout.strip() for n in names)
+    status.poll()
+    return out.replace("\n", "; ") + f" | mode {status.task_mode} interp {status.interp_state} inpos {status.inpos} pos {status.actual_position[:4]} paused {status.task_paused} errors {[errors.poll() for _ in range(5)]} busy {pin('functions-busy')} inhibit {hal.get_value('motion.feed-inhibit')}"
 
 
 def session():
     connect()
     for step in STEPS:
         begin = time.monotonic()
-        step()
+        try:
+            step()
+        except BaseException:
+            print(DEBUG(), flush=True)
+            raise
         print(f"technol: {step.__name__} ok, {time.monotonic() - begin:.1f} s", flush=True)
 
 

@@ -45,7 +45,7 @@ void Operation::beforePass(host::Instance& instance) {
   const bool moves = get(instance, places_->moves) && !get(instance, places_->byHand);
   const bool runs = moves || get(instance, places_->runs);
   const bool stopped = get(instance, places_->stopped);
-  const bool starts = (runs && !runs_) || (stopped_ && !stopped && runs);
+  const bool starts = (runs && !runs_) || (stopped_ && !stopped);
   runs_ = runs;
   takeRequests(instance);
   if (stopped && !stopped_) stop(instance, PlcEvent::StopRequest);
@@ -88,7 +88,7 @@ void Operation::askForStart(host::Instance& instance) {
 }
 
 void Operation::start(host::Instance& instance) {
-  if (!runs_) asked_ = false;
+  if (!runs_ && !get(instance, places_->stopDone)) asked_ = false; // given up
   if (!asked_ || get(instance, places_->startDisable) || get(instance, places_->startSuspend)) return;
   asked_ = false;
   instance.memory().write(places_->stopDone, 0);

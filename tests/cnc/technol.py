@@ -188,27 +188,11 @@ def tools():
     pins(tool_in_spindle=True, arm_home=True, arm_at_180=True, pocket_up=True, orient=False)
 
 
-def table():
-    """The program lets the table go before it moves, and clamps it afterwards."""
-    seen = set()
-    command.mdi("G0 A30")
-
-    def arrived():
-        seen.update(name for name in ("table-free", "table-clamped") if pin(name))
-        return abs(position("a") - 30) < 0.01
-
-    wait("a at 30", arrived)
-    done("G0 A30")
-    check("table-free" in seen, f"the table moved while it was clamped: {seen}")
-    pins(table_clamped=True, free_table=False)
-    mdi("G0 A0")
-
-
 def probing():
     mode("mdi", linuxcnc.MODE_MDI)
     machine_m(84)
     pins(probe_power=True)
-    mdi("G38.2 Z-100 F1200")
+    mdi("G38.2 Z-100 F4800")
     check(abs(state("probed_position")[2] + 50) < 0.5, f"probed at {state('probed_position')[2]}")
     pins(touches=1, stop=True)  # the program stops with each touch
     press("panel-start")
@@ -251,7 +235,7 @@ def part():
 def stops():
     """Feed hold and START by the panel, the open door, M64 and M66, the feed override, single blocks."""
     mdi_inputs = "M64 P0\nM66 P0 L3 Q2\nM65 P0\n"
-    load("M10\n" + mdi_inputs + "G1 X30 F600\nX0\nM2\n")
+    load("M10\n" + mdi_inputs + "G1 X12 F600\nG0 X0\nM2\n")
     press("panel-start")
     wait("x moves", lambda: position("x") > 2)
     check(state("din")[0] == 1 and pin("light"), "M66 and M64")
@@ -270,6 +254,7 @@ def stops():
     wait("fast", lambda: abs(state("current_vel") - 15) < 0.2)
     command.feedrate(1.0)
     idle()
+    check(abs(position("x")) < 0.05, "the program did not end at 0")
     put("panel-single-block", True)
     load("G1 X5 F6000\nX10\nX0\nM2\n")
     for wanted in (5, 10, 0):
@@ -309,7 +294,7 @@ def remote():
     """While an axis cuts, the program is watched, traced, forced, and replaced by an edited one, and back."""
     mdi("M8")
     pins(coolant_2=True)
-    command.mdi("G1 X40 F600")  # 4 s
+    command.mdi("G1 X40 F800")  # 3 s
     check("running: " in rungctl("status"), "status")
     watching = drive.subprocess.Popen(["rungctl", "watch", "O_LIGHT"], stdout=drive.subprocess.PIPE, text=True)
     was = pin("light")
@@ -367,7 +352,7 @@ def emergency_stop():
     pins(spindle_cw=False, functions_busy=False, functions_lost=0)
 
 
-STEPS = [power, by_hand, probing, alarm, remote, emergency_stop]
+STEPS = [power, by_hand, spindle, coolant, tools, probing, part, stops, alarm, remote, emergency_stop]
 
 
 def DEBUG():

@@ -297,8 +297,9 @@ send = [
 ]
 )")
                   .errors,
-              ElementsAre("m.map:4:3: send.function: found \"B\", expected \"M\", \"S\", \"T\", the functions of the "
-                          "dialect technol; remove the table, and connect its signals in [in] and [out]",
+              ElementsAre("m.map:4:3: send.function: found \"B\", expected \"M\", \"S\", \"T\", \"H\", \"key\", the "
+                          "functions of the dialect technol; remove the table, and connect its signals in [in] and "
+                          "[out]",
                           "m.map:5:3: send.code: found M100, expected a code that the signals of the dialect technol "
                           "hold; write another code",
                           "m.map:8:3: send.channel: found 2, expected 1, the only channel of a control of the dialect "
@@ -320,11 +321,14 @@ send = [
 send = [
   { pin = "a", edge = "rise", function = "B", code = -1, channel = 8 },
   { pin = "a", edge = "rise", function = "M", code = 3, channel = 9 },
+  { pin = "a", edge = "rise", function = "H", code = 3 },
 ]
 )")
           .errors,
       ElementsAre("m.map:4:3: send.channel: found 9, expected 1 to 8, the channels of a control of the dialect nct; "
-                  "write for example channel = 1"));
+                  "write for example channel = 1",
+                  "m.map:5:3: send.function: found \"H\", expected \"M\", \"S\", \"T\", \"B\", the functions of the "
+                  "dialect nct; remove the table, and connect its signals in [in] and [out]"));
 }
 
 TEST(Binding, CellsThatAreNeitherSetNorForced) {

@@ -313,8 +313,8 @@ channel = 0
                           "\"spindle-forward\"",
                           "m.map:3:8: send.edge: found \"up\", expected \"rise\" or \"fall\"; write for example edge = "
                           "\"rise\"",
-                          "m.map:4:12: send.function: found \"Q\", expected \"M\", \"S\", \"T\", \"B\", \"H\" or \"key\"; write for "
-                          "example function = \"M\"",
+                          "m.map:4:12: send.function: found \"Q\", expected \"M\", \"S\", \"T\", \"B\", \"H\" or "
+                          "\"key\"; write for example function = \"M\"",
                           "m.map:5:8: send.code: found 2147483648, expected an integer of 32 bits with a sign, or the "
                           "name of an s32 pin; write for example code = 3",
                           "m.map:6:8: send.done: found 5, expected the name of a pin; write for example done = "

@@ -12,11 +12,15 @@ namespace {
 
 using ::testing::Optional;
 
-constexpr FunctionKind M = FunctionKind::M, S = FunctionKind::S, T = FunctionKind::T, B = FunctionKind::B;
+constexpr FunctionKind M = FunctionKind::M, S = FunctionKind::S, T = FunctionKind::T, B = FunctionKind::B,
+                       H = FunctionKind::H, Key = FunctionKind::Key;
 
 // MODULE_BLOCK_INIT counts in INITS and waits for GO, or for the central annulment; MODULE_BLOCK_DONE counts in DONES
 // and waits for GO2.
-constexpr const char* kData = "        DFM  GO,GO2,,,,,,\nINITS:  DS 2\nDONES:  DS 2\nCAS:    DS 2\n";
+constexpr const char* kData =
+    "        DFM  GO,GO2,PRESSED,,,,,\nINITS:  DS 2\nDONES:  DS 2\nCAS:    DS 2\nCOMMAND: DS 4\n";
+constexpr const char* kMain =
+    "        PROC_BEGIN _ON_CMD\n        WR   PRESSED\n        STO  DWRD.COMMAND\n        PROC_END _ON_CMD\n";
 constexpr const char* kInit = "        LOD  INITS\n        INR\n        STO  INITS\n"
                               "        LDR  CAPI\n        JL0  NO_CA\n        LOD  CAS\n        INR\n        STO  CAS\n"
                               "NO_CA:  BEX\n        LDR  GO\n        LO   CAPI\n        EX0\n";
@@ -27,7 +31,7 @@ class TechnolHandshake : public ::testing::Test {
 protected:
   TechnolHandshake()
       : compilation_(technol_test::compile(
-            {technol_test::programText({.data = kData, .blockInit = kInit, .blockDone = kDone})})) {
+            {technol_test::programText({.data = kData, .main = kMain, .blockInit = kInit, .blockDone = kDone})})) {
     if (!compilation_.module) throw std::runtime_error(compilation_.text());
     layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
     engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
@@ -88,6 +92,7 @@ TEST_F(TechnolHandshake, AFunctionIsABlockWithoutMotion) {
 TEST_F(TechnolHandshake, AnotherProgramFinishesTheBlock) {
   const technol_test::Compilation other = technol_test::compile(
       {technol_test::programText({.data = "FIRST:  DS 8\n        DFM  A0,A1,,,,,,\n" + std::string(kData),
+                                  .main = kMain,
                                   .blockInit = kInit,
                                   .blockDone = kDone})});
   ASSERT_TRUE(other.module) << other.text();
@@ -251,6 +256,40 @@ TEST_F(TechnolHandshake, AToolAndASpeed) {
   EXPECT_EQ(real("BLK[0].SpindleSpeed"), 1500.0);
 }
 
+TEST_F(TechnolHandshake, AnHFunction) {
+  functions().start(H, 42);
+  scan();
+  EXPECT_EQ(get("ZMSHPI"), 1u);
+  EXPECT_EQ(get("PB05"), 0x42u);
+  EXPECT_EQ(get("BLK[0].HProg"), 1u);
+  EXPECT_EQ(real("BLK[0].H"), 42.0);
+  set("GO", 1), set("GO2", 1);
+  scan();
+  EXPECT_FALSE(functions().busy(0));
+  EXPECT_EQ(get("ZMSHPI"), 0u);
+  EXPECT_EQ(get("PB05"), 0x42u);
+}
+
+// _ON_CMD learns that it is pressed and that it is released (l.1614-1624); no block is needed for that.
+TEST_F(TechnolHandshake, AKeyIsPressedAndReleased) {
+  set("START_DISABLE", 1);
+  functions().start(M, 3);
+  EXPECT_THAT(functions().start(Key, 0xFFFFFFFF), Optional(1u));
+  EXPECT_EQ(functions().start(Key, 7), std::nullopt);
+  EXPECT_TRUE(functions().busy(1));
+  scan();
+  EXPECT_EQ(get("COMMAND"), 0xFFFFFFFFu);
+  EXPECT_EQ(get("PRESSED"), 1u);
+  EXPECT_TRUE(functions().busy(1));
+  scan();
+  EXPECT_EQ(get("PRESSED"), 0u);
+  EXPECT_FALSE(functions().busy(1));
+  EXPECT_TRUE(functions().busy(0));
+  functions().start(Key, 7);
+  control_.powerOn(*instance_, PowerOn::Cold);
+  EXPECT_FALSE(functions().busy(1));
+}
+
 TEST_F(TechnolHandshake, WhatTheCellsDoNotHold) {
   EXPECT_TRUE(functions().carries(M, 99));
   EXPECT_FALSE(functions().carries(M, 100));
@@ -259,6 +298,9 @@ TEST_F(TechnolHandshake, WhatTheCellsDoNotHold) {
   EXPECT_TRUE(functions().carries(S, 6000));
   EXPECT_FALSE(functions().carries(S, 0xFFFFFFFF)); // below 0
   EXPECT_FALSE(functions().carries(B, 0));
+  EXPECT_TRUE(functions().carries(H, 99));
+  EXPECT_FALSE(functions().carries(H, 100));
+  EXPECT_TRUE(functions().carries(Key, 0xFFFFFFFF));
 }
 
 // Central annulment in each phase: the block goes no further, a block of the mode CA follows (l.5180-5183, 6748-6761).

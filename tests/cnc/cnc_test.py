@@ -12,8 +12,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-import machining_centre as machining_centre_session
-
 HERE = Path(__file__).resolve().parent
 MODULES = Path("/usr/lib/linuxcnc/modules")  # LinuxCNC loads from nowhere else
 SKIPPED = 77
@@ -116,8 +114,7 @@ def expect(condition, what):
 
 
 # A change of the programs of `remote`, by the ending of their files: a rung more.
-EDITS = {".pmc": ("FUNC END2", "LD   COOLANT_FLOW\nOUT  R90.0\n\nFUNC END2"),
-         ".plc": ("OUT0\nMODULE_MAIN_END", "OUT0\n        LDR  COOLANT_FLOW\n        WR   COOLANT_FLOW\nMODULE_MAIN_END")}
+EDITS = {".pmc": ("FUNC END2", "LD   COOLANT_FLOW\nOUT  R90.0\n\nFUNC END2")}
 REMOTE = '\n[rungctl]\nallow = ["set", "force", "reload"]\nnever = ["ESTOP_OK"]\n'
 
 
@@ -242,12 +239,6 @@ def example(bench, options, commands, pins):
     return {pin: shown(done.stdout, "rung." + pin) for pin in pins}
 
 
-def machining_centre(bench, options):
-    """TECHNOL: the example's own configuration, with all that a machine does."""
-    result = machining_centre_session.run(bench, options)
-    expect(result == "passed", result)
-
-
 def mistakes(bench, _options):
     """What is wrong with the files is reported at the start, and nothing is loaded then."""
     bench.program(HERE / "stuck.pmc")
@@ -326,7 +317,7 @@ def sources(bench, options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, sources, instances, unload, retained, machining_centre, mistakes)}
+    cases = {case.__name__: case for case in (session, fault, sources, instances, unload, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

@@ -2,22 +2,24 @@
 #include "tools/sim/technol/events.h"
 
 #include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/nc/control/technol/operation.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::sim::technol {
 namespace {
 
-struct PlcEvent {
+using nc::technol::PlcEvent;
+
+struct NamedEvent {
   std::string_view name;
-  uint64_t code; // man. l.1638-1644
+  PlcEvent event;
 };
-constexpr PlcEvent kStartRequest{"PLCEVENT_START_REQ", 5};
-constexpr PlcEvent kEvents[] = {
-    {"PLCEVENT_STOP_REQ", 1},
-    {"PLCEVENT_STOP_EMERGENCY_REQ", 2},
-    {"PLCEVENT_STOP", 3},
-    {"PLCEVENT_START", 4},
-    kStartRequest,
+constexpr NamedEvent kEvents[] = {
+    {"PLCEVENT_STOP_REQ", PlcEvent::StopRequest},
+    {"PLCEVENT_STOP_EMERGENCY_REQ", PlcEvent::EmergencyStopRequest},
+    {"PLCEVENT_STOP", PlcEvent::Stop},
+    {"PLCEVENT_START", PlcEvent::Start},
+    {"PLCEVENT_START_REQ", PlcEvent::StartRequest},
 };
 
 // A program that stands takes no part.
@@ -47,13 +49,13 @@ std::string command(host::Instance& instance, std::span<const NcArgument> keys, 
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf) {
   if (text::equalsIgnoringCase(name, "PLCCOMMAND")) return command(instance, keys, constantOf);
-  for (const PlcEvent& event : kEvents) {
-    if (!text::equalsIgnoringCase(name, event.name)) continue;
+  for (const NamedEvent& named : kEvents) {
+    if (!text::equalsIgnoringCase(name, named.name)) continue;
     // The procedure may set it again, and the start waits (man. l.6463-6467).
-    if (event.code == kStartRequest.code)
+    if (named.event == PlcEvent::StartRequest)
       if (const auto suspend = nc::technol::signalPlace(instance.program(), "START_SUSPEND"))
         host::writeRaw(instance.memory(), *suspend, 0);
-    call(instance, "_ON_EVENT", event.code, false);
+    call(instance, "_ON_EVENT", static_cast<uint64_t>(named.event), false);
     return std::string();
   }
   return std::nullopt;

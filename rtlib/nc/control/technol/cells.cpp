@@ -97,12 +97,25 @@ void writeCell(host::Instance& instance, std::string_view name, uint64_t value) 
 }
 
 bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo) {
-  if (host::findTask(instance.program(), task) == RUNG_NONE) return false;
-  writeCell(instance, "@DR", dr);
-  writeCell(instance, "@RLO", rlo ? 1 : 0);
-  const bool done = instance.runTask(task);
-  writeCell(instance, "@DR", 0);
-  writeCell(instance, "@RLO", 0);
+  return Procedure(instance.program(), task).run(instance, dr, rlo);
+}
+
+Procedure::Procedure(const rung_program& program, std::string_view task) : task_(host::findTask(program, task)) {
+  const auto cell = [&](std::string_view name) {
+    return host::locate({program, nullptr}, cellPlace(program, name).value_or(host::Ref{}));
+  };
+  dr_ = cell("@DR");
+  rlo_ = cell("@RLO");
+}
+
+bool Procedure::run(host::Instance& instance, uint64_t dr, bool rlo) const {
+  if (task_ == RUNG_NONE) return false;
+  const rt::Memory memory = instance.memory();
+  memory.write(dr_, dr);
+  memory.write(rlo_, rlo ? 1 : 0);
+  const bool done = instance.runTask(task_);
+  memory.write(dr_, 0);
+  memory.write(rlo_, 0);
   return done;
 }
 

@@ -20,7 +20,20 @@ std::optional<host::Ref> placeOf(const rung_program& program, const Signal& sign
 uint64_t readCell(const host::Instance& instance, std::string_view name);
 void writeCell(host::Instance& instance, std::string_view name, uint64_t value);
 
-// One run of a module or an event procedure. False: the program has none, or it failed.
+// A module or an event procedure of a program, with its registers; it is looked up once and then runs without names.
+class Procedure {
+public:
+  Procedure() = default; // none
+  Procedure(const rung_program& program, std::string_view task);
+  // One run. False: the program has none, or it failed.
+  bool run(host::Instance& instance, uint64_t dr, bool rlo) const;
+
+private:
+  uint32_t task_ = RUNG_NONE;
+  rt::Place dr_, rlo_;
+};
+
+// One run of what is looked up now: not in a scan.
 bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool rlo);
 
 } // namespace rung::nc::technol

@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "rtlib/nc/control/technol/cells.h"
-
 namespace rung::nc::technol {
 namespace {
 
@@ -12,10 +10,6 @@ constexpr const char* kAxisNames[] = {"X", "Y", "Z", "4", "5", "6"};
 
 rt::Place cell(const rung_program& program, const std::string& name) {
   return host::locate({program, nullptr}, signalPlace(program, name).value_or(host::Ref{}));
-}
-
-void send(host::Instance& instance, PlcEvent event) {
-  if (!instance.stopped()) runWith(instance, "_ON_EVENT", static_cast<uint64_t>(event), false);
 }
 
 } // namespace
@@ -30,6 +24,7 @@ Operation::Places::Places(const rung_program& program) {
   startDisable = at("START_DISABLE"), startSuspend = at("START_SUSPEND"), stopDone = at("PO_STOP");
   handEnabled = at("EN_AUTMAN"), homed = at("HOMING"), homingRequest = at("HOMING_START_REQ");
   automatic = at("AUTPI");
+  onEvent = Procedure(program, "_ON_EVENT");
   for (uint32_t i = 0; i < kAxes; ++i) {
     const std::string name = std::string("MP") + kAxisNames[i];
     axes[i] = {.allowed = at(name + "PI"), .enabled = at(name)};
@@ -54,6 +49,10 @@ void Operation::beforePass(host::Instance& instance) {
   start(instance);
   follow(instance, moves);
   endHoming(instance);
+}
+
+void Operation::send(host::Instance& instance, PlcEvent event) const {
+  places_->onEvent.run(instance, static_cast<uint64_t>(event), false);
 }
 
 // STOPPI is the program's to take back; the control resets the others (l.6402-6414).

@@ -6,12 +6,13 @@
 //   SF_RUN         a part program runs, also while it is stopped
 //   SF_STOP        it is stopped
 //   SF_NOTINPOS    a motion is under way, or waits for MPX to MP6
-//   SF_MANUALMODE  axes are moved by hand: motions are no blocks
+//   SF_MANUALMODE  axes are moved by hand: motions are not blocks
 // It moves no axis whose MPx is 0, and stops when PO_STOP comes.
 #pragma once
 #include <array>
 
 #include "rtlib/nc/control/technol/blocks.h"
+#include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::nc::technol {
 
@@ -40,6 +41,7 @@ public:
     rt::Place homed, homingRequest;
     rt::Place automatic; // AUTPI
     std::array<Axis, kAxes> axes;
+    Procedure onEvent;
   };
 
   explicit Operation(Blocks& blocks) : blocks_(blocks) {}
@@ -54,6 +56,7 @@ public:
   void afterSlice(host::Instance& instance) const;
 
 private:
+  void send(host::Instance& instance, PlcEvent event) const;
   void takeRequests(host::Instance& instance);
   void stop(host::Instance& instance, PlcEvent request);
   void askForStart(host::Instance& instance);

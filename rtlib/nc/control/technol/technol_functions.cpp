@@ -91,6 +91,7 @@ TechnolFunctions::Places::Places(const rung_program& program) {
   blockToolChanged = cell(program, "BLK[0].TProg");
   blockTool = cell(program, "BLK[0].T");
   for (uint32_t i = 0; i < toolDigits.size(); ++i) toolDigits[i] = cell(program, kToolCells[i]);
+  onCommand = technol::Procedure(program, "_ON_CMD");
   hChanged = cell(program, "ZMSHPI");
   hCode = cell(program, "PB05");
   blockHChanged = cell(program, "BLK[0].HProg");
@@ -140,7 +141,7 @@ void TechnolFunctions::step() {
   if (key_ == Key::None || !instance_->atListStart()) return;
   const auto code = static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(keyCode_)));
   const bool pressed = key_ == Key::Waits;
-  if (!instance_->stopped()) technol::runWith(*instance_, "_ON_CMD", code, pressed);
+  if (!instance_->stopped()) places_->onCommand.run(*instance_, code, pressed);
   key_ = pressed ? Key::Pressed : Key::None;
 }
 

@@ -9,6 +9,7 @@
 
 #include "rtlib/nc/control/functions.h"
 #include "rtlib/nc/control/technol/blocks.h"
+#include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::nc {
 
@@ -39,6 +40,7 @@ public:
     std::array<rt::Place, kDecoded> decoded;
     rt::Place speedChanged, speed;
     rt::Place toolChanged, blockToolChanged, blockTool;
+    technol::Procedure onCommand;
     rt::Place hChanged, blockHChanged, hCode, blockH;
     std::array<rt::Place, 4> toolDigits;
   };

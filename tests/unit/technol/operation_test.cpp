@@ -62,7 +62,7 @@ protected:
 };
 
 TEST_F(TechnolOperation, AMotionIsABlockAndWaitsForItsInit) {
-  set("G00PI", 1), set("SF_NOTINPOS", 1);
+  set("G00PI", 1), set("SF_NOTINPOS", 1), set("MPYPI", 0);
   scan(3);
   EXPECT_EQ(get("STATUS_RESTART"), 1u);
   EXPECT_EQ(get("MPX"), 0u) << "before MODULE_BLOCK_INIT is through";

@@ -228,17 +228,6 @@ def retained(bench, _options):
     expect("cannot write /nowhere/memory" in done.stdout, "no message")
 
 
-def example(bench, options, commands, pins):
-    """Loads the example's program with its map, and gives the values of pins after each `show`."""
-    bench.program(options.program)
-    bench.file("program.map", "".join(Path(path).read_text(encoding="utf-8") for path in options.map))
-    show = "".join(f"show pin rung.{pin}\n" for pin in pins)
-    script = "".join(f"loadusr -w sleep {line.split()[1]}\n" if line.startswith("wait") else
-                     show if line == "show" else f"setp rung.{line}\n" for line in commands)
-    done = bench.halrun(LOAD.format(options="", prefix="rung") + script)
-    return {pin: shown(done.stdout, "rung." + pin) for pin in pins}
-
-
 def mistakes(bench, _options):
     """What is wrong with the files is reported at the start, and nothing is loaded then."""
     bench.program(HERE / "stuck.pmc")

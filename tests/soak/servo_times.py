@@ -27,7 +27,7 @@ COLUMNS = ("period", "motion", "mill", "turning", "centre", "bits", "ladder")
 MACHINES = {"mill": ("examples/gsk-mill", "examples/gsk-mill/mill.map", 8, "examples/gsk-mill, 511 rungs, GSK"),
             "turning": ("examples/nct-turning-centre", "examples/nct-turning-centre/linuxcnc/centre.map", 10,
                         "examples/nct-turning-centre, 590 rungs, NCT"),
-            "centre": ("examples/technol-machining-centre", "examples/technol-machining-centre/centre.map", 20,
+            "centre": ("examples/technol-machining-centre", "examples/technol-machining-centre/linuxcnc/centre.map", 20,
                        "examples/technol-machining-centre, 584 rungs, TECHNOL")}
 ALLOW = '\n[rungctl]\nallow = ["reload"]\n'
 CLOCKS = r"""

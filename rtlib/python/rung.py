@@ -273,6 +273,20 @@ class rung_block(ctypes.Structure):
     _fields_ = [("name", c_char_p), ("address", c_void_p), ("bytes", c_uint32), ("direction", c_uint32)]
 
 
+class rung_member(ctypes.Structure):
+    _fields_ = [("name", c_char_p), ("member", c_char_p), ("offset", c_uint32), ("bytes", c_uint32), ("type", c_uint32),
+                ("direction", c_uint32), ("bit", c_uint32), ("bits", c_uint32), ("scale", c_double)]
+
+
+_MovedFunction = CFUNCTYPE(c_char_p)
+
+
+class rung_layout(_Struct):
+    _fields_ = [("size", c_uint32), ("bytes", c_uint32), ("name", c_char_p), ("text", c_char_p), ("hash", c_uint64),
+                ("members", POINTER(rung_member)), ("member_count", c_uint32), ("counter_bytes", c_uint32),
+                ("head", c_uint32), ("tail", c_uint32), ("moved", _MovedFunction)]
+
+
 class rung_message_info(_Struct):
     _fields_ = [("size", c_uint32), ("op", c_uint32), ("number", c_uint32), ("channel", c_int32), ("index", c_int32),
                 ("real", c_uint32), ("value", rung_value), ("text", c_char * 400)]
@@ -517,6 +531,8 @@ _FUNCTIONS = {
     "rung_instance_write_text": (c_int32, _Handle, _U32, c_char_p),
     "rung_instance_bind": (c_int32, _Handle, POINTER(rung_variable), _U32),
     "rung_instance_bind_blocks": (c_int32, _Handle, POINTER(rung_block), _U32),
+    "rung_instance_bind_struct": (c_int32, _Handle, POINTER(rung_layout), c_void_p),
+    "rung_instance_torn": (c_int32, _Handle, c_void_p, POINTER(c_uint32)),
     "rung_instance_next_message": (c_int32, _Handle, POINTER(rung_message_info)),
     "rung_instance_shown": (c_int32, _Handle, _U32, POINTER(rung_message_info)),
     "rung_instance_next_request": (c_int32, _Handle, POINTER(rung_request)),

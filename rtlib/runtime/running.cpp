@@ -29,7 +29,13 @@ void endSlice(rung_instance& instance) noexcept {
   }
 }
 
+void takeChanges(rung_instance& instance) noexcept {
+  rung_message message{};
+  while (instance.control->nextChange(instance.running, message)) (void)instance.messages.push(message);
+}
+
 void endPass(rung_instance& instance) noexcept {
+  takeChanges(instance);
   ++instance.passes;
   instance.watches.sample(instance);
   instance.lastPassNs = instance.passNs;

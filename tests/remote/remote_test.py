@@ -288,6 +288,19 @@ class Profile(Host):
         self.ctl("profile", "--top", "0", status=USAGE)
 
 
+class Alarms(Host):
+    """Messages that are bits of the program's memory."""
+    source = PROGRAM.replace("OUT  Y0.0", "OUT  A0.2")
+
+    def test_a_bit_that_comes_on_is_a_message(self):
+        for count in (1, 2):
+            self.ctl("set", "X0.0", "1")
+            self.wait(lambda: self.ctl("messages").count("message 3") == count)
+            self.ctl("set", "X0.0", "0")
+            self.wait(lambda: not self.get("A0.2"))
+        self.assertEqual(self.ctl("messages").count("message"), 2)
+
+
 class Rights(Host):
     map = MAP[:MAP.index("[rungctl]")]
 

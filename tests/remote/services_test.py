@@ -10,8 +10,8 @@ import unittest
 import remote_test
 from remote_test import Host, PATIENCE, WRONG
 
-# X0.0 reads variable 500 into D14:4, end code in R20; X0.1 writes D34:4 to the tool number, end code in R22;
-# X0.2 reads the machine position of axis D46:2 into D50:4 at once, end code in R24.
+# X0.0 reads variable 500 into D10:4, end code in D2:2; X0.1 writes D30:4 to the tool number, end code in D22:2;
+# X0.2 reads the machine position of axis D48:2 into D50:4 at once, end code in D42:2.
 WINDOWS = """dialect gsk
 FUNC END1
 LD   X0.0
@@ -109,9 +109,9 @@ class Services(Provider):
         return code
 
     def test_without_a_provider_requests_are_refused_at_once(self):
-        self.assertEqual(self.end_of("R20:2", "X0.0", "R10.0"), 6)
-        self.assertEqual(self.end_of("R22:2", "X0.1", "R10.1"), 6)
-        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 6)
+        self.assertEqual(self.end_of("D2:2", "X0.0", "R10.0"), 6)
+        self.assertEqual(self.end_of("D22:2", "X0.1", "R10.1"), 6)
+        self.assertEqual(self.end_of("D42:2", "X0.2", "R10.2"), 6)
 
     def test_a_variable_is_read(self):
         provider = self.provider()
@@ -121,7 +121,7 @@ class Services(Provider):
         self.assertEqual(asked, VARIABLE)
         self.assertTrue(self.ask(provider, do="served", ticket=ticket, outcome="done", value=-2.5)["ok"])
         self.wait(lambda: self.get("R10.0"))
-        self.assertEqual((self.get("D10:4"), self.get("R20:2")), (-25000, 0))
+        self.assertEqual((self.get("D10:4"), self.get("D2:2")), (-25000, 0))
         self.ctl("set", "X0.0", "0")
         self.assertIn(f"no request with ticket {ticket} waits",
                       self.ask(provider, do="served", ticket=ticket, outcome="done", value=1)["error"])
@@ -130,7 +130,7 @@ class Services(Provider):
         provider = self.provider()
         for outcome, read, write in (("no-quantity", 6, 6), ("no-number", 3, 3), ("no-axis", 4, 4), ("bad-value", 5, 5),
                                      ("not-now", 6, 7), ("done", 2, 0)):  # 2: the value is too long
-            for condition, output, name, code in (("X0.0", "R10.0", "R20:2", read), ("X0.1", "R10.1", "R22:2", write)):
+            for condition, output, name, code in (("X0.0", "R10.0", "D2:2", read), ("X0.1", "R10.1", "D22:2", write)):
                 self.ctl("set", "D30:4", "70000")
                 self.ctl("set", condition, "1")
                 asked = self.event(provider)
@@ -144,12 +144,12 @@ class Services(Provider):
 
     def test_a_position_is_there_at_once(self):
         provider = self.provider()
-        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 6)  # nothing is known yet
+        self.assertEqual(self.end_of("D42:2", "X0.2", "R10.2"), 6)  # nothing is known yet
         self.assertTrue(self.ask(provider, do="live", machine=[1, -2.5], line=3)["ok"])
-        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 0)
+        self.assertEqual(self.end_of("D42:2", "X0.2", "R10.2"), 0)
         self.assertEqual(self.get("D50:4"), -2500)
         self.ask(provider, do="live", machine=[1], line=3)
-        self.assertEqual(self.end_of("R24:2", "X0.2", "R10.2"), 4)
+        self.assertEqual(self.end_of("D42:2", "X0.2", "R10.2"), 4)
 
     def test_what_a_provider_leaves_is_refused(self):
         provider = self.provider()
@@ -158,7 +158,7 @@ class Services(Provider):
         provider[0].shutdown(2)
         provider[1].close()
         self.wait(lambda: self.get("R10.0"))
-        self.assertEqual(self.get("R20:2"), 6)
+        self.assertEqual(self.get("D2:2"), 6)
 
     def test_what_is_not_answered_is_refused(self):
         provider = self.provider()
@@ -167,7 +167,7 @@ class Services(Provider):
         asked = self.event(provider)
         self.wait(lambda: self.get("R10.0"))
         self.assertTrue(4 < time.monotonic() - begin < 8)
-        self.assertEqual(self.get("R20:2"), 6)
+        self.assertEqual(self.get("D2:2"), 6)
         self.assertIn("or was too late", self.ask(provider, do="served", ticket=asked["ticket"], outcome="done", value=1)["error"])
 
     def test_one_serves_at_a_time(self):
@@ -230,7 +230,7 @@ class Services(Provider):
         self.assertEqual(serving.wait(PATIENCE), 0)
         self.ctl("set", "X0.0", "0")
         self.wait(lambda: not self.get("R10.0"))
-        self.assertEqual(self.end_of("R20:2", "X0.0", "R10.0"), 6)
+        self.assertEqual(self.end_of("D2:2", "X0.0", "R10.0"), 6)
 
 
 class NctServices(Provider):

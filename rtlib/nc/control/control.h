@@ -75,6 +75,11 @@ public:
   virtual std::vector<ShownMessage> messages(const host::Instance& instance) const {
     return (void)instance, std::vector<ShownMessage>();
   }
+  // For programs whose messages are bits: the next one that has come or gone since the last call, in `message`. False:
+  // there is none. Between two passes; allocates nothing.
+  virtual bool nextChange(const host::Instance& instance, rung_message& message) noexcept {
+    return (void)instance, (void)message, false;
+  }
   // The line of a log: the message's number as the dialect writes it, and its text. Gives the characters written; what
   // does not fit is cut off.
   virtual size_t describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept;

@@ -1,6 +1,9 @@
 // Power-on, messages and names of GSK (see gsk_control.h).
 #include "rtlib/nc/control/gsk/gsk_control.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/text/number.h"
@@ -21,8 +24,12 @@ void writeArea(host::Instance& instance, const char* area, const std::vector<uin
 }
 
 struct GskPlaces final : Places {
-  explicit GskPlaces(const rung_program& program) : areas(program) {}
+  explicit GskPlaces(const rung_program& program) : areas(program), messages(host::findSpace(program, "A")) {
+    if (messages != RUNG_NONE) messageBytes = program.spaces[messages].byte_count;
+  }
   gsk::Areas areas;
+  uint32_t messages;
+  uint32_t messageBytes = 0;
 };
 
 } // namespace
@@ -32,7 +39,10 @@ std::unique_ptr<Places> GskControl::locate(const rung_program& program) const {
 }
 
 void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
-  functions_.use({instance, static_cast<const GskPlaces&>(places).areas});
+  const auto& own = static_cast<const GskPlaces&>(places);
+  functions_.use({instance, own.areas});
+  messageArea_ = own.messages;
+  messageBytes_ = std::min(own.messageBytes, kMostMessageBytes);
 }
 
 void GskControl::prepare(host::Instance& instance, PowerOn kind) {
@@ -42,6 +52,21 @@ void GskControl::prepare(host::Instance& instance, PowerOn kind) {
   writeArea(instance, "X", machine);
   writeArea(instance, "F", cnc);
   functions_.powerOn();
+  known_.fill(0);
+}
+
+bool GskControl::nextChange(const host::Instance& instance, rung_message& message) noexcept {
+  for (uint32_t byte = 0; byte < messageBytes_; ++byte) {
+    const uint8_t bits = instance.memory().readByte(messageArea_, byte);
+    const auto changed = static_cast<uint8_t>(bits ^ known_[byte]);
+    if (changed == 0) continue;
+    const auto bit = static_cast<uint32_t>(std::countr_zero(changed));
+    known_[byte] = static_cast<uint8_t>(known_[byte] ^ 1u << bit);
+    const bool shown = (bits >> bit & 1) != 0;
+    message = {.op = shown ? RUNG_MESSAGE_SHOW : RUNG_MESSAGE_CLEAR, .number = 8 * byte + bit + 1};
+    return true;
+  }
+  return false;
 }
 
 std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) const {

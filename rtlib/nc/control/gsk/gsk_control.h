@@ -1,6 +1,8 @@
 // The control of a GSK25i PLC: the machine's and the CNC's signals outlive the PLC's power, messages are bits of the A
 // area.
 #pragma once
+#include <array>
+
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/gsk/gsk_functions.h"
 
@@ -13,6 +15,7 @@ public:
   std::unique_ptr<Places> locate(const rung_program& program) const override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
+  bool nextChange(const host::Instance& instance, rung_message& message) noexcept override;
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
@@ -22,7 +25,11 @@ protected:
   std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
+  static constexpr uint32_t kMostMessageBytes = 256; // of the A area
   GskFunctions functions_;
+  uint32_t messageArea_ = RUNG_NONE;
+  uint32_t messageBytes_ = 0;
+  std::array<uint8_t, kMostMessageBytes> known_{}; // bits of the A area that the host knows of
 };
 
 } // namespace rung::nc

@@ -1,0 +1,350 @@
+#!/usr/bin/python3
+"""Runs inside LinuxCNC in place of its display: works at the panel of the machining centre and looks at the machine."""
+import json
+import os
+import subprocess
+import sys
+import time
+import traceback
+
+import hal
+import linuxcnc
+
+HOME = os.environ["HOME"]
+PATIENCE = 4.0  # seconds until something counts as never happening
+PRESS = 0.25  # seconds that a key is held, some passes of the program
+
+command = linuxcnc.command()
+status = linuxcnc.stat()
+errors = linuxcnc.error_channel()
+shown = []  # what the operator has read
+
+
+def polled():
+    status.poll()
+    while (error := errors.poll()) is not None:
+        shown.append(error[1])
+    return status
+
+
+def pin(name):
+    return hal.get_value(name if "." in name else "rung." + name)
+
+
+def wait(what, condition, patience=PATIENCE):
+    end = time.monotonic() + patience
+    while not condition():
+        polled()
+        if time.monotonic() > end:
+            raise AssertionError(f"never came: {what}; the operator has read {shown[-5:]}")
+        time.sleep(0.005)
+
+
+def pins(**expected):
+    for name, value in expected.items():
+        name = name.replace("_", "-")
+        wait(f"{name} = {value}", lambda: pin(name) == value)
+
+
+def check(condition, what):
+    if not condition:
+        raise AssertionError(f"{what}; the operator has read {shown[-5:]}")
+
+
+def put(name, value):
+    hal.set_p("rung." + name, str(value))
+
+
+def signal(name, value):
+    subprocess.run(["halcmd", "sets", name, str(value)], check=True, timeout=10)
+
+
+def press(*keys, seconds=PRESS):
+    for key in keys:
+        put("key-" + key, 1)
+    time.sleep(seconds)
+    for key in keys:
+        put("key-" + key, 0)
+    time.sleep(0.05)
+
+
+def mode(key, wanted):
+    press(key)
+    wait(f"mode {key}", lambda: polled().task_mode == wanted)
+
+
+def mdi(line):
+    """Seconds that the line took."""
+    wait("LinuxCNC at rest", lambda: polled().interp_state == linuxcnc.INTERP_IDLE and status.task_mode == linuxcnc.MODE_MDI)
+    begin = time.monotonic()
+    command.mdi(line)
+    done = command.wait_complete(PATIENCE)
+    polled()
+    check(done == linuxcnc.RCS_DONE, f"{line} was not done")
+    return time.monotonic() - begin
+
+
+def position(axis):
+    return polled().actual_position[axis]
+
+
+def rungctl(*words, refused=False):
+    ran = subprocess.run(["rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=30)
+    check((ran.returncode != 0) == refused, f"rungctl {' '.join(words)}: {ran.stdout}")
+    return ran.stdout
+
+
+def switch_on():
+    """Emergency stop released, machine on by its button."""
+    command.state(linuxcnc.STATE_ESTOP_RESET)
+    pins(enable=True, lamp_on=True)
+    wait("e-stop is reset", lambda: polled().task_state == linuxcnc.STATE_ESTOP_RESET)
+    signal("on-button", 1)
+    wait("machine on", lambda: polled().task_state == linuxcnc.STATE_ON)
+    time.sleep(0.1)
+    signal("on-button", 0)
+    pins(servo_ready=True, no_interlock=True)
+
+
+def homing():
+    check(not any(polled().homed[:3]), "homed too early")
+    mode("zero", linuxcnc.MODE_MANUAL)
+    pins(mode_is_zero=True, lamp_zero=True)
+    press("px", "py", "pz")
+    wait("homed", lambda: polled().homed[:3] == (1, 1, 1))
+    pins(homed_x=True, homed_y=True, homed_z=True)
+    # the program has asked for macro variable 500, and MDI has answered
+    wait("the program's first question", lambda: "false" in rungctl("get", "LIFE_WISH"))
+
+
+def modes():
+    for key, wanted in (("mdi", linuxcnc.MODE_MDI), ("auto", linuxcnc.MODE_AUTO), ("wheel", linuxcnc.MODE_MANUAL),
+                        ("mdi", linuxcnc.MODE_MDI), ("manual", linuxcnc.MODE_MANUAL), ("step", linuxcnc.MODE_MANUAL)):
+        mode(key, wanted)
+        wait(f"lamp of {key}", lambda: pin(f"lamp-{key}"))
+    command.mode(linuxcnc.MODE_MDI)  # on the screen: the program sees what LinuxCNC does
+    pins(mode_is_mdi=True, mode_is_step=False)
+
+
+def jog():
+    mode("manual", linuxcnc.MODE_MANUAL)
+    pins(mode_is_jog=True)
+    press("px", seconds=0.6)  # 20 mm/s
+    time.sleep(0.1)
+    far = position(0)
+    check(8 < far < 16, f"jog to {far}")
+    put("feed-switch", 5)
+    press("nx", seconds=0.6)
+    time.sleep(0.1)
+    check(3 < far - position(0) < 8, f"jog with half the feed from {far} to {position(0)}")
+    put("feed-switch", 10)
+    mode("step", linuxcnc.MODE_MANUAL)
+    press("50")
+    before = position(1)
+    for _ in range(2):
+        press("py")
+    wait("two steps", lambda: abs(position(1) - before - 0.2) < 1e-6)
+
+
+def wheel():
+    mode("wheel", linuxcnc.MODE_MANUAL)
+    press("nz")
+    press("25")
+    pins(mode_is_wheel=True)
+    before = position(2)
+    signal("wheel-counts", -7)
+    wait("seven steps of the wheel", lambda: abs(position(2) - before + 0.07) < 1e-6)
+    mode("manual", linuxcnc.MODE_MANUAL)
+    signal("wheel-counts", 0)
+    time.sleep(0.2)
+    check(abs(position(2) - before + 0.07) < 1e-6, "the wheel moves in another mode")
+
+
+def spindle():
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("M3 S1000")
+    took = mdi("G1 X5 F6000")
+    check(pin("up-to-speed"), "feed without speed")
+    check(took > 0.05, f"the feed did not wait for the spindle: {took:.3f} s")
+    pins(spindle_cw=True, spindle_ccw=False, spindle_at_speed=True)
+    mdi("M4 S1000")
+    pins(spindle_cw=False, spindle_ccw=True)
+    put("spindle-switch-1", 1)  # position 7
+    wait("spindle override 120 %", lambda: abs(polled().spindle[0]["override"] - 1.2) < 1e-6)
+    put("spindle-switch-1", 0)
+    wait("spindle override 100 %", lambda: abs(polled().spindle[0]["override"] - 1.0) < 1e-6)
+    mdi("M5")
+    pins(spindle_cw=False, spindle_ccw=False, up_to_speed=False, spindle_stands=True)
+    mdi("M19 R0")
+    pins(orient=True, spindle_in_place=True)
+    mdi("M5")
+
+
+def coolant():
+    mdi("M8")
+    pins(coolant_pump=True, lamp_coolant=True)
+    mdi("M7")
+    pins(air_blow=True)
+    mdi("M9")
+    pins(coolant_pump=False, lamp_coolant=False)
+
+
+def tools():
+    """The magazine, the tool in the spindle and macro variable 500 by window functions."""
+    mdi("#500 = 3600")
+    took = mdi("T1 M6")
+    check(took > 0.4, f"the magazine and the arm were not waited for: {took:.3f} s")
+    check(polled().tool_in_spindle == 1, f"tool {status.tool_in_spindle} in the spindle")
+    pins(tool=1, changing=False, life_limit=3600)
+    ends = json.loads(rungctl("get", "TOOL_BLOCK_END:2", "D178:2", "--json"))["values"]
+    check(set(ends.values()) == {0}, f"end codes of the window functions: {ends}")
+
+
+def overrides():
+    put("feed-switch", 15)
+    wait("feed override 150 %", lambda: abs(polled().feedrate - 1.5) < 1e-6)
+    put("feed-switch", 10)
+    wait("feed override 100 %", lambda: abs(polled().feedrate - 1.0) < 1e-6)
+    press("25")  # in a program mode the keys are those of rapid
+    wait("rapid override 25 %", lambda: abs(polled().rapidrate - 0.25) < 1e-6)
+    press("100")
+    wait("rapid override 100 %", lambda: abs(polled().rapidrate - 1.0) < 1e-6)
+
+
+def start():
+    press("start")
+
+
+def part():
+    """A part program, started at the panel, held, continued."""
+    mode("auto", linuxcnc.MODE_AUTO)
+    command.program_open(os.path.abspath("part.ngc"))
+    command.wait_complete(PATIENCE)
+    start()
+    wait("the cut", lambda: pin("spindle-cw") and pin("coolant-pump") and position(0) > 22)
+    press("hold")
+    pins(paused=True)
+    here = position(0)
+    time.sleep(0.2)
+    check(abs(position(0) - here) < 0.01, "it moves while it is held")
+    check(pin("user-out-0"), "M64")
+    start()
+    pins(paused=False)
+    wait("the end", lambda: polled().interp_state == linuxcnc.INTERP_IDLE and pin("tool") == 1, 20)
+    pins(spindle_cw=False, coolant_pump=False, user_out_0=False)
+    check(status.tool_in_spindle == 1, f"tool {status.tool_in_spindle} in the spindle")
+
+
+def single():
+    """Single block: one block for each press of cycle start."""
+    with open(f"{HOME}/single.ngc", "w", encoding="ascii") as file:
+        file.write("G21 G90\nG0 X1\nG0 X2\nG0 X3\nM2\n")
+    press("single")
+    pins(lamp_single=True)
+    command.program_open(f"{HOME}/single.ngc")
+    command.wait_complete(PATIENCE)
+    seen = []
+    for _ in range(12):
+        start()
+        time.sleep(0.3)
+        seen.append(round(position(0), 3))
+        if polled().interp_state == linuxcnc.INTERP_IDLE:
+            break
+    check([x for i, x in enumerate(seen) if i == 0 or seen[i - 1] != x][-3:] == [1, 2, 3], f"single blocks: {seen}")
+    press("single")
+    pins(lamp_single=False)
+
+
+def alarm():
+    """A motor protection switch trips: feed hold, the operator reads why, reset."""
+    put("motors-ok", 0)
+    wait("the alarm at the operator", lambda: any("MOTOR PROTECTION" in text.upper() for text in shown))
+    pins(no_block_lock=False, beacon_red=True)
+    put("motors-ok", 1)
+    signal("reset-key", 1)
+    time.sleep(0.3)
+    signal("reset-key", 0)
+    pins(no_block_lock=True, beacon_red=False)
+
+
+def probe():
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("G0 Z0")
+    command.mdi("G38.2 Z-20 F300")
+    time.sleep(0.4)
+    signal("probe", 1)
+    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, "G38.2")
+    signal("probe", 0)
+    check(polled().probe_tripped and -20 < position(2) < 0, f"probed at {status.probed_position[2]}")
+    mdi("G53 G0 Z0")
+
+
+def remote():
+    """During a cut: watched, traced, forced, replaced by an edited program."""
+    mdi("M8")
+    pins(coolant_pump=True)
+    command.mdi("G1 X30 F400")
+    tracing = subprocess.Popen(["rungctl", "trace", "LUBE_LEVEL", "COOLANT_PUMP", "-o", "cut.vcd", "--for", "1"])
+    rungctl("force", "COOLANT_PUMP", "false", refused=True)  # rungs write it
+    rungctl("force", "LUBE_LEVEL", "false")
+    check("LUBE_LEVEL = false" in rungctl("forced"), "forced")
+    rungctl("unforce", "LUBE_LEVEL")
+    check("the new program runs" in rungctl("reload", f"{HOME}/edited.so"), "reload")
+    check("is never set or forced here" in rungctl("set", "X_ESP", "false", refused=True), "the emergency stop was set")
+    check(not polled().inpos, "the motion was over before the changes")
+    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, "the motion")
+    pins(coolant_pump=True, enable=True)
+    check(tracing.wait(PATIENCE) == 0, "trace")
+    check(rungctl("rollback") == "the former program runs\n", "rollback")
+    mdi("M9")
+
+
+def emergency_stop():
+    """In the middle of a cut; then the machine is switched on and works again."""
+    mdi("M3 S1000")
+    command.mdi("G1 X0 F300")
+    wait("the cut", lambda: pin("up-to-speed") and not polled().inpos)
+    signal("estop-button", 1)
+    pins(enable=False, spindle_cw=False)
+    wait("e-stop", lambda: polled().task_state == linuxcnc.STATE_ESTOP)
+    signal("estop-button", 0)
+    time.sleep(0.3)
+    switch_on()
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("M3 S500")
+    pins(spindle_cw=True)
+    mdi("M5")
+
+
+STEPS = (switch_on, homing, modes, jog, wheel, spindle, coolant, tools, overrides, part, single, alarm, probe, remote,
+         emergency_stop)
+
+
+def tried(step):
+    """What went wrong; the steps after it show more."""
+    begin = time.monotonic()
+    try:
+        step()
+        failure = ""
+    except Exception:
+        failure = f"{step.__name__}: {traceback.format_exc(limit=-3)}"
+    print(f"driver: {step.__name__} {'failed' if failure else 'ok'}, {time.monotonic() - begin:.1f} s", flush=True)
+    return failure
+
+
+def main():
+    component = hal.component("driver")  # get_value needs one
+    component.ready()
+    failures = [failure for step in STEPS if (failure := tried(step))]
+    if pin("fault") or pin("functions-lost") != 0:
+        failures.append("a fault, or functions were lost")
+    return "\n".join(failures)
+
+
+try:
+    result = main() or "passed"
+except BaseException:
+    result = traceback.format_exc()
+with open(f"{HOME}/result.txt", "w", encoding="utf-8") as out:
+    out.write(result)
+sys.exit(0 if result == "passed" else 1)

@@ -280,7 +280,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
 };
 
 const Reader::Key<File> Reader::kRemoteKeys[] = {
-    {"allow", false, "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"",
+    {"allow", false,
+     "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"",
      "allow = [\"set\"]", &Reader::takeAllowed},
     {"never", false, "a list of names of the program", "never = [\"X0.0\"]", &Reader::takeNever},
 };

@@ -90,7 +90,7 @@ struct Group {
 
 // rungctl: what may be done from outside while the program runs.
 enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
-inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload", "start",
+inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
                                                     "stop", "reset", "profile", "serve"}; // by Remote
 
 // rungctl: a cell that is neither set nor forced.

@@ -39,7 +39,7 @@ private:
   void refuse(const services::Request& request);
 
   plc::Box& box_;
-  uint32_t provider_ = 0; // its number as a peer; 0: there is none
+  uint32_t provider_ = 0;               // its number as a peer; 0: there is none
   std::map<uint32_t, Waiting> waiting_; // by ticket
 };
 

@@ -41,8 +41,9 @@ void relay(remote::Connection& host, int in, std::ostream& out, const volatile i
   while (stop == 0 && out) {
     passAnswers(host, out);
     if (host.ended()) return;
-    std::array<pollfd, 2> waiting = {pollfd{host.socket(), static_cast<short>(POLLIN | (host.wantsToSend() ? POLLOUT : 0)), 0},
-                                     pollfd{in, POLLIN, 0}};
+    std::array<pollfd, 2> waiting = {
+        pollfd{host.socket(), static_cast<short>(POLLIN | (host.wantsToSend() ? POLLOUT : 0)), 0},
+        pollfd{in, POLLIN, 0}};
     if (poll(waiting.data(), waiting.size(), kTurnMs) < 0) continue; // a signal
     if ((waiting[0].revents & POLLOUT) != 0) host.sendMore();
     if ((waiting[0].revents & ~POLLOUT) != 0) host.receive();

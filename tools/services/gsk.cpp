@@ -129,8 +129,8 @@ std::optional<Operation> operationOf(const Request& request, rung_reply& refusal
   const WindowEnd mistake = mistakeOf(window);
   const std::optional<Quantity> quantity = mistake == nc::gsk::kWindowDone ? quantityOf(window) : std::nullopt;
   if (!quantity) {
-    refusal = ended(window, request.given.ticket,
-                    mistake == nc::gsk::kWindowDone ? nc::gsk::kWindowNotProvided : mistake);
+    refusal =
+        ended(window, request.given.ticket, mistake == nc::gsk::kWindowDone ? nc::gsk::kWindowNotProvided : mistake);
     return std::nullopt;
   }
   const bool offset = window.code == kReadOffset || window.code == kWriteOffset;

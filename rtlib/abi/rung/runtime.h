@@ -84,8 +84,8 @@ typedef struct rung_image_options {
  * `options` may be null. RUNG_REFUSED, RUNG_OUT_OF_MEMORY. */
 RUNG_API int32_t rung_image_open(const char* path, const rung_image_options* options, rung_image** image);
 
-/* Loads a compiled program from a memory file (memfd_create) that a process has made which the caller trusts, such as its
- * own compiler. Whose it is is not looked at; it must be sealed against every change (F_SEAL_WRITE, F_SEAL_SHRINK,
+/* Loads a compiled program from a memory file (memfd_create) that a process has made which the caller trusts, such as
+ * its own compiler. Whose it is is not looked at; it must be sealed against every change (F_SEAL_WRITE, F_SEAL_SHRINK,
  * F_SEAL_GROW, F_SEAL_SEAL). Its contents are checked as those of a file. The descriptor stays the caller's; `name` is
  * what errors call it. RUNG_REFUSED, RUNG_OUT_OF_MEMORY. */
 RUNG_API int32_t rung_image_open_memory(int32_t file, const char* name, rung_image** image);
@@ -516,8 +516,8 @@ typedef struct rung_profile {
   double max_ns;
 } rung_profile;
 
-/* Of the index-th rung of the program's tables, since the power-on or rung_instance_clear_profile. RUNG_EMPTY: there are
- * not so many; RUNG_WRONG_STATE: the program was not built for it (rungc build --profile). [rt] */
+/* Of the index-th rung of the program's tables, since the power-on or rung_instance_clear_profile. RUNG_EMPTY: there
+ * are not so many; RUNG_WRONG_STATE: the program was not built for it (rungc build --profile). [rt] */
 RUNG_API int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, rung_profile* profile);
 
 /* The rung whose longest run took longest. RUNG_EMPTY: none has run. */

@@ -11,7 +11,7 @@ import hal
 import linuxcnc
 
 HOME = os.environ["HOME"]
-PATIENCE = 4.0  # seconds until something counts as never happening
+PATIENCE = 10.0  # seconds until something counts as never happening
 PRESS = 0.25  # seconds that a key is held, some passes of the program
 
 command = linuxcnc.command()
@@ -113,7 +113,8 @@ def homing():
     press("px", "py", "pz")
     wait("homed", lambda: polled().homed[:3] == (1, 1, 1))
     pins(homed_x=True, homed_y=True, homed_z=True)
-    # the program has asked for macro variable 500, and MDI has answered
+    mode("manual", linuxcnc.MODE_MANUAL)
+    # the program has asked for macro variable 500, and has its answer
     wait("the program's first question", lambda: "false" in rungctl("get", "LIFE_WISH"))
 
 
@@ -124,6 +125,8 @@ def modes():
         wait(f"lamp of {key}", lambda: pin(f"lamp-{key}"))
     command.mode(linuxcnc.MODE_MDI)  # on the screen: the program sees what LinuxCNC does
     pins(mode_is_mdi=True, mode_is_step=False)
+    command.mode(linuxcnc.MODE_MANUAL)
+    pins(mode_is_mdi=False, mode_is_step=True)
 
 
 def jog():
@@ -221,7 +224,7 @@ def part():
     command.program_open(os.path.abspath("part.ngc"))
     command.wait_complete(PATIENCE)
     start()
-    wait("the cut", lambda: pin("spindle-cw") and pin("coolant-pump") and position(0) > 22)
+    wait("the cut", lambda: pin("spindle-cw") and pin("coolant-pump") and position(0) > 22, 15)
     press("hold")
     pins(paused=True)
     here = position(0)

@@ -501,7 +501,7 @@ _FUNCTIONS = {
     "rung_error_text": (c_char_p,),
     "rung_runtime_version": (c_uint32,),
     "rung_image_open": (c_int32, _Path, POINTER(rung_image_options), _New),
-    "rung_image_open_memory": (c_int32, c_int32, c_char_p, _New),
+    "rung_image_open_memory": (c_int32, _I32, c_char_p, _New),
     "rung_image_adopt": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p, _New),
     "rung_image_program": (POINTER(rung_program), _Handle),
     "rung_image_close": (c_int32, _Handle),

@@ -808,7 +808,7 @@ class Functions(Case):
         self.fails(rung.Status.NOT_FOUND, plc.begin_function, 1, rung.M, 3, text="channel 1")
         self.fails(rung.Status.NOT_FOUND, plc.function_done, 40, 0)
         self.fails(rung.Status.NOT_FOUND, plc.abort_functions, 40)
-        self.fails(rung.Status.BAD_ARGUMENT, plc.begin_function, 0, 4, 3)
+        self.fails(rung.Status.BAD_ARGUMENT, plc.begin_function, 0, 6, 3)
         for wrong in (-1, 1 << 32, "3", 3.0):
             self.fails(rung.Status.BAD_ARGUMENT, plc.begin_function, 0, rung.M, wrong)
             self.fails(rung.Status.BAD_ARGUMENT, plc.function_done, 0, wrong)

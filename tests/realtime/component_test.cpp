@@ -267,8 +267,10 @@ TEST_F(Component, MistakesAreReportedAndNothingIsLeft) {
     const std::vector<std::string> lines = hal.lines();
     return lines.size() == before + 1 ? lines.back() : "not one line";
   };
-  EXPECT_THAT(mistake("", "tests/cnc/stuck.map"), HasSubstr("so=PROGRAM.so and map=MAPPING_FILE are needed"));
-  EXPECT_THAT(mistake(path("stuck.so"), ""), HasSubstr("so=PROGRAM.so and map=MAPPING_FILE are needed"));
+  EXPECT_THAT(mistake("", "tests/cnc/stuck.map"),
+              HasSubstr("so=PROGRAM.so, or source=PROGRAM, and map=MAPPING_FILE are needed"));
+  EXPECT_THAT(mistake(path("stuck.so"), ""),
+              HasSubstr("so=PROGRAM.so, or source=PROGRAM, and map=MAPPING_FILE are needed"));
   EXPECT_THAT(mistake(path("none.so"), "tests/cnc/stuck.map"), HasSubstr("none.so"));
   EXPECT_THAT(mistake("tests/cnc/stuck.map", "tests/cnc/stuck.map"), HasSubstr("stuck.map"));
   EXPECT_THAT(mistake(path("stuck.so"), "tests/cnc/none.map"), HasSubstr("cannot read tests/cnc/none.map"));

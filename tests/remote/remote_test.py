@@ -49,7 +49,7 @@ def build(folder, *options, source=PROGRAM, name="stuck.pmc"):
 
 class Host(unittest.TestCase):
     map = MAP
-    source = PROGRAM
+    program_text = PROGRAM
     source_name = "stuck.pmc"
     build_options = ()
 
@@ -57,7 +57,7 @@ class Host(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.home = Path(cls.folder.name)
-        cls.program = build(cls.home, *cls.build_options, source=cls.source, name=cls.source_name)
+        cls.program = build(cls.home, *cls.build_options, source=cls.program_text, name=cls.source_name)
 
     @classmethod
     def tearDownClass(cls):
@@ -110,7 +110,7 @@ class Host(unittest.TestCase):
 class Commands(Host):
     def test_status(self):
         text = self.ctl("status")
-        self.assertRegex(text, r"^host plc, program stuck, dialect gsk\nrunning: \d+ passes, \d+ missed, [\d.]+ s of its time\n$")
+        self.assertRegex(text, r"^host plc, program stuck, dialect gsk\nrunning: \d+ passes, \d+ missed, [\d.]+ s of its time\nevery 1000 us: \d+ steps, \d+ overruns, ")
         answer = json.loads(self.ctl("status", "--json"))
         self.assertEqual((answer["ok"], answer["scanned"], answer["faulted"]), (True, True, False))
         self.assertEqual(self.ctl("hosts"), "plc\n")
@@ -290,13 +290,13 @@ class Profile(Host):
 
 class Alarms(Host):
     """Messages that are bits of the program's memory."""
-    source = PROGRAM.replace("OUT  Y0.0", "OUT  A0.2")
+    program_text = PROGRAM.replace("OUT  Y0.0", "OUT  A0.2")
 
     def test_a_bit_that_comes_on_is_a_message(self):
         for count in (1, 2):
-            self.ctl("set", "X0.0", "1")
+            self.ctl("force", "X0.0", "true")
             self.wait(lambda: self.ctl("messages").count("message 3") == count)
-            self.ctl("set", "X0.0", "0")
+            self.ctl("unforce", "X0.0")
             self.wait(lambda: not self.get("A0.2"))
         self.assertEqual(self.ctl("messages").count("message"), 2)
 

@@ -213,7 +213,8 @@ private:
     put("/* See rung_instance_bind_struct: the struct lives as long as the instance. */\n");
     put("static inline int32_t rung_bind_{}(rung_instance* plc, {}{}* block) {{\n", id_, writes ? "" : "const ",
         layout_.type);
-    put("  return rung_instance_bind_struct(plc, &rung_layout_{}, {}block);\n}}\n\n", id_, writes ? "" : "(void*)");
+    put("  return rung_instance_bind_struct(plc, &rung_layout_{}, {}block);\n}}\n\n", id_,
+        writes ? "" : "(void*)(uintptr_t)");
   }
 
   const Binding& binding_;

@@ -192,26 +192,26 @@ bool ConnectionReader::takeName(const toml::node& node, Row& row) {
 
 bool ConnectionReader::takePeriod(const toml::node& node, Row& row) {
   const std::optional<int64_t> time = nanosecondsOf(node);
-  row.connection.periodNs = time.value_or(0);
+  row.connection.periodNs = time.value_or(row.connection.periodNs);
   return time.has_value();
 }
 
 bool ConnectionReader::takeTimeout(const toml::node& node, Row& row) {
   const std::optional<int64_t> time = nanosecondsOf(node);
-  row.connection.timeoutNs = time.value_or(0);
+  row.connection.timeoutNs = time.value_or(row.connection.timeoutNs);
   row.timeoutAt = reading_.positionOf(node);
   return time.has_value();
 }
 
 bool ConnectionReader::takeConnections(const toml::node& node, Row& row) {
   const std::optional<int64_t> count = integerIn(node, 1, kMostConnections);
-  row.connection.connections = static_cast<uint32_t>(count.value_or(0));
+  row.connection.connections = static_cast<uint32_t>(count.value_or(row.connection.connections));
   return count.has_value();
 }
 
 bool ConnectionReader::takeRequests(const toml::node& node, Row& row) {
   const std::optional<int64_t> count = integerIn(node, 1, kMostRequests);
-  row.connection.requests = static_cast<uint32_t>(count.value_or(0));
+  row.connection.requests = static_cast<uint32_t>(count.value_or(row.connection.requests));
   return count.has_value();
 }
 

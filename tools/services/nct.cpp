@@ -34,7 +34,7 @@ constexpr std::array<Motion, 15> kMotions = {{{Way::To},
                                               {Way::Jog, kFeed},
                                               {}}}; // by the codes of axis_codes.h
 
-std::optional<Operation> moveOf(const int64_t* args) {
+std::optional<Operation> moveOf(const int64_t* args) noexcept {
   const bool known = args[0] >= 0 && args[0] < rung::nc::nct::kAxes && args[1] >= 0 && args[1] < std::ssize(kMotions);
   const Motion motion = known ? kMotions[static_cast<size_t>(args[1])] : Motion{};
   if (!motion.way) return std::nullopt;
@@ -61,8 +61,11 @@ bool is(std::string_view service) noexcept {
 }
 
 // SCP is answered within the scan: positions of axes, which count from 1 there. A CNC says nothing of the rest.
+// MOVCMND is taken without an answer, so what no CNC can do is refused before.
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
-  if (!std::string_view(request.service).starts_with("SCP ")) return RUNG_QUEUE;
+  const std::string_view service = request.service;
+  if (service.starts_with("MOVCMND ") && !moveOf(request.args)) return RUNG_REFUSE;
+  if (!service.starts_with("SCP ")) return RUNG_QUEUE;
   const int64_t axis = request.args[1] - 1;
   if (!live.known.load(std::memory_order_acquire) || !isPosition(request.args[0]) || axis < 0 ||
       axis >= int64_t{live.axes.load(std::memory_order_relaxed)})

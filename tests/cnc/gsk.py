@@ -10,7 +10,6 @@ import traceback
 import hal
 import linuxcnc
 
-HOME = os.environ["HOME"]
 PATIENCE = 10.0  # seconds until something counts as never happening
 PRESS = 0.25  # seconds that a key is held, some passes of the program
 
@@ -240,11 +239,11 @@ def part():
 
 def single():
     """Single block: one block for each press of cycle start."""
-    with open(f"{HOME}/single.ngc", "w", encoding="ascii") as file:
+    with open("single.ngc", "w", encoding="ascii") as file:
         file.write("G21 G90\nG0 X1\nG0 X2\nG0 X3\nM2\n")
     press("single")
     pins(lamp_single=True)
-    command.program_open(f"{HOME}/single.ngc")
+    command.program_open(os.path.abspath("single.ngc"))
     command.wait_complete(PATIENCE)
     seen = []
     for _ in range(12):
@@ -292,7 +291,7 @@ def remote():
     rungctl("force", "LUBE_LEVEL", "false")
     check("LUBE_LEVEL = false" in rungctl("forced"), "forced")
     rungctl("unforce", "LUBE_LEVEL")
-    check("the new program runs" in rungctl("reload", f"{HOME}/edited.so"), "reload")
+    check("the new program runs" in rungctl("reload", "edited.so"), "reload")
     check("is never set or forced here" in rungctl("set", "X_ESP", "false", refused=True), "the emergency stop was set")
     check(not polled().inpos, "the motion was over before the changes")
     check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, "the motion")
@@ -348,6 +347,6 @@ try:
     result = main() or "passed"
 except BaseException:
     result = traceback.format_exc()
-with open(f"{HOME}/result.txt", "w", encoding="utf-8") as out:
+with open("result.txt", "w", encoding="utf-8") as out:
     out.write(result)
 sys.exit(0 if result == "passed" else 1)

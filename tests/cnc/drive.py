@@ -19,12 +19,11 @@ def pin(name):
     return hal.get_value("rung." + name)
 
 
-def wait(what, condition):
-    end = time.monotonic() + PATIENCE
+def wait(what, condition, patience=PATIENCE):
+    end = time.monotonic() + patience
     while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"never came: {what}; LinuxCNC says {errors.poll()}")
-        time.sleep(0.005)
+        check(time.monotonic() < end, f"never came: {what}")
+        time.sleep(0.001)
 
 
 def pins(**expected):
@@ -34,13 +33,22 @@ def pins(**expected):
         wait(f"{name} = {value}", lambda: pin(name) == value)
 
 
+def polled():
+    status.poll()
+    return status
+
+
+def state(name):
+    return getattr(polled(), name)
+
+
 def check(condition, what):
     if not condition:
-        raise AssertionError(what)
+        raise AssertionError(f"{what}; LinuxCNC says {errors.poll()}")
 
 
 def done(what):
-    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, f"{what} was not done: {errors.poll()}")
+    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, f"{what} was not done")
 
 
 def mdi(line):
@@ -56,13 +64,30 @@ def switch_on():
     command.state(linuxcnc.STATE_ESTOP_RESET)
     done("e-stop reset")
     pins(enable=True)
-    wait("e-stop is reset", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP_RESET)[1])
+    is_state(linuxcnc.STATE_ESTOP_RESET)
     command.state(linuxcnc.STATE_ON)
     done("machine on")
     command.mode(linuxcnc.MODE_MANUAL)
     done("manual mode")
     command.home(-1)
-    wait("homed", lambda: (status.poll(), status.homed[:3] == (1, 1, 1))[1])
+    wait("homed", lambda: state("homed")[:3] == (1, 1, 1))
+
+
+def is_state(what):
+    wait(f"task state {what}", lambda: state("task_state") == what)
+
+
+def idle():
+    wait("the program's end", lambda: state("interp_state") == linuxcnc.INTERP_IDLE)
+def operator(text):
+    """LinuxCNC's user interface shows it."""
+    shown = []
+
+    def comes():
+        shown.append(errors.poll())
+        return any(error and text in error[1] for error in shown)
+
+    wait(f"'{text}' at the operator", comes)
 
 
 def set_mode(mode):
@@ -178,7 +203,7 @@ def alarm():
         pass
     check("the new program runs" in rungctl("reload", "endless.so", "--yes"), "reload")
     pins(fault=True, enable=False)
-    wait("e-stop", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP)[1])
+    is_state(linuxcnc.STATE_ESTOP)
     shown = []
 
     def reported():
@@ -200,7 +225,7 @@ def emergency_stop():
     pins(spindle_cw=True)
     hal.set_p("rung.estop-button", "1")
     pins(enable=False, spindle_cw=False)
-    wait("e-stop", lambda: (status.poll(), status.task_state == linuxcnc.STATE_ESTOP)[1])
+    is_state(linuxcnc.STATE_ESTOP)
 
 
 def session(steps):

@@ -3,51 +3,15 @@
 import json
 import os
 import subprocess
-import sys
 import time
 import traceback
 
 import hal
 import linuxcnc
 
-PATIENCE = 10.0  # seconds until something counts as never happening
+from drive import PATIENCE, check, command, done, operator, pin, pins, polled, rungctl, run, status, wait
+
 PRESS = 0.25  # seconds that a key is held, some passes of the program
-
-command = linuxcnc.command()
-status = linuxcnc.stat()
-errors = linuxcnc.error_channel()
-shown = []  # what the operator has read
-
-
-def polled():
-    status.poll()
-    while (error := errors.poll()) is not None:
-        shown.append(error[1])
-    return status
-
-
-def pin(name):
-    return hal.get_value(name if "." in name else "rung." + name)
-
-
-def wait(what, condition, patience=PATIENCE):
-    end = time.monotonic() + patience
-    while not condition():
-        polled()
-        if time.monotonic() > end:
-            raise AssertionError(f"never came: {what}; the operator has read {shown[-5:]}")
-        time.sleep(0.005)
-
-
-def pins(**expected):
-    for name, value in expected.items():
-        name = name.replace("_", "-")
-        wait(f"{name} = {value}", lambda: pin(name) == value)
-
-
-def check(condition, what):
-    if not condition:
-        raise AssertionError(f"{what}; the operator has read {shown[-5:]}")
 
 
 def put(name, value):
@@ -77,20 +41,13 @@ def mdi(line):
     wait("LinuxCNC at rest", lambda: polled().interp_state == linuxcnc.INTERP_IDLE and status.task_mode == linuxcnc.MODE_MDI)
     begin = time.monotonic()
     command.mdi(line)
-    done = command.wait_complete(PATIENCE)
+    done(line)
     polled()
-    check(done == linuxcnc.RCS_DONE, f"{line} was not done")
     return time.monotonic() - begin
 
 
 def position(axis):
     return polled().actual_position[axis]
-
-
-def rungctl(*words, refused=False):
-    ran = subprocess.run(["rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=30)
-    check((ran.returncode != 0) == refused, f"rungctl {' '.join(words)}: {ran.stdout}")
-    return ran.stdout
 
 
 def switch_on():
@@ -260,7 +217,7 @@ def single():
 def alarm():
     """A motor protection switch trips: feed hold, the operator reads why, reset."""
     put("motors-ok", 0)
-    wait("the alarm at the operator", lambda: any("MOTOR PROTECTION" in text.upper() for text in shown))
+    operator("MOTOR PROTECTION")
     pins(no_block_lock=False, beacon_red=True)
     put("motors-ok", 1)
     signal("reset-key", 1)
@@ -340,13 +297,7 @@ def main():
     failures = [failure for step in STEPS if (failure := tried(step))]
     if pin("fault") or pin("functions-lost") != 0:
         failures.append("a fault, or functions were lost")
-    return "\n".join(failures)
+    check(not failures, "\n".join(failures))
 
 
-try:
-    result = main() or "passed"
-except BaseException:
-    result = traceback.format_exc()
-with open("result.txt", "w", encoding="utf-8") as out:
-    out.write(result)
-sys.exit(0 if result == "passed" else 1)
+run(main)

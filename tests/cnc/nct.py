@@ -8,44 +8,12 @@ import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, errors, mdi, pin, pins, rungctl, set_mode, status, wait
+from drive import check, command, done, errors, idle, is_state, mdi, operator, pin, pins, rungctl, set_mode, state, wait
+from panel import connect, panel, press, put
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
 SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key-on": (hal.HAL_BIT, False),
            "key-reset": (hal.HAL_BIT, False), "wheel-counts": (hal.HAL_S32, 0)}
-panel = hal.component("panel")
-
-
-def connect():
-    for name, (kind, value) in SIGNALS.items():
-        panel.newpin(name, kind, hal.HAL_OUT)
-        panel[name] = value
-    panel.ready()
-    for name in SIGNALS:
-        hal.connect("panel." + name, name)
-
-
-def put(name, value):
-    """A signal of the machine, or an input of the program that nothing drives."""
-    if name in SIGNALS:
-        panel[name] = value
-    else:
-        hal.set_p("rung." + name, str(int(value)))
-
-
-def press(key, seconds=0.08):
-    put(key, True)
-    time.sleep(seconds)
-    put(key, False)
-
-
-def state(name):
-    status.poll()
-    return getattr(status, name)
-
-
-def is_state(what):
-    wait(f"task state {what}", lambda: state("task_state") == what)
 
 
 def mode(name):
@@ -63,17 +31,6 @@ def forget_errors():
         pass
 
 
-def operator(text):
-    """LinuxCNC's user interface shows it."""
-    shown = []
-
-    def comes():
-        shown.append(errors.poll())
-        return any(error and text in error[1] for error in shown)
-
-    wait(f"'{text}' at the operator", comes)
-
-
 def position(axis):
     return state("actual_position")[{"x": 0, "z": 2}[axis]]
 
@@ -84,10 +41,6 @@ def near(value, wanted, within=0.05):
 
 def at(axis, wanted):
     wait(f"{axis} at {wanted}", lambda: near(position(axis), wanted))
-
-
-def idle():
-    wait("the program's end", lambda: state("interp_state") == linuxcnc.INTERP_IDLE)
 
 
 def load(text):
@@ -360,7 +313,7 @@ STEPS = (power, reference, by_hand, functions, bar_feeder, part, counted, signal
 
 
 def session():
-    connect()
+    connect(SIGNALS)
     for step in STEPS:
         if step in (counted, signals, variables, remote, alarm, emergency_stop):
             set_mode(linuxcnc.MODE_MDI)

@@ -6,7 +6,8 @@ import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, errors, mdi, pin, pins, rungctl, set_mode, status, wait
+from drive import check, command, done, errors, idle, is_state, mdi, operator, pin, pins, rungctl, state, wait
+from panel import connect, press, put
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
 SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key-reset": (hal.HAL_BIT, False),
@@ -14,39 +15,6 @@ SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key
            "panel-auto": (hal.HAL_BIT, False), "panel-mdi": (hal.HAL_BIT, False), "panel-manual": (hal.HAL_BIT, False),
            "panel-home": (hal.HAL_BIT, False), "panel-x-minus": (hal.HAL_BIT, False), "wheel-x": (hal.HAL_BIT, False),
            "wheel-counts": (hal.HAL_S32, 0)}
-panel = hal.component("panel")
-
-
-def connect():
-    for name, (kind, value) in SIGNALS.items():
-        panel.newpin(name, kind, hal.HAL_OUT)
-        panel[name] = value
-    panel.ready()
-    for name in SIGNALS:
-        hal.connect("panel." + name, name)
-
-
-def put(name, value):
-    """A signal of the machine, or an input of the program that nothing drives."""
-    if name in SIGNALS:
-        panel[name] = value
-    else:
-        hal.set_p("rung." + name, str(int(value)))
-
-
-def press(key, seconds=0.08):
-    put(key, True)
-    time.sleep(seconds)
-    put(key, False)
-
-
-def state(name):
-    status.poll()
-    return getattr(status, name)
-
-
-def is_state(what):
-    wait(f"task state {what}", lambda: state("task_state") == what)
 
 
 def power():
@@ -68,17 +36,6 @@ def position(axis):
 
 def at(axis, wanted):
     wait(f"{axis} at {wanted}", lambda: abs(position(axis) - wanted) < 0.05)
-
-
-def operator(text):
-    """LinuxCNC's user interface shows it."""
-    shown = []
-
-    def comes():
-        shown.append(errors.poll())
-        return any(error and text in error[1] for error in shown)
-
-    wait(f"'{text}' at the operator", comes)
 
 
 def stands():
@@ -208,10 +165,6 @@ def load(text):
     mode("auto", linuxcnc.MODE_AUTO)
     command.program_open("test.ngc")
     done("program open")
-
-
-def idle():
-    wait("the program's end", lambda: state("interp_state") == linuxcnc.INTERP_IDLE)
 
 
 def part():
@@ -356,7 +309,7 @@ STEPS = [power, by_hand, spindle, coolant, tools, probing, part, stops, alarm, r
 
 
 def session():
-    connect()
+    connect(SIGNALS)
     for step in STEPS:
         begin = time.monotonic()
         step()

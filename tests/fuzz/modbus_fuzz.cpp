@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ir/support/check.h"
+#include "tests/support/faultless_map.h"
 #include "tools/connections/modbus_image.h"
 #include "tools/connections/registers.h"
 #include "tools/connections/socket.h"
@@ -21,8 +22,7 @@ using namespace rung;
 using namespace rung::connections;
 
 mapping::File mapOf() {
-  std::vector<std::string> errors;
-  mapping::File map = mapping::parseMap(R"([in]
+  return test::faultlessMap(R"([in]
 run = { type = "bit", name = "X0.0" }
 door = { type = "bit", name = "X0.1" }
 speed = { type = "s32", name = "D0:2" }
@@ -38,10 +38,7 @@ speed = 0
 turns = { at = 1, format = "u32", order = "low-first" }
 load = { at = 3, format = "f32", order = "high-first" }
 level = 5
-)",
-                                        "f.map", errors);
-  RUNG_CHECK(errors.empty(), "the map has no mistakes");
-  return map;
+)");
 }
 
 struct Server {

@@ -9,6 +9,7 @@
 
 #include "rtlib/host/realtime.h"
 #include "tests/realtime/guard.h"
+#include "tests/support/faultless_map.h"
 #include "tools/connections/connections.h"
 
 namespace rung::test {
@@ -16,8 +17,7 @@ namespace {
 
 mapping::File mapOf() {
   const std::string port = std::to_string(20000 + getpid() % 10000); // two of this program run side by side
-  std::vector<std::string> errors;
-  mapping::File map = mapping::parseMap(R"([in]
+  mapping::File map = faultlessMap(R"([in]
 a = { type = "bit", name = "X0.0" }
 b = { type = "s32", name = "D0:2" }
 c = { type = "float", name = "D4:4" }
@@ -33,13 +33,10 @@ port = )" + port + R"(
 host = "127.0.0.1"
 period = 0.001
 holding-registers = { b = 0, d = 1 }
-port = )" + port,
-                                        "m.map", errors);
-  mapping::File memory =
-      mapping::parseMap("[in]\nc = { type = \"float\", name = \"D4:4\" }\n[shared-memory]\nname = \"rt-" +
-                            std::to_string(getpid()) + "\"\nperiod = 0.001\npins = { c = 0 }\n",
-                        "n.map", errors);
-  EXPECT_TRUE(errors.empty());
+port = )" + port);
+  const mapping::File memory =
+      faultlessMap("[in]\nc = { type = \"float\", name = \"D4:4\" }\n[shared-memory]\nname = \"rt-" +
+                   std::to_string(getpid()) + "\"\nperiod = 0.001\npins = { c = 0 }\n");
   mapping::Connection shared = memory.connections.at(0);
   shared.pins.at(0).pin = 2;
   map.connections.push_back(std::move(shared));

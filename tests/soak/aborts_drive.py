@@ -10,7 +10,8 @@ import time
 
 import hal
 import linuxcnc
-from driver import check, command, done, errors, mdi, pin, polled, run, set_mode, status, switch_on, wait
+from drive import check, command, done, errors, mdi, pin, polled, set_mode, status, wait
+from driver import run, switch_on
 
 TRIES = 60  # the order to LinuxCNC takes some milliseconds: it may come too late for a step
 FAST = 0.0001

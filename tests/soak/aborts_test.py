@@ -51,12 +51,13 @@ def prepare(bench, dialect):
 def machine(bench, driver):
     """LinuxCNC's configuration of tests/cnc; its tasks look for orders every millisecond."""
     ini = (CNC / "machine.ini").read_text(encoding="utf-8").split("[APPLICATIONS]")[0]
-    bench.file("machine.ini", re.sub(r"CYCLE_TIME = .*", "CYCLE_TIME = 0.001", ini))
+    ini = re.sub(r"CYCLE_TIME = .*", "CYCLE_TIME = 0.001", ini)
+    bench.file("machine.ini", ini.replace("./drive.py", f"./{driver.name}"))
     bench.copy(HERE / "machine.hal")
     bench.copy(CNC / "tool.tbl")
-    bench.copy(HERE / "driver.py")
-    bench.copy(driver, "drive.py")
-    (bench.home / "drive.py").chmod(0o755)
+    for file in (CNC / "drive.py", HERE / "driver.py", driver):
+        bench.copy(file)
+    (bench.home / driver.name).chmod(0o755)
 
 
 def interrupted(options, name):

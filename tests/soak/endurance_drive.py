@@ -5,7 +5,8 @@ import time
 
 import hal
 import linuxcnc
-from driver import check, command, done, errors, mdi, polled, run, set_mode, status, switch_on, wait
+from drive import check, command, done, errors, mdi, polled, set_mode, status, wait
+from driver import run, switch_on
 
 HOSTS = ("gsk", "nct", "technol")
 PINS = ("scans", "missed", "functions-lost", "fault")

@@ -11,7 +11,8 @@ import time
 
 import hal
 import linuxcnc
-from driver import check, command, done, polled, run, set_mode, switch_on
+from drive import check, command, done, polled, set_mode
+from driver import run, switch_on
 
 
 def make_mark():

@@ -1,4 +1,5 @@
 // Inputs and outputs of one connection: the newest values, and safe ones while the other side is silent.
+#include "tests/support/faultless_map.h"
 #include "tools/connections/exchange.h"
 
 #include <gmock/gmock.h>
@@ -10,13 +11,11 @@ namespace rung::connections {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 constexpr int64_t kSecond = 1'000'000'000;
 
 mapping::File mapOf() {
-  std::vector<std::string> errors;
-  mapping::File map = mapping::parseMap(R"([in]
+  return test::faultlessMap(R"([in]
 run = { type = "bit", name = "X0.0" }
 speed = { type = "s32", name = "D0:2" }
 load = { type = "float", name = "D4:4" }
@@ -30,10 +29,7 @@ name = "a"
 timeout = 1
 status = "ok"
 pins = { run = { at = 0, safe = true }, speed = { at = 4, safe = -3 }, load = { at = 8, safe = "hold" }, count = 16, lamp = 0, turns = 4 }
-)",
-                                        "m.map", errors);
-  EXPECT_THAT(errors, IsEmpty());
-  return map;
+)");
 }
 
 struct Pins {

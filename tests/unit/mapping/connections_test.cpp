@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/faultless_map.h"
 #include "tools/mapping/file.h"
 
 namespace rung::mapping {
@@ -26,12 +27,7 @@ delay = { type = "u32", name = "D30:2" }
 )";
 constexpr int kFirstLine = 14; // of what follows
 
-File faultless(std::string_view text) {
-  std::vector<std::string> errors;
-  File map = parseMap(std::string(kPins) + std::string(text), "m.map", errors);
-  EXPECT_THAT(errors, IsEmpty());
-  return map;
-}
+File faultless(std::string_view text) { return test::faultlessMap(std::string(kPins) + std::string(text)); }
 
 // Without the name of the file, and with lines counted from the first one of `text`.
 std::vector<std::string> errorsOf(std::string_view text) {

@@ -1,4 +1,5 @@
 // The text of mapping files: what is read, and what is said about each mistake.
+#include "tests/support/faultless_map.h"
 #include "tools/mapping/file.h"
 
 #include <gmock/gmock.h>
@@ -14,12 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-File faultless(std::string_view text) {
-  std::vector<std::string> errors;
-  File map = parseMap(text, "m.map", errors);
-  EXPECT_THAT(errors, IsEmpty());
-  return map;
-}
+using test::faultlessMap;
 
 std::vector<Link> links(const File& map, Direction direction) {
   std::vector<Link> found;
@@ -37,7 +33,7 @@ std::vector<std::string> errorsOf(std::string_view text) {
 }
 
 TEST(MapFile, ReadsEveryTable) {
-  const File map = faultless(R"(# a machine
+  const File map = faultlessMap(R"(# a machine
 timeout = 2.5
 high-speed = true
 
@@ -119,14 +115,14 @@ edge = "rise"
 }
 
 TEST(MapFile, NothingIsNeeded) {
-  const File map = faultless("high-speed = false\n[in]\n");
+  const File map = faultlessMap("high-speed = false\n[in]\n");
   EXPECT_THAT(map.pins, IsEmpty());
   EXPECT_EQ(map.timeoutNs, 0);
   EXPECT_FALSE(map.highSpeed.has_value());
 }
 
 TEST(MapFile, PinsAreInTheOrderOfTheFile) {
-  const File map = faultless(R"(
+  const File map = faultlessMap(R"(
 in.zulu = { type = "bit", name = "X0.0" }
 out.mike = { type = "bit", name = "Y0.0" }
 in.alpha = { type = "bit", name = "X0.1" }
@@ -137,7 +133,7 @@ in.alpha = { type = "bit", name = "X0.1" }
 }
 
 TEST(MapFile, OneInputPinFeedsNamesAndFunctions) {
-  const File map = faultless(R"(
+  const File map = faultlessMap(R"(
 in.cw = { type = "bit", name = ["X0.0", "X0.1"] }
 send = [{ pin = "cw", edge = "rise", function = "M", code = 3 },
         { pin = "cw", edge = "fall", function = "M", code = 5 }]
@@ -151,7 +147,7 @@ send = [{ pin = "cw", edge = "rise", function = "M", code = 3 },
 }
 
 TEST(MapFile, ValuesOfConstants) {
-  const File map = faultless(R"([const]
+  const File map = faultlessMap(R"([const]
 "X0.0" = true
 "X0.1" = false
 A = 0xFFFFFFFF
@@ -294,7 +290,7 @@ TEST(MapFile, BadTimesAndModes) {
   const std::string expected = ", expected seconds, above 0 and at most 1000000; write for example timeout = 30";
   for (const std::string value : {"0", "-1", "nan", "1000000.5", "\"5 s\""})
     EXPECT_THAT(errorsOf("timeout = " + value), ElementsAre("m.map:1:11: timeout: found " + value + expected));
-  EXPECT_EQ(faultless("timeout = 1000000").timeoutNs, 1'000'000'000'000'000);
+  EXPECT_EQ(faultlessMap("timeout = 1000000").timeoutNs, 1'000'000'000'000'000);
   EXPECT_THAT(errorsOf("high-speed = 1"),
               ElementsAre("m.map:1:14: high-speed: found 1, expected true or false; write for example high-speed = "
                           "true"));
@@ -373,7 +369,7 @@ send = [{ pin = "a", edge = "rise", function = "M", code = 3, done = "d" },
 }
 
 TEST(MapFile, PinsOfBothSidesAndParameters) {
-  const File map = faultless(R"([io]
+  const File map = faultlessMap(R"([io]
 mode = { type = "s32", name = "D4:4" }
 [param]
 delay = { type = "u32", name = "D0:2", value = 500 }
@@ -389,7 +385,7 @@ gain = { type = "float", name = "D8:4", scale = 1000 }
 }
 
 TEST(MapFile, BitsOfACellHaveAPinEach) {
-  const File map = faultless(R"([in]
+  const File map = faultlessMap(R"([in]
 key = { type = "bit", name = "X10", bits = 8 }
 [out]
 lamp = { type = "bit", name = "Y0:2", bits = 12 }
@@ -405,7 +401,7 @@ lamp = { type = "bit", name = "Y0:2", bits = 12 }
 }
 
 TEST(MapFile, SafeValues) {
-  const File map = faultless(R"([out]
+  const File map = faultlessMap(R"([out]
 brake = { type = "bit", name = "Y0.0", safe = true }
 speed = { type = "float", name = "Y1", safe = -1.5 }
 count = { type = "s32", name = "Y2", safe = -3 }
@@ -461,7 +457,7 @@ key = { type = "bit", name = "X10", bits = 2 }
 }
 
 TEST(MapFile, WhatRungctlMayDo) {
-  const File map = faultless("[rungctl]\nallow = [\"set\", \"stop\"]\nnever = [\"X0.0\", \"ESTOP\"]\n");
+  const File map = faultlessMap("[rungctl]\nallow = [\"set\", \"stop\"]\nnever = [\"X0.0\", \"ESTOP\"]\n");
   EXPECT_TRUE(map.allowed[static_cast<size_t>(Remote::Set)]);
   EXPECT_TRUE(map.allowed[static_cast<size_t>(Remote::Stop)]);
   EXPECT_FALSE(map.allowed[static_cast<size_t>(Remote::Force)]);

@@ -1,0 +1,32 @@
+"""What the drivers of the example machines share: signals of the machine and the panel, driven by pins of a component of their own."""
+import time
+
+import hal
+
+panel = hal.component("panel")
+driven = set()
+
+
+def connect(signals):
+    """`signals`: their names, each with its type and its first value."""
+    for name, (kind, value) in signals.items():
+        panel.newpin(name, kind, hal.HAL_OUT)
+        panel[name] = value
+    panel.ready()
+    for name in signals:
+        hal.connect("panel." + name, name)
+    driven.update(signals)
+
+
+def put(name, value):
+    """A signal of the machine, or an input of the program that nothing drives."""
+    if name in driven:
+        panel[name] = value
+    else:
+        hal.set_p("rung." + name, str(int(value)))
+
+
+def press(key, seconds=0.08):
+    put(key, True)
+    time.sleep(seconds)
+    put(key, False)

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "ir/support/similar.h"
+#include "rung/runtime.hpp"
 #include "rung/types.hpp"
 
 namespace rung::bind {
@@ -135,29 +136,21 @@ private:
 
   // ---- names
 
-  bool find(const std::string& name, int32_t access, rung_cell_info& info) const {
-    rung_cell cell = 0;
-    info = {};
-    info.size = sizeof info;
-    return rung_instance_find(instance_, name.c_str(), access, &cell) == RUNG_OK &&
-           rung_instance_cell(instance_, cell, &info) == RUNG_OK;
-  }
-
   // As the machine sees it; what the program alone writes may be read.
   std::optional<Place> placeOf(const std::string& name, bool input, bool real) const {
-    rung_cell_info info{};
     const int32_t asReal = real ? RUNG_REAL : 0;
-    if (!find(name, RUNG_WRITE | asReal, info) && (input || !find(name, RUNG_READ | asReal, info))) return std::nullopt;
-    return Place{info.type, info.space, real};
+    std::optional<rung_cell_info> info = cellInfo(instance_, name, RUNG_WRITE | asReal);
+    if (!info && !input) info = cellInfo(instance_, name, RUNG_READ | asReal);
+    return info ? std::optional(Place{info->type, info->space, real}) : std::nullopt;
   }
 
   std::optional<Place> placeOfEntry() {
     if (const auto place = placeOf(entry_->name, entry_->input, false)) return place;
-    rung_cell_info info{};
-    if (!find(entry_->name, RUNG_READ, info)) return fail(unknownName());
-    if (info.space == RUNG_NONE)
+    const std::optional<rung_cell_info> info = cellInfo(instance_, entry_->name, RUNG_READ);
+    if (!info) return fail(unknownName());
+    if (info->space == RUNG_NONE)
       return fail(Mistake{"the constant " + entry_->name, "a place in the memory", "remove the line"});
-    (void)find(entry_->name, RUNG_WRITE, info);
+    (void)cellInfo(instance_, entry_->name, RUNG_WRITE);
     return fail(Mistake{entry_->name, "a place where a value lasts", rung_error_text()});
   }
 
@@ -242,8 +235,7 @@ private:
              false;
     if (rung_instance_bind_blocks(instance_, &block, 1) == RUNG_OK) return true;
     const std::string problem = rung_error_text();
-    rung_cell_info info{};
-    if (!find(row.name, RUNG_READ, info)) return fail(unknownName()), false;
+    if (!cellInfo(instance_, row.name, RUNG_READ)) return fail(unknownName()), false;
     return fail(Mistake{fmt::format("{} bytes of {} for {}", row.bytes, row.member, row.name),
                         "room for a block of them", problem}),
            false;

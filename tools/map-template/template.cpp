@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "rtlib/nc/signals.h"
+#include "rung/runtime.hpp"
+#include "rung/types.hpp"
 #include "tools/mapping/file.h"
 
 namespace rung::map_template {
@@ -58,21 +60,7 @@ std::string inToml(std::string_view text) {
   return made + '"';
 }
 
-constexpr uint64_t kBitsInByte = 8;
-
-uint64_t firstBit(const rung_cell_info& info) {
-  return info.byte * kBitsInByte + (info.type == RUNG_TYPE_BIT ? info.bit : 0);
-}
-
-uint64_t bitsOf(uint32_t type) {
-  switch (type) {
-  case RUNG_TYPE_BIT: return 1;
-  case RUNG_TYPE_I8: return 8;
-  case RUNG_TYPE_I16: return 16;
-  case RUNG_TYPE_I32: return 32;
-  default: return 64;
-  }
-}
+uint64_t firstBit(const rung_cell_info& info) { return uint64_t{8} * info.byte + info.bit; }
 
 class Template {
 public:
@@ -82,9 +70,10 @@ public:
   }
 
   void add(const UsedName& used) {
-    rung_cell_info info{};
-    const bool writable = find(used.name, RUNG_WRITE, info); // perhaps of another place, which the NC writes
-    if (!find(used.name, RUNG_READ, info)) return;
+    const bool writable = cellInfo(instance_, used.name, RUNG_WRITE).has_value();
+    const std::optional<rung_cell_info> found = cellInfo(instance_, used.name, RUNG_READ);
+    if (!found) return;
+    const rung_cell_info& info = *found;
     if (info.space == RUNG_NONE || info.type == RUNG_TYPE_TEXT || info.count != 1) return;
     const uint32_t flags = sidesOf(info);
     constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
@@ -122,10 +111,12 @@ private:
   };
 
   void addSignal(const nc::Signal& signal) {
-    rung_cell_info info{};
-    if (signal.direction == nc::Direction::InOut || !find(signal.symbol, RUNG_READ, info)) return;
+    if (signal.direction == nc::Direction::InOut) return;
+    const std::optional<rung_cell_info> found = cellInfo(instance_, signal.symbol, RUNG_READ);
+    if (!found) return;
+    const rung_cell_info& info = *found;
     const uint64_t first = firstBit(info);
-    signals_.push_back({info.space, first, first + bitsOf(info.type) * info.count,
+    signals_.push_back({info.space, first, first + uint64_t{elementBits(info.type)} * info.count,
                         signal.direction == nc::Direction::In ? RUNG_SPACE_INPUT : RUNG_SPACE_OUTPUT});
   }
 
@@ -135,14 +126,6 @@ private:
     for (const SignalPlace& place : signals_)
       if (place.space == info.space && place.first <= first && first < place.end) return place.side;
     return program_.spaces[info.space].flags;
-  }
-
-  bool find(const std::string& name, int32_t access, rung_cell_info& info) const {
-    rung_cell cell = 0;
-    info = {};
-    info.size = sizeof info;
-    return rung_instance_find(instance_, name.c_str(), access, &cell) == RUNG_OK &&
-           rung_instance_cell(instance_, cell, &info) == RUNG_OK;
   }
 
   std::string uniquePin(const std::string& name) {

@@ -329,14 +329,11 @@ void Controller::logChange(const Peer& peer, const std::string& text) {
 std::vector<Controller::Range> Controller::rangesOf(const std::string& name) const {
   std::vector<Range> ranges;
   for (const int32_t access : {RUNG_READ, RUNG_WRITE}) {
-    rung_cell cell = 0;
-    auto info = sized<rung_cell_info>();
-    if (rung_instance_find(box_.instance(), name.c_str(), access, &cell) != RUNG_OK ||
-        rung_instance_cell(box_.instance(), cell, &info) != RUNG_OK || info.space == RUNG_NONE)
-      continue;
+    const std::optional<rung_cell_info> info = cellInfo(box_.instance(), name, access);
+    if (!info || info->space == RUNG_NONE) continue;
     constexpr uint64_t kBitsOfAByte = 8;
-    ranges.push_back({info.space, info.byte * kBitsOfAByte + info.bit,
-                      uint64_t{elementBits(info.type)} * std::max<uint32_t>(1, info.count)});
+    ranges.push_back({info->space, info->byte * kBitsOfAByte + info->bit,
+                      uint64_t{elementBits(info->type)} * std::max<uint32_t>(1, info->count)});
   }
   return ranges;
 }

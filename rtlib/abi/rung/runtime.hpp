@@ -38,6 +38,16 @@ Struct sized() {
   return out;
 }
 
+// What a name is for this access (enum rung_access, added up). Nothing: it cannot be found, and rung_error_text says
+// why.
+inline std::optional<rung_cell_info> cellInfo(rung_instance* instance, const std::string& name, int32_t access) {
+  rung_cell cell = 0;
+  auto info = sized<rung_cell_info>();
+  const bool isThere = rung_instance_find(instance, name.c_str(), access, &cell) == RUNG_OK &&
+                       rung_instance_cell(instance, cell, &info) == RUNG_OK;
+  return isThere ? std::optional(info) : std::nullopt;
+}
+
 template <class Handle, int32_t (*End)(Handle*)>
 struct Ends {
   void operator()(Handle* handle) const noexcept { End(handle); }

@@ -94,7 +94,7 @@ void Operation::start(host::Instance& instance) {
   send(instance, PlcEvent::Start);
 }
 
-// A motion is one block from where the host begins it to where it stands; the host's kind of motion stays in the block.
+// A motion is one block from where the host begins it to where it ends; the host's kind of motion stays in the block.
 void Operation::follow(host::Instance& instance, bool moves) {
   if (moves_ && !blocks_.busy()) moves_ = false; // given up by an annulment
   if (moves && !moves_) {

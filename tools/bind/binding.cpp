@@ -10,19 +10,14 @@
 #include "ir/support/similar.h"
 #include "rung/runtime.hpp"
 #include "rung/types.hpp"
+#include "tools/mapping/mistake.h"
 
 namespace rung::bind {
 namespace {
 
 using codegen::HostLayout;
 using codegen::MemberKind;
-
-// What is wrong, in the order of a message.
-struct Mistake {
-  std::string found;
-  std::string expected;
-  std::string fix;
-};
+using mapping::Mistake;
 
 // The cell of a name.
 struct Place {
@@ -247,9 +242,7 @@ private:
     errors_.push_back({entry_->at, fmt::format("{}.{}: {}", entry_->input ? "in" : "out", entry_->member, what)});
     return std::nullopt;
   }
-  std::nullopt_t fail(const Mistake& mistake) {
-    return fail(fmt::format("found {}, expected {}; {}", mistake.found, mistake.expected, mistake.fix));
-  }
+  std::nullopt_t fail(const Mistake& mistake) { return fail(mistake.text()); }
   std::nullopt_t failCounter(const Counter& counter, const std::string& what) {
     errors_.push_back({counter.at, "counters: " + what});
     return std::nullopt;

@@ -9,6 +9,7 @@
 #include "ir/support/similar.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
+#include "tools/mapping/mistake.h"
 
 namespace rung::mapping {
 namespace {
@@ -39,13 +40,6 @@ enum class Misfit : uint8_t {
   Cell,   // and the type is a bit
   Real,   // and the type is an integer
   Narrow, // and more bits are wanted
-};
-
-// What is wrong, in the order of a message.
-struct Mistake {
-  std::string found;
-  std::string expected;
-  std::string fix;
 };
 
 // The place of a name, and its type.
@@ -347,8 +341,7 @@ private:
   }
 
   std::nullopt_t fail(Position at, const std::string& where, const Mistake& mistake) {
-    errors_.push_back(
-        map_.message(at, where + ": found " + mistake.found + ", expected " + mistake.expected + "; " + mistake.fix));
+    errors_.push_back(map_.message(at, where + ": " + mistake.text()));
     return std::nullopt;
   }
 

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/control/technol/technol_control.h"
-#include "tests/unit/technol/program.h"
+#include "tests/unit/technol/with_control.h"
 
 namespace rung::nc {
 namespace {
@@ -27,27 +26,11 @@ constexpr const char* kInit = "        LOD  INITS\n        INR\n        STO  INI
 constexpr const char* kDone =
     "        LOD  DONES\n        INR\n        STO  DONES\n        BEX\n        LDR  GO2\n        EX0\n";
 
-class TechnolHandshake : public ::testing::Test {
+class TechnolHandshake : public technol_test::WithControl {
 protected:
-  TechnolHandshake()
-      : compilation_(technol_test::compile(
-            {technol_test::programText({.data = kData, .main = kMain, .blockInit = kInit, .blockDone = kDone})})) {
-    if (!compilation_.module) throw std::runtime_error(compilation_.text());
-    layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
-    engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
-    instance_ = std::make_unique<host::Instance>(*engine_, &control_);
-    control_.powerOn(*instance_, PowerOn::Cold);
-  }
+  TechnolHandshake() : WithControl({.data = kData, .main = kMain, .blockInit = kInit, .blockDone = kDone}) {}
 
   Functions& functions() { return *control_.functions(0); }
-  host::Ref place(std::string_view name) {
-    const auto found = control_.readPlace(instance_->program(), name);
-    EXPECT_TRUE(found) << name;
-    return found.value_or(host::Ref{});
-  }
-  uint64_t get(std::string_view name) { return instance_->read(place(name)); }
-  double real(std::string_view name) { return instance_->readReal(place(name)); }
-  void set(std::string_view name, uint64_t value) { EXPECT_FALSE(instance_->write(place(name), value)); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) {
       functions().step();
@@ -61,12 +44,6 @@ protected:
     scan(2);
     EXPECT_FALSE(functions().busy(0));
   }
-
-  TechnolControl control_;
-  technol_test::Compilation compilation_;
-  std::unique_ptr<ir::Layout> layout_;
-  std::unique_ptr<ir::InterpEngine> engine_;
-  std::unique_ptr<host::Instance> instance_;
 };
 
 TEST_F(TechnolHandshake, AFunctionIsABlockWithoutMotion) {

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/control/technol/technol_control.h"
-#include "tests/unit/technol/program.h"
+#include "tests/unit/technol/with_control.h"
 
 namespace rung::nc {
 namespace {
@@ -19,27 +18,15 @@ constexpr const char* kInit =
     "        LOD  INITS\n        INR\n        STO  INITS\n        BEX\n        LDR  GO\n        EX0\n";
 constexpr const char* kDone = "        LOD  DONES\n        INR\n        STO  DONES\n";
 
-class TechnolOperation : public ::testing::Test {
+class TechnolOperation : public technol_test::WithControl {
 protected:
   TechnolOperation()
-      : compilation_(technol_test::compile({technol_test::programText(
-            {.data = std::string(kData) + "CODE:   DS 4\n", .main = kMain, .blockInit = kInit, .blockDone = kDone})})) {
-    if (!compilation_.module) throw std::runtime_error(compilation_.text());
-    layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
-    engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
-    instance_ = std::make_unique<host::Instance>(*engine_, &control_);
-    control_.powerOn(*instance_, PowerOn::Cold);
+      : WithControl(
+            {.data = std::string(kData) + "CODE:   DS 4\n", .main = kMain, .blockInit = kInit, .blockDone = kDone}) {
     set("MPXPI", 1);
     scan();
   }
 
-  host::Ref place(std::string_view name) {
-    const auto found = control_.readPlace(instance_->program(), name);
-    EXPECT_TRUE(found) << name;
-    return found.value_or(host::Ref{});
-  }
-  uint64_t get(std::string_view name) { return instance_->read(place(name)); }
-  void set(std::string_view name, uint64_t value) { EXPECT_FALSE(instance_->write(place(name), value)); }
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) {
       control_.beforeSlice(*instance_);
@@ -53,12 +40,6 @@ protected:
     set("EVENTS", 0);
     return now;
   }
-
-  TechnolControl control_;
-  technol_test::Compilation compilation_;
-  std::unique_ptr<ir::Layout> layout_;
-  std::unique_ptr<ir::InterpEngine> engine_;
-  std::unique_ptr<host::Instance> instance_;
 };
 
 TEST_F(TechnolOperation, AMotionIsABlockAndWaitsForItsInit) {

@@ -163,6 +163,11 @@ class _Answering(enum.IntEnum):
     QUEUE = 2
 
 
+class _MessageFlags(enum.IntFlag):
+    LASTS = 1
+    LOGGED_ONLY = 2
+
+
 class _InstanceFlags(enum.IntFlag):
     MEASURE = 1
     QUEUE_REQUESTS = 2
@@ -534,6 +539,7 @@ _FUNCTIONS = {
     "rung_instance_bind_struct": (c_int32, _Handle, POINTER(rung_layout), c_void_p),
     "rung_instance_torn": (c_int32, _Handle, c_void_p, POINTER(c_uint32)),
     "rung_instance_next_message": (c_int32, _Handle, POINTER(rung_message_info)),
+    "rung_instance_define_message": (c_int32, _Handle, _U32, _U32, _Text),
     "rung_instance_shown": (c_int32, _Handle, _U32, POINTER(rung_message_info)),
     "rung_instance_next_request": (c_int32, _Handle, POINTER(rung_request)),
     "rung_instance_answer": (c_int32, _Handle, POINTER(rung_reply)),
@@ -1010,6 +1016,13 @@ class Instance(_Closing):
         message = rung_message_info()
         while _call(_library.rung_instance_next_message, self, byref(message)) != Status.EMPTY:
             yield _message(message)
+
+    def define_message(self, number, text, *, lasts=False, logged_only=False):
+        """What the machine's configuration says of a message, before the first power_on, for dialects that have the texts
+        outside of the program: %d, %x and %X in the text are places for the message's values; whether it is shown until
+        the program ends it, not shown at all. Errors: NOT_FOUND, the texts are in the program; WRONG_STATE."""
+        flags = bool(lasts) * _MessageFlags.LASTS | bool(logged_only) * _MessageFlags.LOGGED_ONLY
+        _call(_library.rung_instance_define_message, self, number, flags, text)
 
     def shown(self):
         """What the operator sees now: a list of Message."""

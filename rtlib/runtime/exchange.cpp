@@ -54,16 +54,34 @@ int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* m
   rung_message next;
   if (message == nullptr || !hasSize(message)) return failSize("rung_message_info");
   if (!handle->messages.pop(next)) return RUNG_EMPTY;
-  rung_message_info out{.op = next.op,
-                        .number = next.number,
-                        .channel = next.channel,
-                        .index = next.index,
-                        .real = next.real,
-                        .value = {.integer = next.value}};
+  const rung_message seen = handle->control->outward(next);
+  rung_message_info out{.op = seen.op,
+                        .number = seen.number,
+                        .channel = seen.channel,
+                        .index = seen.index,
+                        .real = seen.real,
+                        .value = {.integer = seen.value}};
   const rung_program& program = *handle->program.load(std::memory_order_acquire);
-  if (next.op != RUNG_MESSAGE_CLEAR) // which names no values
-    out.text[handle->control->describe(program, next, std::span(out.text, sizeof out.text - 1))] = 0;
+  if (seen.op != RUNG_MESSAGE_CLEAR) { // which names no values
+    char line[sizeof out.text];        // one character more than fits: whether the last one is whole
+    putText(out.text, {line, handle->control->describe(program, next, line)});
+  }
   return giveStruct(message, out);
+}
+
+int32_t rung_instance_define_message(rung_instance* instance, uint32_t number, uint32_t flags, const char* text) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (text == nullptr) return fail(RUNG_BAD_ARGUMENT, "the text of message %u is null", number);
+  if (call->wasOn) return fail(RUNG_WRONG_STATE, "what messages are is said before the first power-on");
+  return contained([&] {
+    const bool taken = call->control->define({.number = number,
+                                              .lasts = (flags & RUNG_MESSAGE_LASTS) != 0,
+                                              .loggedOnly = (flags & RUNG_MESSAGE_LOGGED_ONLY) != 0,
+                                              .text = text});
+    if (taken) return int32_t{RUNG_OK};
+    return fail(RUNG_NOT_FOUND, "the dialect has the texts of its messages in the program");
+  });
 }
 
 int32_t rung_instance_shown(const rung_instance* instance, uint32_t index, rung_message_info* message) {

@@ -250,6 +250,24 @@ edge = "up"
     expect("program.map:3:28: in.b.name: found Y0.0, an output of the program, expected" in output, "line 3")
     expect("program.map:5:28: out.c.name: found an unknown name NOWHERE, expected" in output, "line 5")
     expect('program.map:8:8: abort.edge: found "up", expected "rise" or "fall"; write' in output, "line 8")
+    # Connections are rung-run's; what nobody knows is not passed over.
+    output = load("""[out]
+lamp = { type = "bit", name = "Y0.0", sfae = true }
+[modbus-server]
+discrete-inputs = { lamp = 0 }
+[shared-memory]
+name = "box"
+pins = { lamp = 0 }
+[[sned]]
+pin = "a"
+""")
+    refused = ": found a connection that only rung-run serves, expected none in LinuxCNC, where HAL connects the pins; remove the table ["
+    for line, table in ((3, "modbus-server"), (5, "shared-memory")):
+        expect(f"program.map:{line}:1: {table}{refused}{table}]" in output, f"the table {table}")
+    expect("program.map:2:39: out.lamp: found an unknown key sfae, expected type, name, scale, bits, safe; did you mean safe?" in output,
+           "an unknown key of a pin")
+    expect("program.map:8:3: the file: found an unknown key sned, expected include, " in output and "; did you mean send?" in output,
+           "an unknown table")
     output = load("[in]\nin bit a X0.0\n")
     expect("program.map:2:4: Error while parsing key-value pair" in output, "not TOML")
     expect("cannot make pin rung.fault" in load('out.fault = { type = "bit", name = "Y0.0" }\n'), "a reserved name")
@@ -264,8 +282,8 @@ edge = "up"
     secret = bench.folder / "secret.map"
     secret.write_text("secret of root\n", encoding="utf-8")
     secret.chmod(0o600)
-    output = load("", "map=@DIR@/../secret.map") + load('include = "../secret.map"\n')
-    expect(output.count("secret.map: Permission denied") == 2 and "secret of root" not in output, "root's file was read")
+    output = load("", "map=@DIR@/../secret.map") + load('include = "../secret.map"\n') + load('PlcErrors = "../secret.map"\n')
+    expect(output.count("secret.map: Permission denied") == 3 and "secret of root" not in output, "root's file was read")
     output = load("", "retain=@DIR@/../memory")
     expect("/../memory" in output and not list(bench.folder.glob("memory*")), "root's folder was written")
 

@@ -70,6 +70,9 @@ rung
 rung
 |--[WARM]--{ALRF #21 #2 #0 *-0.25}--(7100.01)
 """
+# Message 12 with the value of COUNT while SHOW is on, 13 with it.
+NOTES = VALUES.replace("DATA\n", "DATA\n        DFM  SHOW,,,,,,,\n", 1).replace(
+    "MODULE_MAIN_END", "        LDR  SHOW\n        JL0  QUIET\n        ESET 12,-,-,COUNT\n        ESET 13\nQUIET:\nMODULE_MAIN_END")
 # Asks for a tool offset by the block from D100 on: function, result, length, number, attribute, data. AGAIN: ever again.
 WINDOW = """dialect gsk
 symbol ASK  R0.0
@@ -101,7 +104,7 @@ def setUpModule():
     FOLDER = tempfile.TemporaryDirectory()
     for name in ("axis", "axis-2"):
         build(f"examples/embed-plc/{name}.lad", f"{name}.so", "--profile")
-    for name, text in (("values.plc", VALUES), ("next.plc", NEXT), ("messages.lad", MESSAGES), ("window.lad", WINDOW),
+    for name, text in (("values.plc", VALUES), ("next.plc", NEXT), ("messages.lad", MESSAGES), ("notes.plc", NOTES), ("window.lad", WINDOW),
                        ("again.lad", AGAIN)):
         build(written(name, text), Path(name).stem + ".so")
 
@@ -223,7 +226,8 @@ class Header(unittest.TestCase):
                  rung.Type: ("rung_type", "RUNG_TYPE_"), rung.SymbolFlags: ("rung_symbol_flags", "RUNG_SYMBOL_"),
                  rung.MessageOp: ("rung_message_op", "RUNG_MESSAGE_"), rung.ChangeKind: ("rung_change_kind", "RUNG_CHANGE_"),
                  rung.ShadowState: ("rung_shadow_state", "RUNG_SHADOW_"),
-                 rung._Answering: ("rung_answer", "RUNG_"), rung._InstanceFlags: ("rung_instance_flags", "RUNG_")}
+                 rung._Answering: ("rung_answer", "RUNG_"), rung._InstanceFlags: ("rung_instance_flags", "RUNG_"),
+                 rung._MessageFlags: ("rung_message_flags", "RUNG_MESSAGE_")}
         of_module = {kind for kind in vars(rung).values() if isinstance(kind, enum.EnumMeta)}
         self.assertEqual(of_module, set(enums))
         text = HEADER + (ABI / "rung/program.h").read_text()
@@ -692,6 +696,24 @@ class Messages(Case):
         plc.scan()
         self.assertEqual([(message.op, message.number) for message in plc.messages()], [(rung.MessageOp.CLEAR, 20)])
         self.assertEqual([message.number for message in plc.shown()], [21])
+
+    def test_texts_of_the_configuration(self):
+        plc = rung.Instance(self.image("notes"))
+        self.addCleanup(plc.close)
+        plc.define_message(12, "Pump %d is hot: 70 \N{DEGREE SIGN}C", lasts=True)
+        plc.define_message(13, "counted", logged_only=True)
+        plc.power_on(rung.COLD)
+        self.fails(rung.Status.WRONG_STATE, plc.define_message, 12, "late", text="before the first power-on")
+        plc["SHOW"] = 1
+        plc.scan()
+        first, second = plc.messages()
+        self.assertEqual((first.op, first.number, first.value), (rung.MessageOp.SHOW_LOG, 12, 1))
+        self.assertEqual(first.text, "PLC00012 0 1 0 0 Pump 1 is hot: 70 \N{DEGREE SIGN}C")
+        self.assertEqual((second.op, second.text), (rung.MessageOp.LOG, "PLC00013 0 0 0 0 counted"))
+        self.assertEqual([message.number for message in plc.shown()], [12])
+        other = rung.Instance(self.image("messages"))
+        self.addCleanup(other.close)
+        self.fails(rung.Status.NOT_FOUND, other.define_message, 20, "x", text="in the program")
 
     def test_lost(self):
         plc = self.plc("messages")

@@ -52,7 +52,7 @@ MODULES = {
 OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
 HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
 IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
-                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
+                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
 TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects, for tools/services
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them

@@ -99,7 +99,7 @@ private:
   template <class Row>
   using Key = mapping::Key<Reader, Row>;
 
-  static const Key<File> kFileKeys[15];
+  static const Key<File> kFileKeys[16];
   static const Key<File> kRemoteKeys[2];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
@@ -112,8 +112,27 @@ private:
   }
 
   // The file's keys.
-  bool takeIncludes(const toml::node& node, File& map);
+  bool takeIncludes(const toml::node& node, File&) {
+    return takePaths(node, [this](const toml::node& path) { include(path); });
+  }
   void include(const toml::node& node);
+  bool takeMessageFiles(const toml::node& node, File& map) {
+    return takePaths(node, [&](const toml::node& path) {
+      map.messageFiles.push_back({beside(map.paths[file()], textOf(path)), positionOf(path)});
+    });
+  }
+  // A path, or a list of paths.
+  template <class Take>
+  static bool takePaths(const toml::node& node, Take take) {
+    const auto isText = [](const toml::node& element) { return !textOf(element).empty(); };
+    const toml::array* list = node.as_array();
+    if (list == nullptr ? !isText(node) : list->empty() || !std::ranges::all_of(*list, isText)) return false;
+    if (list == nullptr)
+      take(node);
+    else
+      for (const toml::node& element : *list) take(element);
+    return true;
+  }
   bool takeTimeout(const toml::node& node, File& map) {
     const std::optional<double> seconds = numberOf(node);
     if (!seconds || !(*seconds >= kShortestTimeout && *seconds <= kLongestTimeout)) return false;
@@ -271,6 +290,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
     {"const", false, "a table", "[const] and NAME = VALUE in the lines after it", &Reader::takeConstants},
     {"send", false, "a list of tables", "[[send]] and its keys in the lines after it", &Reader::takeSends},
     {"m-groups", false, "a table", "[m-groups] and CODE = GROUP in the lines after it", &Reader::takeGroups},
+    {"PlcErrors", false, "the path of a file, or a list of paths", "PlcErrors = \"Plc0.PlcErrors\"",
+     &Reader::takeMessageFiles},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
     {"rungctl", false, "a table", "[rungctl] and allow = [ … ] in the lines after it", &Reader::takeRemote},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
@@ -327,18 +348,6 @@ void Reader::read(std::string_view text, const std::string& path) {
          std::string(error.description()) + "; the file must be TOML, and further mistakes are found once this is");
   }
   setFile(before);
-}
-
-bool Reader::takeIncludes(const toml::node& node, File&) {
-  const auto isText = [](const toml::node& element) { return !textOf(element).empty(); };
-  if (const toml::array* list = node.as_array()) {
-    if (list->empty() || !std::ranges::all_of(*list, isText)) return false;
-    for (const toml::node& element : *list) include(element);
-    return true;
-  }
-  if (!isText(node)) return false;
-  include(node);
-  return true;
 }
 
 void Reader::include(const toml::node& node) {

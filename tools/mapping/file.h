@@ -88,6 +88,12 @@ struct Group {
   Position at; // of the code
 };
 
+// PlcErrors: a file of the control's own that has the texts of messages.
+struct MessageFile {
+  std::string path;
+  Position at;
+};
+
 // rungctl: what may be done from outside while the program runs.
 enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
 inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
@@ -155,6 +161,7 @@ struct File {
   std::vector<Constant> constants;
   std::vector<Send> sends;
   std::vector<Group> groups;
+  std::vector<MessageFile> messageFiles;
   bool allowed[std::size(kRemoteNames)] = {}; // by Remote
   std::vector<Protected> never;
   std::vector<Connection> connections;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "tools/mapping/message_texts.h"
+
 namespace rung::plc {
 namespace {
 
@@ -62,6 +64,7 @@ std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, std::vecto
                                const NewInstance& newInstance) try {
   std::unique_ptr<Box> box(new Box(image, std::move(map), retain, newInstance));
   box->binding_ = mapping::bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
+  mapping::defineMessages(box->map_, box->plc_.handle(), errors);
   if (!errors.empty()) return nullptr;
   box->bindValues();
   box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->plc_.handle());

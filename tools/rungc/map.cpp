@@ -6,6 +6,7 @@
 #include "rung/runtime.hpp"
 #include "tools/map-template/template.h"
 #include "tools/mapping/binding.h"
+#include "tools/mapping/message_texts.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
 #include "tools/scenario/place_names.h"
@@ -45,6 +46,7 @@ int checkMap(const MapOptions& options, const OpenedProgram& program) {
   if (map.paths.empty()) return environmentError(errors.front());
   const Instance instance(*program.image);
   mapping::bindMap(map, instance.handle(), program.image->program(), errors);
+  mapping::defineMessages(map, instance.handle(), errors);
   for (const std::string& error : errors) fmt::print(stderr, "{}\n", error);
   if (!errors.empty()) return kWrong;
   if (!options.source.quiet) fmt::print("{}: {} pins, no mistakes\n", options.check, map.pins.size());

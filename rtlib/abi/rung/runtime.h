@@ -443,6 +443,18 @@ typedef struct rung_message_info {
 /* The next message that the program has shown, cleared or logged. RUNG_EMPTY. [any] [rt] */
 RUNG_API int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* message);
 
+enum rung_message_flags {
+  RUNG_MESSAGE_LASTS = 1,       /* it is shown until the program ends it, else until the operator confirms it */
+  RUNG_MESSAGE_LOGGED_ONLY = 2, /* the operator does not see it */
+};
+
+/* What the configuration of a machine says of a message, for dialects that have the texts outside of the program;
+ * before the first power-on. `flags`: of enum rung_message_flags. `text`: UTF-8; %d, %x and %X are places for the
+ * message's values, in their order. The last definition of a number counts. RUNG_NOT_FOUND: the dialect has the texts
+ * in the program. RUNG_WRONG_STATE: the program was on. */
+RUNG_API int32_t rung_instance_define_message(rung_instance* instance, uint32_t number, uint32_t flags,
+                                              const char* text);
+
 /* What the operator sees now: the index-th message. RUNG_EMPTY: there are not so many. */
 RUNG_API int32_t rung_instance_shown(const rung_instance* instance, uint32_t index, rung_message_info* message);
 

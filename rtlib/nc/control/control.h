@@ -70,6 +70,11 @@ public:
     return readPlace(program, name);
   }
 
+  // What the machine's configuration says of a message, before the first power-on. False: the dialect has texts of
+  // messages in the program alone.
+  virtual bool define(const DefinedMessage& message) { return (void)message, false; }
+  // A message of the program's queue as a host reads it: its number alone, and what becomes of it.
+  virtual rung_message outward(const rung_message& message) const noexcept { return message; }
   // A message that the host has taken from the program's queue, and those that the operator sees now.
   virtual void accept(const rung_message& message) { (void)message; }
   virtual std::vector<ShownMessage> messages(const host::Instance& instance) const {

@@ -17,6 +17,14 @@ struct ShownMessage {
   bool operator==(const ShownMessage&) const = default;
 };
 
+// What the machine's configuration says of one message.
+struct DefinedMessage {
+  uint32_t number = 0;
+  bool lasts = false;      // it is shown until the program ends it, else until the operator confirms it
+  bool loggedOnly = false; // it is not shown
+  std::string text;        // %d, %x and %X are places for the values of the message
+};
+
 // Characters that Control::describe may write; longer texts are cut off.
 inline constexpr size_t kMessageLine = 400;
 

@@ -176,8 +176,8 @@ b = { typ = "bit", name = "X0.0" }
 c = 5
 )"),
       ElementsAre("m.map:1:1: the file: found an unknown key timout, expected include, timeout, high-speed, in, "
-                  "out, io, param, const, send, m-groups, abort, rungctl, modbus-client, modbus-server, shared-memory; "
-                  "did you mean timeout?",
+                  "out, io, param, const, send, m-groups, PlcErrors, abort, rungctl, modbus-client, modbus-server, "
+                  "shared-memory; did you mean timeout?",
                   "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
                   "write for example type = \"bit\"",
                   "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "

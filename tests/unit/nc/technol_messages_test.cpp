@@ -52,5 +52,24 @@ TEST(TechnolMessages, TheTextComesWithItsValues) {
   EXPECT_EQ(messages.shown()[0].text, "at 7, code 8, 9; %d 100 %");
 }
 
+// l.5013-5064, 5262-5281: `set` is ignored for a transient message; Event is registered only.
+TEST(TechnolMessages, WhatAHostReads) {
+  technol::Messages messages;
+  messages.define({12, technol::MessageKind::Err, technol::Validity::Transient, ""});
+  messages.define({13, technol::MessageKind::Err, technol::Validity::Persistent, ""});
+  messages.define({14, technol::MessageKind::Event, technol::Validity::Transient, ""});
+  const auto opOf = [&](uint32_t number, uint32_t op) {
+    rung_message message = messageOf(number, 0, 0, 0, 0);
+    message.op = op;
+    return messages.outward(message).op;
+  };
+  EXPECT_EQ(opOf(12, RUNG_MESSAGE_SHOW_LOG), RUNG_MESSAGE_SHOW_LOG);
+  EXPECT_EQ(opOf(12, RUNG_MESSAGE_CLEAR), RUNG_MESSAGE_SHOW_LOG);
+  EXPECT_EQ(opOf(12 | technol::kByBit, RUNG_MESSAGE_CLEAR), RUNG_MESSAGE_CLEAR);
+  EXPECT_EQ(opOf(13, RUNG_MESSAGE_CLEAR), RUNG_MESSAGE_CLEAR);
+  EXPECT_EQ(opOf(14, RUNG_MESSAGE_SHOW_LOG), RUNG_MESSAGE_LOG);
+  EXPECT_EQ(messages.outward(messageOf(12 | technol::kPersistentWanted, 0, 0, 0, 0)).number, 12u);
+}
+
 } // namespace
 } // namespace rung::nc

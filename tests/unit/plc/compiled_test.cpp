@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "ir/support/temporary_folder.h"
 #include "tests/support/compiled_program.h"
 #include "tests/support/count_allocations.h"
 #include "tests/unit/plc/bench.h"
@@ -9,7 +12,9 @@
 namespace rung::plc {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 using testing::Bench;
 
@@ -274,7 +279,7 @@ TEST_F(NctBox, AStepAllocatesNothing) {
 
 // ---- TECHNOL -------------------------------------------------------------------------------------------------------
 
-// M06 waits for P1IN.0; M03 and M04 are there until the next M of the group.
+// M06 waits for P1IN.0; M03 and M04 are there until the next M of the group; P1IN.1 shows message 7.
 constexpr const char* kTechnol = R"(DATA
 IN1:    DFM  ARM,BUSY,,,,,,
 OUT0:   DFM  CHANGE,CW,CCW,,,,,
@@ -319,6 +324,8 @@ MODULE_BLOCK_DONE
 MODULE_BLOCK_DONE_END
 MODULE_MAIN
         MOVE P0OUT,OUT0
+        LDR  BUSY
+        ESET1 7
 MODULE_MAIN_END
 MODULE_INIT
 MODULE_INIT_END
@@ -334,6 +341,7 @@ timeout = 1.5
 
 [in]
 arm = { type = "bit", name = "P1IN.0" }
+busy = { type = "bit", name = "P1IN.1" }
 
 [out]
 changing = { type = "bit", name = "P0OUT.0" }
@@ -436,6 +444,27 @@ TEST_F(TechnolBox, OneThatTakesTooLongShows) {
   b["change"].bit = true;
   b.run(1505);
   EXPECT_TRUE(b.box->functions().late());
+}
+
+std::vector<std::string> textsOf(Bench& b) {
+  b["busy"].bit = true;
+  b.run(20);
+  std::vector<std::string> texts;
+  for (const rung_message_info& message : b.messages()) texts.emplace_back(message.text);
+  return texts;
+}
+
+TEST_F(TechnolBox, MessagesHaveTheTextsOfTheControlsFile) {
+  EXPECT_THAT(textsOf(b), ElementsAre("PLC00007 0 0 0 0"));
+  const TemporaryFolder folder;
+  const std::string path = (folder / "Plc0.PlcErrors").string();
+  std::ofstream(path) << "<PlcErrors><PlcError No='7' Type='Err' Validity='Transient'><Text>Zavřete kryt</Text></PlcError></PlcErrors>";
+  Bench texts{program.program(), "PlcErrors = \"" + path + "\"\n" + kTechnolMap};
+  ASSERT_THAT(texts.errors, IsEmpty());
+  EXPECT_THAT(textsOf(texts), ElementsAre("PLC00007 0 0 0 0 Zavřete kryt"));
+  const Bench wrong{program.program(), "PlcErrors = \"" + path + ".txt\"\n" + kTechnolMap};
+  ASSERT_EQ(wrong.errors.size(), 1u);
+  EXPECT_THAT(wrong.errors[0], StartsWith("m.map:1:13: PlcErrors: found " + path + ".txt, expected a file (cannot read"));
 }
 
 TEST_F(TechnolBox, CodesThatItsCellsDoNotHoldAreCounted) {

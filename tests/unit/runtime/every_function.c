@@ -63,6 +63,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_torn(plc, NULL, NULL));
   BAD_HANDLE(rung_instance_next_message(plc, &message));
   BAD_HANDLE(rung_instance_shown(plc, 0, &message));
+  BAD_HANDLE(rung_instance_define_message(plc, 1, 0, "a"));
   BAD_HANDLE(rung_instance_next_request(plc, &request));
   BAD_HANDLE(rung_instance_answer(plc, &reply));
   BAD_HANDLE(rung_instance_begin_function(plc, 0, RUNG_FUNCTION_M, 3, &line));

@@ -82,6 +82,11 @@ Validity Messages::validityOf(const rung_message& message) const {
   return (message.number & kPersistentWanted) != 0 ? Validity::Persistent : Validity::Transient;
 }
 
+bool Messages::isOnlyLogged(uint32_t number) const {
+  const MessageDefinition* definition = definitionOf(number);
+  return definition != nullptr && definition->kind == MessageKind::Event;
+}
+
 // The end of a persistent message; `set` of a transient one is ignored, its bit has no end.
 bool Messages::begins(const rung_message& message) const {
   return message.op != RUNG_MESSAGE_CLEAR ||
@@ -93,8 +98,14 @@ void Messages::accept(const rung_message& message) {
   const Validity validity = validityOf(message);
   if (message.op == RUNG_MESSAGE_CLEAR && validity == Validity::Persistent)
     std::erase_if(persistent_, [&](const MessageValues& other) { return isSame(other, values); });
-  const MessageDefinition* definition = definitionOf(values.number);
-  if (begins(message) && (definition == nullptr || definition->kind != MessageKind::Event)) show(values, validity);
+  if (begins(message) && !isOnlyLogged(values.number)) show(values, validity);
+}
+
+rung_message Messages::outward(const rung_message& message) const noexcept {
+  rung_message out = message;
+  out.number = valuesOf(message).number;
+  if (begins(message)) out.op = isOnlyLogged(out.number) ? RUNG_MESSAGE_LOG : RUNG_MESSAGE_SHOW_LOG;
+  return out;
 }
 
 void Messages::show(const MessageValues& values, Validity validity) {

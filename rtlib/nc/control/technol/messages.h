@@ -36,6 +36,8 @@ public:
   void accept(const rung_message& message);
   // Whether it begins to be shown, or is only registered; else it ends.
   bool begins(const rung_message& message) const;
+  // As a host reads it: without marks, its op is what becomes of it. Allocates nothing.
+  rung_message outward(const rung_message& message) const noexcept;
   // Number, subid and values, then the text with its values where there is one. Gives the characters written; what does
   // not fit is cut off. Allocates nothing.
   size_t describe(const rung_message& message, std::span<char> out) const noexcept;
@@ -47,6 +49,7 @@ public:
 private:
   void show(const MessageValues& values, Validity validity);
   Validity validityOf(const rung_message& message) const;
+  bool isOnlyLogged(uint32_t number) const;
   const MessageDefinition* definitionOf(uint32_t number) const;
   ShownMessage shownOf(const MessageValues& values) const;
 

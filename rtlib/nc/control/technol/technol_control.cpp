@@ -60,6 +60,14 @@ void TechnolControl::afterSlice(host::Instance& instance) {
   if (instance.atListStart()) life_.afterScan(instance);
 }
 
+bool TechnolControl::define(const DefinedMessage& message) {
+  messages_.define({.number = message.number,
+                    .kind = message.loggedOnly ? technol::MessageKind::Event : technol::MessageKind::Err,
+                    .validity = message.lasts ? technol::Validity::Persistent : technol::Validity::Transient,
+                    .text = message.text});
+  return true;
+}
+
 size_t TechnolControl::describe(const rung_program&, const rung_message& message, std::span<char> out) const noexcept {
   return messages_.describe(message, out);
 }

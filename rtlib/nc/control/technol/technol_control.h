@@ -22,6 +22,8 @@ public:
   void beforeSlice(host::Instance& instance) override;
   void afterSlice(host::Instance& instance) override;
 
+  bool define(const DefinedMessage& message) override;
+  rung_message outward(const rung_message& message) const noexcept override { return messages_.outward(message); }
   void accept(const rung_message& message) override { messages_.accept(message); }
   std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
   size_t describe(const rung_program& program, const rung_message& message,

@@ -1,0 +1,16 @@
+// The texts of messages that a control keeps in a file of its own, which the map names (File::messageFiles).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rung/runtime.h"
+#include "tools/mapping/file.h"
+
+namespace rung::mapping {
+
+// Gives the instance what the files say, before its first power-on. Every mistake is one entry of `errors`: with its
+// place in the map where there is no such file or the dialect has none, else with that in the file.
+void defineMessages(const File& map, rung_instance* instance, std::vector<std::string>& errors,
+                    const ReadFile& read = readFromDisk);
+
+} // namespace rung::mapping

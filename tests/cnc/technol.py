@@ -27,6 +27,10 @@ def power():
     pins(main_contactor=True, hydraulics_on=True, drives_ready=True, power=True, hand_enabled=True)
     press("panel-home")
     wait("all are homed", lambda: state("homed")[:4] == (1, 1, 1, 1))
+    turned = hal.get_value("joint.3.motor-pos-fb")
+    check(turned >= 1, f"the program has not driven the table to its switch at 1 degree, but to {turned}")
+    check(abs(position("a")) < 0.05, f"the table's zero point is at {position('a')}")
+    pins(program_directs=False, reference_asked=False, table_zero=False)
     pins(x_homed=True, y_homed=True, z_homed=True, table_homed=True, table_clamped=True, lamp_homed=True)
 
 
@@ -86,6 +90,28 @@ def by_hand():
     pins(door_free=False, door_locked=True, hand_enabled=True)
     while errors.poll():
         pass
+
+
+def by_program():
+    """The program itself asks for manual mode and moves X; the keys do nothing meanwhile."""
+    mode("mdi", linuxcnc.MODE_MDI)
+    for name in ("AUTMAN_REQ", "REQ_EXT_CONT_AUTMAN", "EXM_X0"):
+        rungctl("set", name, "true")
+    wait("manual mode", lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
+    stood = position("x")
+    put("panel-x-minus", True)
+    wait("x is moved", lambda: position("x") > stood + 1)
+    rungctl("set", "EXM_X0", "false")
+    stands()
+    put("panel-x-minus", False)
+    for name in ("REQ_EXT_CONT_AUTMAN", "AUTMAN_REQ"):
+        rungctl("set", name, "false")
+    mode("mdi", linuxcnc.MODE_MDI)
+    rungctl("set", "AUTMAN_SELECT", "true")
+    wait("manual mode again", lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
+    pins(manual_chosen=False)
+    mode("mdi", linuxcnc.MODE_MDI)
+    mdi("G0 X0")
 
 
 def spindle():
@@ -306,7 +332,7 @@ def emergency_stop():
     pins(spindle_cw=False, functions_busy=False, functions_lost=0)
 
 
-STEPS = [power, by_hand, spindle, coolant, tools, probing, part, stops, alarm, remote, emergency_stop]
+STEPS = [power, by_hand, by_program, spindle, coolant, tools, probing, part, stops, alarm, remote, emergency_stop]
 
 
 def session():

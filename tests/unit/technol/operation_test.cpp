@@ -201,6 +201,23 @@ TEST_F(TechnolOperation, ARequestedReferenceEnds) {
   set("HOMING", 3);
   scan();
   EXPECT_EQ(get("HOMING_START_REQ"), 0u);
+  set("HOMING_REQ", 5); // the zero point alone
+  scan();
+  EXPECT_EQ(get("HOMING_REQ"), 5u) << "both had their reference before";
+  set("HOMING", 2);
+  scan();
+  set("HOMING", 3);
+  scan();
+  EXPECT_EQ(get("HOMING_REQ"), 4u);
+}
+
+// l.11022-11030: whatever becomes of them; AUTMAN_REQ is the program's to hold.
+TEST_F(TechnolOperation, RequestsForManualModeEnd) {
+  set("AUTMAN_SELECT", 1), set("AUTMAN_CANCEL", 1), set("AUTMAN_REQ", 1);
+  scan();
+  EXPECT_EQ(get("AUTMAN_SELECT"), 0u);
+  EXPECT_EQ(get("AUTMAN_CANCEL"), 0u);
+  EXPECT_EQ(get("AUTMAN_REQ"), 1u);
 }
 
 } // namespace

@@ -22,7 +22,8 @@ Operation::Places::Places(const rung_program& program) {
   rapid = at("G00PI"), thread = at("G33PI");
   stop = at("STOPPI"), stopRequest = at("STOP_REQ"), emergencyRequest = at("STOP_EMERGENCY_REQ");
   startDisable = at("START_DISABLE"), startSuspend = at("START_SUSPEND"), stopDone = at("PO_STOP");
-  handEnabled = at("EN_AUTMAN"), homed = at("HOMING"), homingRequest = at("HOMING_START_REQ");
+  handEnabled = at("EN_AUTMAN"), handSelect = at("AUTMAN_SELECT"), handCancel = at("AUTMAN_CANCEL");
+  homed = at("HOMING"), homingRequest = at("HOMING_START_REQ"), zeroRequest = at("HOMING_REQ");
   automatic = at("AUTPI");
   onEvent = Procedure(program, "_ON_EVENT");
   for (uint32_t i = 0; i < kAxes; ++i) {
@@ -55,7 +56,8 @@ void Operation::send(host::Instance& instance, PlcEvent event) const {
   places_->onEvent.run(instance, static_cast<uint64_t>(event), false);
 }
 
-// STOPPI is the program's to take back; the control resets the others (l.6402-6414).
+// STOPPI is the program's to take back; the control resets the others (l.6402-6414, 11022-11030), which the host sees
+// for a pass.
 void Operation::takeRequests(host::Instance& instance) {
   const rt::Memory memory = instance.memory();
   const bool key = get(instance, places_->stop);
@@ -63,6 +65,8 @@ void Operation::takeRequests(host::Instance& instance) {
   const bool emergency = get(instance, places_->emergencyRequest);
   memory.write(places_->stopRequest, 0);
   memory.write(places_->emergencyRequest, 0);
+  memory.write(places_->handSelect, 0);
+  memory.write(places_->handCancel, 0);
   const bool pressed = key && !stopKey_;
   stopKey_ = key;
   if (emergency)
@@ -108,11 +112,14 @@ void Operation::follow(host::Instance& instance, bool moves) {
   if (moves_ && !moves && blocks_.reached(instance)) moves_ = false;
 }
 
-// The program asks for a reference by HOMING_START_REQ until the axis has it (l.6649).
+// The program asks for a reference by HOMING_START_REQ, or for its zero point by HOMING_REQ, until the axis has it
+// (l.6643-6652).
 void Operation::endHoming(host::Instance& instance) {
   const rt::Memory memory = instance.memory();
   const uint64_t homed = memory.read(places_->homed);
-  memory.write(places_->homingRequest, memory.read(places_->homingRequest) & ~(homed & ~homed_));
+  const uint64_t others = ~(homed & ~homed_);
+  for (const rt::Place& request : {places_->homingRequest, places_->zeroRequest})
+    memory.write(request, memory.read(request) & others);
   homed_ = homed;
 }
 

@@ -37,8 +37,9 @@ public:
     rt::Place runs, stopped, moves, byHand; // of the host
     rt::Place rapid, thread;                // G00PI, G33PI
     rt::Place stop, stopRequest, emergencyRequest;
-    rt::Place startDisable, startSuspend, stopDone, handEnabled;
-    rt::Place homed, homingRequest;
+    rt::Place startDisable, startSuspend, stopDone;
+    rt::Place handEnabled, handSelect, handCancel;
+    rt::Place homed, homingRequest, zeroRequest;
     rt::Place automatic; // AUTPI
     std::array<Axis, kAxes> axes;
     Procedure onEvent;

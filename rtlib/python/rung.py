@@ -515,6 +515,7 @@ _FUNCTIONS = {
     "rung_instance_free": (c_int32, _Handle),
     "rung_instance_power_on": (c_int32, _Handle, _I32),
     "rung_instance_power_off": (c_int32, _Handle),
+    "rung_instance_begin_power_off": (c_int32, _Handle),
     "rung_instance_stop": (c_int32, _Handle),
     "rung_instance_start": (c_int32, _Handle),
     "rung_instance_run_due": (c_int32, _Handle, _I64),
@@ -886,6 +887,11 @@ class Instance(_Closing):
         """A regular power-off: the scans that the dialect still needs run, and what is retained is on disk. Error:
         FAILED, it is not; the program is off all the same; WRONG_STATE, it was off."""
         _run(_library.rung_instance_power_off, self)
+
+    def begin_power_off(self):
+        """A regular power-off of a machine that moves. True: the program needs scans with fresh inputs, ask again after each;
+        False: it needs no more, power_off switches it off. Error: WRONG_STATE, it was off."""
+        return _call(_library.rung_instance_begin_power_off, self) == Status.LATER
 
     def stop(self):
         """The operator's stop: the program's clock advances, and nothing else is done."""

@@ -123,19 +123,32 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.passes = 0;
   instance.passNs = instance.lastPassNs = instance.worstPassNs = 0;
   instance.on = instance.wasOn = true;
+  instance.ending = false;
   instance.faultReported = false;
   instance.faultImage.reset();
   reportFault(instance);
   return statusOf(instance);
 }
 
+// Begins the power-off where that has not been. Whether the program still has to be scanned for it.
+bool needsLastScans(rung_instance& instance) noexcept {
+  nc::Control& control = *instance.control;
+  if (!instance.ending) {
+    const bool needs = !instance.running.faulted() && control.beginPowerOff(instance.running);
+    instance.ending = true;
+    instance.lastPass = instance.passes + (needs ? nc::Control::kMostLastScans : 0);
+    takeMessages(instance);
+  }
+  return instance.passes < instance.lastPass && !instance.running.faulted() && control.endsLater(instance.running);
+}
+
 int32_t powerOff(rung_instance& instance) {
   // A fault in the last scans spoils what is retained.
   if (instance.retention && !instance.running.faulted()) (void)instance.retention->finish();
-  instance.control->powerOff(instance.running, [&] {
+  while (needsLastScans(instance)) {
     do runPart(instance, [&] { instance.running.slice(); });
     while (!instance.running.atListStart() && !instance.running.faulted());
-  });
+  }
   instance.on = false;
   clearOutputs(instance);
   const std::string error = instance.retention ? instance.retention->finish() : std::string();
@@ -203,6 +216,12 @@ int32_t rung_instance_power_on(rung_instance* instance, int32_t power) {
   if (power != RUNG_COLD && power != RUNG_WARM)
     return fail(RUNG_BAD_ARGUMENT, "the power-on is RUNG_COLD or RUNG_WARM, not %d", power);
   return contained([&] { return powerOn(*call, power == RUNG_WARM ? nc::PowerOn::Warm : nc::PowerOn::Cold); });
+}
+
+int32_t rung_instance_begin_power_off(rung_instance* instance) {
+  const Call call(instance, When::On);
+  if (!call.ok()) return call.status();
+  return needsLastScans(*call) ? RUNG_LATER : RUNG_OK;
 }
 
 int32_t rung_instance_power_off(rung_instance* instance) {

@@ -47,6 +47,7 @@ def main():
     parser.add_argument("--example", type=Path, required=True, help="the example's folder, with its folder linuxcnc")
     parser.add_argument("--driver", type=Path, required=True, help="what works at the machine")
     parser.add_argument("--edit", nargs=3, required=True, metavar=("FILE", "OLD", "NEW"), help="the change that is loaded")
+    parser.add_argument("--never", nargs="+", default=[], metavar="TEXT", help="what LinuxCNC and the program must not report")
     parser.add_argument("--module", default="", help="the component; empty when it was not built")
     parser.add_argument("--rungc", required=True)
     parser.add_argument("--libexec", required=True, help="the folder in which the component looks for rung-compile")
@@ -56,10 +57,12 @@ def main():
         bench = Bench(options, folder)
         configuration = configure(bench, options)
         build_edited(bench, options)
-        bench.run("linuxcnc", "-r", str(configuration / "machine.ini"))
+        log = bench.run("linuxcnc", "-r", str(configuration / "machine.ini")).stdout
         result = configuration / "result.txt"
         expect(result.exists(), "LinuxCNC did not start the driver")
         expect(result.read_text(encoding="utf-8") == "passed", result.read_text(encoding="utf-8"))
+        for text in options.never:
+            expect(text not in log, f"{text}: in the log")
     print("passed")
 
 

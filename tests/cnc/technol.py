@@ -72,8 +72,9 @@ def by_hand():
     put("key-door", False)
     check(not pin("door-free"), "the door opened beside a moving axis")
     put("panel-x-minus", False)
-    pins(x_moves=False)
+    stands()
     put("wheel-x", True)
+    wait("the wheel moves x", lambda: hal.get_value("axis.x.jog-enable"))
     stood = position("x")
     put("wheel-counts", 100)
     at("x", stood + 1)
@@ -110,6 +111,7 @@ def by_program():
     rungctl("set", "AUTMAN_SELECT", "true")
     wait("manual mode again", lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
     pins(manual_chosen=False)
+    time.sleep(0.1)  # the key was up for LinuxCNC, too
     mode("mdi", linuxcnc.MODE_MDI)
     mdi("G0 X0")
 

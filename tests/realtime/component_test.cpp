@@ -52,6 +52,42 @@ STOP
 constexpr const char* kMessagesMap = "in.show = { type = \"bit\", name = \"SHOW\" }\n"
                                      "out.lamp = { type = \"bit\", name = \"LAMP\" }\n";
 
+// RUNS is on; at its end the program switches it off and waits until ANSWERS is off too, for half a second.
+constexpr const char* kEnding = R"(DATA
+        DFM RUNS,ANSWERS
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_MAIN
+        MECH_BEGIN SHUT
+        FL 0,RUNS
+        EX
+        LDR -ANSWERS
+        TEX0 -,25,LATE,99
+        JUM  GOOD
+LATE:   ESET 99
+GOOD:   MODULE_DONE_FINISHED
+        MECH_END SHUT
+MODULE_MAIN_END
+MODULE_INIT
+        FL 1,RUNS
+MODULE_INIT_END
+MODULE_DONE
+        FL 1,SHUT
+MODULE_DONE_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+)";
+constexpr const char* kEndingMap = "in.answers = { type = \"bit\", name = \"ANSWERS\" }\n"
+                                   "out.runs = { type = \"bit\", name = \"RUNS\" }\n";
+
 size_t entriesOf(const char* folder) {
   return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
@@ -66,6 +102,9 @@ protected:
     setenv("RUNG_SOCKETS", path("sockets").c_str(), 1); // other tests have components, too
     write("messages.plc", kMessages);
     write("messages.map", kMessagesMap);
+    write("ending.plc", kEnding);
+    write("ending.map", kEndingMap);
+    build(path("ending.plc"), "ending.so");
     build("tests/cnc/stuck.pmc", "stuck.so");
     build(path("messages.plc"), "messages.so");
   }
@@ -193,6 +232,38 @@ TEST_F(Component, MessagesArePrintedByTheService) {
   EXPECT_TRUE(bit("lamp"));
   hal.unload();
   EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.show"));
+  expectNothingLeft();
+}
+
+// What it switches off answers it, as long as HAL's thread runs.
+TEST_F(Component, ThePinPowerOffIsTheRegularEnd) {
+  ASSERT_EQ(hal.load(path("ending.so"), path("ending.map")), 0);
+  bit("answers") = true;
+  scan(40);
+  EXPECT_TRUE(bit("runs"));
+  EXPECT_FALSE(bit("powered-off"));
+  bit("power-off") = true;
+  scan(60);
+  EXPECT_FALSE(bit("runs"));
+  EXPECT_FALSE(bit("powered-off"));
+  bit("power-off") = false; // it has begun
+  bit("answers") = false;
+  scan(60);
+  EXPECT_TRUE(bit("powered-off"));
+  const uint32_t scans = number("scans");
+  scan(60);
+  EXPECT_EQ(number("scans"), scans);
+  hal.unload();
+  EXPECT_THAT(hal.lines(), IsEmpty());
+  expectNothingLeft();
+}
+
+TEST_F(Component, UnloadedNothingAnswersTheProgram) {
+  ASSERT_EQ(hal.load(path("ending.so"), path("ending.map")), 0);
+  bit("answers") = true;
+  scan(40);
+  hal.unload();
+  EXPECT_THAT(hal.lines(), ElementsAre(HasSubstr("message PLC00099")));
   expectNothingLeft();
 }
 

@@ -37,8 +37,8 @@ void defineMessages(const File& map, rung_instance* instance, std::vector<std::s
   for (const MessageFile& file : map.messageFiles) try {
       addLines(parseControlFile(control_files::ControlFileKind::Messages, file.path, read(file.path), found), errors);
     } catch (const std::exception& error) {
-      fail(file, {file.path, std::string("a file (") + error.what() + ")",
-                  "write its path, from the folder of this file"});
+      fail(file,
+           {file.path, std::string("a file (") + error.what() + ")", "write its path, from the folder of this file"});
     }
   for (const control_files::PlacedMessage& message : found.messages) {
     if (define(instance, message) == RUNG_OK) continue;

@@ -185,6 +185,13 @@ std::string Box::close() {
   return error;
 }
 
+bool Box::ends() noexcept {
+  if (rung_instance_begin_power_off(plc_.handle()) == RUNG_LATER) return false;
+  // What the control runs first may have faulted: `serve` reports that as any other fault.
+  if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) state_.store(State::Stopped, std::memory_order_release);
+  return true;
+}
+
 StepResult Box::step(int64_t ns, bool reset) noexcept {
   if (!beginStep(ns, reset)) return StepResult::Waiting;
   const StepResult result = run(ns, &rung_instance_run_due);

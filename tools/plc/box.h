@@ -37,8 +37,11 @@ public:
   static std::unique_ptr<Box> make(const Image& image, mapping::File map, std::vector<std::string>& errors,
                                    const std::string& retain, std::vector<std::string>& warnings,
                                    const NewInstance& newInstance = {});
-  // After the last step, or where none can come any more: the program's last scans run, output pins have their
-  // safe values then, and what is retained is on disk; "" or why not.
+  // A regular end, for the thread of the steps between two of them: begins it, and is asked again after each step.
+  // True: the program needs no more of them, and has had them with fresh inputs.
+  bool ends() noexcept;
+  // After the last step, or where none can come any more: the program's last scans run where they have not, output pins
+  // have their safe values then, and what is retained is on disk; "" or why not.
   std::string close();
 
   const std::vector<mapping::Pin>& pins() const { return map_.pins; }

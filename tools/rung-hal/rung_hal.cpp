@@ -62,7 +62,9 @@ struct StatusPins {
   plc::PinCell functionsBusy;
   plc::PinCell functionsTimeout;
   plc::PinCell functionsLost;
-  plc::PinCell reset;   // of HAL: restarts the program after a fault
+  plc::PinCell reset;    // of HAL: restarts the program after a fault
+  plc::PinCell powerOff; // of HAL: its regular end begins, while its pins are those of the machine
+  plc::PinCell poweredOff;
   plc::PinCell maxTime; // parameter: microseconds that the program may run in one call; 0: its budgets alone count
 };
 
@@ -81,7 +83,8 @@ struct PlcInstance {
   std::array<std::atomic<pthread_t>, 2> callers{};
   std::atomic<bool> apart{false};
   bool apartReported = false;
-  bool fastCalled = false; // since the scan before
+  bool fastCalled = false;  // since the scan before
+  bool poweringOff = false; // since pin power-off has come on
   std::atomic<int64_t> periodNs{0};
   const std::atomic<bool>* ending = nullptr; // of the component
   std::unique_ptr<remote::Controller> controller;
@@ -248,7 +251,8 @@ bool makePins(PlcInstance& c) {
   bool ok = status("fault", Bit, s.fault) && status("fault-line", U32, s.faultLine) && status("scans", U32, s.scans) &&
             status("missed", U32, s.missed) && status("functions-busy", Bit, s.functionsBusy) &&
             status("functions-timeout", Bit, s.functionsTimeout) && status("functions-lost", U32, s.functionsLost) &&
-            makePin(c, "reset", Bit, HAL_IN, s.reset) && makeParameter(c, "max-time", U32, s.maxTime);
+            makePin(c, "reset", Bit, HAL_IN, s.reset) && makePin(c, "power-off", Bit, HAL_IN, s.powerOff) &&
+            status("powered-off", Bit, s.poweredOff) && makeParameter(c, "max-time", U32, s.maxTime);
   for (size_t i = 0; i < pins.size() && ok; ++i) ok = makeMapped(c, pins[i], c.cells[i]);
   if (!ok) return false;
   c.box->connect(c.cells, hal::kAccess); // all of them are there
@@ -280,6 +284,17 @@ void runStep(PlcInstance& c, Function function, long periodNs) {
   hal::setU32(c.status->missed, static_cast<uint32_t>(state.missed));
 }
 
+// The program has had its regular end: nothing of it runs any more.
+bool isPoweredOff(PlcInstance& c) {
+  c.poweringOff = c.poweringOff || hal::bit(c.status->powerOff);
+  if (!c.poweringOff || !c.box->ends()) return false;
+  c.box->clearPins();
+  hal::setBit(c.status->functionsBusy, false);
+  hal::setBit(c.status->functionsTimeout, false);
+  hal::setBit(c.status->poweredOff, true);
+  return true;
+}
+
 bool isApart(PlcInstance& c, Function function) {
   const pthread_t self = pthread_self();
   c.callers[function].store(self);
@@ -297,10 +312,11 @@ void call(PlcInstance& c, Function function, long periodNs) {
   c.periodNs.store(periodNs, std::memory_order_relaxed);
   c.inside.fetch_add(1);
   if (!c.ending->load()) {
-    if (!isApart(c, function))
+    if (isApart(c, function)) {
+      if (function == kScan) stayApart(c); // again and again: the other thread may have been about to end its call
+    } else if (!isPoweredOff(c)) {
       runStep(c, function, periodNs);
-    else if (function == kScan) // again and again: the other thread may have been about to end its call
-      stayApart(c);
+    }
   }
   c.inside.fetch_sub(1);
 }

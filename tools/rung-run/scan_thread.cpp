@@ -22,7 +22,7 @@ void ScanThread::run(std::promise<std::string> begun) {
   begun.set_value(realTime.problem());
   if (!realTime.problem().empty()) return;
   int64_t last = begunNs_ = host::monotonicNs();
-  for (int64_t due = last + options_.periodNs; !ending_; due += options_.periodNs) {
+  for (int64_t due = last + options_.periodNs; !(ending_ && box_.ends()); due += options_.periodNs) {
     host::sleepUntil(due);
     step(due, last);
     // Periods that have passed meanwhile are over: the next step catches up what is due.

@@ -30,7 +30,7 @@ public:
 
   // "" or what the system does not grant.
   std::string start();
-  // After the step that is under way.
+  // When the program needs no more steps; a few at most, unless it waits for its machine.
   void end();
 
   int64_t periodNs() const noexcept { return options_.periodNs; }

@@ -182,6 +182,12 @@ RUNG_API int32_t rung_instance_power_on(rung_instance* instance, int32_t power);
  * not, and rung_error_text says why; the program is switched off all the same. */
 RUNG_API int32_t rung_instance_power_off(rung_instance* instance);
 
+/* A regular power-off of a machine that moves: the program has its last scans with fresh inputs, and its outputs are
+ * seen. RUNG_LATER: it needs some, the host runs it as ever, and asks again after each step. RUNG_OK: it needs no more,
+ * or has had as many as it gets; then rung_instance_power_off switches it off. Where a host does not ask, that runs
+ * them, with the inputs as they are. [rt] */
+RUNG_API int32_t rung_instance_begin_power_off(rung_instance* instance);
+
 /* The operator's stop and start: a stopped program lets its clock advance, and does nothing: what it has written for
  * the host stays. [rt] */
 RUNG_API int32_t rung_instance_stop(rung_instance* instance);

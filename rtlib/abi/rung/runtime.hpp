@@ -92,6 +92,8 @@ public:
     return check(rung_instance_power_on(handle(), static_cast<int32_t>(power)));
   }
   void powerOff() { check(rung_instance_power_off(handle())); }
+  // True: the program needs a further scan before it.
+  bool beginPowerOff() noexcept { return rung_instance_begin_power_off(handle()) == RUNG_LATER; }
 
   int32_t runDue(int64_t elapsedNs) noexcept { return rung_instance_run_due(handle(), elapsedNs); }
   int32_t runDueFast(int64_t elapsedNs) noexcept { return rung_instance_run_due_fast(handle(), elapsedNs); }

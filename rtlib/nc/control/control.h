@@ -39,8 +39,12 @@ public:
     start(instance);
   }
 
-  // A regular power-off: what the control runs before it, then the scans that the program still needs, which the host
-  // runs; they are bounded.
+  // A regular power-off: what the control runs before it. True: the program has to be scanned on while `endsLater`, but
+  // not longer than that.
+  virtual bool beginPowerOff(host::Instance& instance) { return (void)instance, false; }
+  virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
+  static constexpr uint32_t kMostLastScans = 500;
+  // All of it at once, with scans of the host.
   template <class Scan>
   void powerOff(host::Instance& instance, Scan scan) {
     if (!beginPowerOff(instance)) return;
@@ -115,10 +119,6 @@ public:
   virtual void saved(host::Instance& instance) { (void)instance; }
 
 protected:
-  // True: the program has to be scanned on while `endsLater`.
-  virtual bool beginPowerOff(host::Instance& instance) { return (void)instance, false; }
-  virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
-
   // Another program has taken over: these are its places, which stay until there are others. Allocates nothing.
   virtual void usePlaces(host::Instance& instance, Places& places) noexcept { (void)instance, (void)places; }
 
@@ -128,8 +128,6 @@ protected:
   }
 
 private:
-  static constexpr uint32_t kMostLastScans = 500;
-
   std::unique_ptr<Places> places_;
 };
 

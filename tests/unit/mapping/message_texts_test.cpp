@@ -28,7 +28,8 @@ ReadFile files(const std::map<std::string, std::string>& texts) {
 }
 
 std::string message(const std::string& number) {
-  return "<PlcErrors>\n<PlcError No=\"" + number + "\" Type=\"Err\" Validity=\"Transient\"><Text>t</Text></PlcError></PlcErrors>";
+  return "<PlcErrors>\n<PlcError No=\"" + number +
+         "\" Type=\"Err\" Validity=\"Transient\"><Text>t</Text></PlcError></PlcErrors>";
 }
 
 std::vector<std::string> errorsOf(const File& map, const rung_program& program, const ReadFile& read) {
@@ -41,8 +42,8 @@ std::vector<std::string> errorsOf(const File& map, const rung_program& program, 
 
 TEST(MessageTexts, PathsAreThoseOfTheFileThatNamesThem) {
   std::vector<std::string> errors;
-  const File map = parseMap("include = \"machine/panel.map\"\nPlcErrors = \"../Plc0.PlcErrors\"\n", "maps/m.map", errors,
-                            files({{"maps/machine/panel.map", "PlcErrors = [\"a.xml\", \"/etc/b.xml\"]\n"}}));
+  const File map = parseMap("include = \"machine/panel.map\"\nPlcErrors = \"../Plc0.PlcErrors\"\n", "maps/m.map",
+                            errors, files({{"maps/machine/panel.map", "PlcErrors = [\"a.xml\", \"/etc/b.xml\"]\n"}}));
   EXPECT_THAT(errors, IsEmpty());
   std::vector<std::string> paths;
   for (const MessageFile& file : map.messageFiles) paths.push_back(file.path);
@@ -57,17 +58,20 @@ TEST(MessageTexts, PathsAreThoseOfTheFileThatNamesThem) {
 TEST(MessageTexts, MistakesHaveTheirPlace) {
   std::vector<std::string> errors;
   (void)parseMap("PlcErrors = 5\n", "m.map", errors);
-  EXPECT_THAT(errors, ElementsAre("m.map:1:13: PlcErrors: found 5, expected the path of a file, or a list of paths; write "
-                                  "for example PlcErrors = \"Plc0.PlcErrors\""));
+  EXPECT_THAT(errors,
+              ElementsAre("m.map:1:13: PlcErrors: found 5, expected the path of a file, or a list of paths; write "
+                          "for example PlcErrors = \"Plc0.PlcErrors\""));
   const File map = test::faultlessMap("# texts\nPlcErrors = [\"none.xml\", \"a.xml\", \"b.xml\"]\n");
-  EXPECT_THAT(errorsOf(map, testing::technolProgram(), files({{"a.xml", message("1")}, {"b.xml", message("1")}})),
-              ElementsAre("m.map:2:14: PlcErrors: found none.xml, expected a file (cannot read none.xml: No such file or "
-                          "directory); write its path, from the folder of this file",
-                          HasSubstr("b.xml:2:1: message 1 is defined again; the first definition is at a.xml:2:1")));
-  EXPECT_THAT(errorsOf(map, testing::gskProgram(),
-                       files({{"none.xml", message("3")}, {"a.xml", message("1")}, {"b.xml", message("2")}})),
-              ElementsAre("m.map:2:14: PlcErrors: found a file of messages, expected none for this program; the dialect "
-                          "has the texts of its messages in the program"));
+  EXPECT_THAT(
+      errorsOf(map, testing::technolProgram(), files({{"a.xml", message("1")}, {"b.xml", message("1")}})),
+      ElementsAre("m.map:2:14: PlcErrors: found none.xml, expected a file (cannot read none.xml: No such file or "
+                  "directory); write its path, from the folder of this file",
+                  HasSubstr("b.xml:2:1: message 1 is defined again; the first definition is at a.xml:2:1")));
+  EXPECT_THAT(
+      errorsOf(map, testing::gskProgram(),
+               files({{"none.xml", message("3")}, {"a.xml", message("1")}, {"b.xml", message("2")}})),
+      ElementsAre("m.map:2:14: PlcErrors: found a file of messages, expected none for this program; the dialect "
+                  "has the texts of its messages in the program"));
 }
 
 } // namespace

@@ -454,17 +454,56 @@ std::vector<std::string> textsOf(Bench& b) {
   return texts;
 }
 
+// MODULE_DONE_FINISHED is never carried out (l.2617-2622).
+TEST_F(TechnolBox, AnEndThatDoesNotComeIsNotWaitedFor) {
+  std::string text = kTechnol;
+  text.replace(text.find("MODULE_MAIN\n"), 12,
+               "MODULE_MAIN\n        LDR  ARM\n        JL0  NOT_YET\n        MODULE_DONE_FINISHED\nNOT_YET:\n");
+  const rung::testing::CompiledProgram waiting{"test.plc", text};
+  Bench w{waiting.program(), kTechnolMap};
+  ASSERT_THAT(w.errors, IsEmpty());
+  w.run(40);
+  EXPECT_FALSE(w.box->ends());
+  w.run(499 * 20);
+  EXPECT_FALSE(w.box->ends());
+  w.run(20);
+  EXPECT_TRUE(w.box->ends());
+  EXPECT_EQ(w.box->close(), "");
+  Bench answered{waiting.program(), kTechnolMap};
+  answered.run(40);
+  EXPECT_FALSE(answered.box->ends());
+  answered["arm"].bit = true;
+  answered.run(20);
+  EXPECT_TRUE(answered.box->ends());
+  EXPECT_TRUE(b.box->ends()) << "a program that does not wait";
+}
+
+TEST_F(TechnolBox, AFaultAtTheEndIsReported) {
+  std::string text = kTechnol;
+  text.replace(text.find("MODULE_CLEAR\n"), 0, "MODULE_DONE\nFOREVER: JUM FOREVER\nMODULE_DONE_END\n");
+  const rung::testing::CompiledProgram endless{"test.plc", text};
+  Bench e{endless.program(), kTechnolMap};
+  ASSERT_THAT(e.errors, IsEmpty());
+  e.run(20);
+  std::vector<std::string> reports;
+  EXPECT_TRUE(e.box->ends());
+  EXPECT_TRUE(e.box->serve(reports));
+  EXPECT_THAT(reports, ElementsAre(StartsWith("the program has stopped: ")));
+}
+
 TEST_F(TechnolBox, MessagesHaveTheTextsOfTheControlsFile) {
   EXPECT_THAT(textsOf(b), ElementsAre("PLC00007 0 0 0 0"));
   const TemporaryFolder folder;
   const std::string path = (folder / "Plc0.PlcErrors").string();
-  std::ofstream(path) << "<PlcErrors><PlcError No='7' Type='Err' Validity='Transient'><Text>Zavřete kryt</Text></PlcError></PlcErrors>";
+  std::ofstream(path)
+      << "<PlcErrors><PlcError No='7' Type='Err' Validity='Transient'><Text>Zavřete kryt</Text></PlcError></PlcErrors>";
   Bench texts{program.program(), "PlcErrors = \"" + path + "\"\n" + kTechnolMap};
   ASSERT_THAT(texts.errors, IsEmpty());
   EXPECT_THAT(textsOf(texts), ElementsAre("PLC00007 0 0 0 0 Zavřete kryt"));
   const Bench wrong{program.program(), "PlcErrors = \"" + path + ".txt\"\n" + kTechnolMap};
   ASSERT_EQ(wrong.errors.size(), 1u);
-  EXPECT_THAT(wrong.errors[0], StartsWith("m.map:1:13: PlcErrors: found " + path + ".txt, expected a file (cannot read"));
+  EXPECT_THAT(wrong.errors[0],
+              StartsWith("m.map:1:13: PlcErrors: found " + path + ".txt, expected a file (cannot read"));
 }
 
 TEST_F(TechnolBox, CodesThatItsCellsDoNotHoldAreCounted) {

@@ -1,8 +1,6 @@
 // Start, stop and end of the PLC program (see program_life.h).
 #include "rtlib/nc/control/technol/program_life.h"
 
-#include "rtlib/nc/control/technol/cells.h"
-
 namespace rung::nc::technol {
 namespace {
 
@@ -10,18 +8,26 @@ enum : uint64_t { kPower = 0, kCommand = 1 }; // in DR (man. l.2583, l.2627)
 
 } // namespace
 
+const ProgramLife::Places ProgramLife::kNothing{};
+
+ProgramLife::Places::Places(const rung_program& program)
+    : done(program, "DONE"),
+      donePending(host::locate({program, nullptr}, cellPlace(program, "@DONE.PENDING").value_or(host::Ref{}))) {}
+
 void ProgramLife::powerOn(host::Instance& instance) {
   stopping_ = false;
   instance.setStopped(false);
   runWith(instance, "INIT", kPower, false);
 }
 
-bool ProgramLife::donePending(const host::Instance& instance) const { return readCell(instance, "@DONE.PENDING") != 0; }
+bool ProgramLife::donePending(const host::Instance& instance) const {
+  return instance.memory().read(places_->donePending) != 0;
+}
 
 // A program that is stopped has had its shutdown.
 bool ProgramLife::powerOff(host::Instance& instance) {
   if (instance.stopped()) return false;
-  runWith(instance, "DONE", kPower, false);
+  places_->done.run(instance, kPower, false);
   return donePending(instance);
 }
 
@@ -33,7 +39,7 @@ void ProgramLife::start(host::Instance& instance) {
 
 void ProgramLife::stop(host::Instance& instance) {
   if (instance.stopped() || stopping_) return;
-  runWith(instance, "DONE", kCommand, false);
+  places_->done.run(instance, kCommand, false);
   stopping_ = true;
   afterScan(instance);
 }

@@ -1,12 +1,27 @@
 // Start, stop and end of the PLC program: MODULE_INIT, MODULE_DONE, MODULE_CLEAR and the waits for MODULE_x_FINISHED
 // (man. l.2556-2649).
 #pragma once
-#include "rtlib/host/instance.h"
+#include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::nc::technol {
 
 class ProgramLife {
 public:
+  // Where one program has its end.
+  class Places {
+  public:
+    Places() = default; // a program that has none
+    explicit Places(const rung_program& program);
+
+  private:
+    friend class ProgramLife;
+    Procedure done;
+    rt::Place donePending;
+  };
+
+  // Those of the program that runs now, which outlive their use.
+  void use(const Places& places) { places_ = &places; }
+
   // After the reset of the memory. DR = 0 informs MODULE_INIT that the control was switched on.
   void powerOn(host::Instance& instance);
   // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is pending.
@@ -21,6 +36,9 @@ public:
   void afterScan(host::Instance& instance);
 
 private:
+  static const Places kNothing;
+
+  const Places* places_ = &kNothing;
   bool stopping_ = false;
 };
 

@@ -13,11 +13,13 @@ namespace {
 
 struct TechnolPlaces final : Places {
   explicit TechnolPlaces(const rung_program& program)
-      : blocks(program), operation(program), functions(program), backup(technol::Backup::locate(program)) {}
+      : blocks(program), operation(program), functions(program), life(program),
+        backup(technol::Backup::locate(program)) {}
 
   technol::Blocks::Places blocks;
   technol::Operation::Places operation;
   TechnolFunctions::Places functions;
+  technol::ProgramLife::Places life;
   rt::Place backup;
 };
 
@@ -40,6 +42,7 @@ void TechnolControl::usePlaces(host::Instance& instance, Places& places) noexcep
   blocks_.use(of.blocks);
   operation_.use(of.operation);
   functions_.use(instance, of.functions);
+  life_.use(of.life);
   backup_.use(of.backup);
 }
 

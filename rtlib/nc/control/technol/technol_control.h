@@ -48,10 +48,11 @@ public:
   const technol::Messages& list() const { return messages_; }
   technol::Blocks& blocks() { return blocks_; }
 
-protected:
-  void usePlaces(host::Instance& instance, Places& places) noexcept override;
   bool beginPowerOff(host::Instance& instance) override { return life_.powerOff(instance); }
   bool endsLater(const host::Instance& instance) const override { return life_.donePending(instance); }
+
+protected:
+  void usePlaces(host::Instance& instance, Places& places) noexcept override;
   std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:

@@ -8,6 +8,7 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -39,6 +40,37 @@ turns-is = {{ at = 1, format = "s32", order = "low-first" }}
 load-is = {{ at = 3, format = "f32", order = "high-first" }}
 """
 FUNCTION, ADDRESS, VALUE = 1, 2, 3  # exceptions of Modbus
+# TECHNOL: at its end RUNS goes off, and the program waits until ANSWERS is off, too.
+ENDING = """DATA
+        DFM RUNS,ANSWERS
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_MAIN
+        MECH_BEGIN SHUT
+        FL 0,RUNS
+        EX
+        LDR ANSWERS
+        EX1
+        MODULE_DONE_FINISHED
+        MECH_END SHUT
+MODULE_MAIN_END
+MODULE_INIT
+        FL 1,RUNS
+MODULE_INIT_END
+MODULE_DONE
+        FL 1,SHUT
+MODULE_DONE_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+"""
 
 
 class WithHost(unittest.TestCase):
@@ -478,9 +510,19 @@ class Peer:
         struct.pack_into("I", self.map, 28, self.sequence(28) | 1)
 
     def write(self, run, door, speed, load):
+        self.write_as("??xxid", run, door, speed, load)
+
+    def write_bits(self, *values):
+        self.write_as("?" * len(values), *values)
+
+    def write_as(self, form, *values):
         self.begin_writing()
-        struct.pack_into("??xxid", self.map, self.inputs, run, door, speed, load)
+        struct.pack_into(form, self.map, self.inputs, *values)
         struct.pack_into("I", self.map, 28, (self.sequence(28) + 1) % 2**32)
+
+    def bit(self, at):
+        """Of the outputs."""
+        return struct.unpack_from("?", self.map, self.outputs + at)[0]
 
     def read(self):
         while True:
@@ -626,10 +668,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
 """.replace("NAME", f"test-{os.getpid()}"), ["--simulate", "--config", "param.2402=0"])
         peer = Peer(f"/dev/shm/rung-test-{os.getpid()}")
         self.addCleanup(peer.close)
-        def inputs(*values):
-            peer.begin_writing()
-            struct.pack_into("???", peer.map, peer.inputs, *values)
-            struct.pack_into("I", peer.map, 28, (peer.sequence(28) + 1) % 2**32)
+        inputs = peer.write_bits
         inputs(False, True, False)
         self.sees(True, "F0.6")  # servo ready
         self.sees((0x20, False), "F3", "F1.1")  # automatic mode, the reset has ended
@@ -643,6 +682,106 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
         self.assertEqual(self.host.get("F7"), 5)  # it waits for FIN
         inputs(False, True, True)
         self.sees((5, False), "F26:4", "F0.5")  # T5, and the program has ended
+
+    def begin_machine(self, example, inputs, outputs, config, keys=""):
+        """An example's project between bits by shared memory: what sets its inputs, and what waits for an output."""
+        table = lambda pins: "".join(f'{pin} = {{ type = "bit", name = "{name}" }}\n' for pin, name in pins.items())
+        places = [f"{pin} = {at}" for pins in (inputs, outputs) for at, pin in enumerate(pins)]
+        text = (f'{keys}[rungctl]\nallow = ["set"]\n[in]\n{table(inputs)}[out]\n{table(outputs)}[shared-memory]\nname = "test-{os.getpid()}"\n'
+                f'timeout = 60\npins = {{ {", ".join(places)} }}\n')
+        options = [word for key, value in config.items() for word in ("--config", f"{key}={value}")]
+        self.host = Host(BIN, text, options=["--simulate", *options], program=Path("examples", example))
+        self.addCleanup(self.host.end)
+        peer = Peer(f"/dev/shm/rung-test-{os.getpid()}")
+        self.addCleanup(peer.close)
+        values = dict.fromkeys(inputs, False)
+
+        def put(**changed):
+            values.update(changed)
+            peer.write_bits(*values.values())
+
+        def on(pin, value=True):
+            self.assertTrue(wait_until(lambda: peer.bit(list(outputs).index(pin)) == value), f"{pin} is never {value}\n{self.host.logged()}")
+
+        return put, on
+
+    def press(self, put, pin):
+        put(**{pin: True})
+        time.sleep(0.06)
+        put(**{pin: False})
+
+    def test_a_part_program_of_nct(self):
+        """The turning centre: machine on, chuck, automatic mode, S with M3, M5, M30."""
+        put, on = self.begin_machine("nct-turning-centre",
+            {"key_on": "B_ON", "monitored": "N_MONST", "k1_off": "K1_OFF", "k2_off": "K2_OFF", "pump": "KHYD_ON", "pressure": "HYD_PRESS", "pedal": "PEDAL",
+              "chuck_out": "CH_OUT", "chuck_pressure": "CH_PRESS", "key_auto": "MB_AUTO", "key_start": "MB_START"},
+            {"request": "P_MONREQ", "ready": "READY", "chuck_ok": "CH_OK", "runs": "CN_START", "spindle": "SP_SSTRT"},
+            {"axes": "XZXZWU", "param.2.3": "2", "param.2.4": "2", "param.2.5": "2", "turning.1": "on", "turning.2": "on", "spindles": "2", "param.604.2": "2",
+             "param.650.1": "1500", "param.651.1": "4000", "param.2900": "0"})
+        put(k1_off=True, k2_off=True, chuck_out=True)
+        for name, value in (("INP000", 0x63B31F), ("INP001", 0x227), ("INP010", 0x27), ("TN_TS1", "true"), ("SN_N0", "true"), ("SN_N0,#1", "true"), ("MKFOVER", 12)):
+            self.host.ctl("set", name, str(value))
+        self.sees(True, "N_ON")
+        put(key_on=True)
+        on("request")
+        put(key_on=False, monitored=True, k1_off=False, k2_off=False)
+        time.sleep(0.6)
+        put(pump=True, pressure=True)
+        on("ready")
+        put(pedal=True)
+        time.sleep(0.03)
+        put(pedal=False, chuck_out=False, chuck_pressure=True)
+        on("chuck_ok")
+        self.press(put, "key_auto")
+        self.sees(True, "CN_AUTO")
+        self.host.ctl("event", "program", "channel=1", "number=100", "blocks=N10 S1=1200 M3; N20 M5; N30 M30")
+        self.press(put, "key_start")
+        on("spindle")
+        self.sees(1200, "SP_PRG")
+        on("runs", False)
+        on("spindle", False)
+        self.sees(1, "PARTS")
+
+    def test_blocks_of_technol(self):
+        """The machining centre: machine on, START, blocks with M10 and M8, texts of messages, the stop of the PLC."""
+        folder = Path("examples/technol-machining-centre").resolve()
+        put, on = self.begin_machine("technol-machining-centre",
+            {"key_on": "P7IN.0", "main_in": "P1IN.1", "pressure": "P1IN.5", "drives_ok": "P1IN.3"},
+            {"main": "P0OUT.0", "pump": "P0OUT.1", "drives": "P0OUT.2", "clamp": "P0OUT.5", "coolant": "P3OUT.1"},
+            {"PlcConfig": folder / "Channel0.ChannelConfig", "PlcConstants": folder / "centre.PlcConstants"}, f'PlcErrors = "{folder}/Plc0.PlcErrors"\n')
+        for name, value in (("P1IN", 0xD5), ("P2IN", 0x7F), ("P3IN", 0x40), ("P4IN", 0x65), ("P5IN", 0x54), ("P6IN", 0xAD), ("P8IN", 0x02), ("HOMING", 0x0F)):
+            self.host.ctl("set", name, str(value))
+        self.sees(True, "STARTED")
+        self.assertIn("message PLC00013 0 0 0 0 The backup memory was empty: check the tool table", self.host.logged())
+        self.host.ctl("event", "CONFIRM")
+        put(key_on=True)
+        for output, answer in (("main", "main_in"), ("pump", "pressure"), ("drives", "drives_ok")):
+            on(output)
+            put(**{answer: True})
+        put(key_on=False)
+        self.sees(True, "READY")
+        self.host.ctl("event", "PLCEVENT_START_REQ")
+        self.sees(False, "START_SUSPEND")
+        self.host.ctl("event", "block-start", "AUTPI=1", "M10PID=1", "BLK[0].FirstBlock=1")
+        on("clamp")
+        self.host.ctl("event", "block-done")
+        self.sees(False, "PO_F")
+        self.host.ctl("event", "block-start", "AUTPI=1", "ZMM5PI=1", "M08PI=1")
+        on("coolant")
+        self.host.ctl("event", "block-done")
+        self.host.ctl("event", "plc-stop")
+        on("main", False)
+        put(main_in=False)
+        self.assertNotIn("PLC00003", self.host.logged())
+
+    def test_connections_that_do_not_fit_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, config = Path(folder, "p.plc"), Path(folder, "p.ChannelConfig")
+            source.write_text(ENDING)
+            config.write_text('<Connections>\n<Connection Source="PLC.Output.Nothing" Destination="P2IN.2" Connected="1"/></Connections>')
+            host = Host(BIN, "", options=["--simulate", "--config", f"PlcConfig={config}"], program=source)
+        self.addCleanup(host.end)
+        self.assertIn("p.ChannelConfig:2:1: 'PLC.Output.Nothing' is not an end of a connection", host.logged())
 
     def test_mistakes(self):
         self.begin("", ["--simulate"])
@@ -670,6 +809,37 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
             log = host.logged()
             self.assertEqual(host.end(), status, log)
             self.assertIn(text, log)
+
+
+class End(unittest.TestCase):
+    """MODULE_DONE of a TECHNOL program, whose machine moves."""
+
+    def test_the_machine_answers_until_the_program_has_ended(self):
+        name = f"end-{os.getpid()}"
+        with tempfile.TemporaryDirectory() as folder:
+            source = Path(folder, "end.plc")
+            source.write_text(ENDING)
+            host = Host(BIN, f"""[in]
+answers = {{ type = "bit", name = "ANSWERS" }}
+[out]
+runs = {{ type = "bit", name = "RUNS" }}
+[shared-memory]
+name = "{name}"
+timeout = 60
+pins = {{ answers = 0, runs = 0 }}
+""", program=source)
+        self.addCleanup(host.end)
+        peer = Peer(f"/dev/shm/rung-{name}")
+        self.addCleanup(peer.close)
+
+        peer.write_bits(True)
+        self.assertTrue(wait_until(lambda: peer.bit(0) and host.get("ANSWERS")))
+        host.process.terminate()
+        self.assertTrue(wait_until(lambda: not peer.bit(0)))
+        time.sleep(0.3)
+        self.assertIsNone(host.process.poll(), "it has not waited")
+        peer.write_bits(False)
+        self.assertEqual(host.end(), OK)
 
 
 class Mistakes(unittest.TestCase):

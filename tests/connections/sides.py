@@ -49,7 +49,8 @@ def wait_until(condition, patience=PATIENCE):
 
 
 class Host:
-    """A rung-run with PROGRAM and a map, in a folder of its own."""
+    """A rung-run with a program and a map, in a folder of its own. `program`: the text of a GSK program, or the path of
+    another source or project."""
 
     def __init__(self, programs, map_text, name="plc", options=(), program=PROGRAM):
         self.programs = programs
@@ -58,9 +59,12 @@ class Host:
         self.home = Path(self.folder.name)
         self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
         self.name = name
-        (self.home / "p.pmc").write_text(program)
         (self.home / "p.map").write_text(map_text)
-        subprocess.run([programs / "rungc", "build", "-q", self.home / "p.pmc", "-o", self.home / "p.so"], check=True)
+        source = program
+        if isinstance(program, str):
+            source = self.home / "p.pmc"
+            source.write_text(program)
+        subprocess.run([programs / "rungc", "build", "-q", source, "-o", self.home / "p.so"], check=True)
         self.log = open(self.home / "log", "w+")
         self.process = subprocess.Popen([programs / "rung-run", self.home / "p.so", self.home / "p.map", "--name", name, *options],
                                         stdout=subprocess.DEVNULL, stderr=self.log, env=self.environment)

@@ -1,11 +1,13 @@
 // rung-run: runs a compiled program with a mapping file on the machine's clock, without LinuxCNC. rungctl reaches it.
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -130,6 +132,7 @@ int run(const Options& options) try {
   }
   std::unique_ptr<plc::Box> box;
   if (!map.paths.empty()) box = plc::Box::make(image, std::move(map), errors, options.retain, warnings, newInstance);
+  if (box != nullptr && simulation != nullptr) std::ranges::move(simulation->problems(), std::back_inserter(warnings));
   for (const std::string& text : warnings) print(text);
   for (const std::string& text : errors) print(text);
   if (box == nullptr) return cli::kWrong;

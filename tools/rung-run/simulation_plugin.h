@@ -2,6 +2,7 @@
 // build, which is checked: what goes between them is C++.
 #pragma once
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -20,9 +21,15 @@ public:
   // Once: the program within the simulated control, which it owns.
   virtual Instance instance(const Image& image, const rung_instance_options& options) = 0;
 
+  // ---- after its power-on
+
+  // What of the control's own files does not fit the program, and is not served.
+  virtual std::vector<std::string> problems() const = 0;
+
   // ---- the thread that scans, between two slices
 
-  // As `event NAME KEY=VALUE…` of a scenario; `keys` is an object of texts and numbers. It may allocate.
+  // As `event NAME KEY=VALUE…` of a scenario, and its statements for a TECHNOL control: block-start KEY=VALUE…,
+  // block-done, plc-start, plc-stop, plc-clear. `keys` is an object of texts and numbers. It may allocate.
   virtual std::string event(const std::string& name, const nlohmann::json& keys) = 0;
 };
 
@@ -34,7 +41,7 @@ inline constexpr const char* kSimulationBuild = "rung_simulation_build";
 
 // Of whoever includes this; it changes with every version, compiler and interface between host and plug-in.
 inline std::string simulationBuild() {
-  return std::string(RUNG_BUILD) + " " + __VERSION__ + " " + std::to_string(sizeof(rung_instance_options)) + " 1";
+  return std::string(RUNG_BUILD) + " " + __VERSION__ + " " + std::to_string(sizeof(rung_instance_options)) + " 2";
 }
 
 } // namespace rung::rung_run

@@ -1,8 +1,11 @@
 // The plug-in of rung-run: a simulated control around a program. It has the runtime in it a second time, which makes
 // the instance and the simulation; the host runs that instance by its own, of the same build.
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,6 +28,21 @@ sim::NcArgument argumentOf(const std::string& key, const nlohmann::json& value) 
   return argument;
 }
 
+using Arguments = std::vector<sim::NcArgument>;
+
+// Statements of scenarios that are no events there.
+struct Statement {
+  std::string_view name;
+  std::string (*carryOut)(sim::SimulatedNc& nc, host::Instance& inside, const Arguments& keys);
+};
+constexpr Statement kStatements[] = {
+    {"block-start", [](auto& nc, auto& inside, const Arguments& keys) { return nc.blockStart(inside, keys); }},
+    {"block-done", [](auto& nc, auto& inside, const Arguments&) { return nc.blockDone(inside); }},
+    {"plc-start", [](auto& nc, auto& inside, const Arguments&) { return nc.plcCommand(inside, "start"); }},
+    {"plc-stop", [](auto& nc, auto& inside, const Arguments&) { return nc.plcCommand(inside, "stop"); }},
+    {"plc-clear", [](auto& nc, auto& inside, const Arguments&) { return nc.plcCommand(inside, "clear"); }},
+};
+
 class SimulatedControl final : public Simulation {
 public:
   explicit SimulatedControl(const char* dialect) : made_(sim::makeSimulatedNc(dialect)), nc_(*made_) {
@@ -42,10 +60,19 @@ public:
     return Instance(instance_);
   }
 
+  std::vector<std::string> problems() const override {
+    std::vector<std::string> texts;
+    for (const sim::NcProblem& problem : nc_.connectionProblems()) texts.push_back(problem.text);
+    return texts;
+  }
+
   std::string event(const std::string& name, const nlohmann::json& keys) override try {
-    std::vector<sim::NcArgument> arguments;
+    Arguments arguments;
     for (const auto& [key, value] : keys.items()) arguments.push_back(argumentOf(key, value));
-    std::string problem = nc_.event(runtime::insideOf(*instance_), name, arguments);
+    host::Instance& inside = runtime::insideOf(*instance_);
+    const auto* statement = std::ranges::find(kStatements, name, &Statement::name);
+    std::string problem = statement == std::end(kStatements) ? nc_.event(inside, name, arguments)
+                                                             : statement->carryOut(nc_, inside, arguments);
     runtime::takeMessages(*instance_);
     return problem;
   } catch (const std::exception& problem) {

@@ -94,6 +94,13 @@ private:
   }
   rung_image* image() { return chance(97) ? images_[below(2)]->handle() : nullptr; }
 
+  int32_t powerOff(rung_instance* plc) {
+    return chance(50) ? rung_instance_power_off(plc) : rung_instance_begin_power_off(plc);
+  }
+  int32_t define(rung_instance* plc) {
+    return rung_instance_define_message(plc, number(), number(), chance(90) ? "text %d" : nullptr);
+  }
+
   int32_t any() {
     rung_instance* plc = one(instances_);
     rung_value values[8] = {};
@@ -108,7 +115,7 @@ private:
     case 2: return watch();
     case 3: return end();
     case 4: return rung_instance_power_on(plc, static_cast<int32_t>(number()));
-    case 5: return chance(20) ? rung_instance_power_off(plc) : rung_instance_start(plc);
+    case 5: return chance(20) ? powerOff(plc) : rung_instance_start(plc);
     case 6: return chance(20) ? rung_instance_stop(plc) : rung_instance_start(plc);
     case 7: return rung_instance_run_due_fast(plc, time());
     case 8: return rung_instance_run_due(plc, time());
@@ -134,6 +141,7 @@ private:
     case 28:
       return withStruct<rung_message_info>([&](rung_message_info* s) { return rung_instance_next_message(plc, s); });
     case 29:
+      if (chance(50)) return define(plc);
       return withStruct<rung_message_info>([&](rung_message_info* s) { return rung_instance_shown(plc, number(), s); });
     case 30: return withStruct<rung_request>([&](rung_request* s) { return rung_instance_next_request(plc, s); });
     case 31: {

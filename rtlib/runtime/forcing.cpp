@@ -100,10 +100,11 @@ int32_t makeCode(rung_forces& forces) {
                 "the program %s writes a cell that is to be forced: that needs a compiler for its image "
                 "(rung_compiler_serve)",
                 image.program.name);
-  std::array<char, 256> problem{};
+  const rung_image handle{.image = forces.image};
+  std::array<char, 512> problem{};
   const std::vector<rung_forced_byte>& bytes = forces.forcing.bytes();
   const int32_t status =
-      maker->force(maker->user, &image.program, image.engine, bytes.data(), static_cast<uint32_t>(bytes.size()),
+      maker->force(maker->user, &handle, image.engine, bytes.data(), static_cast<uint32_t>(bytes.size()),
                    &forces.code.made, problem.data(), problem.size());
   if (status != RUNG_OK) return fail(static_cast<rung_status>(status), "%s", problem.data());
   forces.forcing.setCode({forces.code.made.chunk_fns, forces.code.made.engine});

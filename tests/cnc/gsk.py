@@ -9,7 +9,7 @@ import traceback
 import hal
 import linuxcnc
 
-from drive import PATIENCE, check, command, done, operator, pin, pins, polled, rungctl, run, status, wait
+from drive import PATIENCE, change_in_motion, check, command, done, end_motion, operator, pin, pins, polled, rungctl, run, status, wait
 
 PRESS = 0.25  # seconds that a key is held, some passes of the program
 
@@ -239,21 +239,15 @@ def probe():
 
 
 def remote():
-    """During a cut: watched, traced, forced, replaced by an edited program."""
+    """During a cut: an input and a coil forced, edited sources loaded, and back."""
     mdi("M8")
     pins(coolant_pump=True)
-    command.mdi("G1 X30 F400")
-    tracing = subprocess.Popen(["rungctl", "trace", "LUBE_LEVEL", "COOLANT_PUMP", "-o", "cut.vcd", "--for", "1"])
-    rungctl("force", "COOLANT_PUMP", "false", refused=True)  # rungs write it
-    rungctl("force", "LUBE_LEVEL", "false")
-    check("LUBE_LEVEL = false" in rungctl("forced"), "forced")
-    rungctl("unforce", "LUBE_LEVEL")
-    check("the new program runs" in rungctl("reload", "edited.so"), "reload")
+    command.mdi("G1 X30 F100")
+    change_in_motion([("COOLANT_LEVEL", "false", "coolant_pump", False, True),
+                      ("COOLANT_PUMP", "false", "coolant_pump", False, True)], "edited")
     check("is never set or forced here" in rungctl("set", "X_ESP", "false", refused=True), "the emergency stop was set")
-    check(not polled().inpos, "the motion was over before the changes")
-    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, "the motion")
     pins(coolant_pump=True, enable=True)
-    check(tracing.wait(PATIENCE) == 0, "trace")
+    end_motion()
     check(rungctl("rollback") == "the former program runs\n", "rollback")
     mdi("M9")
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """An example's own LinuxCNC configuration: machine_session.py --example FOLDER --driver DRIVER.py --module rung_hal.so --rungc RUNGC.
 
-The configuration is started as it is, in a copy of the example, with the driver as its display and an edited program beside its own.
+The configuration is started as it is, in a copy of the example, with the driver as its display and edited sources beside its own.
 Exit status 77: cannot be tried here, and why.
 """
 import argparse
@@ -20,14 +20,11 @@ def replace(path, old, new):
     path.write_text(text.replace(old, new), encoding="utf-8")
 
 
-def build_edited(bench, options):
-    """edited.so of the changed copy that `remote` loads."""
+def edit(folder, options):
+    """The changed copy of the sources that `remote` loads."""
     name, old, new = options.edit
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "edited"
-        shutil.copytree(options.example, copy, ignore=shutil.ignore_patterns("*.scn", "linuxcnc"))
-        replace(copy / name, old, new)
-        bench.program(copy, "machine/linuxcnc/edited.so")
+    shutil.copytree(options.example, folder, ignore=shutil.ignore_patterns("*.scn", "linuxcnc"))
+    replace(folder / name, old, new)
 
 
 def configure(bench, options):
@@ -56,7 +53,7 @@ def main():
     with tempfile.TemporaryDirectory(dir="/var/tmp", prefix="rung-cnc-") as folder:
         bench = Bench(options, folder)
         configuration = configure(bench, options)
-        build_edited(bench, options)
+        edit(configuration / "edited", options)
         log = bench.run("linuxcnc", "-r", str(configuration / "machine.ini")).stdout
         result = configuration / "result.txt"
         expect(result.exists(), "LinuxCNC did not start the driver")

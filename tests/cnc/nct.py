@@ -1,14 +1,13 @@
 #!/usr/bin/python3
 """Works at the turning centre inside LinuxCNC, in place of its display: at the panel, with part programs, by rungctl."""
 import math
-import subprocess
 import time
 
 import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, errors, idle, is_state, mdi, operator, pin, pins, rungctl, set_mode, state, wait
+from drive import change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, pin, pins, rungctl, set_mode, state, wait
 from panel import connect, panel, press, put
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
@@ -246,25 +245,19 @@ def signals():
 
 
 def remote():
-    """While it cuts: watched, traced, an input forced, a changed program loaded, and back."""
+    """While it cuts: an input and a coil forced, edited sources loaded, and back."""
     mdi("M3 S600")
     mdi("M8")
-    command.mdi("G1 X-40 F500")  # 4 s
+    command.mdi("G1 X-40 F100")
     wait("x cuts", lambda: position("x") < -8)
-    tracing = subprocess.Popen(["rungctl", "trace", "COOL_LEVEL", "COOL_PUMP", "-o", "cut.vcd", "--for", "1"])
-    check("COOL_LEVEL = " in rungctl("get", "COOL_LEVEL"), "get")
-    # Rungs write with indices here, so a compiler would have to say which cells are safe from them.
-    check("needs a compiler" in rungctl("force", "COOL_LEVEL", "false", refused=True), "forced without a compiler")
     rungctl("set", "CONV_W", "true")
     pins(conveyor=True)
     rungctl("set", "CONV_W", "false")
     pins(conveyor=False)
-    check("the new program runs" in rungctl("reload", "edited.so"), "reload")
+    change_in_motion([("B_CONV", "true", "conveyor", True, False), ("COOL_PUMP", "false", "coolant_pump", False, True)], "edited")
     check("is never set or forced here" in rungctl("set", "ESTOP_OK", "false", refused=True), "the emergency stop was set")
-    check(not state("inpos"), "the motion was over before the changes")
-    done("the motion")
-    check(tracing.wait(drive.PATIENCE) == 0, "trace")
     pins(coolant_pump=True, spindle_at_speed=True)
+    end_motion()
     check(rungctl("rollback") == "the former program runs\n", "rollback")
     mdi("M9")
     mdi("M5")

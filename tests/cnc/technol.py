@@ -6,7 +6,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, errors, idle, is_state, mdi, operator, pin, pins, rungctl, state, wait
+from drive import change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, pin, pins, rungctl, state, wait
 from panel import connect, press, put
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
@@ -273,35 +273,16 @@ def alarm():
 
 
 def remote():
-    """While an axis cuts, the program is watched, traced, forced, and replaced by an edited one, and back."""
+    """While an axis cuts: an input and a coil forced, edited sources loaded, and back."""
     mdi("M8")
     pins(coolant_2=True)
-    command.mdi("G1 X40 F960")  # 2.5 s
-    check("running: " in rungctl("status"), "status")
-    watching = drive.subprocess.Popen(["rungctl", "watch", "O_LIGHT"], stdout=drive.subprocess.PIPE, text=True)
-    was = pin("light")
-    tracing = drive.subprocess.Popen(["rungctl", "trace", "K_LIGHT", "O_LIGHT", "-o", "cut.vcd", "--for", "1"])
-    time.sleep(0.3)
-    command.set_digital_output(0, 1)  # the key of the light
-    pins(light=not was)
-    # Of this program, which writes by computed addresses, only the block's cells are nobody's but the control's.
-    check("writes a cell that is to be forced" in rungctl("force", "K_LIGHT", "true", refused=True), "K_LIGHT was forced")
-    rungctl("force", "BLK[0].T", "3")
-    check("BLK[0].T = 3" in rungctl("forced"), "forced")
-    rungctl("unforce", "BLK[0].T")
-    command.set_digital_output(0, 0)
-    check("the new program runs" in rungctl("reload", "edited.so"), "reload")
+    command.mdi("G1 X40 F200")
+    lit = pin("light")
+    change_in_motion([("K_LIGHT", "true", "light", not lit, not lit),  # a key that changes it
+                      ("O_COOL2", "false", "coolant_2", False, True)], "edited")
     check("is never set or forced here" in rungctl("set", "P1IN.0", "false", refused=True), "the emergency chain was set")
-    check(not state("inpos"), "the motion was over before the changes")
-    done("the motion")
-    check(tracing.wait(10) == 0, "trace")
-    watching.terminate()
-    seen = watching.communicate()[0]
-    check("true" in seen and "false" in seen, f"watched: {seen}")
-    with open("cut.vcd", encoding="ascii") as file:
-        picture = file.read()
-    check(all(f"\n{value}{name}\n" in picture for value in "01" for name in "!\""), picture)
     pins(coolant_2=True)
+    end_motion()
     check(rungctl("rollback") == "the former program runs\n", "rollback")
     mdi("M9")
     mdi("G0 X0")

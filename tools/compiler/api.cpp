@@ -10,6 +10,7 @@
 #include "rtlib/runtime/handles.h"
 #include "rtlib/runtime/structs.h"
 #include "rung/compiler.h"
+#include "rung/runtime.hpp"
 #include "tools/compiler/code_maker.h"
 #include "tools/compiler/compile.h"
 #include "tools/compiler/configuration.h"
@@ -193,20 +194,6 @@ int32_t serve(rung_image* image, std::shared_ptr<const Program> program, EngineK
   return status == RUNG_OK ? status : failAsRuntime(status);
 }
 
-// All of the file that the image was opened from; "" without one.
-std::string fileOf(const rung_image* image) {
-  constexpr size_t kPiece = size_t{1} << 20;
-  std::string bytes;
-  size_t got = kPiece;
-  while (got == kPiece) {
-    const size_t before = bytes.size();
-    bytes.resize(before + kPiece);
-    if (rung_image_file(image, before, bytes.data() + before, &got) != RUNG_OK) return {};
-    bytes.resize(before + got);
-  }
-  return bytes;
-}
-
 int32_t failErrors() noexcept { return fail(RUNG_WRONG_STATE, "the program has errors: see its diagnostics"); }
 
 } // namespace
@@ -254,7 +241,7 @@ int32_t rung_compiler_serve(rung_image* image) {
   return contained([&] {
     const std::string file = fileOf(image);
     if (file.empty()) return fail(RUNG_REFUSED, "the image was not opened from a file: its maker serves it");
-    Result<Compiled> compiled = irOf(host::readSealed(file).image, *program);
+    Result<Compiled> compiled = irOf(host::readSealed(file).image, hashesOf(*program));
     if (!compiled.ok()) return fail(RUNG_REFUSED, "the file of %s: %s", program->name, compiled.error().c_str());
     auto kept = std::make_shared<Program>();
     kept->compiled = std::move(compiled).value();

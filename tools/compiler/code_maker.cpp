@@ -24,10 +24,10 @@ Result<std::unique_ptr<ForcedCode>> forcedCode(const Maker& maker, const rung_pr
   return makeForcedCode(*compiled.value(), maker.kind, maker.options, program, engine, forced);
 }
 
-int32_t makeForced(void* user, const rung_program* program, void* engine, const rung_forced_byte* forced,
-                   uint32_t count, rung_forced_code* code, char* problem, size_t problemBytes) {
+int32_t makeForced(void* user, const rung_image* image, void* engine, const rung_forced_byte* forced, uint32_t count,
+                   rung_forced_code* code, char* problem, size_t problemBytes) {
   const int32_t status = contained([&] {
-    auto made = forcedCode(*static_cast<const Maker*>(user), *program, engine, {forced, count});
+    auto made = forcedCode(*static_cast<const Maker*>(user), *rung_image_program(image), engine, {forced, count});
     if (!made.ok()) return runtime::fail(RUNG_FAILED, "%s", made.error().c_str());
     ForcedCode* owner = std::move(made).value().release();
     *code = {.chunk_fns = owner->code().functions,

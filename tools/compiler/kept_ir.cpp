@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <fmt/format.h>
+#include <optional>
 #include <zlib.h>
 
 #include "codegen/llvm/sections.h"
@@ -67,7 +68,7 @@ Result<std::string> withIr(std::string_view object, const Compiled& compiled) {
   return codegen::withSection(object, kSection, packed(headOf(compiled.passes) + ir::print(*compiled.built)));
 }
 
-Result<Compiled> irOf(std::string_view object, const rung_program& program) {
+Result<Compiled> irOf(std::string_view object, const Hashes& program) {
   const std::optional<std::string> section = codegen::sectionOf(object, kSection);
   if (!section) return failure("it carries no IR: it was built with --no-ir, or by another linker");
   const std::optional<std::string> text = unpacked(*section);
@@ -83,7 +84,7 @@ Result<Compiled> irOf(std::string_view object, const rung_program& program) {
   ir::runPasses(*out.module, out.passes);
   out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{});
   out.codeHash = hashBytes(ir::print(*out.module));
-  if (out.codeHash != program.code_hash || out.layout->hash() != program.layout_hash)
+  if (Hashes{out.codeHash, out.layout->hash()} != program)
     return failure("this compiler makes another program of its IR; compile it again");
   return out;
 }

@@ -1,49 +1,13 @@
 // Chunks with forced cells (see recompiler.h).
 #include "tools/compiler/recompiler.h"
 
-#include <algorithm>
-
 #include "codegen/jit/jit_engine.h"
 #include "ir/interp/interp.h"
-#include "ir/passes/force.h"
+#include "tools/compiler/forced_program.h"
 #include "tools/compiler/tiered.h"
 
 namespace rung::compiler {
 namespace {
-
-bool sameCode(const ir::Rung& a, const ir::Rung& b) {
-  return a.ops == b.ops && a.args == b.args && a.transfer == b.transfer;
-}
-
-// The program's memory and chunks, with other rungs.
-struct ForcedProgram {
-  ForcedProgram(const Compiled& source, std::span<const rung_forced_byte> forced)
-      : module(changed(source, forced)), layout(source.layout->over(module)) {}
-  ForcedProgram(const ForcedProgram&) = delete; // the layout is of this module
-  ForcedProgram& operator=(const ForcedProgram&) = delete;
-
-  static ir::Module changed(const Compiled& source, std::span<const rung_forced_byte> forced) {
-    ir::Module module = *source.built;
-    ir::forceBits(module, forced);
-    ir::runPasses(module, source.passes);
-    return module;
-  }
-
-  // Those whose rungs are not those of `other`.
-  std::vector<uint32_t> chunksUnlike(const ir::Module& other) const {
-    std::vector<uint32_t> unlike;
-    for (uint32_t i = 0; i < layout.chunks().size(); ++i) {
-      const ir::Chunk& chunk = layout.chunks()[i];
-      const auto here = module.at(chunk.routine).rungs.begin() + chunk.firstRung;
-      const auto there = other.at(chunk.routine).rungs.begin() + chunk.firstRung;
-      if (!std::equal(here, here + chunk.rungCount, there, sameCode)) unlike.push_back(i);
-    }
-    return unlike;
-  }
-
-  ir::Module module;
-  ir::Layout layout;
-};
 
 class InterpretedCode final : public ForcedCode {
 public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <ctime>
+#include <iterator>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -106,6 +107,26 @@ struct Controller::Watching {
   std::vector<rung_value> values, sent;
 };
 
+struct Controller::HeldCell {
+  std::string name;
+  std::string owner;
+  rung_value value{};
+  bool operator==(const HeldCell& other) const {
+    return name == other.name && owner == other.owner && value.integer == other.value.integer;
+  }
+};
+
+// Of the set of forces, as somebody has asked for it.
+struct Controller::ForceChange {
+  Peer peer;
+  std::vector<HeldCell> before;
+  std::vector<HeldCell> cells; // from then on
+  std::string text;            // for the log
+  json answer;                 // when it is done
+  json id = json::object();    // of the request, where that has one
+  std::string refused = {};    // why it will not be done any more
+};
+
 const Controller::Command Controller::kCommands[] = {
     {"status", std::nullopt, &Controller::status},
     {"messages", std::nullopt, &Controller::messages},
@@ -134,12 +155,13 @@ const Controller::Command Controller::kCommands[] = {
     {"served", mapping::Remote::Serve, &Controller::served},
 };
 
-Controller::Controller(std::string host, plc::Box& box, const rung_program& program,
-                       std::function<void(const std::string&)> log)
-    : host_(std::move(host)), box_(box), services_(box), program_(program.name), dialect_(program.dialect),
-      log_(std::move(log)) {}
+Controller::Controller(std::string host, plc::Box& box, const Image& image, std::function<void(const std::string&)> log)
+    : host_(std::move(host)), box_(box), services_(box), program_(image.program().name),
+      dialect_(image.program().dialect), log_(std::move(log)), codeMaker_(sources::ForcedCodeMaker::make()) {
+  codeMaker_->serve(image);
+}
 
-Controller::~Controller() = default;
+Controller::~Controller() { codeMaker_->abandon(); }
 
 json Controller::greeting() {
   return {{"rung", "host"}, {"protocol", kProtocol}, {"host", host_}, {"program", program_}, {"dialect", dialect_}};
@@ -158,6 +180,10 @@ json Controller::answer(const Peer& peer, const json& request) {
                     "\"]");
     }
     answer = (this->*command->run)(peer, request);
+    if (answer.is_null()) {
+      if (request.contains("id")) pending_->id["id"] = request["id"];
+      return answer;
+    }
     if (!answer.contains("ok")) answer["ok"] = true;
   } catch (const std::exception& problem) { // Refused, or no memory
     answer = {{"ok", false}, {"error", problem.what()}};
@@ -171,6 +197,9 @@ void Controller::gone(const Peer& peer) {
   std::erase(following_, peer.number);
   desk_.gone(peer);
   services_.gone(peer);
+  if (pending_ == nullptr || pending_->peer.number != peer.number) return;
+  codeMaker_->abandon();
+  pending_.reset();
 }
 
 // ---- looking -------------------------------------------------------------------------------------------------------
@@ -293,6 +322,7 @@ void Controller::sendEvents(Server& server) {
     }
   }
   services_.work(server);
+  finishPending(server);
 }
 
 json Controller::map(const Peer&, const json&) {
@@ -405,13 +435,71 @@ std::vector<rung_force_info> Controller::forcesInEffect() {
   return list;
 }
 
-void Controller::putInEffect(const std::vector<rung_forced_cell>& cells) {
+std::vector<Controller::HeldCell> Controller::heldCells() {
+  std::vector<HeldCell> cells;
+  for (const rung_force_info& force : forcesInEffect()) cells.push_back({force.name, force.owner, force.value});
+  return cells;
+}
+
+void Controller::refuseWhilePending() const {
+  if (pending_ != nullptr)
+    throw Refused("the code for another force is being made; try again when it is done, or end all: unforce --all");
+}
+
+// Nothing: the compiler is at work on its code.
+std::optional<Controller::Forces> Controller::prepared(const ForceChange& change) {
+  if (change.cells.empty()) return Forces();
+  std::vector<rung_forced_cell> cells;
+  for (const HeldCell& cell : change.cells)
+    cells.push_back({cell.name.c_str(), cell.owner.c_str(), cell.value, RUNG_READ, 0});
   rung_forces* made = nullptr;
-  if (!cells.empty())
-    check(rung_forces_new(box_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
-  std::unique_ptr<rung_forces, EndForces> forces(made);
-  give({.kind = Order::Kind::Force, .forces = made});
+  const int32_t status =
+      check(rung_forces_new(box_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
+  return status == RUNG_LATER ? std::nullopt : std::optional<Forces>(made);
+}
+
+void Controller::putInEffect(const ForceChange& change, Forces forces) {
+  give({.kind = Order::Kind::Force, .forces = forces.get()});
   forces_ = std::move(forces); // the former set has ended
+  logChange(change.peer, change.text);
+}
+
+// Its answer; null where that comes later.
+json Controller::begin(ForceChange change) {
+  if (std::optional<Forces> forces = prepared(change)) {
+    putInEffect(change, std::move(*forces));
+    return change.answer;
+  }
+  pending_ = std::make_unique<ForceChange>(std::move(change));
+  return nullptr;
+}
+
+// What has happened meanwhile ends forces, too.
+void Controller::refusePending(const std::string& why) {
+  if (pending_ == nullptr) return;
+  codeMaker_->abandon();
+  pending_->refused = why;
+}
+
+void Controller::finishPending(Server& server) {
+  if (pending_ == nullptr) return;
+  if (pending_->refused.empty() && !box_.running())
+    refusePending("the program has stopped meanwhile: forces have ended");
+  json answer = pending_->answer;
+  try {
+    if (!pending_->refused.empty()) throw Refused(pending_->refused);
+    std::optional<Forces> forces = prepared(*pending_);
+    if (!forces) return;
+    if (heldCells() != pending_->before) throw Refused("forces have ended meanwhile, and are not put in effect again");
+    putInEffect(*pending_, std::move(*forces));
+    answer["ok"] = true;
+  } catch (const std::exception& problem) {
+    answer = {{"ok", false}, {"error", problem.what()}};
+  }
+  answer.update(pending_->id);
+  const uint32_t peer = pending_->peer.number;
+  pending_.reset();
+  server.answer(peer, answer);
 }
 
 json Controller::force(const Peer& peer, const json& request) {
@@ -419,33 +507,39 @@ json Controller::force(const Peer& peer, const json& request) {
   if (!request.contains("value")) throw Refused("found no \"value\" in the request, expected one");
   const Found found = find(name, RUNG_READ);
   refuseProtected(name);
+  refuseWhilePending();
   const rung_value value = fromJson(found.info.type, request["value"], name);
-  std::vector<rung_forced_cell> cells = {{name.c_str(), peer.name.c_str(), value, RUNG_READ, 0}};
-  for (const rung_force_info& force : forcesInEffect())
-    if (force.name != name) cells.push_back({force.name, force.owner, force.value, RUNG_READ, 0});
+  std::vector<HeldCell> before = heldCells();
+  std::vector<HeldCell> cells = {{name, peer.name, value}};
+  std::ranges::copy_if(before, std::back_inserter(cells), [&](const HeldCell& cell) { return cell.name != name; });
   if (cells.size() > kMostForces) throw Refused("64 cells are forced already; end a force first");
-  putInEffect(cells);
-  logChange(peer, "force " + name + " to " + shown(found.info.type, value));
-  return {{"name", name}, {"value", toJson(found.info.type, value)}};
+  return begin({.peer = peer,
+                .before = std::move(before),
+                .cells = std::move(cells),
+                .text = "force " + name + " to " + shown(found.info.type, value),
+                .answer = {{"name", name}, {"value", toJson(found.info.type, value)}}});
 }
 
 json Controller::unforce(const Peer& peer, const json& request) {
   const bool all = flagOf(request, "all");
   const std::string name = all ? "" : textOf(request, "name");
-  std::vector<rung_forced_cell> left;
-  size_t ended = 0;
-  for (const rung_force_info& force : forcesInEffect()) {
-    if (all || force.name == name)
-      ++ended;
-    else
-      left.push_back({force.name, force.owner, force.value, RUNG_READ, 0});
-  }
+  if (all)
+    refusePending("all forces have been ended meanwhile");
+  else
+    refuseWhilePending();
+  std::vector<HeldCell> before = heldCells();
+  std::vector<HeldCell> left;
+  std::ranges::copy_if(before, std::back_inserter(left),
+                       [&](const HeldCell& cell) { return !all && cell.name != name; });
+  const size_t ended = before.size() - left.size();
   if (!all && ended == 0) throw Refused(name + " is not forced");
-  if (ended != 0) {
-    putInEffect(left);
-    logChange(peer, all ? "unforce all" : "unforce " + name);
-  }
-  return {{"ended", ended}};
+  json answer = {{"ended", ended}};
+  if (ended == 0) return answer;
+  return begin({.peer = peer,
+                .before = std::move(before),
+                .cells = std::move(left),
+                .text = all ? "unforce all" : "unforce " + name,
+                .answer = std::move(answer)});
 }
 
 json Controller::forced(const Peer&, const json&) {
@@ -484,6 +578,7 @@ Controller::NextProgram Controller::nextProgram(const Peer& peer, const json& re
 json Controller::reload(const Peer& peer, const json& request) {
   const NextProgram next = nextProgram(peer, request);
   const Image& image = next.get();
+  codeMaker_->serve(image);
   rung_replacement* made = nullptr;
   check(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
   std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
@@ -514,6 +609,7 @@ json Controller::reload(const Peer& peer, const json& request) {
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Replace, .replacement = made}, kTime);
   forces_.reset(); // they have ended
+  refusePending("another program has taken over meanwhile: forces have ended");
   replacement_ = std::move(replacement);
   former_ = std::exchange(program_, image.program().name);
   logChange(peer, "reload " + next.text);
@@ -575,6 +671,7 @@ json Controller::rollback(const Peer& peer, const json&) {
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Replace, .replacement = replacement_.get()}, kTime);
   forces_.reset();
+  refusePending("the former program has taken over meanwhile: forces have ended");
   std::swap(former_, program_);
   logChange(peer, "rollback to " + program_);
   return {{"program", program_}};
@@ -586,7 +683,11 @@ json Controller::simple(Order::Kind kind, const Peer& peer, const char* what) {
   return json::object();
 }
 
-json Controller::stop(const Peer& peer, const json&) { return simple(Order::Kind::Stop, peer, "stop"); }
+json Controller::stop(const Peer& peer, const json&) {
+  json answer = simple(Order::Kind::Stop, peer, "stop");
+  refusePending("the program has been stopped meanwhile: forces have ended");
+  return answer;
+}
 json Controller::start(const Peer& peer, const json&) { return simple(Order::Kind::Start, peer, "start"); }
 
 json Controller::reset(const Peer& peer, const json&) {

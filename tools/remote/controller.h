@@ -15,6 +15,7 @@
 #include "tools/remote/server.h"
 #include "tools/remote/services.h"
 #include "tools/remote/source_desk.h"
+#include "tools/sources/forced_code_maker.h"
 
 namespace rung::remote {
 
@@ -23,8 +24,8 @@ class Controller final : public Handler {
 public:
   static constexpr int kProtocol = 1;
 
-  // `program` is the one that the box began with. `log` takes a line for every change that somebody has made.
-  Controller(std::string host, plc::Box& box, const rung_program& program, std::function<void(const std::string&)> log);
+  // `image` is what the box began with. `log` takes a line for every change that somebody has made.
+  Controller(std::string host, plc::Box& box, const Image& image, std::function<void(const std::string&)> log);
   ~Controller() override; // before the box
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
@@ -46,7 +47,8 @@ public:
   using Print = std::function<void(const std::string&)>;
   bool serveBox(Server* server, const Print& print);
   void passMessages(Server* server, const Print& print);
-  // Sends what has changed to those who watch, and what the program asks to who serves it.
+  // Sends what has changed to those who watch, what the program asks to who serves it, and the answer to who waits for
+  // his force.
   void sendEvents(Server& server);
   // Compares what a shadow has recorded, for a part of a turn.
   void work();
@@ -111,8 +113,20 @@ private:
     const Image& get() const { return opened ? *opened : *image; }
   };
   NextProgram nextProgram(const Peer& peer, const nlohmann::json& request) const;
+  struct HeldCell;
+  struct ForceChange;
   std::vector<rung_force_info> forcesInEffect();
-  void putInEffect(const std::vector<rung_forced_cell>& cells);
+  std::vector<HeldCell> heldCells();
+  void refuseWhilePending() const;
+  struct EndForces {
+    void operator()(rung_forces* forces) const noexcept { rung_forces_free(forces); }
+  };
+  using Forces = std::unique_ptr<rung_forces, EndForces>;
+  std::optional<Forces> prepared(const ForceChange& change);
+  void putInEffect(const ForceChange& change, Forces forces);
+  nlohmann::json begin(ForceChange change);
+  void refusePending(const std::string& why);
+  void finishPending(Server& server);
   void endShadow();
   // `logged`: for the log alone, not for the operator.
   void report(const std::string& text, Server* server, bool logged = false);
@@ -132,10 +146,9 @@ private:
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages
   SourceDesk desk_;
-  struct EndForces {
-    void operator()(rung_forces* forces) const noexcept { rung_forces_free(forces); }
-  };
-  std::unique_ptr<rung_forces, EndForces> forces_;
+  std::shared_ptr<sources::ForcedCodeMaker> codeMaker_;
+  std::unique_ptr<ForceChange> pending_; // for whose code the compiler is at work
+  Forces forces_;
   struct EndShadow {
     void operator()(rung_shadow* shadow) const noexcept { rung_shadow_free(shadow); }
   };

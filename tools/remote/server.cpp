@@ -44,6 +44,8 @@ std::string nameOf(uid_t user) {
   return std::to_string(user);
 }
 
+std::string textOf(const json& line) { return line.dump(-1, ' ', false, json::error_handler_t::replace); }
+
 json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}}; }
 
 } // namespace
@@ -74,16 +76,21 @@ Server::~Server() {
 
 void Server::serve(std::chrono::milliseconds wait) {
   std::vector<pollfd> waiting = {{socket_, POLLIN, 0}};
-  const bool hasLines = std::ranges::any_of(clients_, [](const Client& c) { return c.connection.hasLine(); });
-  if (hasLines) wait = std::chrono::milliseconds(0);
-  for (const Client& client : clients_)
-    waiting.push_back(
-        {client.connection.socket(), static_cast<short>(POLLIN | (client.connection.wantsToSend() ? POLLOUT : 0)), 0});
-  if (poll(waiting.data(), waiting.size(), static_cast<int>(wait.count())) <= 0 && !hasLines) return;
+  const bool hasRequests = std::ranges::any_of(clients_, &Client::hasRequest);
+  if (hasRequests) wait = std::chrono::milliseconds(0);
+  for (const Client& client : clients_) {
+    const int events = (client.waits ? POLLRDHUP : POLLIN) | (client.connection.wantsToSend() ? POLLOUT : 0);
+    waiting.push_back({client.connection.socket(), static_cast<short>(events), 0});
+  }
+  if (poll(waiting.data(), waiting.size(), static_cast<int>(wait.count())) <= 0 && !hasRequests) return;
   auto event = waiting.begin() + 1;
   for (Client& client : clients_) {
     if ((event->revents & POLLOUT) != 0) client.connection.sendMore();
-    if ((event->revents & ~POLLOUT) != 0 || client.connection.hasLine()) read(client);
+    const bool isCalled = (event->revents & ~POLLOUT) != 0;
+    if (isCalled && client.waits)
+      client.connection.end("the other side has not waited for its answer");
+    else if (isCalled || client.hasRequest())
+      read(client);
     ++event;
   }
   if (waiting.front().revents != 0) accept();
@@ -117,7 +124,8 @@ void Server::read(Client& client) {
   const json request = json::parse(*line, nullptr, false);
   const json answer = request.is_discarded() ? problemOf("found a line that is not JSON, expected an object")
                                              : handler_.answer(client.peer, request);
-  client.connection.send(answer.dump(-1, ' ', false, json::error_handler_t::replace));
+  client.waits = answer.is_null();
+  if (!client.waits) client.connection.send(textOf(answer));
 }
 
 void Server::forget() {
@@ -133,7 +141,13 @@ void Server::forget() {
 
 void Server::send(uint32_t peer, const json& event) {
   for (Client& client : clients_)
-    if (client.peer.number == peer) client.connection.send(event.dump(-1, ' ', false, json::error_handler_t::replace));
+    if (client.peer.number == peer) client.connection.send(textOf(event));
+}
+
+void Server::answer(uint32_t peer, const json& answer) {
+  for (Client& client : clients_)
+    if (client.peer.number == peer) client.waits = false;
+  send(peer, answer);
 }
 
 } // namespace rung::remote

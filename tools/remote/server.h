@@ -26,7 +26,7 @@ public:
   virtual ~Handler() = default;
   // What the host says first.
   virtual nlohmann::json greeting() = 0;
-  // The answer to one request, any JSON.
+  // The answer to one request, any JSON; null: it comes later, by Server::answer.
   virtual nlohmann::json answer(const Peer& peer, const nlohmann::json& request) = 0;
   virtual void gone(const Peer& peer) = 0;
 };
@@ -46,12 +46,16 @@ public:
   void serve(std::chrono::milliseconds wait);
   // To one of those who have asked; to nobody where he has gone.
   void send(uint32_t peer, const nlohmann::json& event);
+  // The answer that the handler has not given before. Until then nothing else that he sends is looked at.
+  void answer(uint32_t peer, const nlohmann::json& answer);
   const std::string& path() const { return path_; }
 
 private:
   struct Client {
     Peer peer;
     Connection connection;
+    bool waits = false; // for an answer
+    bool hasRequest() const { return !waits && connection.hasLine(); }
   };
   void accept();
   void read(Client& client);

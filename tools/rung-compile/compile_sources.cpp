@@ -1,23 +1,18 @@
 // See compile_sources.h.
 #include "tools/rung-compile/compile_sources.h"
 
-#include <fmt/format.h>
-#include <new>
 #include <vector>
 
 #include "codegen/llvm/llvm_emitter.h"
-#include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/host/sealing.h"
 #include "tools/compiler/compile.h"
 #include "tools/compiler/configuration.h"
-#include "tools/sources/limits.h"
+#include "tools/compiler/kept_ir.h"
 #include "tools/sources/sources.h"
 
 namespace rung::rung_compile {
 namespace {
-
-Outcome failed(std::string why) { return {.verdict = sources::kVerdictFailed, .report = std::move(why), .image = {}}; }
 
 compiler::CompileRequest requestOf(const sources::Sources& sources) {
   compiler::CompileRequest request;
@@ -25,6 +20,7 @@ compiler::CompileRequest requestOf(const sources::Sources& sources) {
   request.options.config = sources.config;
   request.options.includePaths = sources.includePaths;
   request.instrument = sources.profile;
+  request.keepBuilt = true;
   return request;
 }
 
@@ -56,23 +52,20 @@ Outcome compile(const sources::Sources& given) {
     return {.verdict = sources::kVerdictErrors, .report = std::move(report), .image = {}};
   codegen::LlvmOptions options;
   options.debugInfo = false;
-  const Result<std::string> object =
-      codegen::buildLlvmSharedObjectByOutput(*compiled->layout, compiled->codeHash, options);
+  Result<std::string> object = codegen::buildLlvmSharedObjectByOutput(*compiled->layout, compiled->codeHash, options);
+  if (object.ok()) object = compiler::withIr(object.value(), *compiled);
   if (!object.ok()) return failed(object.error());
   return {.verdict = sources::kVerdictCompiled, .report = std::move(report), .image = host::sealed(object.value())};
 }
 
 } // namespace
 
-Outcome compileSources(std::string_view packed) try {
-  const ThrowingChecks throwing;
-  std::string problem;
-  const std::optional<sources::Sources> given = sources::unpacked(packed, problem);
-  return given ? compile(*given) : failed(std::move(problem));
-} catch (const std::bad_alloc&) {
-  return failed(fmt::format("the program needs more than {} MB to be compiled", sources::kMostMemory >> 20));
-} catch (const std::exception& error) { // of the compiler itself
-  return failed(error.what());
+Outcome compileSources(std::string_view packed) {
+  return outcomeOf([&] {
+    std::string problem;
+    const std::optional<sources::Sources> given = sources::unpacked(packed, problem);
+    return given ? compile(*given) : failed(std::move(problem));
+  });
 }
 
 } // namespace rung::rung_compile

@@ -1,15 +1,10 @@
 // From packed sources to a program file, in memory.
 #pragma once
-#include <string>
 #include <string_view>
 
-namespace rung::rung_compile {
+#include "tools/rung-compile/outcome.h"
 
-struct Outcome {
-  std::string_view verdict; // tools/sources/limits.h
-  std::string report;
-  std::string image; // sealed, of a program that is compiled
-};
+namespace rung::rung_compile {
 
 // Opens no file; the linker writes to standard output (see buildLlvmSharedObjectByOutput).
 Outcome compileSources(std::string_view packed);

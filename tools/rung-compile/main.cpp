@@ -1,5 +1,5 @@
-// rung-compile: compiles sources for a host that starts it, with no rights of the host's (docs/security.md); or reads
-// them for it, with the rights of their user.
+// rung-compile: compiles sources, or a program with forced cells, for a host that starts it, with no rights of the
+// host's (docs/security.md); or reads sources for it, with the rights of their user.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -14,8 +14,10 @@
 
 #include "rtlib/host/file.h"
 #include "tools/rung-compile/collect.h"
+#include "tools/rung-compile/compile_forces.h"
 #include "tools/rung-compile/compile_sources.h"
 #include "tools/rung-compile/sandbox.h"
+#include "tools/sources/forces.h"
 #include "tools/sources/limits.h"
 
 namespace {
@@ -50,18 +52,18 @@ std::string warmUp() {
 }
 
 // False: there is more than may be.
-bool readInput(std::string& bytes) {
+bool readInput(std::string& bytes, size_t most) {
   constexpr size_t kPiece = size_t{1} << 20;
   size_t used = 0;
   ssize_t got = 1;
-  while (got != 0 && used <= sources::kMostBytes) {
+  while (got != 0 && used <= most) {
     bytes.resize(used + kPiece);
     got = read(sources::kInputFile, bytes.data() + used, kPiece);
     if (got > 0) used += static_cast<size_t>(got);
     if (got < 0 && errno != EINTR) got = 0;
   }
   bytes.resize(used);
-  return used <= sources::kMostBytes;
+  return used <= most;
 }
 
 // "" or why not. Nobody can change it from then on.
@@ -71,22 +73,30 @@ std::string writeImage(std::string_view bytes) {
   return std::string("cannot write the program: ") + std::strerror(errno);
 }
 
-int compileInput() {
+struct Work { // of the process
+  const char* input;
+  size_t most; // bytes of it
+  rung_compile::Outcome (*compile)(std::string_view bytes);
+};
+constexpr Work kSources{"sources", sources::kMostBytes, &rung_compile::compileSources};
+constexpr Work kForces{"forces", sources::kMostPackedForces, &rung_compile::compileForces};
+
+int compileInput(const Work& work) {
   std::string bytes;
-  if (!readInput(bytes))
-    return answer(sources::kVerdictFailed,
-                  "the sources have more than " + std::to_string(sources::kMostBytes) + " bytes, expected no more");
-  const rung_compile::Outcome outcome = rung_compile::compileSources(bytes);
+  if (!readInput(bytes, work.most))
+    return answer(sources::kVerdictFailed, std::string("the ") + work.input + " have more than " +
+                                               std::to_string(work.most) + " bytes, expected no more");
+  const rung_compile::Outcome outcome = work.compile(bytes);
   if (outcome.verdict != sources::kVerdictCompiled) return answer(outcome.verdict, outcome.report);
   const std::string problem = writeImage(outcome.image);
   return problem.empty() ? answer(outcome.verdict, outcome.report) : answer(sources::kVerdictFailed, problem);
 }
 
-int compileForHost() {
+int compileForHost(const Work& work) {
   std::string problem = rung_compile::giveUpRights(sources::kImageFile, kLimits);
   if (problem.empty()) problem = warmUp();
   if (problem.empty()) problem = rung_compile::enterSandbox();
-  return problem.empty() ? compileInput() : answer(sources::kVerdictFailed, problem);
+  return problem.empty() ? compileInput(work) : answer(sources::kVerdictFailed, problem);
 }
 
 int collectForHost(std::string_view number, const std::vector<std::string>& files) {
@@ -104,11 +114,13 @@ bool isOpen(int file) { return fcntl(file, F_GETFD) >= 0; }
 
 } // namespace
 
-// Without words: packed sources come by standard input. --collect --user NUMBER -- FILE…: it reads files.
+// Without words: packed sources come by standard input. --forces: packed forces. --collect --user NUMBER -- FILE…: it
+// reads files.
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty() && fcntl(sources::kImageFile, F_GET_SEALS) >= 0 && isOpen(sources::kAnswerFile))
-    return compileForHost();
+  const bool hasFiles = fcntl(sources::kImageFile, F_GET_SEALS) >= 0 && isOpen(sources::kAnswerFile);
+  if (words.empty() && hasFiles) return compileForHost(kSources);
+  if (words.size() == 1 && words[0] == sources::kForcesWord && hasFiles) return compileForHost(kForces);
   if (words.size() > 4 && words[0] == "--collect" && words[1] == "--user" && isOpen(sources::kAnswerFile))
     return collectForHost(words[2], {words.begin() + 4, words.end()});
   std::cerr << "rung-compile: hosts of PLC programs start it, as rung_hal and rung-run; nobody else does\n";

@@ -193,7 +193,7 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   if (c.box == nullptr) return false;
   const auto logged = [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); };
-  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, c.image->program(), logged);
+  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, *c.image, logged);
   return true;
 }
 

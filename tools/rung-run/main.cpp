@@ -56,8 +56,8 @@ void catchSignals() {
 class Run {
 public:
   Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box, rung_run::Simulation* simulation)
-      : box_(std::move(box)), pins_(*box_), connections_(box_->map()),
-        controller_(options.name, *box_, image.program(), print), server_(options.name, getuid(), controller_),
+      : box_(std::move(box)), pins_(*box_), connections_(box_->map()), controller_(options.name, *box_, image, print),
+        server_(options.name, getuid(), controller_),
         scans_(*box_, pins_, connections_,
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {

@@ -90,7 +90,8 @@ Result<const compiler::Compiled*> Program::wanted() {
   if (compiled) return &*compiled;
   if (!carried) {
     const std::string file = fileOf(*object);
-    Result<compiler::Compiled> found = compiler::irOf(host::readSealed(file).image, object->program());
+    Result<compiler::Compiled> found =
+        compiler::irOf(host::readSealed(file).image, compiler::hashesOf(object->program()));
     if (!found.ok()) return failure(object->path() + " does not say how it was made: " + found.error());
     carried = std::move(found).value();
   }

@@ -18,8 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kAnswerMs = 15000;
-
 // Who listens there: somebody else could have made the folder first. "" of the user himself, and of root.
 std::string strangerOf(int made) {
   ucred who{};
@@ -62,7 +60,7 @@ std::string chosen(const std::string& host) {
 Client::Client(const std::string& host)
     : host_(chosen(host)),
       connection_(connected(remote::socketPath(geteuid(), host_)), remote::Connection::kLongestAnswer) {
-  const std::optional<json> first = next(kAnswerMs);
+  const std::optional<json> first = next(kAnswer);
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());
   greeting_ = *first;
@@ -70,9 +68,9 @@ Client::Client(const std::string& host)
     throw std::runtime_error("the host " + host_ + " speaks another protocol: " + greeting_.dump());
 }
 
-json Client::ask(const json& request) {
+json Client::ask(const json& request, std::chrono::milliseconds patience) {
   connection_.send(request.dump());
-  while (const std::optional<json> line = next(kAnswerMs)) {
+  while (const std::optional<json> line = next(patience)) {
     if (!line->contains("event")) return *line;
     events_.push_back(*line);
   }
@@ -80,9 +78,9 @@ json Client::ask(const json& request) {
 }
 
 std::optional<json> Client::event(const volatile int& stop) {
-  constexpr int kTurnMs = 100;
+  constexpr std::chrono::milliseconds kTurn(100);
   while (stop == 0 && events_.empty()) {
-    const std::optional<json> line = next(kTurnMs);
+    const std::optional<json> line = next(kTurn);
     if (line && line->contains("event")) return line;
     if (connection_.ended()) throw std::runtime_error("the host " + host_ + " has ended");
   }
@@ -93,7 +91,7 @@ std::optional<json> Client::event(const volatile int& stop) {
 }
 
 // The next line, nothing within that time; or the host has gone.
-std::optional<json> Client::next(int waitMs) {
+std::optional<json> Client::next(std::chrono::milliseconds wait) {
   while (true) {
     if (const std::optional<std::string> line = connection_.line()) {
       json parsed = json::parse(*line, nullptr, false);
@@ -102,7 +100,7 @@ std::optional<json> Client::next(int waitMs) {
     }
     if (connection_.ended()) return std::nullopt;
     pollfd waiting{connection_.socket(), POLLIN, 0};
-    if (poll(&waiting, 1, waitMs) <= 0) return std::nullopt;
+    if (poll(&waiting, 1, static_cast<int>(wait.count())) <= 0) return std::nullopt;
     connection_.receive();
   }
 }

@@ -1,5 +1,6 @@
 // A host's socket as rungctl uses it: a request and its answer, and what the host sends by itself.
 #pragma once
+#include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
@@ -16,8 +17,9 @@ public:
   explicit Client(const std::string& host);
 
   const nlohmann::json& greeting() const { return greeting_; }
+  static constexpr std::chrono::seconds kAnswer{15};
   // Waits for the answer. Throws std::runtime_error where the host has gone.
-  nlohmann::json ask(const nlohmann::json& request);
+  nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds patience = kAnswer);
   // The next event; waits for it, until `stop` is not 0.
   std::optional<nlohmann::json> event(const volatile int& stop);
 
@@ -25,7 +27,7 @@ public:
   remote::Connection& connection() { return connection_; }
 
 private:
-  std::optional<nlohmann::json> next(int waitMs);
+  std::optional<nlohmann::json> next(std::chrono::milliseconds wait);
 
   std::string host_;
   remote::Connection connection_;

@@ -21,6 +21,7 @@
 #include "tools/rungctl/reload.h"
 #include "tools/rungctl/trace.h"
 #include "tools/rungctl/words.h"
+#include "tools/sources/compilation.h"
 
 namespace {
 
@@ -160,8 +161,11 @@ int event(Client& client, const Words& words) {
   return cli::kOk;
 }
 
+// The host may have to make code first.
+constexpr std::chrono::seconds kForce(sources::Compilation::kMostSeconds + 10);
+
 int force(Client& client, const Words& words) {
-  const json answer = asked(client, {{"do", "force"}, {"name", words.name}, {"value", valueOf(words.value)}});
+  const json answer = asked(client, {{"do", "force"}, {"name", words.name}, {"value", valueOf(words.value)}}, kForce);
   print(words, answer, fmt::format("{} is forced to {}", words.name, shown(answer["value"])));
   return cli::kOk;
 }
@@ -170,7 +174,7 @@ int unforce(Client& client, const Words& words) {
   if (words.all == !words.name.empty()) return fail("unforce: expected a NAME or --all", cli::kUsage);
   json request = {{"do", "unforce"}, {"all", words.all}};
   if (!words.all) request["name"] = words.name;
-  const json answer = asked(client, request);
+  const json answer = asked(client, request, kForce);
   print(words, answer, fmt::format("{} ended", answer["ended"].dump()));
   return cli::kOk;
 }

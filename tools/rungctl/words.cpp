@@ -13,8 +13,8 @@ int fail(const std::string& text, int status) {
   return status;
 }
 
-json asked(Client& client, const json& request) {
-  json answer = client.ask(request);
+json asked(Client& client, const json& request, std::chrono::milliseconds patience) {
+  json answer = client.ask(request, patience);
   if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
   return answer;
 }

@@ -1,5 +1,6 @@
 // The words of a command, and what every command does with them: it asks, prints and fails.
 #pragma once
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ struct Words {
 // Says why on standard error; gives the status.
 int fail(const std::string& text, int status = cli::kWrong);
 // The answer, where it is good; throws std::runtime_error with the host's sentence.
-nlohmann::json asked(Client& client, const nlohmann::json& request);
+nlohmann::json asked(Client& client, const nlohmann::json& request,
+                     std::chrono::milliseconds patience = Client::kAnswer);
 // A text without quotes.
 std::string shown(const nlohmann::json& value);
 // With --json the answer, else the text.

@@ -165,8 +165,10 @@ void Compilation::begin(Work work) {
   });
 }
 
-Compilation::Compilation(std::string packedSources) {
-  begin([this, packedSources = std::move(packedSources)] { compile(packedSources); });
+Compilation::Compilation(std::string packed, Input input) {
+  std::vector<std::string> words;
+  if (input == Input::Forces) words.emplace_back(kForcesWord);
+  begin([this, words = std::move(words), packed = std::move(packed)] { compile(words, packed); });
 }
 
 Compilation::Compilation(const std::vector<std::string>& files, uid_t user) {
@@ -176,7 +178,7 @@ Compilation::Compilation(const std::vector<std::string>& files, uid_t user) {
     Outcome read = run(words, "", kMostBytes + kMostReport, -1);
     if (read.verdict == kVerdictErrors) return end(State::Errors, std::move(read.answer));
     if (read.verdict != kVerdictSources) return end(State::Failed, read.problem.empty() ? read.answer : read.problem);
-    compile(read.answer);
+    compile({}, read.answer);
   });
 }
 
@@ -239,10 +241,10 @@ Compilation::Outcome Compilation::run(const std::vector<std::string>& words, con
   return outcome;
 }
 
-void Compilation::compile(const std::string& packedSources) {
+void Compilation::compile(const std::vector<std::string>& words, const std::string& packed) {
   File image = memoryFile();
   if (!image.ok()) return end(State::Failed, because("cannot make a memory file for the program"));
-  Outcome outcome = run({}, packedSources, kMostReport, image.fd());
+  Outcome outcome = run(words, packed, kMostReport, image.fd());
   if (outcome.verdict == kVerdictCompiled) {
     image_ = image.release();
     end(State::Compiled, std::move(outcome.answer));

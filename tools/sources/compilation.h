@@ -21,10 +21,15 @@ public:
     Errors,   // of the sources: `report` has them as rungc prints them
     Failed,   // `report` says why
   };
+  enum class Input : uint8_t {
+    Sources, // packed (sources.h)
+    Forces,  // the same (forces.h)
+  };
   static constexpr unsigned kMostSeconds = 60; // of the clock
 
-  // Starts to compile them; any bytes may be given. The process has a lower priority than all of the host.
-  explicit Compilation(std::string packedSources);
+  // Starts to compile them; any bytes may be given. The process has a lower priority than all of the host, and takes
+  // them for nothing else than `input`.
+  explicit Compilation(std::string packed, Input input = Input::Sources);
   // Starts to compile these files, which that process reads first, with the rights of `user`: sources, or a project.
   Compilation(const std::vector<std::string>& files, uid_t user);
   // Ends the process where it still runs.
@@ -46,7 +51,7 @@ private:
   template <class Work>
   void begin(Work work);
   Outcome run(const std::vector<std::string>& words, const std::string& input, size_t mostAnswer, int image);
-  void compile(const std::string& packedSources);
+  void compile(const std::vector<std::string>& words, const std::string& packed);
   void end(State state, std::string report);
   bool take(pid_t process);
 

@@ -3,51 +3,23 @@
 
 #include <algorithm>
 
+#include "tools/sources/bytes.h"
+
 namespace rung::sources {
 namespace {
 
 constexpr std::string_view kHead = "rung-sources 1\n";
+constexpr unsigned kLengthBytes = 4;
 
 enum Entry : char { Dialect = 'd', File = 'f', Include = 'i', Config = 'c', Profile = 'p', Text = 't', End = 'e' };
 
-void putLength(std::string& out, size_t length) {
-  for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>(length >> shift & 0xFF);
-}
-
 void put(std::string& out, Entry entry, std::string_view key, std::string_view value = {}) {
   out += static_cast<char>(entry);
-  putLength(out, key.size());
-  putLength(out, value.size());
+  putNumber(out, key.size(), kLengthBytes);
+  putNumber(out, value.size(), kLengthBytes);
   out += key;
   out += value;
 }
-
-// The bytes that are left, and whether all were there that were taken.
-class Reader {
-public:
-  explicit Reader(std::string_view bytes) : rest_(bytes) {}
-  bool atEnd() const { return rest_.empty(); }
-  bool good() const { return good_; }
-  std::string_view take(size_t count) {
-    good_ = good_ && count <= rest_.size();
-    const std::string_view taken = rest_.substr(0, good_ ? count : 0);
-    rest_.remove_prefix(taken.size());
-    return taken;
-  }
-  size_t takeLength() {
-    size_t length = 0;
-    unsigned shift = 0;
-    for (const char byte : take(4)) {
-      length |= size_t{static_cast<uint8_t>(byte)} << shift;
-      shift += 8;
-    }
-    return length;
-  }
-
-private:
-  std::string_view rest_;
-  bool good_ = true;
-};
 
 // False: there is no such entry.
 bool keep(Sources& to, char entry, std::string_view key, std::string_view value) {
@@ -86,14 +58,14 @@ std::string packed(const Sources& sources) {
 }
 
 std::optional<Sources> unpacked(std::string_view bytes, std::string& problem) {
-  Reader reader(bytes);
+  ByteReader reader(bytes);
   Sources sources;
   bool known = reader.take(kHead.size()) == kHead;
   bool ended = false;
   while (known && !ended) {
     const std::string_view entry = reader.take(1);
-    const size_t keyLength = reader.takeLength();
-    const size_t valueLength = reader.takeLength();
+    const size_t keyLength = reader.takeNumber(kLengthBytes);
+    const size_t valueLength = reader.takeNumber(kLengthBytes);
     const std::string_view key = reader.take(keyLength);
     const std::string_view value = reader.take(valueLength);
     ended = reader.good() && entry.front() == Entry::End;

@@ -58,8 +58,8 @@ enum rung_status {
   RUNG_FAILED = -10, /* the system: a file that cannot be written, a thread that cannot be started */
 };
 
-/* The sentence for the last error that a call gave in this thread, and for RUNG_LATER of rung_instance_replace and
- * rung_instance_shadow; "" before the first. Until the thread's next call. [any] [rt] */
+/* The sentence for the last error that a call gave in this thread, and for RUNG_LATER of rung_instance_replace,
+ * rung_instance_shadow and rung_forces_new; "" before the first. Until the thread's next call. [any] [rt] */
 RUNG_API const char* rung_error_text(void);
 
 /* Of this header. */
@@ -731,7 +731,8 @@ typedef struct rung_forced_cell {
  * (rung/compiler.h). The instance may be scanned by its thread meanwhile, but must neither be given another program nor
  * be freed. RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text, a constant, or no room for RUNG_REAL; RUNG_BAD_ARGUMENT: two
  * cells want different values in one place, or an unknown `access`; RUNG_REFUSED: the program writes a cell, and no
- * compiler serves its image. */
+ * compiler serves its image; RUNG_LATER: the compiler is at work, and there is no set yet: call again with the same
+ * cells. Those of rung/compiler.h never give that. */
 RUNG_API int32_t rung_forces_new(rung_instance* instance, rung_replacement* replacement, const rung_forced_cell* cells,
                                  uint32_t count, rung_forces** forces);
 /* Null is allowed. Any thread, before its instance; one that is in effect ends, and is freed as a call for the instance
@@ -768,11 +769,12 @@ typedef struct rung_forced_code {
 typedef struct rung_code_maker {
   uint32_t size;
   uint32_t reserved;
-  /* Code for all chunks of `program`, which runs with `engine`, that leaves the forced bits as they are; `forced` is in
-   * the order of space and byte. An enum rung_status; after an error `problem` has a sentence of less than
+  /* Code for all chunks of the image's program, which runs with `engine`, that leaves the forced bits as they are;
+   * `forced` is in the order of space and byte. The handle of the image is for this call alone. An enum rung_status;
+   * RUNG_LATER: it is being made. After an error, and RUNG_LATER, `problem` has a sentence of less than
    * `problem_bytes`. By several threads at a time. */
-  int32_t (*force)(void* user, const rung_program* program, void* engine, const rung_forced_byte* forced,
-                   uint32_t count, rung_forced_code* code, char* problem, size_t problem_bytes);
+  int32_t (*force)(void* user, const rung_image* image, void* engine, const rung_forced_byte* forced, uint32_t count,
+                   rung_forced_code* code, char* problem, size_t problem_bytes);
   void (*release)(void* user); /* called when nothing uses the image any more; may be null */
   void* user;
 } rung_code_maker;

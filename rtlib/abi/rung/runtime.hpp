@@ -18,7 +18,7 @@ namespace rung {
 class Error : public std::runtime_error {
 public:
   Error(int32_t status, const char* text) : std::runtime_error(text), status_(status) {}
-  int32_t status() const noexcept { return status_; } // enum rung_status, below 0
+  int32_t status() const noexcept { return status_; } // enum rung_status, below 0; or RUNG_LATER of Forces
 
 private:
   int32_t status_;
@@ -72,6 +72,21 @@ public:
 private:
   std::unique_ptr<rung_image, Ends<rung_image, rung_image_close>> image_;
 };
+
+// All of the file that an image was opened from, as rung_image_file gives it; "" without one, and of more than `most`
+// bytes.
+inline std::string fileOf(const rung_image* image, size_t most = static_cast<size_t>(-1)) {
+  constexpr size_t kPiece = size_t{1} << 20;
+  std::string bytes;
+  size_t got = kPiece;
+  while (got == kPiece && bytes.size() <= most) {
+    const size_t before = bytes.size();
+    bytes.resize(before + kPiece);
+    if (rung_image_file(image, before, bytes.data() + before, &got) != RUNG_OK) return {};
+    bytes.resize(before + got);
+  }
+  return bytes.size() <= most ? bytes : std::string();
+}
 
 enum class Access : int32_t { Read = RUNG_READ, Write = RUNG_WRITE };
 enum class Power : int32_t { Cold = RUNG_COLD, Warm = RUNG_WARM };
@@ -289,8 +304,10 @@ class Forces {
 public:
   Forces(Instance& instance, std::span<const rung_forced_cell> cells, Replacement* replacement = nullptr) {
     rung_forces* forces = nullptr;
-    check(rung_forces_new(instance.handle(), replacement != nullptr ? replacement->handle() : nullptr, cells.data(),
-                          static_cast<uint32_t>(cells.size()), &forces));
+    const int32_t status =
+        check(rung_forces_new(instance.handle(), replacement != nullptr ? replacement->handle() : nullptr, cells.data(),
+                              static_cast<uint32_t>(cells.size()), &forces));
+    if (status == RUNG_LATER) throw Error(status, rung_error_text());
     forces_.reset(forces);
   }
   rung_forces* handle() const noexcept { return forces_.get(); }

@@ -72,13 +72,14 @@ struct Maker {
 
 const rung_chunk_fn kForcedChunks[] = {&forcedWork};
 
-int32_t makeCode(void* user, const rung_program*, void*, const rung_forced_byte* forced, uint32_t count,
+int32_t makeCode(void* user, const rung_image* image, void*, const rung_forced_byte* forced, uint32_t count,
                  rung_forced_code* code, char* problem, size_t bytes) {
   auto& maker = *static_cast<Maker*>(user);
   if (maker.answer != RUNG_OK) {
-    snprintf(problem, bytes, "this compiler is out of order");
+    snprintf(problem, bytes, maker.answer == RUNG_LATER ? "this compiler is at work" : "this compiler is out of order");
     return maker.answer;
   }
+  EXPECT_NE(rung_image_program(image), nullptr);
   EXPECT_EQ(count, 1u);
   EXPECT_EQ(forced[0].space, 3u);
   EXPECT_EQ(forced[0].mask, 255u);
@@ -277,6 +278,20 @@ TEST_F(Forcing, BadArguments) {
   std::array<char, 4> bytes{};
   size_t count = bytes.size();
   EXPECT_EQ(rung_image_file(image_.handle(), 0, bytes.data(), &count), RUNG_EMPTY);
+}
+
+TEST_F(Forcing, ACompilerThatNeedsTime) {
+  serve();
+  maker_.answer = RUNG_LATER;
+  EXPECT_EQ(failing({cell("COUNT", 9)}), RUNG_LATER);
+  EXPECT_STREQ(rung_error_text(), "this compiler is at work");
+  EXPECT_THROW(forces({cell("COUNT", 9)}), rung::Error);
+  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  maker_.answer = RUNG_OK;
+  const rung::Forces made = forces({cell("COUNT", 9)});
+  ASSERT_EQ(put(made), RUNG_OK);
+  plc_.scan();
+  EXPECT_EQ(value("COUNT"), 9);
 }
 
 TEST_F(Forcing, AReal) {

@@ -1,0 +1,39 @@
+// See forced_program.h.
+#include "tools/compiler/forced_program.h"
+
+#include <algorithm>
+
+#include "ir/passes/force.h"
+#include "ir/passes/pipeline.h"
+
+namespace rung::compiler {
+namespace {
+
+bool sameCode(const ir::Rung& a, const ir::Rung& b) {
+  return a.ops == b.ops && a.args == b.args && a.transfer == b.transfer;
+}
+
+ir::Module changed(const Compiled& source, std::span<const rung_forced_byte> forced) {
+  ir::Module module = *source.built;
+  ir::forceBits(module, forced);
+  ir::runPasses(module, source.passes);
+  return module;
+}
+
+} // namespace
+
+ForcedProgram::ForcedProgram(const Compiled& source, std::span<const rung_forced_byte> forced)
+    : module(changed(source, forced)), layout(source.layout->over(module)) {}
+
+std::vector<uint32_t> ForcedProgram::chunksUnlike(const ir::Module& other) const {
+  std::vector<uint32_t> unlike;
+  for (uint32_t i = 0; i < layout.chunks().size(); ++i) {
+    const ir::Chunk& chunk = layout.chunks()[i];
+    const auto here = module.at(chunk.routine).rungs.begin() + chunk.firstRung;
+    const auto there = other.at(chunk.routine).rungs.begin() + chunk.firstRung;
+    if (!std::equal(here, here + chunk.rungCount, there, sameCode)) unlike.push_back(i);
+  }
+  return unlike;
+}
+
+} // namespace rung::compiler

@@ -177,22 +177,27 @@ class Recording:
         self.names = names
         self.tracing = subprocess.Popen(["rungctl", "trace", *names, "-o", "cut.vcd"])
         wait("the trace begins", lambda: os.path.exists("cut.vcd"))
-        self.watching = subprocess.Popen(["rungctl", "watch", *names], stdout=subprocess.PIPE, text=True)
-        self.first = self.watching.stdout.readline()
+        with open("watched.txt", "w", encoding="utf-8") as file:
+            self.watching = subprocess.Popen(["rungctl", "watch", *names], stdout=file)
+        wait("the watch begins", lambda: all(map(self.watched, names)))
+
+    @staticmethod
+    def watched(name):
+        """The values of a bit, as the watch has printed them."""
+        with open("watched.txt", encoding="utf-8") as file:
+            return re.findall(f" {re.escape(name)} = (true|false)\n", file.read())
 
     def end(self):
-        """Changes of each bit, as the watch has printed them, and as sigrok-cli prints them of the trace."""
+        """The changes of each bit, as sigrok-cli prints them of the trace; before its first value all is 0."""
         for process in (self.tracing, self.watching):
             process.send_signal(signal.SIGINT)
-        watched = self.first + self.watching.communicate(timeout=PATIENCE)[0]
-        check(self.tracing.wait(PATIENCE) == 0, "trace")
+            check(process.wait(PATIENCE) == 0, f"{process.args[1]} of {self.names}")
         read = subprocess.run(["sigrok-cli", "-I", "vcd:downsample=1000", "-i", "cut.vcd", "-O", "csv:header=false:label=off"],
                               capture_output=True, text=True, timeout=PATIENCE)
         check(read.returncode == 0, f"sigrok-cli: {read.stderr}")
         columns = zip(*(row.split(",") for row in read.stdout.split() if re.fullmatch("[01](,[01])*", row)))
-        return {name: (re.findall(f" {re.escape(name)} = (true|false)", watched),
-                       [("false", "true")[int(bit)] for bit in re.sub(r"(.)\1+", r"\1", "".join(column))])
-                for name, column in zip(self.names, columns)}
+        return {name: [("false", "true")[int(bit)] for bit in re.sub(r"(.)\1+", r"\1", "".join(column))]
+                for name, column in zip(self.names, columns, strict=True)}
 
 
 def change_in_motion(forces, edited):
@@ -201,18 +206,20 @@ def change_in_motion(forces, edited):
     check("running: " in rungctl("status"), "status")
     recording = Recording([name for name, *_ in forces])
     for name, value, shows, meanwhile, afterwards in forces:
+        before = recording.watched(name)[-1]
+        check(before != value, f"{name} is {value} already")
         rungctl("force", name, value)
         pins(**{shows: meanwhile})
+        wait(f"{name} = {value} in the watch", lambda: recording.watched(name)[-1] == value)
         check(f"{name} = {value}" in rungctl("forced"), f"{name} is not forced")
         rungctl("unforce", name)
         pins(**{shows: afterwards})
+        wait(f"{name} = {before} in the watch", lambda: recording.watched(name)[-1] == before)
     check("the new program runs" in rungctl("reload", edited), "reload")
     check(not state("inpos"), "the motion was over before the changes")
-    for name, (watched, traced) in recording.end().items():
-        value = next(force[1] for force in forces if force[0] == name)
-        other = "true" if value == "false" else "false"
-        wanted = [other, value, other]
-        check(watched == wanted and traced == wanted, f"{name}: watched {watched}, traced {traced}")
+    for name, traced in recording.end().items():
+        watched = recording.watched(name)
+        check(traced in (watched, ["false", *watched]), f"{name}: watched {watched}, traced {traced}")
 
 
 def end_motion():

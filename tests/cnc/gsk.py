@@ -11,7 +11,7 @@ import linuxcnc
 
 from drive import PATIENCE, change_in_motion, check, command, done, end_motion, operator, pin, pins, polled, rungctl, run, status, wait
 
-PRESS = 0.25  # seconds that a key is held, some passes of the program
+PRESS = 0.15  # seconds that a key is held, some passes of the program
 
 
 def put(name, value):

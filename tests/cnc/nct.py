@@ -283,8 +283,9 @@ def alarm():
 def emergency_stop():
     """The chain opens in mid-cut; then all works again."""
     mdi("M3 S600")
+    before = position("x")
     command.mdi("G1 X-80 F500")
-    wait("x cuts", lambda: position("x") < -42)
+    wait("x cuts", lambda: position("x") < before - 2)
     put("estop-chain", False)
     is_state(linuxcnc.STATE_ESTOP)
     pins(spindle_start=False, machine_request=False, hydraulics=False, k1_off=True)

@@ -107,7 +107,7 @@ class ForcesWithoutIr(Forcing):
     build_options = ("--no-ir",)
 
     def test_it_is_refused(self):
-        self.assertIn("the program stuck writes a cell that is to be forced, and it carries no IR: it was built with --no-ir",
+        self.assertIn("the program stuck writes a cell that is to be forced: it carries no IR: it was built with --no-ir",
                       self.ctl("force", "Y0.0", "true", status=WRONG))
         self.ctl("force", "X0.0", "true")
         self.wait(lambda: self.get("Y0.0"))
@@ -160,7 +160,7 @@ class ForcesThatTakeTime(Forcing):
 
     def test_the_process_is_killed(self):
         os.kill(self.children()[0], 9)
-        self.assertIn("and the compiler process failed: it was ended by the signal Killed", self.refused())
+        self.assertIn("to be forced: the compiler process failed: it was ended by the signal Killed", self.refused())
 
 
 class BrokenForceCompilers(Forcing):
@@ -190,7 +190,7 @@ class BrokenForceCompilers(Forcing):
                             (f"image(open({str(self.other)!r}, 'rb').read())" + done, "made code of another program"),
                             (f"image(open({str(self.larger)!r}, 'rb').read())" + done, "chunks and"),
                             ('os.write(3, b"hello\\n")', "the compiler process answered nothing known"),
-                            ('os.write(3, b"failed\\nno")', "to be forced, and no"),
+                            ('os.write(3, b"failed\\nno")', "to be forced: no"),
                             ("sys.exit(5)", "it ended with status 5")):
             self.assertIn(error, self.refused(body), body)
 
@@ -207,7 +207,7 @@ class BrokenForceCompilers(Forcing):
         self.addCleanup(lambda: self.replace(loaded))
         self.replace(b"another file")
         self.keep_what_it_is_given(given)
-        self.assertIn("to be forced, and --forces", self.ctl("force", "Y0.0", "true", status=WRONG))
+        self.assertIn("to be forced: --forces", self.ctl("force", "Y0.0", "true", status=WRONG))
         self.assertTrue(given.read_bytes().startswith(HEAD))
         self.assertTrue(given.read_bytes().endswith(loaded))
 

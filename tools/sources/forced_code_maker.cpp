@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "tools/sources/forces.h"
@@ -23,13 +23,20 @@ std::string sizeOf(const rung_program& program) {
          " bytes of memory";
 }
 
-// "" or why this code cannot take the place of the program's.
-std::string differenceOf(const rung_program& made, const rung_program& program) {
+// Throws where this code cannot take the place of the program's.
+void checkSame(const rung_program& made, const rung_program& program) {
   if (made.chunk_count != program.chunk_count || made.memory_size != program.memory_size)
-    return "the compiler process made code of " + sizeOf(made) + ", expected " + sizeOf(program);
+    throw std::runtime_error("the compiler process made code of " + sizeOf(made) + ", expected " + sizeOf(program));
   if (made.layout_hash != program.layout_hash || made.code_hash != program.code_hash)
-    return "the compiler process made code of another program";
-  return "";
+    throw std::runtime_error("the compiler process made code of another program");
+}
+
+// All of the file that has been loaded.
+std::string loadedFile(const rung_image* image) {
+  std::string file = fileOf(image, kMostImage);
+  if (file.empty())
+    throw std::runtime_error("its file cannot be read, or has more than " + std::to_string(kMostImage) + " bytes");
+  return file;
 }
 
 } // namespace
@@ -44,15 +51,16 @@ void ForcedCodeMaker::serve(const Image& image) {
   auto described = sized<rung_code_maker>();
   described.force = [](void* user, const rung_image* of, void*, const rung_forced_byte* forced, uint32_t count,
                        rung_forced_code* code, char* problem, size_t problemBytes) {
-    std::string text;
-    int32_t status = RUNG_FAILED;
+    const rung_program& program = *rung_image_program(of);
     try {
-      status = (*static_cast<Shared*>(user))->force(of, {forced, count}, *code, text);
+      if ((*static_cast<Shared*>(user))->force(of, program, {forced, count}, *code)) return int32_t{RUNG_OK};
+      std::snprintf(problem, problemBytes, "the code of %s with the forced cells is being made", program.name);
+      return int32_t{RUNG_LATER};
     } catch (const std::exception& thrown) {
-      text = thrown.what();
+      std::snprintf(problem, problemBytes, "the program %s writes a cell that is to be forced: %s", program.name,
+                    thrown.what());
+      return int32_t{RUNG_REFUSED};
     }
-    std::snprintf(problem, problemBytes, "%s", text.c_str());
-    return status;
   };
   described.release = [](void* user) { delete static_cast<Shared*>(user); };
   described.user = maker.get();
@@ -72,52 +80,37 @@ bool ForcedCodeMaker::isWanted(const Wanted& other) const {
          std::ranges::equal(wanted_.bytes, other.bytes, same);
 }
 
-// "" or why not.
-std::string ForcedCodeMaker::begin(const rung_image* image, Wanted wanted) {
+void ForcedCodeMaker::begin(const rung_image* image, Wanted wanted) {
   if (wanted.bytes.size() > kMostForcedBytes)
-    return "found " + std::to_string(wanted.bytes.size()) + " forced bytes, expected at most " +
-           std::to_string(kMostForcedBytes);
-  const std::string file = fileOf(image, kMostImage);
-  if (file.empty())
-    return "the program's file cannot be read, or has more than " + std::to_string(kMostImage) + " bytes";
+    throw std::runtime_error("found " + std::to_string(wanted.bytes.size()) + " forced bytes, expected at most " +
+                             std::to_string(kMostForcedBytes));
+  const std::string file = loadedFile(image);
   wanted_ = std::move(wanted);
   compilation_ = std::make_unique<Compilation>(
       packed(Forces{
           .codeHash = wanted_.codeHash, .layoutHash = wanted_.layoutHash, .bytes = wanted_.bytes, .program = file}),
       Compilation::Input::Forces);
-  return "";
 }
 
-int32_t ForcedCodeMaker::force(const rung_image* image, std::span<const rung_forced_byte> forced,
-                               rung_forced_code& code, std::string& problem) {
-  const rung_program& program = *rung_image_program(image);
+bool ForcedCodeMaker::force(const rung_image* image, const rung_program& program,
+                            std::span<const rung_forced_byte> forced, rung_forced_code& code) {
   Wanted wanted{program.code_hash, program.layout_hash, {forced.begin(), forced.end()}};
   const std::lock_guard lock(mutex_);
   if (compilation_ == nullptr || !isWanted(wanted)) {
     compilation_.reset(); // it ends before the next one begins
-    problem = begin(image, std::move(wanted));
+    begin(image, std::move(wanted));
   }
-  if (problem.empty() && compilation_->state() == Compilation::State::Running) {
-    problem = "the code with the forced cells is being made";
-    return RUNG_LATER;
-  }
+  if (compilation_->state() == Compilation::State::Running) return false;
   const std::unique_ptr<Compilation> done = std::exchange(compilation_, nullptr);
-  if (problem.empty() && done->state() != Compilation::State::Compiled) problem = done->report();
-  std::unique_ptr<Made> made;
-  if (problem.empty()) {
-    made = std::make_unique<Made>(Image::ofMemory(done->image(), "the code with the forced cells"));
-    problem = differenceOf(made->image.program(), program);
-  }
-  if (!problem.empty()) {
-    problem = std::string("the program ") + program.name + " writes a cell that is to be forced, and " + problem;
-    return RUNG_REFUSED;
-  }
+  if (done->state() != Compilation::State::Compiled) throw std::runtime_error(done->report());
+  auto made = std::make_unique<Made>(Image::ofMemory(done->image(), "the code with the forced cells"));
+  checkSame(made->image.program(), program);
   code = {.chunk_fns = made->image.program().chunk_fns,
           .engine = nullptr,
           .release = [](void* owner) { delete static_cast<Made*>(owner); },
           .owner = made.get()};
   [[maybe_unused]] const Made* codes = made.release();
-  return RUNG_OK;
+  return true;
 }
 
 } // namespace rung::sources

@@ -30,9 +30,10 @@ private:
     std::vector<rung_forced_byte> bytes;
   };
   struct Made;
-  int32_t force(const rung_image* image, std::span<const rung_forced_byte> forced, rung_forced_code& code,
-                std::string& problem);
-  std::string begin(const rung_image* image, Wanted wanted);
+  // False: the process is at work. Throws std::runtime_error where there will be no such code.
+  bool force(const rung_image* image, const rung_program& program, std::span<const rung_forced_byte> forced,
+             rung_forced_code& code);
+  void begin(const rung_image* image, Wanted wanted);
   bool isWanted(const Wanted& other) const;
 
   std::mutex mutex_; // of these two

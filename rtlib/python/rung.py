@@ -198,7 +198,7 @@ def _member(kind, value):
 # ---- errors ----------------------------------------------------------------------------------------------------------
 
 class Error(Exception):
-    """A call that has done nothing: `status` is a Status below 0, the text a sentence."""
+    """A call that has done nothing: `status` is a Status below 0, or LATER of Forces, the text a sentence."""
 
     def __init__(self, status, text):
         super().__init__(status, text)
@@ -1164,7 +1164,8 @@ class _Part(_Closing):
 
     def __init__(self, plc, end, new, *arguments):
         self._handle = _Handle(end)
-        _call(new, plc, *arguments, byref(self._handle))
+        if _call(new, plc, *arguments, byref(self._handle)) == Status.LATER:
+            raise Error(Status.LATER, _decoded(_library.rung_error_text()))
         self._plc = plc
         plc._parts.append(self._handle)
 
@@ -1293,7 +1294,8 @@ class Forces(_Part):
     def __init__(self, plc, values, owner="", replacement=None, access=READ):
         """`values`: {name: value}, a float for a real and an int for all others; of an array its first element is
         forced; with access=REAL the real of 64 bits that begins there. With a Replacement for its program, else for the
-        one that runs. Error: NOT_FOUND; WRONG_TYPE, a text, a constant, or no room for a real; REFUSED, the program writes a cell, and no compiler serves its image; BAD_ARGUMENT."""
+        one that runs. Error: NOT_FOUND; WRONG_TYPE, a text, a constant, or no room for a real; REFUSED, the program writes
+        a cell, and no compiler serves its image; LATER, the compiler is at work: try again; BAD_ARGUMENT."""
         cells = (rung_forced_cell * len(values))()
         for cell, (name, value) in zip(cells, values.items()):
             cell.name, cell.owner, cell.access = _text(name), _text(owner), access

@@ -33,7 +33,6 @@ std::string problemOf(const std::vector<rung_forced_byte>& bytes) {
 
 std::string packed(const Forces& forces) {
   std::string out(kHead);
-  out.reserve(out.size() + 2 * kHashBytes + kFieldBytes * (1 + 4 * forces.bytes.size()) + forces.program.size());
   putNumber(out, forces.codeHash, kHashBytes);
   putNumber(out, forces.layoutHash, kHashBytes);
   putNumber(out, forces.bytes.size(), kFieldBytes);

@@ -1,0 +1,35 @@
+// Makes a recording of a scenario.
+#pragma once
+#include <memory>
+
+#include "tools/bench/machines/recording.h"
+#include "tools/scenario/session.h"
+
+namespace rung::bench {
+
+// Looks on while the scenario runs, and has the same program beside it without the simulation: what that one needs to
+// begin each part with the same memory is what the machine has written. Where the scenario switches the program on
+// again, the recording ends.
+class Recorder final : public scenario::Observer, public host::TaskWatch {
+public:
+  // Throws std::runtime_error where the program cannot be run by itself.
+  Recorder(scenario::Session& session, const compiler::Compiled& program);
+  ~Recorder() override;
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  const Recording& recording() const;
+  // "" or why the recording is of no use.
+  const std::string& problem() const;
+
+  void started(scenario::Session& session) override;
+  void scanned(const scenario::Session& session) override;
+  void begins(const host::Instance& instance, uint32_t task) override;
+  void ended(const host::Instance&, uint32_t) override {}
+
+private:
+  struct Beside;
+  std::unique_ptr<Beside> beside_;
+};
+
+} // namespace rung::bench

@@ -1,0 +1,64 @@
+// See replay.h.
+#include "tools/bench/machines/replay.h"
+
+#include <stdexcept>
+
+#include "rtlib/runtime/instance.h"
+
+namespace rung::bench {
+namespace {
+
+class Fnv {
+public:
+  void add(uint64_t value) { hash_ = (hash_ ^ value) * kPrime; }
+  uint64_t value() const { return hash_; }
+
+private:
+  static constexpr uint64_t kPrime = 0x100000001b3;
+  uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+} // namespace
+
+Replay::Replay(const rung::Image& image)
+    : instance_(image), inside_(runtime::insideOf(*instance_.handle())),
+      runPart_(instance_.handle()->control->runsInSlots() ? &rung_instance_slot : &rung_instance_scan) {
+  instance_.powerOn(rung::Power::Cold);
+}
+
+uint32_t Replay::spaceOf(const std::string& name) const {
+  const rung_program& program = inside_.program();
+  for (uint32_t space = 0; space < program.space_count; ++space)
+    if (name == program.spaces[space].name) return space;
+  throw std::runtime_error("the program has no space " + name + ", which the recording names");
+}
+
+void Replay::write(const Part& part) {
+  for (const Writes& writes : part.writes) {
+    const uint32_t space = spaceOf(writes.space);
+    if (!inside_.memory().contains(space, writes.byte, static_cast<uint32_t>(writes.bytes.size())))
+      throw std::runtime_error("the program's space " + writes.space + " ends before byte " +
+                               std::to_string(writes.byte + writes.bytes.size()) + " of the recording");
+    for (uint32_t i = 0; i < writes.bytes.size(); ++i)
+      inside_.memory().writeByte(space, writes.byte + i, writes.bytes[i]);
+  }
+}
+
+uint64_t Replay::hash() const {
+  Fnv hash;
+  const rung_program& program = inside_.program();
+  for (uint32_t space = 0; space < program.space_count; ++space)
+    for (uint32_t byte = 0; byte < program.spaces[space].byte_count; ++byte)
+      if (const uint8_t value = inside_.memory().readByte(space, byte); value != 0)
+        hash.add(uint64_t{space} << 40 | uint64_t{byte} << 8 | value);
+  hash.add(static_cast<uint64_t>(inside_.nowUs()));
+  hash.add(inside_.faulted() ? inside_.fault().code : RUNG_NONE);
+  return hash.value();
+}
+
+void Replay::drain() {
+  while (instance_.nextMessage()) {
+  }
+}
+
+} // namespace rung::bench

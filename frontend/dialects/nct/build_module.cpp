@@ -2,8 +2,11 @@
 #include "frontend/dialects/nct/build_module.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "frontend/dialects/nct/lower_rungs.h"
+#include "ir/core/memory_use.h"
 #include "rtlib/nc/faults.h"
 
 namespace rung::nct {
@@ -37,8 +40,9 @@ public:
       module_.files.emplace_back(sources_.name(file));
     }
     const ir::RoutineId main = lowerModule(context, program_.main);
+    const WrittenRange byMain = std::exchange(written_, {});
     const ir::RoutineId int0 = program_.int0.exists ? lowerModule(context, program_.int0) : ir::RoutineId{};
-    addTasks(main, int0);
+    addTasks({main, byMain}, {int0, written_});
     addSchedule();
   }
 
@@ -123,57 +127,63 @@ private:
   }
 
   // TS <- M, but only the bits that were written.
-  std::vector<ir::Copy> writtenToTimeSlice() {
-    if (written_.first >= written_.end) return {};
-    const uint32_t first = written_.first * 4;
-    ir::Copy transfer = copy(spaces_.m, first, spaces_.ts, first, written_.end * 4 - first);
+  std::vector<ir::Copy> toTimeSlice(const WrittenRange& written) {
+    const uint32_t first = written.first * 4;
+    const uint32_t end = std::min(written.end * 4, synchronisedEnd());
+    if (written.first >= written.end || first >= end) return {};
+    ir::Copy transfer = copy(spaces_.m, first, spaces_.ts, first, end - first);
     transfer.masked = true;
     transfer.mask = spaces_.written;
     transfer.maskByte = first;
     return {transfer};
   }
 
-  // After the last byte of the NC area in which the two memories can differ: where the signals lie, and what the
-  // program touches beyond them. It is copied in every cycle, so the words that nobody uses are left out.
+  // After the last byte of the NC area that is in two memories: the words of signals, which the NC reads and writes,
+  // what a rung names beyond them, and what it may reach by `!`. A word that is only reached by an index in the
+  // synchronised memory, and that the NC does not know, is in one memory: nobody can tell.
   uint32_t synchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;
     uint32_t end = nc::areaBytes(nc::nctSignals(), "M");
+    const auto take = [&](const ir::Use& use) {
+      const uint32_t first = use.place.first / 32 * 4;
+      const bool named = use.place.space == spaces_.ts || (use.place.space == spaces_.m && !use.computed);
+      if (named && first < nvram) end = std::max(end, (use.place.first + use.place.count + 31) / 32 * 4);
+    };
     for (const ir::Routine& routine : module_.routines)
       for (const ir::Rung& rung : routine.rungs)
-        for (const ir::Op& op : rung.ops) {
-          const ir::Attr attr = ir::opInfo(op.code).attr;
-          if ((attr != ir::Attr::Window && attr != ir::Attr::Place) || op.ref != spaces_.m.index) continue;
-          const auto first = static_cast<uint32_t>(op.imm / 8);
-          if (first >= nvram) continue;
-          if (attr == ir::Attr::Window && op.count > 1) return nvram; // an index may lead anywhere
-          end = std::max(end, first + std::max(4u, ir::byteWidth(op.type)));
-        }
+        for (const ir::Op& op : rung.ops)
+          if (const std::optional<ir::Use> use = ir::useOf(module_, op)) take(*use);
     return std::min(end, nvram);
   }
 
-  void addTasks(ir::RoutineId main, ir::RoutineId int0) {
+  // The routine of a task, and what it writes without `!`.
+  struct Lowered {
+    ir::RoutineId entry;
+    WrittenRange written;
+  };
+
+  void addTasks(const Lowered& main, const Lowered& int0) {
     const ir::FaultId timeout{0};
     ir::Task task{.name = "MAIN",
-                  .entry = main,
+                  .entry = main.entry,
                   .periodUs = config_.periodUs,
                   .budget = kMainBudget,
                   .budgetFault = timeout,
                   .begin = {},
                   .end = {},
                   .borders = {}};
-    const std::vector<ir::Copy> transfer = writtenToTimeSlice();
     // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; nobody reads the time-slice
     // memory between here and the end of the run.
-    if (int0.valid()) task.begin = transfer;
+    task.begin = toTimeSlice(int0.written);
     // All but FLAGS; word 0001 of the time-slice memory is always 0, so what was written there is gone.
     task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, synchronisedEnd() - 4));
-    task.end = transfer;
+    task.end = toTimeSlice(main.written);
     module_.mainTask = {0};
     module_.tasks.push_back(std::move(task));
-    if (!int0.valid()) return;
+    if (!int0.entry.valid()) return;
     // INT0 interrupts MAIN, so each has its own FLAGS (proposal 4): word 0 of @F keeps MAIN's, word 1 INT0's.
     ir::Task fast{.name = "INT0",
-                  .entry = int0,
+                  .entry = int0.entry,
                   .periodUs = config_.timesliceUs,
                   .budget = kInt0Budget,
                   .budgetFault = timeout,

@@ -1,6 +1,7 @@
 // !NAME, BASE,#n, WORD.bb, and four digits (see nct.h).
 #include "rtlib/nc/names/nct.h"
 
+#include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/number.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::string_view kMemory = "M";
 constexpr std::string_view kTimeSliceMemory = "TS";
+constexpr uint32_t kFirstNcByte = 8; // words 0000 and 0001 are the program's
 
 std::string padded(uint32_t value, size_t digits) {
   const std::string text = std::to_string(value);
@@ -38,10 +40,12 @@ class NctNames final : public NameGrammar {
 public:
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
     if (name.front() == '!') {
-      std::optional<Ref> ref = search.find(name.substr(1));
+      const std::optional<Ref> ref = search.find(name.substr(1));
       if (!ref || ref->space != search.space(kMemory)) return std::nullopt;
-      ref->space = search.space(kTimeSliceMemory);
-      return search.inSpace(ref);
+      Ref direct = *ref;
+      direct.space = search.space(kTimeSliceMemory);
+      if (!search.inSpace(direct)) return std::nullopt;
+      return ref->byte < kFirstNcByte ? direct : nctTimeSlicePlace(search.program(), *ref);
     }
     if (const size_t comma = name.rfind(','); comma != std::string_view::npos)
       return shifted(search, search.find(name.substr(0, comma)), name.substr(comma + 1));
@@ -70,6 +74,11 @@ public:
 };
 
 } // namespace
+
+Ref nctTimeSlicePlace(const rung_program& program, const Ref& place) {
+  if (place.byte < kFirstNcByte || place.space != host::findSpace(program, kMemory)) return place;
+  return host::Overwritten(program).source(place).value_or(place);
+}
 
 const NameGrammar& nctNames() {
   static const NctNames names;

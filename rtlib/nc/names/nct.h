@@ -7,4 +7,8 @@ namespace rung::nc {
 
 const NameGrammar& nctNames();
 
+// Where a place of "M" is for the NC: in the time-slice memory where the program has its words twice, else the same
+// place. Words 0000 and 0001 are the program's in both.
+host::Ref nctTimeSlicePlace(const rung_program& program, const host::Ref& place);
+
 } // namespace rung::nc

@@ -90,6 +90,8 @@ protected:
     test.memorySize = 50000;
     m = test.addPacked("M", 4, 40000, 0);
     ts = test.addPacked("TS", 4, 400, 40000);
+    test.addTask("MAIN", test.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
+    test.addBeginCopy(0, {RUNG_COPY_ALL, 40000 + 4, 4, 0, 4 * 80 - 4}); // synchronised: up to word 0079
     test.addSymbol("APPLE", m, 4 * 56, RUNG_TYPE_I32);
     test.addSymbol("READY", m, 4 * 60 + 2, RUNG_TYPE_BIT, 1); // bit 17
     test.addSymbol("FAR", m, 4 * 6000, RUNG_TYPE_I32);
@@ -125,7 +127,11 @@ TEST_F(NctNames, TimeSliceCopy) {
   EXPECT_EQ(at("!APPLE.05"), bitRef(ts, 224, 5));
   EXPECT_EQ(at("!READY"), bitRef(ts, 242, 1));
   EXPECT_EQ(at("!0056,#3"), intRef(ts, 236, 32));
-  EXPECT_FALSE(at("!FAR")); // user memory exists once
+  EXPECT_EQ(at("!0001"), intRef(ts, 4, 32));
+  EXPECT_EQ(at("!0000"), intRef(ts, 0, 32));
+  EXPECT_EQ(at("!0079"), intRef(ts, 4 * 79, 32));
+  EXPECT_EQ(at("!0080"), intRef(m, 4 * 80, 32)); // not synchronised: the two memories are one there
+  EXPECT_FALSE(at("!FAR"));                      // user memory exists once
   EXPECT_FALSE(at("!THREE"));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/names/nct.h"
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/nc/nct/signals.h"
 
@@ -93,13 +94,8 @@ void NctControl::afterSlice(host::Instance& instance) {
 }
 
 std::optional<host::Ref> NctControl::writePlace(const rung_program& program, std::string_view name) const {
-  std::optional<host::Ref> place = readPlace(program, name);
-  const uint32_t memory = host::findSpace(program, "M");
-  const uint32_t slice = host::findSpace(program, "TS");
-  if (place && slice != RUNG_NONE && place->space == memory && place->byte >= kFirstNcByte &&
-      place->byte < program.spaces[slice].byte_count)
-    place->space = slice;
-  return place;
+  const std::optional<host::Ref> place = readPlace(program, name);
+  return place ? std::optional(nctTimeSlicePlace(program, *place)) : std::nullopt;
 }
 
 size_t NctControl::describe(const rung_program& program, const rung_message& message,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
@@ -23,13 +24,23 @@ void writeArea(host::Instance& instance, const char* area, const std::vector<uin
   for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
 }
 
+constexpr uint32_t kMostMessageBytes = GskControl::kMostMessageBytes;
+
 struct GskPlaces final : Places {
   explicit GskPlaces(const rung_program& program) : areas(program), messages(host::findSpace(program, "A")) {
-    if (messages != RUNG_NONE) messageBytes = program.spaces[messages].byte_count;
+    if (messages == RUNG_NONE) return;
+    const rung_space& space = program.spaces[messages];
+    messageBytes = std::min(space.byte_count, kMostMessageBytes);
+    for (const rung_range& range : std::span(space.ranges, space.range_count)) {
+      if (range.first_byte >= messageBytes) break;
+      const uint32_t bytes = std::min(range.byte_count, messageBytes - range.first_byte);
+      pieces.push_back({range.offset, bytes * (range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1)});
+    }
   }
   gsk::Areas areas;
   uint32_t messages;
   uint32_t messageBytes = 0;
+  std::vector<rung_span> pieces; // of the memory block
 };
 
 } // namespace
@@ -42,7 +53,9 @@ void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
   const auto& own = static_cast<const GskPlaces&>(places);
   functions_.use({instance, own.areas});
   messageArea_ = own.messages;
-  messageBytes_ = std::min(own.messageBytes, kMostMessageBytes);
+  messageBytes_ = own.messageBytes;
+  messagePieces_ = own.pieces;
+  hasSeen_ = false;
 }
 
 void GskControl::prepare(host::Instance& instance, PowerOn kind) {
@@ -53,9 +66,29 @@ void GskControl::prepare(host::Instance& instance, PowerOn kind) {
   writeArea(instance, "F", cnc);
   functions_.powerOn();
   known_.fill(0);
+  hasSeen_ = false;
+}
+
+bool GskControl::isAsSeen(const uint8_t* block) const noexcept {
+  const uint8_t* seen = seen_.data();
+  for (const rung_span& piece : messagePieces_) {
+    if (std::memcmp(block + piece.offset, seen, piece.size) != 0) return false;
+    seen += piece.size;
+  }
+  return hasSeen_;
+}
+
+void GskControl::see(const uint8_t* block) noexcept {
+  uint8_t* seen = seen_.data();
+  for (const rung_span& piece : messagePieces_) {
+    std::memcpy(seen, block + piece.offset, piece.size);
+    seen += piece.size;
+  }
+  hasSeen_ = true;
 }
 
 bool GskControl::nextChange(const host::Instance& instance, rung_message& message) noexcept {
+  if (isAsSeen(instance.block().data())) return false;
   for (uint32_t byte = 0; byte < messageBytes_; ++byte) {
     const uint8_t bits = instance.memory().readByte(messageArea_, byte);
     const auto changed = static_cast<uint8_t>(bits ^ known_[byte]);
@@ -66,6 +99,7 @@ bool GskControl::nextChange(const host::Instance& instance, rung_message& messag
     message = {.op = shown ? RUNG_MESSAGE_SHOW : RUNG_MESSAGE_CLEAR, .number = 8 * byte + bit + 1};
     return true;
   }
+  see(instance.block().data());
   return false;
 }
 

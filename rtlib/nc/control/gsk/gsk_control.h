@@ -2,6 +2,7 @@
 // area.
 #pragma once
 #include <array>
+#include <span>
 
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/gsk/gsk_functions.h"
@@ -10,6 +11,7 @@ namespace rung::nc {
 
 class GskControl final : public Control {
 public:
+  static constexpr uint32_t kMostMessageBytes = 256; // of the A area
   // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
   void prepare(host::Instance& instance, PowerOn kind) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
@@ -25,11 +27,17 @@ protected:
   std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
-  static constexpr uint32_t kMostMessageBytes = 256; // of the A area
+  // The bytes of the A area are those of the last look: then none of its bits has changed.
+  bool isAsSeen(const uint8_t* block) const noexcept;
+  void see(const uint8_t* block) noexcept;
+
   GskFunctions functions_;
   uint32_t messageArea_ = RUNG_NONE;
   uint32_t messageBytes_ = 0;
-  std::array<uint8_t, kMostMessageBytes> known_{}; // bits of the A area that the host knows of
+  std::array<uint8_t, kMostMessageBytes> known_{};            // bits of the A area that the host knows of
+  std::span<const rung_span> messagePieces_;                  // of the memory block, in the places
+  std::array<uint8_t, size_t{8} * kMostMessageBytes> seen_{}; // their bytes
+  bool hasSeen_ = false;
 };
 
 } // namespace rung::nc

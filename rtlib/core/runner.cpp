@@ -1,6 +1,7 @@
 // The chunk loop, the border copies and the schedule.
 #include "rtlib/core/runner.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 
@@ -30,6 +31,7 @@ void Runner::beginProgram() noexcept {
   for (uint32_t t = 0; t < program_->task_count; ++t) parts_[t] = {};
   ctx_->extra_weight = 0;
   position_ = 0;
+  findRow();
 }
 
 void Runner::reset() noexcept {
@@ -64,7 +66,7 @@ void Runner::holdAll() noexcept {
 
 // ---- tasks -------------------------------------------------------------------------------------------------------
 
-void Runner::beginStack() noexcept {
+inline void Runner::beginStack() noexcept {
   ctx_->stack[0] = RUNG_PC_DONE;
   ctx_->sp = 1;
 }
@@ -83,21 +85,42 @@ void copyUnit(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
   std::memset(mask, 0, sizeof bits);
 }
 
-// Eight bytes at a time: masks are long and nearly empty.
+// Most copies are one register.
+void copyBytes(uint8_t* to, const uint8_t* from, uint32_t size) noexcept {
+  if (size == sizeof(uint32_t))
+    std::memcpy(to, from, sizeof(uint32_t));
+  else
+    std::memcpy(to, from, size);
+}
+
+constexpr uint32_t kLine = 64; // bytes of a cache line
+
+bool isEmpty(const uint8_t* line) noexcept {
+  uint64_t words[kLine / 8];
+  std::memcpy(words, line, sizeof words);
+  uint64_t any = 0;
+  for (const uint64_t word : words) any |= word;
+  return any == 0;
+}
+
+// Masks are long and nearly empty: lines of them are looked at, and eight bytes at a time where there is something.
 void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) noexcept {
   uint32_t b = 0;
+  for (; b + kLine <= size; b += kLine) {
+    if (isEmpty(mask + b)) continue;
+    for (uint32_t unit = b; unit < b + kLine; unit += 8) copyUnit<uint64_t>(to + unit, from + unit, mask + unit);
+  }
   for (; b + 8 <= size; b += 8) copyUnit<uint64_t>(to + b, from + b, mask + b);
   for (; b < size; ++b) copyUnit<uint8_t>(to + b, from + b, mask + b);
 }
 
 } // namespace
 
-void Runner::copy(uint32_t first, uint32_t count) noexcept {
-  if (count == 0) return; // nothing to hold, either
+void Runner::copyAll(uint32_t first, uint32_t count) noexcept {
   for (uint32_t i = first; i < first + count; ++i) {
     const rung_copy& c = program_->copies[i];
     if (c.kind == RUNG_COPY_ALL) {
-      std::memcpy(memory_ + c.to, memory_ + c.from, c.size);
+      copyBytes(memory_ + c.to, memory_ + c.from, c.size);
       continue;
     }
     copyMasked(memory_ + c.to, memory_ + c.from, memory_ + c.mask, c.size);
@@ -124,40 +147,47 @@ uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcep
 
 // Runs from `pc` to the end of the run, a fault, or a chunk at or after `limit` outside every subroutine.
 template <bool Timed>
-uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
-  const rung_chunk* chunks = program_->chunks;
-  const rung_chunk_fn* functions = code_.functions;
+inline uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
+  uint8_t* const memory = memory_;
+  rung_ctx* const ctx = ctx_;
+  const rung_chunk* const chunks = program_->chunks;
+  const rung_chunk_fn* const functions = code_.functions;
   const uint32_t count = program_->chunk_count;
-  while (pc < count) {
-    if (pc >= limit && ctx_->sp == 1) return pc;
+  const uint32_t first = std::min(limit, count); // that may be where it ends
+  uint32_t left = budget;
+  for (;;) {
+    if (pc >= first && (pc >= count || ctx->sp == 1)) [[unlikely]]
+      break;
     const rung_chunk& chunk = chunks[pc];
-    if (chunk.weight > budget) return overrun(task, chunk);
-    budget -= chunk.weight;
-    pc = functionOf(functions, pc)(memory_, ctx_, pc);
+    if (chunk.weight > left) [[unlikely]]
+      return overrun(task, chunk);
+    left -= chunk.weight;
+    pc = functionOf(functions, pc)(memory, ctx, pc);
     if constexpr (Timed)
       if (isLate()) return overrun(task, chunk);
-    if (ctx_->extra_weight == 0) continue;
-    const uint32_t extra = ctx_->extra_weight;
-    ctx_->extra_weight = 0;
-    if (extra > budget) return overrun(task, chunk);
-    budget -= extra;
+    if (ctx->extra_weight == 0) continue;
+    const uint32_t extra = ctx->extra_weight;
+    ctx->extra_weight = 0;
+    if (extra > left) return overrun(task, chunk);
+    left -= extra;
   }
+  budget = left;
   return pc;
 }
 
-void Runner::latch(uint32_t task) noexcept {
+inline void Runner::latch(uint32_t task) noexcept {
   if (hooks_.latch == nullptr) return;
   hooks_.latch(hooks_.data, task);
   hold();
 }
 
-void Runner::begin(uint32_t task) noexcept {
+inline void Runner::begin(uint32_t task) noexcept {
   inTask_ = true;
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
 }
 
 // What follows the chunks of a run or a part. A pc that is neither a chunk nor DONE counts as a fault too.
-bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
+inline bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
   const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
   if (!fault) copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
@@ -171,7 +201,7 @@ bool Runner::runTask(uint32_t task) noexcept {
   const FloatEnvironment environment(defaultFloats_);
   if (!inHook_) startTime();
   hold();
-  return runWhole(task);
+  return runWhole(task, 1);
 }
 
 bool Runner::runPart(uint32_t task) noexcept {
@@ -180,16 +210,21 @@ bool Runner::runPart(uint32_t task) noexcept {
   return runNextPart(task);
 }
 
-bool Runner::runWhole(uint32_t task) noexcept {
+bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
-  latch(task);
-  begin(task);
-  copy(t.begin_first, t.begin_count);
-  beginStack();
-  uint32_t budget = t.budget;
-  return finish(task, limit_.ns != 0 ? runChunks<true>(t.entry, RUNG_PC_DONE, t, budget)
-                                     : runChunks<false>(t.entry, RUNG_PC_DONE, t, budget));
+  bool good = times != 0;
+  while (good) {
+    latch(task);
+    begin(task);
+    copy(t.begin_first, t.begin_count);
+    beginStack();
+    uint32_t budget = t.budget;
+    good = finish(task, limit_.ns != 0 ? runChunks<true>(t.entry, RUNG_PC_DONE, t, budget)
+                                       : runChunks<false>(t.entry, RUNG_PC_DONE, t, budget));
+    if (--times == 0 || stopped_) return good;
+  }
+  return false;
 }
 
 bool Runner::runNextPart(uint32_t task) noexcept {
@@ -250,24 +285,44 @@ bool Runner::halt(uint32_t fault) noexcept {
 
 // ---- schedule ----------------------------------------------------------------------------------------------------
 
-void Runner::doStep(const rung_step& step) noexcept {
-  switch (static_cast<rung_step_op>(step.op)) {
-  case RUNG_STEP_ADVANCE: advance(step.arg); return;
-  case RUNG_STEP_RUN:
-    for (uint32_t i = 0; i < step.arg && !stopped_ && !faulted_; ++i) runWhole(step.task);
-    return;
-  case RUNG_STEP_PART:
-    if (!stopped_) runNextPart(step.task);
-    return;
-  case RUNG_STEP_HOOK:
-    if (stopped_ || hooks_.step == nullptr) return;
-    inHook_ = true;
-    hooks_.step(hooks_.data, step.arg);
-    inHook_ = false;
-    hold();
-    return;
-  case RUNG_STEP_SLOT: return;
+// Most steps are these two: a schedule with a fast task has them for each of its runs.
+inline void Runner::doStep(const rung_step& step) noexcept {
+  if (step.op == RUNG_STEP_ADVANCE) return advance(step.arg);
+  if (step.op != RUNG_STEP_RUN) return doRareStep(step);
+  if (!stopped_ && !faulted_) runWhole(step.task, step.arg);
+}
+
+void Runner::doRareStep(const rung_step& step) noexcept {
+  if (step.op == RUNG_STEP_PART && !stopped_) runNextPart(step.task);
+  if (step.op != RUNG_STEP_HOOK || isLeftOut(step) || stopped_ || hooks_.step == nullptr) return;
+  inHook_ = true;
+  hooks_.step(hooks_.data, step.arg);
+  inHook_ = false;
+  hold();
+}
+
+void Runner::findRow() noexcept {
+  row_ = {};
+  const std::span<const rung_step> list(program_->scan, program_->scan_count);
+  for (uint32_t i = 1; i < list.size(); ++i) { // the first step begins the pass
+    if (isLeftOut(list[i])) continue;
+    const bool goesOn = row_.times != 0 && list[i].op == RUNG_STEP_RUN && list[i].task == list[row_.first].task;
+    if (goesOn) {
+      row_.last = i;
+      row_.times += list[i].arg;
+    } else if (row_.last != row_.first && row_.times != 0) {
+      return;
+    } else {
+      row_ = list[i].op == RUNG_STEP_RUN ? Row{i, i, list[i].arg} : Row{};
+    }
   }
+}
+
+// As step by step.
+void Runner::doRow() noexcept {
+  const uint32_t task = list_[row_.first].task;
+  position_ = row_.last;
+  if (!stopped_) runWhole(task, row_.times);
 }
 
 // The list of the pass under way, else that of the one that begins.
@@ -277,10 +332,8 @@ std::span<const rung_step> Runner::pass(bool realClock) const noexcept {
   return {program_->scan, program_->scan_count};
 }
 
-// Does the step that comes next; false when it was the last of the list, which then is at its beginning again.
-bool Runner::stepOnce() noexcept {
-  if (position_ == 0) advance(untimedPeriodUs_);
-  if (position_ < list_.size()) doStep(list_[position_]);
+// False: the step was the last of the list, which then is at its beginning again.
+inline bool Runner::next() noexcept {
   if (position_ + 1 < list_.size()) {
     ++position_;
     return true;
@@ -289,13 +342,28 @@ bool Runner::stepOnce() noexcept {
   return false;
 }
 
+// Does the step that comes next; false when it was the last of the list, which then is at its beginning again.
+inline bool Runner::stepOnce() noexcept {
+  if (position_ == 0) advance(untimedPeriodUs_);
+  if (position_ < list_.size()) doStep(list_[position_]);
+  return next();
+}
+
 void Runner::scan() noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
   hold();
   list_ = pass(false);
+  const bool isScan = list_.data() == program_->scan;
   bool more = true;
-  while (more && !faulted_) more = stepOnce();
+  while (more && !faulted_) {
+    if (isScan && position_ == row_.first) {
+      doRow();
+      more = next();
+    } else {
+      more = stepOnce();
+    }
+  }
 }
 
 void Runner::slot() noexcept {

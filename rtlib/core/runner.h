@@ -30,12 +30,13 @@ struct PartState {
 // The host's part of the schedule. Null functions are skipped.
 struct RunnerHooks {
   void (*step)(void* data, uint32_t work) = nullptr; // RUNG_STEP_HOOK; may run tasks
-  void (*fault)(void* data) = nullptr;               // after a fault; may run tasks
+  void (*fault)(void* data) = nullptr; // after a fault; may run tasks
   void* data = nullptr;
   // Around every run of a task or a part, border copies included; runs nothing.
   void (*task)(void* data, uint32_t task, bool begins) = nullptr;
   // Before that, where a run begins: brings in what it reads.
   void (*latch)(void* data, uint32_t task) = nullptr;
+  uint32_t works = ~0u; // that `step` has something to do for, a bit each; the others are left out
 };
 
 // A limit in time beside the budget in steps: how long a scan, a slot, a slice, the fast list or a task by itself may
@@ -65,7 +66,10 @@ public:
   Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts,
          void* engine = nullptr) noexcept;
 
-  void setHooks(RunnerHooks hooks) noexcept { hooks_ = hooks; }
+  void setHooks(RunnerHooks hooks) noexcept {
+    hooks_ = hooks;
+    findRow();
+  }
   // What runs longer ends as if its budget were used up.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Another program takes over, between two passes: its memory and part states; the clock continues, a fault stays.
@@ -139,18 +143,36 @@ private:
   void begin(uint32_t task) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;
-  void copy(uint32_t first, uint32_t count) noexcept;
-  bool runWhole(uint32_t task) noexcept;
+  void copy(uint32_t first, uint32_t count) noexcept {
+    if (count != 0) copyAll(first, count);
+  }
+  void copyAll(uint32_t first, uint32_t count) noexcept;
+  bool runWhole(uint32_t task, uint32_t times) noexcept;
   bool runNextPart(uint32_t task) noexcept;
   void doStep(const rung_step& step) noexcept;
+  void doRareStep(const rung_step& step) noexcept;
+  bool isLeftOut(const rung_step& step) const noexcept {
+    return step.op == RUNG_STEP_HOOK && step.arg < 32 && (hooks_.works >> step.arg & 1) == 0;
+  }
+  void findRow() noexcept;
+  void doRow() noexcept;
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
   std::span<const rung_step> pass(bool realClock) const noexcept;
+  bool next() noexcept;
   bool stepOnce() noexcept;
   uint32_t stepsToFast() const noexcept;
 
   void beginProgram() noexcept;
+
+  // Runs of one task in the scan list with nothing in between, as those of a fast task are where the control has no
+  // work before each: positions of the first and the last step, and how many runs.
+  struct Row {
+    uint32_t first = RUNG_NONE;
+    uint32_t last = 0;
+    uint32_t times = 0;
+  };
 
   const rung_program* program_;
   uint8_t* memory_;
@@ -164,6 +186,7 @@ private:
   int64_t deadline_ = 0;
   std::span<const rung_step> list_; // the pass: rung_program::scan or ::slices
   uint32_t position_ = 0;           // in it
+  Row row_;                         // the first one of the scan list
   uint32_t untimedPeriodUs_ = 0;    // what a pass of a list without ADVANCE takes
   bool faulted_ = false;
   bool stopped_ = false;

@@ -71,7 +71,8 @@ void Instance::setRunnerHooks() {
                     .fault = &faultHook,
                     .data = this,
                     .task = taskWatch_ == nullptr ? nullptr : &taskHook,
-                    .latch = latching_ && hooks_ != nullptr ? &latchHook : nullptr});
+                    .latch = latching_ && hooks_ != nullptr ? &latchHook : nullptr,
+                    .works = hooks_ != nullptr ? hooks_->works() : 0});
 }
 
 void Instance::setTaskWatch(TaskWatch* watch) {

@@ -29,6 +29,8 @@ class ScheduleHooks {
 public:
   virtual ~ScheduleHooks() = default;
   virtual void onHook(Instance& instance, uint32_t work) { (void)instance, (void)work; }
+  // What onHook has something to do for, a bit each; it is not called for the others. Asked for once.
+  virtual uint32_t works() const { return ~0u; }
   // The fault is recorded and the outputs are safe. Tasks run here a last time; faults of theirs are ignored.
   virtual void onFault(Instance& instance) { (void)instance; }
   // A run of a task begins, with its input copies: what it reads from elsewhere is brought in. See setLatching.

@@ -55,6 +55,8 @@ void Hooks::onHook(host::Instance& running, uint32_t work) {
   instance_.around->onHook(running, work);
 }
 
+uint32_t Hooks::works() const { return instance_.around->works(); }
+
 void Hooks::onFault(host::Instance& running) { instance_.around->onFault(running); }
 
 void Hooks::onLatch(host::Instance& running, uint32_t task) {

@@ -38,6 +38,7 @@ class Hooks final : public host::ScheduleHooks {
 public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
   void onHook(host::Instance& running, uint32_t work) override;
+  uint32_t works() const override;
   void onFault(host::Instance& running) override;
   void onLatch(host::Instance& running, uint32_t task) override;
   bool respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;

@@ -11,6 +11,7 @@ public:
   explicit ControlAlone(std::string_view dialect) : control_(nc::makeControl(dialect)) {}
   nc::Control& control() override { return *control_; }
   const nc::Control& control() const override { return *control_; }
+  uint32_t works() const override { return control_->works(); }
   void beforePart(host::Instance& instance) override { control_->beforeSlice(instance); }
 
 private:

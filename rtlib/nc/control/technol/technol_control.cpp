@@ -51,6 +51,8 @@ void TechnolControl::onHook(host::Instance& instance, uint32_t work) {
   if (work == kHookAfterMain) backup_.afterMain(instance);
 }
 
+uint32_t TechnolControl::works() const { return 1u << kHookAfterInput | 1u << kHookAfterMain; }
+
 void TechnolControl::onFault(host::Instance& instance) { technol::runWith(instance, "HALT", 0, false); }
 
 void TechnolControl::beforeSlice(host::Instance& instance) {

@@ -17,6 +17,7 @@ public:
   void start(host::Instance& instance) override { life_.powerOn(instance); }
 
   void onHook(host::Instance& instance, uint32_t work) override;
+  uint32_t works() const override;
   void onFault(host::Instance& instance) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
   void beforeSlice(host::Instance& instance) override;

@@ -132,11 +132,30 @@ def spindle():
     wait("spindle override 120 %", lambda: abs(polled().spindle[0]["override"] - 1.2) < 1e-6)
     put("spindle-switch-1", 0)
     wait("spindle override 100 %", lambda: abs(polled().spindle[0]["override"] - 1.0) < 1e-6)
+    gears()
     mdi("M5")
     pins(spindle_cw=False, spindle_ccw=False, up_to_speed=False, spindle_stands=True)
     mdi("M19 R0")
     pins(orient=True, spindle_in_place=True)
     mdi("M5")
+
+
+def speed_code():
+    return int(rungctl("get", "S00~S31").split()[-1])
+
+
+def gears():
+    """S goes to the program, which shifts the gear that the control has chosen; the cut waits for it."""
+    pins(low_gear_valve=True, high_gear_valve=False)
+    mdi("S2501")
+    pins(gear_swing=True, up_to_speed=False)
+    check(speed_code() == 2501, f"S{speed_code()}")
+    mdi("G1 X4 F6000")
+    check(pin("high-gear-valve") and not pin("low-gear-valve") and not pin("gear-swing"), "the cut did not wait for the gear")
+    check(hal.get_value("spindle.0.speed-in") > 41, "feed without the speed of the other gear")
+    mdi("S1000")
+    mdi("G1 X5 F6000")
+    pins(low_gear_valve=True, high_gear_valve=False, gear_swing=False, spindle_at_speed=True)
 
 
 def coolant():

@@ -549,6 +549,7 @@ _FUNCTIONS = {
     "rung_instance_carries_function": (c_int32, _Handle, _U32, _I32, _U32),
     "rung_instance_group_function": (c_int32, _Handle, _U32, _U32, _U32),
     "rung_instance_high_speed_functions": (c_int32, _Handle, _U32),
+    "rung_instance_axis_group": (c_int32, _Handle, _U32, _U32),
     "rung_instance_abort_functions": (c_int32, _Handle, _U32),
     "rung_instance_keep": (c_int32, _Handle, _Path),
     "rung_instance_flush": (c_int32, _Handle),
@@ -1086,6 +1087,11 @@ class Instance(_Closing):
         """From now on the program finishes every kind of function by a signal of its own. Error: NOT_FOUND, the dialect
         has no such handshake."""
         _call(_library.rung_instance_high_speed_functions, self, channel)
+
+    def axis_group(self, axis, group):
+        """The program commands this axis by the signals of a group, both from 0, and the host moves it: each command is a
+        request "AXLCTL axis command data-1 data-2". Error: NOT_FOUND, the dialect has no such axis or group."""
+        _call(_library.rung_instance_axis_group, self, axis, group)
 
     # -- retained memory --
 

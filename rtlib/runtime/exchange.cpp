@@ -8,8 +8,10 @@
 
 namespace rung::runtime {
 
-rung_request shown(const rt::ServiceRequest& request, const rung_program& program) noexcept {
+rung_request shown(const rt::ServiceRequest& request, const rung_program& program,
+                   const nc::Control& control) noexcept {
   rung_request out{.size = sizeof out, .ticket = request.ticket, .service = "", .arg_count = request.argCount};
+  if (request.service == nc::Control::kOwnService) out.service = control.ownService();
   if (request.service < program.service_count) out.service = program.services[request.service];
   std::memcpy(out.args, request.args, sizeof out.args);
   return out;
@@ -108,7 +110,7 @@ int32_t rung_instance_next_request(rung_instance* instance, rung_request* reques
   if (request == nullptr || !hasSize(request)) return failSize("rung_request");
   rt::ServiceRequest next;
   if (!handle->running.services().take(next)) return RUNG_EMPTY;
-  return giveStruct(request, shown(next, *handle->program.load(std::memory_order_acquire)));
+  return giveStruct(request, shown(next, *handle->program.load(std::memory_order_acquire), *handle->control));
 }
 
 int32_t rung_instance_answer(rung_instance* instance, const rung_reply* reply) {
@@ -166,6 +168,13 @@ int32_t rung_instance_group_function(rung_instance* instance, uint32_t channel, 
     if (functions->setGroup(code, group)) return int32_t{RUNG_OK};
     return fail(RUNG_NOT_FOUND, "M%u cannot be in a group %u that the machine chooses", code, group);
   });
+}
+
+int32_t rung_instance_axis_group(rung_instance* instance, uint32_t axis, uint32_t group) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (call->control->setAxisGroup(axis, group)) return RUNG_OK;
+  return fail(RUNG_NOT_FOUND, "the dialect has no axis %u, or no group %u, both from 0", axis, group);
 }
 
 int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t channel) {

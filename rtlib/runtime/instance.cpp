@@ -64,11 +64,11 @@ void Hooks::onLatch(host::Instance& running, uint32_t task) {
 }
 
 bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
-  shadowRequest(instance_, request);
+  if (request.service != nc::Control::kOwnService) shadowRequest(instance_, request);
   const rung_instance_options& options = instance_.options;
   int32_t answer = (options.flags & RUNG_QUEUE_REQUESTS) != 0 ? RUNG_QUEUE : RUNG_REFUSE;
   if (options.request != nullptr) {
-    const rung_request asked = shown(request, running.program());
+    const rung_request asked = shown(request, running.program(), *instance_.control);
     rung_reply given{.size = sizeof given, .ticket = request.ticket};
     answer = options.request(options.user, &instance_, &asked, &given);
     if (answer == RUNG_ANSWER) reply = taken(given);

@@ -143,10 +143,46 @@ def session(bench, options):
     for name in ("machine.ini", "machine.hal", "tool.tbl", "drive.py"):
         bench.copy(HERE / name)
     bench.file("steps.txt", options.steps)
+    start_machine(bench)
+
+
+def start_machine(bench):
     bench.run("linuxcnc", "-r", str(bench.home / "machine.ini"))
     result = bench.home / "result.txt"
     expect(result.exists(), "LinuxCNC did not start the driver")
     expect(result.read_text(encoding="utf-8") == "passed", result.read_text(encoding="utf-8"))
+
+
+PROGRAM_AXIS = """
+[JOINT_3]
+TYPE = LINEAR
+MIN_LIMIT = -100
+MAX_LIMIT = 100
+MAX_VELOCITY = 100
+MAX_ACCELERATION = 2000
+FERROR = 50
+MIN_FERROR = 50
+HOME = 0
+HOME_SEARCH_VEL = 0
+HOME_SEQUENCE = 0
+"""
+
+
+def services(bench, options):
+    """What a program asks of its CNC: LinuxCNC moves an axis for it, and gives and takes data."""
+    bench.program(HERE / "services.pmc")
+    bench.copy(HERE / "services.map", "program.map")
+    ini = (HERE / "machine.ini").read_text(encoding="utf-8") + PROGRAM_AXIS
+    for old, new in (("JOINTS = 3", "JOINTS = 4"), ("./drive.py", "./services.py")):
+        expect(ini.count(old) == 1, f"{old} is not once in machine.ini")
+        ini = ini.replace(old, new)
+    bench.file("machine.ini", ini)
+    bench.copy(HERE / "services.hal", "machine.hal")
+    for name in ("tool.tbl", "drive.py", "services.py"):
+        bench.copy(HERE / name)
+    for tool in (Path(options.rungc).parent / "rungctl", *((HERE.parents[1] / "tools/rung-hal" / name) for name in ("rung-operator", "rung-services"))):
+        shutil.copy(tool, bench.home)
+    start_machine(bench)
 
 
 LOAD = """
@@ -324,7 +360,7 @@ def sources(bench, options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, fault, sources, instances, unload, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, services, fault, sources, instances, unload, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

@@ -69,6 +69,21 @@ rung
 rung
 |--{END}
 """
+# X0.1 hands the block at D0 to group A, X0.2 is RST: R11.0 says that it is taken.
+GROUP = """dialect gsk
+FUNC END1
+LD   X0.0
+OUT  G8.4
+OUT  EAX4
+LD   X0.2
+LD   X0.1
+FUNC AXLCTL
+PRM  1
+PRM  D0
+PRM  R10
+OUT  R11.0
+FUNC END2
+"""
 BLOCKS = {"D0:2": 9, "D4:2": 4, "D6:2": 500, "D20:2": 31, "D24:2": 4, "D40:2": 17, "D44:2": 4, "D48:2": 2}
 VARIABLE = {"event": "service", "quantity": "macro-variable", "channel": 0, "number": 500, "axis": 0}
 TOOL = {"event": "service", "quantity": "tool-number", "channel": 0, "number": 0, "axis": 0, "value": 7.0}
@@ -280,6 +295,93 @@ class NctServices(Provider):
         self.ctl("set", "7000.03", "true")
         self.assertTrue(self.ends(3))
         self.wait(lambda: self.get("7003.00"))
+
+
+class GskAxes(Provider):
+    """PLC axis control: the control takes blocks by EBUF and EBSY, and asks for one motion after the other."""
+    map = Provider.map + '[axis-groups]\n4 = "A"\n[const]\n"X0.0" = true\nZRF4 = true\n'
+    program_text = GROUP
+
+    def setUp(self):
+        super().setUp()
+        self.wait(lambda: self.get("EADEN4"))  # nobody has answered the stop of the power-on
+
+    def order(self, code, data_1, data_2):
+        for name, value in {"D1": code, "D2:2": data_1, "D4:4": data_2, "X0.1": True}.items():
+            self.ctl("set", name, str(value).lower())
+        self.wait(lambda: self.get("R11.0"))
+        self.ctl("set", "X0.1", "false")
+        self.wait(lambda: not self.get("R11.0"))
+
+    def clear(self):
+        self.ctl("set", "X0.2", "true")
+        self.wait(lambda: not self.get("*EAXSL") and not self.get("EIALA"))
+        self.ctl("set", "X0.2", "false")
+        self.wait(lambda: not self.get("ECLRA"))
+
+    def asked(self, provider, **way):
+        event = self.event(provider)
+        ticket = event.pop("ticket")
+        self.assertEqual(event, {"event": "service", "quantity": "axis-move", "channel": 0, "number": 0, "axis": 3, "until": "over", **way})
+        return ticket
+
+    def over(self, provider, ticket, outcome="done"):
+        self.assertTrue(self.ask(provider, do="served", ticket=ticket, outcome=outcome)["ok"])
+
+    def test_without_a_provider_it_is_an_alarm_of_the_group(self):
+        self.order(0, 6000, 10000)
+        self.wait(lambda: self.get("EIALA"))
+        self.clear()
+
+    def test_blocks_wait_for_each_other(self):
+        provider = self.provider()
+        self.order(1, 600, -125000)
+        first = self.asked(provider, way="by", value=-12.5, speed=600.0)
+        self.order(0, 100, 100)
+        self.order(0, 200, 100)
+        self.wait(lambda: self.get("EABUFA"))
+        self.over(provider, first)
+        second = self.asked(provider, way="by", value=0.01, speed=100.0)
+        self.wait(lambda: not self.get("EABUFA"))
+        self.over(provider, second)
+        self.over(provider, self.asked(provider, way="by", value=0.01, speed=200.0))
+        self.wait(lambda: self.get("EINPA") and not self.get("*EAXSL"))
+
+    def test_commands(self):
+        provider = self.provider()
+        for block, way in (((0, 6000, 10000), {"way": "by", "value": 1.0, "speed": 6000.0}), ((32, 300, -5000), {"way": "at", "value": -0.5, "speed": 300.0}),
+                           ((5, 0, 0), {"way": "home", "value": 0.0, "speed": 0.0}), ((7, 900, 3), {"way": "home", "value": 0.0, "speed": 900.0})):
+            self.order(*block)
+            ticket = self.asked(provider, **way)
+            self.assertTrue(self.get("EGENA"), block)
+            self.over(provider, ticket)
+            self.wait(lambda: self.get("EINPA") and not self.get("*EAXSL"))
+        for block, way in (((6, 200, 1), {"value": -1.0, "speed": 200.0}), ((16, 65534, 0), {"value": -1.0, "speed": 720.0})):
+            self.order(*block)
+            self.asked(provider, way="jog", **way)
+            self.ctl("set", "X0.2", "true")
+            ticket = self.asked(provider, way="stop", value=0.0, speed=0.0)
+            self.assertTrue(self.get("*EAXSL"))
+            self.over(provider, ticket)
+            self.clear()
+
+    def test_what_no_cnc_does_is_an_alarm_until_eclr(self):
+        provider = self.provider()
+        for code in (2, 3, 8, 9, 10):
+            self.order(code, 100, 100)
+            self.wait(lambda: self.get("EIALA"))
+            self.clear()
+        self.order(1, 100, 100)
+        self.over(provider, self.asked(provider, way="by", value=0.01, speed=100.0), outcome="no-axis")
+        self.wait(lambda: self.get("EIALA"))
+
+    def test_motions_take_their_time(self):
+        provider = self.provider()
+        self.order(1, 100, 100)
+        ticket = self.asked(provider, way="by", value=0.01, speed=100.0)
+        time.sleep(5.5)  # longer than other requests wait
+        self.over(provider, ticket)
+        self.wait(lambda: self.get("EINPA") and not self.get("EIALA"))
 
 
 class ServiceRights(Host):

@@ -128,6 +128,11 @@ private:
         fail(row.at, "m-groups",
              {"M" + std::to_string(row.code) + " in group " + std::to_string(row.group),
               "what a machine can choose with the dialect " + dialect(), "write another group, or remove the line"});
+    for (const AxisGroup& row : map_.axisGroups)
+      if (rung_instance_axis_group(instance_, row.axis, row.group) != RUNG_OK)
+        fail(row.at, "axis-groups",
+             {"axis " + std::to_string(row.axis + 1) + " in group " + static_cast<char>('A' + row.group),
+              "axes and groups that the dialect " + dialect() + " has", "write others, or remove the line"});
     if (map_.highSpeed && rung_instance_high_speed_functions(instance_, 0) != RUNG_OK)
       fail(*map_.highSpeed, "high-speed",
            {"true", "false, because the dialect " + dialect() + " has no such handshake", "remove the line"});

@@ -99,7 +99,7 @@ private:
   template <class Row>
   using Key = mapping::Key<Reader, Row>;
 
-  static const Key<File> kFileKeys[16];
+  static const Key<File> kFileKeys[17];
   static const Key<File> kRemoteKeys[2];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
@@ -155,6 +155,7 @@ private:
   bool takeConstants(const toml::node& node, File& map);
   bool takeSends(const toml::node& node, File& map);
   bool takeGroups(const toml::node& node, File& map);
+  bool takeAxisGroups(const toml::node& node, File& map);
   bool takeAborts(const toml::node& node, File& map);
   bool takeClients(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::ModbusClient); }
   bool takeServers(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::ModbusServer); }
@@ -292,6 +293,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
     {"m-groups", false, "a table", "[m-groups] and CODE = GROUP in the lines after it", &Reader::takeGroups},
     {"PlcErrors", false, "the path of a file, or a list of paths", "PlcErrors = \"Plc0.PlcErrors\"",
      &Reader::takeMessageFiles},
+    {"axis-groups", false, "a table", "[axis-groups] and AXIS = \"GROUP\" in the lines after it",
+     &Reader::takeAxisGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
     {"rungctl", false, "a table", "[rungctl] and allow = [ … ] in the lines after it", &Reader::takeRemote},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
@@ -496,6 +499,30 @@ bool Reader::takeGroups(const toml::node& node, File& map) {
       wrong(positionOf(*value), "m-groups." + std::string(name), shown(*value), "the number of a group", "70 = 10");
     else
       map.groups.push_back({*code, static_cast<uint32_t>(*group), at});
+  }
+  return true;
+}
+
+bool Reader::takeAxisGroups(const toml::node& node, File& map) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return false;
+  for (const auto& [key, value] : inFileOrder(*table)) {
+    const std::string_view name = key->str();
+    const Position at = positionOf(key->source());
+    const std::optional<uint32_t> axis = text::numberIn<uint32_t>(name);
+    const std::string group = textOf(*value);
+    const auto first = std::ranges::find(map.axisGroups, axis.value_or(0) - 1, &AxisGroup::axis);
+    if (axis.value_or(0) == 0)
+      fail(at, "axis-groups: found \"" + std::string(name) +
+                   "\", expected the number of an axis, from 1; write for example 4 = \"A\"");
+    else if (first != map.axisGroups.end())
+      fail(at, "axis-groups: found axis " + std::to_string(*axis) + ", which is in " + lineOf(first->at) +
+                   " already, expected one group for each axis; remove one of the lines");
+    else if (group.size() != 1 || group[0] < 'A' || group[0] > 'Z')
+      wrong(positionOf(*value), "axis-groups." + std::string(name), shown(*value), "the letter of a group",
+            "4 = \"A\"");
+    else
+      map.axisGroups.push_back({*axis - 1, static_cast<uint32_t>(group[0] - 'A'), at});
   }
   return true;
 }

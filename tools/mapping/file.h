@@ -94,6 +94,13 @@ struct MessageFile {
   Position at;
 };
 
+// axis-groups: the signals by which the program commands an axis; both count from 0.
+struct AxisGroup {
+  uint32_t axis = 0;
+  uint32_t group = 0;
+  Position at; // of the axis
+};
+
 // rungctl: what may be done from outside while the program runs.
 enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
 inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
@@ -162,6 +169,7 @@ struct File {
   std::vector<Send> sends;
   std::vector<Group> groups;
   std::vector<MessageFile> messageFiles;
+  std::vector<AxisGroup> axisGroups;
   bool allowed[std::size(kRemoteNames)] = {}; // by Remote
   std::vector<Protected> never;
   std::vector<Connection> connections;

@@ -62,6 +62,7 @@ json eventOf(uint32_t ticket, const services::Operation& o) {
   if (o.quantity == services::Quantity::AxisMove) {
     event["way"] = services::kWayNames[static_cast<size_t>(o.way)];
     event["speed"] = o.speed;
+    if (o.untilOver) event["until"] = "over";
   }
   return event;
 }
@@ -132,7 +133,8 @@ void Services::pass(Server& server, services::Request request) {
   }
   if (provider_ == 0) return refuse(request); // it has gone since the program asked
   const uint32_t ticket = request.given.ticket;
-  waiting_[ticket] = {std::move(request), std::chrono::steady_clock::now() + kPatience};
+  using Clock = std::chrono::steady_clock;
+  waiting_[ticket] = {std::move(request), operation->untilOver ? Clock::time_point::max() : Clock::now() + kPatience};
   server.send(provider_, eventOf(ticket, *operation));
 }
 

@@ -1,7 +1,9 @@
-// `windr function length number attribute -> end data`, `windw … data -> end` (man. l.8482-8945).
+// `windr function length number attribute -> end data`, `windw … data -> end` (man. l.8482-8945); AXLCTL, of the control
+// itself, for the blocks of PLC axis control (l.7713-7803).
 #include <cmath>
 #include <string_view>
 
+#include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tools/services/dialects.h"
 
@@ -110,11 +112,51 @@ WindowEnd endOf(Outcome outcome, bool write) noexcept {
   return nc::gsk::kWindowNotProvided;
 }
 
+bool isAxis(std::string_view service) noexcept { return service == nc::gsk::kAxisRequest; }
+
+// Nothing: no CNC offers the motion to its program. A turn of the command in r/min is 360 degrees (l.8407).
+std::optional<Operation> moveOf(const int64_t* args) noexcept {
+  constexpr double kUnits = 10000; // of data 2 in a mm or a degree (P54)
+  Operation move{.quantity = Quantity::AxisMove,
+                 .write = true,
+                 .axis = static_cast<uint32_t>(args[0]),
+                 .value = static_cast<double>(args[3]) / kUnits,
+                 .speed = static_cast<double>(args[2]),
+                 .untilOver = true};
+  const auto turns = static_cast<double>(static_cast<int16_t>(args[2]));
+  switch (args[1]) {
+  case nc::gsk::kAxisStop: move.way = Way::Stop; break;
+  case nc::gsk::kAxisRapid:
+  case nc::gsk::kAxisFeed: move.way = Way::By; break;
+  case nc::gsk::kAxisMachineCoordinate: move.way = Way::At; break;
+  case nc::gsk::kAxisManualReturn: move.speed = 0; [[fallthrough]]; // parameter 1428 of the control
+  case nc::gsk::kAxisReference1:
+    move.way = Way::Home;
+    move.value = 0;
+    break;
+  case nc::gsk::kAxisContinuous:
+    move.way = Way::Jog;
+    move.value = (args[3] & 1) != 0 ? -1 : 1;
+    break;
+  case nc::gsk::kAxisSpeed:
+    move.way = Way::Jog;
+    move.value = turns < 0 ? -1 : 1;
+    move.speed = std::fabs(turns) * 360;
+    break;
+  default: return std::nullopt;
+  }
+  const bool needsSpeed = move.way != Way::Stop && args[1] != nc::gsk::kAxisManualReturn;
+  return needsSpeed && move.speed == 0 ? std::nullopt : std::optional(move);
+}
+
 } // namespace
 
-bool is(std::string_view service) noexcept { return service.starts_with("windr ") || service.starts_with("windw "); }
+bool is(std::string_view service) noexcept {
+  return service.starts_with("windr ") || service.starts_with("windw ") || isAxis(service);
+}
 
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
+  if (isAxis(request.service)) return RUNG_QUEUE;
   const Window window = windowOf(request.service, request.args);
   const WindowEnd mistake = mistakeOf(window);
   if (mistake == nc::gsk::kWindowDone && window.function->speed == nc::gsk::WindowSpeed::Low) return RUNG_QUEUE;
@@ -125,6 +167,7 @@ int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply)
 }
 
 std::optional<Operation> operationOf(const Request& request, rung_reply& refusal) {
+  if (isAxis(request.service)) return moveOf(request.given.args);
   const Window window = windowOf(request.service, request.given.args);
   const WindowEnd mistake = mistakeOf(window);
   const std::optional<Quantity> quantity = mistake == nc::gsk::kWindowDone ? quantityOf(window) : std::nullopt;
@@ -142,6 +185,10 @@ std::optional<Operation> operationOf(const Request& request, rung_reply& refusal
 }
 
 rung_reply replyOf(const Request& request, const Answer& answer) {
+  if (isAxis(request.service))
+    return {.size = sizeof(rung_reply),
+            .ticket = request.given.ticket,
+            .error = answer.outcome == Outcome::Done ? 0u : 1u};
   const Window window = windowOf(request.service, request.given.args);
   if (answer.outcome == Outcome::Done && !window.write) return given(window, request.given.ticket, answer.value);
   return ended(window, request.given.ticket, endOf(answer.outcome, window.write));

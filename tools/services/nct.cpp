@@ -41,7 +41,7 @@ std::optional<Operation> moveOf(const int64_t* args) noexcept {
   return Operation{.quantity = Quantity::AxisMove,
                    .write = true,
                    .axis = static_cast<uint32_t>(args[0]),
-                   .value = std::bit_cast<double>(args[3]),
+                   .value = *motion.way == Way::Jog ? 0 : std::bit_cast<double>(args[3]),
                    .way = *motion.way,
                    .speed = motion.rapid ? 0 : std::bit_cast<double>(args[2])};
 }

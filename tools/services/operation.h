@@ -27,9 +27,10 @@ enum class Way : uint8_t {
   At,    // a position in machine coordinates
   Home,  // its reference point
   Dwell, // `value` seconds
-  Jog,   // by the program's signals
+  Jog,   // by the program's signals, or on and on: in the direction of `value`, which is 1 or -1 then
+  Stop,  // where it is; what waits is forgotten
 };
-inline constexpr std::string_view kWayNames[] = {"to", "by", "at", "home", "dwell", "jog"}; // by Way
+inline constexpr std::string_view kWayNames[] = {"to", "by", "at", "home", "dwell", "jog", "stop"}; // by Way
 
 struct Operation {
   Quantity quantity = Quantity::MacroVariable;
@@ -40,6 +41,7 @@ struct Operation {
   double value = 0;  // to be written
   Way way = Way::To; // of a move
   double speed = 0;  // of a move, per minute; 0: rapid
+  bool untilOver = false; // a move is done when it is over; else, when it is taken
 };
 
 enum class Outcome : uint8_t {

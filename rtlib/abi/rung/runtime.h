@@ -151,7 +151,7 @@ typedef struct rung_instance_options {
   /* What an operator should know: retained memory that was lost, a file that cannot be written. Never within a call
    * that is marked [rt]. */
   void (*log)(void* user, int32_t level, const char* text);
-  /* The program asks for a service, within a scan. An enum rung_answer. */
+  /* The program asks for a service, within a scan or before a slice. An enum rung_answer. */
   int32_t (*request)(void* user, rung_instance* instance, const rung_request* request, rung_reply* reply);
   /* A fault has stopped the program, within a scan or the power-on: what its dialect clears is 0, and so are the bound
    * variables that the program writes. */
@@ -504,6 +504,14 @@ RUNG_API int32_t rung_instance_group_function(rung_instance* instance, uint32_t 
 /* From now on the program finishes every kind of function by a signal of its own, so that kinds do not wait for each
  * other. RUNG_NOT_FOUND: the dialect has no such handshake. */
 RUNG_API int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t channel);
+
+/* ---- axes of the program --------------------------------------------------------------------------------------- */
+
+/* The program commands an axis by the signals of a group (parameter 7010 of GSK), both from 0, and the host moves it:
+ * each command is a service request "AXLCTL axis command data-1 data-2", made between two slices, with the command and
+ * data as the program has them; command -1 stops the axis. It is answered when the axis has carried it out, with an
+ * error where it cannot. RUNG_NOT_FOUND: the dialect has no such axis or group. */
+RUNG_API int32_t rung_instance_axis_group(rung_instance* instance, uint32_t axis, uint32_t group);
 
 /* ---- retained memory -------------------------------------------------------------------------------------------- */
 

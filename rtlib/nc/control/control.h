@@ -108,6 +108,14 @@ public:
   // the dialect no such functions.
   virtual Functions* functions(uint32_t channel) { return (void)channel, nullptr; }
 
+  // The program commands this axis by the signals of a group, from now on, and the host's CNC moves it; both count from
+  // 0. False: the dialect has no such axis or group.
+  virtual bool setAxisGroup(uint32_t axis, uint32_t group) { return (void)axis, (void)group, false; }
+  // The service of requests that the control itself makes for the program, outside of its tasks: its number, which no
+  // program has, and its text as rung_program::services has it.
+  static constexpr uint32_t kOwnService = 0x8000'0000;
+  virtual const char* ownService() const { return ""; }
+
   // The program's retained memory was there but could not be restored: called before the power-on.
   virtual void reportRetainedLost() {}
   // TECHNOL saves its retained memory at a power-off and when the program asks, and at no other time: a host that

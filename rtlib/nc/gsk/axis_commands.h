@@ -1,6 +1,6 @@
 // PLC axis control of the GSK25i: the commands that AXLCTL hands over and the signals of the groups A-H that carry them
-// (man. Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). The compiler checks and addresses by it, the simulated
-// CNC takes blocks by it, the reference page prints it.
+// (man. Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). The compiler checks and addresses by it, the control takes
+// blocks by it, the reference page prints it.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -33,6 +33,25 @@ struct AxisCommand {
   uint16_t blockLine = 0; // of its data block
 };
 
+// Codes that are known by name.
+enum AxisCode : uint8_t {
+  kAxisRapid = 0,
+  kAxisFeed = 1,
+  kAxisFeedPerTurn = 2,
+  kAxisSkip = 3,
+  kAxisDwell = 4,
+  kAxisManualReturn = 5,
+  kAxisContinuous = 6,
+  kAxisReference1 = 7,
+  kAxisReference4 = 10,
+  kAxisSpeed = 16,
+  kAxisAux1 = 18,
+  kAxisAux2 = 20,
+  kAxisAux3 = 21,
+  kAxisMachineCoordinate = 32,
+};
+constexpr bool isAxisReference(uint8_t code) { return code >= kAxisReference1 && code <= kAxisReference4; }
+
 // In the order of their codes.
 std::span<const AxisCommand> axisCommands();
 // Null for a code that the table does not have.
@@ -44,6 +63,11 @@ inline constexpr uint32_t kAxisCommandAt = 1; // bit 7 is EMSBK (P51)
 inline constexpr uint32_t kAxisData1At = 2;
 inline constexpr uint32_t kAxisData2At = 4;
 inline constexpr uint8_t kAxisCommandBits = 0x7F;
+
+// The request that hands a command to the host's CNC, as rung_program::services has it: the axis from 0, command and
+// data as in the block. It is answered when the axis has carried it out.
+inline constexpr const char* kAxisRequest = "AXLCTL axis command data-1 data-2";
+inline constexpr int64_t kAxisStop = -1; // as a command: the axis stops
 
 // Byte addresses. The seven bytes from `command` are a program block: EC and EMSBK, EIF0-15, EID0-31.
 struct AxisGroup {

@@ -312,6 +312,12 @@ send = [
                   "technol; write another group, or remove the line",
                   "m.map:4:1: m-groups: found M100 in group 10, expected what a machine can choose with the "
                   "dialect technol; write another group, or remove the line"));
+  EXPECT_THAT(boundTo(testing::gskProgram(), "[axis-groups]\n1 = \"A\"\n8 = \"H\"\n").errors, IsEmpty());
+  EXPECT_THAT(boundTo(testing::gskProgram(), "[axis-groups]\n9 = \"A\"\n1 = \"I\"\n").errors,
+              ElementsAre("m.map:2:1: axis-groups: found axis 9 in group A, expected axes and groups that the dialect "
+                          "gsk has; write others, or remove the line",
+                          "m.map:3:1: axis-groups: found axis 1 in group I, expected axes and groups that the dialect "
+                          "gsk has; write others, or remove the line"));
   EXPECT_THAT(
       boundTo(testing::nctProgram(), "[m-groups]\n70 = 10\n").errors,
       ElementsAre("m.map:2:1: m-groups: found M70 in group 10, expected what a machine can choose with the dialect "

@@ -176,8 +176,8 @@ b = { typ = "bit", name = "X0.0" }
 c = 5
 )"),
       ElementsAre("m.map:1:1: the file: found an unknown key timout, expected include, timeout, high-speed, in, "
-                  "out, io, param, const, send, m-groups, PlcErrors, abort, rungctl, modbus-client, modbus-server, "
-                  "shared-memory; did you mean timeout?",
+                  "out, io, param, const, send, m-groups, PlcErrors, axis-groups, abort, rungctl, modbus-client, "
+                  "modbus-server, shared-memory; did you mean timeout?",
                   "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
                   "write for example type = \"bit\"",
                   "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "
@@ -343,6 +343,26 @@ TEST(MapFile, BadGroups) {
                           "function; remove one of the lines",
                           "m.map:5:1: m-groups: found M70, which is in line 3 already, expected one group for each "
                           "function; remove one of the lines"));
+}
+
+TEST(MapFile, AxisGroups) {
+  const File map = faultlessMap("[axis-groups]\n4 = \"A\"\n1 = \"H\"\n");
+  ASSERT_EQ(map.axisGroups.size(), 2u);
+  EXPECT_EQ(map.axisGroups[0].axis, 3u);
+  EXPECT_EQ(map.axisGroups[0].group, 0u);
+  EXPECT_EQ(map.axisGroups[1].axis, 0u);
+  EXPECT_EQ(map.axisGroups[1].group, 7u);
+  EXPECT_THAT(errorsOf("[axis-groups]\n0 = \"A\"\nX = \"A\"\n2 = \"AB\"\n3 = 1\n4 = \"A\"\n04 = \"B\"\n"),
+              ElementsAre("m.map:2:1: axis-groups: found \"0\", expected the number of an axis, from 1; write for "
+                          "example 4 = \"A\"",
+                          "m.map:3:1: axis-groups: found \"X\", expected the number of an axis, from 1; write for "
+                          "example 4 = \"A\"",
+                          "m.map:4:5: axis-groups.2: found \"AB\", expected the letter of a group; write for example "
+                          "4 = \"A\"",
+                          "m.map:5:5: axis-groups.3: found 1, expected the letter of a group; write for example 4 = "
+                          "\"A\"",
+                          "m.map:7:1: axis-groups: found axis 4, which is in line 6 already, expected one group for "
+                          "each axis; remove one of the lines"));
 }
 
 TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {

@@ -73,6 +73,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_group_function(plc, 0, 3, 1));
   BAD_HANDLE(rung_instance_high_speed_functions(plc, 0));
   BAD_HANDLE(rung_instance_begin_power_off(plc));
+  BAD_HANDLE(rung_instance_axis_group(plc, 0, 0));
   BAD_HANDLE(rung_instance_keep(plc, "file"));
   BAD_HANDLE(rung_instance_flush(plc));
   BAD_HANDLE(rung_instance_unsaved(plc, text, sizeof text));

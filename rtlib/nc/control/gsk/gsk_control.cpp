@@ -51,7 +51,8 @@ std::unique_ptr<Places> GskControl::locate(const rung_program& program) const {
 
 void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
   const auto& own = static_cast<const GskPlaces&>(places);
-  functions_.use({instance, own.areas});
+  io_.emplace(instance, own.areas);
+  functions_.use(*io_);
   messageArea_ = own.messages;
   messageBytes_ = own.messageBytes;
   messagePieces_ = own.pieces;
@@ -65,6 +66,7 @@ void GskControl::prepare(host::Instance& instance, PowerOn kind) {
   writeArea(instance, "X", machine);
   writeArea(instance, "F", cnc);
   functions_.powerOn();
+  axes_.powerOn();
   known_.fill(0);
   hasSeen_ = false;
 }

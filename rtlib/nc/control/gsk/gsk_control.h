@@ -5,6 +5,7 @@
 #include <span>
 
 #include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/gsk/asked_axes.h"
 #include "rtlib/nc/control/gsk/gsk_functions.h"
 
 namespace rung::nc {
@@ -21,6 +22,12 @@ public:
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
+  // Axes that no group was given for are left alone, with the signals of their groups.
+  bool setAxisGroup(uint32_t axis, uint32_t group) override { return axes_.setGroup(axis, group); }
+  void beforeSlice(host::Instance& instance) override {
+    if (axes_.any() && io_) axes_.step(*io_, instance.services());
+  }
+  const char* ownService() const override { return gsk::kAxisRequest; }
 
 protected:
   void usePlaces(host::Instance& instance, Places& places) noexcept override;
@@ -32,6 +39,8 @@ private:
   void see(const uint8_t* block) noexcept;
 
   GskFunctions functions_;
+  GskAskedAxes axes_;
+  std::optional<gsk::SignalsIo> io_; // of the program that runs now
   uint32_t messageArea_ = RUNG_NONE;
   uint32_t messageBytes_ = 0;
   std::array<uint8_t, kMostMessageBytes> known_{};            // bits of the A area that the host knows of

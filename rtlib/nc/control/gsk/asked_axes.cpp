@@ -1,0 +1,101 @@
+// See asked_axes.h.
+#include "rtlib/nc/control/gsk/asked_axes.h"
+
+#include <iterator>
+
+#include "rtlib/nc/control/control.h"
+
+namespace rung::nc {
+namespace {
+
+constexpr uint32_t kReferenced = 120; // F: ZRF1-ZRF8
+
+template <class Act>
+void forAxes(uint8_t axes, Act act) {
+  for (uint32_t i = 0; i < GskAxisGroups::kAxes; ++i)
+    if ((axes >> i & 1) != 0) act(i);
+}
+
+} // namespace
+
+bool GskAskedAxes::setGroup(uint32_t axis, uint32_t group) {
+  if (axis >= GskAxisGroups::kAxes || group >= gsk::kAxisGroups) return false;
+  axes_[axis].group = group;
+  served_ = static_cast<uint8_t>(served_ | 1u << group);
+  return true;
+}
+
+void GskAskedAxes::powerOn() {
+  groups_ = {};
+  for (Axis& axis : axes_) axis = {.group = axis.group, .unknown = true};
+}
+
+void GskAskedAxes::step(const gsk::SignalsIo& io, rt::ServiceQueue& services) {
+  io_ = &io;
+  services_ = &services;
+  for (uint32_t i = 0; i < GskAxisGroups::kAxes; ++i)
+    if (axes_[i].group && axes_[i].unknown) stop(static_cast<uint8_t>(1u << i), false);
+  groups_.step(io, *this, served_, !io.g(8, 4));
+}
+
+uint32_t GskAskedAxes::ask(uint32_t axis, int64_t command, int64_t data1, int64_t data2) {
+  const int64_t args[] = {axis, command, data1, data2};
+  return services_->request(Control::kOwnService, args, std::size(args));
+}
+
+// False: there is no room for the request.
+bool GskAskedAxes::order(uint8_t axes, const GskAxisGroups::Command& command) {
+  bool asked = true;
+  forAxes(axes, [&](uint32_t i) {
+    axes_[i].motion = ask(i, command.code, command.data1, command.data2);
+    asked = asked && axes_[i].motion != 0;
+  });
+  return asked;
+}
+
+bool GskAskedAxes::begin(uint8_t axes, const GskAxisGroups::Command& command) {
+  bool referenced = true;
+  forAxes(axes, [&](uint32_t i) { referenced = referenced && io_->f(kReferenced, i); });
+  if (gsk::isAxisReference(command.code) && !referenced) return false; // l.7787
+  return order(axes, command);
+}
+
+GskAxisGroups::Progress GskAskedAxes::move(uint8_t axes, const GskAxisGroups::Command&) {
+  using enum GskAxisGroups::Progress;
+  GskAxisGroups::Progress progress = Over;
+  forAxes(axes, [&](uint32_t i) {
+    axes_[i].paused = false;
+    const uint32_t state = services_->poll(axes_[i].motion);
+    if (state == RUNG_SERVICE_PENDING && progress == Over) progress = UnderWay;
+    if (state != RUNG_SERVICE_PENDING && state != RUNG_SERVICE_DONE) progress = Failed;
+  });
+  return progress;
+}
+
+// The host holds the axis by ESTP and ESOF themselves.
+void GskAskedAxes::pause(uint8_t axes) {
+  forAxes(axes, [&](uint32_t i) { axes_[i].paused = true; });
+}
+
+void GskAskedAxes::stop(uint8_t axes, bool) {
+  forAxes(axes, [&](uint32_t i) {
+    Axis& axis = axes_[i];
+    if (!axis.unknown && !isPending(axis.motion)) return;
+    axis = {.group = axis.group, .stop = ask(i, gsk::kAxisStop, 0, 0)};
+  });
+}
+
+GskAxisGroups::Motion GskAskedAxes::look(uint8_t axes) const {
+  GskAxisGroups::Motion motion;
+  forAxes(axes, [&](uint32_t i) {
+    const Axis& axis = axes_[i];
+    const uint32_t status = gsk::axisGroups()[axis.group.value_or(0)].status;
+    motion.stopping = motion.stopping || isPending(axis.stop);
+    motion.moving = motion.moving || motion.stopping || (isPending(axis.motion) && !axis.paused);
+    motion.overPositive = motion.overPositive || io_->f(status, gsk::kEotpBit);
+    motion.overNegative = motion.overNegative || io_->f(status, gsk::kEotnBit);
+  });
+  return motion;
+}
+
+} // namespace rung::nc

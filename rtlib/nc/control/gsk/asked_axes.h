@@ -1,0 +1,47 @@
+// Axes of a GSK program that the host's CNC moves: a command of PLC axis control is a request of the control, which is
+// answered when the axis has carried it out.
+#pragma once
+#include <array>
+
+#include "rtlib/core/queues.h"
+#include "rtlib/nc/control/gsk/axis_groups.h"
+
+namespace rung::nc {
+
+class GskAskedAxes final : public GskAxisGroups::Mover {
+public:
+  // The program commands the axis by a group, from now on (parameter 7010); both count from 0. False: there is none.
+  bool setGroup(uint32_t axis, uint32_t group);
+  bool any() const { return served_ != 0; }
+  // Whatever the axes do is nothing that the program has ordered.
+  void powerOn();
+  // A slot, before the program.
+  void step(const gsk::SignalsIo& io, rt::ServiceQueue& services);
+
+  std::optional<uint32_t> groupOf(uint32_t axis) const override { return axes_[axis].group; }
+  bool begin(uint8_t axes, const GskAxisGroups::Command& command) override;
+  void change(uint8_t axes, const GskAxisGroups::Command& command) override { (void)order(axes, command); }
+  GskAxisGroups::Progress move(uint8_t axes, const GskAxisGroups::Command& command) override;
+  void pause(uint8_t axes) override;
+  void stop(uint8_t axes, bool cleared) override;
+  GskAxisGroups::Motion look(uint8_t axes) const override;
+
+private:
+  struct Axis {
+    std::optional<uint32_t> group;
+    uint32_t motion = 0, stop = 0; // tickets
+    bool paused = false;
+    bool unknown = false; // it may move from before the power-on
+  };
+  bool order(uint8_t axes, const GskAxisGroups::Command& command);
+  uint32_t ask(uint32_t axis, int64_t command, int64_t data1, int64_t data2);
+  bool isPending(uint32_t ticket) const { return services_->poll(ticket) == RUNG_SERVICE_PENDING; }
+
+  GskAxisGroups groups_;
+  std::array<Axis, GskAxisGroups::kAxes> axes_;
+  uint8_t served_ = 0; // groups that have an axis
+  const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next
+  rt::ServiceQueue* services_ = nullptr;
+};
+
+} // namespace rung::nc

@@ -1,0 +1,223 @@
+// PLC axis control (see axis_groups.h).
+#include "rtlib/nc/control/gsk/axis_groups.h"
+
+#include <algorithm>
+
+namespace rung::nc {
+namespace {
+
+using namespace gsk;
+
+constexpr uint32_t kSelection = 136; // EAX1-EAX8
+
+bool isAuxiliary(uint8_t code) { return code == kAxisAux1 || code == kAxisAux2 || code == kAxisAux3; }
+uint8_t strobeOf(uint8_t code) { return code == kAxisAux1 ? kEmfBit : code == kAxisAux2 ? kEmf2Bit : kEmf3Bit; }
+
+} // namespace
+
+struct GskAxisGroups::Step {
+  const SignalsIo& io;
+  Mover& mover;
+  Group& group;
+  const AxisGroup& place;
+  bool control(uint8_t bit) const { return io.g(place.control, bit); }
+};
+
+void GskAxisGroups::step(const SignalsIo& io, Mover& mover, uint8_t served, bool emergencyStop) {
+  assign(io, mover, served);
+  for (uint32_t g = 0; g < kAxisGroups; ++g) {
+    if ((served >> g & 1) == 0) continue;
+    const Step step{io, mover, groups_[g], axisGroups()[g]};
+    if (step.control(kEclrBit) || emergencyStop) {
+      clear(step);
+      step.group.ebsy = step.control(kEbufBit); // what comes now is lost (l.7891)
+    } else {
+      take(step);
+      execute(step);
+    }
+    writeGroup(step);
+  }
+  writeCommon(io, mover);
+}
+
+// EAX may change only while *EAXSL is 0, and not under the CNC's own motion (l.7817).
+void GskAxisGroups::assign(const SignalsIo& io, Mover& mover, uint8_t served) {
+  const uint8_t wanted = io.gByte(kSelection);
+  for (uint32_t i = 0; i < kAxes; ++i) {
+    const int bit = 1 << i;
+    const bool give = (wanted & bit) != 0;
+    const auto holder = std::ranges::find_if(groups_, [&](const Group& group) { return (group.axes & bit) != 0; });
+    if (give == (holder != groups_.end())) continue;
+    const std::optional<uint32_t> number = give ? mover.groupOf(i) : static_cast<uint32_t>(holder - groups_.begin());
+    if (!number || (served >> *number & 1) == 0) continue;
+    Group& group = groups_[*number];
+    if (give ? mover.movesForCnc(i) : selected_) {
+      mover.raiseAssignment();
+      group.alarm = true;
+    }
+    if (!give) clear({io, mover, group, axisGroups()[*number]}); // l.7703
+    mover.assigned(i, give);
+    group.axes = static_cast<uint8_t>(give ? group.axes | bit : group.axes & ~bit);
+  }
+}
+
+// Stops, empties the buffers, takes strobe, code and alarm away (l.7883-7897, 8058).
+void GskAxisGroups::clear(const Step& step) {
+  Group& group = step.group;
+  const bool byProgram = step.control(kEclrBit);
+  step.mover.stop(group.axes, byProgram);
+  group = {.axes = group.axes, .ebsy = group.ebsy, .alarm = group.alarm && !byProgram};
+  step.io.setFByte(step.place.code, 0);
+}
+
+// A block is there while EBUF and EBSY differ (l.7695-7699).
+void GskAxisGroups::take(const Step& step) {
+  Group& group = step.group;
+  if (step.control(kEbufBit) == group.ebsy || group.axes == 0) return;
+  const uint8_t first = step.io.gByte(step.place.command);
+  const Command command{.code = static_cast<uint8_t>(first & kAxisCommandBits),
+                        .noStop = (first & ~kAxisCommandBits) != 0,
+                        .data1 = step.io.gWord(step.place.data1()),
+                        .data2 = static_cast<int32_t>(step.io.gDword(step.place.data2()))};
+  const AxisCommand* known = findAxisCommand(command.code);
+  if (known == nullptr) {
+    group.alarm = true;
+    group.ebsy = !group.ebsy;
+    return;
+  }
+  const bool same = group.executing && group.executing->code == command.code;
+  if (known->buffering == AxisBuffering::Immediate && same) {
+    group.executing = command; // only the speed changes (l.7771, 7803)
+    if (group.begun) step.mover.change(group.axes, command);
+  } else if (known->buffering != AxisBuffering::Buffered || step.control(kEmcufBit)) {
+    if (group.busy()) return; // l.7992
+    group.executing = command;
+  } else if (!group.executing) {
+    group.executing = command;
+  } else if (!group.waiting) {
+    group.waiting = command;
+  } else if (!group.input) {
+    group.input = command;
+  } else {
+    return;
+  }
+  group.ebsy = !group.ebsy;
+}
+
+void GskAxisGroups::shift(const Step& step, const Command& ended) {
+  Group& group = step.group;
+  group.blockStop = step.control(kEsbkBit) && !ended.noStop; // l.7915-7919
+  group.executing = group.waiting;
+  group.waiting = group.input;
+  group.input.reset();
+  group.begun = false;
+}
+
+void GskAxisGroups::execute(const Step& step) {
+  Group& group = step.group;
+  if (!step.control(kEsbkBit)) group.blockStop = false;
+  group.pausing = step.control(kEstpBit) || step.control(kEsofBit);
+  if (!group.executing || group.blockStop || group.alarm) return;
+  const Command command = *group.executing;
+  if (isAuxiliary(command.code)) {
+    if (runAuxiliary(step, command)) shift(step, command);
+    return;
+  }
+  if (group.pausing) return step.mover.pause(group.axes);
+  if (!group.begun) begin(step, command);
+  if (group.begun && !group.alarm && isOver(step, command)) shift(step, command);
+}
+
+void GskAxisGroups::begin(const Step& step, const Command& command) {
+  Group& group = step.group;
+  if (step.mover.look(group.axes).stopping) return;
+  group.begun = true;
+  if (command.code == kAxisDwell)
+    group.dwellMs = std::max(command.data2, 0);
+  else
+    group.alarm = !step.mover.begin(group.axes, command);
+}
+
+bool GskAxisGroups::isOver(const Step& step, const Command& command) {
+  Group& group = step.group;
+  if (command.code == kAxisDwell) {
+    group.dwellMs -= kSlotMs;
+    return group.dwellMs <= 0;
+  }
+  const Progress progress = step.mover.move(group.axes, command);
+  group.alarm = progress == Progress::Failed;
+  return progress == Progress::Over;
+}
+
+// As with M (l.7970): code, strobe, EFIN, strobe away, EFIN away, code away.
+bool GskAxisGroups::runAuxiliary(const Step& step, const Command& command) {
+  Group& group = step.group;
+  const uint8_t strobe = strobeOf(command.code);
+  switch (group.aux) {
+  case AuxPhase::None:
+    step.io.setFByte(step.place.code, static_cast<uint8_t>(command.data2));
+    group.aux = AuxPhase::Code;
+    return false;
+  case AuxPhase::Code:
+    step.io.setF(step.place.strobes, strobe, true);
+    group.aux = AuxPhase::Strobe;
+    return false;
+  case AuxPhase::Strobe:
+    if (!step.control(kEfinBit)) return false;
+    step.io.setF(step.place.strobes, strobe, false);
+    group.aux = AuxPhase::EfinFalls;
+    return false;
+  case AuxPhase::EfinFalls:
+    if (step.control(kEfinBit)) return false;
+    step.io.setFByte(step.place.code, 0);
+    group.aux = AuxPhase::None;
+    return true;
+  }
+  return false;
+}
+
+void GskAxisGroups::writeGroup(const Step& step) {
+  const Group& group = step.group;
+  const Motion motion = step.mover.look(group.axes);
+  const bool stands = group.axes != 0 && !motion.moving;
+  const uint32_t status = step.place.status;
+  step.io.setF(status, kEbsyBit, group.ebsy);
+  step.io.setF(status, kEotnBit, motion.overNegative);
+  step.io.setF(status, kEotpBit, motion.overPositive);
+  step.io.setF(status, kEgenBit, motion.moving);
+  step.io.setF(status, kEdenBit, group.aux != AuxPhase::None);
+  step.io.setF(status, kEialBit, group.alarm || motion.overPositive || motion.overNegative); // l.8122
+  step.io.setF(status, kEckzBit, stands);
+  step.io.setF(status, kEinpBit, stands);
+  step.io.setF(step.place.strobes, kEabufBit, group.input.has_value());
+  if (group.aux == AuxPhase::Strobe) return;
+  for (uint8_t bit : {kEmfBit, kEmf2Bit, kEmf3Bit}) step.io.setF(step.place.strobes, bit, false);
+}
+
+void GskAxisGroups::writeCommon(const SignalsIo& io, const Mover& mover) {
+  selected_ = false;
+  uint8_t controlled = 0, distributed = 0;
+  bool anyAxis = false;
+  for (uint32_t g = 0; g < kAxisGroups; ++g) {
+    const Group& group = groups_[g];
+    if (group.axes == 0) continue;
+    anyAxis = true;
+    const bool active =
+        group.busy() || io.g(axisGroups()[g].control, kEsofBit) || mover.look(group.axes).stopping; // l.8024-8030
+    selected_ = selected_ || active;
+    if (active) controlled = static_cast<uint8_t>(controlled | group.axes); // l.8222
+    const bool paused = group.pausing && group.executing && !isAuxiliary(group.executing->code);
+    for (uint32_t i = 0; i < kAxes; ++i) {
+      const auto axis = static_cast<uint8_t>(group.axes & 1 << i);
+      if (axis != 0 && !mover.look(axis).moving && !paused)
+        distributed = static_cast<uint8_t>(distributed | axis); // l.8198
+    }
+  }
+  const uint8_t feed = io.gByte(151);
+  io.setF(129, 7, selected_);
+  io.setF(129, 5, anyAxis && !io.g(150, 5) && (feed == 0 || feed == 255)); // EOV0 l.8178
+  io.setFByte(112, distributed);
+  io.setFByte(182, controlled);
+}
+
+} // namespace rung::nc

@@ -1,0 +1,89 @@
+// PLC axis control (man. §9.2, l.7566-8289): the groups A-H take blocks from G by EBUF and EBSY, buffer them, carry them
+// out in their order and answer in F. Dwells and the handshake of auxiliary functions are done here; axes are moved by
+// whoever is the CNC beside the program, a simulated one and a host's alike.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "rtlib/nc/control/gsk/signals_io.h"
+#include "rtlib/nc/gsk/axis_commands.h"
+
+namespace rung::nc {
+
+class GskAxisGroups {
+public:
+  static constexpr uint32_t kAxes = 8;
+  static constexpr uint32_t kSlotMs = 8;
+
+  struct Command {
+    uint8_t code = 0;
+    bool noStop = false; // EMSBK
+    uint16_t data1 = 0;
+    int32_t data2 = 0;
+  };
+  enum class Progress : uint8_t { UnderWay, Over, Failed };
+  struct Motion {
+    bool moving = false;
+    bool stopping = false; // by `stop`: nothing can begin
+    bool overPositive = false, overNegative = false;
+  };
+
+  // Moves axes; bit n-1 of a set is axis n.
+  class Mover {
+  public:
+    virtual ~Mover() = default;
+    // Parameter 7010: the group of an axis, from 0; nothing: it is never the program's.
+    virtual std::optional<uint32_t> groupOf(uint32_t axis) const = 0;
+    virtual bool movesForCnc(uint32_t axis) const { return (void)axis, false; }
+    virtual void assigned(uint32_t axis, bool toProgram) { (void)axis, (void)toProgram; }
+    // Alarm 311: an axis has changed hands at the wrong time (l.7817).
+    virtual void raiseAssignment() {}
+
+    // False: that is an alarm of the group.
+    virtual bool begin(uint8_t axes, const Command& command) = 0;
+    // Data of the command under way have changed.
+    virtual void change(uint8_t axes, const Command& command) { (void)axes, (void)command; }
+    virtual Progress move(uint8_t axes, const Command& command) = 0;
+    virtual void pause(uint8_t axes) { (void)axes; }
+    // `cleared`: by ECLR, which ends an over-travel, too (l.8122).
+    virtual void stop(uint8_t axes, bool cleared) = 0;
+    virtual Motion look(uint8_t axes) const = 0;
+  };
+
+  // A slot. Groups that are not `served` (bit n-1) are left alone, with their signals.
+  void step(const gsk::SignalsIo& io, Mover& mover, uint8_t served, bool emergencyStop);
+
+private:
+  enum class AuxPhase : uint8_t { None, Code, Strobe, EfinFalls };
+  // What runs and the two buffers before it (l.7675-7686).
+  struct Group {
+    std::optional<Command> executing, waiting, input;
+    uint8_t axes = 0; // bit n-1
+    bool ebsy = false;
+    bool begun = false;
+    bool blockStop = false; // ESBK holds the next block
+    bool alarm = false;
+    bool pausing = false;
+    int64_t dwellMs = 0;
+    AuxPhase aux = AuxPhase::None;
+    bool busy() const { return executing || waiting || input; }
+  };
+  struct Step; // a group's part of a slot
+
+  void assign(const gsk::SignalsIo& io, Mover& mover, uint8_t served);
+  static void clear(const Step& step);
+  static void take(const Step& step);
+  static void shift(const Step& step, const Command& ended);
+  static void execute(const Step& step);
+  static void begin(const Step& step, const Command& command);
+  static bool isOver(const Step& step, const Command& command);
+  static bool runAuxiliary(const Step& step, const Command& command);
+  static void writeGroup(const Step& step);
+  void writeCommon(const gsk::SignalsIo& io, const Mover& mover);
+
+  std::array<Group, gsk::kAxisGroups> groups_;
+  bool selected_ = false; // *EAXSL of the last slot
+};
+
+} // namespace rung::nc

@@ -173,7 +173,7 @@ def services(bench, options):
     bench.program(HERE / "services.pmc")
     bench.copy(HERE / "services.map", "program.map")
     ini = (HERE / "machine.ini").read_text(encoding="utf-8") + PROGRAM_AXIS
-    for old, new in (("JOINTS = 3", "JOINTS = 4"), ("./drive.py", "./services.py")):
+    for old, new in (("JOINTS = 3", "JOINTS = 4"), ("coordinates=XYZ", "coordinates=XYZ kinstype=BOTH"), ("./drive.py", "./services.py")):
         expect(ini.count(old) == 1, f"{old} is not once in machine.ini")
         ini = ini.replace(old, new)
     bench.file("machine.ini", ini)

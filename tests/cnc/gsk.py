@@ -69,6 +69,7 @@ def homing():
     press("px", "py", "pz")
     wait("homed", lambda: polled().homed[:3] == (1, 1, 1))
     pins(homed_x=True, homed_y=True, homed_z=True)
+    mode("mdi", linuxcnc.MODE_MDI)  # while rung-services reads a variable for the program, in a mode of its own
     mode("manual", linuxcnc.MODE_MANUAL)
     # the program has asked for macro variable 500, and has its answer
     wait("the program's first question", lambda: "false" in rungctl("get", "LIFE_WISH"))

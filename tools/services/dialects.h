@@ -4,8 +4,8 @@
 
 namespace rung::services {
 
-// The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). Window functions of high speed are answered
-// at once, or by no one.
+// The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). Window functions of high speed are
+// answered at once, or by no one.
 namespace gsk {
 bool is(std::string_view service) noexcept;
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;

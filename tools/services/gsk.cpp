@@ -1,5 +1,5 @@
-// `windr function length number attribute -> end data`, `windw … data -> end` (man. l.8482-8945); AXLCTL, of the control
-// itself, for the blocks of PLC axis control (l.7713-7803).
+// `windr function length number attribute -> end data`, `windw … data -> end` (man. l.8482-8945); AXLCTL, of the
+// control itself, for the blocks of PLC axis control (l.7713-7803).
 #include <cmath>
 #include <string_view>
 
@@ -186,9 +186,8 @@ std::optional<Operation> operationOf(const Request& request, rung_reply& refusal
 
 rung_reply replyOf(const Request& request, const Answer& answer) {
   if (isAxis(request.service))
-    return {.size = sizeof(rung_reply),
-            .ticket = request.given.ticket,
-            .error = answer.outcome == Outcome::Done ? 0u : 1u};
+    return {
+        .size = sizeof(rung_reply), .ticket = request.given.ticket, .error = answer.outcome == Outcome::Done ? 0u : 1u};
   const Window window = windowOf(request.service, request.given.args);
   if (answer.outcome == Outcome::Done && !window.write) return given(window, request.given.ticket, answer.value);
   return ended(window, request.given.ticket, endOf(answer.outcome, window.write));

@@ -37,10 +37,10 @@ struct Operation {
   bool write = false;
   uint32_t channel = 0; // from 0
   uint32_t number = 0;
-  uint32_t axis = 0; // of a work offset; of a move, from 0 in the order of the program
-  double value = 0;  // to be written
-  Way way = Way::To; // of a move
-  double speed = 0;  // of a move, per minute; 0: rapid
+  uint32_t axis = 0;      // of a work offset; of a move, from 0 in the order of the program
+  double value = 0;       // to be written
+  Way way = Way::To;      // of a move
+  double speed = 0;       // of a move, per minute; 0: rapid
   bool untilOver = false; // a move is done when it is over; else, when it is taken
 };
 

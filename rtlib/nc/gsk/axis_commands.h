@@ -1,6 +1,6 @@
 // PLC axis control of the GSK25i: the commands that AXLCTL hands over and the signals of the groups A-H that carry them
-// (man. Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). The compiler checks and addresses by it, the control takes
-// blocks by it, the reference page prints it.
+// (man. Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). The compiler checks and addresses by it, the control
+// takes blocks by it, the reference page prints it.
 #pragma once
 #include <cstdint>
 #include <span>

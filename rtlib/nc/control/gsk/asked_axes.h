@@ -39,7 +39,7 @@ private:
 
   GskAxisGroups groups_;
   std::array<Axis, GskAxisGroups::kAxes> axes_;
-  uint8_t served_ = 0; // groups that have an axis
+  uint8_t served_ = 0;                 // groups that have an axis
   const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next
   rt::ServiceQueue* services_ = nullptr;
 };

@@ -1,6 +1,6 @@
-// PLC axis control (man. §9.2, l.7566-8289): the groups A-H take blocks from G by EBUF and EBSY, buffer them, carry them
-// out in their order and answer in F. Dwells and the handshake of auxiliary functions are done here; axes are moved by
-// whoever is the CNC beside the program, a simulated one and a host's alike.
+// PLC axis control (man. §9.2, l.7566-8289): the groups A-H take blocks from G by EBUF and EBSY, buffer them, carry
+// them out in their order and answer in F. Dwells and the handshake of auxiliary functions are done here; axes are
+// moved by whoever is the CNC beside the program, a simulated one and a host's alike.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -29,6 +29,13 @@ def wait(what, condition, patience=PATIENCE):
         time.sleep(0.001)
 
 
+def passes(count, since=None):
+    """Waits until the program has run as often, since it had run `since` times: the thread of a busy machine may sleep for
+    longer than a key is held."""
+    begin = pin("scans") if since is None else since
+    wait(f"{count} passes of the program", lambda: pin("scans") - begin >= count)
+
+
 def pins(**expected):
     """Waits for all the pins to have these values."""
     for name, value in expected.items():

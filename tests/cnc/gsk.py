@@ -9,9 +9,10 @@ import traceback
 import hal
 import linuxcnc
 
-from drive import PATIENCE, change_in_motion, check, command, done, end_motion, operator, pin, pins, polled, rungctl, run, status, wait
+from drive import PATIENCE, change_in_motion, check, command, done, end_motion, operator, passes, pin, pins, polled, rungctl, run, status, wait
 
-PRESS = 0.15  # seconds that a key is held, some passes of the program
+PRESS = 0.15  # seconds that a key is held
+PASSES = 4  # of the program in which it is, at least
 
 
 def put(name, value):
@@ -23,9 +24,11 @@ def signal(name, value):
 
 
 def press(*keys, seconds=PRESS):
+    begin = pin("scans")
     for key in keys:
         put("key-" + key, 1)
     time.sleep(seconds)
+    passes(PASSES, begin)
     for key in keys:
         put("key-" + key, 0)
     time.sleep(0.05)

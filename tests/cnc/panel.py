@@ -3,6 +3,10 @@ import time
 
 import hal
 
+from drive import passes, pin
+
+PASSES = 4  # of the program in which a key is down, at least
+
 panel = hal.component("panel")
 driven = set()
 
@@ -27,6 +31,9 @@ def put(name, value):
 
 
 def press(key, seconds=0.08):
+    begin = pin("scans")
     put(key, True)
     time.sleep(seconds)
+    passes(PASSES, begin)
     put(key, False)
+    passes(1)

@@ -173,14 +173,16 @@ def services(bench, options):
     bench.program(HERE / "services.pmc")
     bench.copy(HERE / "services.map", "program.map")
     ini = (HERE / "machine.ini").read_text(encoding="utf-8") + PROGRAM_AXIS
-    for old, new in (("JOINTS = 3", "JOINTS = 4"), ("coordinates=XYZ", "coordinates=XYZ kinstype=BOTH"), ("./drive.py", "./services.py")):
+    for old, new in (("JOINTS = 3", "JOINTS = 4"), ("coordinates=XYZ", "coordinates=XYZ kinstype=BOTH"),
+                     ("./drive.py", "./services.py")):
         expect(ini.count(old) == 1, f"{old} is not once in machine.ini")
         ini = ini.replace(old, new)
     bench.file("machine.ini", ini)
     bench.copy(HERE / "services.hal", "machine.hal")
     for name in ("tool.tbl", "drive.py", "services.py"):
         bench.copy(HERE / name)
-    for tool in (Path(options.rungc).parent / "rungctl", *((HERE.parents[1] / "tools/rung-hal" / name) for name in ("rung-operator", "rung-services"))):
+    tools = HERE.parents[1] / "tools/rung-hal"
+    for tool in (Path(options.rungc).parent / "rungctl", tools / "rung-operator", tools / "rung-services"):
         shutil.copy(tool, bench.home)
     start_machine(bench)
 

@@ -9,7 +9,8 @@ import linuxcnc
 import drive
 from drive import check, command, done, mdi, pin, pins, set_mode, state, wait
 
-RAPID, FEED, FEED_PER_TURN, DWELL, CONTINUOUS, REFERENCE_1, REFERENCE_2, SPEED, AUXILIARY, MACHINE = 0, 1, 2, 4, 6, 7, 8, 16, 18, 32
+RAPID, FEED, FEED_PER_TURN, DWELL, CONTINUOUS, REFERENCE_1, REFERENCE_2 = 0, 1, 2, 4, 6, 7, 8
+SPEED, AUXILIARY, MACHINE = 16, 18, 32
 UNITS = 10000  # of a length in the program, in a mm
 BAD_NUMBER = 3
 

@@ -507,7 +507,7 @@ RUNG_API int32_t rung_instance_high_speed_functions(rung_instance* instance, uin
 
 /* ---- axes of the program --------------------------------------------------------------------------------------- */
 
-/* The program commands an axis by the signals of a group (parameter 7010 of GSK), both from 0, and the host moves it:
+/* The program commands an axis by the signals of a group, both from 0, and the host moves it:
  * each command is a service request "AXLCTL axis command data-1 data-2", made between two slices, with the command and
  * data as the program has them; command -1 stops the axis. It is answered when the axis has carried it out, with an
  * error where it cannot. RUNG_NOT_FOUND: the dialect has no such axis or group. */

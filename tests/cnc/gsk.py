@@ -89,6 +89,16 @@ def modes():
     pins(mode_is_mdi=False, mode_is_step=True)
 
 
+def mode_meanwhile():
+    """A key that is pressed while rung-services has a line of MDI for the program."""
+    mode("manual", linuxcnc.MODE_MANUAL)
+    rungctl("set", "LIFE_WISH", "true")
+    mode("mdi", linuxcnc.MODE_MDI)
+    wait("the answer", lambda: "false" in rungctl("get", "LIFE_WISH"))
+    time.sleep(0.5)
+    check(polled().task_mode == linuxcnc.MODE_MDI, "the mode of the key was undone")
+
+
 def jog():
     mode("manual", linuxcnc.MODE_MANUAL)
     pins(mode_is_jog=True)
@@ -292,7 +302,7 @@ def emergency_stop():
     mdi("M5")
 
 
-STEPS = (switch_on, homing, modes, jog, wheel, spindle, coolant, tools, overrides, part, single, alarm, probe, remote,
+STEPS = (switch_on, homing, modes, mode_meanwhile, jog, wheel, spindle, coolant, tools, overrides, part, single, alarm, probe, remote,
          emergency_stop)
 
 

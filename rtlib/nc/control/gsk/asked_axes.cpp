@@ -22,19 +22,21 @@ bool GskAskedAxes::setGroup(uint32_t axis, uint32_t group) {
   if (axis >= GskAxisGroups::kAxes || group >= gsk::kAxisGroups) return false;
   axes_[axis].group = group;
   served_ = static_cast<uint8_t>(served_ | 1u << group);
+  given_ = static_cast<uint8_t>(given_ | 1u << axis);
   return true;
 }
 
 void GskAskedAxes::powerOn() {
   groups_ = {};
-  for (Axis& axis : axes_) axis = {.group = axis.group, .unknown = true};
+  for (Axis& axis : axes_) axis = {.group = axis.group};
+  unknown_ = given_;
 }
 
 void GskAskedAxes::step(const gsk::SignalsIo& io, rt::ServiceQueue& services) {
   io_ = &io;
   services_ = &services;
-  for (uint32_t i = 0; i < GskAxisGroups::kAxes; ++i)
-    if (axes_[i].group && axes_[i].unknown) stop(static_cast<uint8_t>(1u << i), false);
+  stop(unknown_, false);
+  unknown_ = 0;
   groups_.step(io, *this, served_, !io.g(8, 4));
 }
 
@@ -54,8 +56,7 @@ bool GskAskedAxes::order(uint8_t axes, const GskAxisGroups::Command& command) {
 }
 
 bool GskAskedAxes::begin(uint8_t axes, const GskAxisGroups::Command& command) {
-  bool referenced = true;
-  forAxes(axes, [&](uint32_t i) { referenced = referenced && io_->f(kReferenced, i); });
+  const bool referenced = (io_->fDword(kReferenced) & axes) == axes;
   if (gsk::isAxisReference(command.code) && !referenced) return false; // l.7787
   return order(axes, command);
 }
@@ -80,7 +81,7 @@ void GskAskedAxes::pause(uint8_t axes) {
 void GskAskedAxes::stop(uint8_t axes, bool) {
   forAxes(axes, [&](uint32_t i) {
     Axis& axis = axes_[i];
-    if (!axis.unknown && !isPending(axis.motion)) return;
+    if ((unknown_ >> i & 1) == 0 && !isPending(axis.motion)) return;
     axis = {.group = axis.group, .stop = ask(i, gsk::kAxisStop, 0, 0)};
   });
 }
@@ -89,11 +90,11 @@ GskAxisGroups::Motion GskAskedAxes::look(uint8_t axes) const {
   GskAxisGroups::Motion motion;
   forAxes(axes, [&](uint32_t i) {
     const Axis& axis = axes_[i];
-    const uint32_t status = gsk::axisGroups()[axis.group.value_or(0)].status;
+    const uint32_t status = io_->fDword(gsk::axisGroups()[axis.group.value_or(0)].status);
     motion.stopping = motion.stopping || isPending(axis.stop);
     motion.moving = motion.moving || motion.stopping || (isPending(axis.motion) && !axis.paused);
-    motion.overPositive = motion.overPositive || io_->f(status, gsk::kEotpBit);
-    motion.overNegative = motion.overNegative || io_->f(status, gsk::kEotnBit);
+    motion.overPositive = motion.overPositive || (status >> gsk::kEotpBit & 1) != 0;
+    motion.overNegative = motion.overNegative || (status >> gsk::kEotnBit & 1) != 0;
   });
   return motion;
 }

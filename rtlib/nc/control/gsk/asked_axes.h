@@ -31,7 +31,6 @@ private:
     std::optional<uint32_t> group;
     uint32_t motion = 0, stop = 0; // tickets
     bool paused = false;
-    bool unknown = false; // it may move from before the power-on
   };
   bool order(uint8_t axes, const GskAxisGroups::Command& command);
   uint32_t ask(uint32_t axis, int64_t command, int64_t data1, int64_t data2);
@@ -40,6 +39,8 @@ private:
   GskAxisGroups groups_;
   std::array<Axis, GskAxisGroups::kAxes> axes_;
   uint8_t served_ = 0;                 // groups that have an axis
+  uint8_t given_ = 0;                  // axes that have a group
+  uint8_t unknown_ = 0;                // axes that may move from before the power-on
   const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next
   rt::ServiceQueue* services_ = nullptr;
 };

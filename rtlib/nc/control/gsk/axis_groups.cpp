@@ -152,20 +152,14 @@ bool GskAxisGroups::isOver(const Step& step, const Command& command) {
 // As with M (l.7970): code, strobe, EFIN, strobe away, EFIN away, code away.
 bool GskAxisGroups::runAuxiliary(const Step& step, const Command& command) {
   Group& group = step.group;
-  const uint8_t strobe = strobeOf(command.code);
   switch (group.aux) {
   case AuxPhase::None:
     step.io.setFByte(step.place.code, static_cast<uint8_t>(command.data2));
     group.aux = AuxPhase::Code;
     return false;
-  case AuxPhase::Code:
-    step.io.setF(step.place.strobes, strobe, true);
-    group.aux = AuxPhase::Strobe;
-    return false;
+  case AuxPhase::Code: group.aux = AuxPhase::Strobe; return false;
   case AuxPhase::Strobe:
-    if (!step.control(kEfinBit)) return false;
-    step.io.setF(step.place.strobes, strobe, false);
-    group.aux = AuxPhase::EfinFalls;
+    if (step.control(kEfinBit)) group.aux = AuxPhase::EfinFalls;
     return false;
   case AuxPhase::EfinFalls:
     if (step.control(kEfinBit)) return false;
@@ -180,18 +174,14 @@ void GskAxisGroups::writeGroup(const Step& step) {
   const Group& group = step.group;
   const Motion motion = step.mover.look(group.axes);
   const bool stands = group.axes != 0 && !motion.moving;
-  const uint32_t status = step.place.status;
-  step.io.setF(status, kEbsyBit, group.ebsy);
-  step.io.setF(status, kEotnBit, motion.overNegative);
-  step.io.setF(status, kEotpBit, motion.overPositive);
-  step.io.setF(status, kEgenBit, motion.moving);
-  step.io.setF(status, kEdenBit, group.aux != AuxPhase::None);
-  step.io.setF(status, kEialBit, group.alarm || motion.overPositive || motion.overNegative); // l.8122
-  step.io.setF(status, kEckzBit, stands);
-  step.io.setF(status, kEinpBit, stands);
-  step.io.setF(step.place.strobes, kEabufBit, group.input.has_value());
-  if (group.aux == AuxPhase::Strobe) return;
-  for (uint8_t bit : {kEmfBit, kEmf2Bit, kEmf3Bit}) step.io.setF(step.place.strobes, bit, false);
+  const bool alarm = group.alarm || motion.overPositive || motion.overNegative; // l.8122
+  step.io.setFByte(step.place.status,
+                   static_cast<uint8_t>(group.ebsy << kEbsyBit | motion.overNegative << kEotnBit |
+                                        motion.overPositive << kEotpBit | motion.moving << kEgenBit |
+                                        (group.aux != AuxPhase::None) << kEdenBit | alarm << kEialBit |
+                                        stands << kEckzBit | stands << kEinpBit));
+  const int strobe = group.aux == AuxPhase::Strobe ? 1 << strobeOf(group.executing->code) : 0;
+  step.io.setFByte(step.place.strobes, static_cast<uint8_t>(strobe | group.input.has_value() << kEabufBit));
 }
 
 void GskAxisGroups::writeCommon(const SignalsIo& io, const Mover& mover) {
@@ -214,8 +204,8 @@ void GskAxisGroups::writeCommon(const SignalsIo& io, const Mover& mover) {
     }
   }
   const uint8_t feed = io.gByte(151);
-  io.setF(129, 7, selected_);
-  io.setF(129, 5, anyAxis && !io.g(150, 5) && (feed == 0 || feed == 255)); // EOV0 l.8178
+  const bool stopped = anyAxis && !io.g(150, 5) && (feed == 0 || feed == 255); // EOV0 l.8178
+  io.setFByte(129, static_cast<uint8_t>(selected_ << 7 | stopped << 5));
   io.setFByte(112, distributed);
   io.setFByte(182, controlled);
 }

@@ -67,7 +67,6 @@ void nctMessage(uint8_t* mem, rung_ctx* ctx, bool input) {
 }
 
 uint32_t nctScan(uint8_t* mem, rung_ctx* ctx, uint32_t) {
-  std::memcpy(mem, mem + kSlice, kSlice);
   setBit(mem, 400 * 4, 0, bit(mem, 56 * 4 + 2, 1)); // bit 17 of word 56
   nctMessage(mem, ctx, bit(mem, 56 * 4 + 2, 2));
   std::memcpy(mem + kSlice, mem, kSlice);
@@ -118,7 +117,8 @@ constexpr const char* kFaults[] = {"dead-loop"};
 constexpr const char* kServices[] = {"windr"};
 constexpr const char* kTexts[] = {"7", "Oil level low"};
 constexpr rung_task kTasks8ms[] = {{"MAIN", 0, 8000, 1000, 0, 0, 0, 0, 0, 0, 1}};
-constexpr rung_task kTasks10ms[] = {{"MAIN", 0, 10000, 1000, 0, 0, 0, 0, 0, 0, 1}};
+constexpr rung_task kTasks10ms[] = {{"MAIN", 0, 10000, 1000, 0, 0, 1, 0, 0, 0, 1}};
+constexpr rung_copy kNctCopies[] = {{RUNG_COPY_ALL, kSlice, 0, 0, kSlice}};
 constexpr rung_task kTasks20ms[] = {{"MAIN", 0, 20000, 1000, 0, 0, 0, 0, 0, 0, 1}};
 constexpr rung_step kScan8ms[] = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
 constexpr rung_step kScan10ms[] = { // two time slices, the NC's work in front of each
@@ -182,8 +182,12 @@ const rung_program& gskProgram() {
 }
 
 const rung_program& nctProgram() {
-  static const rung_program program =
-      withMemory(common("nct", kTasks10ms, kNctCode), 2 * kSlice + 8, kNctSpaces, kScan10ms);
+  static const rung_program program = [] {
+    rung_program p = withMemory(common("nct", kTasks10ms, kNctCode), 2 * kSlice + 8, kNctSpaces, kScan10ms);
+    p.copy_count = 1;
+    p.copies = kNctCopies;
+    return p;
+  }();
   return program;
 }
 

@@ -147,6 +147,9 @@ protected:
     EXPECT_TRUE(hal.empty());
     EXPECT_EQ(hal.initialised(), 0);
     EXPECT_EQ(openFiles(), filesBefore);
+    // The kernel may list a thread for a moment after it has been joined.
+    for (int i = 0; i < 1000 && threads() != threadsBefore; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(threads(), threadsBefore);
   }
 

@@ -26,33 +26,33 @@ uint32_t byteCount(const Ref& ref) {
 
 } // namespace
 
-// A place that the task gives back at its end (registers that an interrupting task saves) is not overwritten.
-Overwritten::Overwritten(const rung_program& program) : program_(&program) {
-  for (const rung_task& task : std::span(program.tasks, program.task_count)) {
-    const std::span end(program.copies + task.end_first, task.end_count);
-    for (const rung_copy& copy : std::span(program.copies + task.begin_first, task.begin_count))
-      if (copy.kind == RUNG_COPY_ALL &&
+// The input copy that ends in the byte of the memory block; null: none does. A place that the task gives back at its
+// end (registers that an interrupting task saves) is not overwritten.
+const rung_copy* Overwritten::over(uint32_t offset) const {
+  for (const rung_task& task : std::span(program_->tasks, program_->task_count)) {
+    const std::span end(program_->copies + task.end_first, task.end_count);
+    for (const rung_copy& copy : std::span(program_->copies + task.begin_first, task.begin_count))
+      if (copy.kind == RUNG_COPY_ALL && offset >= copy.to && offset - copy.to < copy.size &&
           std::ranges::none_of(end, [&](const rung_copy& other) { return covers(other, copy); }))
-        copies_.push_back(copy);
+        return &copy;
   }
+  return nullptr;
 }
 
 std::optional<Ref> Overwritten::source(const Ref& ref) const {
-  if (copies_.empty()) return std::nullopt;
+  if (program_->copy_count == 0) return std::nullopt;
   const rt::Memory memory(*program_, nullptr); // for its places only
   for (uint32_t i = 0; i < byteCount(ref); ++i) {
     const rt::Place place = memory.locateBit(ref.space, ref.byte + i, 0);
     if (place.outside()) continue;
-    const uint32_t offset = place.offset();
-    for (const rung_copy& copy : copies_) {
-      if (offset < copy.to || offset - copy.to >= copy.size) continue;
-      const auto from = byteAt(*program_, copy.from + (offset - copy.to));
-      if (!from || from->byte < i) continue;
-      Ref source = ref;
-      source.space = from->space;
-      source.byte = from->byte - i;
-      return source;
-    }
+    const rung_copy* copy = over(place.offset());
+    if (copy == nullptr) continue;
+    const auto from = byteAt(*program_, copy->from + (place.offset() - copy->to));
+    if (!from || from->byte < i) continue;
+    Ref source = ref;
+    source.space = from->space;
+    source.byte = from->byte - i;
+    return source;
   }
   return std::nullopt;
 }

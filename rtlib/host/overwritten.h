@@ -2,7 +2,6 @@
 // lasts where the copy comes from.
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "rtlib/host/ref.h"
 
@@ -10,14 +9,15 @@ namespace rung::host {
 
 class Overwritten {
 public:
-  explicit Overwritten(const rung_program& program); // which outlives it
+  explicit Overwritten(const rung_program& program) : program_(&program) {} // which outlives it
 
-  // The place that is copied over `ref`; nothing when a value written to `ref` lasts.
+  // The place that is copied over `ref`; nothing when a value written to `ref` lasts. Allocates nothing.
   std::optional<Ref> source(const Ref& ref) const;
 
 private:
+  const rung_copy* over(uint32_t offset) const;
+
   const rung_program* program_;
-  std::vector<rung_copy> copies_;
 };
 
 } // namespace rung::host

@@ -1,9 +1,7 @@
 // !NAME, BASE,#n, WORD.bb, and four digits (see nct.h).
 #include "rtlib/nc/names/nct.h"
 
-#include <algorithm>
-#include <span>
-
+#include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/number.h"
 
@@ -78,20 +76,8 @@ public:
 } // namespace
 
 Ref nctTimeSlicePlace(const rung_program& program, const Ref& place) {
-  const uint32_t slice = host::findSpace(program, kTimeSliceMemory);
-  if (place.byte < kFirstNcByte || slice == RUNG_NONE || place.space != host::findSpace(program, kMemory)) return place;
-  const rt::Memory memory(program, nullptr); // for its places only
-  const rt::Place to = memory.locateBit(place.space, place.byte, 0);
-  const rt::Place from = memory.locateBit(slice, place.byte, 0);
-  if (to.outside() || from.outside()) return place;
-  const auto synchronises = [&](const rung_copy& copy) {
-    return copy.kind == RUNG_COPY_ALL && to.offset() - copy.to < copy.size &&
-           from.offset() - copy.from == to.offset() - copy.to;
-  };
-  if (std::ranges::none_of(std::span(program.copies, program.copy_count), synchronises)) return place;
-  Ref there = place;
-  there.space = slice;
-  return there;
+  if (place.byte < kFirstNcByte || place.space != host::findSpace(program, kMemory)) return place;
+  return host::Overwritten(program).source(place).value_or(place);
 }
 
 const NameGrammar& nctNames() {

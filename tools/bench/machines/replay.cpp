@@ -3,23 +3,10 @@
 
 #include <stdexcept>
 
+#include "ir/support/hash.h"
 #include "rtlib/runtime/instance.h"
 
 namespace rung::bench {
-namespace {
-
-class Fnv {
-public:
-  void add(uint64_t value) { hash_ = (hash_ ^ value) * kPrime; }
-  uint64_t value() const { return hash_; }
-
-private:
-  static constexpr uint64_t kPrime = 0x100000001b3;
-  uint64_t hash_ = 0xcbf29ce484222325;
-};
-
-} // namespace
-
 Replay::Replay(const rung::Image& image)
     : instance_(image), inside_(runtime::insideOf(*instance_.handle())),
       runPart_(instance_.handle()->control->runsInSlots() ? &rung_instance_slot : &rung_instance_scan) {
@@ -45,15 +32,18 @@ void Replay::write(const Part& part) {
 }
 
 uint64_t Replay::hash() const {
-  Fnv hash;
+  uint64_t hash = kHashSeed;
+  const auto add = [&](uint64_t value) {
+    hash = hashBytes({reinterpret_cast<const char*>(&value), sizeof value}, hash);
+  };
   const rung_program& program = inside_.program();
   for (uint32_t space = 0; space < program.space_count; ++space)
     for (uint32_t byte = 0; byte < program.spaces[space].byte_count; ++byte)
       if (const uint8_t value = inside_.memory().readByte(space, byte); value != 0)
-        hash.add(uint64_t{space} << 40 | uint64_t{byte} << 8 | value);
-  hash.add(static_cast<uint64_t>(inside_.nowUs()));
-  hash.add(inside_.faulted() ? inside_.fault().code : RUNG_NONE);
-  return hash.value();
+        add(uint64_t{space} << 40 | uint64_t{byte} << 8 | value);
+  add(static_cast<uint64_t>(inside_.nowUs()));
+  add(inside_.faulted() ? inside_.fault().code : RUNG_NONE);
+  return hash;
 }
 
 void Replay::drain() {

@@ -1,7 +1,7 @@
 // rung-bench-scan PROGRAM.so RECORDING [FROM COUNT]: replays a recording in a host of the runtime's library and checks
 // the hash of each part. Under callgrind, started with --collect-atstart=no, only the parts FROM to FROM + COUNT are
 // counted, and of them what the host calls: neither what the machine writes nor the check, which is done after the last
-// part alone there. Parts behind the end of the recording are those of a machine at which nothing happens.
+// part alone there. After the end of the recording nothing happens at the machine.
 #include <valgrind/callgrind.h>
 
 #include <cstdlib>

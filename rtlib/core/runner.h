@@ -30,7 +30,7 @@ struct PartState {
 // The host's part of the schedule. Null functions are skipped.
 struct RunnerHooks {
   void (*step)(void* data, uint32_t work) = nullptr; // RUNG_STEP_HOOK; may run tasks
-  void (*fault)(void* data) = nullptr; // after a fault; may run tasks
+  void (*fault)(void* data) = nullptr;               // after a fault; may run tasks
   void* data = nullptr;
   // Around every run of a task or a part, border copies included; runs nothing.
   void (*task)(void* data, uint32_t task, bool begins) = nullptr;

@@ -9,7 +9,7 @@
 namespace rung::mapping {
 
 // Gives the instance what the files say, before its first power-on. Every mistake is one entry of `errors`: with its
-// place in the map where there is no such file or the dialect has none, else with that in the file.
+// place in the map if the file is missing or the dialect takes none, else with its place in the file.
 void defineMessages(const File& map, rung_instance* instance, std::vector<std::string>& errors,
                     const ReadFile& read = readFromDisk);
 

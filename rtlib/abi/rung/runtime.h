@@ -739,7 +739,7 @@ typedef struct rung_forced_cell {
  * (rung/compiler.h). The instance may be scanned by its thread meanwhile, but must neither be given another program nor
  * be freed. RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text, a constant, or no room for RUNG_REAL; RUNG_BAD_ARGUMENT: two
  * cells want different values in one place, or an unknown `access`; RUNG_REFUSED: the program writes a cell, and no
- * compiler serves its image; RUNG_LATER: the compiler is at work, and there is no set yet: call again with the same
+ * compiler serves its image; RUNG_LATER: the code is still being compiled; call again later with the same
  * cells. Those of rung/compiler.h never give that. */
 RUNG_API int32_t rung_forces_new(rung_instance* instance, rung_replacement* replacement, const rung_forced_cell* cells,
                                  uint32_t count, rung_forces** forces);

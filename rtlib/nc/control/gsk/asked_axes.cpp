@@ -45,7 +45,7 @@ uint32_t GskAskedAxes::ask(uint32_t axis, int64_t command, int64_t data1, int64_
   return services_->request(Control::kOwnService, args, std::size(args));
 }
 
-// False: there is no room for the request.
+// False: the queue of requests is full.
 bool GskAskedAxes::order(uint8_t axes, const GskAxisGroups::Command& command) {
   bool asked = true;
   forAxes(axes, [&](uint32_t i) {

@@ -173,13 +173,13 @@ bool GskAxisGroups::runAuxiliary(const Step& step, const Command& command) {
 void GskAxisGroups::writeGroup(const Step& step) {
   const Group& group = step.group;
   const Motion motion = step.mover.look(group.axes);
-  const bool stands = group.axes != 0 && !motion.moving;
+  const bool atRest = group.axes != 0 && !motion.moving;
   const bool alarm = group.alarm || motion.overPositive || motion.overNegative; // l.8122
   step.io.setFByte(step.place.status,
                    static_cast<uint8_t>(group.ebsy << kEbsyBit | motion.overNegative << kEotnBit |
                                         motion.overPositive << kEotpBit | motion.moving << kEgenBit |
                                         (group.aux != AuxPhase::None) << kEdenBit | alarm << kEialBit |
-                                        stands << kEckzBit | stands << kEinpBit));
+                                        atRest << kEckzBit | atRest << kEinpBit));
   const int strobe = group.aux == AuxPhase::Strobe ? 1 << strobeOf(group.executing->code) : 0;
   step.io.setFByte(step.place.strobes, static_cast<uint8_t>(strobe | group.input.has_value() << kEabufBit));
 }

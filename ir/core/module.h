@@ -58,6 +58,13 @@ struct Transfer {
   bool operator==(const Transfer&) const = default;
 };
 
+// Where the front end had a rung.
+struct Origin {
+  std::string routine;
+  uint32_t index = RUNG_NONE; // over all routines, as in rung_program::rungs
+  bool operator==(const Origin&) const = default;
+};
+
 struct Rung {
   uint32_t number = 0;    // as drawn: from 1, over all files in their order; 0: made by the compiler
   std::string title;      // the rung's comment
@@ -72,12 +79,18 @@ struct Rung {
   std::vector<std::string> notes;
   Transfer transfer;
   uint32_t transferLine = 0; // source line of the transfer; 0: the first line of the rung
+  Origin origin;             // of all rungs where a pass has moved some, else of none
 };
 
 struct Routine {
   std::string name;
   std::vector<Rung> rungs; // at least one
 };
+
+// The routine that the source has the rung in; `routine` has it now.
+inline const std::string& homeOf(const Routine& routine, const Rung& rung) {
+  return rung.origin.index == RUNG_NONE ? routine.name : rung.origin.routine;
+}
 
 struct Space {
   std::string name;
@@ -194,6 +207,7 @@ struct Module {
   std::vector<Step> fast;
   std::vector<Step> slices; // see rung_program
   bool instrumented = false;
+  bool activity = false; // hosts may leave out chunks that would change nothing
 
   const Space& at(SpaceId id) const { return spaces[id.index]; }
   const Slot& at(SlotId id) const { return slots[id.index]; }

@@ -57,13 +57,15 @@ Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& 
 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
     : layout_(layout), counting_(counting), image_(layout, codeHash),
-      functions_(layout.chunks().size(), &chunkFunction) {
+      functions_(layout.chunks().size(), &chunkFunction), exits_(layout.rungCount()), partners_(layout.rungCount()) {
   image_.program().chunk_fns = functions_.data();
+  image_.program().activity_count = 0; // others are compared with it, so it runs every chunk
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {
-      exits_.push_back(exitOf(layout, RoutineId{r}, i));
-      partners_.push_back(partnersOf(routines[r].rungs[i]));
+      const uint32_t number = layout.rungNumber(RoutineId{r}, i);
+      exits_[number] = exitOf(layout, RoutineId{r}, i);
+      partners_[number] = partnersOf(routines[r].rungs[i]);
       mostValues_ = std::max(mostValues_, routines[r].rungs[i].values.size());
       for (const Op& op : routines[r].rungs[i].ops) mostArgs_ = std::max<size_t>(mostArgs_, op.argCount);
     }

@@ -133,4 +133,53 @@ std::vector<rung_span> readBytes(const Layout& layout, TaskId id) {
   return joined(std::move(spans));
 }
 
+// ---- activity ----------------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr uint64_t kMostTouched = 4096; // bytes that are worth to be looked at for one chunk
+
+bool asksOthers(const Op& op) { return (opInfo(op.code).effects & (kHost | kClock)) != 0; }
+
+// Calls and returns change the stack; behind the last rung a routine returns.
+bool staysInRoutine(const Routine& routine, const Chunk& chunk) {
+  if (chunk.firstRung + chunk.rungCount == routine.rungs.size()) return false;
+  return std::ranges::none_of(std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
+    const TransferKind kind = rung.transfer.kind;
+    return kind == TransferKind::Call || kind == TransferKind::Ret || kind == TransferKind::End;
+  });
+}
+
+std::vector<rung_span> bytesOf(const Layout& layout, const Use& use) {
+  if (isOneBit(use)) return {{layout.bit(use.place.space, use.place.first).offset, 1}};
+  return layout.pieces(bytesOf(use.place));
+}
+
+} // namespace
+
+Touched touchedBytes(const Layout& layout, const Chunk& chunk) {
+  const Module& module = layout.module();
+  const Routine& routine = module.at(chunk.routine);
+  Touched out;
+  bool mayRest = staysInRoutine(routine, chunk);
+  for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
+    for (const Op& op : rung.ops) {
+      mayRest = mayRest && !asksOthers(op);
+      std::vector<rung_span> bytes;
+      if (opInfo(op.code).attr == Attr::Slot)
+        bytes = {{layout.slot(SlotId{op.ref}), std::max(1u, byteWidth(op.type))}};
+      else if (const std::optional<Use> use = useOf(module, op); use)
+        bytes = bytesOf(layout, *use);
+      out.all.insert(out.all.end(), bytes.begin(), bytes.end());
+      if ((opInfo(op.code).effects & kWrites) != 0) out.written.insert(out.written.end(), bytes.begin(), bytes.end());
+    }
+  }
+  out.all = joined(std::move(out.all));
+  out.written = joined(std::move(out.written));
+  uint64_t sum = 0;
+  for (const rung_span& span : out.all) sum += span.size;
+  if (!mayRest || sum > kMostTouched) out.all.clear();
+  return out;
+}
+
 } // namespace rung::ir

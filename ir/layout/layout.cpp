@@ -16,6 +16,7 @@ namespace rung::ir {
 namespace {
 
 constexpr uint32_t kBlockAlign = 64;
+constexpr uint32_t kRestingRungs = 32; // fewer: more to look at; more: they rest less often
 // What a program decides takes a multiple of so many bytes: a changed program seldom needs more, and then what follows
 // lies elsewhere and is copied.
 constexpr uint32_t kRoom = 4096;
@@ -42,7 +43,9 @@ const rung_range& rangeOf(const SpaceLayout& space, uint32_t byte) {
 class LayoutBuilder {
 public:
   LayoutBuilder(Layout& layout, const LayoutOptions& options)
-      : layout_(layout), module_(*layout.module_), options_(options) {}
+      : layout_(layout), module_(*layout.module_), options_(options) {
+    if (module_.activity) options_.maxChunkRungs = std::min(options_.maxChunkRungs, kRestingRungs);
+  }
 
   void run() {
     placeSpaces();
@@ -222,7 +225,7 @@ private:
 
   Layout& layout_;
   const Module& module_;
-  const LayoutOptions& options_;
+  LayoutOptions options_;
   uint64_t next_ = 0; // free place of the memory block
   // Of the routine in hand, by rung.
   std::vector<bool> heads_;

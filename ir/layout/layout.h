@@ -76,7 +76,10 @@ public:
   // From one rung of a routine to another.
   Destination destination(RoutineId routine, uint32_t from, uint32_t to) const;
   // Number of a rung over all routines, as rung_program counts them.
-  uint32_t rungNumber(RoutineId routine, uint32_t rung) const { return firstRung_[routine.index] + rung; }
+  uint32_t rungNumber(RoutineId routine, uint32_t rung) const {
+    const Rung& at = module_->at(routine).rungs[rung];
+    return at.origin.index == RUNG_NONE ? firstRung_[routine.index] + rung : at.origin.index;
+  }
   uint32_t rungCount() const { return rungCount_; }
   // Chunks before which parts of a task end; one entry fewer than its parts.
   const std::vector<uint32_t>& partEnds(TaskId task) const { return partEnds_[task.index]; }

@@ -2,6 +2,8 @@
 #include "ir/layout/program_image.h"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 #include "ir/layout/accesses.h"
 #include "ir/layout/heaviest.h"
@@ -37,6 +39,7 @@ public:
     addSpans(module_.safeSpans, image_.safeSpans_);
     addTasks();
     addChunks();
+    addActivity();
     addRungs();
     addSteps(module_.scan, image_.scan_);
     addSteps(module_.fast, image_.fast_);
@@ -74,8 +77,8 @@ private:
     for (uint32_t r = 0; r < module_.routines.size(); ++r)
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
         for (const Op& op : module_.routines[r].rungs[i].ops)
-          if ((op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore) && first[op.ref] == RUNG_NONE)
-            first[op.ref] = layout_.rungNumber(RoutineId{r}, i);
+          if (op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore)
+            first[op.ref] = std::min(first[op.ref], layout_.rungNumber(RoutineId{r}, i));
     return first;
   }
 
@@ -193,12 +196,44 @@ private:
       image_.chunks_.push_back({layout_.rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
   }
 
+  // A measured rung counts its runs.
+  void addActivity() {
+    if (!module_.activity || module_.instrumented) return;
+    for (const Chunk& chunk : layout_.chunks()) {
+      const Touched touched = touchedBytes(layout_, chunk);
+      rung_activity out{};
+      out.written_first = static_cast<uint32_t>(image_.activitySpans_.size());
+      out.written_count = static_cast<uint32_t>(touched.written.size());
+      image_.activitySpans_.insert(image_.activitySpans_.end(), touched.written.begin(), touched.written.end());
+      out.touched_first = static_cast<uint32_t>(image_.activitySpans_.size());
+      out.touched_count = static_cast<uint32_t>(touched.all.size());
+      image_.activitySpans_.insert(image_.activitySpans_.end(), touched.all.begin(), touched.all.end());
+      image_.activity_.push_back(out);
+    }
+  }
+
   void addRungs() {
+    image_.rungs_.resize(layout_.rungCount());
+    std::vector<const std::string*> homes(layout_.rungCount());
     for (uint32_t r = 0; r < module_.routines.size(); ++r) {
-      image_.routines_.push_back(text(module_.routines[r].name));
-      for (const Rung& rung : module_.routines[r].rungs)
-        image_.rungs_.push_back({rung.title.empty() ? "" : text(rung.title), rung.begin.file.index, rung.begin.line,
-                                 std::max(rung.begin.line, rung.lastLine), r, rung.key, rung.number, 0});
+      for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i) {
+        const Rung& rung = module_.routines[r].rungs[i];
+        const uint32_t number = layout_.rungNumber(RoutineId{r}, i);
+        homes[number] = &homeOf(module_.routines[r], rung);
+        image_.rungs_[number] = {rung.title.empty() ? "" : text(rung.title), rung.begin.file.index, rung.begin.line,
+                                 std::max(rung.begin.line, rung.lastLine), RUNG_NONE, rung.key, rung.number, 0};
+      }
+    }
+    nameRoutines(homes);
+  }
+
+  // Of each rung.
+  void nameRoutines(const std::vector<const std::string*>& homes) {
+    std::map<std::string_view, uint32_t> known;
+    for (size_t i = 0; i < homes.size(); ++i) {
+      const auto [at, isNew] = known.try_emplace(*homes[i], static_cast<uint32_t>(known.size()));
+      if (isNew) image_.routines_.push_back(text(*homes[i]));
+      image_.rungs_[i].routine = at->second;
     }
   }
 
@@ -246,6 +281,8 @@ private:
     pointTexts(image_.texts_, p.texts, p.text_count);
     point(image_.writes_, p.writes, p.write_count);
     point(image_.reads_, p.reads, p.read_count);
+    point(image_.activity_, p.activity, p.activity_count);
+    point(image_.activitySpans_, p.activity_spans, p.activity_span_count);
   }
 
   static void pointTexts(const std::vector<const char*>& from, const char* const*& to, uint32_t& count) {

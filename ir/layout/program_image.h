@@ -50,6 +50,8 @@ private:
   std::vector<const char*> texts_;
   std::vector<rung_written> writes_;
   std::vector<rung_span> reads_;
+  std::vector<rung_activity> activity_;
+  std::vector<rung_span> activitySpans_;
 };
 
 } // namespace rung::ir

@@ -9,6 +9,7 @@ namespace rung::ir {
 // Not in the pipeline: for a module as its front end built it. `marks` (or null) go along.
 void orderOperations(Module& module, Marks* marks = nullptr);
 
+void inlineRoutines(Module& module);        // a routine with one caller takes the place of the call
 void foldConstants(Module& module);         // constants, algebra, branches that are known
 void reuseValues(Module& module);           // an equal operation, load or stored value above is used again
 void removeDeadOps(Module& module);         // results that nothing uses, regions without effect

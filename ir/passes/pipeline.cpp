@@ -30,6 +30,7 @@ private:
 void runPasses(Module& module, const PassOptions& options) {
   Pipeline pipeline(module, options.verifyEach);
   if (options.optimise) {
+    pipeline.run(inlineRoutines);
     pipeline.run(foldConstants);
     pipeline.run(reuseValues);
     pipeline.run(foldConstants); // of values that now are known to have been stored

@@ -42,6 +42,7 @@ private:
     scanner_.expectWord("dialect");
     module_.dialect = scanner_.text();
     module_.instrumented = scanner_.acceptWord("instrumented");
+    module_.activity = scanner_.acceptWord("activity");
     scanner_.endLine();
   }
 
@@ -197,6 +198,10 @@ private:
     const auto number = static_cast<uint32_t>(routine.rungs.size());
     if (scanner_.u32() != number) scanner_.fail(fmt::format("the next rung is {}", number));
     Rung rung;
+    if (scanner_.acceptWord("from")) {
+      rung.origin.routine = scanner_.name();
+      rung.origin.index = scanner_.u32();
+    }
     if (scanner_.acceptWord("drawn")) rung.number = scanner_.u32();
     rung.title = scanner_.text();
     scanner_.expectWord("loc");

@@ -88,8 +88,8 @@ public:
   }
 
   void printModule() {
-    put("module {} dialect {}{}\n", inQuotes(module_.name), inQuotes(module_.dialect),
-        module_.instrumented ? " instrumented" : "");
+    put("module {} dialect {}{}{}\n", inQuotes(module_.name), inQuotes(module_.dialect),
+        module_.instrumented ? " instrumented" : "", module_.activity ? " activity" : "");
     for (const std::string& file : module_.files) put("file {}\n", inQuotes(file));
     printMemory();
     for (const std::string& fault : module_.faults) put("fault {}\n", nameText(fault));
@@ -325,8 +325,11 @@ void Printer::printRemark(const Remark& remark, size_t index, size_t indent) {
 }
 
 void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark) {
+  const Origin& origin = rung.origin;
+  const std::string from =
+      origin.index == RUNG_NONE ? "" : fmt::format("from {} {} ", nameText(origin.routine), origin.index);
   const std::string drawn = rung.number == 0 ? "" : fmt::format("drawn {} ", rung.number);
-  put("  rung {} {}{} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, drawn, inQuotes(rung.title),
+  put("  rung {} {}{}{} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, from, drawn, inQuotes(rung.title),
       files_.text(rung.begin.file.index), rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
   std::string_view source = rung.sourceText;
   for (bool more = !source.empty(); more;) {

@@ -2,6 +2,7 @@
 #include "rtlib/core/runner.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
 
@@ -45,16 +46,20 @@ void Runner::reset() noexcept {
 
 void Runner::force(const Code& code, std::span<const ForcedBits> bits) noexcept {
   if (faulted_) return;
-  code_ = code;
-  ctx_->engine = code.engine;
+  useCode(code);
   forced_ = bits;
   hold();
 }
 
 void Runner::endForces() noexcept {
-  code_ = own_;
-  ctx_->engine = own_.engine;
+  useCode(own_);
   forced_ = {};
+}
+
+void Runner::useCode(const Code& code) noexcept {
+  code_ = code;
+  ctx_->engine = code.engine;
+  if (activity_ != nullptr) activity_->forget();
 }
 
 void Runner::holdAll() noexcept {
@@ -73,24 +78,26 @@ inline void Runner::beginStack() noexcept {
 
 namespace {
 
+// By units, the last of which may overlap the one before it. size >= sizeof(Unit).
 template <class Unit>
-void copyUnit(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
-  Unit bits, old, fresh;
-  std::memcpy(&bits, mask, sizeof bits);
-  if (bits == 0) return;
-  std::memcpy(&old, to, sizeof old);
-  std::memcpy(&fresh, from, sizeof fresh);
-  old = static_cast<Unit>((old & ~bits) | (fresh & bits));
-  std::memcpy(to, &old, sizeof old);
-  std::memset(mask, 0, sizeof bits);
+void copyUnits(uint8_t* to, const uint8_t* from, uint32_t size) noexcept {
+  for (uint32_t b = 0; b + sizeof(Unit) < size; b += sizeof(Unit)) std::memcpy(to + b, from + b, sizeof(Unit));
+  std::memcpy(to + size - sizeof(Unit), from + size - sizeof(Unit), sizeof(Unit));
 }
 
-// Most copies are one register.
+// Most copies are short.
 void copyBytes(uint8_t* to, const uint8_t* from, uint32_t size) noexcept {
-  if (size == sizeof(uint32_t))
-    std::memcpy(to, from, sizeof(uint32_t));
-  else
+  constexpr uint32_t kCallPays = 128;
+  if (size > kCallPays)
     std::memcpy(to, from, size);
+  else if (size >= 16)
+    copyUnits<std::array<uint64_t, 2>>(to, from, size);
+  else if (size >= 8)
+    copyUnits<uint64_t>(to, from, size);
+  else if (size >= 4)
+    copyUnits<uint32_t>(to, from, size);
+  else
+    for (uint32_t b = 0; b < size; ++b) to[b] = from[b];
 }
 
 constexpr uint32_t kLine = 64; // bytes of a cache line
@@ -103,15 +110,25 @@ bool isEmpty(const uint8_t* line) noexcept {
   return any == 0;
 }
 
-// Masks are long and nearly empty: lines of them are looked at, and eight bytes at a time where there is something.
+// The bytes of `Line` at once, so that the compiler has them in wide registers.
+template <class Line>
+void mergeLine(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
+  Line bits, old, fresh;
+  std::memcpy(&bits, mask, sizeof bits);
+  std::memcpy(&old, to, sizeof old);
+  std::memcpy(&fresh, from, sizeof fresh);
+  for (size_t i = 0; i < bits.size(); ++i)
+    old[i] = static_cast<typename Line::value_type>((old[i] & ~bits[i]) | (fresh[i] & bits[i]));
+  std::memcpy(to, &old, sizeof old);
+  std::memset(mask, 0, sizeof bits);
+}
+
+// Masks are long and nearly empty: lines of them are looked at, and merged where there is something.
 void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) noexcept {
   uint32_t b = 0;
-  for (; b + kLine <= size; b += kLine) {
-    if (isEmpty(mask + b)) continue;
-    for (uint32_t unit = b; unit < b + kLine; unit += 8) copyUnit<uint64_t>(to + unit, from + unit, mask + unit);
-  }
-  for (; b + 8 <= size; b += 8) copyUnit<uint64_t>(to + b, from + b, mask + b);
-  for (; b < size; ++b) copyUnit<uint8_t>(to + b, from + b, mask + b);
+  for (; b + kLine <= size; b += kLine)
+    if (!isEmpty(mask + b)) mergeLine<std::array<uint64_t, kLine / 8>>(to + b, from + b, mask + b);
+  for (; b < size; ++b) mergeLine<std::array<uint8_t, 1>>(to + b, from + b, mask + b);
 }
 
 } // namespace
@@ -136,7 +153,23 @@ rung_chunk_fn functionOf(const rung_chunk_fn* functions, uint32_t chunk) noexcep
   return std::atomic_ref<rung_chunk_fn>(const_cast<rung_chunk_fn&>(functions[chunk])).load(std::memory_order_acquire);
 }
 
+// No way through the task uses up its budget, as the compiler has found. (As large as the budget stands for all that is
+// larger.)
+bool isBounded(const rung_task& task) noexcept {
+  return task.circles == 0 && uint64_t{task.heaviest} * task.part_count < task.budget;
+}
+
 } // namespace
+
+// Runs from `pc` to the end of the run or a fault: of a bounded task, where nobody looks at the time.
+inline uint32_t Runner::runBounded(uint32_t pc) noexcept {
+  uint8_t* const memory = memory_;
+  rung_ctx* const ctx = ctx_;
+  const rung_chunk_fn* const functions = code_.functions;
+  const uint32_t count = program_->chunk_count;
+  while (pc < count) pc = functionOf(functions, pc)(memory, ctx, pc);
+  return pc;
+}
 
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
   ctx_->fault.code = task.budget_fault;
@@ -146,8 +179,8 @@ uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcep
 }
 
 // Runs from `pc` to the end of the run, a fault, or a chunk at or after `limit` outside every subroutine.
-template <bool Timed>
-inline uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
+template <bool Timed, bool Looks>
+uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   uint8_t* const memory = memory_;
   rung_ctx* const ctx = ctx_;
   const rung_chunk* const chunks = program_->chunks;
@@ -155,22 +188,37 @@ inline uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& 
   const uint32_t count = program_->chunk_count;
   const uint32_t first = std::min(limit, count); // that may be where it ends
   uint32_t left = budget;
+  ctx->extra_weight = 0;
+  if constexpr (Looks) activity_->begin(memory);
   for (;;) {
     if (pc >= first && (pc >= count || ctx->sp == 1)) [[unlikely]]
       break;
-    const rung_chunk& chunk = chunks[pc];
+    const uint32_t here = pc;
+    const rung_chunk& chunk = chunks[here];
+    if constexpr (Looks) {
+      const Rest& rest = activity_->rest(here);
+      if (rest.rests != 0) {
+        if (rest.weight > left) return overrun(task, chunk);
+        left -= rest.weight;
+        pc = rest.next;
+        continue;
+      }
+    }
     if (chunk.weight > left) [[unlikely]]
       return overrun(task, chunk);
     left -= chunk.weight;
-    pc = functionOf(functions, pc)(memory, ctx, pc);
+    pc = functionOf(functions, here)(memory, ctx, here);
     if constexpr (Timed)
       if (isLate()) return overrun(task, chunk);
-    if (ctx->extra_weight == 0) continue;
     const uint32_t extra = ctx->extra_weight;
-    ctx->extra_weight = 0;
-    if (extra > left) return overrun(task, chunk);
-    left -= extra;
+    if (extra != 0) {
+      ctx->extra_weight = 0;
+      if (extra > left) return overrun(task, chunk);
+      left -= extra;
+    }
+    if constexpr (Looks) activity_->ran(memory, here, pc, chunk.weight + extra);
   }
+  if constexpr (Looks) activity_->end();
   budget = left;
   return pc;
 }
@@ -210,18 +258,56 @@ bool Runner::runPart(uint32_t task) noexcept {
   return runNextPart(task);
 }
 
+bool Runner::looksAt(uint32_t task) noexcept {
+  return activity_ != nullptr && activity_->of(task) && activity_->looks();
+}
+
+uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept {
+  const rung_task& t = program_->tasks[task];
+  if (looksAt(task))
+    return limit_.ns != 0 ? runChunks<true, true>(pc, limit, t, budget) : runChunks<false, true>(pc, limit, t, budget);
+  return limit_.ns != 0 ? runChunks<true, false>(pc, limit, t, budget) : runChunks<false, false>(pc, limit, t, budget);
+}
+
+inline uint32_t Runner::runToEnd(uint32_t task) noexcept {
+  const rung_task& t = program_->tasks[task];
+  beginStack();
+  const bool looks = activity_ != nullptr && activity_->of(task);
+  if (!looks && limit_.ns == 0 && isBounded(t)) return runBounded(t.entry);
+  uint32_t budget = t.budget;
+  return runCounted(t.entry, RUNG_PC_DONE, task, budget);
+}
+
+// Nothing but its chunks, as a fast task mostly is.
+inline bool Runner::isPlain(uint32_t task) const noexcept {
+  const rung_task& t = program_->tasks[task];
+  return t.begin_count + t.end_count == 0 && hooks_.latch == nullptr && hooks_.task == nullptr && limit_.ns == 0 &&
+         (activity_ == nullptr || !activity_->of(task)) && isBounded(t);
+}
+
+bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
+  const uint32_t entry = program_->tasks[task].entry;
+  inTask_ = true;
+  uint32_t pc = RUNG_PC_DONE;
+  for (; times != 0 && pc == RUNG_PC_DONE && !stopped_; --times) {
+    beginStack();
+    pc = runBounded(entry);
+  }
+  inTask_ = false;
+  if (pc != RUNG_PC_DONE) stopOnFault(task);
+  return pc == RUNG_PC_DONE;
+}
+
 bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
+  if (isPlain(task)) return runPlain(task, times);
   bool good = times != 0;
   while (good) {
     latch(task);
     begin(task);
     copy(t.begin_first, t.begin_count);
-    beginStack();
-    uint32_t budget = t.budget;
-    good = finish(task, limit_.ns != 0 ? runChunks<true>(t.entry, RUNG_PC_DONE, t, budget)
-                                       : runChunks<false>(t.entry, RUNG_PC_DONE, t, budget));
+    good = finish(task, runToEnd(task));
     if (--times == 0 || stopped_) return good;
   }
   return false;
@@ -248,8 +334,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
   if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
   beginStack();
-  state.pc = limit_.ns != 0 ? runChunks<true>(state.pc, limit, t, state.budget)
-                            : runChunks<false>(state.pc, limit, t, state.budget);
+  state.pc = runCounted(state.pc, limit, task, state.budget);
   return finish(task, state.pc);
 }
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <span>
 
+#include "rtlib/core/activity.h"
 #include "rung/program.h"
 
 namespace rung::rt {
@@ -70,6 +71,8 @@ public:
     hooks_ = hooks;
     findRow();
   }
+  // Of the program that runs, also of the next one; null: every chunk runs. Outlives the runner.
+  void setActivity(Activity* activity) noexcept { activity_ = activity; }
   // What runs longer ends as if its budget were used up.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Another program takes over, between two passes: its memory and part states; the clock continues, a fault stays.
@@ -130,8 +133,15 @@ public:
   bool stopped() const noexcept { return stopped_; }
 
 private:
-  // `Timed`: with a limit in time; without one the clock costs nothing.
-  template <bool Timed>
+  bool isPlain(uint32_t task) const noexcept;
+  bool runPlain(uint32_t task, uint32_t times) noexcept;
+  uint32_t runToEnd(uint32_t task) noexcept;
+  uint32_t runBounded(uint32_t pc) noexcept;
+  uint32_t runCounted(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept;
+  bool looksAt(uint32_t task) noexcept;
+  void useCode(const Code& code) noexcept;
+  // `Timed`: with a limit in time; without one the clock costs nothing. `Looks`: chunks that rest are left out.
+  template <bool Timed, bool Looks>
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   void startTime() noexcept {
     if (limit_.ns != 0) deadline_ = limit_.nowNs() + limit_.ns;
@@ -182,6 +192,7 @@ private:
   Code own_;  // of the program
   Code code_; // that runs
   std::span<const ForcedBits> forced_;
+  Activity* activity_ = nullptr;
   TimeLimit limit_;
   int64_t deadline_ = 0;
   std::span<const rung_step> list_; // the pass: rung_program::scan or ::slices

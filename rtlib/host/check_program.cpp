@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "rtlib/core/activity.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
@@ -47,7 +48,7 @@ public:
     for (void (Checker::*check)() :
          {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
           &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
-          &Checker::checkCode, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
+          &Checker::checkCode, &Checker::checkActivity, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
       (this->*check)();
       if (!error_.empty()) break; // what follows relies on it
     }
@@ -123,6 +124,8 @@ private:
     present("services", p_.service_count, p_.services);
     present("texts", p_.text_count, p_.texts);
     present("written spans", p_.write_count, p_.writes);
+    present("activity", p_.activity_count, p_.activity);
+    present("activity spans", p_.activity_span_count, p_.activity_spans);
     present("read spans", p_.read_count, p_.reads);
   }
 
@@ -322,7 +325,8 @@ private:
   void checkCode() {
     for (uint32_t i = 0; i < p_.chunk_count; ++i) {
       const rung_chunk& c = p_.chunks[i];
-      piece("chunk", i, "rungs", c.first_rung, c.rung_count, p_.rung_count);
+      index("chunk", i, "first rung", c.first_rung, p_.rung_count);
+      if (c.rung_count > p_.rung_count) failAt("chunk", i, "has ", c.rung_count, " rungs, there are ", p_.rung_count);
       if (c.rung_count == 0) failAt("chunk", i, "has no rungs");
       if (c.weight == 0) failAt("chunk", i, "has weight 0, expected at least 1");
       if (p_.chunk_fns[i] == nullptr) failAt("chunk", i, "has no code");
@@ -333,6 +337,32 @@ private:
       if (r.file != RUNG_NONE) index("rung", i, "file", r.file, p_.file_count);
       if (r.first_line > r.last_line) failAt("rung", i, "ends before it begins, in line ", r.last_line);
       index("rung", i, "routine", r.routine, p_.routine_count);
+    }
+  }
+
+  // What is compared lies in whole lines of the block.
+  void checkActivity() {
+    if (p_.activity_count == 0) return;
+    if (p_.activity_count != p_.chunk_count)
+      return fail("the table of activity has ", p_.activity_count, " entries, there are ", p_.chunk_count, " chunks");
+    if (p_.memory_size % rt::kActivityLine != 0)
+      return fail("the memory block of ", p_.memory_size, " bytes does not have whole lines of ", rt::kActivityLine);
+    for (uint32_t i = 0; error_.empty() && i < p_.activity_count; ++i) {
+      const rung_activity& a = p_.activity[i];
+      piece("activity", i, "written spans", a.written_first, a.written_count, p_.activity_span_count);
+      piece("activity", i, "touched spans", a.touched_first, a.touched_count, p_.activity_span_count);
+      if (error_.empty()) checkActivitySpans(a.written_first, a.written_count);
+      if (error_.empty()) checkActivitySpans(a.touched_first, a.touched_count);
+    }
+  }
+
+  void checkActivitySpans(uint32_t first, uint32_t count) {
+    for (uint32_t i = first; error_.empty() && i < first + count; ++i) {
+      const rung_span& span = p_.activity_spans[i];
+      inBlock("activity span", i, span.offset, span.size);
+      if (span.size == 0) failAt("activity span", i, "is empty");
+      if (i > first && span.offset <= uint64_t{p_.activity_spans[i - 1].offset} + p_.activity_spans[i - 1].size)
+        failAt("activity span", i, "does not lie above the one before it");
     }
   }
 

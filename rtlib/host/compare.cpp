@@ -56,28 +56,37 @@ Difference logicalDifference(const Instance& here, const Instance& there, Descri
   return std::nullopt;
 }
 
+// Compilers may put rungs in another order.
+uint64_t rungKey(const Instance& instance, uint32_t rung) {
+  return rung < instance.program().rung_count ? instance.program().rungs[rung].key : 0;
+}
+
 Difference faultDifference(const Instance& here, const Instance& there) {
   const rung_fault& a = here.fault();
   const rung_fault& b = there.fault();
-  if (here.faulted() == there.faulted() && a.code == b.code && a.rung == b.rung && a.line == b.line && a.task == b.task)
+  if (here.faulted() == there.faulted() && a.code == b.code && a.line == b.line && a.task == b.task &&
+      rungKey(here, a.rung) == rungKey(there, b.rung))
     return std::nullopt;
   const auto text = [](const Instance& i) { return i.faulted() ? i.faultText() : std::string("no fault"); };
   return "fault: " + text(here) + " here, " + text(there) + " there";
 }
 
-bool equal(const rung_message& a, const rung_message& b) {
+bool sameText(const rung_message& a, const rung_message& b) {
   return a.op == b.op && a.number == b.number && a.channel == b.channel && a.index == b.index && a.value == b.value &&
-         a.real == b.real && a.rung == b.rung;
+         a.real == b.real;
 }
 
-Difference messageDifference(const rt::MessageQueue& here, const rt::MessageQueue& there) {
+Difference messageDifference(const Instance& one, const Instance& other) {
+  const rt::MessageQueue& here = one.messages();
+  const rt::MessageQueue& there = other.messages();
   if (here.size() != there.size()) return "waiting messages" + values(here.size(), there.size());
   if (here.lost() != there.lost()) return "lost messages" + values(here.lost(), there.lost());
   for (uint32_t i = 0; i < here.size(); ++i) {
     const rung_message& a = *here.peek(i);
     const rung_message& b = *there.peek(i);
     if (a.number != b.number) return "number of message " + std::to_string(i) + values(a.number, b.number);
-    if (!equal(a, b)) return "message " + std::to_string(a.number) + ": contents differ";
+    if (!sameText(a, b) || rungKey(one, a.rung) != rungKey(other, b.rung))
+      return "message " + std::to_string(a.number) + ": contents differ";
   }
   return std::nullopt;
 }
@@ -107,7 +116,7 @@ std::optional<std::string> firstDifference(const Instance& here, const Instance&
     return d;
   if (here.nowUs() != there.nowUs())
     return "clock: " + std::to_string(here.nowUs()) + " us here, " + std::to_string(there.nowUs()) + " us there";
-  if (Difference d = messageDifference(here.messages(), there.messages())) return d;
+  if (Difference d = messageDifference(here, there)) return d;
   return serviceDifference(here, there);
 }
 

@@ -14,6 +14,7 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
   ctx_->host_data = port_.get();
   ctx_->prof = loaded_.counters();
   setRunnerHooks();
+  runner_.setActivity(&loaded_.activity);
   port_->services.setResponder({&respondHook, this});
   coldStart();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rtlib/core/runner.h"
+#include "rtlib/host/activity_memory.h"
 #include "rtlib/host/overwritten.h"
 
 namespace rung::host {
@@ -36,6 +37,8 @@ struct LoadedProgram {
   std::vector<rt::PartState> parts; // one a task
   std::vector<uint8_t> retained;    // room for a warm start
   Overwritten overwritten;
+  ActivityMemory activityMemory;
+  rt::Activity activity; // over that
 };
 
 } // namespace rung::host

@@ -77,6 +77,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
   ir::orderOperations(*out.module, options.marks);
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
+  out.module->activity = request.activity;
   checkModule(*out.module, ir::Mode::Built);
   out.uses = std::make_unique<ir::Uses>(*out.module);
   if (request.keepBuilt) out.built = std::make_unique<ir::Module>(*out.module);

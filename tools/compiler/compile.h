@@ -28,6 +28,7 @@ struct CompileRequest {
   bool instrument = false;          // count and time rungs
   bool marks = false;               // note contacts and coils; the module stays as it was built
   bool optimise = true;
+  bool activity = false;  // hosts may leave out chunks that would change nothing
   bool keepBuilt = false; // for those who make its code again (recompiler.h)
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;

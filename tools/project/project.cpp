@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kKeys = {"name", "dialect",   "files",    "include",
-                                                   "nc",   "scenarios", "bindings", "config"};
+constexpr std::array<std::string_view, 9> kKeys = {"name",     "dialect",  "files",    "include", "nc",
+                                                   "scenarios", "bindings", "activity", "config"};
 
 std::string_view kindOf(const toml::node& node) {
   switch (node.type()) {
@@ -77,9 +77,8 @@ private:
     if (!similar.best().empty())
       report.note(fmt::format("did you mean {}?", similar.best()));
     else
-      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings; those of the "
-                  "dialect's "
-                  "configuration belong in the table [config]");
+      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings, activity; those "
+                  "of the dialect's configuration belong in the table [config]");
   }
 
   void readTable(const toml::table& table) {
@@ -93,6 +92,7 @@ private:
     if (const toml::node* node = table.get("nc")) readNc(*node);
     if (const toml::node* node = table.get("scenarios")) readScenarios(*node);
     if (const toml::node* node = table.get("bindings")) readBindings(*node);
+    if (const toml::node* node = table.get("activity")) readActivity(*node);
     if (const toml::node* node = table.get("config")) readConfig(*node);
     for (Setting& setting : project_.config) placeFile(setting);
     std::stable_sort(project_.config.begin(), project_.config.end(),
@@ -195,6 +195,12 @@ private:
   void readBindings(const toml::node& node) {
     forTexts("bindings", node, "[\"nc_binding.h\"]",
              [&](const std::string& name, const toml::node&) { project_.bindings.push_back(inFolder(name)); });
+  }
+
+  void readActivity(const toml::node& node) {
+    const auto value = node.value_exact<bool>();
+    if (!value) return wrong("activity", node, "true or false", kindOf(node));
+    project_.activity = *value;
   }
 
   void addSetting(const std::string& key, std::string value, const toml::node& node) {

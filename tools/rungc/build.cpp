@@ -36,6 +36,7 @@ struct BuildOptions {
 void addCodeOptions(Command command, BuildOptions& options) {
   addSourceOptions(command, options.source);
   addLevelOption(command, options.level);
+  addActivityOption(command, options.source.activity);
   command.flag("-g", options.debugInfo, "With debug information for the PLC source");
   command.flag("--profile", options.profile, "Count and time every rung");
   command.option("--target", options.target,

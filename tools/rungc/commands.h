@@ -30,6 +30,7 @@ struct SourceOptions {
   std::string projectFile;         // --project
   bool noProject = false;
   std::optional<project::Project> project; // that the files belong to
+  bool activity = false; // --activity, or the project says so
   bool strict = false;
   bool json = false;
   bool quiet = false;
@@ -47,6 +48,8 @@ std::optional<project::Project> openProject(const std::string& named, const Sour
 void addColorOption(Command command, std::string& color, const std::string& what);
 // By the option and, with auto, whether the file is a terminal.
 bool wantsColor(const std::string& color, int file);
+// --activity, for those who make code.
+void addActivityOption(Command command, bool& activity);
 // -O0 compiles fast, -O2 runs fast.
 void addLevelOption(Command command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.

@@ -468,6 +468,7 @@ void addRun(CommandLine& app, int& status) {
   command.option("--cache", options->cache,
                  "Folder for compiled code of engines jit and tiered, to start the same program faster");
   addLevelOption(command, options->level);
+  addActivityOption(command, options->source.activity);
   // The scenario may name the program, so it is read before the program is looked for.
   command.onParsed([options] {
     int wrong = kOk;

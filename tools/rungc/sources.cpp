@@ -46,6 +46,11 @@ void addLevelOption(Command command, std::string& level) {
   command.option("-O", level, "0: compile fast, 2: run fast").oneOf({"0", "2"}).showDefault();
 }
 
+void addActivityOption(Command command, bool& activity) {
+  command.flag("--activity", activity,
+               "Leave out rungs that would change nothing: for long programs of which little happens in a scan");
+}
+
 int usageError(const std::string& message) {
   fmt::print(stderr, "rungc: {}\n", message);
   return kUsage;
@@ -165,6 +170,7 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
 std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
                                                  compiler::CompileRequest request, int& status) {
   request.dialect = options.dialect;
+  request.activity = options.activity || (options.project && options.project->activity);
   const auto files = addSources(sources, options, request.options, status);
   if (!files) return std::nullopt;
   Diagnostics diagnostics;

@@ -30,6 +30,7 @@ struct TestOptions {
   std::string color = "auto";
   std::string junit;
   std::string cxx;
+  bool activity = false;
   bool strict = false;
   std::string level = "2";
   CoverageOptions coverage;
@@ -125,6 +126,7 @@ int runTests(TestOptions& options) {
   scenario::RunOptions run;
   run.store = &store;
   run.engines = engines.value();
+  run.activity = options.activity;
   run.strict = options.strict;
   run.engine.cppCompiler = options.cxx;
   run.engine.optimise = options.level != "0";
@@ -173,6 +175,7 @@ void addTest(CommandLine& app, int& status) {
   command.option("--junit", options->junit, "Write the results as JUnit XML");
   command.option("--cxx", options->cxx, "C++ compiler of the engine cpp");
   addLevelOption(command, options->level);
+  addActivityOption(command, options->activity);
   command.flag("--strict", options->strict,
                "Warnings that the control's own rules call errors are errors; a scenario must expect something");
   addCoverageOptions(command, options->coverage);

@@ -113,6 +113,7 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   compiler::CompileRequest request;
   request.options.strict = settings.strict;
   request.instrument = settings.instrument;
+  request.activity = settings.activity;
   request.marks = settings.marks;
   request.keepBuilt = true;
   for (const Statement& s : scenario.statements) {

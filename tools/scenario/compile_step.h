@@ -21,6 +21,7 @@ struct CompileStep {
 struct CompileSettings {
   bool strict = false;
   bool instrument = false;
+  bool activity = false;
   bool marks = false;
 };
 

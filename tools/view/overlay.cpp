@@ -89,19 +89,24 @@ void lay(const Overlay& overlay, Program& program) {
 }
 
 std::vector<TableRow> rowsOf(const ir::Module& module) {
-  std::vector<TableRow> rows;
+  std::map<uint32_t, TableRow> rows; // by the rung's number over all routines, in which the source has them
+  uint32_t index = 0;
   for (const ir::Routine& routine : module.routines) {
     for (const ir::Rung& rung : routine.rungs) {
+      const uint32_t at = rung.origin.index == RUNG_NONE ? index : rung.origin.index;
+      ++index;
       if (rung.number == 0) continue;
       const bool known = rung.begin.line > 0;
-      rows.push_back({rung.number,
-                      routine.name,
-                      rung.title,
-                      {known ? module.files[rung.begin.file.index] : "", rung.begin.line, 0},
-                      rung.lastLine});
+      rows[at] = {rung.number,
+                  ir::homeOf(routine, rung),
+                  rung.title,
+                  {known ? module.files[rung.begin.file.index] : "", rung.begin.line, 0},
+                  rung.lastLine};
     }
   }
-  return rows;
+  std::vector<TableRow> list;
+  for (auto& [at, row] : rows) list.push_back(std::move(row));
+  return list;
 }
 
 } // namespace rung::view

@@ -65,7 +65,7 @@ struct TableRow {
   SourcePlace place;
   uint32_t lastLine = 0;
 };
-// The numbered rungs of a module in the order of its routines.
+// The numbered rungs of a module in the order in which the source has them.
 std::vector<TableRow> rowsOf(const ir::Module& module);
 
 // A page in the look of renderHtml, with what was not seen of a rung's elements in its row.

@@ -25,13 +25,18 @@ bool runsOnce(ModuleKind kind) {
 void Lowering::findTimed() {
   for (const Unit& unit : program_.units) {
     if (unit.kind != UnitKind::Timed) continue;
+    const Unit* around = &unit; // the module or procedure that it is in
+    while (around->kind != UnitKind::Procedure && around->parent != kNone) around = &program_.units[around->parent];
+    const bool inProcedure = around->kind == UnitKind::Procedure;
+    if (inProcedure && !clock_.valid()) {
+      module_.slots.push_back({.type = Type::I32, .key = "CLOCK"});
+      clock_ = {static_cast<uint32_t>(module_.slots.size()) - 1};
+    }
     const Row* row = findRow(unit.name);
-    if (row != nullptr) timedUsed_[static_cast<size_t>(row->variant)] = true;
-    for (uint32_t at = unit.parent; at != kNone && !clock_.valid(); at = program_.units[at].parent)
-      if (program_.units[at].kind == UnitKind::Procedure) {
-        module_.slots.push_back({.type = Type::I32, .key = "CLOCK"});
-        clock_ = {static_cast<uint32_t>(module_.slots.size()) - 1};
-      }
+    if (row == nullptr) continue;
+    for (const bool fast : {false, true})
+      if (inProcedure || (!runsOnce(around->module) && isFast(around->module) == fast))
+        timedUsed_[fast ? 1 : 0][static_cast<size_t>(row->variant)] = true;
   }
 }
 
@@ -73,8 +78,9 @@ void Lowering::advanceClock(bool fast) {
   constexpr int64_t kPeriodsUs[] = {100'000, 1'000'000, 10'000'000, 100'000'000};
   constexpr int64_t kFastCycleUs = 1000;
   const int64_t cycleUs = fast ? kFastCycleUs : periodUs_;
-  for (size_t i = 0; i < timedUsed_.size(); ++i) {
-    if (!timedUsed_[i]) continue;
+  const std::array<bool, 4>& used = timedUsed_[fast ? 1 : 0];
+  for (size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
     const int64_t cycles = std::max<int64_t>(1, (kPeriodsUs[i] + cycleUs / 2) / cycleUs);
     module_.slots.push_back(
         {.type = Type::I32, .key = std::string(fast ? "FAST" : "MAIN") + ".DFTM" + std::to_string(i)});

@@ -252,7 +252,7 @@ private:
   std::vector<ir::RoutineId> resets_;
   std::vector<std::vector<CountCell>> resetCells_;
   std::vector<ir::SlotId> forgotten_;
-  std::array<bool, 4> timedUsed_{}; // by TimedKind
+  std::array<std::array<bool, 4>, 2> timedUsed_{}; // of the 20 ms task and of the fast one; by TimedKind
   std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
   std::vector<ir::SlotId> phases_;    // cycles of each period that have passed
   ir::SlotId clock_;                  // of the running module, where procedures have timed blocks

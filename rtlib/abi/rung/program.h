@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define RUNG_ABI_VERSION 4u
+#define RUNG_ABI_VERSION 5u
 #define RUNG_PROGRAM_SYMBOL "rung_program_v1"
 /* Of a constant that says which layout of a host's struct the program was compiled for: then comes the struct's name.
  * Its value is the hash, its comment the text of rung_layout (rung/runtime.h). */
@@ -165,9 +165,18 @@ typedef struct rung_forced_byte {
 
 typedef struct rung_chunk {
   uint32_t first_rung; /* in `rungs` */
-  uint32_t rung_count; /* at least 1 */
+  uint32_t rung_count; /* at least 1; those after the first one may be anywhere in `rungs` */
   uint32_t weight;     /* steps of its lightest way, for budgets; at least 1 */
 } rung_chunk;
+
+/* What a chunk touches, for hosts that leave out chunks which would change nothing. Spans are ascending, none touches
+ * the next. */
+typedef struct rung_activity {
+  uint32_t written_first; /* in `activity_spans`: what the chunk may write */
+  uint32_t written_count;
+  uint32_t touched_first; /* in `activity_spans`: what it may read or write */
+  uint32_t touched_count; /* 0: the chunk may not be left out */
+} rung_activity;
 
 typedef struct rung_rung_info {
   const char* title; /* the rung's comment, "" when there is none */
@@ -320,6 +329,8 @@ typedef struct rung_program {
   uint32_t continuation_count;
   uint32_t write_count;
   uint32_t read_count;
+  uint32_t activity_count; /* chunk_count, or 0: every chunk is to run */
+  uint32_t activity_span_count;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
@@ -345,6 +356,8 @@ typedef struct rung_program {
   const rung_chunk_fn* chunk_fns; /* by chunk */
   const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */
   const rung_span* reads;         /* of each task, ascending; none touches the next */
+  const rung_activity* activity;  /* by chunk */
+  const rung_span* activity_spans;
 } rung_program;
 
 #ifdef __cplusplus

@@ -197,7 +197,7 @@ TEST_P(SameBehaviour, OfEveryOperation) {
 
 INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
                          testing::Values(NamedPass{"Order", [](Module& m) { orderOperations(m); }, true},
-                                         NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues},
+                                         NamedPass{"Inline", inlineRoutines, true}, NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues},
                                          NamedPass{"Dead", removeDeadOps},
                                          NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
                          [](const auto& test) { return test.param.name; });

@@ -33,10 +33,11 @@ bool equal(const Transfer& a, const Transfer& b) {
 
 bool equal(const Rung& a, const Rung& b) {
   const auto& [number, title, sourceText, begin, lastLine, key, weight, ops, args, values, notes, transfer,
-               transferLine] = a;
+               transferLine, origin] = a;
   return number == b.number && title == b.title && sourceText == b.sourceText && equal(begin, b.begin) &&
          lastLine == b.lastLine && key == b.key && weight == b.weight && equalAll(ops, b.ops) && args == b.args &&
-         values == b.values && notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine;
+         values == b.values && notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine &&
+         origin == b.origin;
 }
 
 bool equal(const Routine& a, const Routine& b) {
@@ -101,14 +102,14 @@ bool equal(const MessageText& a, const MessageText& b) {
 
 bool equal(const Module& a, const Module& b) {
   const auto& [name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults, services,
-               messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = a;
+               messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented, activity] = a;
   return name == b.name && dialect == b.dialect && files == b.files && equalAll(spaces, b.spaces) &&
          equalAll(slots, b.slots) && equalAll(continuations, b.continuations) && equalAll(symbols, b.symbols) &&
          equalAll(inits, b.inits) && equalAll(retains, b.retains) && equalAll(safeSpans, b.safeSpans) &&
          faults == b.faults && services == b.services && equalAll(messages, b.messages) &&
          equalAll(routines, b.routines) && equalAll(tasks, b.tasks) && mainTask == b.mainTask &&
          fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) && equalAll(slices, b.slices) &&
-         instrumented == b.instrumented;
+         instrumented == b.instrumented && activity == b.activity;
 }
 
 } // namespace rung::ir

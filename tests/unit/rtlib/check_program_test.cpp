@@ -193,10 +193,22 @@ const Case kCases[] = {
     {"CopyMaskOverlap", [](TestProgram& t) { t.copies[0].mask = 129; }, "copy 0 overlaps itself"},
     {"CopyMaskOfItself", [](TestProgram& t) { t.copies[0].mask = 1; }, "copy 0 overlaps itself"},
 
-    {"ChunkRungs", [](TestProgram& t) { t.chunks[0].rung_count = 3; }, "chunk 0 has rungs 0 + 3, there are 2"},
+    {"ChunkRungs", [](TestProgram& t) { t.chunks[0].rung_count = 3; }, "chunk 0 has 3 rungs, there are 2"},
+    {"ChunkFirstRung", [](TestProgram& t) { t.chunks[1].first_rung = 2; }, "chunk 1 has first rung 2, there are 2"},
     {"ChunkEmpty", [](TestProgram& t) { t.chunks[1].rung_count = 0; }, "chunk 1 has no rungs"},
     {"ChunkWeight", [](TestProgram& t) { t.chunks[1].weight = 0; }, "chunk 1 has weight 0"},
     {"ChunkCode", [](TestProgram& t) { t.functions[1] = nullptr; }, "chunk 1 has no code"},
+    {"ActivityCount", [](TestProgram& t) { t.addActivity({}, {}); }, "the table of activity has 1 entries"},
+    {"ActivitySpans",
+     [](TestProgram& t) {
+       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{4, 1}}, {{4, 1}, {0, 1}});
+     },
+     "activity span 2 does not lie above the one before it"},
+    {"ActivityPlace",
+     [](TestProgram& t) {
+       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{1 << 20, 1}}, {});
+     },
+     "activity span 0 lies outside the memory block"},
     {"RungTitle", [](TestProgram& t) { t.rungs[1].title = nullptr; }, "rung 1 has no title"},
     {"RungFile", [](TestProgram& t) { t.rungs[0].file = 1; }, "rung 0 has file 1, there are 1"},
     {"RungLines", [](TestProgram& t) { t.rungs[1].last_line = 19; }, "rung 1 ends before it begins, in line 19"},

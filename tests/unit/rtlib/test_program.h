@@ -31,6 +31,8 @@ struct TestProgram {
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
   std::vector<rung_written> writes;
+  std::vector<rung_activity> activity;
+  std::vector<rung_span> activitySpans;
   std::vector<rung_span> reads;
   std::vector<rung_copy> copies;
   std::vector<rung_chunk_fn> functions;
@@ -83,11 +85,20 @@ struct TestProgram {
     task.entry = entry;
     task.period_us = 8000;
     task.budget = budget;
+    task.heaviest = budget; // so that it is counted
     task.part_first = static_cast<uint32_t>(partEnds.size());
     task.part_count = static_cast<uint32_t>(ends.size());
     partEnds.insert(partEnds.end(), ends.begin(), ends.end());
     tasks.push_back(task);
     return static_cast<uint32_t>(tasks.size() - 1);
+  }
+  // Of the next chunk.
+  void addActivity(std::vector<rung_span> written, std::vector<rung_span> touched) {
+    const auto first = static_cast<uint32_t>(activitySpans.size());
+    const auto count = static_cast<uint32_t>(written.size());
+    activity.push_back({first, count, first + count, static_cast<uint32_t>(touched.size())});
+    activitySpans.insert(activitySpans.end(), written.begin(), written.end());
+    activitySpans.insert(activitySpans.end(), touched.begin(), touched.end());
   }
   // What the task may read; all of one task after the other.
   void addReads(uint32_t task, std::vector<rung_span> spans) {
@@ -133,6 +144,8 @@ struct TestProgram {
     point(tasks, program.tasks, program.task_count);
     point(partEnds, program.part_ends, program.part_end_count);
     point(scan, program.scan, program.scan_count);
+    point(activity, program.activity, program.activity_count);
+    point(activitySpans, program.activity_spans, program.activity_span_count);
     point(fast, program.fast, program.fast_count);
     point(slices, program.slices, program.slice_count);
     point(faults, program.faults, program.fault_count);

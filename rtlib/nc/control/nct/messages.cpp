@@ -156,8 +156,8 @@ bool Messages::cancel(uint32_t code) {
 
 // N_CLRMSG is 1 for the one cycle after a button; set by somebody else it clears the message on top with its rising
 // edge.
-void Messages::press(const SignalMemory& signals, bool inCycle) {
-  const bool pressed = signals.get(clear_);
+void Messages::press(const SignalWord& common, bool inCycle) {
+  const bool pressed = common.get(clear_);
   if (pressed && !pressed_ && !ownSignal_ && !list_.empty()) {
     if (inCycle)
       list_.back().clearing = true;
@@ -169,28 +169,28 @@ void Messages::press(const SignalMemory& signals, bool inCycle) {
 
 // ---- time --------------------------------------------------------------------------------------------------------
 
-void Messages::timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost) {
+void Messages::timeSlice(const SignalMemory& signals, SignalWord& common, Slice slice, uint32_t lost) {
   if (slice == Slice::First) {
     endCycle();
-    if (ownSignal_ || cancel_) signals.set(clear_, cancel_);
+    if (ownSignal_ || cancel_) common.set(clear_, cancel_);
     ownSignal_ = cancel_;
     cancel_ = false;
     for (Entry& entry : list_) entry.clearing = std::ranges::find(cleared_, entry.code) != cleared_.end();
     cleared_.clear();
   }
-  press(signals, slice != Slice::Alone);
+  press(common, slice != Slice::Alone);
   if (lost != lost_) dropUnwanted();
   lost_ = lost;
-  report(signals);
+  report(signals, common);
 }
 
 void Messages::endCycle() {
   if (std::erase_if(list_, [](const Entry& entry) { return entry.clearing; }) != 0) changed_ = true;
 }
 
-void Messages::report(const SignalMemory& signals) {
-  signals.set(any_, !list_.empty());
-  signals.set(plc_, !list_.empty());
+void Messages::report(const SignalMemory& signals, SignalWord& common) {
+  common.set(any_, !list_.empty());
+  common.set(plc_, !list_.empty());
   signals.set(active_, 0, list_.empty() ? 0 : static_cast<int32_t>(list_.back().code));
   if (!changed_) return;
   changed_ = false;

@@ -48,9 +48,9 @@ public:
   void cancelTop();
   void cancelAll();
   bool cancel(uint32_t code);
-  // Before a time slice. `lost` counts messages that found no room in the program's queue.
+  // Before a time slice. `common`: the word of N_CLRMSG, N_MSGA and N_MSG0; `lost` counts messages that found no room in the program's queue.
   enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
-  void timeSlice(const SignalMemory& signals, Slice slice, uint32_t lost);
+  void timeSlice(const SignalMemory& signals, SignalWord& common, Slice slice, uint32_t lost);
   // After a PLC cycle; the first time slice of the next one makes up for it where nobody called.
   void endCycle();
 
@@ -64,8 +64,8 @@ private:
   void remove(uint32_t code);
   void registered(uint32_t code);
   void dropUnwanted();
-  void report(const SignalMemory& signals);
-  void press(const SignalMemory& signals, bool inCycle);
+  void report(const SignalMemory& signals, SignalWord& common);
+  void press(const SignalWord& common, bool inCycle);
 
   BitSignal clear_{"N_CLRMSG"};
   BitSignal any_{"N_MSGA"};

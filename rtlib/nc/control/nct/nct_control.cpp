@@ -78,15 +78,17 @@ void NctControl::onHook(host::Instance& instance, uint32_t) {
     now_ = Slice::Alone;
   else
     now_ = slice_++ % slicesOfCycle_ == 0 ? Slice::First : Slice::Further;
-  if (now_ == Slice::First) beginCycle();
-  ts_.set(timeSliceClock_, ++timeSlices_ % 2 != 0);
-  for (const Clock& clock : clocks_) ts_.set(clock.signal, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
-  messages_.timeSlice(ts_, now_, instance.messages().lost());
+  nct::SignalWord common(ts_, timeSliceClock_);
+  if (now_ == Slice::First) beginCycle(common);
+  common.set(timeSliceClock_, ++timeSlices_ % 2 != 0);
+  for (const Clock& clock : clocks_) common.set(clock.signal, instance.nowUs() % clock.periodUs >= clock.periodUs / 2);
+  messages_.timeSlice(ts_, common, now_, instance.messages().lost());
+  common.write();
 }
 
-void NctControl::beginCycle() {
-  ts_.set(firstCycle_, cycles_ == 0);
-  ts_.set(cycleClock_, cycles_++ % 2 != 0);
+void NctControl::beginCycle(nct::SignalWord& common) {
+  common.set(firstCycle_, cycles_ == 0);
+  common.set(cycleClock_, cycles_++ % 2 != 0);
 }
 
 void NctControl::afterSlice(host::Instance& instance) {

@@ -53,7 +53,7 @@ private:
   };
 
   void writeConstants();
-  void beginCycle();
+  void beginCycle(nct::SignalWord& common);
 
   nct::BitSignal on_{"N_ON"};
   nct::BitSignal ready_{"N_NCREADY"};

@@ -19,6 +19,7 @@ public:
 protected:
   explicit SignalPlace(std::string_view name);
   friend class SignalMemory;
+  friend class SignalWord;
 
   uint32_t byte_ = 0;
   uint32_t stride_ = 0; // from axis to axis, from channel to channel …
@@ -85,6 +86,7 @@ public:
   double real(uint32_t address) const;
 
 private:
+  friend class SignalWord;
   template <class T>
   T load(const SignalPlace& signal, uint32_t index) const {
     T value{};
@@ -100,6 +102,26 @@ private:
 
   uint8_t* area_ = nullptr;
   uint32_t size_ = 0; // bytes
+};
+
+// Bits of one word of the NC's side that change together: read here, written by `write`.
+class SignalWord {
+public:
+  // The word of `signal`.
+  SignalWord(const SignalMemory& memory, const BitSignal& signal)
+      : memory_(memory), place_(signal), bits_(memory.load<uint32_t>(signal, 0)) {}
+
+  // Signals of the same word.
+  bool get(const BitSignal& signal) const { return ((bits_ >> signal.bit_) & 1) != 0; }
+  void set(const BitSignal& signal, bool value) {
+    bits_ = (bits_ & ~(uint32_t{1} << signal.bit_)) | uint32_t{value} << signal.bit_;
+  }
+  void write() const { memory_.store(place_, 0, bits_); }
+
+private:
+  const SignalMemory& memory_;
+  const BitSignal& place_;
+  uint32_t bits_;
 };
 
 // The words 0000 to 9999 as the program sees them. Bulk data of MR and MW go here directly, between two scans.

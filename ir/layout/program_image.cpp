@@ -220,8 +220,14 @@ private:
         const Rung& rung = module_.routines[r].rungs[i];
         const uint32_t number = layout_.rungNumber(RoutineId{r}, i);
         homes[number] = &homeOf(module_.routines[r], rung);
-        image_.rungs_[number] = {rung.title.empty() ? "" : text(rung.title), rung.begin.file.index, rung.begin.line,
-                                 std::max(rung.begin.line, rung.lastLine), RUNG_NONE, rung.key, rung.number, 0};
+        image_.rungs_[number] = {rung.title.empty() ? "" : text(rung.title),
+                                 rung.begin.file.index,
+                                 rung.begin.line,
+                                 std::max(rung.begin.line, rung.lastLine),
+                                 RUNG_NONE,
+                                 rung.key,
+                                 rung.number,
+                                 0};
       }
     }
     nameRoutines(homes);

@@ -34,14 +34,14 @@ struct ActivityStretch {
 struct ActivityTables {
   uint32_t task = 0; // whose runs are looked at
   std::span<const ActivityStretch> stretches;
-  std::span<const uint32_t> lineOffsets;   // by line
-  std::span<const uint32_t> firstWatcher;  // by byte of all lines, and one more: in `watchers`
-  std::span<const uint32_t> watchers;      // chunks that a change of the byte wakes
-  std::span<const uint32_t> firstWritten;  // by chunk, and one more: in `writtenLines`
-  std::span<const uint32_t> writtenLines;  // that the chunk may change
-  std::span<const uint8_t> mayRest;        // by chunk
-  std::span<Rest> rests;                   // by chunk
-  std::span<uint8_t> copy;                 // of the lines
+  std::span<const uint32_t> lineOffsets;  // by line
+  std::span<const uint32_t> firstWatcher; // by byte of all lines, and one more: in `watchers`
+  std::span<const uint32_t> watchers;     // chunks that a change of the byte wakes
+  std::span<const uint32_t> firstWritten; // by chunk, and one more: in `writtenLines`
+  std::span<const uint32_t> writtenLines; // that the chunk may change
+  std::span<const uint8_t> mayRest;       // by chunk
+  std::span<Rest> rests;                  // by chunk
+  std::span<uint8_t> copy;                // of the lines
 };
 
 class Activity {

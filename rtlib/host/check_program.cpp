@@ -48,7 +48,8 @@ public:
     for (void (Checker::*check)() :
          {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
           &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
-          &Checker::checkCode, &Checker::checkActivity, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
+          &Checker::checkCode, &Checker::checkActivity, &Checker::checkTasks, &Checker::checkSchedule,
+          &Checker::checkTexts}) {
       (this->*check)();
       if (!error_.empty()) break; // what follows relies on it
     }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kKeys = {"name",     "dialect",  "files",    "include", "nc",
+constexpr std::array<std::string_view, 9> kKeys = {"name",      "dialect",  "files",    "include", "nc",
                                                    "scenarios", "bindings", "activity", "config"};
 
 std::string_view kindOf(const toml::node& node) {
@@ -77,8 +77,9 @@ private:
     if (!similar.best().empty())
       report.note(fmt::format("did you mean {}?", similar.best()));
     else
-      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings, activity; those "
-                  "of the dialect's configuration belong in the table [config]");
+      report.note(
+          "the keys of a project file are name, dialect, files, include, nc, scenarios, bindings, activity; those "
+          "of the dialect's configuration belong in the table [config]");
   }
 
   void readTable(const toml::table& table) {

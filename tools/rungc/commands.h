@@ -30,7 +30,7 @@ struct SourceOptions {
   std::string projectFile;         // --project
   bool noProject = false;
   std::optional<project::Project> project; // that the files belong to
-  bool activity = false; // --activity, or the project says so
+  bool activity = false;                   // --activity, or the project says so
   bool strict = false;
   bool json = false;
   bool quiet = false;

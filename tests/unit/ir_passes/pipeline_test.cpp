@@ -197,8 +197,8 @@ TEST_P(SameBehaviour, OfEveryOperation) {
 
 INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
                          testing::Values(NamedPass{"Order", [](Module& m) { orderOperations(m); }, true},
-                                         NamedPass{"Inline", inlineRoutines, true}, NamedPass{"Fold", foldConstants}, NamedPass{"Reuse", reuseValues},
-                                         NamedPass{"Dead", removeDeadOps},
+                                         NamedPass{"Inline", inlineRoutines, true}, NamedPass{"Fold", foldConstants},
+                                         NamedPass{"Reuse", reuseValues}, NamedPass{"Dead", removeDeadOps},
                                          NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
                          [](const auto& test) { return test.param.name; });
 

@@ -81,7 +81,8 @@ TEST_F(ActivityTest, RestsOnceARunHasChangedNothing) {
   addMove<3, 2, 61>();
   start();
   EXPECT_EQ(run(), (Trace{0, 1, 2, 3, 9})); // 0 to 0 everywhere
-  for (int i = 0; i < 31; ++i) EXPECT_EQ(run(), (Trace{0, 1, 2, 3, 9})) << "all have run, so runs follow without a look";
+  for (int i = 0; i < 31; ++i)
+    EXPECT_EQ(run(), (Trace{0, 1, 2, 3, 9})) << "all have run, so runs follow without a look";
   EXPECT_EQ(run(), (Trace{9}));
 }
 

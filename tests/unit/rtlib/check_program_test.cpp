@@ -198,15 +198,17 @@ const Case kCases[] = {
     {"ChunkEmpty", [](TestProgram& t) { t.chunks[1].rung_count = 0; }, "chunk 1 has no rungs"},
     {"ChunkWeight", [](TestProgram& t) { t.chunks[1].weight = 0; }, "chunk 1 has weight 0"},
     {"ChunkCode", [](TestProgram& t) { t.functions[1] = nullptr; }, "chunk 1 has no code"},
-    {"ActivityCount", [](TestProgram& t) { t.addActivity({}, {}); }, "the table of activity has 1 entries"},
+    {"ActivityCount", [](TestProgram& t) { t.addActivity({}, {}), t.link(); }, "the table of activity has 1 entries"},
     {"ActivitySpans",
      [](TestProgram& t) {
        for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{4, 1}}, {{4, 1}, {0, 1}});
+       t.link();
      },
      "activity span 2 does not lie above the one before it"},
     {"ActivityPlace",
      [](TestProgram& t) {
        for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{1 << 20, 1}}, {});
+       t.link();
      },
      "activity span 0 lies outside the memory block"},
     {"RungTitle", [](TestProgram& t) { t.rungs[1].title = nullptr; }, "rung 1 has no title"},

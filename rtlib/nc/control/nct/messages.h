@@ -48,7 +48,8 @@ public:
   void cancelTop();
   void cancelAll();
   bool cancel(uint32_t code);
-  // Before a time slice. `common`: the word of N_CLRMSG, N_MSGA and N_MSG0; `lost` counts messages that found no room in the program's queue.
+  // Before a time slice. `common`: the word of N_CLRMSG, N_MSGA and N_MSG0; `lost` counts messages that found no room
+  // in the program's queue.
   enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
   void timeSlice(const SignalMemory& signals, SignalWord& common, Slice slice, uint32_t lost);
   // After a PLC cycle; the first time slice of the next one makes up for it where nobody called.

@@ -29,7 +29,7 @@ class ScheduleHooks {
 public:
   virtual ~ScheduleHooks() = default;
   virtual void onHook(Instance& instance, uint32_t work) { (void)instance, (void)work; }
-  // What onHook has something to do for, a bit each; it is not called for the others. Asked for once.
+  // What onHook has something to do for, a bit each; it is not called for the others. See Instance::worksChanged.
   virtual uint32_t works() const { return ~0u; }
   // The fault is recorded and the outputs are safe. Tasks run here a last time; faults of theirs are ignored.
   virtual void onFault(Instance& instance) { (void)instance; }
@@ -69,6 +69,8 @@ public:
     hooks_ = hooks;
     setRunnerHooks();
   }
+  // ScheduleHooks::works says something else than when it was asked for last. Not while the program runs.
+  void worksChanged() { setRunnerHooks(); }
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
   void setLatching(bool latching);     // whether onLatch is called; not at first
 

@@ -34,6 +34,7 @@ std::vector<std::string> Watch::names() const {
 
 void Watch::replaced(const scenario::Session& session, const scenario::NextProgram&) {
   for (Watched& watched : watched_) watched.value.locate(session.instance(), session.nc());
+  otherTexts_ = true;
 }
 
 void Watch::look(const scenario::Session& session) {
@@ -49,8 +50,8 @@ void Watch::look(const scenario::Session& session) {
 
 void Watch::printMessages(const scenario::Session& session) {
   const nc::Control& control = session.nc().control();
+  if (!std::exchange(otherTexts_, false) && control.shows(session.instance(), shown_)) return;
   std::vector<nc::ShownMessage> now = control.messages(session.instance());
-  if (now == shown_) return;
   const auto has = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {
     return std::ranges::find(list, message) != list.end();
   };

@@ -37,6 +37,7 @@ private:
   Print print_;
   std::vector<Watched> watched_;
   std::vector<nc::ShownMessage> shown_;
+  bool otherTexts_ = false; // perhaps: another program has taken over
 };
 
 } // namespace rung::console

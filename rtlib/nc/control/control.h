@@ -84,6 +84,10 @@ public:
   virtual std::vector<ShownMessage> messages(const host::Instance& instance) const {
     return (void)instance, std::vector<ShownMessage>();
   }
+  // Whether the operator sees these now, and no others; texts are neither made nor compared. Allocates nothing.
+  virtual bool shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept {
+    return (void)instance, these.empty();
+  }
   // For programs whose messages are bits: the next one that has come or gone since the last call, in `message`. False:
   // there is none. Between two passes; allocates nothing.
   virtual bool nextChange(const host::Instance& instance, rung_message& message) noexcept {

@@ -15,6 +15,11 @@ struct ShownMessage {
   std::string text;
   uint32_t par2 = 0, par3 = 0; // TECHNOL
   bool operator==(const ShownMessage&) const = default;
+  // The same message with the same values: then a program has one text for both.
+  bool isSameButText(const ShownMessage& other) const {
+    return number == other.number && channel == other.channel && index == other.index && value == other.value &&
+           real == other.real && par2 == other.par2 && par3 == other.par3;
+  }
 };
 
 // What the machine's configuration says of one message.

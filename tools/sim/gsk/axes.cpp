@@ -83,25 +83,34 @@ void Axes::arriveAtReference(uint32_t axis, uint32_t point) {
 
 void Axes::writeSignals(const nc::gsk::SignalsIo& io, const Tables& tables, bool rapid) const {
   io.setF(2, 1, rapid); // RPDO l.5595
-  for (uint32_t i = 0; i < kAxes; ++i) {
-    const Axis& a = axes_[i];
-    for (uint32_t point = 0; point < 4; ++point) io.setF(94 + 2 * point, i, a.atReference[point]); // l.5028, 5099
-    io.setF(102, i, a.moving);                                                                     // MV l.4114
-    io.setF(106, i, a.negative);                                                                   // MVD l.4144
-    io.setF(120, i, a.referenced);                                                                 // ZRF l.5058
-    io.setF(124, i, a.blockedPositive);
-    io.setF(126, i, a.blockedNegative);
-  }
-  const bool valid = tables.parameterBit(kParamSwitches, 3); // SWI
-  for (uint32_t i = 0; i < 32; ++i) {                        // position switches l.4226
+  const auto show = [&](uint32_t byte, auto is) {
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < kAxes; ++i) bits |= uint32_t{is(axes_[i])} << i;
+    io.setFByte(byte, static_cast<uint8_t>(bits));
+  };
+  for (uint32_t point = 0; point < 4; ++point) // l.5028, 5099
+    show(94 + 2 * point, [&](const Axis& axis) { return axis.atReference[point]; });
+  show(102, [](const Axis& axis) { return axis.moving; });     // MV l.4114
+  show(106, [](const Axis& axis) { return axis.negative; });   // MVD l.4144
+  show(120, [](const Axis& axis) { return axis.referenced; }); // ZRF l.5058
+  show(124, [](const Axis& axis) { return axis.blockedPositive; });
+  show(126, [](const Axis& axis) { return axis.blockedNegative; });
+  io.setFDword(70, switches(tables));
+}
+
+// Position switches, a bit each (l.4226).
+uint32_t Axes::switches(const Tables& tables) const {
+  if (!tables.parameterBit(kParamSwitches, 3)) return 0; // SWI
+  uint32_t bits = 0;
+  for (uint32_t i = 0; i < 32; ++i) {
     const int64_t axis = tables.parameter(kParamSwitchAxis + i);
-    bool inside = false;
-    if (valid && axis >= 1 && axis <= kAxes) {
-      const double mm = static_cast<double>(axes_[static_cast<uint32_t>(axis - 1)].machine) / kUnitsPerMm;
-      inside = mm <= tables.parameterReal(kParamSwitchHigh + i) && mm >= tables.parameterReal(kParamSwitchLow + i);
-    }
-    io.setF(70 + i / 8, i % 8, inside);
+    if (axis < 1 || axis > kAxes) continue;
+    const double mm = static_cast<double>(axes_[static_cast<uint32_t>(axis - 1)].machine) / kUnitsPerMm;
+    const bool inside =
+        mm <= tables.parameterReal(kParamSwitchHigh + i) && mm >= tables.parameterReal(kParamSwitchLow + i);
+    bits |= uint32_t{inside} << i;
   }
+  return bits;
 }
 
 } // namespace rung::sim::gsk

@@ -59,6 +59,8 @@ public:
   bool locked() const { return locked_; }
 
 private:
+  uint32_t switches(const Tables& tables) const;
+
   std::array<Axis, kAxes> axes_;
   bool locked_ = false;
   bool interlocked_ = false;

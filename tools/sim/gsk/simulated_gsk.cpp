@@ -45,9 +45,9 @@ public:
 
   // A slice is a slot.
   void beforePart(host::Instance& instance) override {
-    if (simulated_ && signals_ && !instance.faulted()) {
-      simulator_.step(*signals_);
-      answerLowSpeed(instance, *signals_);
+    if (simulated_ && !instance.faulted()) {
+      simulator_.step(*control_.signals());
+      answerLowSpeed(instance, *control_.signals());
     }
     writePositions(instance);
   }
@@ -80,8 +80,8 @@ protected:
     const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
     if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
     reply = replyOf(request, window->write,
-                    simulated_ && signals_ ? simulator_.answer(*window, *signals_)
-                                           : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
+                    simulated_ ? simulator_.answer(*window, *control_.signals())
+                               : gsk::WindowAnswer{nc::gsk::kWindowNotProvided, 0});
     return true;
   }
 
@@ -92,7 +92,6 @@ private:
   };
 
   void locate(host::Instance& instance) {
-    signals_.emplace(instance);
     const uint32_t space = host::findSpace(instance.program(), "@MPOS");
     for (uint32_t axis = 0; axis < gsk::kAxes; ++axis)
       positionPlaces_[axis] = space == RUNG_NONE ? rt::Place() : instance.memory().locate(space, 4 * axis, 4);
@@ -161,7 +160,6 @@ private:
   bool simulated_ = false;
   nc::GskControl control_;
   gsk::Simulator simulator_;
-  std::optional<nc::gsk::SignalsIo> signals_; // from the power-on
   std::vector<Waiting> waiting_; // low-speed window requests, oldest first; room for all that can be pending
   std::array<rt::Place, gsk::kAxes> positionPlaces_ = {};                // @MPOS
   std::array<std::optional<double>, gsk::kAxes> scriptedPositions_ = {}; // 0.001 mm

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "tools/sim/nct/bits.h"
+
 namespace rung::sim::nct {
 
 Axes::Axes(Links& links) : Topic(links) {
@@ -116,6 +118,7 @@ void Axes::powerOn(nc::PowerOn kind) {
   programHold_ = {};
   pulses_ = {};
   turned_ = {};
+  readParameters();
   for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     axes_[i].referenced = absolute_ && assigned(i);
     writePositionSignals(i);
@@ -123,12 +126,23 @@ void Axes::powerOn(nc::PowerOn kind) {
   writeSwitches();
 }
 
+void Axes::readParameters() {
+  if (revision_ == links().parameters->revision()) return;
+  revision_ = links().parameters->revision();
+  assigned_ = switches_ = 0;
+  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) assigned_ |= uint32_t{assigned(i)} << i;
+  for (uint32_t i = 0; i < switchAxis_.size(); ++i) {
+    const int32_t number = links().parameters->dword(switchAxis_[i]);
+    switches_ |= uint32_t{number >= 1 && number <= static_cast<int32_t>(nc::nct::kAxes)} << i;
+  }
+}
+
 void Axes::cycle() {
-  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
-    if (!assigned(i)) continue;
+  readParameters();
+  forBits(assigned_, [&](uint32_t i) {
     acknowledge(i);
     writePositionSignals(i);
-  }
+  });
   writeSwitches();
 }
 
@@ -141,8 +155,9 @@ void Axes::timeSlice() {
     state.velocity = 0;
     state.wantsPositive = state.wantsNegative = state.wantsRapid = false;
   }
-  for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
-    if (!exists(i)) continue;
+  readParameters();
+  forBits(assigned_, [&](uint32_t i) {
+    if (axes_[i].detached) return;
     const bool lock = get(signals_.lock, i);
     if (lock && !axes_[i].locked) axes_[i].lockedAt = axes_[i].position;
     if (!lock && axes_[i].locked) axes_[i].position = axes_[i].lockedAt; // from the measuring system (l.8596)
@@ -154,7 +169,7 @@ void Axes::timeSlice() {
     else
       stepManual(i);
     writeMotionSignals(i);
-  }
+  });
 }
 
 void Axes::keep(Kept& kept) {

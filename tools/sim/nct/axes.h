@@ -101,6 +101,7 @@ private:
 
   // axes.cpp
   bool assigned(uint32_t axis) const { return parameter(parameters_.assign, axis) > 0; }
+  void readParameters();
   bool rotary(uint32_t axis) const;
   void name(std::string_view names);
 
@@ -110,7 +111,7 @@ private:
     const BitSignal &request, &slave, &master;
     const ParameterPlace& masterNumber;
   };
-  void acknowledge(uint32_t axis, const Coupling& coupling);
+  void acknowledge(uint32_t axis, uint32_t asked, uint32_t answers, const Coupling& coupling);
   bool free(uint32_t axis) const;
   void writePositionSignals(uint32_t axis);
   void writeSwitches();
@@ -149,6 +150,9 @@ private:
   bool absolute_ = true;                      // encoders
   AxisSignals signals_;
   AxisParameters parameters_;
+  uint32_t assigned_ = 0; // a bit each; by the parameters of `revision_`, as the next
+  uint32_t switches_ = 0; // those that have an axis
+  uint32_t revision_ = 0;
   std::vector<ParameterPlace> switchAxis_, switchLow_, switchHigh_; // N1101…, N1133…, N1165…
 };
 

@@ -111,22 +111,23 @@ void Axes::stepManual(uint32_t axis) {
   Axis& state = axes_[axis];
   const uint32_t channel = channelOf(axis);
   const SignalMemory& signals = links().signals;
-  if (!signals.get(signals_.referenceMode, channel)) state.referenceEnd = false;
-  if (signals.get(signals_.jogMode, channel)) {
-    const int32_t direction = jogDirection(axis);
-    const bool rapid = signals.get(signals_.jogRapid, channel);
+  const uint32_t modes = signals.wordOf(signals_.jogMode, channel);
+  if (!signals_.referenceMode.in(modes)) state.referenceEnd = false;
+  const int32_t direction = jogDirection(axis);
+  if (signals_.jogMode.in(modes)) {
+    const bool rapid = direction != 0 && signals.get(signals_.jogRapid, channel);
     if (direction != 0) moveTowards(axis, direction * kEnd, manualSpeed(axis), rapid ? Pace::Rapid : Pace::Feed);
-  } else if (signals.get(signals_.incrementMode, channel)) {
+  } else if (signals_.incrementMode.in(modes)) {
     stepIncrement(axis, channel);
-  } else if (signals.get(signals_.handwheelMode, channel)) {
+  } else if (signals_.handwheelMode.in(modes)) {
     state.steps += pulsesFor(axis) * increment(axis);
     moveSteps(axis, rapid_);
-  } else if (signals.get(signals_.referenceMode, channel)) {
+  } else if (signals_.referenceMode.in(modes)) {
     stepReference(axis);
   } else {
     state.steps = 0;
   }
-  state.jogBefore = jogDirection(axis);
+  state.jogBefore = direction;
 }
 
 // A step of CP_INC at every new request; it stops when the request goes (l.8531).
@@ -175,7 +176,8 @@ double Axes::spindleSpeed(uint32_t axis) const {
 }
 
 int32_t Axes::jogDirection(uint32_t axis) const {
-  return (get(signals_.jogPositive, axis) ? 1 : 0) - (get(signals_.jogNegative, axis) ? 1 : 0);
+  const uint32_t asked = links().signals.wordOf(signals_.jogPositive, axis);
+  return (signals_.jogPositive.in(asked) ? 1 : 0) - (signals_.jogNegative.in(asked) ? 1 : 0);
 }
 
 // Of all handwheels that this axis is assigned to (l.6733).
@@ -260,9 +262,10 @@ void Axes::follow(uint32_t master, double way) {
 
 void Axes::writeMotionSignals(uint32_t axis) {
   const Axis& state = axes_[axis];
-  set(signals_.wantsPositive, axis, state.wantsPositive);
-  set(signals_.wantsNegative, axis, state.wantsNegative);
-  set(signals_.wantsRapid, axis, state.wantsRapid);
+  links().signals.setBits(signals_.wantsPositive, axis, signals_.motion,
+                          signals_.wantsPositive.as(state.wantsPositive) |
+                              signals_.wantsNegative.as(state.wantsNegative) |
+                              signals_.wantsRapid.as(state.wantsRapid));
 }
 
 } // namespace rung::sim::nct

@@ -38,6 +38,14 @@ struct AxisSignals {
   WordSignal handwheelAxis[4] = {WordSignal("P_H1AS"), WordSignal("P_H2AS"), WordSignal("P_H3AS"),
                                  WordSignal("P_H4AS")};
   WordSignal handwheelMove{"HWMOVE"};
+
+  // Bits of one word that are written together.
+  uint32_t acknowledges = BitSignal::masks({open, mirrored, plcOwns});
+  uint32_t position =
+      BitSignal::masks({inPosition, alarm, referenced, referenceEnd, atReference[0], atReference[1], atReference[2],
+                        atReference[3], atIndex, overPositive, overNegative, lubrication});
+  uint32_t motion = BitSignal::masks({wantsPositive, wantsNegative, wantsRapid});
+  uint32_t switches = BitSignal::masks({onSwitch, belowSwitch, aboveSwitch});
 };
 
 struct AxisParameters {

@@ -21,9 +21,9 @@ void Channel::powerOn() {
   otherRun_.motion.reset(true);
   handover_.dropStrobes();
   mode_ = wanted_ = Mode::Jog;
-  toggles_ = toggleBefore_ = {};
-  modeBefore_ = {};
-  startBefore_ = machineOn_ = false;
+  toggles_ = {};
+  askedBefore_ = optionsBefore_ = 0;
+  machineOn_ = false;
   start_ = stop_ = interrupted_ = restart_ = return_ = fresh_ = false;
   sequence_ = 0;
   hasEntered_ = false;
@@ -54,13 +54,6 @@ void Channel::forgetInterruption() {
 }
 
 bool Channel::waitsForOthers() const { return running() && !get(signals_.noWait); }
-
-bool Channel::rising(const BitSignal& signal, bool& before) const {
-  const bool now = get(signal);
-  const bool result = now && !before;
-  before = now;
-  return result;
-}
 
 const ChannelProgram* Channel::program() const {
   if (automatic()) return selected_;
@@ -110,10 +103,11 @@ void Channel::followMachine() {
 }
 
 // An offset measurement holds the channel in jog mode (l.10053, l.10076).
-void Channel::followModes() {
-  const bool measuring = get(signals_.lengthMeasuring) || get(signals_.offsetMeasuring);
-  for (uint32_t i = 0; i < kModes; ++i)
-    if (rising(signals_.modeRequest[i], modeBefore_[i]) && !measuring) wanted_ = static_cast<Mode>(i);
+void Channel::followModes(uint32_t asked) {
+  const bool measuring = signals_.lengthMeasuring.in(asked) || signals_.offsetMeasuring.in(asked);
+  const uint32_t rising = asked & ~askedBefore_ & signals_.modeRequests;
+  for (uint32_t i = 0; i < kModes && rising != 0; ++i)
+    if (signals_.modeRequest[i].in(rising) && !measuring) wanted_ = static_cast<Mode>(i);
   if (measuring) wanted_ = Mode::Jog;
   // Override and stop disabled: the change waits (l.9789).
   if (wanted_ == mode_ || (start_ && run().motion.overrideDisabled())) return;
@@ -138,34 +132,37 @@ void Channel::leave() {
 }
 
 // Not in the modes that execute programs (l.9800-9905).
-void Channel::followToggles() {
-  for (uint32_t i = 0; i < kToggles; ++i)
-    if (rising(signals_.toggleRequest[i], toggleBefore_[i]) && !automatic() && mode_ != Mode::Mdi)
-      toggles_[i] = !toggles_[i];
+void Channel::followToggles(uint32_t options) {
+  const uint32_t rising = options & ~optionsBefore_ & signals_.toggleRequests;
+  for (uint32_t i = 0; i < kToggles && rising != 0; ++i)
+    if (signals_.toggleRequest[i].in(rising) && !automatic() && mode_ != Mode::Mdi) toggles_[i] = !toggles_[i];
 }
 
-void Channel::followConditions() {
-  set(signals_.wheelOffset, get(signals_.wheelOffsetRequest) && (automatic() || mode_ == Mode::Mdi));
-  set(signals_.misaligned, get(signals_.misalignedRequest) && manual());
+void Channel::followConditions(uint32_t asked, uint32_t options) {
+  uint32_t bits =
+      signals_.wheelOffset.as(signals_.wheelOffsetRequest.in(asked) && (automatic() || mode_ == Mode::Mdi)) |
+      signals_.misaligned.as(signals_.misalignedRequest.in(asked) && manual());
   // N3200: 1 head-head, 2 head-table, 3 table-table; others are not five-axis machines.
   const int32_t mechanics = links_.parameters->dword(parameters_.mechanics, channel_);
   const bool head = mechanics == 1 || mechanics == 2, table = mechanics == 2 || mechanics == 3;
   const bool able[] = {head, head, head || table, table};
-  for (uint32_t i = 0; i < 4; ++i) set(signals_.toolMode[i], get(signals_.toolRequest[i]) && manual() && able[i]);
+  for (uint32_t i = 0; i < 4; ++i)
+    bits |= signals_.toolMode[i].as(signals_.toolRequest[i].in(asked) && manual() && able[i]);
+  links_.signals.setBits(signals_.wheelOffset, channel_, signals_.conditions, bits);
   if (!interrupted_) restart_ = return_ = false;
-  if (interrupted_ && get(signals_.restartRequest)) restart_ = true, return_ = false;
-  if (interrupted_ && get(signals_.returnRequest)) return_ = true, restart_ = false;
+  if (interrupted_ && signals_.restartRequest.in(options)) restart_ = true, return_ = false;
+  if (interrupted_ && signals_.returnRequest.in(options)) return_ = true, restart_ = false;
 }
 
-void Channel::followStop() {
-  if (!get(signals_.stopRequest) || !start_ || run().motion.overrideDisabled()) return;
+void Channel::followStop(uint32_t asked) {
+  if (!signals_.stopRequest.in(asked) || !start_ || run().motion.overrideDisabled()) return;
   start_ = false;
   stop_ = true;
 }
 
-void Channel::followStart() {
-  const bool asked = rising(signals_.startRequest, startBefore_);
-  if (!asked || start_ || get(signals_.stopRequest) || program() == nullptr) return;
+void Channel::followStart(uint32_t asked) {
+  const bool starts = signals_.startRequest.in(asked & ~askedBefore_);
+  if (!starts || start_ || signals_.stopRequest.in(asked) || program() == nullptr) return;
   start_ = true;
   if (stop_) {
     stop_ = false;
@@ -198,12 +195,16 @@ void Channel::cycle(const ChannelProgram* selected, int64_t us) {
   fresh_ = false;
   handover_.dropStrobes();
   set(signals_.partsDone, false);
+  const uint32_t asked = links_.signals.wordOf(signals_.startRequest, channel_);
+  const uint32_t options = links_.signals.wordOf(signals_.singleBlock, channel_);
   followMachine();
-  followModes();
-  followToggles();
-  followConditions();
-  followStop();
-  followStart();
+  followModes(asked);
+  followToggles(options);
+  followConditions(asked, options);
+  followStop(asked);
+  followStart(asked);
+  askedBefore_ = asked;
+  optionsBefore_ = options;
   run().motion.cycle(start_, us);
   countTime(us);
   advance();
@@ -219,18 +220,18 @@ void Channel::countTime(int64_t us) const {
 }
 
 void Channel::showState() {
-  for (uint32_t i = 0; i < kModes; ++i) set(signals_.mode[i], static_cast<uint32_t>(mode_) == i);
-  for (uint32_t i = 0; i < kToggles; ++i) set(signals_.toggle[i], toggles_[i]);
-  set(signals_.start, start_);
-  set(signals_.stop, stop_);
-  set(signals_.interrupted, interrupted_);
-  set(signals_.restart, restart_);
-  set(signals_.returning, return_);
-  set(signals_.buffered, mode_ == Mode::Mdi || program() != nullptr); // l.9543-9547
-  set(signals_.waiting, run().waiting >= 0);
-  const bool moves = links_.signals.get(signals_.feedOverride, channel_) != 0;
-  set(signals_.stopped, !start_ || !moves);
-  set(signals_.empty, !running() || !run().motion.moving());
+  const SignalMemory& signals = links_.signals;
+  const ChannelSignals& s = signals_;
+  uint32_t state = s.mode[static_cast<size_t>(mode_)].mask() | s.start.as(start_) | s.stop.as(stop_) |
+                   s.restart.as(restart_) | s.returning.as(return_);
+  for (uint32_t i = 0; i < kToggles; ++i) state |= s.toggle[i].as(toggles_[i]);
+  signals.setBits(s.start, channel_, s.stateBits, state);
+  signals.setBits(s.interrupted, channel_, s.runBits,
+                  s.interrupted.as(interrupted_) | s.waiting.as(run().waiting >= 0) |
+                      s.buffered.as(mode_ == Mode::Mdi || program() != nullptr)); // l.9543-9547
+  const bool moves = signals.get(s.feedOverride, channel_) != 0;
+  signals.setBits(s.stopped, channel_, s.motionBits,
+                  s.stopped.as(!start_ || !moves) | s.empty.as(!running() || !run().motion.moving()));
 }
 
 } // namespace rung::sim::nct

@@ -65,15 +65,15 @@ private:
   bool on(uint32_t toggle) const { return toggles_[toggle]; }
   bool locked() const { return on(0) || on(1); } // test, machine lock
   bool functionsLocked() const { return locked() || on(3); }
-  bool rising(const BitSignal& signal, bool& before) const;
 
+  // By the words of its requests, that of CP_START and that of CP_SGLBK.
   void followMachine();
-  void followModes();
+  void followModes(uint32_t asked);
   void changeMode(Mode mode);
-  void followToggles();
-  void followConditions();
-  void followStop();
-  void followStart();
+  void followToggles(uint32_t asked);
+  void followConditions(uint32_t asked, uint32_t options);
+  void followStop(uint32_t asked);
+  void followStart(uint32_t asked);
   const ChannelProgram* program() const;
   void goOn();  // after an interruption
   void leave(); // what runs, by a change of the mode or an emergency stop
@@ -107,9 +107,7 @@ private:
   Mode mode_ = Mode::Jog;
   Mode wanted_ = Mode::Jog;
   std::array<bool, kToggles> toggles_{};
-  std::array<bool, kModes> modeBefore_{};
-  std::array<bool, kToggles> toggleBefore_{};
-  bool startBefore_ = false;
+  uint32_t askedBefore_ = 0, optionsBefore_ = 0; // words of requests
   bool machineOn_ = false;
   bool start_ = false, stop_ = false, interrupted_ = false;
   bool restart_ = false, return_ = false;

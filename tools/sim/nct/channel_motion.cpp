@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/sim/nct/axes.h"
+#include "tools/sim/nct/bits.h"
 #include "tools/sim/nct/macros.h"
 #include "tools/sim/nct/spindles.h"
 
@@ -16,12 +17,6 @@ constexpr double kLeastFeed = 1e-9; // 0 would be rapid traverse
 constexpr double kMinuteUs = 60e6;
 
 bool isDrilling(int motion) { return motion == 740 || motion == 840 || motion == 842 || motion == 843; }
-
-template <class Visit>
-void forAxes(uint32_t axes, Visit visit) {
-  for (uint32_t axis = 0; axis < nc::nct::kAxes; ++axis)
-    if ((axes >> axis & 1) != 0) visit(axis);
-}
 
 } // namespace
 
@@ -173,7 +168,7 @@ void ChannelMotion::plan(const Words& words) {
   if (words.reference) { // over the point of the block to the first reference position
     add(words.axes, words.target, kReference);
     Position home = words.target;
-    forAxes(words.axes, [&](uint32_t axis) { home[axis] = links_.parameters->real(parameters_.reference1, axis); });
+    forBits(words.axes, [&](uint32_t axis) { home[axis] = links_.parameters->real(parameters_.reference1, axis); });
     return add(words.axes, home, kReference);
   }
   if (words.skip) return add(words.axes, words.target, kFeed | kSkip | (check ? kExact : 0));
@@ -211,7 +206,7 @@ void ChannelMotion::planDrilling(const Words& words) {
 
 double ChannelMotion::way(const Waypoint& waypoint) const {
   double sum = 0;
-  forAxes(waypoint.axes, [&](uint32_t axis) {
+  forBits(waypoint.axes, [&](uint32_t axis) {
     const double part = waypoint.target[axis] - (locked_ ? blockStart_[axis] : links_.axes->machinePosition(axis));
     sum += part * part;
   });
@@ -231,7 +226,7 @@ double ChannelMotion::feed() const {
 
 void ChannelMotion::command(const Waypoint& waypoint) const {
   const double length = way(waypoint);
-  forAxes(waypoint.axes, [&](uint32_t axis) {
+  forBits(waypoint.axes, [&](uint32_t axis) {
     const double part = std::abs(waypoint.target[axis] - links_.axes->machinePosition(axis));
     if (part < kNear) return;
     const double speed =
@@ -256,7 +251,7 @@ void ChannelMotion::start() {
 bool ChannelMotion::arrived(const Waypoint& waypoint) const {
   if (locked_) return restUs_ <= 0;
   bool there = true;
-  forAxes(waypoint.axes, [&](uint32_t axis) { there = there && !links_.axes->moving(axis); });
+  forBits(waypoint.axes, [&](uint32_t axis) { there = there && !links_.axes->moving(axis); });
   return there;
 }
 
@@ -317,24 +312,18 @@ void ChannelMotion::resume(bool toStart, bool toInterruption) {
 
 void ChannelMotion::showSignals() const {
   const SignalMemory& signals = links_.signals;
+  const ChannelSignals& s = signals_;
   const uint32_t flags = under();
-  const auto show = [&](const BitSignal& signal, bool value) { signals.set(signal, channel_, value); };
-  show(signals_.feedRequest, (flags & kFeed) != 0);
-  show(signals_.overrideDisabled, overrideDisabled());
-  show(signals_.thread, (flags & kThread) != 0);
-  show(signals_.threadCycle, (flags & kThreadCycle) != 0);
-  show(signals_.tapping, (flags & kTap) != 0 && (flags & kRigid) == 0);
-  show(signals_.rigidTapping, (flags & kRigid) != 0);
-  show(signals_.reference, (flags & kReference) != 0);
-  show(signals_.skip, (flags & kSkip) != 0);
-  show(signals_.dwell, dwellUs_ > 0);
-  show(signals_.perTurn, modes_.perTurn && (flags & kFeed) != 0);
-  show(signals_.inPositionCheck, checking_);
-  show(signals_.surfaceSpeed, surface_);
-  show(signals_.polygon, polygon_);
-  show(signals_.inch, modes_.inch);
-  show(signals_.highSpeed, highSpeed_);
-  show(signals_.gearBox, gearBox_);
+  const auto is = [&](uint32_t flag) { return (flags & flag) != 0; };
+  signals.setBits(s.feedRequest, channel_, s.pathBits,
+                  s.feedRequest.as(is(kFeed)) | s.overrideDisabled.as(overrideDisabled()) | s.thread.as(is(kThread)) |
+                      s.threadCycle.as(is(kThreadCycle)) | s.tapping.as(is(kTap) && !is(kRigid)) |
+                      s.rigidTapping.as(is(kRigid)) | s.reference.as(is(kReference)) | s.skip.as(is(kSkip)) |
+                      s.dwell.as(dwellUs_ > 0) | s.perTurn.as(modes_.perTurn && is(kFeed)) |
+                      s.inPositionCheck.as(checking_));
+  signals.setBits(s.surfaceSpeed, channel_, s.modalBits,
+                  s.surfaceSpeed.as(surface_) | s.polygon.as(polygon_) | s.inch.as(modes_.inch) |
+                      s.highSpeed.as(highSpeed_) | s.gearBox.as(gearBox_));
   if (surface_) showSurfaceSpeed();
 }
 

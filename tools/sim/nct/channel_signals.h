@@ -45,6 +45,17 @@ struct ChannelSignals {
   BitSignal highSpeed{"CN_HSHP"}, gearBox{"CN_EGBMD"}, partsDone{"CN_WPCNT"};
   RealSignal feedOverride{"CP_FOVER"};
   WordSignal machiningSpindle{"CP_SINP"}, surfaceSpindle{"CN_CTSPN"}, speedLimit{"CN_NMAX"};
+
+  // Bits of one word that are looked at or written together.
+  uint32_t modeRequests = BitSignal::masks(modeRequest), toggleRequests = BitSignal::masks(toggleRequest),
+           conditions = BitSignal::masks(toolMode) | BitSignal::masks({wheelOffset, misaligned});
+  uint32_t pathBits = BitSignal::masks({feedRequest, overrideDisabled, thread, threadCycle, tapping, rigidTapping,
+                                        reference, skip, dwell, perTurn, inPositionCheck}),
+           modalBits = BitSignal::masks({surfaceSpeed, polygon, inch, highSpeed, gearBox}),
+           stateBits =
+               BitSignal::masks(mode) | BitSignal::masks(toggle) | BitSignal::masks({start, stop, restart, returning}),
+           runBits = BitSignal::masks({interrupted, buffered, waiting}),
+           motionBits = BitSignal::masks({stopped, empty});
 };
 
 struct ChannelParameters {

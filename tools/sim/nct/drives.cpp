@@ -36,6 +36,13 @@ bool Drives::addressed(uint32_t drive) const {
   return false;
 }
 
+void Drives::readAddresses() {
+  if (revision_ == links().parameters->revision()) return;
+  revision_ = links().parameters->revision();
+  for (uint32_t i = 0; i < kDrives; ++i) addressed_[i] = addressed(i + 1);
+  seen_.forget();
+}
+
 double Drives::speed(uint32_t drive) const {
   const Parameters& parameters = *links().parameters;
   for (uint32_t i = 0; i < nc::nct::kAxes; ++i)
@@ -85,17 +92,20 @@ std::optional<int32_t> Drives::service(uint32_t, Block& block) {
 
 // The drive is enabled while DP_ENA1=0 and DP_ENA2=1 (l.7240-7250); an error takes DN_RDY away until DP_ERRCLR.
 void Drives::timeSlice() {
+  readAddresses();
   const SignalMemory& signals = links().signals;
+  if (seen_.areSame(signals)) return;
   for (uint32_t i = 0; i < kDrives; ++i) {
     Drive& drive = drives_[i];
-    if (drive.errors != 0 && signals.get(clearError_, i)) drive.errors = 0;
-    const bool ready = drive.errors == 0 && addressed(i + 1);
+    const uint32_t asked = signals.wordOf(enable1_, i);
+    if (clearError_.in(asked)) drive.errors = 0;
+    const bool ready = drive.errors == 0 && addressed_[i];
     signals.set(errors_, i, static_cast<int32_t>(drive.errors));
-    signals.set(ready_, i, ready);
-    signals.set(enabled_, i, ready && !signals.get(enable1_, i) && signals.get(enable2_, i));
-    signals.set(activeTable1_, i, signals.get(table1_, i));
-    signals.set(activeTable2_, i, signals.get(table2_, i));
+    signals.setBits(ready_, i, written_,
+                    ready_.as(ready) | enabled_.as(ready && !enable1_.in(asked) && enable2_.in(asked)) |
+                        activeTable1_.as(table1_.in(asked)) | activeTable2_.as(table2_.in(asked)));
   }
+  seen_.see(signals);
 }
 
 Handled Drives::event(std::string_view name, const std::vector<NcArgument>& keys) {
@@ -106,6 +116,7 @@ Handled Drives::event(std::string_view name, const std::vector<NcArgument>& keys
   if (address < 1 || address > kDrives || error < 0 || error > 0xFFFFFFFF)
     return "event drive takes address=1 to 48 and error=BITS of DN_ERR";
   drives_[static_cast<size_t>(address) - 1].errors = error == 0 ? 0 : static_cast<uint32_t>(error) | 1; // DN_ERROR
+  seen_.forget();
   return "";
 }
 
@@ -115,6 +126,9 @@ std::optional<double> Drives::quantity(std::string_view name) const {
   return datum((*key)[0], (*key)[1]);
 }
 
-void Drives::powerOn(nc::PowerOn) { drives_ = {}; }
+void Drives::powerOn(nc::PowerOn) {
+  drives_ = {};
+  seen_.forget();
+}
 
 } // namespace rung::sim::nct

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tools/sim/nct/parameters.h"
+#include "tools/sim/nct/seen_signals.h"
 #include "tools/sim/nct/topic.h"
 
 namespace rung::sim::nct {
@@ -32,10 +33,14 @@ private:
     std::array<bool, kDriveData> isGiven{};
     uint32_t errors = 0; // DN_ERR
   };
+  void readAddresses();
   bool addressed(uint32_t drive) const;
   double speed(uint32_t drive) const;
 
   std::array<Drive, kDrives> drives_{};
+  std::array<bool, kDrives> addressed_{}; // by the parameters of `revision_`
+  uint32_t revision_ = 0;
+  SeenSignals seen_{WordSignal("DP_CTRL"), WordSignal("DN_STAT"), WordSignal("DN_ERR")};
   ParameterPlace axisAddress_{501};
   ParameterPlace spindleAddress_{601};
   BitSignal enable1_{"DP_ENA1"};
@@ -48,6 +53,7 @@ private:
   BitSignal activeTable1_{"DN_PRM1"};
   BitSignal activeTable2_{"DN_PRM2"};
   WordSignal errors_{"DN_ERR"};
+  uint32_t written_ = BitSignal::masks({enabled_, ready_, activeTable1_, activeTable2_});
 };
 
 } // namespace rung::sim::nct

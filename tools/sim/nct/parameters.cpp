@@ -54,13 +54,17 @@ void Parameters::setInitial(uint32_t number, uint32_t index, double value) {
 
 uint32_t Parameters::checksum() const { return nct::checksum(std::span<const double>(values_)); }
 
-void Parameters::changed() { checksum_ = checksum(); }
+void Parameters::changed() {
+  checksum_ = checksum();
+  ++revision_;
+}
 
 void Parameters::powerOn(nc::PowerOn kind) {
   if (kind == nc::PowerOn::Cold) {
     values_ = initial_;
     changed();
   }
+  ++revision_; // what was kept may have come back
   writeConstants();
 }
 

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/sim/nct/bits.h"
+
 namespace rung::sim::nct {
 namespace {
 
 constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
+constexpr uint32_t kAll = (uint32_t{1} << nc::nct::kSpindles) - 1;
 
 } // namespace
 
@@ -49,11 +52,12 @@ uint32_t Spindles::gear(uint32_t spindle) const {
   return range >= 11 && range <= 18 ? static_cast<uint32_t>(range) - 11 : 0;
 }
 
-Spindles::Order Spindles::orderOf(uint32_t spindle) const {
-  if (get(signals_.start, spindle)) return Order::Rotate;
-  if (get(signals_.orient, spindle)) return Order::Orient;
-  if (get(signals_.synchronise, spindle)) return Order::Synchronise;
-  return get(signals_.closeLoop, spindle) ? Order::CloseLoop : Order::None;
+Spindles::Order Spindles::orderOf(uint32_t asked) const {
+  if (!signals_.enable.in(asked)) return Order::None;
+  if (signals_.start.in(asked)) return Order::Rotate;
+  if (signals_.orient.in(asked)) return Order::Orient;
+  if (signals_.synchronise.in(asked)) return Order::Synchronise;
+  return signals_.closeLoop.in(asked) ? Order::CloseLoop : Order::None;
 }
 
 // SN_NCOM's rules (l.9212-9220), but for constant surface speed, which the program copies to SP_PRG.
@@ -80,9 +84,8 @@ bool Spindles::ramp(uint32_t spindle, double target) {
 
 // ---- orders ------------------------------------------------------------------------------------------------------
 
-void Spindles::step(uint32_t spindle) {
+void Spindles::step(uint32_t spindle, Order order) {
   Spindle& state = spindles_[spindle];
-  const Order order = get(signals_.enable, spindle) ? orderOf(spindle) : Order::None;
   if (order != state.order) {
     state.positioning = state.oriented = state.synchronised = false;
     state.order = order;
@@ -158,7 +161,6 @@ void Spindles::synchronise(uint32_t spindle) {
     return turn(spindle);
   }
   Spindle& leader = spindles_[other];
-  leader.masterOf = true;
   leader.closed = true;
   state.closed = true;
   const double direction = get(signals_.negative, spindle) ? -1 : 1;
@@ -186,13 +188,30 @@ void Spindles::turn(uint32_t spindle) {
 
 // Masters turn before their slaves, so that a slave follows the speed of this time slice.
 void Spindles::timeSlice() {
-  for (Spindle& state : spindles_) state.masterOf = false;
-  for (const bool slaves : {false, true})
-    for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) {
-      const bool slave = get(signals_.enable, i) && orderOf(i) == Order::Synchronise;
-      if (slave == slaves && exists(i)) step(i);
-    }
-  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) writeSignals(i);
+  const uint32_t there = existing();
+  uint32_t slaves = 0;
+  forBits(there, [&](uint32_t i) {
+    const Order order = orderOf(links().signals.wordOf(signals_.enable, i));
+    if (order == Order::Synchronise)
+      slaves |= uint32_t{1} << i;
+    else
+      step(i, order);
+  });
+  forBits(slaves, [&](uint32_t i) { step(i, Order::Synchronise); });
+  writeSignals(there);
+}
+
+uint32_t Spindles::existing() {
+  const Parameters& parameters = *links().parameters;
+  if (revision_ != parameters.revision()) {
+    revision_ = parameters.revision();
+    configured_ = 0;
+    for (uint32_t i = 0; i < nc::nct::kSpindles; ++i)
+      configured_ |= uint32_t{parameters.bit(parameters_.config, 0, i)} << i;
+  }
+  uint32_t there = configured_;
+  forBits(configured_, [&](uint32_t i) { there &= ~(uint32_t{spindles_[i].detached} << i); });
+  return there;
 }
 
 void Spindles::cycle() {
@@ -209,9 +228,20 @@ void Spindles::cycle() {
   }
 }
 
-void Spindles::writeSignals(uint32_t i) {
+void Spindles::writeSignals(uint32_t there) const {
+  const SignalMemory& signals = links().signals;
+  forBits(there, [&](uint32_t i) { writeSpindle(i); });
+  forBits(~there & kAll, [&](uint32_t i) {
+    signals.setBits(signals_.ramped, i, signals_.written, 0);
+    signals.set(signals_.command, i, 0);
+    signals.set(signals_.actual, i, 0);
+  });
+}
+
+void Spindles::writeSpindle(uint32_t i) const {
+  const SignalMemory& signals = links().signals;
   const Spindle& state = spindles_[i];
-  const bool there = exists(i);
+  const uint32_t asked = signals.wordOf(signals_.enable, i);
   const uint32_t range = gear(i);
   const double window = real(parameters_.inPosition[range], i);
   const double deviation = std::abs(state.speed - state.set);
@@ -221,25 +251,21 @@ void Spindles::writeSignals(uint32_t i) {
                                       real(parameters_.fluctuationWindow, i));
   const bool ramped = std::abs(state.command - state.set) < kNear;
   const double angle = real(parameters_.basicAngle, i) / 360;
-  put(signals_.ramped, i, there && ramped);
-  put(signals_.atSpeed, i, there && deviation <= tolerance);
-  put(signals_.stopped, i, there && std::abs(state.speed) <= real(parameters_.zeroWindow, i));
-  put(signals_.fluctuating, i, there && ramped && deviation > fluctuation);
-  put(signals_.loopClosed, i, there && state.closed);
-  put(signals_.oriented, i, there && state.closed && state.oriented);
   const bool held = state.closed && (state.oriented || state.order == Order::CloseLoop);
-  put(signals_.inPosition, i, there && (held || state.synchronised));
-  put(signals_.synchronised, i, there && state.synchronised);
-  put(signals_.phaseShifted, i, there && state.synchronised && get(signals_.shiftPhase, i));
-  put(signals_.wantsPositive, i, there && state.wantsPositive);
-  put(signals_.wantsNegative, i, there && state.wantsNegative);
-  put(signals_.wantsRapid, i, false);
-  put(signals_.alarm, i, there && state.alarm);
-  put(signals_.referenced, i, there && state.referenced);
-  put(signals_.atIndex, i, there && angle > 0 && std::abs(std::remainder(state.position, angle)) < window);
-  const bool rotating = get(signals_.start, i);
-  links().signals.set(signals_.command, i, there && rotating ? static_cast<int32_t>(std::lround(state.command)) : 0);
-  links().signals.set(signals_.actual, i, there ? static_cast<int32_t>(std::lround(state.speed)) : 0);
+  const bool atIndex = angle > 0 && std::abs(std::remainder(state.position, angle)) < window;
+  signals.setBits(
+      signals_.ramped, i, signals_.written,
+      signals_.ramped.as(ramped) | signals_.atSpeed.as(deviation <= tolerance) |
+          signals_.stopped.as(std::abs(state.speed) <= real(parameters_.zeroWindow, i)) |
+          signals_.fluctuating.as(ramped && deviation > fluctuation) | signals_.loopClosed.as(state.closed) |
+          signals_.oriented.as(state.closed && state.oriented) | signals_.inPosition.as(held || state.synchronised) |
+          signals_.synchronised.as(state.synchronised) |
+          signals_.phaseShifted.as(state.synchronised && signals_.shiftPhase.in(asked)) |
+          signals_.wantsPositive.as(state.wantsPositive) | signals_.wantsNegative.as(state.wantsNegative) |
+          signals_.alarm.as(state.alarm) | signals_.referenced.as(state.referenced) | signals_.atIndex.as(atIndex));
+  const bool rotating = signals_.start.in(asked);
+  signals.set(signals_.command, i, rotating ? static_cast<int32_t>(std::lround(state.command)) : 0);
+  signals.set(signals_.actual, i, static_cast<int32_t>(std::lround(state.speed)));
 }
 
 void Spindles::powerOn(nc::PowerOn kind) {
@@ -249,7 +275,7 @@ void Spindles::powerOn(nc::PowerOn kind) {
     if (kind == nc::PowerOn::Warm) state.position = position;
     state.referenced = absolute_;
   }
-  for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) writeSignals(i);
+  writeSignals(existing());
 }
 
 void Spindles::keep(Kept& kept) {

@@ -25,6 +25,10 @@ struct SpindleSignals {
   BitSignal wantsPositive{"SN_SMTNRP"}, wantsNegative{"SN_SMTNRN"}, wantsRapid{"SN_SRAPR"};
   BitSignal detached{"SN_SDETCHA"}, alarm{"SN_SALM"}, referenced{"SN_RPE"}, atIndex{"SN_SINDP"};
   WordSignal command{"SN_NCOM"}, actual{"SN_NACT"};
+  // What every time slice writes of the word of SN_RMPD.
+  uint32_t written =
+      BitSignal::masks({ramped, atSpeed, stopped, fluctuating, loopClosed, oriented, inPosition, synchronised,
+                        phaseShifted, wantsPositive, wantsNegative, wantsRapid, alarm, referenced, atIndex});
 };
 
 struct SpindleParameters {
@@ -89,7 +93,6 @@ private:
     bool positioning = false;
     bool oriented = false;
     bool synchronised = false;
-    bool masterOf = false; // a slave is coupled to it
     bool referenced = true;
     bool detached = false;
     bool alarm = false;
@@ -98,16 +101,18 @@ private:
   };
 
   void number(uint32_t count);
-  Order orderOf(uint32_t spindle) const;
+  Order orderOf(uint32_t asked) const; // by the word of its requests
   uint32_t gear(uint32_t spindle) const;
   double rotationSpeed(uint32_t spindle) const;
   bool ramp(uint32_t spindle, double target); // true: it is there
-  void step(uint32_t spindle);
+  void step(uint32_t spindle, Order order);
   void orient(uint32_t spindle);
   double orientationWay(uint32_t spindle) const;
   void synchronise(uint32_t spindle);
   void turn(uint32_t spindle);
-  void writeSignals(uint32_t spindle);
+  uint32_t existing();                     // a bit each
+  void writeSignals(uint32_t there) const; // of all, where these exist
+  void writeSpindle(uint32_t spindle) const;
   double fraction(uint32_t spindle) const;
   double seconds() const { return static_cast<double>(links().sliceUs) * 1e-6; }
   bool get(const BitSignal& signal, uint32_t spindle) const { return links().signals.get(signal, spindle); }
@@ -118,6 +123,8 @@ private:
   bool absolute_ = true;
   SpindleSignals signals_;
   SpindleParameters parameters_;
+  uint32_t configured_ = 0; // N0607 #0, a bit each, by the parameters of `revision_`
+  uint32_t revision_ = 0;
 };
 
 } // namespace rung::sim::nct

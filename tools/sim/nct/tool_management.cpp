@@ -88,16 +88,16 @@ void ToolManagement::cycle() {
   const SignalMemory& signals = links().signals;
   const bool operates = managed();
   for (uint32_t i = 0; i < nc::nct::kSpindles; ++i) {
+    const uint32_t answers = signals.wordOf(signals_.individualDone, i);
     const ToolRequests& requests = life_.cycle(i,
-                                               {.individualDone = signals.get(signals_.individualDone, i),
-                                                .groupDone = signals.get(signals_.groupDone, i),
-                                                .skip = signals.get(signals_.skip, i),
-                                                .countDisabled = signals.get(signals_.countDisabled, i)},
+                                               {.individualDone = signals_.individualDone.in(answers),
+                                                .groupDone = signals_.groupDone.in(answers),
+                                                .skip = signals_.skip.in(answers),
+                                                .countDisabled = signals_.countDisabled.in(answers)},
                                                operates);
-    signals.set(signals_.individual, i, requests.individual);
-    signals.set(signals_.group, i, requests.group);
-    signals.set(signals_.skipDone, i, requests.skipDone);
-    signals.set(signals_.notice, i, requests.notice);
+    signals.setBits(signals_.individual, i, signals_.requests,
+                    signals_.individual.as(requests.individual) | signals_.group.as(requests.group) |
+                        signals_.skipDone.as(requests.skipDone) | signals_.notice.as(requests.notice));
   }
   showBusy();
 }

@@ -27,6 +27,7 @@ struct ToolSignals {
   BitSignal groupDone{"SP_TLCHA"};
   BitSignal skip{"SP_TLSKP"};
   BitSignal countDisabled{"SP_TLCD"};
+  uint32_t requests = BitSignal::masks({individual, group, skipDone, notice});
 };
 
 class ToolManagement final : public Topic {

@@ -26,6 +26,9 @@ public:
   void take(std::span<const control_files::ConnectionDefinition> connections,
             std::span<const control_files::TerminalDefinition> terminals);
 
+  // Something is: without it nothing is ever connected, whatever the program declares.
+  bool configured() const { return !connections_.empty() || !attributes_.empty(); }
+
   // ---- at a start
   // What the program may see while it starts: ANALOG_CONNECTED.
   void preset(host::Instance& instance) const;

@@ -36,6 +36,11 @@ void Exchange::programChanged(host::Instance& instance) {
   afterInit(instance);
 }
 
+uint32_t Exchange::works() const {
+  constexpr uint32_t kPorts = 1u << nc::kHookBeforeInput | 1u << nc::kHookAfterMain;
+  return connections_.configured() ? kPorts | 1u << nc::kHookFast | 1u << nc::kHookFastest : kPorts;
+}
+
 void Exchange::onHook(host::Instance& instance, uint32_t hook) {
   if (defined_) afterInit(instance); // by a procedure that runs outside MODULE_INIT
   switch (hook) {

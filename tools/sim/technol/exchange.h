@@ -30,7 +30,8 @@ public:
   // it. Variables that it does not have are dropped, with the connections that end there; module cells and forced ports
   // stay as they are.
   void programChanged(host::Instance& instance);
-  // Hooks of the schedule.
+  // Hooks of the schedule, and those that have something to do, a bit each; configuring may change them.
+  uint32_t works() const;
   void onHook(host::Instance& instance, uint32_t hook);
   void beforeWrite(host::Instance& instance, const host::Ref& place) { ports_.beforeWrite(instance, place); }
   // The services kDefineService and kUpdateService; false: another one.

@@ -99,14 +99,15 @@ bool Ports::anySwitch(const host::Instance& instance) const {
   const uint8_t* block = instance.block().data();
   for (const Span& span : switches_) {
     const uint8_t* at = block + span.offset;
+    uint64_t any = 0;
     uint32_t left = span.size;
-    for (; left >= 8; left -= 8, at += 8) {
+    for (; left >= 8; left -= 8, at += 8) { // without a way out, so that the compiler takes several at once
       uint64_t word = 0;
       std::memcpy(&word, at, 8);
-      if (word != 0) return true;
+      any |= word;
     }
-    for (; left > 0; --left, ++at)
-      if (*at != 0) return true;
+    for (; left > 0; --left, ++at) any |= *at;
+    if (any != 0) return true;
   }
   return false;
 }

@@ -32,8 +32,10 @@ public:
     exchange_.beforeInit(instance, true);
     control_.start(instance);
     exchange_.afterInit(instance);
+    instance.worksChanged();
   }
 
+  uint32_t works() const override { return control_.works() | exchange_.works(); }
   void onHook(host::Instance& instance, uint32_t work) override {
     if (work != nc::kHookAfterInput) exchange_.onHook(instance, work);
     control_.onHook(instance, work);

@@ -43,6 +43,9 @@ void GskAxisGroups::step(const SignalsIo& io, Mover& mover, uint8_t served, bool
 // EAX may change only while *EAXSL is 0, and not under the CNC's own motion (l.7817).
 void GskAxisGroups::assign(const SignalsIo& io, Mover& mover, uint8_t served) {
   const uint8_t wanted = io.gByte(kSelection);
+  uint8_t held = 0;
+  for (const Group& group : groups_) held = static_cast<uint8_t>(held | group.axes);
+  if (wanted == held) return;
   for (uint32_t i = 0; i < kAxes; ++i) {
     const int bit = 1 << i;
     const bool give = (wanted & bit) != 0;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 
+#include "rtlib/core/bits.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/text/number.h"
@@ -33,15 +34,36 @@ struct GskPlaces final : Places {
     messageBytes = std::min(space.byte_count, kMostMessageBytes);
     for (const rung_range& range : std::span(space.ranges, space.range_count)) {
       if (range.first_byte >= messageBytes) break;
-      const uint32_t bytes = std::min(range.byte_count, messageBytes - range.first_byte);
-      pieces.push_back({range.offset, bytes * (range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1)});
+      pieces.push_back({.first = range.first_byte,
+                        .count = std::min(range.byte_count, messageBytes - range.first_byte),
+                        .offset = range.offset,
+                        .expanded = range.repr == RUNG_REPR_BYTE_PER_BIT});
     }
   }
   gsk::Areas areas;
   uint32_t messages;
   uint32_t messageBytes = 0;
-  std::vector<rung_span> pieces; // of the memory block
+  std::vector<gsk::MessageBytes> pieces;
 };
+
+// Calls see(number) for each message whose bit is 1, in their order, until it gives false. Nearly all bits are 0: eight
+// bytes of the block are looked at together.
+template <class See>
+bool forShown(const uint8_t* block, std::span<const gsk::MessageBytes> pieces, See see) {
+  constexpr uint32_t kWord = sizeof(uint64_t);
+  for (const gsk::MessageBytes& piece : pieces) {
+    const uint32_t size = piece.size();
+    for (uint32_t at = 0; at < size; at += kWord) {
+      uint64_t bits = 0;
+      std::memcpy(&bits, block + piece.offset + at, std::min(kWord, size - at));
+      if (bits == 0) continue;
+      if (piece.expanded) bits = rt::packBits(block + piece.offset + at);
+      for (uint32_t number = 8 * (piece.first + (piece.expanded ? at / 8 : at)) + 1; bits != 0; bits &= bits - 1)
+        if (!see(number + static_cast<uint32_t>(std::countr_zero(bits)))) return false;
+    }
+  }
+  return true;
+}
 
 } // namespace
 
@@ -73,18 +95,18 @@ void GskControl::prepare(host::Instance& instance, PowerOn kind) {
 
 bool GskControl::isAsSeen(const uint8_t* block) const noexcept {
   const uint8_t* seen = seen_.data();
-  for (const rung_span& piece : messagePieces_) {
-    if (std::memcmp(block + piece.offset, seen, piece.size) != 0) return false;
-    seen += piece.size;
+  for (const gsk::MessageBytes& piece : messagePieces_) {
+    if (std::memcmp(block + piece.offset, seen, piece.size()) != 0) return false;
+    seen += piece.size();
   }
   return hasSeen_;
 }
 
 void GskControl::see(const uint8_t* block) noexcept {
   uint8_t* seen = seen_.data();
-  for (const rung_span& piece : messagePieces_) {
-    std::memcpy(seen, block + piece.offset, piece.size);
-    seen += piece.size;
+  for (const gsk::MessageBytes& piece : messagePieces_) {
+    std::memcpy(seen, block + piece.offset, piece.size());
+    seen += piece.size();
   }
   hasSeen_ = true;
 }
@@ -107,17 +129,18 @@ bool GskControl::nextChange(const host::Instance& instance, rung_message& messag
 
 std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) const {
   std::vector<ShownMessage> shown;
-  const uint32_t area = host::findSpace(instance.program(), "A");
-  if (area == RUNG_NONE) return shown;
-  for (uint32_t byte = 0; byte < instance.program().spaces[area].byte_count; ++byte) {
-    const uint8_t bits = instance.memory().readByte(area, byte);
-    for (uint32_t bit = 0; bit < 8; ++bit) {
-      if ((bits >> bit & 1) == 0) continue;
-      const uint32_t number = 8 * byte + bit + 1;
-      shown.push_back({number, 0, 0, 0, false, std::string(host::messageText(instance.program(), number))});
-    }
-  }
+  forShown(instance.block().data(), messagePieces_, [&](uint32_t number) {
+    shown.push_back({number, 0, 0, 0, false, std::string(host::messageText(instance.program(), number))});
+    return true;
+  });
   return shown;
+}
+
+bool GskControl::shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept {
+  size_t count = 0;
+  return forShown(instance.block().data(), messagePieces_,
+                  [&](uint32_t number) { return count < these.size() && these[count++].number == number; }) &&
+         count == these.size();
 }
 
 namespace {

@@ -10,6 +10,19 @@
 
 namespace rung::nc {
 
+namespace gsk {
+
+// Bytes of the A area that follow each other, and where they lie in the memory block.
+struct MessageBytes {
+  uint32_t first = 0, count = 0;
+  uint32_t offset = 0;
+  bool expanded = false; // a byte of the block for each bit
+
+  uint32_t size() const noexcept { return expanded ? 8 * count : count; } // in the block
+};
+
+} // namespace gsk
+
 class GskControl final : public Control {
 public:
   static constexpr uint32_t kMostMessageBytes = 256; // of the A area
@@ -18,6 +31,7 @@ public:
   std::unique_ptr<Places> locate(const rung_program& program) const override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
   std::vector<ShownMessage> messages(const host::Instance& instance) const override;
+  bool shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept override;
   bool nextChange(const host::Instance& instance, rung_message& message) noexcept override;
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
@@ -28,6 +42,8 @@ public:
     if (axes_.any() && io_) axes_.step(*io_, instance.services());
   }
   const char* ownService() const override { return gsk::kAxisRequest; }
+  // The areas of the program that runs now; null before there is one.
+  const gsk::SignalsIo* signals() const { return io_ ? &*io_ : nullptr; }
 
 protected:
   void usePlaces(host::Instance& instance, Places& places) noexcept override;
@@ -44,7 +60,7 @@ private:
   uint32_t messageArea_ = RUNG_NONE;
   uint32_t messageBytes_ = 0;
   std::array<uint8_t, kMostMessageBytes> known_{};            // bits of the A area that the host knows of
-  std::span<const rung_span> messagePieces_;                  // of the memory block, in the places
+  std::span<const gsk::MessageBytes> messagePieces_;          // in the places
   std::array<uint8_t, size_t{8} * kMostMessageBytes> seen_{}; // their bytes
   bool hasSeen_ = false;
 };

@@ -126,13 +126,28 @@ void Messages::dropUnwanted() {
   changed_ = true;
 }
 
+namespace {
+
+ShownMessage withoutText(const rung_message& m) {
+  return {
+      .number = m.number, .channel = m.channel, .index = m.index, .value = m.value, .real = m.real != 0, .text = {}};
+}
+
+} // namespace
+
 std::vector<ShownMessage> Messages::shown(const rung_program& program) const {
   std::vector<ShownMessage> out;
   for (const Entry& entry : list_) {
-    const rung_message& m = entry.message;
-    out.push_back({m.number, m.channel, m.index, m.value, m.real != 0, filled(program, m)});
+    out.push_back(withoutText(entry.message));
+    out.back().text = filled(program, entry.message);
   }
   return out;
+}
+
+bool Messages::shows(std::span<const ShownMessage> these) const noexcept {
+  return std::ranges::equal(list_, these, [](const Entry& entry, const ShownMessage& other) {
+    return other.isSameButText(withoutText(entry.message));
+  });
 }
 
 // ---- operator ----------------------------------------------------------------------------------------------------

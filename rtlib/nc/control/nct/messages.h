@@ -56,6 +56,7 @@ public:
   void endCycle();
 
   std::vector<ShownMessage> shown(const rung_program& program) const;
+  bool shows(std::span<const ShownMessage> these) const noexcept;
 
 private:
   uint32_t cells() const { return static_cast<uint32_t>(cells_.size() / (size_t{kMessageWords} * 4)); }

@@ -28,6 +28,9 @@ public:
   std::vector<ShownMessage> messages(const host::Instance& instance) const override {
     return messages_.shown(instance.program());
   }
+  bool shows(const host::Instance&, std::span<const ShownMessage> these) const noexcept override {
+    return messages_.shows(these);
+  }
   // The number is the code of 8 digits; the text has its numbers filled in.
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;

@@ -23,6 +23,7 @@ void NctFunctions::issue(const nct::SignalMemory& signals, uint32_t line, int32_
 }
 
 void NctFunctions::dropStrobes(const nct::SignalMemory& signals) {
+  if (strobes_ == 0) return;
   for (uint32_t line = 0; line < kLines; ++line)
     if ((strobes_ >> line & 1) != 0) signals.set(strobe_[line], channel_, false);
   strobes_ = 0;

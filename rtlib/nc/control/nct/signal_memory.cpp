@@ -18,6 +18,15 @@ SignalPlace::SignalPlace(std::string_view name) {
   bit_ = found->bit;
 }
 
+uint32_t BitSignal::masks(std::span<const BitSignal> signals) {
+  uint32_t bits = 0;
+  for (const BitSignal& signal : signals) {
+    if (signal.byte_ != signals.front().byte_) std::abort();
+    bits |= signal.mask();
+  }
+  return bits;
+}
+
 PackedSpace::PackedSpace(const rung_program& program, std::string_view name) {
   const uint32_t number = host::findSpace(program, name);
   if (number == RUNG_NONE) return;

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 
@@ -29,9 +30,20 @@ protected:
 
 struct BitSignal : SignalPlace {
   explicit BitSignal(std::string_view name) : SignalPlace(name) {}
+  // In its word (SignalMemory::wordOf).
+  uint32_t mask() const { return uint32_t{1} << bit_; }
+  bool in(uint32_t word) const { return ((word >> bit_) & 1) != 0; }
+  uint32_t as(bool value) const { return uint32_t{value} << bit_; }
+
+  // All of them, which are in one word: else it ends the program.
+  static uint32_t masks(std::span<const BitSignal> signals);
+  static uint32_t masks(std::initializer_list<BitSignal> signals) {
+    return masks(std::span(signals.begin(), signals.size()));
+  }
 };
 struct WordSignal : SignalPlace {
   explicit WordSignal(std::string_view name) : SignalPlace(name) {}
+  uint32_t bytes() const { return count_ * 4; } // of all of them, which follow each other
 };
 struct RealSignal : SignalPlace {
   explicit RealSignal(std::string_view name) : SignalPlace(name) {}
@@ -68,6 +80,16 @@ public:
     store(signal, index, value ? word | mask : word & ~mask);
   }
   void set(const BitSignal& signal, bool value) const { set(signal, 0, value); }
+  // The word that holds a bit, and several bits of it at once: those of the mask.
+  uint32_t wordOf(const BitSignal& signal, uint32_t index = 0) const { return load<uint32_t>(signal, index); }
+  void setBits(const BitSignal& oneOf, uint32_t index, uint32_t mask, uint32_t bits) const {
+    store(oneOf, index, (load<uint32_t>(oneOf, index) & ~mask) | bits);
+  }
+  // All words of a signal that follow each other; none where the area does not have them all.
+  std::span<const uint8_t> all(const WordSignal& signal) const {
+    const bool isThere = signal.byte_ + signal.bytes() <= size_ && (signal.stride_ == 4 || signal.count_ == 1);
+    return isThere ? std::span<const uint8_t>(area_ + signal.byte_, signal.bytes()) : std::span<const uint8_t>();
+  }
   void set(const WordSignal& signal, uint32_t index, int32_t value) const { store(signal, index, value); }
   void set(const RealSignal& signal, uint32_t index, double value) const { store(signal, index, value); }
 

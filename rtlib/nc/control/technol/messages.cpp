@@ -141,13 +141,26 @@ size_t Messages::describe(const rung_message& message, std::span<char> out) cons
   return line.size();
 }
 
-ShownMessage Messages::shownOf(const MessageValues& values) const {
+namespace {
+
+ShownMessage withoutText(const MessageValues& values) {
   ShownMessage shown;
   shown.number = values.number;
   shown.index = static_cast<int32_t>(values.subId);
   shown.value = values.par[0];
   shown.par2 = values.par[1];
   shown.par3 = values.par[2];
+  return shown;
+}
+
+bool isShownAs(const MessageValues& values, const ShownMessage& other) {
+  return other.isSameButText(withoutText(values));
+}
+
+} // namespace
+
+ShownMessage Messages::shownOf(const MessageValues& values) const {
+  ShownMessage shown = withoutText(values);
   if (const MessageDefinition* definition = definitionOf(values.number)) {
     std::string text(definition->text.size() + std::size(values.par) * kLongestValue, '\0');
     Line line(text);
@@ -163,6 +176,13 @@ std::vector<ShownMessage> Messages::shown() const {
   for (const MessageValues& values : persistent_) all.push_back(shownOf(values));
   if (!transient_.empty()) all.push_back(shownOf(transient_.front()));
   return all;
+}
+
+bool Messages::shows(std::span<const ShownMessage> these) const noexcept {
+  const size_t lasting = persistent_.size();
+  if (these.size() != lasting + (transient_.empty() ? 0 : 1)) return false;
+  return std::ranges::equal(persistent_, these.first(lasting), isShownAs) &&
+         (transient_.empty() || isShownAs(transient_.front(), these.back()));
 }
 
 } // namespace rung::nc::technol

@@ -45,6 +45,7 @@ public:
   // The operator's: the transient message on the screen goes, the next one comes.
   void confirm();
   std::vector<ShownMessage> shown() const;
+  bool shows(std::span<const ShownMessage> these) const noexcept;
 
 private:
   void show(const MessageValues& values, Validity validity);

@@ -27,6 +27,9 @@ public:
   rung_message outward(const rung_message& message) const noexcept override { return messages_.outward(message); }
   void accept(const rung_message& message) override { messages_.accept(message); }
   std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
+  bool shows(const host::Instance&, std::span<const ShownMessage> these) const noexcept override {
+    return messages_.shows(these);
+  }
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
   // As a line of the log.

@@ -52,11 +52,14 @@ ValueId preset(Lowering& box, ValueId& valid) {
   return b.mul(count, unit);
 }
 
-// Without a sign, for it is none that counts: the longest time that a register can hold, 24 days, is over at once.
 ValueId wholeMs(RungBuilder& b, ValueId us) {
+  return b.op(OpCode::DivU, Type::I64, {us, b.constant(Type::I64, kUsPerMs)});
+}
+
+// As i32: more than a register can hold (24 days) leaves nothing of what it holds.
+ValueId atMostRegister(RungBuilder& b, ValueId ms) {
   const ValueId most = b.constant(Type::I64, INT32_MAX);
-  const ValueId ms = b.op(OpCode::DivU, Type::I64, {us, b.constant(Type::I64, kUsPerMs)});
-  return b.select(b.ltU(ms, most), ms, most);
+  return b.zextOrTrunc(Type::I32, b.select(b.ltU(ms, most), ms, most));
 }
 
 // What the register holds after `passedMs`; what the program wrote there is counted down, too.
@@ -74,7 +77,7 @@ ValueId countedSince(Lowering& box, SlotId slot, ValueId counting, ValueId left,
   const ValueId last = b.slotLoad(slot);
   const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), now, last);
   const ValueId ms = wholeMs(b, b.sub(now, since));
-  const ValueId yields[] = {countDown(b, left, b.zextOrTrunc(Type::I32, ms)),
+  const ValueId yields[] = {countDown(b, left, atMostRegister(b, ms)),
                             b.add(since, b.mul(ms, b.constant(Type::I64, kUsPerMs)))};
   b.else_(yields);
   const ValueId idle[] = {rest, now};
@@ -122,7 +125,7 @@ RunTime lowerRunTime(RungBuilder& b, SlotMaker& slots) {
   const ValueId before = b.slotLoad(last);
   const ValueId none = b.constant(Type::I64, 0);
   const ValueId passed = b.select(b.ltS(before, none), none, wholeMs(b, b.sub(now, before)));
-  b.slotStore(time.passedMs, b.zextOrTrunc(Type::I32, passed));
+  b.slotStore(time.passedMs, atMostRegister(b, passed));
   b.slotStore(last, now);
   return time;
 }

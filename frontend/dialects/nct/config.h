@@ -19,6 +19,7 @@ struct Config {
   uint32_t timesliceUs = 2'000; // l.540
   uint32_t firstOutput = 0;     // first word of the NC's outputs; they follow its inputs
   uint32_t slices() const { return timesliceUs < periodUs ? periodUs / timesliceUs : 1; }
+  bool runsAtWholeMs() const { return periodUs % 1000 == 0 && timesliceUs % 1000 == 0; }
 };
 
 // Reports values that make no sense.

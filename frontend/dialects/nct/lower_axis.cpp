@@ -57,7 +57,7 @@ ValueId lowerAxisCommand(Lowering& box) {
                               bits(distance)};
       const ValueId ticket = b.serviceRequest(box.shared.service("MOVCMND axis code speed:f distance:f"), args);
       const ValueId refused = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_ERROR));
-      memory.setFlags(kFlagEr, b.zextOrTrunc(Type::I8, refused));
+      memory.setFlag(kFlagEr, refused);
       const ValueId written = b.and_(b.ne(ticket, b.i32(0)), b.not_(refused));
       b.else_(std::span(&written, 1));
       memory.setErrorFlag(false);

@@ -14,9 +14,10 @@ ValueId lowerCompare(Lowering& box) {
   const ValueId x = box.memory.integer(box.operands[0], valid);
   const ValueId y = box.memory.integer(box.operands[1], valid);
   execute(box, valid, [&] {
-    const auto flag = [&](Flag which) { return b.constant(Type::I8, which); };
-    const ValueId notLess = b.select(b.eq(x, y), flag(kFlagEq), flag(kFlagGt));
-    box.memory.setFlags(kFlagEr | kFlagGt | kFlagEq | kFlagLt, b.select(b.ltS(x, y), flag(kFlagLt), notLess));
+    box.memory.setErrorFlag(false);
+    box.memory.setFlag(kFlagGt, b.ltS(y, x));
+    box.memory.setFlag(kFlagEq, b.eq(x, y));
+    box.memory.setFlag(kFlagLt, b.ltS(x, y));
     return ValueId{};
   });
   return {};

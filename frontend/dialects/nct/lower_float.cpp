@@ -60,10 +60,10 @@ ValueId lowerFloatArithmetic(Lowering& box) {
     return when(box, ok, [&] {
       const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
       const ValueId under = underflows(b, variant, x, y, result);
-      const auto flag = [&](uint8_t value) { return b.constant(Type::I8, value); };
       box.memory.storeDouble(target, result);
-      box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf,
-                          b.select(over, flag(kFlagOf), b.select(under, flag(kFlagUf), flag(0))));
+      box.memory.setErrorFlag(false);
+      box.memory.setFlag(kFlagUf, under);
+      box.memory.setFlag(kFlagOf, over);
     });
   });
 }
@@ -92,16 +92,17 @@ ValueId lowerFloatFunction(Lowering& box) {
     }
     return when(box, ok, [&] {
       box.memory.storeDouble(target, result);
-      const auto flag = [&](uint8_t value) { return b.constant(Type::I8, value); };
-      ValueId flags = flag(0);
+      ValueId over;
+      ValueId under;
       if (variant == kPower || variant == kExponential) {
         const ValueId finite = y.valid() ? b.and_(isFinite(b, x), isFinite(b, y)) : isFinite(b, x);
-        const ValueId over = b.and_(finite, b.not_(isFinite(b, result)));
-        ValueId under = b.and_(finite, isZero(b, result));
+        over = b.and_(finite, b.not_(isFinite(b, result)));
+        under = b.and_(finite, isZero(b, result));
         if (variant == kPower) under = b.and_(under, b.not_(isZero(b, x)));
-        flags = b.select(over, flag(kFlagOf), b.select(under, flag(kFlagUf), flags));
       }
-      box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf, flags);
+      box.memory.setErrorFlag(false);
+      box.memory.setFlag(kFlagUf, under);
+      box.memory.setFlag(kFlagOf, over);
     });
   });
 }
@@ -195,12 +196,14 @@ ValueId lowerFloatCompare(Lowering& box) {
   const ValueId x = box.memory.real(box.operands[0], valid);
   const ValueId y = box.memory.real(box.operands[1], valid);
   execute(box, valid, [&] {
-    const auto flag = [&](Flag which) { return b.constant(Type::I8, which); };
     const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
-    const ValueId unordered = b.select(test(OpCode::FLt, y, x), flag(kFlagGt), flag(kFlagEr));
-    const ValueId notLess = b.select(test(OpCode::FEq, x, y), flag(kFlagEq), unordered);
-    box.memory.setFlags(kFlagEr | kFlagGt | kFlagEq | kFlagLt,
-                        b.select(test(OpCode::FLt, x, y), flag(kFlagLt), notLess));
+    const ValueId greater = test(OpCode::FLt, y, x);
+    const ValueId equal = test(OpCode::FEq, x, y);
+    const ValueId less = test(OpCode::FLt, x, y);
+    box.memory.setFlag(kFlagEr, b.not_(b.or_(b.or_(greater, equal), less)));
+    box.memory.setFlag(kFlagGt, greater);
+    box.memory.setFlag(kFlagEq, equal);
+    box.memory.setFlag(kFlagLt, less);
     return ValueId{};
   });
   return {};

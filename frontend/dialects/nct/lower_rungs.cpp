@@ -2,10 +2,12 @@
 #include "frontend/dialects/nct/lower_rungs.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/lowering.h"
+#include "frontend/dialects/nct/structure.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 
@@ -50,15 +52,16 @@ std::string identityOf(const NctInstruction& row, std::span<const Operand> opera
 class BodyLowering {
 public:
   BodyLowering(LoweringContext& context, const TypedModule& module, const std::vector<ir::RoutineId>& routines,
-               uint32_t body)
-      : context_(context), source_(module), routines_(routines), body_(module.bodies[body]), id_(routines[body]),
-        routine_(context.module.routines[routines[body].index]), slots_(context.module, routine_.name),
-        shared_(context.module) {}
+               const std::vector<RunTime>& times, uint32_t body)
+      : context_(context), source_(module), routines_(routines), times_(times), body_(module.bodies[body]),
+        id_(routines[body]), routine_(context.module.routines[routines[body].index]),
+        slots_(context.module, routine_.name), shared_(context.module) {}
 
   void run() {
     routine_.rungs.reserve(body_.end - body_.first);
     for (uint32_t i = body_.first; i < body_.end; ++i) {
       place_.push_back(static_cast<uint32_t>(routine_.rungs.size()));
+      time_ = times_[i];
       lowerRung(source_.rungs[i]);
     }
     // A module may be empty; a routine is not.
@@ -80,6 +83,7 @@ private:
   LoweringContext& context_;
   const TypedModule& source_;
   const std::vector<ir::RoutineId>& routines_; // by body
+  const std::vector<RunTime>& times_; // by rung of the module
   const Body& body_;
   ir::RoutineId id_;
   ir::Routine& routine_;
@@ -88,6 +92,7 @@ private:
   std::vector<uint32_t> place_; // IR rung of each rung of the body
   std::vector<OpenJump> jumps_;
   // Of the rung at hand.
+  RunTime time_;
   std::vector<ValueId> power_; // by net; invalid where nothing has driven it yet, and for the rail
   std::vector<ValueId> pins_;
   std::vector<Leave> leaves_;
@@ -148,6 +153,7 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
                  .memory = memory,
                  .slots = slots_,
                  .shared = shared_,
+                 .time = time_,
                  .operands = operands,
                  .pins = pins_,
                  .variant = row.variant,
@@ -213,6 +219,33 @@ void BodyLowering::leave(ir::RungBuilder& b, const Leave& leave) {
   }
 }
 
+bool hasTimer(const TypedRung& rung) {
+  return std::ranges::any_of(rung.elements, [](const TypedElement& e) { return e.row->lower == lowerTimer; });
+}
+
+// What each rung of a module knows of the run's time. Where one with a timer may go by it, the module begins with a
+// rung that takes it.
+std::vector<RunTime> takeTime(LoweringContext& context, const TypedModule& module, ir::Routine& routine) {
+  std::vector<RunTime> times(module.rungs.size());
+  if (!context.config.runsAtWholeMs()) return times;
+  const std::vector<bool> once = evaluatedOncePerRun(module);
+  const auto asks = [&](uint32_t i) { return once[i] && hasTimer(module.rungs[i]); };
+  if (std::ranges::none_of(std::views::iota(0u, static_cast<uint32_t>(once.size())), asks)) return times;
+  ir::Rung& rung = routine.rungs.emplace_back();
+  const TypedRung& first = module.rungs.front();
+  rung.title = "time since the last run";
+  rung.begin = {.file = context.files.at(first.file->file.index), .line = first.rung->firstLine, .column = 1};
+  rung.lastLine = rung.begin.line;
+  rung.key = hashBytes("time", hashBytes(routine.name));
+  ir::RungBuilder b(context.module, rung);
+  SlotMaker slots(context.module, routine.name);
+  slots.setElement("time");
+  const RunTime time = lowerRunTime(b, slots);
+  for (uint32_t i = 0; i < times.size(); ++i)
+    if (once[i]) times[i] = time;
+  return times;
+}
+
 } // namespace
 
 ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module) {
@@ -222,7 +255,8 @@ ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module) {
     ir::Routine& routine = context.module.routines.emplace_back();
     routine.name = body.number ? fmt::format("{}.SBN{}", module.name, *body.number) : std::string(module.name);
   }
-  for (uint32_t i = 0; i < module.bodies.size(); ++i) BodyLowering(context, module, routines, i).run();
+  const std::vector<RunTime> times = takeTime(context, module, context.module.routines[routines.front().index]);
+  for (uint32_t i = 0; i < module.bodies.size(); ++i) BodyLowering(context, module, routines, times, i).run();
   return routines.front();
 }
 

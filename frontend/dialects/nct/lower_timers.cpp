@@ -14,6 +14,13 @@ namespace {
 // By time basis: milliseconds a unit, and the greatest set value (l.1353-1385).
 constexpr int64_t kUnitMs[] = {1, 1000, 60'000, 3'600'000};
 constexpr int64_t kLimit[] = {2'147'483'647, 2'147'483, 35'791, 596};
+constexpr int64_t kUsPerMs = 1000;
+
+struct TimerState {
+  SlotId active;    // triggered at the last evaluation
+  SlotId evaluated; // of an off-delay: at least once
+  SlotId since;     // see countedSince; invalid: each run evaluates the timer, its time is the run's
+};
 
 // The entry of a table for a basis that is known at run time only.
 ValueId choose(RungBuilder& b, ValueId basis, const int64_t (&table)[4]) {
@@ -45,35 +52,59 @@ ValueId preset(Lowering& box, ValueId& valid) {
   return b.mul(count, unit);
 }
 
-struct TimerState {
-  SlotId active; // triggered at the last evaluation
-  SlotId since;  // what the register has been counted down to, in microseconds; -1: never evaluated
-};
+ValueId wholeMs(RungBuilder& b, ValueId us) {
+  return b.op(OpCode::DivU, Type::I64, {us, b.constant(Type::I64, kUsPerMs)});
+}
+
+// As i32: more than a register can hold (24 days) leaves nothing of what it holds.
+ValueId atMostRegister(RungBuilder& b, ValueId ms) {
+  const ValueId most = b.constant(Type::I64, INT32_MAX);
+  return b.zextOrTrunc(Type::I32, b.select(b.ltU(ms, most), ms, most));
+}
+
+// What the register holds after `passedMs`; what the program wrote there is counted down, too.
+ValueId countDown(RungBuilder& b, ValueId left, ValueId passedMs) {
+  return b.select(b.leS(left, passedMs), b.i32(0), b.sub(left, passedMs));
+}
+
+// Where it is not known when the last evaluation was: `since` is what the register has been counted down to, in
+// microseconds, for what is less than a millisecond counts later. -1: the timer was never evaluated, or runs on in a
+// changed program where its time was the run's; then nothing counts yet.
+ValueId countedSince(Lowering& box, SlotId slot, ValueId counting, ValueId left, ValueId rest) {
+  RungBuilder& b = box.b;
+  const ValueId now = b.now();
+  b.if_(counting);
+  const ValueId last = b.slotLoad(slot);
+  const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), now, last);
+  const ValueId ms = wholeMs(b, b.sub(now, since));
+  const ValueId yields[] = {countDown(b, left, atMostRegister(b, ms)),
+                            b.add(since, b.mul(ms, b.constant(Type::I64, kUsPerMs)))};
+  b.else_(yields);
+  const ValueId idle[] = {rest, now};
+  const std::vector<ValueId> results = b.endIf(idle);
+  b.slotStore(slot, results[1]);
+  return results[0];
+}
 
 // One evaluation; gives the output. The trigger writes the preset and counts nothing; afterwards the register loses
-// the whole milliseconds since the last evaluation, the rest stays in `since`. Idle, it holds the preset.
+// the whole milliseconds since the last evaluation. Idle, it holds the preset.
 ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerState& state) {
   RungBuilder& b = box.b;
   const ValueId input = box.power();
   const ValueId active = box.variant == kOffDelay ? b.not_(input) : input;
-  ValueId counting = b.and_(active, b.slotLoad(state.active));
+  const ValueId counting = b.and_(active, b.slotLoad(state.active));
   b.slotStore(state.active, active);
-  const ValueId since = b.slotLoad(state.since);
-  const ValueId now = b.now();
-  const ValueId passedMs = b.op(OpCode::DivS, Type::I64, {b.sub(now, since), b.constant(Type::I64, 1000)});
-  const ValueId left = b.sub(b.sextOrTrunc(Type::I64, box.memory.loadWord(timer)), passedMs);
   const ValueId none = b.i32(0);
-  const ValueId counted = b.select(b.ltS(left, b.constant(Type::I64, 0)), none, b.zextOrTrunc(Type::I32, left));
   ValueId rest = presetMs;
   if (box.variant == kOffDelay) {
     // Never evaluated and its input is off: it has not been triggered, whatever the register holds.
-    const ValueId first = b.ltS(since, b.constant(Type::I64, 0));
-    rest = b.select(b.and_(first, counting), none, rest);
-    counting = b.and_(counting, b.not_(first));
+    rest = b.select(b.or_(input, b.slotLoad(state.evaluated)), presetMs, none);
+    b.slotStore(state.evaluated, b.bit(true));
   }
-  const ValueId value = b.select(counting, counted, rest);
-  const ValueId countedTo = b.add(since, b.mul(passedMs, b.constant(Type::I64, 1000)));
-  b.slotStore(state.since, b.select(counting, countedTo, now));
+  const ValueId left = box.memory.loadWord(timer);
+  const ValueId value = state.since.valid()
+                            ? countedSince(box, state.since, counting, left, rest)
+                            : b.select(counting, countDown(b, left, b.slotLoad(box.time.passedMs)), rest);
   box.memory.storeWord(timer, value);
   const ValueId over = b.eq(value, none);
   switch (static_cast<TimerVariant>(box.variant)) {
@@ -86,12 +117,27 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
 
 } // namespace
 
+// The time since the run before, of a task whose runs are whole milliseconds apart.
+RunTime lowerRunTime(RungBuilder& b, SlotMaker& slots) {
+  const SlotId last = slots.make("last", Type::I64, -1); // when the run before was; -1: there was none
+  const RunTime time{slots.make("passed", Type::I32, 0, true)};
+  const ValueId now = b.now();
+  const ValueId before = b.slotLoad(last);
+  const ValueId none = b.constant(Type::I64, 0);
+  const ValueId passed = b.select(b.ltS(before, none), none, wholeMs(b, b.sub(now, before)));
+  b.slotStore(time.passedMs, atMostRegister(b, passed));
+  b.slotStore(last, now);
+  return time;
+}
+
+// An evaluation with invalid operands leaves the timer alone, so with operands that may be invalid its time is its own.
 ValueId lowerTimer(Lowering& box) {
-  const TimerState state{box.slots.make("active", Type::Bit, box.variant == kOffDelay ? 1 : 0),
-                         box.slots.make("since", Type::I64, -1)};
   const Place timer = box.memory.word(box.operands[0].address, Reach::User);
   ValueId valid = timer.valid;
   const ValueId presetMs = preset(box, valid);
+  TimerState state{.active = box.slots.make("active", Type::Bit), .evaluated = {}, .since = {}};
+  if (box.variant == kOffDelay) state.evaluated = box.slots.make("evaluated", Type::Bit);
+  if (valid.valid() || !box.time.passedMs.valid()) state.since = box.slots.make("since", Type::I64, -1);
   return guarded(box, valid, [&] { return step(box, timer, presetMs, state); });
 }
 

@@ -24,9 +24,19 @@ ValueId binary(Lowering& box, Compute compute) {
   });
 }
 
-// Bit 31 of `word` as the flag 1 << bit.
-ValueId signAs(RungBuilder& b, ValueId word, int bit, uint8_t flag) {
-  return b.and_(b.op(OpCode::ShrU, Type::I32, {word, b.i32(31 - bit)}), b.i32(flag));
+// Invalid ids: 0.
+struct ArithmeticFlags {
+  ValueId error;
+  ValueId under;
+  ValueId over;
+  ValueId carry;
+};
+
+void setFlags(Memory& memory, const ArithmeticFlags& flags) {
+  memory.setFlag(kFlagEr, flags.error);
+  memory.setFlag(kFlagUf, flags.under);
+  memory.setFlag(kFlagOf, flags.over);
+  memory.setFlag(kFlagCy, flags.carry);
 }
 
 } // namespace
@@ -72,20 +82,17 @@ ValueId lowerLogic(Lowering& box) {
 }
 
 // FL_CY is the unsigned carry or borrow. FL_OF: two numbers without sign give one with it; FL_UF: the other way round
-// (l.738-759).
+// (l.738-759). So the exact result is above or below what a word can hold.
 ValueId lowerAddSub(Lowering& box) {
   RungBuilder& b = box.b;
   return binary(box, [&](ValueId x, ValueId y) {
     const bool add = box.variant == kAdd;
-    const ValueId result = add ? b.add(x, y) : b.sub(x, y);
-    const ValueId carry = add ? b.ltU(result, x) : b.ltU(x, y);
-    // The sign that the second operand would bring into a sum.
-    const ValueId sign = add ? y : b.not_(y);
-    const ValueId under = b.and_(b.and_(x, sign), b.not_(result));
-    const ValueId over = b.and_(b.not_(b.or_(x, sign)), result);
-    const ValueId flags = b.or_(b.or_(signAs(b, under, 1, kFlagUf), signAs(b, over, 2, kFlagOf)),
-                                b.select(carry, b.i32(kFlagCy), b.i32(0)));
-    box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf | kFlagCy, b.zextOrTrunc(Type::I8, flags));
+    const ValueId exact = b.binary(add ? OpCode::Add : OpCode::Sub, b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
+    const ValueId result = b.zextOrTrunc(Type::I32, exact);
+    setFlags(box.memory, {.error = {},
+                          .under = b.ltS(exact, b.constant(Type::I64, INT32_MIN)),
+                          .over = b.ltS(b.constant(Type::I64, INT32_MAX), exact),
+                          .carry = add ? b.ltU(result, x) : b.ltU(x, y)});
     return result;
   });
 }
@@ -97,8 +104,7 @@ ValueId lowerMul(Lowering& box) {
     const ValueId wide = b.mul(b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
     const ValueId result = b.zextOrTrunc(Type::I32, wide);
     const ValueId over = b.ne(b.sextOrTrunc(Type::I64, result), wide);
-    box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf | kFlagCy,
-                        b.select(over, b.constant(Type::I8, kFlagOf), b.constant(Type::I8, 0)));
+    setFlags(box.memory, {.error = {}, .under = {}, .over = over, .carry = {}});
     return result;
   });
 }
@@ -114,10 +120,7 @@ ValueId lowerDiv(Lowering& box) {
     const ValueId zero = b.eq(y, b.i32(0));
     const ValueId over = b.and_(b.eq(x, b.i32(INT32_MIN)), b.eq(y, b.i32(-1)));
     box.memory.storeWord(result, b.op(OpCode::DivS, Type::I32, {x, y}));
-    const ValueId none = b.constant(Type::I8, 0);
-    const ValueId flags =
-        b.select(zero, b.constant(Type::I8, kFlagEr), b.select(over, b.constant(Type::I8, kFlagOf), none));
-    box.memory.setFlags(kFlagEr | kFlagUf | kFlagOf | kFlagCy, flags);
+    setFlags(box.memory, {.error = zero, .under = {}, .over = over, .carry = {}});
     return b.not_(zero);
   });
 }

@@ -29,6 +29,13 @@ private:
   std::map<std::string, uint32_t> alike_; // elements with a slot so far, by their text
 };
 
+// Time as the runs of a task see it.
+struct RunTime {
+  // i32, written where a run begins: the milliseconds since the run before. Invalid: nobody asks for it, or the runs are
+  // not whole milliseconds apart, so that each timer has its own rest.
+  ir::SlotId passedMs;
+};
+
 // Words of a hidden space, unit 4.
 struct SharedWords {
   ir::SpaceId space;
@@ -58,6 +65,7 @@ struct Lowering {
   Memory& memory;
   SlotMaker& slots;
   Shared& shared;
+  RunTime time; // where each run evaluates the box exactly once; else without passedMs
   std::span<const Operand> operands;
   std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
   int variant = 0;
@@ -142,6 +150,7 @@ ir::ValueId lowerDiv(Lowering& box);
 
 enum TimerVariant : int { kOnDelay, kOffDelay, kTimedPulse };
 ir::ValueId lowerTimer(Lowering& box);
+RunTime lowerRunTime(ir::RungBuilder& b, SlotMaker& slots); // what a run begins with where timers need it
 enum CounterVariant : int { kStopping, kRing };
 ir::ValueId lowerCounter(Lowering& box);
 

@@ -256,19 +256,12 @@ void Memory::storeScratch(ValueId index, ValueId value) {
   b_.storeAt({.space = spaces_.scratch, .byte = 0, .count = kWords}, index, value);
 }
 
-void Memory::setFlags(uint8_t mask, ValueId value) {
-  const ir::Place flags{.space = spaces_.m, .byte = kFlagsWord * 4, .bit = 0};
-  const ValueId others = b_.and_(b_.load(Type::I8, flags), b_.constant(Type::I8, ~mask));
-  b_.store(flags, b_.or_(others, value));
-}
+ir::Place Memory::placeOf(Flag flag) const { return {.space = spaces_.m, .byte = kFlagsWord * 4, .bit = flag}; }
 
-void Memory::setErrorFlag(bool value) {
-  b_.store({.space = spaces_.m, .byte = kFlagsWord * 4, .bit = 0}, b_.bit(value));
-}
+void Memory::setFlag(Flag flag, ValueId value) { b_.store(placeOf(flag), value.valid() ? value : b_.bit(false)); }
 
 void Memory::raiseErrorFlag(ValueId cond) {
-  const ir::Place flag{.space = spaces_.m, .byte = kFlagsWord * 4, .bit = 0};
-  b_.store(flag, b_.or_(b_.load(Type::Bit, flag), cond));
+  b_.store(placeOf(kFlagEr), b_.or_(b_.load(Type::Bit, placeOf(kFlagEr)), cond));
 }
 
 ValueId Memory::bitAddress(const Place& place) {

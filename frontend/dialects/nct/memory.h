@@ -11,15 +11,7 @@
 namespace rung::nct {
 
 // The flags are the bits of word 0000 in the order of the manual's chapter 5 (l.725-777).
-enum Flag : uint8_t {
-  kFlagEr = 1 << 0,
-  kFlagUf = 1 << 1,
-  kFlagOf = 1 << 2,
-  kFlagCy = 1 << 3,
-  kFlagGt = 1 << 4,
-  kFlagEq = 1 << 5,
-  kFlagLt = 1 << 6,
-};
+enum Flag : uint8_t { kFlagEr, kFlagUf, kFlagOf, kFlagCy, kFlagGt, kFlagEq, kFlagLt };
 
 struct MemorySpaces {
   ir::SpaceId m;
@@ -95,9 +87,9 @@ public:
   ir::ValueId loadScratch(ir::ValueId index);
   void storeScratch(ir::ValueId index, ir::ValueId value);
 
-  // FLAGS: `mask` says which flags the i8 `value` replaces.
-  void setFlags(uint8_t mask, ir::ValueId value);
-  void setErrorFlag(bool value);
+  // Flags are written bit by bit: where a program does nothing else with FLAGS, each is a byte of its own (ir/layout).
+  void setFlag(Flag flag, ir::ValueId value); // invalid id: 0
+  void setErrorFlag(bool value) { setFlag(kFlagEr, b_.bit(value)); }
   void raiseErrorFlag(ir::ValueId cond); // FL_ER := FL_ER or cond
 
   // a AND b, where an invalid id means 1.
@@ -113,6 +105,7 @@ private:
   bool dropped(const Place& place) const;
   bool masked(const Place& place) const;
   ir::Window maskWindow(const Place& place);
+  ir::Place placeOf(Flag flag) const;
 
   ir::RungBuilder& b_;
   const Config& config_;

@@ -330,4 +330,19 @@ void checkStructure(TypedModule& module, const SourceManager& sources, Diagnosti
   StructureChecker(module, sources, diagnostics).run();
 }
 
+std::vector<bool> evaluatedOncePerRun(const TypedModule& module) {
+  std::vector<bool> once(module.rungs.size(), false);
+  const Body& main = module.bodies.front();
+  std::fill(once.begin() + main.first, once.begin() + main.end, true);
+  for (uint32_t from = main.first; from < main.end; ++from)
+    for (const TypedElement& element : module.rungs[from].elements) {
+      if (element.row->flow != Flow::Jump) continue;
+      const uint32_t to = module.labels[element.label.value_or(0)].value_or(from);
+      // The rung with the jump is evaluated to its end; that with the label is where the run continues.
+      const auto [first, end] = to > from ? std::pair(from + 1, to) : std::pair(to, from + 1);
+      std::fill(once.begin() + first, once.begin() + end, false);
+    }
+  return once;
+}
+
 } // namespace rung::nct

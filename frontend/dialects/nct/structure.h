@@ -11,4 +11,8 @@ void arrangeParts(TypedModule& module);
 
 void checkStructure(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics);
 
+// By rung: every run of the module evaluates it, and once. So it is in the main part, and no jump leads over it or back
+// over it. A fault, which stops the program, is the one exception.
+std::vector<bool> evaluatedOncePerRun(const TypedModule& module);
+
 } // namespace rung::nct

@@ -39,7 +39,6 @@ std::string_view aliasOf(std::string_view name) {
 }
 
 SymbolTable::SymbolTable(const Config& config, Diagnostics& diagnostics) : config_(config), diagnostics_(diagnostics) {
-  enter(word("FLAGS", kFlagsWord));
   enter(word("PLCNVRAM", config.plcNvram));
   enter(word("PLCRAM", config.plcRam));
   uint32_t bit = 0;
@@ -63,7 +62,8 @@ Symbol* SymbolTable::enter(Symbol symbol) {
   return &symbols_.back();
 }
 
-Symbol* SymbolTable::enterSignal(std::string_view name) {
+Symbol* SymbolTable::enterPredefined(std::string_view name) {
+  if (name == kFlagsName) return enter(word(name, kFlagsWord));
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), aliasOf(name));
   if (signal == nullptr) return nullptr;
   Symbol symbol = word(name, signal->byteOffset / 4);
@@ -78,7 +78,7 @@ Symbol* SymbolTable::enterSignal(std::string_view name) {
 
 const Symbol* SymbolTable::find(std::string_view name) {
   const auto found = byName_.find(name);
-  if (found == byName_.end()) return enterSignal(name);
+  if (found == byName_.end()) return enterPredefined(name);
   if (found->second->pending) resolve(*found->second);
   return found->second;
 }
@@ -89,6 +89,7 @@ std::string_view SymbolTable::similarTo(std::string_view name) const {
   // Names of the program come first.
   if (similar.best().empty())
     for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
+  similar.offer(kFlagsName);
   return similar.best();
 }
 
@@ -99,7 +100,7 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
     return;
   }
   auto found = byName_.find(name);
-  const Symbol* first = found == byName_.end() ? enterSignal(name) : found->second;
+  const Symbol* first = found == byName_.end() ? enterPredefined(name) : found->second;
   if (first != nullptr) {
     auto report = diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range);
     if (first->declaration != nullptr)
@@ -118,7 +119,7 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
 }
 
 void SymbolTable::declareBad(std::string_view name) {
-  if (byName_.contains(name) || enterSignal(name) != nullptr) return;
+  if (byName_.contains(name) || enterPredefined(name) != nullptr) return;
   Symbol symbol = word(name, 0);
   symbol.kind = SymbolKind::Bad;
   enter(symbol);

@@ -16,6 +16,7 @@ namespace rung::nct {
 // Looking for likeness in a file of rubbish would take long and help nobody.
 inline constexpr size_t kMostSuggestions = 100;
 
+inline constexpr std::string_view kFlagsName = "FLAGS";
 // Bits of FLAGS; the order of the manual's chapter 5 (l.725-777).
 inline constexpr std::string_view kFlagNames[] = {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"};
 
@@ -48,8 +49,8 @@ public:
   // Reads the values of all declarations; afterwards `find` gives complete symbols.
   void resolveAll();
 
-  // Null when there is no such name. Symbols of the NC enter the table when they are looked up first. The result
-  // stays where it is.
+  // Null when there is no such name. Symbols of the NC and FLAGS enter the table when they are looked up first: FLAGS
+  // of a program that does not name it may lie bit by bit in bytes (ir/layout). The result stays where it is.
   const Symbol* find(std::string_view name);
   // The known name that is most like a misspelt one; empty when none is close.
   std::string_view similarTo(std::string_view name) const;
@@ -63,7 +64,7 @@ public:
 
 private:
   Symbol* enter(Symbol symbol);
-  Symbol* enterSignal(std::string_view name);
+  Symbol* enterPredefined(std::string_view name);
   void resolve(Symbol& symbol);
   void resolveConstant(Symbol& symbol);
   void resolveAddress(Symbol& symbol);

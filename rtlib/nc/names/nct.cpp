@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kMemory = "M";
 constexpr std::string_view kTimeSliceMemory = "TS";
+constexpr std::string_view kFlags = "FLAGS"; // word 0000; a symbol only where the program names it
 constexpr uint32_t kFirstNcByte = 8; // words 0000 and 0001 are the program's
 
 std::string padded(uint32_t value, size_t digits) {
@@ -51,6 +52,7 @@ public:
       return shifted(search, search.find(name.substr(0, comma)), name.substr(comma + 1));
     if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
       return name.size() - dot == 3 ? search.bitIn(name.substr(0, dot), name.substr(dot + 1)) : std::nullopt;
+    if (name == kFlags) return search.inSpace(host::intRef(search.space(kMemory), 0, 32));
     const std::optional<uint32_t> word = text::numberIn<uint32_t>(name);
     if (!word || name.size() != 4) return std::nullopt;
     return search.inSpace(host::intRef(search.space(kMemory), 4 * *word, 32));

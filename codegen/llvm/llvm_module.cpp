@@ -13,6 +13,7 @@
 #include <llvm/Support/MemoryBuffer.h>
 #include <llvm/Transforms/IPO/AlwaysInliner.h>
 #include <llvm/Transforms/InstCombine/InstCombine.h>
+#include <llvm/Transforms/Scalar/DeadStoreElimination.h>
 #include <llvm/Transforms/Scalar/EarlyCSE.h>
 #include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
@@ -25,21 +26,35 @@
 namespace rung::codegen {
 namespace {
 
+// Of a function's or a call's attributes those that say what is passed. An argument by value is a copy of the callee's
+// own: without that, a call that says that it does not look into its caller's frame (`tail`) would be a lie, and stores
+// to such an argument would be taken for dead.
+llvm::AttributeList whatIsPassed(llvm::LLVMContext& context, const llvm::AttributeList& all, unsigned parameters) {
+  llvm::AttributeList kept;
+  for (unsigned i = 0; i < parameters; ++i) {
+    if (!all.hasParamAttr(i, llvm::Attribute::ByVal)) continue;
+    kept = kept.addParamAttribute(context, i, all.getParamAttr(i, llvm::Attribute::ByVal));
+    kept = kept.addParamAttribute(context, i, all.getParamAttr(i, llvm::Attribute::Alignment));
+  }
+  return kept;
+}
+
 // The bitcode was made for another machine and with other options: nothing of that may stand in the way of inlining.
 // Intrinsics keep theirs: a copy of memory says there how its places are aligned, and becomes a call where they are
 // not.
 void adopt(llvm::Function& function) {
+  llvm::LLVMContext& context = function.getContext();
   const bool shared = function.hasFnAttribute(llvm::Attribute::NoInline);
   function.setComdat(nullptr);
   function.setLinkage(llvm::GlobalValue::InternalLinkage);
-  function.setAttributes({});
+  function.setAttributes(whatIsPassed(context, function.getAttributes(), static_cast<unsigned>(function.arg_size())));
   function.addFnAttr(shared ? llvm::Attribute::NoInline : llvm::Attribute::AlwaysInline);
   function.addFnAttr("frame-pointer", "all");
   function.setDoesNotThrow();
   for (llvm::Instruction& instruction : llvm::instructions(function))
     if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
         call != nullptr && !llvm::isa<llvm::IntrinsicInst>(call))
-      call->setAttributes({});
+      call->setAttributes(whatIsPassed(context, call->getAttributes(), call->arg_size()));
 }
 
 // Adds the functions of sem.hpp that the module calls.
@@ -139,6 +154,10 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::InstCombinePass());
   perFunction.addPass(llvm::SimplifyCFGPass());
+  // Of rungs that follow one another: loads of what was stored above, stores that a later one writes over. What may be
+  // gone then is little, and looking for it again would take longer than it saves.
+  perFunction.addPass(llvm::EarlyCSEPass(true));
+  perFunction.addPass(llvm::DSEPass());
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(perFunction)));

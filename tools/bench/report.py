@@ -54,7 +54,7 @@ def machine_text():
     cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text(encoding="utf-8"))
     gcc = run("g++", "--version").splitlines()[0]
     clang = run("clang++-19", "--version").splitlines()[0]
-    return (f"{cpu[1] if cpu else platform.machine()}, Linux {platform.release()}, {' '.join(platform.libc_ver())}, {gcc}, {clang}, "
+    return (f"{cpu[1] if cpu else platform.machine()}, Linux {platform.release().partition('-')[0]}, {' '.join(platform.libc_ver())}, {gcc}, {clang}, "
             f"{datetime.date.today()}")
 
 

@@ -33,7 +33,7 @@ public:
   // Fails where the control has no room for it, or no such thing.
   virtual Result<Program> write(const Work& work) const = 0;
   virtual std::vector<Instruction> instructions() const = 0;
-  // `count` rungs of that text (0: the empty program). bits[0] is their condition.
+  // `count` rungs of that text (0: the empty program). `bits` are their conditions.
   virtual Program repeat(const std::string& text, uint32_t count) const = 0;
 };
 
@@ -42,6 +42,9 @@ std::unique_ptr<Form> formOf(std::string_view dialect); // null: there is no suc
 std::unique_ptr<Form> nctForm();
 std::unique_ptr<Form> gskForm();
 std::unique_ptr<Form> technolForm();
+
+// Which of `count` conditions a rung has: neighbours do not have neighbours.
+constexpr uint32_t conditionOf(uint32_t rung, uint32_t count) { return 7 * rung % count; }
 
 // The text with each {name} replaced.
 std::string filled(std::string text, const std::vector<std::pair<std::string, std::string>>& values);

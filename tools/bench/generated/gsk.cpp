@@ -168,9 +168,9 @@ public:
 
   Program repeat(const std::string& text, uint32_t count) const override {
     Program program = named();
-    program.bits = {bitOf('X', kFirstX, 0)};
+    for (uint32_t i = 0; i < count; ++i) program.bits.push_back(bitOf('X', kFirstX, i));
     for (uint32_t i = 0; i < count; ++i)
-      program.text += filled(text, {{"in", program.bits[0]},
+      program.text += filled(text, {{"in", program.bits[conditionOf(i, count)]},
                                     {"not", relay(kZero)},
                                     {"out", relay(i)},
                                     {"byte", fmt::format("R{}", 100 + i)},

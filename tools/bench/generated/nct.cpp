@@ -163,13 +163,13 @@ public:
 
   Program repeat(const std::string& text, uint32_t count) const override {
     Program program = named();
-    program.bits = {bitAt(kBits, 0)};
+    for (uint32_t i = 0; i < count; ++i) program.bits.push_back(bitAt(kBits, i));
     Work cellsOf;
     cellsOf.timers = count;
     const Cells cells(cellsOf);
     for (uint32_t i = 0; i < count; ++i)
-      program.text += "\nrung\n" + filled(text, {{"in", program.bits[0]},
-                                                 {"out", bitAt(kBits, 64 + i)},
+      program.text += "\nrung\n" + filled(text, {{"in", program.bits[conditionOf(i, count)]},
+                                                 {"out", bitAt(kBits + kBitsAWord, i)},
                                                  {"a", word(3 * i % 300)},
                                                  {"b", word((3 * i + 1) % 300)},
                                                  {"to", word((3 * i + 2) % 300)},

@@ -70,7 +70,7 @@ void Ours::begin(const Machine& machine) {
 
 void Ours::beginWith(bool condition) {
   writeConstants();
-  instance_.memory().write(inputs_.front(), condition ? 1 : 0);
+  for (const rt::Place& place : inputs_) instance_.memory().write(place, condition ? 1 : 0);
 }
 
 void Ours::apply(const Change& change) {

@@ -39,7 +39,7 @@ public:
   void apply(const Change& change) override;
   void scan() noexcept override { instance_.scan(); }
   Values values() const override;
-  void beginWith(bool condition); // of a program without a machine: its first bit
+  void beginWith(bool condition); // of a program without a machine: all of its bits
   host::Instance& instance() { return instance_; }
 
 private:

@@ -168,13 +168,13 @@ public:
 
   Program repeat(const std::string& text, uint32_t count) const override {
     Program program = named();
-    program.bits = {bit(0)};
+    for (uint32_t i = 0; i < count; ++i) program.bits.push_back(bit(i));
     std::vector<std::string> declared = program.bits;
     std::string main;
     for (uint32_t i = 0; i < count; ++i) {
-      declared.push_back(bit(i + 1));
-      main += filled(text, {{"in", bit(0)},
-                            {"out", bit(i + 1)},
+      declared.push_back(bit(count + i));
+      main += filled(text, {{"in", program.bits[conditionOf(i, count)]},
+                            {"out", bit(count + i)},
                             {"a", word(3 * i)},
                             {"b", word(3 * i + 1)},
                             {"to", word(3 * i + 2)},

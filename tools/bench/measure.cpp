@@ -3,30 +3,23 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
-#include <random>
 #include <sys/resource.h>
 #include <vector>
 
 #include "codegen/cpp/cpp_emitter.h"
-#include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/host/file.h"
-#include "rtlib/nc/names/names.h"
-#include "tools/bench/gsk_workload.h"
-#include "tools/bench/technol_workload.h"
+#include "tools/bench/generated/side.h"
 #include "tools/compiler/engines.h"
 
 namespace rung::bench {
 namespace {
 
-constexpr uint64_t kSeed = 20260101;
 constexpr int kSamples = 41;
 constexpr int kSettleScans = 20;
 constexpr double kSampleNs = 2e6; // a sample repeats its scan for about this long
@@ -60,72 +53,32 @@ double residentMb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-Workload workloadOf(const Case& which) {
-  if (which.program == "gsk") return gskWorkload(which.units, kSeed);
-  if (which.program == "technol") return technolWorkload(which.units, kSeed);
-  if (which.program == "idle" || which.program == "waiting")
-    return mechanismsWorkload(which.units, which.program == "waiting");
-  return bitsWorkload(which.units, kSeed);
+Result<Work> workOf(const Case& which) {
+  const std::optional<Kind> kind = kindFromName(which.kind);
+  if (!kind) return failure(fmt::format("unknown kind of program '{}'", which.kind));
+  return drawWork(*kind, which.size);
 }
 
-// The hand-written form, loaded.
-struct Hand {
-  void (*scan)(uint8_t*) = nullptr;
-  void (*start)() = nullptr; // may be null
-};
-
-Result<Hand> loadHand(const std::string& path) {
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) return failure(dlerror());
-  Hand hand;
-  hand.scan = reinterpret_cast<void (*)(uint8_t*)>(dlsym(library, "scan"));
-  if (hand.scan == nullptr) return failure(dlerror());
-  hand.start = reinterpret_cast<void (*)()>(dlsym(library, "start"));
-  return hand;
+Result<Program> programOf(const Case& which, const Work& work) {
+  const std::unique_ptr<Form> form = formOf(which.dialect);
+  if (!form) return failure(fmt::format("unknown dialect '{}'", which.dialect));
+  return form->write(work);
 }
 
-// Both forms from the same state through the same number of scans; they must stay equal, or the figures compare
-// nothing.
-template <class RunEngine, class RunHand>
-Result<void> settle(host::Instance& instance, const Workload& work, std::vector<uint8_t>& hand, RunEngine runEngine,
-                    RunHand runHand) {
-  std::mt19937_64 random(kSeed + 1);
-  instance.coldStart();
-  const auto placeOf = [&](const std::string& name) {
-    const std::optional<host::Ref> place = nc::resolve(instance.program(), name);
-    RUNG_CHECK(place.has_value(), "a workload names places of its own program");
-    return *place;
-  };
-  for (const std::string& name : work.ones) host::writeRaw(instance.memory(), placeOf(name), 1);
-  std::vector<host::Ref> bits;
-  std::vector<host::Ref> words;
-  for (const std::string& name : work.bits) bits.push_back(placeOf(name));
-  for (const std::string& name : work.words) words.push_back(placeOf(name));
-  const auto wordAt = [&](size_t i) { return hand.data() + bits.size() + 2 * i; };
-  for (uint32_t bit = 0; bit < work.inputs; ++bit) {
-    hand[bit] = static_cast<uint8_t>(random() & 1);
-    host::writeRaw(instance.memory(), bits[bit], hand[bit]);
-  }
-  for (size_t i = 0; i < words.size(); ++i) {
-    const auto value = static_cast<uint16_t>(random() % 64);
-    std::memcpy(wordAt(i), &value, 2);
-    host::writeRaw(instance.memory(), words[i], value);
-  }
+// Both from the same state through the same scans; they must stay equal, or the figures compare nothing.
+Result<void> settle(Side& ours, Side& straight, const Work& work, const Program& program) {
+  Machine machine(work);
+  ours.begin(machine);
+  straight.begin(machine);
   for (int i = 0; i < kSettleScans; ++i) {
-    for (int change = 0; change < 16; ++change) {
-      const auto bit = static_cast<uint32_t>(random() % work.inputs);
-      hand[bit] ^= 1;
-      host::writeRaw(instance.memory(), bits[bit], hand[bit]);
+    const Change change = machine.next();
+    for (Side* side : {&ours, &straight}) {
+      side->apply(change);
+      side->scan();
     }
-    runEngine();
-    runHand();
   }
-  for (size_t bit = 0; bit < bits.size(); ++bit)
-    if (instance.read(bits[bit]) != hand[bit])
-      return failure(fmt::format("{} differs from the hand-written form", work.bits[bit]));
-  for (size_t i = 0; i < words.size(); ++i)
-    if (instance.read(words[i]) != static_cast<uint64_t>(wordAt(i)[0] | wordAt(i)[1] << 8))
-      return failure(fmt::format("{} differs from the hand-written form", work.words[i]));
+  const std::string wrong = difference(ours.values(), straight.values(), program);
+  if (!wrong.empty()) return failure(wrong);
   return {};
 }
 
@@ -162,29 +115,32 @@ Result<double> codeKb(compiler::EngineKind kind, const compiler::Compiled& compi
 
 } // namespace
 
-Result<void> buildHandWritten(const Case& which, const std::string& compiler, const std::string& path) {
+Result<void> buildStraight(const Case& which, const std::string& compiler, const std::string& path) {
+  const Result<Work> work = workOf(which);
+  if (!work.ok()) return work.failure();
   codegen::CppBuildOptions options;
   options.compiler = compiler;
   options.optimisation = "-O3";
   options.debugInfo = false;
-  const Result<std::string> image = codegen::buildCppSharedObject(workloadOf(which).hand, options);
+  const Result<std::string> image = codegen::buildCppSharedObject(straightSource(work.value(), BitForm::Byte), options);
   if (!image.ok()) return image.failure();
   if (std::string wrong = host::replaceFile(path, image.value()); !wrong.empty()) return failure(std::move(wrong));
   return {};
 }
 
-std::string sourceOf(const Case& which) { return workloadOf(which).text; }
-
 Result<Measured> measure(const Case& which) {
   const auto kind = compiler::engineFromName(which.engine);
   if (!kind) return failure(fmt::format("unknown engine '{}'", which.engine));
-  const Workload work = workloadOf(which);
+  const Result<Work> work = workOf(which);
+  if (!work.ok()) return work.failure();
+  const Result<Program> program = programOf(which, work.value());
+  if (!program.ok()) return program.failure();
 
   Measured out;
   auto start = Clock::now();
   SourceManager sources;
   Diagnostics diagnostics;
-  const FileId file = sources.addBuffer(work.file, work.text);
+  const FileId file = sources.addBuffer(program.value().file, program.value().text);
   compiler::CompileRequest request;
   request.optimise = which.optimise;
   const auto compiled = compiler::compile(sources, {&file, 1}, request, diagnostics);
@@ -196,41 +152,35 @@ Result<Measured> measure(const Case& which) {
   engineOptions.cppCompiler = which.compiler;
   Result<std::unique_ptr<host::Engine>> engine = compiler::makeEngine(*kind, *compiled, engineOptions);
   if (!engine.ok()) return engine.failure();
-  const auto instance = std::make_unique<host::Instance>(*engine.value());
-  instance->scan();
+  host::Instance(*engine.value()).scan();
   out.backMs = nsSince(start) / 1e6;
   out.residentMb = residentMb();
-  out.memoryKb = instance->program().memory_size / 1024.0;
 
-  const Result<Hand> loaded = loadHand(which.handWritten);
-  if (!loaded.ok()) return loaded.failure();
-  const Hand& hand = loaded.value();
-  if (hand.start != nullptr) hand.start();
-  std::vector<uint8_t> memory(work.bits.size() + 2 * work.words.size());
-  // NCT's time slices around a scan are the NC's; a scan of the others is their modules, and no more.
-  const auto runEngine = [&] {
-    if (which.program == "bits")
-      instance->runTask(instance->program().main_task);
-    else
-      instance->scan();
-  };
-  const auto runHand = [&] { hand.scan(memory.data()); };
-  const Result<void> equal = settle(*instance, work, memory, runEngine, runHand);
+  const Result<std::unique_ptr<Ours>> ours = Ours::make(*engine.value(), program.value());
+  if (!ours.ok()) return ours.failure();
+  const rung_program& image = ours.value()->instance().program();
+  out.memoryKb = image.memory_size / 1024.0;
+  const Result<std::unique_ptr<Straight>> straight =
+      Straight::load(which.straight, work.value(), BitForm::Byte, program.value().msAScan);
+  if (!straight.ok()) return straight.failure();
+  const Result<void> equal = settle(*ours.value(), *straight.value(), work.value(), program.value());
   if (!equal.ok()) return equal.failure();
-  const int engineRepeats = repeatsFor(runEngine);
-  const int handRepeats = repeatsFor(runHand);
-  std::vector<double> engineNs;
-  std::vector<double> handNs;
+  const auto runOurs = [&] { ours.value()->scan(); };
+  const auto runStraight = [&] { straight.value()->scan(); };
+  const int ourRepeats = repeatsFor(runOurs);
+  const int straightRepeats = repeatsFor(runStraight);
+  std::vector<double> ourNs;
+  std::vector<double> straightNs;
   std::vector<double> ratios;
   for (int i = 0; i < kSamples; ++i) {
-    engineNs.push_back(sample(engineRepeats, runEngine));
-    handNs.push_back(sample(handRepeats, runHand));
-    ratios.push_back(engineNs.back() / handNs.back());
+    ourNs.push_back(sample(ourRepeats, runOurs));
+    straightNs.push_back(sample(straightRepeats, runStraight));
+    ratios.push_back(ourNs.back() / straightNs.back());
   }
-  out.nsPerScan = median(engineNs);
-  out.handNsPerScan = median(handNs);
+  out.nsPerScan = median(ourNs);
+  out.straightNsPerScan = median(straightNs);
   out.ratio = median(ratios);
-  const Result<double> size = codeKb(*kind, *compiled, engineOptions, instance->program());
+  const Result<double> size = codeKb(*kind, *compiled, engineOptions, image);
   if (!size.ok()) return size.failure();
   out.codeKb = size.value();
   return out;

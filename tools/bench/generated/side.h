@@ -1,0 +1,82 @@
+// A generated program in one of its forms, ready to be scanned: ours in the host's runner, or the straight-line one.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ir/support/result.h"
+#include "rtlib/host/instance.h"
+#include "tools/bench/generated/form.h"
+#include "tools/bench/generated/machine.h"
+#include "tools/bench/generated/straight.h"
+
+namespace rung::bench {
+
+// Everything that the work numbers, as the form has it now.
+struct Values {
+  std::vector<bool> bits;
+  std::vector<uint32_t> words, tables;
+  std::vector<uint64_t> reals; // their bits
+  bool operator==(const Values&) const = default;
+};
+
+class Side {
+public:
+  virtual ~Side() = default;
+  virtual void begin(const Machine& machine) = 0; // as at the first scan
+  virtual void apply(const Change& change) = 0;
+  virtual void scan() noexcept = 0;
+  virtual Values values() const = 0;
+};
+
+// Ours: a whole pass of the schedule, without a control. All places are found when it is made.
+class Ours final : public Side {
+public:
+  // Fails where the program lacks one of the places.
+  static Result<std::unique_ptr<Ours>> make(host::Engine& engine, const Program& program);
+  void begin(const Machine& machine) override;
+  void apply(const Change& change) override;
+  void scan() noexcept override { instance_.scan(); }
+  Values values() const override;
+  void beginWith(bool condition); // of a program without a machine: all of its bits
+  host::Instance& instance() { return instance_; }
+
+private:
+  explicit Ours(host::Engine& engine);
+  void writeConstants();
+
+  host::Instance instance_;
+  std::vector<rt::Place> inputs_; // where what the machine writes lasts
+  std::vector<rt::Place> bits_, words_, tables_, reals_;
+  std::vector<std::pair<rt::Place, uint64_t>> constants_;
+};
+
+class Straight final : public Side {
+public:
+  // A shared object of straightSource. Fails where it cannot be loaded.
+  static Result<std::unique_ptr<Straight>> load(const std::string& path, const Work& work, BitForm form, int msAScan);
+  void begin(const Machine& machine) override;
+  void apply(const Change& change) override;
+  void scan() noexcept override { scan_(memory_.data(), msAScan_); }
+  Values values() const override;
+
+private:
+  using Scan = void (*)(uint64_t*, int);
+  Straight(Scan scan, const Work& work, BitForm form, int msAScan);
+  bool bit(uint32_t number) const;
+  void setBit(uint32_t number, bool value);
+  uint8_t* bytes() { return reinterpret_cast<uint8_t*>(memory_.data()); }
+  const uint8_t* bytes() const { return reinterpret_cast<const uint8_t*>(memory_.data()); }
+
+  Scan scan_;
+  const Work& work_;
+  StraightLayout layout_;
+  int msAScan_;
+  std::vector<uint64_t> memory_;
+};
+
+// "" or the first place where they differ.
+std::string difference(const Values& ours, const Values& straight, const Program& program);
+
+} // namespace rung::bench

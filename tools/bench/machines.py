@@ -1,0 +1,73 @@
+"""Instructions that the example machines take a part: a scan, of GSK a slot of 8 ms."""
+import tempfile
+from pathlib import Path
+
+from callgrind import TARGET, counted, run, self_costs
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+RECORDINGS = HERE / "machines" / "recordings"
+IDLE_PARTS = (200, 500)  # the first one that is counted, and how many
+
+MACHINES = {
+    "gsk-mill": {"part program": "nc-program.scn", "tool change": "tool-change.scn"},
+    "nct-turning-centre": {"part program": "nc-program.scn", "tool change": "nc-tools.scn"},
+    "technol-machining-centre": {"part program": "part-program.scn", "tool change": "tool-change.scn"},
+}
+HEAD = """## Instructions of the example machines
+
+Counted by callgrind, exactly: a program built by `rungc build`, in a host of the runtime's library with the control of its dialect. What its machine does comes from a
+recording; writing it into the program's memory is not counted. A part is a scan, of GSK a slot of 8 ms. After each part all of the program's
+memory is compared with that of the interpreter, by a hash. `./dev bench --count` makes this table and the next ones alone.
+"""
+
+
+def recording(machine, situation):
+    return RECORDINGS / f"{machine}-{situation.replace(' ', '-')}.txt"
+
+
+def parts_of(path):
+    """A line begins with a hash, or stands for several (*N)."""
+    lines = path.read_text(encoding="ascii").splitlines()[1:]
+    return sum(int(line[1:]) if line.startswith("*") else 1 for line in lines)
+
+
+def record(tools):
+    RECORDINGS.mkdir(exist_ok=True)
+    for machine, situations in MACHINES.items():
+        for situation, scenario in situations.items():
+            text = run(tools / "rung-bench-record", f"examples/{machine}/{scenario}", cwd=ROOT)
+            recording(machine, situation).write_text(text, encoding="ascii")
+
+
+def count(tools, program, path, parts, folder):
+    """Instructions a part: those of the program's code, and all."""
+    profile = Path(folder) / "profile"
+    first, number = parts
+    run(tools / "rung-bench-scan", program, path)
+    counted(profile, tools / "rung-bench-scan", program, path, first, number)
+    costs = self_costs(profile)
+    rungs = sum(cost for name, cost in costs.items() if name and name.endswith(program.name))
+    return round(rungs / number), round(sum(costs.values()) / number)
+
+
+def measure(tools):
+    rows = {}
+    with tempfile.TemporaryDirectory() as folder:
+        nothing = Path(folder) / "nothing.txt"
+        nothing.write_text("recording of nothing\n", encoding="ascii")
+        for machine, situations in MACHINES.items():
+            program = Path(folder) / f"{machine}.so"
+            run(tools / "rungc", "build", "--target", TARGET, "-o", program, cwd=ROOT / "examples" / machine)
+            rows[f"{machine}, after cold start"] = count(tools, program, nothing, IDLE_PARTS, folder)
+            for situation in situations:
+                path = recording(machine, situation)
+                rows[f"{machine}, {situation}"] = count(tools, program, path, (0, parts_of(path)), folder)
+    return rows
+
+
+def text_of(rows):
+    lines = [HEAD, "| machine | compiled rungs | around them | instructions a part |", "| --- | --- | --- | --- |"]
+    for name, (rungs, total) in rows.items():
+        lines.append(f"| {name} | {rungs:,} | {total - rungs:,} | {total:,} |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""What docs/performance.md says about generated programs: counts, cold scans, costs of instructions; and the plots.
+
+report.py BIN FOLDER    measures, prints the text, and writes the plots into the folder
+"""
+import datetime
+import platform
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+import machines
+import plot
+from callgrind import Failure, run
+from generated import DIALECTS, LARGE_KINDS, Instructions, Programs, percentile, works
+
+TITLES = {"bits": "bit logic", "timers-idle": "timers, idle", "timers-running": "timers, running", "counters": "counters",
+          "integers": "integer arithmetic", "reals": "floating-point arithmetic", "indexed": "indexed addressing",
+          "signals": "bit logic on NC signals", "mechanisms-idle": "mechanisms, idle",
+          "mechanisms-waiting": "mechanisms, waiting", "mechanisms": "mechanisms", "full": "full"}
+NAMES = {"nct": "NCT", "gsk": "GSK", "technol": "TECHNOL"}
+PLOTTED_SIZE = 1000
+COLD = (("full", 1000), ("bits", 1000), ("timers-running", 100), ("counters", 100), ("integers", 200))
+
+COUNTS_HEAD = """## Instructions of generated programs
+
+Counted by callgrind, exactly, as above: a scan in the host's runner, without a control, after twenty others. A program is drawn from a seed (tools/bench/generated)
+and written in each dialect, and as straight-line C++ in two forms, a byte a bit and 64 bits a word, compiled by g++ and clang++ at -O3. All have the same inputs,
+some of which change before each scan, and the same outputs: bits, words, tables and floating-point numbers are compared after every one of 400 scans. The
+reference is the straight-line form with the fewest instructions. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
+arithmetic. Where there is no count, the control has no room for so many rungs, or no such thing. In brackets: of these the compiled rungs, without the runner.
+"""
+COLD_HEAD = """## Cold scans
+
+A task of 1 ms always runs after a sleep. Here a scan of ours and one of the reference are run in turn in one process, each after a sleep of 1 ms, 2,000 times: what
+changes at the machine is written before the time is taken, and every place was found before. "Disturbed": before the sleep other work
+touches 2 MB. Hot: one scan directly after another. Microseconds; in the time is that of reading the clock twice. Ratios are of one run.
+"""
+TOUCHED_HEAD = """### What a scan touches
+
+Lines of 64 bytes and pages of 4 kB, by callgrind's model of a cache that begins empty.
+
+| program | ours: code | ours: data | reference: code | reference: data |
+| --- | --- | --- | --- | --- |"""
+COST_HEAD = """## What an instruction costs
+
+As makers of controls print it: a program of 100 equal rungs less the empty program, divided by 100. The condition is 1 and stays so, what follows is executed in
+every scan; a rung has its contact and what else the line names. Hot: one scan directly after another, median; cold: after a sleep of 1 ms, 10th percentile.
+"""
+
+
+def machine_text():
+    cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    gcc = run("g++", "--version").splitlines()[0]
+    clang = run("clang++-19", "--version").splitlines()[0]
+    return (f"{cpu[1] if cpu else platform.machine()}, Linux {platform.release().partition('-')[0]}, {' '.join(platform.libc_ver())}, {gcc}, {clang}, "
+            f"{datetime.date.today()}")
+
+
+def named(work):
+    return f"{work[1]:,} × {TITLES[work[0]]}" if work[0] != "full" else f"full, {work[1]:,} rungs"
+
+
+def reference(row):
+    return min(row["straight"].values())
+
+
+def counts_text(rows):
+    with_straight = any(row and row["straight"] for row in rows.values())
+    head = ["program", *(NAMES[d] for d in DIALECTS)]
+    if with_straight:
+        head += ["reference", "its form", *(f"{NAMES[d]} / reference" for d in DIALECTS)]
+    lines = [COUNTS_HEAD, f"| {' | '.join(head)} |", "|" + " --- |" * len(head)]
+    for work in dict.fromkeys(key[1:] for key in rows):
+        each = [rows[(dialect, *work)] for dialect in DIALECTS]
+        cells = [named(work), *(f"{row['ours']:,} ({row['rungs']:,})" if row else "–" for row in each)]
+        some = next((row for row in each if row and row["straight"]), None)
+        if not any(each):
+            continue
+        if some:
+            form = min(some["straight"], key=some["straight"].get)
+            cells += [f"{reference(some):,}", ", ".join(form), *(f"{row['ours'] / reference(row):.2f}" if row else "–" for row in each)]
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def microseconds(values, percent):
+    return percentile(values, percent) / 1000
+
+
+def ratio_spread(ours, theirs):
+    """(10th percentile, median, 90th) of the ratios of neighbours."""
+    ratios = [a / b for a, b in zip(ours, theirs) if b > 0]
+    return tuple(percentile(ratios, p) for p in (10, 50, 90))
+
+
+def cold_text(programs, rows):
+    """The text, and groups for the plot: a program, and of each dialect the spread of ratios."""
+    lines = [COLD_HEAD, "| program | hot: ours, reference | cold, 10 %: ours, reference, ratio | cold, median: ours, reference, ratio | "
+             "disturbed, 10 %: ours, reference, ratio |", "|" + " --- |" * 5]
+    places = [TOUCHED_HEAD]
+    groups = []
+    for work in COLD:
+        spreads = []
+        for dialect in DIALECTS:
+            row = rows.get((dialect, *work))
+            if row is None:
+                spreads.append(None)
+                continue
+            fastest = programs.fastest(row, work)
+            ours_hot, ours, ours_disturbed, hot, cold, disturbed = programs.times(dialect, work, fastest)
+
+            def cell(a, b, percent):
+                x, y = microseconds(a, percent), microseconds(b, percent)
+                return f"{x:.2f}, {y:.2f}, {x / y:.2f}"
+            name = f"{NAMES[dialect]}, {named(work)}"
+            lines.append(f"| {name} | {microseconds(ours_hot, 50):.2f}, {microseconds(hot, 50):.2f} | {cell(ours, cold, 10)} | "
+                         f"{cell(ours, cold, 50)} | {cell(ours_disturbed, disturbed, 10)} |")
+            spreads.append(ratio_spread(ours, cold))
+            own, theirs = programs.footprint(dialect, work, {}), programs.footprint(dialect, work, fastest)
+            cells = [f"{side[0][i]:,} lines, {side[1][i]} pages" for side in (own, theirs) for i in (0, 1)]
+            places.append(f"| {name} | {' | '.join(cells)} |")
+        groups.append((named(work), spreads))
+    return "\n".join([*lines, "", *places]) + "\n", groups
+
+
+def cost_text(programs):
+    lines = [COST_HEAD]
+    for dialect in DIALECTS:
+        lines += [f"### {NAMES[dialect]}", "", "| rung | instructions | ns, hot | ns, cold |", "| --- | --- | --- | --- |"]
+        lines += [f"| {title} | {count:.1f} | {hot:.2f} | {cold:.2f} |" for title, count, hot, cold in Instructions(programs, dialect).rows()]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def main(tools, folder):
+    machine = machine_text()
+    of_machines = machines.measure(tools)
+    with tempfile.TemporaryDirectory() as built:
+        programs = Programs(tools, built)
+        rows = programs.counts(works(LARGE_KINDS), True)
+        cold, groups = cold_text(programs, rows)
+        costs = cost_text(programs)
+    series = [NAMES[dialect] for dialect in DIALECTS]
+    by_count = [(named(work), [rows[(d, *work)]["ours"] / reference(rows[(d, *work)]) if rows[(d, *work)] else None for d in DIALECTS])
+                for work in dict.fromkeys(key[1:] for key in rows) if work[1] == PLOTTED_SIZE]
+    plots = {"performance-counts.svg": plot.bars("Instructions a scan, as ratio to the fastest straight-line C++", machine, by_count, series, 1),
+             "performance-cold.svg": plot.bars("Cold scans, as ratio to straight-line C++: median, 10 to 90 %", machine, groups, series, 1)}
+    for name, drawing in plots.items():
+        (folder / name).write_text(drawing, encoding="utf-8")
+    print(machines.text_of(of_machines))
+    print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
+    print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")
+    print(f"Measured on {machine}.\n\n{costs}")
+
+
+if __name__ == "__main__":
+    try:
+        main(Path(sys.argv[1]).resolve(), Path(sys.argv[2]))
+    except Failure as failure:
+        sys.exit(f"report.py: {failure}")

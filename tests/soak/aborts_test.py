@@ -79,11 +79,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=Path)
     parser.add_argument("module", type=Path)
-    parser.add_argument("dialects", nargs="*", choices=[*DIALECTS, []], default=list(DIALECTS))
+    parser.add_argument("dialects", nargs="*", metavar="DIALECT", help=f"{', '.join(DIALECTS)}; default: all")
     options = parser.parse_args()
     cnc_test.check_machine(options.module)
     cnc_test.TIMEOUT = TIMEOUT
-    for name in options.dialects:
+    for name in options.dialects or DIALECTS:
         interrupted(options, name)
     print("passed")
 

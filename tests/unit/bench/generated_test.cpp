@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "codegen/cpp/cpp_emitter.h"
@@ -18,22 +19,32 @@ namespace {
 constexpr uint32_t kRungs = 100;
 constexpr int kScans = 200;
 
-std::unique_ptr<host::Engine> engineOf(const bench::Program& program, std::string& error) {
-  SourceManager sources;
-  Diagnostics diagnostics;
-  const FileId file = sources.addBuffer(program.file, program.text);
-  const auto compiled = compiler::compile(sources, {&file, 1}, {}, diagnostics);
-  if (!compiled) {
-    error = renderText(diagnostics, sources);
-    return nullptr;
+// A program in the interpreter, with what that one needs to live.
+class Interpreted {
+public:
+  explicit Interpreted(const bench::Program& program) {
+    const FileId file = sources_.addBuffer(program.file, program.text);
+    compiled_ = compiler::compile(sources_, {&file, 1}, {}, diagnostics_);
+    if (!compiled_) {
+      error_ = renderText(diagnostics_, sources_);
+      return;
+    }
+    auto engine = compiler::makeEngine(compiler::EngineKind::Interp, *compiled_, {});
+    if (engine.ok())
+      engine_ = std::move(engine).value();
+    else
+      error_ = engine.error();
   }
-  auto engine = compiler::makeEngine(compiler::EngineKind::Interp, *compiled, {});
-  if (!engine.ok()) {
-    error = engine.error();
-    return nullptr;
-  }
-  return std::move(engine).value();
-}
+  const std::string& error() const { return error_; }
+  host::Engine& engine() { return *engine_; }
+
+private:
+  SourceManager sources_;
+  Diagnostics diagnostics_;
+  std::optional<compiler::Compiled> compiled_;
+  std::unique_ptr<host::Engine> engine_;
+  std::string error_;
+};
 
 std::unique_ptr<bench::Straight> straightOf(const bench::Work& work, bench::BitForm form, int msAScan,
                                             std::string& error) {
@@ -61,12 +72,12 @@ TEST_P(GeneratedProgram, DoesInEachDialectWhatItsStraightLineFormsDo) {
     const Result<bench::Program> program = bench::formOf(dialect)->write(work);
     if (!program.ok()) continue; // no such thing there
     ++dialects;
-    std::string error;
-    const auto engine = engineOf(program.value(), error);
-    ASSERT_NE(engine, nullptr) << error;
-    const auto ours = bench::Ours::make(*engine, program.value());
+    Interpreted interpreted(program.value());
+    ASSERT_EQ(interpreted.error(), "");
+    const auto ours = bench::Ours::make(interpreted.engine(), program.value());
     ASSERT_TRUE(ours.ok()) << ours.error();
     for (const auto form : {bench::BitForm::Byte, bench::BitForm::Packed}) {
+      std::string error;
       const auto straight = straightOf(work, form, program.value().msAScan, error);
       ASSERT_NE(straight, nullptr) << error;
       bench::Machine machine(work);
@@ -100,10 +111,9 @@ TEST(GeneratedInstructions, CompileAndRunInEachDialect) {
     for (const bench::Instruction& row : form->instructions()) {
       SCOPED_TRACE(std::string(dialect) + ": " + row.title);
       const bench::Program program = form->repeat(row.text, 3);
-      std::string error;
-      const auto engine = engineOf(program, error);
-      ASSERT_NE(engine, nullptr) << error;
-      const auto ours = bench::Ours::make(*engine, program);
+      Interpreted interpreted(program);
+      ASSERT_EQ(interpreted.error(), "");
+      const auto ours = bench::Ours::make(interpreted.engine(), program);
       ASSERT_TRUE(ours.ok()) << ours.error();
       ours.value()->beginWith(true);
       for (int scan = 0; scan < 3; ++scan) ours.value()->scan();

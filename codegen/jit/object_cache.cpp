@@ -22,9 +22,27 @@ void putDestination(const ir::Destination& to, std::string& text) {
   put(text, " {}:{}+{}", to.chunk, to.rung, to.extra);
 }
 
-// The cut of a chunk, and where its rungs go with which extra weight.
+// All of a rung that its code depends on; lines of the source only where a fault names them.
+void putRung(const ir::Rung& rung, uint32_t number, std::string& text) {
+  put(text, "rung {}", number);
+  for (const ir::Type type : rung.values) put(text, " {}", static_cast<int>(type));
+  text += '\n';
+  for (const ir::Op& op : rung.ops) {
+    put(text, "{} {} {} {} {} {}", static_cast<int>(op.code), static_cast<int>(op.type), op.result.index, op.ref,
+        op.count, op.imm);
+    for (int i = 0; i < op.argCount; ++i) put(text, " {}", ir::arg(rung, op, i).index);
+    if (op.code == ir::OpCode::Trap) put(text, " @{}", op.line != 0 ? op.line : rung.begin.line);
+    text += '\n';
+  }
+  put(text, "{} {}\n", rung.transfer.cond.index, rung.transfer.value.index);
+}
+
+// The cut of a chunk, its rungs, and where they go with which extra weight.
 void putChunk(const ir::Layout& layout, const ir::Chunk& chunk, std::string& text) {
-  put(text, "chunk {} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
+  const ir::Routine& routine = layout.module().at(chunk.routine);
+  put(text, "chunk {} {} {}\n", routine.name, chunk.firstRung, chunk.rungCount);
+  for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i)
+    putRung(routine.rungs[i], layout.rungNumber(chunk.routine, i), text);
   for (const ir::Exit& exit : ir::exitsOf(layout, chunk)) {
     put(text, "{}", static_cast<int>(exit.kind));
     putDestination(exit.taken, text);
@@ -71,11 +89,11 @@ std::string cacheSeal(std::string_view object) {
 CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
                      std::string_view version)
     : layout_(layout) {
-  std::string text = fmt::format("{} {} {} {:x} {} {} {}\n", version, machine, RUNG_ABI_VERSION, codeHash,
-                                 static_cast<int>(options.level), options.debugInfo,
-                                 options.sabotage ? static_cast<int>(*options.sabotage) : -1);
+  std::string text =
+      fmt::format("{} {} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION, static_cast<int>(options.level),
+                  options.debugInfo, options.sabotage ? static_cast<int>(*options.sabotage) : -1);
   text += layout.text();
-  text += ir::print(layout.module());
+  if (options.debugInfo) text += fmt::format("{:x}\n", codeHash) + ir::print(layout.module()); // it has all names
   whole_ = sha256(text);
 }
 

@@ -1,4 +1,5 @@
-// Object files kept in a folder, one a piece, by the hash of all that makes the piece's code. The key is also in the
+// Object files kept in a folder, one a piece, by the hash of all that makes the piece's code, before any pass of LLVM:
+// of a program that changes in one rung, and keeps its memory, the other pieces are found. The key is also in the
 // object (see PieceIdentity) and is compared there: a file under a right name with other contents counts as absent, as
 // a damaged one does, and one that others could have written (see host::CodeFolder). Several processes may use one
 // folder.

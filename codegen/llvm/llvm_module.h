@@ -7,6 +7,7 @@
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/LLVMContext.h>
 #include <llvm/IR/Module.h>
+#include <llvm/Pass.h>
 #include <llvm/Target/TargetMachine.h>
 
 #include "codegen/llvm/llvm_emitter.h"
@@ -30,8 +31,10 @@ Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, co
 // The passes of a level, before code generation.
 void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel level);
 
-// Assembly or an object file; the module is used up.
-Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type);
+// Assembly or an object file; the module is used up. `reader`, which may be null, sees the instructions of each
+// function as they will be written.
+Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,
+                                 std::unique_ptr<llvm::FunctionPass> reader = nullptr);
 
 // Target, processor, its features and the version of LLVM: what code depends on besides its source and options.
 std::string describeMachine(const llvm::TargetMachine& machine);

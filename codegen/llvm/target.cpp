@@ -14,6 +14,7 @@
 #include <llvm/TargetParser/SubtargetFeature.h>
 
 #include "codegen/llvm/llvm_module.h"
+#include "codegen/llvm/split_blocks.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {
@@ -63,17 +64,22 @@ std::string hostFeatures() {
 
 // LLVM's addPassesToEmitFile, which offers no way to leave a pass out. False: the target has no such output.
 bool addCodeGenerator(llvm::LLVMTargetMachine& machine, llvm::legacy::PassManager& passes, llvm::raw_pwrite_stream& out,
-                      llvm::CodeGenFileType type) {
+                      llvm::CodeGenFileType type, std::unique_ptr<llvm::FunctionPass> reader) {
   llvm::TargetPassConfig* config = machine.createPassConfig(passes);
   // x86 reorders instructions itself. The scheduler compares all accesses of a block with each other: it is what would
   // make time grow faster than the length of a chunk, and the code is no better for it.
   if (machine.getTargetTriple().isX86()) config->disablePass(&llvm::MachineSchedulerID);
   auto* info = new llvm::MachineModuleInfoWrapperPass(&machine);
+  if (machine.getOptLevel() != llvm::CodeGenOptLevel::None) { // else instructions are selected one by one
+    const std::unique_ptr<llvm::FunctionPass> last(llvm::createCodeGenPrepareLegacyPass());
+    config->insertPass(last->getPassID(), makeSplitBlocks().release());
+  }
   passes.add(config);
   passes.add(info);
   if (config->addISelPasses()) return false;
   config->addMachinePasses();
   config->setInitialized();
+  if (reader != nullptr) passes.add(reader.release());
   if (machine.addAsmPrinter(passes, out, nullptr, type, info->getMMI().getContext())) return false;
   passes.add(llvm::createFreeMachineFunctionPass());
   return true;
@@ -117,11 +123,12 @@ Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions
   return machine;
 }
 
-Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type) {
+Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,
+                                 std::unique_ptr<llvm::FunctionPass> reader) {
   llvm::SmallVector<char, 0> bytes;
   llvm::raw_svector_ostream out(bytes);
   llvm::legacy::PassManager passes;
-  if (!addCodeGenerator(static_cast<llvm::LLVMTargetMachine&>(machine), passes, out, type))
+  if (!addCodeGenerator(static_cast<llvm::LLVMTargetMachine&>(machine), passes, out, type, std::move(reader)))
     return failure("LLVM has no such output for this target");
   passes.run(module);
   return std::string(bytes.begin(), bytes.end());

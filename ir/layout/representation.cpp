@@ -2,6 +2,8 @@
 #include "ir/layout/representation.h"
 
 #include <algorithm>
+#include <cstring>
+#include <span>
 
 #include "rung/types.hpp"
 
@@ -50,17 +52,24 @@ Uses collectUses(const Module& module) {
   return uses;
 }
 
-// Calls visit(a, b) for every pair of bytes that a copy connects.
+// Calls visit(a, b) for every pair of bytes that a copy connects and that differ. Most copies are long, and agree.
 template <class Visit>
 void forConnected(const Module& module, Uses& uses, Visit visit) {
   for (const Task& task : module.tasks)
     for (const std::vector<Copy>* copies : {&task.begin, &task.end})
-      for (const Copy& copy : *copies)
-        for (uint32_t i = 0; i < copy.from.size; ++i) {
-          uint8_t& from = uses[copy.from.space.index][copy.from.byte + i];
-          visit(from, uses[copy.to.index][copy.toByte + i]);
-          if (copy.masked) visit(from, uses[copy.mask.index][copy.maskByte + i]);
-        }
+      for (const Copy& copy : *copies) {
+        const auto piece = [&](SpaceId space, uint32_t byte) {
+          return std::span(uses[space.index]).subspan(byte, copy.from.size);
+        };
+        const std::span<uint8_t> from = piece(copy.from.space, copy.from.byte);
+        const auto connect = [&](std::span<uint8_t> to) {
+          if (std::memcmp(from.data(), to.data(), from.size()) == 0) return;
+          for (size_t i = 0; i < from.size(); ++i)
+            if (from[i] != to[i]) visit(from[i], to[i]);
+        };
+        connect(piece(copy.to, copy.toByte));
+        if (copy.masked) connect(piece(copy.mask, copy.maskByte));
+      }
 }
 
 // Makes connected bytes equal by giving both the greater use; copies may form chains, so until nothing changes.
@@ -69,7 +78,7 @@ void agree(const Module& module, Uses& uses) {
   while (changed) {
     changed = false;
     forConnected(module, uses, [&](uint8_t& a, uint8_t& b) {
-      changed |= a != b;
+      changed = true;
       a = b = std::max(a, b);
     });
   }

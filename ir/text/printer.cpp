@@ -12,8 +12,8 @@
 namespace rung::ir {
 namespace {
 
-std::string inQuotes(std::string_view text) {
-  std::string out = "\"";
+void putQuoted(std::string& out, std::string_view text) {
+  out += '"';
   for (char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
@@ -30,6 +30,11 @@ std::string inQuotes(std::string_view text) {
       out += c;
   }
   out += '"';
+}
+
+std::string inQuotes(std::string_view text) {
+  std::string out;
+  putQuoted(out, text);
   return out;
 }
 
@@ -46,18 +51,19 @@ std::string nameText(std::string_view name) { return isWord(name) ? std::string(
 class References {
 public:
   void add(std::string_view name) {
-    unique_[name] = unique_.count(name) == 0;
-    names_.push_back(name);
+    const auto number = static_cast<uint32_t>(texts_.size());
+    const auto [first, isNew] = first_.try_emplace(name, number);
+    texts_.push_back(isNew ? nameText(name) : fmt::format("#{}", number));
+    if (!isNew) texts_[first->second] = fmt::format("#{}", first->second);
   }
   std::string text(uint32_t index) const {
     if (index == RUNG_NONE) return "-";
-    if (index < names_.size() && unique_.at(names_[index])) return nameText(names_[index]);
-    return fmt::format("#{}", index);
+    return index < texts_.size() ? texts_[index] : fmt::format("#{}", index);
   }
 
 private:
-  std::vector<std::string_view> names_;
-  std::unordered_map<std::string_view, bool> unique_;
+  std::vector<std::string> texts_;
+  std::unordered_map<std::string_view, uint32_t> first_; // with each name
 };
 
 // What names a place, for comments.
@@ -115,6 +121,12 @@ private:
   void put(fmt::format_string<Args...> format, Args&&... args) {
     rung::put(out_, format, std::forward<Args>(args)...);
   }
+  // Operations are nearly all of the text: they are put together without a format.
+  void add(std::string_view text) { out_ += text; }
+  void add(uint64_t number) {
+    char text[20];
+    out_.append(text, std::to_chars(text, text + sizeof text, number).ptr);
+  }
 
   void printMemory();
   void printFlags(std::span<const Keyword> list, uint32_t flags);
@@ -133,14 +145,19 @@ private:
   std::string bytePlace(uint32_t space, uint64_t byte, std::string_view more = {}) const {
     const uint32_t unit = unitOf(space);
     const uint64_t rest = byte % unit;
-    return fmt::format("{}[{}{}{}]", spaces_.text(space), byte / unit, rest == 0 ? "" : fmt::format("+{}", rest), more);
+    const std::string tail = rest == 0 ? "" : "+" + std::to_string(rest);
+    return (spaces_.text(space) + "[").append(std::to_string(byte / unit)).append(tail).append(more).append("]");
   }
   std::string bitPlace(uint32_t space, uint64_t bitOffset) const {
     const uint64_t unitBits = uint64_t{unitOf(space)} * 8;
-    return fmt::format("{}[{}.{}]", spaces_.text(space), bitOffset / unitBits, bitOffset % unitBits);
+    return (spaces_.text(space) + "[")
+        .append(std::to_string(bitOffset / unitBits))
+        .append(".")
+        .append(std::to_string(bitOffset % unitBits))
+        .append("]");
   }
   std::string place(const Op& op, bool window) const {
-    const std::string more = window ? fmt::format(" count {}", op.count) : "";
+    const std::string more = window ? " count " + std::to_string(op.count) : "";
     const bool bit = op.type == Type::Bit && !window;
     if (op.imm < 0 || (!bit && op.imm % 8 != 0)) return fmt::format("{}[!{}{}]", spaces_.text(op.ref), op.imm, more);
     const auto offset = static_cast<uint64_t>(op.imm);
@@ -235,10 +252,10 @@ std::string Printer::literal(Type type, int64_t bits) const {
     return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
   }
   const uint32_t width = bitWidth(type);
-  if (width >= 64 || width <= 1) return fmt::format("{}", bits);
+  if (width >= 64 || width <= 1) return std::to_string(bits);
   const uint64_t sign = 1ull << (width - 1);
   if ((raw >> width) != 0) return fmt::format("bits(0x{:X})", raw); // more than the type holds
-  return fmt::format("{}", static_cast<int64_t>((raw ^ sign) - sign));
+  return std::to_string(static_cast<int64_t>((raw ^ sign) - sign));
 }
 
 std::string Printer::attribute(const Rung& rung, const Op& op) const {
@@ -247,14 +264,14 @@ std::string Printer::attribute(const Rung& rung, const Op& op) const {
   case Attr::Literal: return literal(op.type, op.imm);
   case Attr::Place: return place(op, false);
   case Attr::Window: return place(op, true);
-  case Attr::Slot: return fmt::format("${}", op.ref);
-  case Attr::Count: return fmt::format("{}", op.count);
+  case Attr::Slot: return "$" + std::to_string(op.ref);
+  case Attr::Count: return std::to_string(op.count);
   case Attr::MessageOp: {
     const Keyword* keyword = findKeyword(kMessageOps, op.ref);
     return keyword != nullptr ? std::string(keyword->word) : fmt::format("#{}", op.ref);
   }
   case Attr::Service: return services_.text(op.ref);
-  case Attr::ResultNo: return fmt::format("{}", op.imm);
+  case Attr::ResultNo: return std::to_string(op.imm);
   case Attr::Fault: return faults_.text(op.ref);
   case Attr::Text: return op.ref < rung.notes.size() ? inQuotes(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
   }
@@ -274,29 +291,47 @@ std::string_view Printer::comment(const Op& op) const {
 void Printer::printResults(const Rung& rung, const Op& op) {
   for (uint32_t i = 0; i < op.resultCount; ++i) {
     const uint32_t id = op.result.index + i;
-    put("{}%{}:{}", i == 0 ? "" : ", ", id, id < rung.values.size() ? typeName(rung.values[id]) : "none");
+    add(i == 0 ? "%" : ", %");
+    add(id);
+    add(":");
+    add(id < rung.values.size() ? typeName(rung.values[id]) : "none");
   }
-  if (op.resultCount != 0) put(" = ");
+  if (op.resultCount != 0) add(" = ");
 }
 
 void Printer::printOp(const Rung& rung, const Op& op) {
   printResults(rung, op);
   const bool typed =
       op.resultCount == 1 && op.result.index < rung.values.size() && rung.values[op.result.index] == op.type;
-  put("{}", opInfo(op.code).name);
-  if (op.type != Type::None && !typed) put(".{}", typeName(op.type));
-  std::string_view lead = " ";
-  if (const std::string text = attribute(rung, op); opInfo(op.code).attr != Attr::None) {
-    put(" {}", text);
-    lead = ", ";
+  const OpInfo& info = opInfo(op.code);
+  add(info.name);
+  if (op.type != Type::None && !typed) {
+    add(".");
+    add(typeName(op.type));
   }
-  for (uint32_t i = 0; i < op.argCount; ++i, lead = ", ") {
+  std::string_view lead = " %";
+  if (info.attr != Attr::None) {
+    add(" ");
+    add(attribute(rung, op));
+    lead = ", %";
+  }
+  for (uint32_t i = 0; i < op.argCount; ++i, lead = ", %") {
     const uint64_t at = uint64_t{op.firstArg} + i;
-    put("{}%{}", lead, at < rung.args.size() ? fmt::format("{}", rung.args[at].index) : "?");
+    add(lead);
+    if (at < rung.args.size())
+      add(rung.args[at].index);
+    else
+      add("?");
   }
-  if (op.line != 0) put(" @{}", op.line);
-  if (const std::string_view name = comment(op); !name.empty()) put(" ; {}", inQuotes(name));
-  put("\n");
+  if (op.line != 0) {
+    add(" @");
+    add(op.line);
+  }
+  if (const std::string_view name = comment(op); !name.empty()) {
+    add(" ; ");
+    putQuoted(out_, name);
+  }
+  add("\n");
 }
 
 void Printer::printTransfer(const Rung& rung) {

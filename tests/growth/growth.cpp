@@ -7,10 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "codegen/jit/jit_engine.h"
 #include "ir/core/builder.h"
 #include "ir/passes/pipeline.h"
 #include "ir/text/text.h"
 #include "tests/unit/ladder/ladder_testing.h"
+#include "tools/compiler/compile.h"
 
 namespace {
 
@@ -126,6 +128,74 @@ void printAndParse(uint32_t n) {
   if (!parse(print(module)).module) std::abort();
 }
 
+// ---- programs: all that is done before the first scan, and machine code -----
+
+void compileProgram(const std::string& file, std::string text) {
+  SourceManager sources;
+  const std::vector<FileId> files{sources.addBuffer(file, std::move(text))};
+  Diagnostics diagnostics;
+  const std::optional<compiler::Compiled> compiled = compiler::compile(sources, files, {}, diagnostics);
+  if (!compiled || !codegen::compileJit(*compiled->layout, compiled->codeHash, {}).ok()) std::abort();
+}
+
+// Bit i of an NCT's registers for the program's own use.
+std::string nctBit(uint32_t i) { return fmt::format("{}.{:02}", 7000 + i / 32, i % 32); }
+std::string gskBit(uint32_t i) { return fmt::format("R{}.{}", i / 8 % 900, i % 8); }
+
+void nctRungs(uint32_t n) {
+  std::string text = "dialect nct\nmodule MAIN\n";
+  for (uint32_t i = 0; i < n; ++i)
+    text += fmt::format("\nrung\n|--[{}]--+--[/{}]--({})\n|--[{}]--+\n", nctBit(i * 7 % n), nctBit(i * 3 % n),
+                        nctBit(i), nctBit(i * 5 % n));
+  compileProgram("a.lad", std::move(text));
+}
+
+void nctContacts(uint32_t n) {
+  std::string text = "dialect nct\nmodule MAIN\n\nrung\n|--";
+  for (uint32_t i = 0; i < n; ++i) text += fmt::format("[{}]--", nctBit(i));
+  compileProgram("a.lad", text + "(5101.00)\n");
+}
+
+void gskRungs(uint32_t n) {
+  std::string text = "dialect gsk\nFUNC END1\n";
+  for (uint32_t i = 0; i < n; ++i)
+    text += fmt::format("LD {}\nOR {}\nANI {}\nOUT {}\n", gskBit(i * 7), gskBit(i * 3), gskBit(i * 5), gskBit(i));
+  compileProgram("a.pmc", text + "FUNC END2\n");
+}
+
+void gskContacts(uint32_t n) {
+  std::string text = "dialect gsk\nFUNC END1\nLD X10.0\n";
+  for (uint32_t i = 0; i < n; ++i) text += fmt::format("AND {}\n", gskBit(i));
+  compileProgram("a.pmc", text + "OUT Y10.0\nFUNC END2\n");
+}
+
+// Bits 0 to 7 of each of `bytes` bytes, and the modules around MAIN.
+std::string technolProgram(uint32_t bytes, const std::string& main) {
+  std::string text = "DATA\n";
+  for (uint32_t i = 0; i < bytes; ++i)
+    text += fmt::format("        DFM B{0}_0,B{0}_1,B{0}_2,B{0}_3,B{0}_4,B{0}_5,B{0}_6,B{0}_7\n", i);
+  text += "DATA_END\nMODULE_INPUT\nMODULE_INPUT_END\nMODULE_MAIN\n" + main + "MODULE_MAIN_END\n";
+  for (const char* name : {"BLOCK_INIT", "BLOCK_DONE", "INIT", "CLEAR", "HALT"})
+    text += fmt::format("MODULE_{0}\nMODULE_{0}_END\n", name);
+  return text + "STOP\n";
+}
+
+void technolRungs(uint32_t n) {
+  constexpr uint32_t kBytes = 400;
+  const auto bit = [](uint32_t i) { return fmt::format("B{}_{}", i / 8 % kBytes, i % 8); };
+  std::string text;
+  for (uint32_t i = 0; i < n; ++i)
+    text += fmt::format("        LDR {}\n        LO {}\n        LA -{}\n        WR {}\n", bit(i * 7), bit(i * 3),
+                        bit(i * 5), bit(i));
+  compileProgram("a.plc", technolProgram(kBytes, text));
+}
+
+void technolContacts(uint32_t n) {
+  std::string text = "        LDR B0_0\n";
+  for (uint32_t i = 1; i < n; ++i) text += fmt::format("        LA B{}_{}\n", i / 8, i % 8);
+  compileProgram("a.plc", technolProgram((n + 7) / 8, text + "        WR B0_0\n"));
+}
+
 uint32_t sizeOf(const char* text) { return static_cast<uint32_t>(std::atoi(text)); }
 
 // What the test must notice.
@@ -147,6 +217,12 @@ int main(int argc, char** argv) {
       {"optimise-large-rung", optimiseLargeRung},
       {"optimise-registers", optimiseRegisters},
       {"print-and-parse", printAndParse},
+      {"nct-rungs", nctRungs},
+      {"nct-contacts", nctContacts},
+      {"gsk-rungs", gskRungs},
+      {"gsk-contacts", gskContacts},
+      {"technol-rungs", technolRungs},
+      {"technol-contacts", technolContacts},
   };
   if (argc == 3 && argv[1] == std::string_view("quadratic")) return quadratic(sizeOf(argv[2])), 0;
   if (argc != 3) { // their names

@@ -83,9 +83,6 @@ Result<void> TieredEngine::begin() {
       return {};
     }
   }
-  Result<std::unique_ptr<codegen::JitCode>> code = codeOf(options_.code.level);
-  if (!code.ok()) return code.failure();
-  code_ = std::move(code).value();
   thread_ = std::thread([this] { work(); });
   return {};
 }
@@ -108,10 +105,18 @@ Result<void> TieredEngine::compile(codegen::JitCode& code, std::atomic<uint32_t>
 
 void TieredEngine::work() {
   host::runOrdinary();
-  const Result<void> done = compile(*code_, finished_);
+  const Result<void> done = makeCode();
   problem_ =
       done.ok() ? cacheTroubleText(code_->report().cacheTrouble) : "no machine code can be made: " + done.error();
   ended_ = true;
+}
+
+// Beside the program: LLVM takes some milliseconds until it is ready.
+Result<void> TieredEngine::makeCode() {
+  Result<std::unique_ptr<codegen::JitCode>> code = codeOf(options_.code.level);
+  if (!code.ok()) return code.failure();
+  code_ = std::move(code).value();
+  return compile(*code_, finished_);
 }
 
 std::string TieredEngine::finish() {

@@ -80,6 +80,7 @@ private:
   Result<std::unique_ptr<codegen::JitCode>> codeOf(codegen::LlvmLevel level);
   Result<void> compile(codegen::JitCode& code, std::atomic<uint32_t>& done);
   void work();
+  Result<void> makeCode();
 
   const ir::Layout& layout_;
   uint64_t codeHash_;
@@ -89,7 +90,7 @@ private:
   rung_program program_;
   host::ScanBound bound_;
   std::unique_ptr<codegen::JitCode> fast_; // where the program began with it
-  std::unique_ptr<codegen::JitCode> code_; // in the end
+  std::unique_ptr<codegen::JitCode> code_; // in the end; the thread's as long as it runs
   std::atomic<uint32_t> finished_{0};
   std::atomic<bool> stop_{false};
   std::string problem_;            // once it has

@@ -273,6 +273,33 @@ TEST(CacheKeys, CoverWhatMakesCode) {
   EXPECT_NE(keyOf(layout, whole), key) << "another text: debug information";
 }
 
+// A rung that is edited changes the key of its own piece alone, where the memory stays as it is.
+TEST(CacheKeys, AreThoseOfPieces) {
+  Module module = copyModule(64);
+  const LlvmOptions code{.debugInfo = false, .target = {}};
+  const ModulePart first{.chunkCount = 2};
+  const ModulePart second{.firstChunk = 2, .chunkCount = 2};
+  const auto keyOf = [&](const ModulePart& piece) {
+    const Layout layout(module, {.maxChunkRungs = 16});
+    return CacheKeys(layout, 1, code, "m", "1").of(piece);
+  };
+  const CacheKey before = keyOf(first);
+  const CacheKey beforeSecond = keyOf(second);
+  Rung& edited = module.routines[0].rungs[5];
+  edited = {};
+  RungBuilder b(module, edited);
+  b.store({SpaceId{4}, 0, 5}, b.load(Type::Bit, {SpaceId{3}, 0, 6}));
+  EXPECT_NE(keyOf(first), before);
+  EXPECT_EQ(keyOf(second), beforeSecond);
+  const CacheKey after = keyOf(first);
+  edited.begin.line = 70; // no code names it
+  EXPECT_EQ(keyOf(first), after);
+  b.trap(b.bit(true), FaultId{0});
+  const CacheKey withFault = keyOf(first);
+  edited.begin.line = 71;
+  EXPECT_NE(keyOf(first), withFault) << "a fault names the line";
+}
+
 // Weights that another version of the layout calculates from the same program.
 TEST(CacheKeys, CoverTheWeightsOfWays) {
   Module module = copyModule(3);

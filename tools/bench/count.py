@@ -20,7 +20,7 @@ from pathlib import Path
 import machines
 import report
 from callgrind import TARGET, Failure, run
-from generated import KINDS, Programs, works
+from generated import KINDS, RESTING, Programs, works
 
 TABLE = Path(__file__).resolve().parent / "counts.json"
 GROWTH = 1.01
@@ -38,6 +38,11 @@ def build_type(tools):
 
 def names_of(rows):
     return {f"{dialect} {kind} {size}": row["ours"] for (dialect, kind, size), row in rows.items() if row is not None}
+
+
+def names_of_resting(rows):
+    return {f"{dialect} {kind} {size}, --activity, {pace}": count
+            for (dialect, kind, size), row in rows.items() for pace, count in zip(("busy", "quiet"), row)}
 
 
 def compare(counts, kept):
@@ -72,12 +77,14 @@ def main():
         machines.record(options.tools)
     of_machines = machines.measure(options.tools)
     with tempfile.TemporaryDirectory() as folder:
-        programs = Programs(options.tools, folder)
+        programs = Programs(options.tools, folder, not options.check)
         # A check needs no straight-line form, which compilers take minutes for.
         rows = programs.counts(works(KINDS if options.all else ()), not options.check)
+        resting = programs.resting(RESTING)
     print(machines.text_of(of_machines))
     print(report.counts_text(rows))
-    counts = {name: total for name, (_, total) in of_machines.items()} | names_of(rows)
+    print(report.resting_text(resting, rows))
+    counts = {name: total for name, (_, total) in of_machines.items()} | names_of(rows) | names_of_resting(resting)
     if options.update:
         kept = json.loads(TABLE.read_text(encoding="utf-8"))
         here = environment(options.tools)

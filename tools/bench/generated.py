@@ -16,6 +16,8 @@ SIZES = (100, 1000)
 LARGE_SIZES = (10_000, 50_000)
 LARGE_KINDS = ("bits", "full")  # of these the usual report has large ones, too
 ARITHMETIC = ("integers", 200)  # of the full program of 1,000 rungs; 100 timers and 100 counters are in SIZES
+RESTING = (("full", 1000),)  # that are built with --activity, too
+LARGE_RESTING = (("bits", 10_000),)  # in the usual report
 NO_ROOM = 4  # status of rung-bench-generated
 COMPILERS = {"g++": "g++", "clang++": "clang++-19"}
 FORMS = ("byte", "packed")
@@ -27,20 +29,22 @@ def works(large_kinds=()):
 
 
 class Programs:
-    def __init__(self, tools, folder):
-        self.tools, self.folder = tools, Path(folder)
+    def __init__(self, tools, folder, checks_forms=True):
+        """`checks_forms`: programs with --activity are compared with the straight-line forms, which compilers take
+        minutes for."""
+        self.tools, self.folder, self.checks_forms = tools, Path(folder), checks_forms
         self.program = tools / "rung-bench-generated"
 
-    def build(self, name, source, ending):
+    def build(self, name, source, ending, *options):
         path = self.folder / f"{name}.so"
         text = self.folder / f"{name}.{ending}"
         text.write_text(source, encoding="utf-8")
-        run(self.tools / "rungc", "build", "--target", TARGET, "-o", path, text)
+        run(self.tools / "rungc", "build", "--target", TARGET, *options, "-o", path, text)
         return path
 
-    def ours(self, dialect, kind, size):
+    def ours(self, dialect, kind, size, activity=False):
         """The shared object; None where the control has no room for so many."""
-        name = f"{dialect}-{kind}-{size}"
+        name = f"{dialect}-{kind}-{size}" + ("-activity" if activity else "")
         if (self.folder / f"{name}.so").exists():
             return self.folder / f"{name}.so"
         made = subprocess.run([self.program, "source", dialect, kind, str(size)], capture_output=True, text=True, check=False)
@@ -48,7 +52,7 @@ class Programs:
             return None
         if made.returncode != 0:
             raise Failure(made.stderr)
-        return self.build(name, made.stdout, ENDINGS[dialect])
+        return self.build(name, made.stdout, ENDINGS[dialect], *(["--activity"] if activity else []))
 
     def straight(self, kind, size):
         """(form, compiler): shared object, of each."""
@@ -64,10 +68,10 @@ class Programs:
                 made[form, name] = path
         return made
 
-    def words(self, command, dialect, work, forms):
+    def words(self, command, dialect, work, forms, activity=False):
         kind, size = work
         paths = [word for (form, _), path in forms.items() for word in (form, path)]
-        return [self.program, command, dialect, kind, size, self.ours(dialect, kind, size), *paths]
+        return [self.program, command, dialect, kind, size, self.ours(dialect, kind, size, activity), *paths]
 
     def count(self, dialect, work, forms):
         """Instructions a scan: of our compiled rungs, of all of ours, and of each straight-line form."""
@@ -78,6 +82,25 @@ class Programs:
         rungs = sum(cost for name, cost in costs[0].items() if name and name.endswith(f"{dialect}-{work[0]}-{work[1]}.so"))
         totals = [round(sum(each.values()) / scans) for each in costs]
         return {"rungs": round(rungs / scans), "ours": totals[0], "straight": dict(zip(forms, totals[1:]))}
+
+    def resting(self, all_works):
+        """By dialect, kind, size: instructions a scan with --activity, where something is new in each scan, and where
+        one input is new in ten; and of the latter without it."""
+        rows = {}
+        for work in all_works:
+            for dialect in DIALECTS:
+                if self.ours(dialect, *work) is None:
+                    continue
+                forms = self.straight(*work) if self.checks_forms else {}
+                run(*self.words("check", dialect, work, forms, True))
+                rows[dialect, *work] = [self.one_count(command, dialect, work, activity)
+                                        for command, activity in (("count", True), ("count-quiet", True), ("count-quiet", False))]
+        return rows
+
+    def one_count(self, command, dialect, work, activity):
+        profile = self.folder / f"profile-resting-{dialect}-{work[0]}-{work[1]}"
+        scans = int(counted(profile, *self.words(command, dialect, work, {}, activity)))
+        return round(sum(self_costs(Path(f"{profile}.1")).values()) / scans)
 
     def counts(self, all_works, with_straight):
         """By dialect, kind, size. Where there is no room: None."""

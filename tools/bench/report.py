@@ -13,7 +13,7 @@ from pathlib import Path
 import machines
 import plot
 from callgrind import Failure, run
-from generated import DIALECTS, LARGE_KINDS, Instructions, Programs, percentile, works
+from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, RESTING, Instructions, Programs, percentile, works
 
 TITLES = {"bits": "bit logic", "timers-idle": "timers, idle", "timers-running": "timers, running", "counters": "counters",
           "integers": "integer arithmetic", "reals": "floating-point arithmetic", "indexed": "indexed addressing",
@@ -31,6 +31,12 @@ some of which change before each scan, and the same outputs: bits, words, tables
 reference is the straight-line form with the fewest instructions. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
 arithmetic. Where there is no count, the control has no room for so many rungs, or no such thing. In brackets: of these the compiled rungs, without the runner.
 """
+RESTING_HEAD = """### Programs that leave out what rests
+
+Built with `--activity`, as above; "quiet": one input changes in every tenth scan.
+
+| program | busy | busy, --activity | quiet | quiet, --activity |
+| --- | --- | --- | --- | --- |"""
 COLD_HEAD = """## Cold scans
 
 A task of 1 ms always runs after a sleep. Here a scan of ours and one of the reference are run in turn in one process, each after a sleep of 1 ms, 2,000 times: what
@@ -82,6 +88,15 @@ def counts_text(rows):
             form = min(some["straight"], key=some["straight"].get)
             cells += [f"{reference(some):,}", ", ".join(form), *(f"{row['ours'] / reference(row):.2f}" if row else "–" for row in each)]
         lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def resting_text(resting, rows):
+    lines = [RESTING_HEAD]
+    for (dialect, *work), (busy, quiet, all_quiet) in resting.items():
+        row = rows.get((dialect, *work))
+        plain = f"{row['ours']:,}" if row else "–"
+        lines.append(f"| {NAMES[dialect]}, {named(work)} | {plain} | {busy:,} | {all_quiet:,} | {quiet:,} |")
     return "\n".join(lines) + "\n"
 
 
@@ -140,6 +155,7 @@ def main(tools, folder):
     with tempfile.TemporaryDirectory() as built:
         programs = Programs(tools, built)
         rows = programs.counts(works(LARGE_KINDS), True)
+        resting = programs.resting(RESTING + LARGE_RESTING)
         cold, groups = cold_text(programs, rows)
         costs = cost_text(programs)
     series = [NAMES[dialect] for dialect in DIALECTS]
@@ -151,6 +167,7 @@ def main(tools, folder):
         (folder / name).write_text(drawing, encoding="utf-8")
     print(machines.text_of(of_machines))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
+    print(resting_text(resting, rows))
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")
     print(f"Measured on {machine}.\n\n{costs}")
 

@@ -9,6 +9,8 @@
 //                                          all forms side by side, compared after every scan
 //   count DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
 //                                          under callgrind: scans of each form, and a dump of its own for each
+//   count-quiet DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
+//                                          the same where one input changes in ten scans
 //   touch DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
 //                                          under callgrind: one scan of the last form, from empty caches
 //   cold DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
@@ -41,6 +43,7 @@ using Words = std::vector<std::string>;
 constexpr int kNoRoom = 4;
 constexpr int kSettleScans = 20;   // before what is measured
 constexpr int kCheckedScans = 400; // compared one by one
+constexpr int kQuietSettleScans = 200; // until a program that leaves out what rests has come to rest
 constexpr int kCountedScans = 40;
 constexpr int kWakeUps = 2000;
 constexpr int kWakeUpsForRungs = 500; // there are a hundred programs of them
@@ -130,20 +133,20 @@ void check(const Words& words) {
   }
 }
 
-void settle(bench::Side& side, bench::Machine& machine) {
+void settle(bench::Side& side, bench::Machine& machine, int scans = kSettleScans) {
   side.begin(machine);
-  for (int i = 0; i < kSettleScans; ++i) {
+  for (int i = 0; i < scans; ++i) {
     side.apply(machine.next());
     side.scan();
   }
 }
 
-void count(const Words& words) {
+void count(const Words& words, bench::Pace pace) {
   const Forms forms(words);
   std::vector<bench::Values> ends;
   for (const auto& side : forms.sides) {
-    bench::Machine machine(forms.of);
-    settle(*side, machine);
+    bench::Machine machine(forms.of, pace);
+    settle(*side, machine, pace == bench::Pace::Quiet ? kQuietSettleScans : kSettleScans);
     for (int i = 0; i < kCountedScans; ++i) {
       side->apply(machine.next());
       CALLGRIND_TOGGLE_COLLECT;
@@ -280,7 +283,9 @@ int run(const Words& words) {
   } else if (command == "check") {
     check(words);
   } else if (command == "count") {
-    count(words);
+    count(words, bench::Pace::Busy);
+  } else if (command == "count-quiet") {
+    count(words, bench::Pace::Quiet);
   } else if (command == "touch") {
     touch(words);
   } else if (command == "cold") {

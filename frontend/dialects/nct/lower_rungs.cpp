@@ -83,7 +83,7 @@ private:
   LoweringContext& context_;
   const TypedModule& source_;
   const std::vector<ir::RoutineId>& routines_; // by body
-  const std::vector<RunTime>& times_; // by rung of the module
+  const std::vector<RunTime>& times_;          // by rung of the module
   const Body& body_;
   ir::RoutineId id_;
   ir::Routine& routine_;

@@ -87,7 +87,8 @@ ValueId lowerAddSub(Lowering& box) {
   RungBuilder& b = box.b;
   return binary(box, [&](ValueId x, ValueId y) {
     const bool add = box.variant == kAdd;
-    const ValueId exact = b.binary(add ? OpCode::Add : OpCode::Sub, b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
+    const ValueId exact =
+        b.binary(add ? OpCode::Add : OpCode::Sub, b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
     const ValueId result = b.zextOrTrunc(Type::I32, exact);
     setFlags(box.memory, {.error = {},
                           .under = b.ltS(exact, b.constant(Type::I64, INT32_MIN)),

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kMemory = "M";
 constexpr std::string_view kTimeSliceMemory = "TS";
 constexpr std::string_view kFlags = "FLAGS"; // word 0000; a symbol only where the program names it
-constexpr uint32_t kFirstNcByte = 8; // words 0000 and 0001 are the program's
+constexpr uint32_t kFirstNcByte = 8;         // words 0000 and 0001 are the program's
 
 std::string padded(uint32_t value, size_t digits) {
   const std::string text = std::to_string(value);

@@ -189,6 +189,7 @@ void Spindles::turn(uint32_t spindle) {
 // Masters turn before their slaves, so that a slave follows the speed of this time slice.
 void Spindles::timeSlice() {
   const uint32_t there = existing();
+  if (resting_ && seen_.areSame(links().signals)) return;
   uint32_t slaves = 0;
   forBits(there, [&](uint32_t i) {
     const Order order = orderOf(links().signals.wordOf(signals_.enable, i));
@@ -199,12 +200,16 @@ void Spindles::timeSlice() {
   });
   forBits(slaves, [&](uint32_t i) { step(i, Order::Synchronise); });
   writeSignals(there);
+  const auto rests = [](const Spindle& state) { return state.order == Order::None && state.command == 0; };
+  resting_ = std::ranges::all_of(spindles_, rests);
+  if (resting_) seen_.see(links().signals);
 }
 
 uint32_t Spindles::existing() {
   const Parameters& parameters = *links().parameters;
   if (revision_ != parameters.revision()) {
     revision_ = parameters.revision();
+    resting_ = false;
     configured_ = 0;
     for (uint32_t i = 0; i < nc::nct::kSpindles; ++i)
       configured_ |= uint32_t{parameters.bit(parameters_.config, 0, i)} << i;
@@ -219,6 +224,7 @@ void Spindles::cycle() {
     Spindle& state = spindles_[i];
     const bool detach = get(signals_.detachRequest, i) && links().parameters->bit(parameters_.config, 0, i);
     if (detach == state.detached || state.speed != 0) continue;
+    resting_ = false;
     const double position = state.position;
     state = {};
     state.position = position;
@@ -269,6 +275,7 @@ void Spindles::writeSpindle(uint32_t i) const {
 }
 
 void Spindles::powerOn(nc::PowerOn kind) {
+  resting_ = false;
   for (Spindle& state : spindles_) {
     const double position = state.position;
     state = {};
@@ -300,6 +307,7 @@ Handled Spindles::event(std::string_view name, const std::vector<NcArgument>& ke
   const int64_t number = integerKey(keys, "number", 1);
   if (number < 1 || number > nc::nct::kSpindles) return "event spindle takes number=1 to 16";
   Spindle& state = spindles_[static_cast<size_t>(number) - 1];
+  resting_ = false;
   if (findKey(keys, "alarm") != nullptr) state.alarm = integerKey(keys, "alarm", 0) != 0;
   if (findKey(keys, "disturbance") != nullptr)
     state.disturbance = static_cast<double>(integerKey(keys, "disturbance", 0));
@@ -318,6 +326,7 @@ Handled Spindles::setQuantity(std::string_view name, double value) {
   if (!key) return std::nullopt;
   if (key->size() != 1 || (*key)[0] < 1 || (*key)[0] > nc::nct::kSpindles) return "there are spindles 1 to 16";
   spindles_[(*key)[0] - 1].position = value;
+  resting_ = false;
   return "";
 }
 

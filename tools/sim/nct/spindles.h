@@ -5,6 +5,7 @@
 #include <array>
 
 #include "tools/sim/nct/parameters.h"
+#include "tools/sim/nct/seen_signals.h"
 #include "tools/sim/nct/topic.h"
 
 namespace rung::sim::nct {
@@ -125,6 +126,10 @@ private:
   SpindleParameters parameters_;
   uint32_t configured_ = 0; // N0607 #0, a bit each, by the parameters of `revision_`
   uint32_t revision_ = 0;
+  // While all spindles are at rest, nothing but these makes a time slice do something.
+  bool resting_ = false;
+  SeenSignals seen_{WordSignal("SP_1"), WordSignal("SP_RNG"), WordSignal("SN_1"), WordSignal("SN_NCOM"),
+                    WordSignal("SN_NACT")};
 };
 
 } // namespace rung::sim::nct

@@ -329,6 +329,7 @@ void Connections::addWire(const Connection& connection, const End& from, const E
   wire.period = std::max(from.period, to.period);
   wire.target = to.target;
   wire.whole = to.whole;
+  wire.isBit = isMemoryBit(from.pin) && isMemoryBit(to.pin);
   shape(wire, connection, from, to);
   wires_.push_back(wire);
 }

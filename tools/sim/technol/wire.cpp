@@ -113,6 +113,11 @@ uint64_t WireMemory::valueOf(const Wire& wire) const { return converted(wire, re
 
 void WireMemory::copy(const Wire& wire) const {
   if (wire.to.kind == Pin::Kind::Text) return copyText(wire);
+  if (wire.isBit) {
+    const bool value = ((memory_.read(wire.from.located) & 1) != 0) != wire.invert;
+    if (value || !wire.joins) memory_.write(wire.to.located, value ? 1 : 0);
+    return;
+  }
   const uint64_t value = valueOf(wire);
   if (wire.joins && value == 0) return;
   write(wire.to, value);

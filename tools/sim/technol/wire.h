@@ -24,6 +24,7 @@ struct Pin {
   rt::Place located;
   host::Ref place;
 };
+inline bool isMemoryBit(const Pin& pin) { return pin.kind == Pin::Kind::Memory && pin.type == nc::ExchangeType::Bit; }
 Pin pinAt(const rung_program& program, const host::Ref& place, nc::ExchangeType type);
 
 // (min(max(x, least), most) + before) * scale + after, then held between low and high.
@@ -40,6 +41,7 @@ struct Wire {
   Pin from, to;
   bool invert = false;
   bool joins = false; // ORed to what another wire has put there
+  bool isBit = false; // from a bit of the memory to another: most are
   uint8_t stageCount = 0;
   Stage stages[kStages];
   nc::ExchangePeriod period = nc::ExchangePeriod::Slow;

@@ -289,9 +289,11 @@ bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
   const uint32_t entry = program_->tasks[task].entry;
   inTask_ = true;
   uint32_t pc = RUNG_PC_DONE;
-  for (; times != 0 && pc == RUNG_PC_DONE && !stopped_; --times) {
+  while (times != 0 && pc == RUNG_PC_DONE) {
     beginStack();
     pc = runBounded(entry);
+    --times;
+    if (stopped_) break;
   }
   inTask_ = false;
   if (pc != RUNG_PC_DONE) stopOnFault(task);

@@ -197,6 +197,38 @@ TEST_F(RunnerTest, ExtraWeightIsTakenOffTheBudget) {
   EXPECT_EQ(runner->fault().rung, 0u);
 }
 
+// The tables are wrong here, so that it shows.
+TEST_F(RunnerTest, WhatCannotUseUpItsBudgetIsNotCounted) {
+  test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 0), ctx->extra_weight = 50, 1u; }, 3);
+  test.addChunk(step<1, RUNG_PC_DONE>, 4);
+  const uint32_t bounded = test.addTask("A", 0, 5);
+  test.tasks[bounded].heaviest = 4;
+  const uint32_t counted = test.addTask("B", 1, 5);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, bounded, 3}};
+  start();
+  runner->scan();
+  EXPECT_EQ(takeTrace(), (Trace{0, 1, 0, 1, 0, 1}));
+  EXPECT_TRUE(runner->runTask(counted)) << "what the other one has left there is not its own";
+  runner->setStopped(true);
+  takeTrace();
+  EXPECT_TRUE(runner->runTask(bounded)); // by hand
+  EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+  runner->scan();
+  EXPECT_EQ(takeTrace(), Trace{});
+}
+
+TEST_F(RunnerTest, AFaultEndsWhatIsNotCounted) {
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return trace(mem, 0), uint32_t{RUNG_PC_FAULT}; });
+  const uint32_t task = test.addTask("A", 0);
+  test.tasks[task].heaviest = 1;
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, task, 3}};
+  start();
+  runner->scan();
+  EXPECT_EQ(takeTrace(), Trace{0});
+  EXPECT_TRUE(runner->faulted());
+  EXPECT_EQ(runner->fault().task, task);
+}
+
 TEST_F(RunnerTest, FaultOfAChunkIsKept) {
   test.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) {
     ctx->fault = {1, 0, 12, RUNG_NONE};

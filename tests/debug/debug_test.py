@@ -245,7 +245,7 @@ class Debug(unittest.TestCase):
         if subprocess.run(["perf", "record", "-e", "cpu-clock", "-o", os.devnull, "true"], capture_output=True).returncode != 0:
             self.skipTest("this machine does not let perf record")
         self.in_folder(record)
-        self.assertRegex(self.in_folder(report), r"\d+\.\d+% +\[\.\] P14\.0\n")
+        self.assertRegex(self.in_folder(report), r"\d+\.\d+% +\[\.\] LEVEL2\.20\n")
         self.assertRegex(self.in_folder(annotate), r"\d+\.\d+ +mill\.pmc:\d+\n")
 
 

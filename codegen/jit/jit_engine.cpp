@@ -15,7 +15,6 @@
 #include <llvm/ExecutionEngine/SectionMemoryManager.h>
 
 #include "codegen/jit/object_cache.h"
-#include "codegen/jit/pieces.h"
 #include "codegen/llvm/llvm_module.h"
 #include "ir/layout/program_image.h"
 #include "ir/support/check.h"
@@ -40,7 +39,34 @@ struct JitCode::Linker {
 
 namespace {
 
+// Small enough that threads share the work, that memory stays flat and that the first piece is soon there; large enough
+// that a piece's own cost vanishes.
+constexpr uint32_t kOpsPerPiece = 8192;
+
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
+
+uint32_t operationsOf(const Layout& layout, const Chunk& chunk) {
+  const std::vector<Rung>& rungs = layout.module().at(chunk.routine).rungs;
+  uint32_t ops = 0;
+  for (uint32_t i = 0; i < chunk.rungCount; ++i) ops += static_cast<uint32_t>(rungs[chunk.firstRung + i].ops.size());
+  return ops;
+}
+
+// Each of chunks that follow one another.
+std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t> chunks) {
+  std::vector<ModulePart> pieces;
+  uint32_t ops = 0;
+  for (const uint32_t chunk : chunks) {
+    const bool follows = !pieces.empty() && pieces.back().firstChunk + pieces.back().chunkCount == chunk;
+    if (ops >= kOpsPerPiece || !follows) {
+      pieces.push_back({.firstChunk = chunk, .tableName = fmt::format("rung_chunks_{}", chunk)});
+      ops = 0;
+    }
+    ++pieces.back().chunkCount;
+    ops += operationsOf(layout, layout.chunks()[chunk]);
+  }
+  return pieces;
+}
 
 Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
                                  const ModulePart& piece) {

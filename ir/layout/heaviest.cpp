@@ -2,17 +2,13 @@
 #include "ir/layout/heaviest.h"
 
 #include <algorithm>
-#include <iterator>
-#include <map>
-#include <memory>
-#include <set>
-#include <utility>
+#include <vector>
 
 namespace rung::ir {
 namespace {
 
-// A few routines that call each other twice have ways of any weight.
-uint64_t sum(uint64_t a, uint64_t b) { return a > UINT64_MAX - b ? UINT64_MAX : a + b; }
+// More than any budget: a few routines that call each other twice have ways of any weight.
+uint64_t sum(uint64_t a, uint64_t b) { return std::min(a + b, uint64_t{UINT32_MAX}); }
 
 struct Place {
   RoutineId routine;
@@ -24,10 +20,9 @@ class Ways {
 public:
   // `callees`: the ways through routines that are called; null: these here. Ways end before the chunk `limit` and those
   // after it.
-  Ways(const Layout& layout, std::span<const uint64_t> costs, Ways* callees, uint32_t limit)
-      : layout_(layout), costs_(costs), callees_(callees), limit_(limit), marks_(layout.rungCount(), Mark::New),
-        longest_(layout.rungCount(), 0), next_(layout.rungCount(), RUNG_NONE), order_(layout.rungCount(), 0),
-        lowest_(layout.rungCount(), 0) {}
+  Ways(const Layout& layout, Ways* callees, uint32_t limit)
+      : layout_(layout), callees_(callees), limit_(limit), marks_(layout.rungCount(), Mark::New),
+        weights_(layout.rungCount(), 0) {}
 
   uint64_t from(Place start) {
     stack_.push_back(start);
@@ -40,82 +35,44 @@ public:
         continue;
       }
       if (mark == Mark::Open) {
-        longest_[number(place)] = measure(place);
+        weights_[number(place)] = weigh(place);
         mark = Mark::Done;
-        closeCircle(place);
       }
       stack_.pop_back();
     }
-    return longest_[number(start)];
+    return weights_[number(start)];
   }
 
-  // The longest way from there, in its routine.
-  RoutineWay wayFrom(Place place) {
-    RoutineWay way{.routine = place.routine, .cost = from(place), .rungs = {}, .calls = {}};
-    for (; place.rung != RUNG_NONE; place.rung = next_[number(place)]) {
-      const Transfer& transfer = transferOf(place);
-      way.rungs.push_back(number(place));
-      if (transfer.kind == TransferKind::Call) way.calls.push_back({number(place), transfer.callee});
-    }
-    return way;
-  }
-
-  // By number.
-  const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
+  bool circles() const { return circles_; }
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
-  static constexpr uint32_t kClosed = UINT32_MAX; // as an order: its circle, if it is in one, is known
 
   uint32_t number(Place place) const { return layout_.rungNumber(place.routine, place.rung); }
   const std::vector<Rung>& rungsOf(RoutineId routine) const { return layout_.module().at(routine).rungs; }
-  const Transfer& transferOf(Place place) const { return rungsOf(place.routine)[place.rung].transfer; }
 
-  // The ways from here have to be known first.
+  // The ways from here have to be known first. One that leads back to a rung that is open closes a circle, and counts
+  // as ending there.
   void open(Place place) {
-    order_[number(place)] = lowest_[number(place)] = opened_++;
-    reached_.push_back(number(place));
     const auto need = [&](Place next) {
-      if (marks_[number(next)] == Mark::New) stack_.push_back(next);
+      Mark mark = marks_[number(next)];
+      if (mark == Mark::New) stack_.push_back(next);
+      circles_ = circles_ || mark == Mark::Open;
     };
-    const Transfer& transfer = transferOf(place);
+    const Transfer& transfer = rungsOf(place.routine)[place.rung].transfer;
     if (transfer.kind == TransferKind::Call && callees_ == nullptr) need({.routine = transfer.callee});
     forNext(place, transfer, need);
   }
 
-  // A way that leads back to a rung that is open closes a circle, and ends there.
-  uint64_t measure(Place place) {
-    const Transfer& transfer = transferOf(place);
-    uint32_t& best = next_[number(place)];
+  uint64_t weigh(Place place) {
+    const Rung& rung = rungsOf(place.routine)[place.rung];
     uint64_t most = 0;
-    forNext(place, transfer, [&](Place next) {
-      if (marks_[number(next)] == Mark::Open || (best != RUNG_NONE && longest_[number(next)] <= most)) return;
-      best = next.rung;
-      most = longest_[number(next)];
-    });
-    if (transfer.kind == TransferKind::Call) {
-      const Place callee{.routine = transfer.callee};
-      most = sum(most, callees_ != nullptr ? callees_->from(callee) : longest_[number(callee)]);
+    forNext(place, rung.transfer, [&](Place next) { most = std::max(most, weights_[number(next)]); });
+    if (rung.transfer.kind == TransferKind::Call) {
+      const Place callee{.routine = rung.transfer.callee};
+      most = sum(most, callees_ != nullptr ? callees_->from(callee) : weights_[number(callee)]);
     }
-    return sum(most, costs_[number(place)]);
-  }
-
-  // Tarjan's components of the graph, of which those with a way back to their rungs are circles.
-  void closeCircle(Place place) {
-    const uint32_t own = number(place);
-    bool itself = false;
-    forNext(place, transferOf(place), [&](Place next) {
-      itself = itself || number(next) == own;
-      if (order_[number(next)] != kClosed) lowest_[own] = std::min(lowest_[own], lowest_[number(next)]);
-    });
-    if (lowest_[own] != order_[own]) return;
-    const auto first = std::find(reached_.rbegin(), reached_.rend(), own).base() - 1;
-    std::vector<uint32_t> rungs(first, reached_.end());
-    reached_.erase(first, reached_.end());
-    for (const uint32_t rung : rungs) order_[rung] = kClosed;
-    if (rungs.size() == 1 && !itself) return;
-    std::ranges::sort(rungs);
-    circles_.push_back(std::move(rungs));
+    return sum(most, std::max(1u, rung.weight));
   }
 
   // The rungs of the routine where control may be next, after a call: when it has come back.
@@ -134,138 +91,41 @@ private:
   }
 
   const Layout& layout_;
-  std::span<const uint64_t> costs_;
   Ways* callees_;
   uint32_t limit_;
-  // By rung number.
-  std::vector<Mark> marks_;
-  std::vector<uint64_t> longest_;
-  std::vector<uint32_t> next_;   // on the longest way, in the same routine; RUNG_NONE: it ends
-  std::vector<uint32_t> order_;  // in which rungs were opened
-  std::vector<uint32_t> lowest_; // that can be reached and is not in a circle that is known
-  uint32_t opened_ = 0;
-  std::vector<uint32_t> reached_; // numbers of rungs whose circles are not known yet, as they were opened
-  std::vector<std::vector<uint32_t>> circles_;
+  std::vector<Mark> marks_;       // by rung number
+  std::vector<uint64_t> weights_; // 0 as long as they are not known
+  bool circles_ = false;
   std::vector<Place> stack_;
-};
-
-// The heaviest part of a task, which may be the whole.
-class TaskWays {
-public:
-  TaskWays(const Layout& layout, TaskId id, std::span<const uint64_t> costs)
-      : layout_(layout), task_(layout.module().tasks[id.index]), whole_(layout, costs, nullptr, RUNG_NONE) {
-    start_ = {.routine = task_.entry};
-    if (task_.parts <= 1)
-      cost_ = whole_.from(start_);
-    else
-      searchParts(layout.partEnds(id), costs);
-    circles_.insert(circles_.end(), whole_.circles().begin(), whole_.circles().end());
-    std::ranges::sort(circles_); // parts may share one
-    const auto same = std::ranges::unique(circles_);
-    circles_.erase(same.begin(), same.end());
-  }
-
-  uint64_t cost() const { return cost_; }
-  uint32_t part() const { return part_; }
-  const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
-
-  // Each routine before those that it calls.
-  std::vector<RoutineWay> routines() {
-    std::vector<RoutineWay> ways{heaviest_ != nullptr ? heaviest_->wayFrom(start_) : whole_.wayFrom(start_)};
-    std::map<uint32_t, uint32_t> callers; // by routine: calls from those whose place in the list is not known yet
-    std::map<uint32_t, RoutineWay> found;
-    std::vector<RoutineId> open = calleesOf(ways[0]);
-    while (!open.empty()) {
-      const RoutineId routine = open.back();
-      open.pop_back();
-      if (found.contains(routine.index)) continue;
-      RoutineWay& way = found[routine.index] = whole_.wayFrom({.routine = routine});
-      way.runs = 0;
-      for (const RoutineWay::Call& call : way.calls) ++callers[call.callee.index];
-      std::ranges::copy(calleesOf(way), std::back_inserter(open));
-    }
-    for (const RoutineWay::Call& call : ways[0].calls) ++callers[call.callee.index];
-    for (size_t i = 0; i < ways.size(); ++i)
-      for (const RoutineWay::Call& call : std::vector(ways[i].calls)) {
-        RoutineWay& callee = found[call.callee.index];
-        callee.runs = sum(callee.runs, ways[i].runs);
-        if (--callers[call.callee.index] == 0) ways.push_back(callee);
-      }
-    return ways;
-  }
-
-private:
-  static std::vector<RoutineId> calleesOf(const RoutineWay& way) {
-    std::vector<RoutineId> callees;
-    for (const RoutineWay::Call& call : way.calls) callees.push_back(call.callee);
-    return callees;
-  }
-
-  // A part begins at any chunk from the end of the one before it.
-  void searchParts(std::vector<uint32_t> ends, std::span<const uint64_t> costs) {
-    uint32_t begin = 0;
-    ends.push_back(RUNG_NONE);
-    for (uint32_t i = 0; i < ends.size(); ++i) {
-      auto part = std::make_unique<Ways>(layout_, costs, &whole_, ends[i]);
-      bool best = false; // so far
-      for (uint32_t c = begin; c < std::min<size_t>(ends[i], layout_.chunks().size()); ++c) {
-        const Chunk& chunk = layout_.chunks()[c];
-        if (chunk.routine != task_.entry) continue;
-        const Place start{.routine = chunk.routine, .rung = chunk.firstRung};
-        const uint64_t cost = part->from(start);
-        if (cost <= cost_) continue;
-        best = true;
-        start_ = start;
-        cost_ = cost;
-        part_ = i;
-      }
-      circles_.insert(circles_.end(), part->circles().begin(), part->circles().end());
-      if (best) heaviest_ = std::move(part);
-      begin = ends[i];
-    }
-  }
-
-  const Layout& layout_;
-  const Task& task_;
-  Ways whole_;
-  std::unique_ptr<Ways> heaviest_; // of a cut task
-  Place start_;
-  uint64_t cost_ = 0;
-  uint32_t part_ = 0;
-  std::vector<std::vector<uint32_t>> circles_;
 };
 
 } // namespace
 
-std::vector<uint64_t> rungWeights(const Layout& layout) {
-  std::vector<uint64_t> weights(layout.rungCount());
-  const std::vector<Routine>& routines = layout.module().routines;
-  for (uint32_t r = 0; r < routines.size(); ++r)
-    for (uint32_t i = 0; i < routines[r].rungs.size(); ++i)
-      weights[layout.rungNumber(RoutineId{r}, i)] = std::max(1u, routines[r].rungs[i].weight);
-  return weights;
-}
-
-HeaviestRun heaviestRun(const Layout& layout, TaskId task) {
-  const std::vector<uint64_t> weights = rungWeights(layout);
-  const TaskWays ways(layout, task, weights);
-  return {.weight = static_cast<uint32_t>(std::min<uint64_t>(ways.cost(), layout.module().tasks[task.index].budget)),
-          .circles = !ways.circles().empty()};
-}
-
-HeaviestWay heaviestWay(const Layout& layout, TaskId task, std::span<const uint64_t> costs) {
-  TaskWays ways(layout, task, costs);
-  return {.cost = ways.cost(), .part = ways.part(), .routines = ways.routines(), .circles = ways.circles()};
-}
-
-std::vector<RoutineId> reachedRoutines(const Layout& layout, TaskId task) {
-  std::vector<RoutineId> reached{layout.module().tasks[task.index].entry};
-  std::set<uint32_t> known{reached[0].index};
-  for (size_t i = 0; i < reached.size(); ++i)
-    for (const Rung& rung : layout.module().at(reached[i]).rungs)
-      if (rung.transfer.kind == TransferKind::Call && known.insert(rung.transfer.callee.index).second)
-        reached.push_back(rung.transfer.callee);
-  return reached;
+HeaviestRun heaviestRun(const Layout& layout, TaskId id) {
+  const Task& task = layout.module().tasks[id.index];
+  Ways whole(layout, nullptr, RUNG_NONE);
+  uint64_t most = 0;
+  bool circles = false;
+  if (task.parts <= 1) {
+    most = whole.from({.routine = task.entry});
+  } else {
+    // A part begins at any chunk from the end of the one before it.
+    uint32_t begin = 0;
+    std::vector<uint32_t> ends = layout.partEnds(id);
+    ends.push_back(RUNG_NONE);
+    for (const uint32_t end : ends) {
+      Ways part(layout, &whole, end);
+      for (uint32_t c = begin; c < std::min<size_t>(end, layout.chunks().size()); ++c) {
+        const Chunk& chunk = layout.chunks()[c];
+        if (chunk.routine == task.entry)
+          most = std::max(most, part.from({.routine = chunk.routine, .rung = chunk.firstRung}));
+      }
+      circles = circles || part.circles();
+      begin = end;
+    }
+  }
+  return {.weight = static_cast<uint32_t>(std::min<uint64_t>(most, task.budget)),
+          .circles = circles || whole.circles()};
 }
 
 } // namespace rung::ir

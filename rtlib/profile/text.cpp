@@ -40,8 +40,8 @@ std::string addedLine(const std::vector<Row>& added) {
     sum.operations += row.operations;
     sum.share += row.share;
   }
-  return format("     - %11" PRIu64 " %12" PRIu64 " %6.1f%% %8s %8s %8s %8s  %zu %s ", sum.executions,
-                sum.operations, sum.share * 100, "-", "-", "-", "-", added.size(), added.size() == 1 ? "rung" : "rungs") +
+  return format("     - %11" PRIu64 " %12" PRIu64 " %6.1f%% %8s %8s %8s %8s  %zu %s ", sum.executions, sum.operations,
+                sum.share * 100, "-", "-", "-", "-", added.size(), added.size() == 1 ? "rung" : "rungs") +
          kAdded + "\n";
 }
 

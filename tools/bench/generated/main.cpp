@@ -41,8 +41,8 @@ using namespace rung;
 using Words = std::vector<std::string>;
 
 constexpr int kNoRoom = 4;
-constexpr int kSettleScans = 20;   // before what is measured
-constexpr int kCheckedScans = 400; // compared one by one
+constexpr int kSettleScans = 20;       // before what is measured
+constexpr int kCheckedScans = 400;     // compared one by one
 constexpr int kQuietSettleScans = 200; // until a program that leaves out what rests has come to rest
 constexpr int kCountedScans = 40;
 constexpr int kWakeUps = 2000;

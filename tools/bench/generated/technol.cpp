@@ -15,19 +15,39 @@ std::string word(uint32_t number) { return fmt::format("W_{}", number); }
 std::string real(uint32_t number) { return fmt::format("Q_{}", number); }
 
 // The cells of the interface that the control (or, of outputs, the program) alone writes.
-void addSignals(std::vector<std::string>& bits, nc::Direction direction, size_t most) {
+std::vector<std::string> signals(nc::Direction direction) {
+  std::vector<std::string> names;
   for (const nc::Signal& row : nc::technolSignals())
     if (std::string_view(row.area) == "I" && row.type == nc::SignalType::Bit && row.direction == direction &&
-        row.count == 1 && bits.size() < most)
-      bits.emplace_back(row.symbol);
+        row.count == 1)
+      names.emplace_back(row.symbol);
+  return names;
+}
+
+// By bit: a cell of the interface that no rung names is not in the program.
+std::vector<bool> named(const Work& work) {
+  std::vector<bool> out(work.bits(), false);
+  for (const Element& element : work.elements) {
+    for (const Contact& contact : {element.first, element.second, element.third}) out[contact.bit] = true;
+    out[element.coil] = true;
+  }
+  return out;
 }
 
 std::vector<std::string> bitsOf(const Work& work) {
+  const std::vector<bool> isNamed = named(work);
+  const std::vector<std::string> ofControl = signals(nc::Direction::In);
+  const std::vector<std::string> ofProgram = signals(nc::Direction::Out);
+  size_t inputs = 0;
+  size_t outputs = 0;
   std::vector<std::string> bits;
-  if (work.kind == Kind::Signals) addSignals(bits, nc::Direction::In, work.inputs);
-  while (bits.size() < work.inputs) bits.push_back(bit(static_cast<uint32_t>(bits.size())));
-  if (work.kind == Kind::Signals) addSignals(bits, nc::Direction::Out, work.bits());
-  while (bits.size() < work.bits()) bits.push_back(bit(static_cast<uint32_t>(bits.size())));
+  for (uint32_t i = 0; i < work.bits(); ++i) {
+    const bool isInput = i < work.inputs;
+    const std::vector<std::string>& names = isInput ? ofControl : ofProgram;
+    size_t& next = isInput ? inputs : outputs;
+    const bool takes = work.kind == Kind::Signals && isNamed[i] && next < names.size();
+    bits.push_back(takes ? names[next++] : bit(i));
+  }
   return bits;
 }
 

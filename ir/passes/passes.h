@@ -13,6 +13,7 @@ void foldConstants(Module& module);         // constants, algebra, branches that
 void reuseValues(Module& module);           // an equal operation, load or stored value above is used again
 void removeDeadOps(Module& module);         // results that nothing uses, regions without effect
 void removeTransientStores(Module& module); // values of registers between rungs that nothing reads
+void guardIndices(Module& module);          // a shorter way through a rung, for small indices
 void instrumentRungs(Module& module);       // measures each rung
 
 } // namespace rung::ir

@@ -2,8 +2,6 @@
 #include "rtlib/host/activity_memory.h"
 
 #include <algorithm>
-#include <numeric>
-#include <span>
 
 namespace rung::host {
 namespace {
@@ -30,74 +28,96 @@ void forLines(std::span<const rung_span> spans, Visit visit) {
   }
 }
 
+// Lists one behind the other: `first` has how many entries each list has, and after it, where each begins.
+uint32_t begins(std::span<uint32_t> first) {
+  uint32_t sum = 0;
+  for (uint32_t& entry : first) {
+    const uint32_t count = entry;
+    entry = sum;
+    sum += count;
+  }
+  return sum;
+}
+
 } // namespace
 
-// Lines of the block are numbered from its beginning, lines that are watched as they come.
 ActivityMemory::ActivityMemory(const rung_program& program) {
   if (program.activity_count == 0) return;
   task_ = program.main_task;
-  std::vector<bool> lines(program.memory_size / kActivityLine);
+  findLines(program);
+  findWatchers(program);
+  findWritten(program);
+  mayRest_.make(program.chunk_count);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forLines(touched(program, chunk), [&](uint32_t line) { lines[line] = true; });
-  findLines(lines);
-  std::vector<uint32_t> lineAt(lines.size(), RUNG_NONE);
-  for (uint32_t line = 0; line < lineOffsets_.size(); ++line) lineAt[lineOffsets_[line] / kActivityLine] = line;
-  findWatchers(program, lineAt);
-  findWritten(program, lineAt);
-  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    mayRest_.push_back(program.activity[chunk].touched_count != 0 ? 1 : 0);
-  rests_.resize(program.chunk_count);
-  copy_.resize(lineOffsets_.size() * kActivityLine);
+    mayRest_[chunk] = program.activity[chunk].touched_count != 0 ? 1 : 0;
+  rests_.make(program.chunk_count);
+  copy_.make(lineOffsets_.size * kActivityLine);
 }
 
-void ActivityMemory::findLines(const std::vector<bool>& lines) {
-  for (uint32_t line = 0; line < lines.size(); ++line) {
-    if (!lines[line]) continue;
-    const auto number = static_cast<uint32_t>(lineOffsets_.size());
-    if (line == 0 || !lines[line - 1]) stretches_.push_back({line * kActivityLine, number, 0});
-    ++stretches_.back().lineCount;
-    lineOffsets_.push_back(line * kActivityLine);
+void ActivityMemory::findLines(const rung_program& program) {
+  lineAt_.make(program.memory_size / kActivityLine);
+  std::ranges::fill(lineAt_.all(), RUNG_NONE);
+  uint32_t count = 0;
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
+    forLines(touched(program, chunk), [&](uint32_t line) {
+      if (lineAt_[line] == RUNG_NONE) ++count;
+      lineAt_[line] = 0;
+    });
+  lineOffsets_.make(count);
+  stretches_.make(count); // at most
+  stretches_.size = 0;
+  uint32_t number = 0;
+  for (uint32_t line = 0; line < lineAt_.size; ++line) {
+    if (lineAt_[line] == RUNG_NONE) continue;
+    if (line == 0 || lineAt_[line - 1] == RUNG_NONE) stretches_[stretches_.size++] = {line * kActivityLine, number, 0};
+    ++stretches_[stretches_.size - 1].lineCount;
+    lineOffsets_[number] = line * kActivityLine;
+    lineAt_[line] = number++;
   }
 }
 
-void ActivityMemory::findWatchers(const rung_program& program, const std::vector<uint32_t>& lineAt) {
+void ActivityMemory::findWatchers(const rung_program& program) {
   const auto forBytes = [&](uint32_t chunk, const auto& visit) {
     for (const rung_span& span : touched(program, chunk))
       for (uint32_t at = span.offset; at < span.offset + span.size; ++at)
-        visit(lineAt[at / kActivityLine] * kActivityLine + at % kActivityLine);
+        visit(lineAt_[at / kActivityLine] * kActivityLine + at % kActivityLine);
   };
-  firstWatcher_.assign(lineOffsets_.size() * kActivityLine + 1, 0);
+  const uint32_t bytes = lineOffsets_.size * kActivityLine;
+  firstWatcher_.make(bytes + 1);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forBytes(chunk, [&](uint32_t byte) { ++firstWatcher_[byte + 1]; });
-  std::partial_sum(firstWatcher_.begin(), firstWatcher_.end(), firstWatcher_.begin());
-  watchers_.resize(firstWatcher_.back());
-  std::vector<uint32_t> next(firstWatcher_.begin(), firstWatcher_.end() - 1);
+    forBytes(chunk, [&](uint32_t byte) { ++firstWatcher_[byte]; });
+  watchers_.make(begins(firstWatcher_.all()));
+  Numbers next;
+  next.make(bytes);
+  std::ranges::copy(firstWatcher_.all().first(bytes), next.items.get());
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
     forBytes(chunk, [&](uint32_t byte) { watchers_[next[byte]++] = chunk; });
 }
 
-void ActivityMemory::findWritten(const rung_program& program, const std::vector<uint32_t>& lineAt) {
-  firstWritten_.push_back(0);
-  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) {
+void ActivityMemory::findWritten(const rung_program& program) {
+  firstWritten_.make(program.chunk_count + 1);
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
+    forLines(written(program, chunk), [&](uint32_t line) { firstWritten_[chunk] += lineAt_[line] != RUNG_NONE ? 1 : 0; });
+  writtenLines_.make(begins(firstWritten_.all()));
+  uint32_t next = 0;
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
     forLines(written(program, chunk), [&](uint32_t line) {
-      if (lineAt[line] != RUNG_NONE) writtenLines_.push_back(lineAt[line]);
+      if (lineAt_[line] != RUNG_NONE) writtenLines_[next++] = lineAt_[line];
     });
-    firstWritten_.push_back(static_cast<uint32_t>(writtenLines_.size()));
-  }
 }
 
 rt::Activity ActivityMemory::make() noexcept {
-  if (rests_.empty()) return {};
+  if (rests_.size == 0) return {};
   return rt::Activity({.task = task_,
-                       .stretches = stretches_,
-                       .lineOffsets = lineOffsets_,
-                       .firstWatcher = firstWatcher_,
-                       .watchers = watchers_,
-                       .firstWritten = firstWritten_,
-                       .writtenLines = writtenLines_,
-                       .mayRest = mayRest_,
-                       .rests = rests_,
-                       .copy = copy_});
+                       .stretches = stretches_.all(),
+                       .lineOffsets = lineOffsets_.all(),
+                       .firstWatcher = firstWatcher_.all(),
+                       .watchers = watchers_.all(),
+                       .firstWritten = firstWritten_.all(),
+                       .writtenLines = writtenLines_.all(),
+                       .mayRest = mayRest_.all(),
+                       .rests = rests_.all(),
+                       .copy = copy_.all()});
 }
 
 } // namespace rung::host

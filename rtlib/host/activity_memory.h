@@ -1,7 +1,7 @@
 // What rt::Activity needs for one instance of a program, made of the program's tables. Allocates when it is made.
 #pragma once
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "rtlib/core/activity.h"
 #include "rung/program.h"
@@ -16,20 +16,35 @@ public:
   rt::Activity make() noexcept;
 
 private:
-  void findLines(const std::vector<bool>& lines);
-  void findWatchers(const rung_program& program, const std::vector<uint32_t>& lineAt);
-  void findWritten(const rung_program& program, const std::vector<uint32_t>& lineAt);
+  template <class T>
+  struct Array {
+    void make(uint32_t count) {
+      items = std::make_unique<T[]>(count);
+      size = count;
+    }
+    T& operator[](uint32_t i) const { return items[i]; }
+    std::span<T> all() const { return {items.get(), size}; }
+
+    std::unique_ptr<T[]> items;
+    uint32_t size = 0;
+  };
+  using Numbers = Array<uint32_t>;
+
+  void findLines(const rung_program& program);
+  void findWatchers(const rung_program& program);
+  void findWritten(const rung_program& program);
 
   uint32_t task_ = RUNG_NONE;
-  std::vector<rt::ActivityStretch> stretches_;
-  std::vector<uint32_t> lineOffsets_;
-  std::vector<uint32_t> firstWatcher_;
-  std::vector<uint32_t> watchers_;
-  std::vector<uint32_t> firstWritten_;
-  std::vector<uint32_t> writtenLines_;
-  std::vector<uint8_t> mayRest_;
-  std::vector<rt::Rest> rests_;
-  std::vector<uint8_t> copy_;
+  Numbers lineAt_; // by line of the block: which of the lines that are looked at; RUNG_NONE: none
+  Numbers lineOffsets_;
+  Array<rt::ActivityStretch> stretches_;
+  Numbers firstWatcher_;
+  Numbers watchers_;
+  Numbers firstWritten_;
+  Numbers writtenLines_;
+  Array<uint8_t> mayRest_;
+  Array<rt::Rest> rests_;
+  Array<uint8_t> copy_;
 };
 
 } // namespace rung::host

@@ -25,6 +25,12 @@ void forUses(const Module& module, const Routine& routine, Visit visit) {
 
 bool isOneBit(const Use& use) { return use.type == Type::Bit && !use.computed; }
 
+// In the memory block.
+std::vector<rung_span> bytesOf(const Layout& layout, const Use& use) {
+  if (isOneBit(use)) return {{layout.bit(use.place.space, use.place.first).offset, 1}};
+  return layout.pieces(bytesOf(use.place));
+}
+
 // ---- writing -----------------------------------------------------------------------------------------------------
 
 class WrittenSpans {
@@ -126,8 +132,8 @@ std::vector<rung_span> readBytes(const Layout& layout, TaskId id) {
     if (!routines[r]) continue;
     forUses(module, module.routines[r], [&](const Use& use) {
       if (use.writes) return;
-      if (isOneBit(use)) return spans.push_back({layout.bit(use.place.space, use.place.first).offset, 1});
-      addPieces(bytesOf(use.place));
+      const std::vector<rung_span> bytes = bytesOf(layout, use);
+      spans.insert(spans.end(), bytes.begin(), bytes.end());
     });
   }
   return joined(std::move(spans));
@@ -137,22 +143,17 @@ std::vector<rung_span> readBytes(const Layout& layout, TaskId id) {
 
 namespace {
 
-constexpr uint64_t kMostTouched = 4096; // bytes that are worth to be looked at for one chunk
+constexpr uint64_t kMostTouched = 4096; // bytes: comparing more for one chunk does not pay
 
 bool asksOthers(const Op& op) { return (opInfo(op.code).effects & (kHost | kClock)) != 0; }
 
-// Calls and returns change the stack; behind the last rung a routine returns.
+// Calls and returns change the stack, and a routine returns after its last rung.
 bool staysInRoutine(const Routine& routine, const Chunk& chunk) {
   if (chunk.firstRung + chunk.rungCount == routine.rungs.size()) return false;
   return std::ranges::none_of(std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
     const TransferKind kind = rung.transfer.kind;
     return kind == TransferKind::Call || kind == TransferKind::Ret || kind == TransferKind::End;
   });
-}
-
-std::vector<rung_span> bytesOf(const Layout& layout, const Use& use) {
-  if (isOneBit(use)) return {{layout.bit(use.place.space, use.place.first).offset, 1}};
-  return layout.pieces(bytesOf(use.place));
 }
 
 } // namespace

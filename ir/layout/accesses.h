@@ -15,8 +15,8 @@ std::vector<rung_span> readBytes(const Layout& layout, TaskId task);
 // What a chunk touches of the memory block, ascending, none touches the next.
 struct Touched {
   std::vector<rung_span> written; // may be written
-  std::vector<rung_span> all; // may be read or written; empty where another run may do something although nothing of
-                              // this is another one than before the last run, or where it is a great part of memory
+  std::vector<rung_span> all; // may be read or written; empty where the chunk must always run: its effect depends on
+                              // more than memory, or it may touch too much to compare
 };
 Touched touchedBytes(const Layout& layout, const Chunk& chunk);
 

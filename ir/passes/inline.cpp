@@ -1,7 +1,7 @@
-// Routines that one call alone leads to, and no task: their rungs take the place of the call, below the rung that made
-// it. What was a call goes on there, or leaps over them; what went back goes to the rung behind them. So the way in and
-// out is a jump within a chunk, and passes and compilers see over it. For those who speak of rungs, each keeps its
-// routine and its number.
+// Inlines each routine that has one call and begins no task: its rungs follow the rung with the call. The call becomes
+// a step to the next rung, or a jump past them where it has a condition; a return becomes a jump to the rung after
+// them. Entering and leaving is then a jump within a chunk, and passes and compilers see across it. Each rung keeps its
+// routine's name and its number, for messages, profiles and explanations.
 #include <algorithm>
 
 #include "ir/passes/passes.h"
@@ -24,7 +24,7 @@ public:
     constexpr uint32_t kMany = 2;
     for (const Task& task : module.tasks) calls_[task.entry.index] = kMany;
     for (const Routine& routine : module.routines) at_.emplace_back(routine.rungs.size());
-    behind_.resize(module.routines.size());
+    after_.resize(module.routines.size());
     now_.resize(module.routines.size());
   }
 
@@ -33,7 +33,7 @@ public:
     noteOrigins();
     std::vector<Routine> out;
     for (uint32_t r = 0; r < module_.routines.size(); ++r) {
-      if (isPlaced(r)) continue;
+      if (isInlined(r)) continue;
       now_[r] = RoutineId{static_cast<uint32_t>(out.size())};
       out.push_back(expanded(r));
     }
@@ -48,9 +48,9 @@ public:
   }
 
 private:
-  bool isPlaced(uint32_t routine) const { return calls_[routine] == 1; }
-  bool callsPlaced(const Rung& rung) const {
-    return rung.transfer.kind == TransferKind::Call && isPlaced(rung.transfer.callee.index);
+  bool isInlined(uint32_t routine) const { return calls_[routine] == 1; }
+  bool callsInlined(const Rung& rung) const {
+    return rung.transfer.kind == TransferKind::Call && isInlined(rung.transfer.callee.index);
   }
 
   void noteOrigins() {
@@ -73,14 +73,14 @@ private:
     return out;
   }
 
-  // Its rungs and those of the routines that come into it, in their new order; notes where each lies.
+  // Its rungs and those of the routines inlined into it, in their new order; fills at_ and after_.
   std::vector<Place> orderOf(uint32_t routine) {
     std::vector<Place> order;
     std::vector<Place> open{{routine, 0}};
     while (!open.empty()) {
       const Place next = open.back();
       if (next.rung == module_.routines[next.routine].rungs.size()) {
-        behind_[next.routine] = static_cast<uint32_t>(order.size());
+        after_[next.routine] = static_cast<uint32_t>(order.size());
         open.pop_back();
         continue;
       }
@@ -88,24 +88,24 @@ private:
       at_[next.routine][next.rung] = static_cast<uint32_t>(order.size());
       order.push_back(next);
       const Rung& rung = module_.routines[next.routine].rungs[next.rung];
-      if (callsPlaced(rung)) open.push_back({rung.transfer.callee.index, 0});
+      if (callsInlined(rung)) open.push_back({rung.transfer.callee.index, 0});
     }
     return order;
   }
 
   void adjust(Rung& rung, const Place& from, uint32_t count) {
     Transfer& transfer = rung.transfer;
-    if (callsPlaced(rung)) {
-      const uint32_t behind = behind_[transfer.callee.index];
+    if (callsInlined(rung)) {
+      const uint32_t after = after_[transfer.callee.index];
       transfer.callee = {};
       if (!transfer.cond.valid()) {
         transfer.kind = TransferKind::Next;
         return;
       }
       transfer.cond = negated(rung, transfer.cond);
-      jump(transfer, behind, count);
-    } else if (transfer.kind == TransferKind::Ret && isPlaced(from.routine)) {
-      jump(transfer, behind_[from.routine], count);
+      jump(transfer, after, count);
+    } else if (transfer.kind == TransferKind::Ret && isInlined(from.routine)) {
+      jump(transfer, after_[from.routine], count);
       if (transfer.kind == TransferKind::Goto && transfer.target == at_[from.routine][from.rung] + 1) transfer = {};
     } else if (transfer.kind == TransferKind::Goto) {
       transfer.target = at_[from.routine][transfer.target];
@@ -113,7 +113,7 @@ private:
     for (uint32_t& target : transfer.targets) target = at_[from.routine][target];
   }
 
-  // Behind the last rung is the way out of the routine.
+  // After the last rung the routine returns.
   static void jump(Transfer& transfer, uint32_t to, uint32_t count) {
     transfer.kind = to < count ? TransferKind::Goto : TransferKind::Ret;
     transfer.target = to < count ? to : 0;
@@ -137,7 +137,7 @@ private:
   Module& module_;
   std::vector<uint32_t> calls_;           // by routine: how many; a task's begin counts as many
   std::vector<std::vector<uint32_t>> at_; // by routine and rung: the rung's new number
-  std::vector<uint32_t> behind_;          // by routine that is placed: the number behind its last rung
+  std::vector<uint32_t> after_;           // by routine that is inlined: the number after its last rung
   std::vector<RoutineId> now_;            // by routine that stays
 };
 

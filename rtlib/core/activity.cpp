@@ -8,8 +8,8 @@ namespace rung::rt {
 namespace {
 
 constexpr uint32_t kAtOnce = 4;       // lines
-constexpr uint32_t kMostRan = 60;     // per cent of the chunks: more is too much to look for those that rest
-constexpr uint32_t kRunsWithout = 31; // then
+constexpr uint32_t kMostRan = 60;     // per cent of the chunks; when more ran, comparing does not pay
+constexpr uint32_t kRunsWithout = 31; // runs without comparing, then
 
 template <uint32_t Bytes>
 bool same(const uint8_t* a, const uint8_t* b) noexcept {
@@ -34,7 +34,7 @@ bool Activity::looks() noexcept {
   return false;
 }
 
-// True: the line is another one than the copy, which now is like it; those who watch the bytes are awake.
+// True: the line differed from the copy. The copy is updated, and the chunks that watch the changed bytes are awake.
 bool Activity::take(const uint8_t* memory, uint32_t line) noexcept {
   const uint8_t* const now = memory + tables_.lineOffsets[line];
   uint8_t* const before = tables_.copy.data() + size_t{line} * kActivityLine;

@@ -23,7 +23,7 @@ struct Rest {
   uint32_t rests = 0;  // 1: the chunk is left out
 };
 
-// Lines of the memory block one behind the other.
+// Consecutive lines of the memory block.
 struct ActivityStretch {
   uint32_t offset = 0;    // in the memory block
   uint32_t firstLine = 0; // over all stretches
@@ -62,7 +62,7 @@ public:
   void ran(const uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept;
   void end() noexcept;
 
-  // No chunk rests: memory or code are others now.
+  // No chunk rests any more: memory or code has been replaced.
   void forget() noexcept;
 
 private:

@@ -153,8 +153,8 @@ rung_chunk_fn functionOf(const rung_chunk_fn* functions, uint32_t chunk) noexcep
   return std::atomic_ref<rung_chunk_fn>(const_cast<rung_chunk_fn&>(functions[chunk])).load(std::memory_order_acquire);
 }
 
-// No way through the task uses up its budget, as the compiler has found. (As large as the budget stands for all that is
-// larger.)
+// The compiler has found that no way through the task uses up its budget. (`heaviest` is never above the budget, so
+// one that equals it may be heavier.)
 bool isBounded(const rung_task& task) noexcept {
   return task.circles == 0 && uint64_t{task.heaviest} * task.part_count < task.budget;
 }
@@ -258,31 +258,32 @@ bool Runner::runPart(uint32_t task) noexcept {
   return runNextPart(task);
 }
 
-bool Runner::looksAt(uint32_t task) noexcept {
-  return activity_ != nullptr && activity_->of(task) && activity_->looks();
-}
+inline bool Runner::hasActivity(uint32_t task) const noexcept { return activity_ != nullptr && activity_->of(task); }
 
-uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept {
-  const rung_task& t = program_->tasks[task];
-  if (looksAt(task))
-    return limit_.ns != 0 ? runChunks<true, true>(pc, limit, t, budget) : runChunks<false, true>(pc, limit, t, budget);
-  return limit_.ns != 0 ? runChunks<true, false>(pc, limit, t, budget) : runChunks<false, false>(pc, limit, t, budget);
+bool Runner::looksAt(uint32_t task) noexcept { return hasActivity(task) && activity_->looks(); }
+
+uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept {
+  if (looks)
+    return limit_.ns != 0 ? runChunks<true, true>(pc, limit, task, budget)
+                          : runChunks<false, true>(pc, limit, task, budget);
+  return limit_.ns != 0 ? runChunks<true, false>(pc, limit, task, budget)
+                        : runChunks<false, false>(pc, limit, task, budget);
 }
 
 inline uint32_t Runner::runToEnd(uint32_t task) noexcept {
   const rung_task& t = program_->tasks[task];
   beginStack();
-  const bool looks = activity_ != nullptr && activity_->of(task);
+  const bool looks = looksAt(task);
   if (!looks && limit_.ns == 0 && isBounded(t)) return runBounded(t.entry);
   uint32_t budget = t.budget;
-  return runCounted(t.entry, RUNG_PC_DONE, task, budget);
+  return runCounted(t.entry, RUNG_PC_DONE, t, budget, looks);
 }
 
 // Nothing but its chunks, as a fast task mostly is.
 inline bool Runner::isPlain(uint32_t task) const noexcept {
   const rung_task& t = program_->tasks[task];
   return t.begin_count + t.end_count == 0 && hooks_.latch == nullptr && hooks_.task == nullptr && limit_.ns == 0 &&
-         (activity_ == nullptr || !activity_->of(task)) && isBounded(t);
+         !hasActivity(task) && isBounded(t);
 }
 
 bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
@@ -336,7 +337,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
   if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
   beginStack();
-  state.pc = runCounted(state.pc, limit, task, state.budget);
+  state.pc = runCounted(state.pc, limit, t, state.budget, looksAt(task));
   return finish(task, state.pc);
 }
 

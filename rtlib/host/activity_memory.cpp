@@ -28,7 +28,8 @@ void forLines(std::span<const rung_span> spans, Visit visit) {
   }
 }
 
-// Lists one behind the other: `first` has how many entries each list has, and after it, where each begins.
+// Turns the number of entries of each list into the index where it begins, in one array that holds all lists; gives
+// their sum.
 uint32_t begins(std::span<uint32_t> first) {
   uint32_t sum = 0;
   for (uint32_t& entry : first) {
@@ -97,7 +98,8 @@ void ActivityMemory::findWatchers(const rung_program& program) {
 void ActivityMemory::findWritten(const rung_program& program) {
   firstWritten_.make(program.chunk_count + 1);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forLines(written(program, chunk), [&](uint32_t line) { firstWritten_[chunk] += lineAt_[line] != RUNG_NONE ? 1 : 0; });
+    forLines(written(program, chunk),
+             [&](uint32_t line) { firstWritten_[chunk] += lineAt_[line] != RUNG_NONE ? 1 : 0; });
   writtenLines_.make(begins(firstWritten_.all()));
   uint32_t next = 0;
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)

@@ -20,7 +20,6 @@ public:
 protected:
   explicit SignalPlace(std::string_view name);
   friend class SignalMemory;
-  friend class SignalWord;
 
   uint32_t byte_ = 0;
   uint32_t stride_ = 0; // from axis to axis, from channel to channel …
@@ -68,16 +67,12 @@ public:
   SignalMemory(host::Instance& instance, const PackedSpace& timeSlice)
       : area_(instance.block().data() + timeSlice.offset), size_(timeSlice.bytes) {}
 
-  bool get(const BitSignal& signal, uint32_t index = 0) const {
-    return ((load<uint32_t>(signal, index) >> signal.bit_) & 1) != 0;
-  }
+  bool get(const BitSignal& signal, uint32_t index = 0) const { return signal.in(wordOf(signal, index)); }
   int32_t get(const WordSignal& signal, uint32_t index = 0) const { return load<int32_t>(signal, index); }
   double get(const RealSignal& signal, uint32_t index = 0) const { return load<double>(signal, index); }
 
   void set(const BitSignal& signal, uint32_t index, bool value) const {
-    const uint32_t mask = uint32_t{1} << signal.bit_;
-    const uint32_t word = load<uint32_t>(signal, index);
-    store(signal, index, value ? word | mask : word & ~mask);
+    setBits(signal, index, signal.mask(), signal.as(value));
   }
   void set(const BitSignal& signal, bool value) const { set(signal, 0, value); }
   // The word that holds a bit, and several bits of it at once: those of the mask.
@@ -108,7 +103,6 @@ public:
   double real(uint32_t address) const;
 
 private:
-  friend class SignalWord;
   template <class T>
   T load(const SignalPlace& signal, uint32_t index) const {
     T value{};
@@ -131,14 +125,12 @@ class SignalWord {
 public:
   // The word of `signal`.
   SignalWord(const SignalMemory& memory, const BitSignal& signal)
-      : memory_(memory), place_(signal), bits_(memory.load<uint32_t>(signal, 0)) {}
+      : memory_(memory), place_(signal), bits_(memory.wordOf(signal)) {}
 
   // Signals of the same word.
-  bool get(const BitSignal& signal) const { return ((bits_ >> signal.bit_) & 1) != 0; }
-  void set(const BitSignal& signal, bool value) {
-    bits_ = (bits_ & ~(uint32_t{1} << signal.bit_)) | uint32_t{value} << signal.bit_;
-  }
-  void write() const { memory_.store(place_, 0, bits_); }
+  bool get(const BitSignal& signal) const { return signal.in(bits_); }
+  void set(const BitSignal& signal, bool value) { bits_ = (bits_ & ~signal.mask()) | signal.as(value); }
+  void write() const { memory_.setBits(place_, 0, UINT32_MAX, bits_); }
 
 private:
   const SignalMemory& memory_;

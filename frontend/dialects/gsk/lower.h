@@ -48,6 +48,8 @@ public:
   ir::SlotId slot(std::string_view role, ir::Type type, int64_t init = 0);
   // Microseconds between the beginnings of this and the last run of the level.
   ir::ValueId scanTime();
+  // Every run of the level takes this network, and once.
+  bool onceEachRun() const;
   // Microseconds since the last run of the level began.
   ir::ValueId sinceLastRun();
   // State that all instructions of the program share.

@@ -37,6 +37,11 @@ bool isLoweredBy(const Network& network, void (*lower)(FunctionLowering&)) {
   return network.function.row != nullptr && network.function.row->lower == lower;
 }
 bool isTimer(const Network& network) { return isLoweredBy(network, &lowerTimer); }
+bool jumps(const Network& network) {
+  const Row* row = network.function.row;
+  return row != nullptr &&
+         (row->control == Control::Jmp || row->control == Control::Jmpb || row->control == Control::Jmpc);
+}
 bool isWindow(const Network& network) { return isLoweredBy(network, &lowerWindow); }
 
 std::string stemOf(std::string_view path) {
@@ -155,6 +160,8 @@ void ModuleLowering::planRoutines(LevelState& level) {
     level.hasClock = level.hasClock || std::any_of(unit.networks.begin(), unit.networks.end(), isTimer);
     level.countsRuns = level.countsRuns || std::any_of(unit.networks.begin(), unit.networks.end(), isWindow);
   }
+  const std::vector<Network>& own = program_.units[level.isLevel2 ? kLevel2 : kLevel1].networks;
+  level.straight = std::none_of(own.begin(), own.end(), jumps) && (!level.isLevel2 || program_.jumpTargets.empty());
   planClock(level);
 }
 

@@ -19,8 +19,9 @@ struct LevelState {
   std::array<std::vector<bool>, kAreaCount> used; // bytes that are read or written, X F R only
   std::vector<ir::RoutineId> routines;            // by unit; invalid where the level does not run it
   bool hasClock = false;
-  ir::SlotId clock;    // `now` at the beginning of the last run
-  ir::SlotId scanTime; // from that to the beginning of this run
+  ir::SlotId clock;      // `now` at the beginning of the last run
+  ir::SlotId scanTime;   // from that to the beginning of this run
+  bool straight = false; // every run takes all networks of the level itself, in their order: none jumps
   bool countsRuns = false;
   ir::SlotId runs; // number of the run
 };

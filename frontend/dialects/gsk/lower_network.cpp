@@ -183,6 +183,10 @@ ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t 
 
 ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
+bool FunctionLowering::onceEachRun() const {
+  return routine_.level->straight && (routine_.unit == kLevel1 || routine_.unit == kLevel2);
+}
+
 ir::ValueId FunctionLowering::sinceLastRun() {
   return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
 }

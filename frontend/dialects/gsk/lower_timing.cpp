@@ -25,25 +25,30 @@ ValueId presetOf(FunctionLowering& f) {
   }
 }
 
-} // namespace
-
 // P23. A timer gains the time since it ran in this or in the last scan: not always the scan's, for a jump may bring it
 // into another part of Level 2. When it was not reached for a while it gains one scan's time (P19).
+ValueId gainOf(FunctionLowering& f) {
+  if (f.onceEachRun()) return f.scanTime();
+  ir::RungBuilder& b = f.b;
+  const ir::SlotId last = f.slot("last", Type::I64);
+  const ValueId since = b.sub(b.now(), b.slotLoad(last));
+  b.slotStore(last, b.now());
+  return b.select(b.leS(since, f.sinceLastRun()), since, f.scanTime());
+}
+
+} // namespace
+
 void lowerTimer(FunctionLowering& f) {
   ir::RungBuilder& b = f.b;
   const ir::SlotId elapsed = f.slot("elapsed", Type::I64, kNotRunning);
-  const ir::SlotId last = f.slot("last", Type::I64);
   b.if_(f.act());
   const ValueId preset = presetOf(f);
-  const ValueId now = b.now();
-  const ValueId since = b.sub(now, b.slotLoad(last));
-  const ValueId gain = b.select(b.leS(since, f.sinceLastRun()), since, f.scanTime());
+  const ValueId gain = gainOf(f);
   const ValueId before = b.slotLoad(elapsed);
   const ValueId zero = b.constant(Type::I64, 0);
   const ValueId grown = b.add(before, gain);
   const ValueId time = b.select(b.ltS(before, zero), zero, grown);
   b.slotStore(elapsed, time);
-  b.slotStore(last, now);
   const ValueId done = b.leS(preset, time);
   b.else_({&done, 1});
   b.slotStore(elapsed, b.constant(Type::I64, kNotRunning));

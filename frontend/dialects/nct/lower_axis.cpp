@@ -42,7 +42,7 @@ ValueId isProper(Lowering& box, ValueId axis, ValueId code, ValueId speed) {
 ValueId lowerAxisCommand(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
-  return whenEnabled(box, [&] {
+  return execute(box, [&] {
     ValueId valid;
     const ValueId axis = memory.integer(box.operands[0], valid);
     const ValueId code = memory.integer(box.operands[1], valid);

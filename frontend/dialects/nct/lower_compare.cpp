@@ -10,15 +10,17 @@ using ir::ValueId;
 // Exactly one of FL_GT, FL_EQ, FL_LT is 1 afterwards.
 ValueId lowerCompare(Lowering& box) {
   RungBuilder& b = box.b;
-  ValueId valid;
-  const ValueId x = box.memory.integer(box.operands[0], valid);
-  const ValueId y = box.memory.integer(box.operands[1], valid);
-  execute(box, valid, [&] {
-    box.memory.setErrorFlag(false);
-    box.memory.setFlag(kFlagGt, b.ltS(y, x));
-    box.memory.setFlag(kFlagEq, b.eq(x, y));
-    box.memory.setFlag(kFlagLt, b.ltS(x, y));
-    return ValueId{};
+  execute(box, [&] {
+    ValueId valid;
+    const ValueId x = box.memory.integer(box.operands[0], valid);
+    const ValueId y = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      box.memory.setErrorFlag(false);
+      box.memory.setFlag(kFlagGt, b.ltS(y, x));
+      box.memory.setFlag(kFlagEq, b.eq(x, y));
+      box.memory.setFlag(kFlagLt, b.ltS(x, y));
+      return ValueId{};
+    });
   });
   return {};
 }

@@ -34,7 +34,8 @@ ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
 
 } // namespace
 
-// The reset goes before the clock; the clock's edge is remembered whatever else happens.
+// The reset goes before the clock; the clock's edge is remembered whatever else happens. Most scans have none: a region
+// is shorter there than selects.
 ValueId lowerCounter(Lowering& box) {
   RungBuilder& b = box.b;
   const ir::SlotId slot = box.slots.make("clock", Type::Bit);
@@ -49,7 +50,10 @@ ValueId lowerCounter(Lowering& box) {
   if (box.variant == kRing) valid = box.memory.both(valid, b.leS(start, end));
   return guarded(box, valid, [&] {
     const ValueId value = box.memory.loadWord(counter);
-    const ValueId stepped = b.select(edge, counted(box, value, start, end), value);
+    b.if_(edge);
+    const ValueId next = counted(box, value, start, end);
+    b.else_({&next, 1});
+    const ValueId stepped = b.endIf({&value, 1}).front();
     const ValueId result = b.select(box.power(kClear), start, stepped);
     box.memory.storeWord(counter, result);
     return b.eq(result, compare);

@@ -48,22 +48,24 @@ ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, V
 ValueId lowerFloatArithmetic(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   RungBuilder& b = box.b;
-  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
-  ValueId valid = target.valid;
-  const ValueId x = box.memory.real(box.operands[1], valid);
-  const ValueId y = box.memory.real(box.operands[2], valid);
-  return execute(box, valid, [&] {
-    const auto variant = static_cast<FloatVariant>(box.variant);
-    const ValueId result = b.op(kCodes[variant], Type::F64, {x, y});
-    ValueId ok = isNumber(b, result);
-    if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
-    return when(box, ok, [&] {
-      const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
-      const ValueId under = underflows(b, variant, x, y, result);
-      box.memory.storeDouble(target, result);
-      box.memory.setErrorFlag(false);
-      box.memory.setFlag(kFlagUf, under);
-      box.memory.setFlag(kFlagOf, over);
+  return execute(box, [&] {
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId x = box.memory.real(box.operands[1], valid);
+    const ValueId y = box.memory.real(box.operands[2], valid);
+    return guarded(box, valid, [&] {
+      const auto variant = static_cast<FloatVariant>(box.variant);
+      const ValueId result = b.op(kCodes[variant], Type::F64, {x, y});
+      ValueId ok = isNumber(b, result);
+      if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
+      return when(box, ok, [&] {
+        const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
+        const ValueId under = underflows(b, variant, x, y, result);
+        box.memory.storeDouble(target, result);
+        box.memory.setErrorFlag(false);
+        box.memory.setFlag(kFlagUf, under);
+        box.memory.setFlag(kFlagOf, over);
+      });
     });
   });
 }
@@ -75,34 +77,36 @@ ValueId lowerFloatFunction(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FPow,  OpCode::FSqrt, OpCode::FSin,  OpCode::FCos, OpCode::FTan,
                                OpCode::FAsin, OpCode::FAcos, OpCode::FAtan, OpCode::FExp, OpCode::FLog};
   RungBuilder& b = box.b;
-  const auto variant = static_cast<FunctionVariant>(box.variant);
-  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
-  ValueId valid = target.valid;
-  const ValueId x = box.memory.real(box.operands[1], valid);
-  const ValueId y = variant == kPower ? box.memory.real(box.operands[2], valid) : ValueId{};
-  return execute(box, valid, [&] {
-    const ValueId zero = b.real(0);
-    const ValueId result =
-        variant == kPower ? b.op(OpCode::FPow, Type::F64, {x, y}) : b.op(kCodes[variant], Type::F64, {x});
-    ValueId ok = isNumber(b, result);
-    if (variant == kLogarithm) ok = b.op(OpCode::FLt, Type::F64, {zero, x});
-    if (variant == kPower) {
-      const ValueId pole = b.and_(isZero(b, x), b.op(OpCode::FLt, Type::F64, {y, zero}));
-      ok = b.and_(b.and_(isNumber(b, y), b.op(OpCode::FLe, Type::F64, {zero, x})), b.not_(pole));
-    }
-    return when(box, ok, [&] {
-      box.memory.storeDouble(target, result);
-      ValueId over;
-      ValueId under;
-      if (variant == kPower || variant == kExponential) {
-        const ValueId finite = y.valid() ? b.and_(isFinite(b, x), isFinite(b, y)) : isFinite(b, x);
-        over = b.and_(finite, b.not_(isFinite(b, result)));
-        under = b.and_(finite, isZero(b, result));
-        if (variant == kPower) under = b.and_(under, b.not_(isZero(b, x)));
+  return execute(box, [&] {
+    const auto variant = static_cast<FunctionVariant>(box.variant);
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId x = box.memory.real(box.operands[1], valid);
+    const ValueId y = variant == kPower ? box.memory.real(box.operands[2], valid) : ValueId{};
+    return guarded(box, valid, [&] {
+      const ValueId zero = b.real(0);
+      const ValueId result =
+          variant == kPower ? b.op(OpCode::FPow, Type::F64, {x, y}) : b.op(kCodes[variant], Type::F64, {x});
+      ValueId ok = isNumber(b, result);
+      if (variant == kLogarithm) ok = b.op(OpCode::FLt, Type::F64, {zero, x});
+      if (variant == kPower) {
+        const ValueId pole = b.and_(isZero(b, x), b.op(OpCode::FLt, Type::F64, {y, zero}));
+        ok = b.and_(b.and_(isNumber(b, y), b.op(OpCode::FLe, Type::F64, {zero, x})), b.not_(pole));
       }
-      box.memory.setErrorFlag(false);
-      box.memory.setFlag(kFlagUf, under);
-      box.memory.setFlag(kFlagOf, over);
+      return when(box, ok, [&] {
+        box.memory.storeDouble(target, result);
+        ValueId over;
+        ValueId under;
+        if (variant == kPower || variant == kExponential) {
+          const ValueId finite = y.valid() ? b.and_(isFinite(b, x), isFinite(b, y)) : isFinite(b, x);
+          over = b.and_(finite, b.not_(isFinite(b, result)));
+          under = b.and_(finite, isZero(b, result));
+          if (variant == kPower) under = b.and_(under, b.not_(isZero(b, x)));
+        }
+        box.memory.setErrorFlag(false);
+        box.memory.setFlag(kFlagUf, under);
+        box.memory.setFlag(kFlagOf, over);
+      });
     });
   });
 }
@@ -112,14 +116,16 @@ namespace {
 // Word to word; `convert` gives the result and whether it exists.
 template <class Convert>
 ValueId convertWord(Lowering& box, Convert convert) {
-  const Place target = box.memory.word(box.operands[0].address, Reach::Write);
-  ValueId valid = target.valid;
-  const ValueId source = box.memory.integer(box.operands[1], valid);
-  return execute(box, valid, [&] {
-    const auto [result, ok] = convert(source);
-    return when(box, ok, [&] {
-      box.memory.storeWord(target, result);
-      box.memory.setErrorFlag(false);
+  return execute(box, [&] {
+    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      const auto [result, ok] = convert(source);
+      return when(box, ok, [&] {
+        box.memory.storeWord(target, result);
+        box.memory.setErrorFlag(false);
+      });
     });
   });
 }
@@ -149,42 +155,48 @@ ValueId lowerBcd(Lowering& box) {
 
 ValueId lowerFlt(Lowering& box) {
   RungBuilder& b = box.b;
-  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
-  ValueId valid = target.valid;
-  const ValueId source = box.memory.integer(box.operands[1], valid);
-  return execute(box, valid, [&] {
-    box.memory.storeDouble(target, b.op(OpCode::IntToF, Type::F64, {source}));
-    box.memory.setErrorFlag(false);
-    return ValueId{};
+  return execute(box, [&] {
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      box.memory.storeDouble(target, b.op(OpCode::IntToF, Type::F64, {source}));
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
   });
 }
 
 // The range holds for the operand itself, before its fraction is cut off (l.2505).
 ValueId lowerFix(Lowering& box) {
   RungBuilder& b = box.b;
-  const Place target = box.memory.word(box.operands[0].address, Reach::Write);
-  ValueId valid = target.valid;
-  const ValueId source = box.memory.real(box.operands[1], valid);
-  return execute(box, valid, [&] {
-    const ValueId aboveLeast = b.op(OpCode::FLe, Type::F64, {b.real(INT32_MIN), source});
-    const ValueId belowGreatest = b.op(OpCode::FLe, Type::F64, {source, b.real(INT32_MAX)});
-    return when(box, b.and_(aboveLeast, belowGreatest), [&] {
-      box.memory.storeWord(target, b.op(OpCode::FToInt, Type::I32, {source}));
-      box.memory.setErrorFlag(false);
+  return execute(box, [&] {
+    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.real(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      const ValueId aboveLeast = b.op(OpCode::FLe, Type::F64, {b.real(INT32_MIN), source});
+      const ValueId belowGreatest = b.op(OpCode::FLe, Type::F64, {source, b.real(INT32_MAX)});
+      return when(box, b.and_(aboveLeast, belowGreatest), [&] {
+        box.memory.storeWord(target, b.op(OpCode::FToInt, Type::I32, {source}));
+        box.memory.setErrorFlag(false);
+      });
     });
   });
 }
 
 ValueId lowerAngle(Lowering& box) {
   RungBuilder& b = box.b;
-  const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
-  ValueId valid = target.valid;
-  const ValueId source = box.memory.real(box.operands[1], valid);
-  const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;
-  return execute(box, valid, [&] {
-    return when(box, isNumber(b, source), [&] {
-      box.memory.storeDouble(target, b.op(OpCode::FMul, Type::F64, {source, b.real(factor)}));
-      box.memory.setErrorFlag(false);
+  return execute(box, [&] {
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.real(box.operands[1], valid);
+    const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;
+    return guarded(box, valid, [&] {
+      return when(box, isNumber(b, source), [&] {
+        box.memory.storeDouble(target, b.op(OpCode::FMul, Type::F64, {source, b.real(factor)}));
+        box.memory.setErrorFlag(false);
+      });
     });
   });
 }
@@ -192,19 +204,21 @@ ValueId lowerAngle(Lowering& box) {
 // With a NaN none of the three flags is 1, and FL_ER is.
 ValueId lowerFloatCompare(Lowering& box) {
   RungBuilder& b = box.b;
-  ValueId valid;
-  const ValueId x = box.memory.real(box.operands[0], valid);
-  const ValueId y = box.memory.real(box.operands[1], valid);
-  execute(box, valid, [&] {
-    const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
-    const ValueId greater = test(OpCode::FLt, y, x);
-    const ValueId equal = test(OpCode::FEq, x, y);
-    const ValueId less = test(OpCode::FLt, x, y);
-    box.memory.setFlag(kFlagEr, b.not_(b.or_(b.or_(greater, equal), less)));
-    box.memory.setFlag(kFlagGt, greater);
-    box.memory.setFlag(kFlagEq, equal);
-    box.memory.setFlag(kFlagLt, less);
-    return ValueId{};
+  execute(box, [&] {
+    ValueId valid;
+    const ValueId x = box.memory.real(box.operands[0], valid);
+    const ValueId y = box.memory.real(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
+      const ValueId greater = test(OpCode::FLt, y, x);
+      const ValueId equal = test(OpCode::FEq, x, y);
+      const ValueId less = test(OpCode::FLt, x, y);
+      box.memory.setFlag(kFlagEr, b.not_(b.or_(b.or_(greater, equal), less)));
+      box.memory.setFlag(kFlagGt, greater);
+      box.memory.setFlag(kFlagEq, equal);
+      box.memory.setFlag(kFlagLt, less);
+      return ValueId{};
+    });
   });
   return {};
 }

@@ -211,7 +211,7 @@ ValueId lowerScope(Lowering& box) {
     return memory.both(good, fits(box, symbol.param2, box.operands[3], param2));
   };
   if (symbol.source != ScopeSource::Nc)
-    return whenEnabled(box, [&] {
+    return execute(box, [&] {
       return guarded(box, valid(), [&] {
         memory.storeDouble(place, loadOwn(box, symbol.source, param1, param2));
         return b.bit(true);

@@ -139,32 +139,34 @@ ValueId shiftedWord(Lowering& box, const WordRange& array, ValueId i, ValueId wo
 ValueId lowerArray(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
-  const Place from = memory.word(box.operands[0].address, Reach::Write);
-  const Place to = memory.word(box.operands[1].address, Reach::Write);
-  ValueId valid = memory.both(from.valid, to.valid);
-  const ValueId count = memory.integer(box.operands[2], valid);
-  if (box.operands[2].form != Form::Constant) valid = memory.both(valid, b.not_(b.ltS(count, b.i32(0))));
-  const WordRange array = memory.range(from, to);
-  // In order: at least one word.
-  if (array.first.valid()) valid = memory.both(valid, b.ltS(b.i32(0), array.length));
-  const bool fixed = !array.first.valid();
-  return execute(box, valid, [&] {
-    ValueId amount = count;
-    if (box.variant == kRotateLeft || box.variant == kRotateRight)
-      amount = b.op(OpCode::RemU, Type::I32, {count, b.mul(array.length, b.i32(32))});
-    const ValueId words = b.op(OpCode::ShrU, Type::I32, {amount, b.i32(5)});
-    const ValueId bits = b.and_(amount, b.i32(31));
-    const auto eachWord = [&](auto act) {
-      const ValueId i = b.loop(array.mostWords).front();
-      if (!fixed) b.if_(b.ltU(i, array.length));
-      act(i);
-      if (!fixed) b.endIf();
-      b.endLoop();
-    };
-    eachWord([&](ValueId i) { memory.storeScratch(i, shiftedWord(box, array, i, words, bits)); });
-    eachWord([&](ValueId i) { memory.storeIn(array, i, memory.loadScratch(i)); });
-    memory.setErrorFlag(false);
-    return ValueId{};
+  return execute(box, [&] {
+    const Place from = memory.word(box.operands[0].address, Reach::Write);
+    const Place to = memory.word(box.operands[1].address, Reach::Write);
+    ValueId valid = memory.both(from.valid, to.valid);
+    const ValueId count = memory.integer(box.operands[2], valid);
+    if (box.operands[2].form != Form::Constant) valid = memory.both(valid, b.not_(b.ltS(count, b.i32(0))));
+    const WordRange array = memory.range(from, to);
+    // In order: at least one word.
+    if (array.first.valid()) valid = memory.both(valid, b.ltS(b.i32(0), array.length));
+    const bool fixed = !array.first.valid();
+    return guarded(box, valid, [&] {
+      ValueId amount = count;
+      if (box.variant == kRotateLeft || box.variant == kRotateRight)
+        amount = b.op(OpCode::RemU, Type::I32, {count, b.mul(array.length, b.i32(32))});
+      const ValueId words = b.op(OpCode::ShrU, Type::I32, {amount, b.i32(5)});
+      const ValueId bits = b.and_(amount, b.i32(31));
+      const auto eachWord = [&](auto act) {
+        const ValueId i = b.loop(array.mostWords).front();
+        if (!fixed) b.if_(b.ltU(i, array.length));
+        act(i);
+        if (!fixed) b.endIf();
+        b.endLoop();
+      };
+      eachWord([&](ValueId i) { memory.storeScratch(i, shiftedWord(box, array, i, words, bits)); });
+      eachWord([&](ValueId i) { memory.storeIn(array, i, memory.loadScratch(i)); });
+      memory.setErrorFlag(false);
+      return ValueId{};
+    });
   });
 }
 

@@ -16,6 +16,12 @@ constexpr int64_t kUnitMs[] = {1, 1000, 60'000, 3'600'000};
 constexpr int64_t kLimit[] = {2'147'483'647, 2'147'483, 35'791, 596};
 constexpr int64_t kUsPerMs = 1000;
 
+// A set value that is known to be more than 0.
+bool isLong(std::span<const Operand> operands) {
+  const Operand& set = operands[1];
+  return set.form == Form::Constant && operands[2].form == Form::Constant && set.constant.integer > 0;
+}
+
 struct TimerState {
   SlotId active;    // triggered at the last evaluation
   SlotId evaluated; // of an off-delay: at least once
@@ -107,9 +113,12 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
                             : b.select(counting, countDown(b, left, b.slotLoad(box.time.passedMs)), rest);
   box.memory.storeWord(timer, value);
   const ValueId over = b.eq(value, none);
+  // A register that does not count down holds the preset (of an off-delay that was never triggered: 0). Where that is
+  // not 0, the register alone says whether the time is over.
+  const bool alone = isLong(box.operands);
   switch (static_cast<TimerVariant>(box.variant)) {
-  case kOnDelay: return b.and_(active, over);
-  case kOffDelay: return b.or_(input, b.not_(over));
+  case kOnDelay: return alone ? over : b.and_(active, over);
+  case kOffDelay: return alone ? b.not_(over) : b.or_(input, b.not_(over));
   case kTimedPulse: return b.and_(active, b.not_(over));
   }
   return {};

@@ -13,14 +13,16 @@ namespace {
 // `compute` gives the result's value and sets the flags.
 template <class Compute>
 ValueId binary(Lowering& box, Compute compute) {
-  ValueId valid;
-  const Place result = box.memory.word(box.operands[0].address, Reach::Write);
-  valid = result.valid;
-  const ValueId a = box.memory.integer(box.operands[1], valid);
-  const ValueId b = box.memory.integer(box.operands[2], valid);
-  return execute(box, valid, [&] {
-    box.memory.storeWord(result, compute(a, b));
-    return ValueId{};
+  return execute(box, [&] {
+    ValueId valid;
+    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    valid = result.valid;
+    const ValueId a = box.memory.integer(box.operands[1], valid);
+    const ValueId b = box.memory.integer(box.operands[2], valid);
+    return guarded(box, valid, [&] {
+      box.memory.storeWord(result, compute(a, b));
+      return ValueId{};
+    });
   });
 }
 
@@ -43,33 +45,37 @@ void setFlags(Memory& memory, const ArithmeticFlags& flags) {
 
 ValueId lowerMove(Lowering& box) {
   RungBuilder& b = box.b;
-  const Place result = box.memory.word(box.operands[0].address, Reach::Write);
-  ValueId valid = result.valid;
-  const ValueId source = box.memory.integer(box.operands[1], valid);
-  return execute(box, valid, [&] {
-    box.memory.storeWord(result, box.variant == kMoveComplement ? b.not_(source) : source);
-    box.memory.setErrorFlag(false);
-    return ValueId{};
+  return execute(box, [&] {
+    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = result.valid;
+    const ValueId source = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      box.memory.storeWord(result, box.variant == kMoveComplement ? b.not_(source) : source);
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
   });
 }
 
 // The bit pattern, also of a NaN.
 ValueId lowerMoveDouble(Lowering& box) {
   RungBuilder& b = box.b;
-  const Place result = box.memory.twoWords(box.operands[0].address, Reach::Write);
-  ValueId valid = result.valid;
-  ValueId source;
-  if (box.operands[1].form == Form::Constant) {
-    source = b.op(OpCode::FToBits, Type::I64, {b.real(box.operands[1].constant.real)});
-  } else {
-    const Place from = box.memory.twoWords(box.operands[1].address, Reach::Read);
-    valid = box.memory.both(valid, from.valid);
-    source = box.memory.loadDouble(from, Type::I64);
-  }
-  return execute(box, valid, [&] {
-    box.memory.storeDouble(result, source);
-    box.memory.setErrorFlag(false);
-    return ValueId{};
+  return execute(box, [&] {
+    const Place result = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = result.valid;
+    ValueId source;
+    if (box.operands[1].form == Form::Constant) {
+      source = b.op(OpCode::FToBits, Type::I64, {b.real(box.operands[1].constant.real)});
+    } else {
+      const Place from = box.memory.twoWords(box.operands[1].address, Reach::Read);
+      valid = box.memory.both(valid, from.valid);
+      source = box.memory.loadDouble(from, Type::I64);
+    }
+    return guarded(box, valid, [&] {
+      box.memory.storeDouble(result, source);
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
   });
 }
 
@@ -113,16 +119,18 @@ ValueId lowerMul(Lowering& box) {
 // Divisor 0: the result is 0, FL_ER is set and the output stays off (l.1976, l.2113). -2147483648 / -1 overflows.
 ValueId lowerDiv(Lowering& box) {
   RungBuilder& b = box.b;
-  const Place result = box.memory.word(box.operands[0].address, Reach::Write);
-  ValueId valid = result.valid;
-  const ValueId x = box.memory.integer(box.operands[1], valid);
-  const ValueId y = box.memory.integer(box.operands[2], valid);
-  return execute(box, valid, [&] {
-    const ValueId zero = b.eq(y, b.i32(0));
-    const ValueId over = b.and_(b.eq(x, b.i32(INT32_MIN)), b.eq(y, b.i32(-1)));
-    box.memory.storeWord(result, b.op(OpCode::DivS, Type::I32, {x, y}));
-    setFlags(box.memory, {.error = zero, .under = {}, .over = over, .carry = {}});
-    return b.not_(zero);
+  return execute(box, [&] {
+    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = result.valid;
+    const ValueId x = box.memory.integer(box.operands[1], valid);
+    const ValueId y = box.memory.integer(box.operands[2], valid);
+    return guarded(box, valid, [&] {
+      const ValueId zero = b.eq(y, b.i32(0));
+      const ValueId over = b.and_(b.eq(x, b.i32(INT32_MIN)), b.eq(y, b.i32(-1)));
+      box.memory.storeWord(result, b.op(OpCode::DivS, Type::I32, {x, y}));
+      setFlags(box.memory, {.error = zero, .under = {}, .over = over, .carry = {}});
+      return b.not_(zero);
+    });
   });
 }
 

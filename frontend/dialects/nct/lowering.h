@@ -101,28 +101,18 @@ ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
   return b.endIf(std::span(&failed, 1)).front();
 }
 
-// A box that works while its first pin has power: a guarded body that also writes FL_ER. Gives the power at the output.
+// A box that works while its first pin has power: `body` evaluates the operands, so that a box at rest costs a test. It
+// gives the output, an invalid id for "always 1"; without power the output is 0.
 template <class Body>
-ir::ValueId execute(Lowering& box, ir::ValueId valid, Body body) {
+ir::ValueId execute(Lowering& box, Body body) {
   ir::RungBuilder& b = box.b;
   const ir::ValueId enable = box.power();
   b.if_(enable);
-  const ir::ValueId output = guarded(box, valid, body);
+  const ir::ValueId output = body();
   if (!output.valid()) {
     b.endIf();
     return enable;
   }
-  b.else_(std::span(&output, 1));
-  const ir::ValueId off = b.bit(false);
-  return b.endIf(std::span(&off, 1)).front();
-}
-
-// Runs `body`, which gives the output, while the first pin has power; without it the output is 0.
-template <class Body>
-ir::ValueId whenEnabled(Lowering& box, Body body) {
-  ir::RungBuilder& b = box.b;
-  b.if_(box.power());
-  const ir::ValueId output = body();
   b.else_(std::span(&output, 1));
   const ir::ValueId off = b.bit(false);
   return b.endIf(std::span(&off, 1)).front();

@@ -30,7 +30,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
                                             {builder_.getPtrTy(), builder_.getPtrTy(), builder_.getInt32Ty()}, false);
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
-  function_->addFnAttr("frame-pointer", "all");
+  function_->addFnAttr("frame-pointer", "non-leaf");
   if (!hostReadsMemory(layout_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
@@ -142,7 +142,7 @@ void ChunkEmitter::emitOp(const Op& op) {
 void ChunkEmitter::openIf(const Op& op) {
   llvm::BasicBlock* then = block("then");
   llvm::BasicBlock* other = block("else");
-  builder_.CreateCondBr(spoil(op.code, arg(op, 0)), then, other);
+  builder_.CreateCondBr(isSet(spoil(op.code, arg(op, 0))), then, other);
   regions_.push_back({.opener = &op, .head = builder_.GetInsertBlock(), .other = other, .end = other});
   builder_.SetInsertPoint(then);
 }
@@ -269,7 +269,7 @@ ChunkEmitter::Value* ChunkEmitter::serviceRequest(const Op& op) {
 void ChunkEmitter::trap(const Op& op) {
   llvm::BasicBlock* fault = block("fault");
   llvm::BasicBlock* go = block("go");
-  builder_.CreateCondBr(spoil(op.code, arg(op, 0)), fault, go);
+  builder_.CreateCondBr(isSet(spoil(op.code, arg(op, 0))), fault, go);
   builder_.SetInsertPoint(fault);
   Value* record = ctxField(AbiTypes::kFault);
   const auto set = [&](AbiTypes::FaultField field, uint32_t value) {
@@ -431,7 +431,7 @@ void ChunkEmitter::emitExit(const Exit& exit) {
     const bool jumps = exit.kind == TransferKind::Goto;
     if (jumps && leaveFromRegions(exit)) return;
     llvm::BasicBlock* leave = jumps ? blockOf(exit.taken) : block("leave");
-    builder_.CreateCondBr(values_[exit.cond.index], leave, blockOf(exit.otherwise));
+    builder_.CreateCondBr(isSet(values_[exit.cond.index]), leave, blockOf(exit.otherwise));
     if (jumps) return;
     builder_.SetInsertPoint(leave);
   }

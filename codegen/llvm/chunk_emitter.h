@@ -97,6 +97,9 @@ private:
 
   Value* arg(const ir::Op& op, int i) const { return values_[ir::arg(*rung_, op, i).index]; }
   llvm::Type* type(ir::Type type) const;
+  // Between the IR's bits and what LLVM's comparisons give and branches take.
+  Value* isSet(Value* bit);
+  Value* asBit(Value* truth) { return builder_.CreateZExt(truth, builder_.getInt8Ty()); }
   Value* num(uint64_t value) { return builder_.getInt32(static_cast<uint32_t>(value)); }
   // In the memory block.
   Value* at(uint64_t offset) { return builder_.CreateConstInBoundsGEP1_64(builder_.getInt8Ty(), mem_, offset); }

@@ -10,9 +10,18 @@ namespace rung::codegen {
 
 using namespace ir;
 
+// A bit is a byte, 0 or 1: one of LLVM's i1 would be masked wherever another block or memory takes it.
 llvm::Type* ChunkEmitter::type(Type type) const {
   llvm::LLVMContext& context = target_.getContext();
-  return type == Type::F64 ? llvm::Type::getDoubleTy(context) : llvm::Type::getIntNTy(context, bitWidth(type));
+  if (type == Type::F64) return llvm::Type::getDoubleTy(context);
+  return llvm::Type::getIntNTy(context, std::max(bitWidth(type), 8u));
+}
+
+// Of a comparison that asBit made a bit of it is that comparison.
+ChunkEmitter::Value* ChunkEmitter::isSet(Value* bit) {
+  const auto* extended = llvm::dyn_cast<llvm::ZExtInst>(bit);
+  if (extended != nullptr && extended->getSrcTy()->isIntegerTy(1)) return extended->getOperand(0);
+  return builder_.CreateIsNotNull(bit);
 }
 
 // NOLINTNEXTLINE(readability-function-size): a case for every operation
@@ -22,10 +31,17 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
     if (op.type == Type::F64)
       return builder_.CreateBitCast(builder_.getInt64(static_cast<uint64_t>(op.imm)), type(op.type));
     return llvm::ConstantInt::get(type(op.type), static_cast<uint64_t>(op.imm));
-  case OpCode::Select: return builder_.CreateSelect(arg(op, 0), arg(op, 1), arg(op, 2));
+  case OpCode::Select: return builder_.CreateSelect(isSet(arg(op, 0)), arg(op, 1), arg(op, 2));
   case OpCode::ZExt: return builder_.CreateZExt(arg(op, 0), type(op.type));
-  case OpCode::SExt: return builder_.CreateSExt(arg(op, 0), type(op.type));
-  case OpCode::Trunc: return builder_.CreateTrunc(arg(op, 0), type(op.type));
+  case OpCode::SExt: {
+    const bool bit = typeOf(*rung_, ir::arg(*rung_, op, 0)) == Type::Bit;
+    return bit ? builder_.CreateNeg(builder_.CreateZExt(arg(op, 0), type(op.type)))
+               : builder_.CreateSExt(arg(op, 0), type(op.type));
+  }
+  case OpCode::Trunc: {
+    Value* low = builder_.CreateTrunc(arg(op, 0), type(op.type));
+    return op.type == Type::Bit ? builder_.CreateAnd(low, 1) : low;
+  }
   case OpCode::FNeg: return builder_.CreateFNeg(arg(op, 0));
   case OpCode::FAbs: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, arg(op, 0));
   case OpCode::IntToF: return builder_.CreateSIToFP(arg(op, 0), type(op.type));
@@ -108,10 +124,24 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
 
 // ---- arithmetic --------------------------------------------------------------------------------------------------
 
+static llvm::CmpInst::Predicate predicateOf(OpCode code) {
+  switch (code) {
+  case OpCode::Eq: return llvm::CmpInst::ICMP_EQ;
+  case OpCode::Ne: return llvm::CmpInst::ICMP_NE;
+  case OpCode::LtS: return llvm::CmpInst::ICMP_SLT;
+  case OpCode::LeS: return llvm::CmpInst::ICMP_SLE;
+  case OpCode::LtU: return llvm::CmpInst::ICMP_ULT;
+  case OpCode::LeU: return llvm::CmpInst::ICMP_ULE;
+  case OpCode::FEq: return llvm::CmpInst::FCMP_OEQ;
+  case OpCode::FLt: return llvm::CmpInst::FCMP_OLT;
+  default: RUNG_CHECK(code == OpCode::FLe, "an operation of LLVM's own"); return llvm::CmpInst::FCMP_OLE;
+  }
+}
+
 ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
   Value* a = arg(op, 0);
   if (op.code == OpCode::Neg) return builder_.CreateNeg(a);
-  if (op.code == OpCode::Not) return builder_.CreateNot(a);
+  if (op.code == OpCode::Not) return op.type == Type::Bit ? builder_.CreateXor(a, 1) : builder_.CreateNot(a);
   Value* b = arg(op, 1);
   if (op.code == OpCode::Add) return builder_.CreateAdd(a, b);
   if (op.code == OpCode::Sub) return builder_.CreateSub(a, b);
@@ -119,16 +149,7 @@ ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
   if (op.code == OpCode::And) return builder_.CreateAnd(a, b);
   if (op.code == OpCode::Or) return builder_.CreateOr(a, b);
   if (op.code == OpCode::Xor) return builder_.CreateXor(a, b);
-  if (op.code == OpCode::Eq) return builder_.CreateICmpEQ(a, b);
-  if (op.code == OpCode::Ne) return builder_.CreateICmpNE(a, b);
-  if (op.code == OpCode::LtS) return builder_.CreateICmpSLT(a, b);
-  if (op.code == OpCode::LeS) return builder_.CreateICmpSLE(a, b);
-  if (op.code == OpCode::LtU) return builder_.CreateICmpULT(a, b);
-  if (op.code == OpCode::LeU) return builder_.CreateICmpULE(a, b);
-  if (op.code == OpCode::FEq) return builder_.CreateFCmpOEQ(a, b);
-  if (op.code == OpCode::FLt) return builder_.CreateFCmpOLT(a, b);
-  RUNG_CHECK(op.code == OpCode::FLe, "an operation of LLVM's own");
-  return builder_.CreateFCmpOLE(a, b);
+  return asBit(builder_.CreateCmp(predicateOf(op.code), a, b));
 }
 
 // By a number below the width LLVM's shifts are ours.
@@ -168,25 +189,23 @@ ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
 
 // ---- memory ------------------------------------------------------------------------------------------------------
 
-// A bit with a byte of its own is 0 or 1; to take its low bit is less work than to compare.
-// The runtime keeps these bytes at 0 or 1; knowing it saves a mask an access.
+// The runtime keeps the byte of a bit that has its own at 0 or 1.
 ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
   llvm::LoadInst* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
   byte->setMetadata(llvm::LLVMContext::MD_range,
                     llvm::MDBuilder(builder_.getContext()).createRange(llvm::APInt(8, 0), llvm::APInt(8, 2)));
-  return builder_.CreateTrunc(byte, builder_.getInt1Ty());
+  return byte;
 }
 
 ChunkEmitter::Value* ChunkEmitter::readBit(Value* address, Value* bit) {
   Value* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
-  return builder_.CreateIsNotNull(builder_.CreateAnd(byte, builder_.CreateShl(builder_.getInt8(1), bit)));
+  return asBit(builder_.CreateIsNotNull(builder_.CreateAnd(byte, builder_.CreateShl(builder_.getInt8(1), bit))));
 }
 
 void ChunkEmitter::writeBit(Value* address, Value* bit, Value* value) {
   Value* mask = builder_.CreateShl(builder_.getInt8(1), bit);
   Value* others = builder_.CreateAnd(builder_.CreateLoad(builder_.getInt8Ty(), address), builder_.CreateNot(mask));
-  Value* own = builder_.CreateShl(builder_.CreateZExt(value, builder_.getInt8Ty()), bit);
-  builder_.CreateStore(builder_.CreateOr(others, own), address);
+  builder_.CreateStore(builder_.CreateOr(others, builder_.CreateShl(value, bit)), address);
 }
 
 ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
@@ -204,7 +223,7 @@ void ChunkEmitter::store(const Op& op) {
   if (op.type == Type::Bit) {
     const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     if (!place.wholeByte) return writeBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)), value);
-    builder_.CreateStore(builder_.CreateZExt(value, builder_.getInt8Ty()), at(place.offset));
+    builder_.CreateStore(value, at(place.offset));
     return;
   }
   const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
@@ -213,7 +232,6 @@ void ChunkEmitter::store(const Op& op) {
 
 void ChunkEmitter::slotStore(const Op& op) {
   Value* value = spoil(op.code, arg(op, 0));
-  if (op.type == Type::Bit) value = builder_.CreateZExt(value, builder_.getInt8Ty());
   builder_.CreateAlignedStore(value, at(layout_.slot(SlotId{op.ref})), llvm::Align(1));
 }
 
@@ -251,9 +269,9 @@ ChunkEmitter::Value* ChunkEmitter::loadAt(const Op& op) {
 }
 
 ChunkEmitter::Value* ChunkEmitter::loadBitAt(const Op& op) {
-  if (op.count == 0) return builder_.getFalse();
+  if (op.count == 0) return builder_.getInt8(0);
   const Element place = element(op, true);
-  return builder_.CreateAnd(place.inside, readBit(place.address, place.bit));
+  return builder_.CreateAnd(asBit(place.inside), readBit(place.address, place.bit));
 }
 
 void ChunkEmitter::storeAt(const Op& op) {

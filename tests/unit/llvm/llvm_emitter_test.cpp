@@ -67,30 +67,31 @@ entry:
   %1 = load i16, ptr %0, align 1
   %2 = add i16 %1, 1
   %3 = icmp eq i16 %2, 3
+  %4 = zext i1 %3 to i8
   br i1 %3, label %fault, label %go
 
 fault:                                            ; preds = %entry
-  %4 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 5
-  %5 = getelementptr inbounds %rung_fault, ptr %4, i32 0, i32 0
-  store i32 0, ptr %5, align 4
-  %6 = getelementptr inbounds %rung_fault, ptr %4, i32 0, i32 1
-  store i32 2, ptr %6, align 4
-  %7 = getelementptr inbounds %rung_fault, ptr %4, i32 0, i32 2
-  store i32 11, ptr %7, align 4
+  %5 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 5
+  %6 = getelementptr inbounds %rung_fault, ptr %5, i32 0, i32 0
+  store i32 0, ptr %6, align 4
+  %7 = getelementptr inbounds %rung_fault, ptr %5, i32 0, i32 1
+  store i32 2, ptr %7, align 4
+  %8 = getelementptr inbounds %rung_fault, ptr %5, i32 0, i32 2
+  store i32 11, ptr %8, align 4
   ret i32 -2
 
 go:                                               ; preds = %entry
-  %8 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
-  store i16 %2, ptr %8, align 1
-  %9 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 6
-  %10 = load i32, ptr %9, align 4
-  %11 = sub i32 %10, 1
-  store i32 %11, ptr %9, align 4
-  %12 = zext i32 %11 to i64
-  %13 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 8
-  %14 = getelementptr inbounds i32, ptr %13, i64 %12
-  %15 = load i32, ptr %14, align 4
-  ret i32 %15
+  %9 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
+  store i16 %2, ptr %9, align 1
+  %10 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 6
+  %11 = load i32, ptr %10, align 4
+  %12 = sub i32 %11, 1
+  store i32 %12, ptr %10, align 4
+  %13 = zext i32 %12 to i64
+  %14 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 8
+  %15 = getelementptr inbounds i32, ptr %14, i64 %13
+  %16 = load i32, ptr %15, align 4
+  ret i32 %16
 }
 )");
 }

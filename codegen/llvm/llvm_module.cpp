@@ -15,6 +15,9 @@
 #include <llvm/Transforms/InstCombine/InstCombine.h>
 #include <llvm/Transforms/Scalar/DeadStoreElimination.h>
 #include <llvm/Transforms/Scalar/EarlyCSE.h>
+#include <llvm/Transforms/Scalar/GVN.h>
+#include <llvm/Transforms/Scalar/JumpThreading.h>
+#include <llvm/Transforms/Scalar/Reassociate.h>
 #include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
 
@@ -49,7 +52,7 @@ void adopt(llvm::Function& function) {
   function.setLinkage(llvm::GlobalValue::InternalLinkage);
   function.setAttributes(whatIsPassed(context, function.getAttributes(), static_cast<unsigned>(function.arg_size())));
   function.addFnAttr(shared ? llvm::Attribute::NoInline : llvm::Attribute::AlwaysInline);
-  function.addFnAttr("frame-pointer", "all");
+  function.addFnAttr("frame-pointer", "non-leaf");
   function.setDoesNotThrow();
   for (llvm::Instruction& instruction : llvm::instructions(function))
     if (auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
@@ -86,7 +89,7 @@ void addFlags(llvm::Module& module, const llvm::TargetMachine& machine) {
   module.setTargetTriple(machine.getTargetTriple().str());
   module.setDataLayout(machine.createDataLayout());
   module.setPICLevel(llvm::PICLevel::BigPIC);
-  module.setFramePointer(llvm::FramePointerKind::All);
+  module.setFramePointer(llvm::FramePointerKind::NonLeaf);
   const std::string& abi = machine.Options.MCOptions.ABIName;
   if (!abi.empty())
     module.addModuleFlag(llvm::Module::Error, "target-abi", llvm::MDString::get(module.getContext(), abi));
@@ -154,10 +157,13 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::InstCombinePass());
   perFunction.addPass(llvm::SimplifyCFGPass());
-  // Of rungs that follow one another: loads of what was stored above, stores that a later one writes over. What may be
-  // gone then is little, and looking for it again would take longer than it saves.
-  perFunction.addPass(llvm::EarlyCSEPass(true));
+  // Of rungs that follow one another: loads of what was stored above, equal conditions, stores that a later one writes
+  // over. What may be gone then is little, and looking for it again would take longer than it saves.
+  perFunction.addPass(llvm::ReassociatePass());
+  perFunction.addPass(llvm::GVNPass());
+  perFunction.addPass(llvm::JumpThreadingPass());
   perFunction.addPass(llvm::DSEPass());
+  perFunction.addPass(llvm::InstCombinePass());
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(perFunction)));

@@ -14,6 +14,7 @@ void foldConstants(Module& module);         // constants, algebra, branches that
 void reuseValues(Module& module);           // an equal operation, load or stored value above is used again
 void removeDeadOps(Module& module);         // results that nothing uses, regions without effect
 void removeTransientStores(Module& module); // values of registers between rungs that nothing reads
+void guardIndices(Module& module);          // short ways through a rung, for likely indices
 void instrumentRungs(Module& module);       // measures each rung
 
 } // namespace rung::ir

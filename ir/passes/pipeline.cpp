@@ -37,6 +37,11 @@ void runPasses(Module& module, const PassOptions& options) {
     pipeline.run(removeDeadOps); // loads, that else would keep stores to registers
     pipeline.run(removeTransientStores);
     pipeline.run(removeDeadOps);
+    pipeline.run(guardIndices);
+    pipeline.run(foldConstants);
+    pipeline.run(reuseValues);
+    pipeline.run(foldConstants);
+    pipeline.run(removeDeadOps);
   }
   if (options.instrument) pipeline.run(instrumentRungs);
 }

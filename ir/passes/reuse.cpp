@@ -44,6 +44,7 @@ private:
     if (op.code == OpCode::Else || op.code == OpCode::EndIf || op.code == OpCode::EndLoop) table_.close();
     if (op.code == OpCode::If || op.code == OpCode::Else || op.code == OpCode::Loop) table_.open();
     if (op.code == OpCode::Loop && writingLoop_[i]) writes_.writeAll(time);
+    if (isThere(op)) return true;
     writer_.copy(op);
     if ((info.effects & kWrites) != 0) {
       writes_.write(op, time);
@@ -51,6 +52,13 @@ private:
         table_.enter(keyOf(op), writer_.nowArg(op, 0), time);
     }
     return false;
+  }
+
+  // A store of what its place holds already.
+  bool isThere(const Op& op) {
+    if (op.code != OpCode::Store && op.code != OpCode::SlotStore) return false;
+    const ValueTable::Entry* entry = table_.find(keyOf(op));
+    return entry != nullptr && entry->value == writer_.nowArg(op, 0) && writes_.unchanged(op, entry->time);
   }
 
   bool reuse(const Op& op, uint32_t time) {

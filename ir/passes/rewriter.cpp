@@ -79,7 +79,7 @@ Op& RungRewriter::copySome(const Op& op, std::span<const uint8_t> keep) {
   return added;
 }
 
-Op& RungRewriter::put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args) {
+Op& RungRewriter::appendOther(const Op& op, OpCode code, Type type, std::span<const ValueId> args) {
   Op& added = append(op);
   added.code = code;
   added.type = type;
@@ -87,7 +87,12 @@ Op& RungRewriter::put(const Op& op, OpCode code, Type type, std::initializer_lis
   added.count = 0;
   added.imm = 0;
   added.argCount = static_cast<uint16_t>(args.size());
-  args_.insert(args_.end(), args);
+  args_.insert(args_.end(), args.begin(), args.end());
+  return added;
+}
+
+Op& RungRewriter::put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args) {
+  Op& added = appendOther(op, code, type, {args.begin(), args.size()});
   if (op.resultCount == 0) return added;
   added.result = newValue(rung_->values[op.result.index]);
   added.resultCount = 1;
@@ -95,16 +100,33 @@ Op& RungRewriter::put(const Op& op, OpCode code, Type type, std::initializer_lis
   return added;
 }
 
-ValueId RungRewriter::putConstant(const Op& op, Type type, uint64_t bits) {
-  Op& added = append(op);
-  added.code = OpCode::Const;
-  added.type = type;
-  added.ref = 0;
-  added.count = 0;
-  added.imm = static_cast<int64_t>(bits);
-  added.result = newValue(type);
+Op& RungRewriter::putBefore(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args) {
+  Op& added = appendOther(op, code, type, {args.begin(), args.size()});
+  added.result = newValue(resultType(opInfo(code).result, type));
   added.resultCount = 1;
+  return added;
+}
+
+ValueId RungRewriter::putConstant(const Op& op, Type type, uint64_t bits) {
+  Op& added = putBefore(op, OpCode::Const, type, {});
+  added.imm = static_cast<int64_t>(bits);
   return added.result;
+}
+
+void RungRewriter::openIf(const Op& at, ValueId cond) { appendOther(at, OpCode::If, Type::None, {&cond, 1}); }
+
+void RungRewriter::turnElse(const Op& at, std::span<const ValueId> yields) {
+  appendOther(at, OpCode::Else, Type::None, yields);
+}
+
+void RungRewriter::closeIf(const Op& at, std::span<const ValueId> yields, std::span<const ValueId> old) {
+  Op& added = appendOther(at, OpCode::EndIf, Type::None, yields);
+  added.resultCount = static_cast<uint16_t>(old.size());
+  for (size_t i = 0; i < old.size(); ++i) {
+    const ValueId id = newValue(rung_->values[old[i].index]);
+    replace(old[i], id);
+    if (i == 0) added.result = id;
+  }
 }
 
 void RungRewriter::finish(Rung& rung) {

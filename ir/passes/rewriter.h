@@ -28,12 +28,21 @@ public:
 
   // The operation as it is, with today's operands.
   Op& copy(const Op& op);
+  // Another operand for an operation that is written.
+  void setArg(const Op& written, uint32_t i, ValueId value) { args_[written.firstArg + i] = value; }
   // The same for an endif or else of which only some yields are kept; keep[i] belongs to operand and result i.
   Op& copySome(const Op& op, std::span<const uint8_t> keep);
   // Another operation in the place of `op`, with new operands and one result or none, which `op`'s result then
   // means.
   Op& put(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args);
+  // One more operation before it, with a result of its own.
+  Op& putBefore(const Op& op, OpCode code, Type type, std::initializer_list<ValueId> args);
   ValueId putConstant(const Op& op, Type type, uint64_t bits);
+
+  // An if around what is written between these. The results of its end are what the values `old` mean then.
+  void openIf(const Op& at, ValueId cond);
+  void turnElse(const Op& at, std::span<const ValueId> yields);
+  void closeIf(const Op& at, std::span<const ValueId> yields, std::span<const ValueId> old);
 
   // The new operation that gives a value, with its new operands. Valid until the next one is written.
   const Op& definition(ValueId now) const { return ops_[definedBy_[now.index]]; }
@@ -45,6 +54,7 @@ public:
 
 private:
   Op& append(const Op& op);
+  Op& appendOther(const Op& op, OpCode code, Type type, std::span<const ValueId> args);
   ValueId newValue(Type type);
 
   const Rung* rung_ = nullptr;

@@ -77,6 +77,7 @@ private:
   bool exclusiveOr();
   bool complement();
   bool arithmetic();
+  bool sumOfConstants();
   bool quotient();
   bool remainder();
   bool shift();
@@ -133,9 +134,24 @@ bool Simplifier::arithmetic() {
   if (op_.code != OpCode::Sub) constantSecond();
   if (op_.code == OpCode::Mul) return is(b_, 0) ? same(b_) : is(b_, 1) && same(a_);
   if (is(b_, 0)) return same(a_);
-  if (op_.code != OpCode::Sub) return false;
+  if (op_.code == OpCode::Add) return sumOfConstants();
   if (a_ == b_) return constant(0);
   return is(a_, 0) && become(OpCode::Neg, op_.type, {b_});
+}
+
+// x + c + d is x + (c + d).
+bool Simplifier::sumOfConstants() {
+  uint64_t outer = 0;
+  if (!isConstant(writer_, b_, outer) || !isA(a_, OpCode::Add)) return false;
+  for (uint32_t i = 0; i < 2; ++i) {
+    uint64_t bits = 0;
+    if (!isConstant(writer_, inner(a_, i), bits)) continue;
+    const ValueId other = inner(a_, 1 - i);
+    bits = (bits + outer) & ones();
+    if (bits == 0) return same(other);
+    return become(OpCode::Add, op_.type, {other, writer_.putConstant(op_, op_.type, bits)});
+  }
+  return false;
 }
 
 // By 0: 0.

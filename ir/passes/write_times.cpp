@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
+#include <span>
 
 namespace rung::ir {
 namespace {
@@ -66,9 +68,15 @@ void WriteTimes::writeWindow(const Op& op, uint32_t time) {
   const uint64_t unit = module_.spaces[op.ref].unitBytes;
   const uint64_t end = begin + (uint64_t{op.count} - 1) * unit + std::max<uint64_t>(unit, byteWidth(op.type));
   SpaceWrites& writes = writesTo(op.ref);
-  writes.begin = writes.window == 0 ? begin : std::min(writes.begin, begin);
-  writes.end = std::max(writes.end, end);
-  writes.window = time;
+  const std::span known(writes.window, writes.windows);
+  // With one that it touches, or where there is no more room with the last.
+  auto with = std::ranges::find_if(known, [&](const WindowWrites& w) { return begin <= w.end && w.begin <= end; });
+  if (with == known.end() && writes.windows < std::size(writes.window)) {
+    writes.window[writes.windows++] = {time, begin, end};
+    return;
+  }
+  if (with == known.end()) --with;
+  *with = {time, std::min(with->begin, begin), std::max(with->end, end)};
 }
 
 // As far as writes through windows go, and all writes for a load through a window.
@@ -77,7 +85,9 @@ bool WriteTimes::spaceUnchanged(const Op& op, uint32_t time) const {
   if (writes.rung != rung_) return true;
   if (!isFixed(op)) return writes.any <= time;
   const uint64_t first = static_cast<uint64_t>(op.imm) / 8;
-  return writes.window <= time || first >= writes.end || first + std::max(1u, byteWidth(op.type)) <= writes.begin;
+  const uint64_t end = first + std::max(1u, byteWidth(op.type));
+  return std::ranges::none_of(std::span(writes.window, writes.windows),
+                              [&](const WindowWrites& w) { return w.time > time && w.begin < end && first < w.end; });
 }
 
 bool WriteTimes::unchanged(const Op& op, uint32_t time) const {

@@ -1,5 +1,5 @@
 // When a rung last wrote to which memory, and so whether a value that a place held at some time is still there. Times
-// are numbers of operations, counted from 1. Fixed places are followed bit by bit, windows as one range a space.
+// are numbers of operations, counted from 1. Fixed places are followed bit by bit, windows as a few ranges a space.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -32,13 +32,18 @@ private:
     uint32_t anyBit;
     uint32_t bit[8];
   };
+  // The last write through windows that lie within these bytes.
+  struct WindowWrites {
+    uint32_t time;
+    uint64_t begin;
+    uint64_t end;
+  };
   // Writes through windows; forgotten when `rung` is not the current one.
   struct SpaceWrites {
     uint32_t rung = 0;
-    uint32_t any = 0;    // of any kind
-    uint32_t window = 0; // the last through a window, and all bytes that windows may have written
-    uint64_t begin = 0;
-    uint64_t end = 0;
+    uint32_t any = 0; // of any kind
+    uint32_t windows = 0;
+    WindowWrites window[8];
   };
 
   static Place placeOf(const Op& op);

@@ -32,8 +32,10 @@ void RandomRung::addOp(uint32_t depth) {
     addAccess();
   else if (dice < 87)
     addSlotAccess();
-  else if (dice < 92)
+  else if (dice < 90)
     addHost();
+  else if (dice < 92)
+    addIndexed();
   else if (options_.regions && depth < kMaxDepth)
     addRegion(depth);
 }
@@ -96,6 +98,16 @@ Window RandomRung::window(Type type) {
   return {space, random_.chance(60) ? random_.below(std::min(last + 1, 8u)) : random_.below(last + 1), count};
 }
 
+// Nearly a whole space.
+Window RandomRung::wideWindow(Type type) {
+  const SpaceId space{random_.between(2, kFirstHidden - 1)};
+  const Space& chosen = builder_.module().at(space);
+  const uint32_t bytes = type == Type::Bit ? chosen.unitBytes : byteWidth(type);
+  const uint32_t room = chosen.units * chosen.unitBytes - bytes;
+  const uint32_t begin = random_.below(std::min(room + 1, 8u));
+  return {space, begin, (room - begin) / chosen.unitBytes + 1};
+}
+
 // An operation without an attribute or a region, by its row alone.
 void RandomRung::addPlain() {
   const OpInfo& info = random_.pick(allOps());
@@ -148,6 +160,27 @@ void RandomRung::addAccess() {
     remember(builder_.loadAt(type, window(type), index));
   else
     builder_.storeAt(window(type), index, stored);
+}
+
+// As dialects do it: several places by an index that lies in memory, each with a comparison with the window's end.
+void RandomRung::addIndexed() {
+  const ValueId cell = builder_.load(Type::I32, place(Type::I32));
+  for (uint32_t n = random_.between(1, 4); n > 0; --n) {
+    const Type type = someType(kAllTypes);
+    const Window all = wideWindow(type);
+    const ValueId index = builder_.add(cell, builder_.i32(int64_t{random_.below(8)} - 2));
+    const ValueId inside = builder_.ltU(index, builder_.i32(all.count));
+    remember(inside);
+    const ValueId stored = value(type);
+    if (type == Type::Bit) {
+      const ValueId bit = random_.chance(50) ? cell : builder_.i32(random_.below(8));
+      remember(builder_.and_(inside, builder_.loadBitAt(all, index, bit)));
+      builder_.storeBitAt(all, index, bit, stored);
+    } else {
+      remember(builder_.loadAt(type, all, index));
+      builder_.storeAt(all, index, stored);
+    }
+  }
 }
 
 void RandomRung::addSlotAccess() {

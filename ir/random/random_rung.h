@@ -22,6 +22,7 @@ private:
   void addOp(uint32_t depth);
   void addPlain();
   void addAccess();
+  void addIndexed();
   void addSlotAccess();
   void addHost();
   void addRegion(uint32_t depth);
@@ -32,6 +33,7 @@ private:
   Type operandType(Constraint constraint, Type own);
   Place place(Type type);
   Window window(Type type);
+  Window wideWindow(Type type);
   ValueId constant(Type type);
   void remember(ValueId id) { visible_.push_back(id); }
 

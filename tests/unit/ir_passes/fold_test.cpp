@@ -55,6 +55,10 @@ const Rule kRules[] = {
     {"i32", "%4:i32 = xor %0, %0", "i32", "%0:i32 = const 0\n"},
     {"i32", "%4:i32 = not %0\n%5:i32 = xor %0, %4", "i32", "%0:i32 = const -1\n"},
     {"i32", "%4:bit = const 1\n%5:bit = xor %4, %2", "bit", "%0:bit = load B[0.0]\n%1:bit = not %0\n"},
+    // sums with constants
+    {"i32", "%4:i32 = const 5\n%5:i32 = add %0, %4\n%6:i32 = const -5\n%7:i32 = add %5, %6", "i32", kX},
+    {"i32", "%4:i32 = const 5\n%5:i32 = add %4, %0\n%6:i32 = const 2147483646\n%7:i32 = add %6, %5", "i32",
+     "%0:i32 = load D[0]\n%1:i32 = const -2147483645\n%2:i32 = add %0, %1\n"},
     // not
     {"i32", "%4:i32 = not %0\n%5:i32 = not %4", "i32", kX},
     {"i32", "%4:bit = lt_s.i32 %0, %1\n%5:bit = not %4", "bit",

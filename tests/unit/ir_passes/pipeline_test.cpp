@@ -199,7 +199,8 @@ INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
                          testing::Values(NamedPass{"Order", [](Module& m) { orderOperations(m); }, true},
                                          NamedPass{"Inline", inlineRoutines, true}, NamedPass{"Fold", foldConstants},
                                          NamedPass{"Reuse", reuseValues}, NamedPass{"Dead", removeDeadOps},
-                                         NamedPass{"Transient", removeTransientStores}, NamedPass{"All", everything}),
+                                         NamedPass{"Transient", removeTransientStores},
+                                         NamedPass{"Guard", guardIndices, true}, NamedPass{"All", everything}),
                          [](const auto& test) { return test.param.name; });
 
 } // namespace

@@ -126,6 +126,56 @@ store.i32 D[1], %2)"),
             "%0:i32 = const 1\n%1:i32 = const 2\nstore.i32 D[0], %0\nstore.i32 D[0], %1\nstore.i32 D[1], %1\n");
 }
 
+TEST(Reuse, AStoreOfWhatIsThere) {
+  EXPECT_EQ(reused(R"(%0:i32 = load D[0]
+store.i32 D[0], %0
+%1:bit = load B[0.0]
+if %1
+  store.bit B[0.0], %1
+  slot_store.i32 $0, %0
+  slot_store.i32 $0, %0
+endif
+slot_store.i32 $0, %0)"),
+            R"(%0:i32 = load D[0]
+%1:bit = load B[0.0]
+if %1
+slot_store.i32 $0, %0
+endif
+slot_store.i32 $0, %0
+)");
+}
+
+TEST(Reuse, AStoreOfWhatMayHaveBeenWrittenOver) {
+  expectUnchanged("%0:i32 = load D[0]\nstore_at.i32 D[0 count 4], %0, %0\nstore.i32 D[0], %0");
+  expectUnchanged("%0:i32 = load D[0]\n%1:bit = load B[0.0]\nstore.bit D[0.3], %1\nstore.i32 D[0], %0");
+  expectUnchanged("%0:i32 = load D[0]\n%1:i16 = trunc %0\nstore.i16 D[0], %1");
+}
+
+TEST(Reuse, WindowsOfASpaceApart) {
+  EXPECT_EQ(reused(R"(%0:i32 = load D[0]
+%1:i32 = load D[20]
+store_at.i32 D[2 count 4], %0, %1
+store_at.i32 D[40 count 4], %0, %1
+%2:i32 = load D[20]
+store.i32 D[1], %2
+%3:i32 = load D[5]
+store_at.i32 D[4 count 1], %0, %1
+store_at.i32 D[5 count 1], %0, %1
+%4:i32 = load D[5]
+store.i32 D[1], %4)"),
+            R"(%0:i32 = load D[0]
+%1:i32 = load D[20]
+store_at.i32 D[2 count 4], %0, %1
+store_at.i32 D[40 count 4], %0, %1
+store.i32 D[1], %1
+%2:i32 = load D[5]
+store_at.i32 D[4 count 1], %0, %1
+store_at.i32 D[5 count 1], %0, %1
+%3:i32 = load D[5]
+store.i32 D[1], %3
+)");
+}
+
 TEST(Reuse, LeavesTheStoreOfATypeThatDiffers) {
   expectUnchanged("%0:i32 = const 1\nstore.i32 D[0], %0\n%1:i16 = load D[0]\n%2:i32 = load D[0+1]");
 }
@@ -164,7 +214,7 @@ store.i32 D[4], %4
 
 TEST(Reuse, AStoreInARegionCountsBehindIt) {
   expectUnchanged(R"(%0:bit = load B[0.0]
-%1:i32 = load D[0]
+%1:i32 = load D[1]
 if %0
   store.i32 D[0], %1
 endif

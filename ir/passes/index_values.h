@@ -1,0 +1,39 @@
+// Which numbers a program puts into cells that its indices come from: programs call one routine for each unit of a
+// machine, and tell it the unit by constants. What is found here is likely and not certain: who uses it asks.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "ir/passes/rung_ranges.h"
+
+namespace rung::ir {
+
+// The cells that windows of a rung get their indices from, each once, in the order of their last use.
+void findIndexCells(const Rung& rung, std::vector<Cell>& cells);
+
+class IndexValues {
+public:
+  // Looks through the whole program.
+  explicit IndexValues(const Module& module);
+
+  // In the order of the program; values of one number in several cells belong together. Empty where the program puts
+  // no constants into the cell, or more than a few.
+  std::span<const uint64_t> of(const Cell& cell) const;
+
+private:
+  struct Known {
+    Cell cell;
+    std::vector<uint64_t> values;
+  };
+  void findCells();
+  void findConstants();
+  bool derive();
+  size_t mostValues() const;
+  Known* find(const Cell& cell);
+  bool add(Known& known, uint64_t value);
+
+  const Module& module_;
+  std::vector<Known> known_;
+};
+
+} // namespace rung::ir

@@ -128,6 +128,37 @@ private:
     }
   }
 
+  void addCopies(const std::vector<Copy>& copies) {
+    const size_t first = image_.copies_.size();
+    for (const Copy& copy : copies) addCopy(copy);
+    const std::span added(image_.copies_.begin() + static_cast<ptrdiff_t>(first), image_.copies_.end());
+    if (!mayGoInAnyOrder(added)) return;
+    std::ranges::sort(added, {}, &rung_copy::from);
+    std::vector<rung_copy> joined;
+    for (const rung_copy& copy : added) {
+      rung_copy* last = joined.empty() ? nullptr : &joined.back();
+      if (last != nullptr && last->from + last->size == copy.from && last->to + last->size == copy.to)
+        last->size += copy.size;
+      else
+        joined.push_back(copy);
+    }
+    image_.copies_.resize(first);
+    image_.copies_.insert(image_.copies_.end(), joined.begin(), joined.end());
+  }
+
+  // None writes what another one reads or writes.
+  static bool mayGoInAnyOrder(std::span<const rung_copy> copies) {
+    const auto meet = [](uint32_t a, uint32_t sizeA, uint32_t b, uint32_t sizeB) {
+      return a < b + sizeB && b < a + sizeA;
+    };
+    for (const rung_copy& a : copies) {
+      if (a.kind != RUNG_COPY_ALL) return false;
+      for (const rung_copy& b : copies)
+        if (&a != &b && (meet(a.to, a.size, b.from, b.size) || meet(a.to, a.size, b.to, b.size))) return false;
+    }
+    return true;
+  }
+
   // Connected bytes have one representation, but their ranges may be cut at different places.
   void addCopy(const Copy& copy) {
     for (uint32_t done = 0; done < copy.from.size;) {
@@ -169,10 +200,10 @@ private:
       out.budget = task.budget;
       out.budget_fault = task.budgetFault.index;
       out.begin_first = static_cast<uint32_t>(image_.copies_.size());
-      for (const Copy& copy : task.begin) addCopy(copy);
+      addCopies(task.begin);
       out.begin_count = static_cast<uint32_t>(image_.copies_.size()) - out.begin_first;
       out.end_first = static_cast<uint32_t>(image_.copies_.size());
-      for (const Copy& copy : task.end) addCopy(copy);
+      addCopies(task.end);
       out.end_count = static_cast<uint32_t>(image_.copies_.size()) - out.end_first;
       out.part_first = static_cast<uint32_t>(image_.partEnds_.size());
       const std::vector<uint32_t>& ends = layout_.partEnds(TaskId{i});

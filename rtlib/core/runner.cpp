@@ -90,6 +90,8 @@ void copyBytes(uint8_t* to, const uint8_t* from, uint32_t size) noexcept {
   constexpr uint32_t kCallPays = 128;
   if (size > kCallPays)
     std::memcpy(to, from, size);
+  else if (size >= 32)
+    copyUnits<std::array<uint64_t, 4>>(to, from, size);
   else if (size >= 16)
     copyUnits<std::array<uint64_t, 2>>(to, from, size);
   else if (size >= 8)
@@ -134,14 +136,12 @@ void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) 
 } // namespace
 
 void Runner::copyAll(uint32_t first, uint32_t count) noexcept {
-  for (uint32_t i = first; i < first + count; ++i) {
-    const rung_copy& c = program_->copies[i];
-    if (c.kind == RUNG_COPY_ALL) {
-      copyBytes(memory_ + c.to, memory_ + c.from, c.size);
-      continue;
-    }
-    copyMasked(memory_ + c.to, memory_ + c.from, memory_ + c.mask, c.size);
-  }
+  uint8_t* const memory = memory_; // which what is written could otherwise change, for all that a compiler knows
+  for (const rung_copy& c : std::span(program_->copies + first, count))
+    if (c.kind == RUNG_COPY_ALL)
+      copyBytes(memory + c.to, memory + c.from, c.size);
+    else
+      copyMasked(memory + c.to, memory + c.from, memory + c.mask, c.size);
   hold();
 }
 
@@ -161,14 +161,18 @@ bool isBounded(const rung_task& task) noexcept {
 
 } // namespace
 
-// Runs from `pc` to the end of the run or a fault: of a bounded task, where nobody looks at the time.
-inline uint32_t Runner::runBounded(uint32_t pc) noexcept {
+// As runChunks, of a bounded task, where nobody looks at the time.
+inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
   uint8_t* const memory = memory_;
   rung_ctx* const ctx = ctx_;
   const rung_chunk_fn* const functions = code_.functions;
   const uint32_t count = program_->chunk_count;
-  while (pc < count) pc = functionOf(functions, pc)(memory, ctx, pc);
-  return pc;
+  const uint32_t first = std::min(limit, count);
+  for (;;) {
+    while (pc < first) pc = functionOf(functions, pc)(memory, ctx, pc);
+    if (pc >= count || ctx->sp == 1) return pc;
+    pc = functionOf(functions, pc)(memory, ctx, pc);
+  }
 }
 
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
@@ -262,6 +266,13 @@ inline bool Runner::hasActivity(uint32_t task) const noexcept { return activity_
 
 bool Runner::looksAt(uint32_t task) noexcept { return hasActivity(task) && activity_->looks(); }
 
+inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept {
+  const rung_task& t = program_->tasks[task];
+  const bool looks = looksAt(task);
+  if (!looks && limit_.ns == 0 && isBounded(t)) return runBounded(pc, limit);
+  return runCounted(pc, limit, t, budget, looks);
+}
+
 uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept {
   if (looks)
     return limit_.ns != 0 ? runChunks<true, true>(pc, limit, task, budget)
@@ -273,10 +284,8 @@ uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, 
 inline uint32_t Runner::runToEnd(uint32_t task) noexcept {
   const rung_task& t = program_->tasks[task];
   beginStack();
-  const bool looks = looksAt(task);
-  if (!looks && limit_.ns == 0 && isBounded(t)) return runBounded(t.entry);
   uint32_t budget = t.budget;
-  return runCounted(t.entry, RUNG_PC_DONE, t, budget, looks);
+  return runFrom(t.entry, RUNG_PC_DONE, task, budget);
 }
 
 // Nothing but its chunks, as a fast task mostly is.
@@ -292,7 +301,7 @@ bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
   uint32_t pc = RUNG_PC_DONE;
   while (times != 0 && pc == RUNG_PC_DONE) {
     beginStack();
-    pc = runBounded(entry);
+    pc = runBounded(entry, RUNG_PC_DONE);
     --times;
     if (stopped_) break;
   }
@@ -337,7 +346,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
   if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
   beginStack();
-  state.pc = runCounted(state.pc, limit, t, state.budget, looksAt(task));
+  state.pc = runFrom(state.pc, limit, task, state.budget);
   return finish(task, state.pc);
 }
 

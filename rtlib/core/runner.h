@@ -136,7 +136,8 @@ private:
   bool isPlain(uint32_t task) const noexcept;
   bool runPlain(uint32_t task, uint32_t times) noexcept;
   uint32_t runToEnd(uint32_t task) noexcept;
-  uint32_t runBounded(uint32_t pc) noexcept;
+  uint32_t runBounded(uint32_t pc, uint32_t limit) noexcept;
+  uint32_t runFrom(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept;
   uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept;
   bool hasActivity(uint32_t task) const noexcept;
   bool looksAt(uint32_t task) noexcept;

@@ -313,11 +313,13 @@ private:
         failAt("copy", i, "overlaps itself");
     }
   }
-  // Its representation.
+  // Its representation. It may go on from range to range.
   uint32_t checkEnd(uint32_t number, const char* end, uint32_t offset, uint32_t size) {
-    const Stretch* stretch = stretchOf(offset, size);
-    if (stretch != nullptr) return stretch->repr;
-    failAt("copy", number, "has a `", end, "` that is not in one range of a space: ", offset, " + ", size);
+    const Stretch* first = stretchOf(offset, 1);
+    for (const Stretch* at = first; at != nullptr && at->repr == first->repr; at = stretchOf(at->end, 1))
+      if (size <= at->end - offset) return first->repr;
+    failAt("copy", number, "has a `", end, "` that does not lie in ranges of one representation: ", offset, " + ",
+           size);
     return 0;
   }
 

@@ -144,7 +144,7 @@ enum rung_copy_kind {
 };
 
 /* A transfer that the host does at the border of a task's run: input latches, images, register sets. Its pieces do not
- * overlap; each lies within one range, and these ranges have one representation. */
+ * overlap; each lies in ranges that follow one another in memory, and all of these have one representation. */
 typedef struct rung_copy {
   uint32_t kind; /* enum rung_copy_kind */
   uint32_t from; /* offsets in the memory block */

@@ -23,6 +23,7 @@ ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const Llv
 
 llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   const Chunk& place = layout_.chunks()[chunk];
+  bitsAreBytes_ = hasMostlyBytes(place);
   const Routine& routine = module_.at(place.routine);
   const Rung& first = routine.rungs[place.firstRung];
   const std::string name = fmt::format("{}.{}", routine.name, place.firstRung);

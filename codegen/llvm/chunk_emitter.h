@@ -99,7 +99,9 @@ private:
   llvm::Type* type(ir::Type type) const;
   // Between the IR's bits and what LLVM's comparisons give and branches take.
   Value* isSet(Value* bit);
-  Value* asBit(Value* truth) { return builder_.CreateZExt(truth, builder_.getInt8Ty()); }
+  Value* asBit(Value* truth) { return builder_.CreateZExt(truth, type(ir::Type::Bit)); }
+  Value* asByte(Value* bit) { return builder_.CreateZExt(bit, builder_.getInt8Ty()); }
+  bool hasMostlyBytes(const ir::Chunk& chunk) const;
   Value* num(uint64_t value) { return builder_.getInt32(static_cast<uint32_t>(value)); }
   // In the memory block.
   Value* at(uint64_t offset) { return builder_.CreateConstInBoundsGEP1_64(builder_.getInt8Ty(), mem_, offset); }
@@ -117,7 +119,8 @@ private:
   DebugInfo* debug_;
   AbiTypes abi_;
   llvm::IRBuilder<> builder_;
-  bool extendsWords_; // the ABI wants 32-bit arguments and results sign-extended
+  bool extendsWords_;         // the ABI wants 32-bit arguments and results sign-extended
+  bool bitsAreBytes_ = false; // of the chunk: a bit is a byte, else an i1
 
   // Of the chunk and the rung in hand.
   llvm::Function* function_ = nullptr;

@@ -160,7 +160,7 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   // Of rungs that follow one another: loads of what was stored above, equal conditions, stores that a later one writes
   // over. What may be gone then is little, and looking for it again would take longer than it saves.
   perFunction.addPass(llvm::ReassociatePass());
-  perFunction.addPass(llvm::GVNPass());
+  perFunction.addPass(llvm::GVNPass(llvm::GVNOptions().setLoadPRE(false)));
   perFunction.addPass(llvm::JumpThreadingPass());
   perFunction.addPass(llvm::DSEPass());
   perFunction.addPass(llvm::InstCombinePass());

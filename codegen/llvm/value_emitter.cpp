@@ -10,15 +10,38 @@ namespace rung::codegen {
 
 using namespace ir;
 
-// A bit is a byte, 0 or 1: one of LLVM's i1 would be masked wherever another block or memory takes it.
 llvm::Type* ChunkEmitter::type(Type type) const {
   llvm::LLVMContext& context = target_.getContext();
   if (type == Type::F64) return llvm::Type::getDoubleTy(context);
-  return llvm::Type::getIntNTy(context, std::max(bitWidth(type), 8u));
+  return llvm::Type::getIntNTy(context, std::max(bitWidth(type), bitsAreBytes_ ? 8u : 1u));
+}
+
+// An i1 is masked wherever another block or memory takes it, so that a byte, 0 or 1, is better for bits that lie in
+// bytes; but of a comparison that is joined with bits, and of a bit among others, a byte has to be made. What the chunk
+// has more of decides.
+bool ChunkEmitter::hasMostlyBytes(const Chunk& chunk) const {
+  uint32_t bytes = 0;
+  uint32_t others = 0;
+  for (uint32_t i = 0; i < chunk.rungCount; ++i) {
+    const Rung& rung = module_.at(chunk.routine).rungs[chunk.firstRung + i];
+    std::vector<bool> isTruth(rung.values.size(), false); // a comparison's
+    for (const Op& op : rung.ops) {
+      if (op.resultCount == 1 && opInfo(op.code).result == Constraint::Bit && op.type != Type::Bit)
+        isTruth[op.result.index] = true;
+      if (op.type != Type::Bit) continue;
+      if (opInfo(op.code).attr == Attr::Slot) ++bytes;
+      if (op.code == OpCode::Load || op.code == OpCode::Store)
+        ++(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm)).wholeByte ? bytes : others);
+      if (op.code == OpCode::And || op.code == OpCode::Or || op.code == OpCode::Xor)
+        others += isTruth[ir::arg(rung, op, 0).index] || isTruth[ir::arg(rung, op, 1).index] ? 2 : 0;
+    }
+  }
+  return bytes >= 2 * others;
 }
 
 // Of a comparison that asBit made a bit of it is that comparison.
 ChunkEmitter::Value* ChunkEmitter::isSet(Value* bit) {
+  if (!bitsAreBytes_) return bit;
   const auto* extended = llvm::dyn_cast<llvm::ZExtInst>(bit);
   if (extended != nullptr && extended->getSrcTy()->isIntegerTy(1)) return extended->getOperand(0);
   return builder_.CreateIsNotNull(bit);
@@ -34,13 +57,13 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   case OpCode::Select: return builder_.CreateSelect(isSet(arg(op, 0)), arg(op, 1), arg(op, 2));
   case OpCode::ZExt: return builder_.CreateZExt(arg(op, 0), type(op.type));
   case OpCode::SExt: {
-    const bool bit = typeOf(*rung_, ir::arg(*rung_, op, 0)) == Type::Bit;
-    return bit ? builder_.CreateNeg(builder_.CreateZExt(arg(op, 0), type(op.type)))
-               : builder_.CreateSExt(arg(op, 0), type(op.type));
+    const bool byte = bitsAreBytes_ && typeOf(*rung_, ir::arg(*rung_, op, 0)) == Type::Bit;
+    return byte ? builder_.CreateNeg(builder_.CreateZExt(arg(op, 0), type(op.type)))
+                : builder_.CreateSExt(arg(op, 0), type(op.type));
   }
   case OpCode::Trunc: {
     Value* low = builder_.CreateTrunc(arg(op, 0), type(op.type));
-    return op.type == Type::Bit ? builder_.CreateAnd(low, 1) : low;
+    return bitsAreBytes_ && op.type == Type::Bit ? builder_.CreateAnd(low, 1) : low;
   }
   case OpCode::FNeg: return builder_.CreateFNeg(arg(op, 0));
   case OpCode::FAbs: return builder_.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, arg(op, 0));
@@ -141,7 +164,8 @@ static llvm::CmpInst::Predicate predicateOf(OpCode code) {
 ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
   Value* a = arg(op, 0);
   if (op.code == OpCode::Neg) return builder_.CreateNeg(a);
-  if (op.code == OpCode::Not) return op.type == Type::Bit ? builder_.CreateXor(a, 1) : builder_.CreateNot(a);
+  const bool byte = bitsAreBytes_ && op.type == Type::Bit;
+  if (op.code == OpCode::Not) return byte ? builder_.CreateXor(a, 1) : builder_.CreateNot(a);
   Value* b = arg(op, 1);
   if (op.code == OpCode::Add) return builder_.CreateAdd(a, b);
   if (op.code == OpCode::Sub) return builder_.CreateSub(a, b);
@@ -194,7 +218,7 @@ ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
   llvm::LoadInst* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
   byte->setMetadata(llvm::LLVMContext::MD_range,
                     llvm::MDBuilder(builder_.getContext()).createRange(llvm::APInt(8, 0), llvm::APInt(8, 2)));
-  return byte;
+  return bitsAreBytes_ ? byte : builder_.CreateTrunc(byte, builder_.getInt1Ty());
 }
 
 ChunkEmitter::Value* ChunkEmitter::readBit(Value* address, Value* bit) {
@@ -205,7 +229,7 @@ ChunkEmitter::Value* ChunkEmitter::readBit(Value* address, Value* bit) {
 void ChunkEmitter::writeBit(Value* address, Value* bit, Value* value) {
   Value* mask = builder_.CreateShl(builder_.getInt8(1), bit);
   Value* others = builder_.CreateAnd(builder_.CreateLoad(builder_.getInt8Ty(), address), builder_.CreateNot(mask));
-  builder_.CreateStore(builder_.CreateOr(others, builder_.CreateShl(value, bit)), address);
+  builder_.CreateStore(builder_.CreateOr(others, builder_.CreateShl(asByte(value), bit)), address);
 }
 
 ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
@@ -223,7 +247,7 @@ void ChunkEmitter::store(const Op& op) {
   if (op.type == Type::Bit) {
     const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     if (!place.wholeByte) return writeBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)), value);
-    builder_.CreateStore(value, at(place.offset));
+    builder_.CreateStore(asByte(value), at(place.offset));
     return;
   }
   const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
@@ -232,6 +256,7 @@ void ChunkEmitter::store(const Op& op) {
 
 void ChunkEmitter::slotStore(const Op& op) {
   Value* value = spoil(op.code, arg(op, 0));
+  if (op.type == Type::Bit) value = asByte(value);
   builder_.CreateAlignedStore(value, at(layout_.slot(SlotId{op.ref})), llvm::Align(1));
 }
 
@@ -269,7 +294,7 @@ ChunkEmitter::Value* ChunkEmitter::loadAt(const Op& op) {
 }
 
 ChunkEmitter::Value* ChunkEmitter::loadBitAt(const Op& op) {
-  if (op.count == 0) return builder_.getInt8(0);
+  if (op.count == 0) return llvm::ConstantInt::get(type(Type::Bit), 0);
   const Element place = element(op, true);
   return builder_.CreateAnd(asBit(place.inside), readBit(place.address, place.bit));
 }

@@ -162,9 +162,13 @@ void RandomRung::addAccess() {
     builder_.storeAt(window(type), index, stored);
 }
 
-// As dialects do it: several places by an index that lies in memory, each with a comparison with the window's end.
+// As programs do it: a number is put into a cell, or several places are accessed by the number there, each with a
+// comparison with the window's end.
 void RandomRung::addIndexed() {
-  const ValueId cell = builder_.load(Type::I32, place(Type::I32));
+  constexpr SpaceId kWords{4};
+  const Place at{.space = kWords, .byte = 4 * random_.below(2)};
+  if (random_.chance(30)) return builder_.store(at, builder_.i32(random_.below(4)));
+  const ValueId cell = builder_.load(Type::I32, random_.chance(80) ? at : place(Type::I32));
   for (uint32_t n = random_.between(1, 4); n > 0; --n) {
     const Type type = someType(kAllTypes);
     const Window all = wideWindow(type);

@@ -2,6 +2,7 @@
 #include "ir/uses/uses.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace rung::ir {
 namespace {
@@ -18,12 +19,42 @@ void addOnce(std::vector<T>& list, const T& item) {
 
 BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
 
+// Of an index or a bit's number: what is there before anything is added at run time.
+std::optional<int64_t> constantPart(const Rung& rung, std::span<const Op* const> definitions, ValueId value) {
+  const Op* op = definitions[value.index];
+  if (op == nullptr) return std::nullopt;
+  if (op->code == OpCode::Const) return static_cast<int32_t>(op->imm);
+  if (op->code != OpCode::Add) return std::nullopt;
+  for (int i = 0; i < 2; ++i) {
+    const Op* part = definitions[arg(rung, *op, i).index];
+    if (part != nullptr && part->code == OpCode::Const) return static_cast<int32_t>(part->imm);
+  }
+  return std::nullopt;
+}
+
+BitRange elementOf(const Module& module, const Rung& rung, std::span<const Op* const> definitions, const Op& op,
+                   const Use& use) {
+  const std::optional<int64_t> index = constantPart(rung, definitions, arg(rung, op, 0));
+  if (!use.computed || !index) return use.place;
+  const uint32_t unit = module.at(use.place.space).unitBytes * 8;
+  const int64_t first = use.place.first + *index * unit;
+  if (first < 0 || first + unit > int64_t{module.at(use.place.space).units} * unit) return use.place;
+  BitRange element{use.place.space, static_cast<uint32_t>(first), std::max(unit, bitWidth(op.type))};
+  if (op.type != Type::Bit) return {element.space, element.first, bitWidth(op.type)};
+  const std::optional<int64_t> bit = constantPart(rung, definitions, arg(rung, op, 1));
+  if (bit && *bit >= 0 && *bit < unit) return {element.space, element.first + static_cast<uint32_t>(*bit), 1};
+  return element;
+}
+
 } // namespace
 
 Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
   RungFacts facts;
+  std::vector<const Op*> definitions(rung.values.size(), nullptr);
   for (const Op& op : rung.ops) {
-    if (const auto use = useOf(module, op)) addOnce(facts.uses, *use);
+    if (op.resultCount == 1) definitions[op.result.index] = &op;
+    if (const auto use = useOf(module, op))
+      addOnce(facts.uses, {*use, use->computed ? elementOf(module, rung, definitions, op, *use) : use->place});
     if (opInfo(op.code).attr != Attr::Slot) continue;
     const SlotId slot{op.ref};
     if (op.code == OpCode::SlotStore)
@@ -83,6 +114,18 @@ std::vector<BitRange> Uses::copiedFrom(const BitRange& place) const {
     addOnce(sources, BitRange{copy.from.space, bitsOf(copy.from).first + first - to.first, end - first});
   }
   return sources;
+}
+
+std::vector<BitRange> Uses::copiedTo(const BitRange& place) const {
+  std::vector<BitRange> targets;
+  for (const Copy& copy : copies_) {
+    const BitRange from = bitsOf(copy.from);
+    if (!overlap(from, place)) continue;
+    const uint32_t first = std::max(from.first, place.first);
+    const uint32_t end = std::min(from.first + from.count, place.first + place.count);
+    addOnce(targets, BitRange{copy.to, copy.toByte * 8 + first - from.first, end - first});
+  }
+  return targets;
 }
 
 std::vector<uint32_t> Uses::registersFrom(uint32_t rung) const {

@@ -9,13 +9,21 @@
 
 namespace rung::ir {
 
+// A use as a rung has it.
+struct RungUse : Use {
+  // Of a computed one the place where it lies when what is added at run time is 0, as far as the rung says that: of
+  // `X,REG` X. Else `place`.
+  BitRange element;
+  bool operator==(const RungUse&) const = default;
+};
+
 class Uses {
 public:
   explicit Uses(const Module& module);
 
   uint32_t rungCount() const { return static_cast<uint32_t>(rungs_.size()); }
   // Each use once, in the order of the operations.
-  std::span<const Use> of(uint32_t rung) const { return rungs_[rung].uses; }
+  std::span<const RungUse> of(uint32_t rung) const { return rungs_[rung].uses; }
 
   // Rungs that write something of the place, ascending; those that may, at a computed address, by themselves.
   struct Writers {
@@ -26,6 +34,8 @@ public:
   Writers writersOf(const BitRange& place) const;
   // Where the place's contents come from when a task begins or ends: input latches, images.
   std::vector<BitRange> copiedFrom(const BitRange& place) const;
+  // Where they go then.
+  std::vector<BitRange> copiedTo(const BitRange& place) const;
 
   // Earlier rungs of the routine that hand a register to this one, the last first. One that calls a routine ends the
   // list: that routine may have changed the registers.
@@ -39,7 +49,7 @@ public:
 private:
   struct RungFacts {
     RoutineId routine;
-    std::vector<Use> uses;
+    std::vector<RungUse> uses;
     std::vector<SlotId> slotsRead; // before the rung stores them
     std::vector<SlotId> slotsWritten;
     TransferKind kind = TransferKind::Next;

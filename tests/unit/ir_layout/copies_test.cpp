@@ -31,7 +31,7 @@ Copy copy(uint32_t from, uint32_t to, uint32_t byte, uint32_t size) {
 
 // "A4+2>B4" of each, in their order.
 std::string copiesOf(const Module& module) {
-  const Layout layout(module);
+  const Layout layout(module, {});
   const ProgramImage image(layout, 0);
   const auto place = [&](uint32_t offset) {
     for (uint32_t s = 0; s < module.spaces.size(); ++s)

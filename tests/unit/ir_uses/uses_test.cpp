@@ -53,6 +53,17 @@ TEST(Uses, EachUseOnceInOrder) {
                           Use{bits(1, 128, 16), Type::I16, true, false}, Use{bits(0, 10, 1), Type::Bit, true, false}));
 }
 
+TEST(Uses, WhereAnIndexIsAddedTo) {
+  const Uses uses(moduleOf("routine R {\n" +
+                           rung(0, "    %0:i32 = load D[0]\n    %1:i32 = const 3\n    %2:i32 = add %0, %1\n"
+                                   "    %3:i32 = load_at D[1 count 9], %2\n    %4:i32 = load_at D[1 count 9], %0\n"
+                                   "    %5:i32 = const 7\n    %6:bit = load_bit_at D[1 count 9], %2, %5\n") +
+                           "}\n"));
+  std::vector<BitRange> elements;
+  for (const RungUse& use : uses.of(0)) elements.push_back(use.element);
+  EXPECT_THAT(elements, ElementsAre(bits(1, 0, 32), bits(1, 128, 32), bits(1, 32, 288), bits(1, 135, 1)));
+}
+
 TEST(Uses, AWindowReachesAllItsElements) {
   const Uses uses(
       moduleOf("routine R {\n" +

@@ -62,10 +62,11 @@ enum class Placement : uint8_t {
 
 struct InstructionInfo {
   std::string_view mnemonic;
-  std::string_view title; // a few words
-  std::string_view group; // category, for the reference
-  int number = -1;        // GSK's function number
-  FixedList<PinInfo, 6> pins{};
+  FixedList<std::string_view, 3> aliases{}; // spellings that mean the same
+  std::string_view title;                   // a few words
+  std::string_view group;                   // category, for the reference
+  int number = -1;                          // GSK's function number
+  FixedList<PinInfo, 6> pins{};             // none: it has no place in a ladder
   FixedList<OperandInfo, 8> operands{};
   Output output = Output::None;
   Placement placement = Placement::BehindContact;
@@ -76,6 +77,14 @@ struct InstructionInfo {
   std::string_view doc;       // what it does, in full
   std::string_view example{}; // source text
 };
+
+// Whether it is one of a row's aliases; `same` compares as the dialect does.
+template <class Same>
+constexpr bool isAlias(const InstructionInfo& info, std::string_view word, Same same) {
+  for (const std::string_view alias : info.aliases.all())
+    if (same(alias, word)) return true;
+  return false;
+}
 
 // A class of operands, for the reference and for tests generated from the rows.
 struct OperandKindInfo {

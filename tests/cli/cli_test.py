@@ -827,6 +827,17 @@ class Seals(Cli):
         self.assertIn(b"a licence of the hardware key", rungc("explain", "FeaturePlc3").stdout)
         self.assertIn(b"`CELL.", rungc("explain", "CAN_AX_READY").stdout)
 
+    def test_explain_other_spellings(self):
+        for word in ("MOVCMD", "MOVCMMD", "movcmo"):
+            self.assertIn(b"[nct] MOVCMND: axis control", rungc("explain", word).stdout)
+        self.assertIn(b"[technol] JL0: jump if 0", rungc("explain", "JLO").stdout)
+        self.assertIn(b"Also written JLO.", rungc("explain", "JL0").stdout)
+
+    def test_only_ladders_have_places(self):
+        self.assertIn(b"Place: at the left rail.", rungc("explain", "END").stdout)
+        for word in ("LDR", "DATA", "STOP"):
+            self.assertNotIn(b"Place:", rungc("explain", word).stdout)
+
     def test_explain_and_doc(self):
         self.assertIn(b"multi-level-output", rungc("explain", "multi-level-output").stdout)
         self.assertIn(b"TOND", rungc("explain", "tond").stdout)

@@ -69,6 +69,16 @@ class View(unittest.TestCase):
     def left_over(self):
         return sorted(path.name for path in Path(self.folder.name).iterdir() if path.name.startswith("out"))
 
+    def test_another_spelling_of_a_box_is_the_same_box(self):
+        """Below MOVCMND begins a box of its own, not a pin of it."""
+        def drawn(mnemonic):
+            program = self.file("axis.lad", "dialect nct\nmodule MAIN\nrung\n|--[7000.00]--+--{%s #0 #1 *1.0 *2.0}\n%s+--{MOV 7001 #1}\nrung\n|--{END}\n"
+                                % (mnemonic, " " * 14))
+            done = self.view(program, "-o", self.svg)
+            self.assertEqual(done.returncode, OK, done.stderr)
+            return len(xml.etree.ElementTree.parse(self.svg).findall(".//{*}rect"))
+        self.assertEqual(drawn("MOVCMD"), drawn("MOVCMND"))
+
     def test_a_page_stands_alone(self):
         for files in (LATHE, ["examples/gsk-panel/panel.lad"], ["examples/gsk-mill/mill.pmc"]):
             page = self.page(*files)

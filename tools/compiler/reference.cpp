@@ -61,6 +61,18 @@ std::string cell(std::string_view text) {
   return out;
 }
 
+// How it joins with others.
+std::string shapeText(const InstructionInfo& row) {
+  std::string text;
+  const auto add = [&](std::string_view sentence) { text += (text.empty() ? "" : " ") + std::string(sentence); };
+  if (row.pins.size() > 0)
+    add(fmt::format("Output: {}. Place: {}.", outputText(row.output), placementText(row.placement)));
+  if (!row.tasks.empty()) add(fmt::format("Only in {}.", row.tasks));
+  if (row.terminating) add("Closes the logic equation.");
+  if (row.aliases.size() > 0) add(fmt::format("Also written {}.", fmt::join(row.aliases.all(), ", ")));
+  return text;
+}
+
 void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::string& out) {
   put(out, "### {}", row.mnemonic);
   if (row.number >= 0) put(out, " (function {})", row.number);
@@ -78,8 +90,7 @@ void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::
           o.kind, accessText(o.access), o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
     out += '\n';
   }
-  put(out, "Output: {}. Place: {}{}{}.{}\n\n", outputText(row.output), placementText(row.placement),
-      row.tasks.empty() ? "" : ", in ", row.tasks, row.terminating ? " Closes the logic equation." : "");
+  if (const std::string shape = shapeText(row); !shape.empty()) put(out, "{}\n\n", shape);
   if (!row.example.empty()) put(out, "```\n{}\n```\n\n", row.example);
   put(out, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");
 }
@@ -252,7 +263,7 @@ const nc::ConfigKey* configKey(const Dialect& dialect, std::string_view word) {
 
 void explainInDialect(const Dialect& dialect, std::string_view word, Collected& out) {
   for (const InstructionInfo* row : dialect.instructions)
-    if (text::equalsIgnoringCase(row->mnemonic, word)) {
+    if (text::equalsIgnoringCase(row->mnemonic, word) || isAlias(*row, word, text::equalsIgnoringCase)) {
       std::string text = fmt::format("[{}] ", dialect.name);
       appendInstruction(dialect, *row, text);
       out.add(text);

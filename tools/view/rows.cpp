@@ -11,6 +11,7 @@ Rows::Rows(const frontend::Dialect& dialect) : ignoreCase_(&dialect == &gsk::kGs
     if (ignoreCase_ && info->number < 0) continue; // a command of GSK's lists, no box
     Entry entry{info, {}};
     for (size_t i = 1; i < info->pins.size(); ++i) entry.furtherPins.push_back(info->pins[i].name);
+    for (const std::string_view alias : info->aliases.all()) rows_.emplace(alias, entry);
     rows_.emplace(info->mnemonic, std::move(entry));
   }
   furtherPins_ = [this](std::string_view mnemonic) -> std::optional<std::span<const std::string_view>> {

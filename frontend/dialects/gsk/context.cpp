@@ -16,12 +16,10 @@ bool isLetter(char c) { return text::upper(c) >= 'A' && text::upper(c) <= 'Z'; }
 bool isNameChar(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
 
 bool isCommand(std::string_view text) {
-  constexpr std::string_view kWords[] = {"FUNC", "PRM", "TABLE", "DIALECT", "SYMBOL"};
   if (findFunction(text) != nullptr) return true;
   for (const Row& row : allRows())
     if (row.info.number < 0 && text::equalsIgnoringCase(row.info.mnemonic, text)) return true;
-  return std::any_of(std::begin(kWords), std::end(kWords),
-                     [&](std::string_view w) { return text::equalsIgnoringCase(w, text); });
+  return std::ranges::any_of(kCommandNames, [&](std::string_view w) { return text::equalsIgnoringCase(w, text); });
 }
 
 // A name that cannot be taken for something else (P12).
@@ -220,7 +218,7 @@ std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t 
 
 bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range) {
   if (areaInfo(address.area).use == AreaUse::Input) {
-    context.diagnostics.report(Diag::WriteToInput, range) << textOf(address);
+    context.diagnostics.report(Diag::WriteToInput, range) << textOf(address) << "an input and cannot be written";
     return false;
   }
   if (touchesPreset(address, length)) {

@@ -318,10 +318,10 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
   }
   const bool isDouble = classOf(info.kind) == Class::Double;
   if (symbols_.isInputWord(address.word) || (isDouble && symbols_.isInputWord(address.word + 1)))
-    diagnostics_.report(Diag::WriteToInput, range)
-            .severity(Severity::Warning)
-            .note("the value stays until the NC writes the input again")
-        << operand.source->text;
+    diagnostics_.report(Diag::WriteToInput, range).severity(Severity::Warning)
+        << operand.source->text
+        << (address.word == kReserved ? "a reserved word and the next one an input; nothing that is written there stays"
+                                      : "an input; what is written there stays until the NC writes it again");
   return true;
 }
 

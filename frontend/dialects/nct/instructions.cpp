@@ -92,14 +92,13 @@ std::span<const InstructionInfo* const> allInfos() { return kInfos; }
 std::span<const OperandKindInfo> operandKinds() { return kKinds; }
 
 const NctInstruction* findBox(std::string_view mnemonic) {
-  // The contents print MOVCMND (l.135), the chapter also MOVCMO and MOVCMMD (l.3052, l.3155).
-  for (const std::string_view spelling : {"MOVCMD", "MOVCMMD", "MOVCMO"})
-    if (mnemonic == spelling) mnemonic = "MOVCMND";
   const auto found =
       std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
-  if (found == kByMnemonic.end()) return nullptr;
-  const NctInstruction& row = kRows[*found];
-  return row.info.mnemonic == mnemonic && row.shape == Shape::Box ? &row : nullptr;
+  if (found != kByMnemonic.end() && kRows[*found].info.mnemonic == mnemonic)
+    return kRows[*found].shape == Shape::Box ? &kRows[*found] : nullptr;
+  const auto alias = std::ranges::find_if(
+      kRows, [&](const NctInstruction& row) { return isAlias(row.info, mnemonic, std::equal_to<>()); });
+  return alias == std::end(kRows) ? nullptr : &*alias;
 }
 
 const NctInstruction& contactRow(bool onBit, bool closed) {

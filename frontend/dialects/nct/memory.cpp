@@ -7,6 +7,7 @@
 
 namespace rung::nct {
 
+using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -177,9 +178,15 @@ ValueId Memory::loadDouble(const Place& place, Type type) {
   return b_.loadAt(type, place.window, place.index);
 }
 
+ValueId Memory::upperWord(ValueId value) {
+  const ValueId bits = b_.typeOf(value) == Type::F64 ? b_.op(OpCode::FToBits, Type::I64, {value}) : value;
+  return b_.zextOrTrunc(Type::I32, b_.op(OpCode::ShrU, Type::I64, {bits, b_.i32(32)}));
+}
+
 void Memory::storeDouble(const Place& place, ValueId value) {
   RUNG_CHECK(place.space == spaces_.m, "doubles have no immediate form");
-  if (dropped(place)) return;
+  const Place next{.space = spaces_.m, .word = kReserved + 1};
+  if (dropped(place)) return storeWord(next, upperWord(value));
   if (place.fixed) {
     b_.store({.space = place.space, .byte = place.word * 4, .bit = 0}, value);
     for (uint32_t word = place.word; word < place.word + 2; ++word) {
@@ -190,6 +197,11 @@ void Memory::storeDouble(const Place& place, ValueId value) {
     return;
   }
   b_.storeAt(place.window, place.index, value);
+  if (place.window.byte == next.word * 4) { // of one that begins at the reserved word the other half is stored
+    b_.if_(b_.eq(place.index, b_.i32(-1)));
+    storeWord(next, upperWord(value));
+    b_.endIf();
+  }
   if (place.window.byte >= config_.plcNvram * 4) return;
   const ir::Window mask = maskWindow(place);
   b_.storeAt(mask, place.wordNo, b_.i32(-1));

@@ -102,6 +102,7 @@ private:
   Place place(const Address& address, Reach reach, uint32_t words);
   void compute(Place& place, const Address& address, Reach reach, uint32_t words);
   ir::ValueId loadRegister(uint32_t word);
+  ir::ValueId upperWord(ir::ValueId value); // of a double
   bool dropped(const Place& place) const;
   bool masked(const Place& place) const;
   ir::Window maskWindow(const Place& place);

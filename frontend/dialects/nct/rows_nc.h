@@ -39,6 +39,8 @@ constexpr NctInstruction arrayServiceRow(RowText text, int variant, Check check)
 
 inline constexpr NctInstruction kNcRows[] = {
     {.info = {.mnemonic = "MOVCMND",
+              // The contents print MOVCMND (l.135), the chapter the others, too (l.3052, l.3155).
+              .aliases = {"MOVCMD", "MOVCMMD", "MOVCMO"},
               .title = "axis control",
               .group = "nc-service",
               .pins = {kEnable},
@@ -51,8 +53,7 @@ inline constexpr NctInstruction kNcRows[] = {
               .doc =
                   "Writes a command into the buffer of an axis that the PLC has requested (AP_PLCR=1, AN_PLCA=1), as "
                   "soon as the buffer is empty (AN_BEPTY=1); the output is TRUE in that cycle. FL_ER=1 and output "
-                  "FALSE: the axis is not the PLC's, the code is wrong, or codes 2 to 5 have speed 0. Also written "
-                  "MOVCMD, MOVCMMD, MOVCMO.",
+                  "FALSE: the axis is not the PLC's, the code is wrong, or codes 2 to 5 have speed 0.",
               .example = "|--[@GO]--{MOVCMND #0 #1 *100.0 *5.0}"},
      .lower = lowerAxisCommand},
     macroRow(

@@ -113,12 +113,13 @@ std::span<const Row> allRows() { return kRows; }
 std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }
 
 const Row* findRow(std::string_view mnemonic) {
-  if (text::equalsIgnoringCase(mnemonic, "JLO")) mnemonic = "JL0";
   const auto at = std::lower_bound(kByName.begin(), kByName.end(), mnemonic, [](uint16_t row, std::string_view name) {
     return text::compareIgnoringCase(name, kRows[row].info.mnemonic) > 0;
   });
-  if (at == kByName.end() || text::compareIgnoringCase(mnemonic, kRows[*at].info.mnemonic) != 0) return nullptr;
-  return &kRows[*at];
+  if (at != kByName.end() && text::compareIgnoringCase(mnemonic, kRows[*at].info.mnemonic) == 0) return &kRows[*at];
+  const auto alias = std::ranges::find_if(
+      kRows, [&](const Row& row) { return isAlias(row.info, mnemonic, text::equalsIgnoringCase); });
+  return alias == std::end(kRows) ? nullptr : &*alias;
 }
 
 // Reserved are the words of chapters 3-5, 7 and 22; the others name symbols in examples (man. l.12300).

@@ -110,8 +110,8 @@ const Row* FileReader::instruction(std::span<const Token> tokens) {
     reportUnknown(tokens);
     return nullptr;
   }
-  if (row->info.mnemonic == "JL0" && text::equalsIgnoringCase(token.text, "JLO"))
-    program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), "JL0");
+  if (!text::equalsIgnoringCase(row->info.mnemonic, token.text))
+    program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
   return row;
 }
 

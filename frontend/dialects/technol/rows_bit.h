@@ -164,6 +164,7 @@ inline constexpr Row kBitRows[] = {
      .lower = lowerJump,
      .variant = kAlways},
     {.info = {.mnemonic = "JL0",
+              .aliases = {"JLO"},
               .title = "jump if 0",
               .group = "jump",
               .operands = {in("adr", "label", "where control goes")},

@@ -191,6 +191,7 @@ TEST(GskList, Symbols) {
   EXPECT_EQ(level2("symbol S1 X10.9\nLD S1\nOUT Y0.0\n"), (Codes{"2 bad-bit-number"})) << "uses stay silent";
   EXPECT_EQ(level2("symbol S1 X10\nLD S1\nOUT Y0.0\n"), (Codes{"3 bit-address-expected"}));
   EXPECT_EQ(level2("symbol S1\n"), (Codes{"2 bad-operand"}));
+  EXPECT_EQ(level2("symbol CONST R0.0\nLD R0.0\nOUT Y0.0\n"), (Codes{"2 bad-operand"})) << "a command's name";
   EXPECT_EQ(level2("symbol MF R0.0\nLD MF\nOUT Y0.0\n"), Codes{}) << "a program's name goes before a signal's";
 }
 

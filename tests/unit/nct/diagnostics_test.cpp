@@ -413,6 +413,14 @@ TEST(NctDiagnostics, OtherBrokenRungsHideNothing) {
               ElementsAre("7:5 unknown-instruction"));
 }
 
+// What a symbol is called says nothing of what a broken rung has.
+TEST(NctDiagnostics, NamesInABrokenRungHideNothing) {
+  const char* text = "|--[7000.00]--{JMP #1}";
+  EXPECT_THAT(compileMain(rungs({text, "|--[T_END]--{TOND JMP_TIME #1 SEC"})).codes(),
+              ElementsAre("4:15 undefined-label", "7:13 unclosed-element"));
+  EXPECT_THAT(compileMain(rungs({text, "|--[7000.00]--{JME #1"})).codes(), ElementsAre("7:15 unclosed-element"));
+}
+
 // A subroutine in front of END leaves open where bodies begin and end.
 TEST(NctDiagnostics, MisplacedSubroutineCausesNoFurtherErrors) {
   const Compiled c =
@@ -468,7 +476,7 @@ TEST(NctDiagnostics, HintsHowToMend) {
                         {"rung\n|--[N_ON]--{MOVF 7000 *3,5}", "*3.5"},
                         {"rung\n|--[N_ON]--{MOVF 7000 *5}", "write *5.0"},
                         {"const LIMIT 10", "write #10"},
-                        {"rung\n|--[N_ON]--(INP000.00)", "until the NC writes the input again"},
+                        {"rung\n|--[N_ON]--(INP000.00)", "stays until the NC writes it again"},
                         {"rung \u201cx\u201d", "write '\"'"},
                         {"rung\n|\u2013[N_ON]--(7001.00)", "write '-'"},
                         {"// text", "a comment begins with ';'"},

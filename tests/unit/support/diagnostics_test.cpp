@@ -157,10 +157,10 @@ TEST(Diagnostics, StrictModeRaisesTheListedWarnings) {
 
 TEST(Diagnostics, ADialectMayLowerASeverityAndStrictModeStillWins) {
   Diagnostics diags;
-  diags.report(Diag::WriteToInput, rangeAt(1)).severity(Severity::Warning) << "N_ON";
+  diags.report(Diag::WriteToInput, rangeAt(1)).severity(Severity::Warning) << "N_ON" << "an input";
   EXPECT_EQ(diags.warningCount(), 1u);
   diags.raiseToError({Diag::WriteToInput});
-  diags.report(Diag::WriteToInput, rangeAt(2)).severity(Severity::Warning) << "N_ON";
+  diags.report(Diag::WriteToInput, rangeAt(2)).severity(Severity::Warning) << "N_ON" << "an input";
   EXPECT_EQ(diags.errorCount(), 1u);
 }
 

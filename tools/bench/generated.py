@@ -1,6 +1,7 @@
 """Generated programs: each dialect's beside the straight-line C++ of the same work.
 
 The programs are built once in a folder (`Programs`), and counted, timed and looked at from there."""
+import hashlib
 import json
 import os
 import subprocess
@@ -55,16 +56,23 @@ class Programs:
         return self.build(name, made.stdout, ENDINGS[dialect], *(["--activity"] if activity else []))
 
     def straight(self, kind, size):
-        """(form, compiler): shared object, of each."""
+        """(form, compiler): shared object, of each. They are kept from run to run: compilers take an hour for the large
+        ones, and their sources are frozen."""
         made = {}
+        kept = self.tools.parent / "bench-straight"
+        kept.mkdir(exist_ok=True)
         for form in FORMS:
             source = self.folder / f"straight-{kind}-{size}-{form}.cpp"
             if not source.exists():
                 source.write_text(run(self.program, "straight", kind, size, form), encoding="ascii")
             for name, compiler in COMPILERS.items():
-                path = source.with_suffix(f".{name}.so")
+                version = run(compiler, "--version").splitlines()[0]
+                key = hashlib.sha256(source.read_bytes() + version.encode()).hexdigest()[:16]
+                path = kept / f"{key}.so"
                 if not path.exists():
-                    run(compiler, "-std=c++20", "-O3", "-shared", "-fPIC", "-o", path, source, timeout=LIMIT_S)
+                    fresh = kept / f"{key}.part"
+                    run(compiler, "-std=c++20", "-O3", "-shared", "-fPIC", "-o", fresh, source, timeout=LIMIT_S)
+                    fresh.rename(path)
                 made[form, name] = path
         return made
 

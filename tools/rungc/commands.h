@@ -87,6 +87,8 @@ void addProfile(CommandLine& app, int& status);
 void addExplain(CommandLine& app, int& status);
 void addDoc(CommandLine& app, int& status);
 void addView(CommandLine& app, int& status);
+void addXref(CommandLine& app, int& status);
+void addDiff(CommandLine& app, int& status);
 void addNew(CommandLine& app, int& status);
 void addSeal(CommandLine& app, int& status);
 void addKey(CommandLine& app, int& status);

@@ -27,6 +27,8 @@ int main(int argc, char** argv) {
   addEmit(app, status);
   addConvert(app, status);
   addView(app, status);
+  addXref(app, status);
+  addDiff(app, status);
   addRun(app, status);
   addTest(app, status);
   addProfile(app, status);

@@ -9,8 +9,8 @@
 #include "tools/mapping/message_texts.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
-#include "tools/scenario/place_names.h"
-#include "tools/scenario/used_places.h"
+#include "tools/xref/place_names.h"
+#include "tools/xref/used_places.h"
 
 namespace rung::rungc {
 namespace {
@@ -27,8 +27,8 @@ int writeTemplate(const MapOptions& options, const OpenedProgram& program) {
     return usageError("map --template: a shared object does not say what its rungs use; name the sources");
   std::vector<map_template::UsedName> used;
   const rung_program& tables = program.image->program();
-  for (const scenario::UsedPlace& place : scenario::usedPlaces(tables, *program.compiled->uses)) {
-    std::string name = scenario::writtenName(tables, scenario::refOf(place.use));
+  for (const xref::UsedPlace& place : xref::usedPlaces(tables, *program.compiled->uses)) {
+    std::string name = xref::writtenName(tables, xref::refOf(place.use));
     if (!name.empty()) used.push_back({std::move(name), place.read, place.written});
   }
   const Instance instance(*program.image);

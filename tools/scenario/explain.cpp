@@ -7,8 +7,8 @@
 
 #include "ir/support/put.h"
 #include "rtlib/host/program_info.h"
-#include "tools/scenario/place_names.h"
 #include "tools/scenario/values.h"
+#include "tools/xref/place_names.h"
 
 namespace rung::scenario {
 namespace {
@@ -16,6 +16,10 @@ namespace {
 using host::Ref;
 using ir::BitRange;
 using ir::Use;
+using xref::bitsOf;
+using xref::refOf;
+using xref::shownName;
+using xref::shownRange;
 
 // Bounds of the text; what is left out is counted.
 constexpr size_t kWriters = 3;
@@ -64,7 +68,6 @@ private:
 
   std::string age(const Ref& place) const;
   void sources(const Ref& place, size_t copies);
-  bool isControls(const Ref& place) const;
   void writer(uint32_t rung, bool computed);
   void listed(const std::vector<uint32_t>& rungs);
   void registers(uint32_t rung);
@@ -107,22 +110,9 @@ void Explanation::sources(const Ref& place, size_t copies) {
     line(4, "copied from {}", shownName(program_, source));
     return sources(source, copies + 1);
   }
-  line(4, "{}", isControls(place) ? "written by the control or the machine, by no rung" : "written by no rung");
-}
-
-bool Explanation::isControls(const Ref& place) const {
-  const auto inputOnly = [&](uint32_t space) {
-    return (program_.spaces[space].flags & (RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT)) == RUNG_SPACE_INPUT;
-  };
-  if (inputOnly(place.space)) return true;
-  for (const BitRange& from : uses_.copiedFrom(bitsOf(place)))
-    if ((program_.spaces[from.space.index].flags & RUNG_SPACE_INPUT) != 0) return true;
-  for (uint32_t i = 0; i < program_.symbol_count; ++i) {
-    const rung_symbol& symbol = program_.symbols[i];
-    if ((symbol.flags & RUNG_SYMBOL_READONLY) != 0 && ir::overlap(bitsOf(host::refOf(symbol)), bitsOf(place)))
-      return true;
-  }
-  return false;
+  line(4, "{}",
+       xref::isWrittenByControl(program_, uses_, place) ? "written by the control or the machine, by no rung"
+                                                        : "written by no rung");
 }
 
 void Explanation::writer(uint32_t rung, bool computed) {

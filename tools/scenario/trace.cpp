@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "tools/scenario/names.h"
-#include "tools/scenario/place_names.h"
-#include "tools/scenario/used_places.h"
+#include "tools/xref/place_names.h"
+#include "tools/xref/used_places.h"
 
 namespace rung::scenario {
 
@@ -34,7 +34,8 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   };
   if (uses != nullptr) {
-    for (const UsedPlace& place : usedPlaces(program, *uses)) add(writtenName(program, refOf(place.use)));
+    for (const xref::UsedPlace& place : xref::usedPlaces(program, *uses))
+      add(xref::writtenName(program, xref::refOf(place.use)));
     return names;
   }
   for (uint32_t i = 0; i < program.symbol_count; ++i)

@@ -1,11 +1,12 @@
 // Names of places (see place_names.h).
-#include "tools/scenario/place_names.h"
+#include "tools/xref/place_names.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "rtlib/nc/names/names.h"
 
-namespace rung::scenario {
+namespace rung::xref {
 
 using host::Ref;
 using host::RefKind;
@@ -51,4 +52,33 @@ std::string writtenName(const rung_program& program, const Ref& place) {
   return found && bitsOf(*found) == bitsOf(place) ? name : std::string();
 }
 
-} // namespace rung::scenario
+namespace {
+
+// Of a space that is only the one or the other.
+bool isOnly(const rung_program& program, uint32_t space, uint32_t flag) {
+  return (program.spaces[space].flags & (RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT)) == flag;
+}
+bool anyHas(const rung_program& program, const std::vector<ir::BitRange>& places, uint32_t flag) {
+  return std::ranges::any_of(
+      places, [&](const ir::BitRange& place) { return (program.spaces[place.space.index].flags & flag) != 0; });
+}
+
+} // namespace
+
+bool isWrittenByControl(const rung_program& program, const ir::Uses& uses, const Ref& place) {
+  if (isOnly(program, place.space, RUNG_SPACE_INPUT)) return true;
+  if (anyHas(program, uses.copiedFrom(bitsOf(place)), RUNG_SPACE_INPUT)) return true;
+  for (uint32_t i = 0; i < program.symbol_count; ++i) {
+    const rung_symbol& symbol = program.symbols[i];
+    if ((symbol.flags & RUNG_SYMBOL_READONLY) != 0 && ir::overlap(bitsOf(host::refOf(symbol)), bitsOf(place)))
+      return true;
+  }
+  return false;
+}
+
+bool isReadByControl(const rung_program& program, const ir::Uses& uses, const Ref& place) {
+  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) ||
+         anyHas(program, uses.copiedTo(bitsOf(place)), RUNG_SPACE_OUTPUT);
+}
+
+} // namespace rung::xref

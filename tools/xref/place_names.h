@@ -5,7 +5,7 @@
 #include "ir/uses/uses.h"
 #include "rtlib/host/instance.h"
 
-namespace rung::scenario {
+namespace rung::xref {
 
 // The place of a use that is not computed; the bits of a reference, nothing for a constant.
 host::Ref refOf(const ir::Use& use);
@@ -20,4 +20,8 @@ std::string shownRange(const rung_program& program, const ir::BitRange& range);
 // A name that resolves to the place; "" when the dialect has none.
 std::string writtenName(const rung_program& program, const host::Ref& place);
 
-} // namespace rung::scenario
+// Whether the control or the machine writes it; whether one of them reads it.
+bool isWrittenByControl(const rung_program& program, const ir::Uses& uses, const host::Ref& place);
+bool isReadByControl(const rung_program& program, const ir::Uses& uses, const host::Ref& place);
+
+} // namespace rung::xref

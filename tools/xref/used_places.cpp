@@ -1,10 +1,10 @@
 // See used_places.h.
-#include "tools/scenario/used_places.h"
+#include "tools/xref/used_places.h"
 
 #include <algorithm>
 #include <tuple>
 
-namespace rung::scenario {
+namespace rung::xref {
 namespace {
 
 // Where a user would look: a latch that the compiler made shows under the name of what it was copied from.
@@ -38,4 +38,4 @@ std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& u
   return places;
 }
 
-} // namespace rung::scenario
+} // namespace rung::xref

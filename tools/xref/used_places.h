@@ -5,7 +5,7 @@
 #include "ir/uses/uses.h"
 #include "rung/program.h"
 
-namespace rung::scenario {
+namespace rung::xref {
 
 struct UsedPlace {
   ir::Use use; // one of them
@@ -16,4 +16,4 @@ struct UsedPlace {
 // At fixed addresses, each once and in their order; what a latch holds counts as a use of what it was copied from.
 std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& uses);
 
-} // namespace rung::scenario
+} // namespace rung::xref

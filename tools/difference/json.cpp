@@ -1,0 +1,50 @@
+// A difference for other programs (see difference.h).
+#include <nlohmann/json.hpp>
+
+#include "tools/difference/difference.h"
+
+namespace rung::difference {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rungJson(const ir::Module& module, const ir::Rung* rung) {
+  if (rung == nullptr) return nullptr;
+  return {{"number", rung->number},
+          {"title", rung->title},
+          {"file", module.files[rung->begin.file.index]},
+          {"line", rung->begin.line},
+          {"text", rung->sourceText}};
+}
+
+const char* nameOf(ChangeKind kind) {
+  constexpr const char* kNames[] = {"added", "removed", "changed", "moved"};
+  return kNames[static_cast<int>(kind)];
+}
+
+Json namesJson(const std::vector<NameChange>& changes) {
+  Json list = Json::array();
+  for (const NameChange& change : changes)
+    list.push_back({{"change", nameOf(change.kind)},
+                    {"name", change.name.substr(std::min(change.name.find_first_not_of(' '), change.name.size()))},
+                    {"before", change.before},
+                    {"after", change.after}});
+  return list;
+}
+
+} // namespace
+
+std::string shownAsJson(const Difference& difference, const ir::Module& before, const ir::Module& after) {
+  Json rungs = Json::array();
+  for (const RungChange& change : difference.rungs)
+    rungs.push_back({{"change", nameOf(change.kind)},
+                     {"before", rungJson(before, change.before)},
+                     {"after", rungJson(after, change.after)}});
+  const Json json = {{"rungs", std::move(rungs)},
+                     {"same", difference.same},
+                     {"names", namesJson(difference.names)},
+                     {"messages", namesJson(difference.messages)}};
+  return json.dump(2) + "\n";
+}
+
+} // namespace rung::difference

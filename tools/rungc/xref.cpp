@@ -1,0 +1,67 @@
+// rungc xref: which rungs read and write what.
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+
+#include "ir/layout/program_image.h"
+#include "rtlib/nc/names/names.h"
+#include "tools/rungc/commands.h"
+#include "tools/xref/cross_reference.h"
+
+namespace rung::rungc {
+namespace {
+
+struct XrefOptions {
+  SourceOptions source;
+  std::vector<std::string> places;
+  bool odd = false;
+  std::string format = "text";
+};
+
+std::optional<std::vector<xref::Entry>> entriesOf(const xref::CrossReference& reference, const XrefOptions& options) {
+  std::vector<xref::Entry> entries;
+  for (const std::string& name : options.places) {
+    const auto place = nc::resolve(reference.program(), name);
+    if (!place || place->kind == host::RefKind::Constant) {
+      fmt::print(stderr, "rungc: '{}' is not a place of the program; write a symbol or an address of the dialect\n",
+                 name);
+      return std::nullopt;
+    }
+    entries.push_back(reference.of(*place));
+  }
+  if (options.places.empty()) entries = reference.all();
+  if (options.odd) std::erase_if(entries, [](const xref::Entry& entry) { return xref::oddity(entry).empty(); });
+  return entries;
+}
+
+int run(const XrefOptions& options) {
+  SourceManager sources;
+  int status = kOk;
+  const auto compiled = compileSources(sources, options.source, {}, status);
+  if (!compiled) return status;
+  const ir::ProgramImage image(*compiled->layout, compiled->codeHash);
+  const xref::CrossReference reference(image.program(), *compiled->uses);
+  const auto entries = entriesOf(reference, options);
+  if (!entries) return kWrong;
+  const bool listed = !options.places.empty();
+  std::cout << (options.format == "json" ? xref::shownAsJson(reference, *entries, listed)
+                                         : xref::shownAsText(reference, *entries, listed))
+            << std::flush;
+  return std::cout ? kOk : environmentError("cannot write to standard output");
+}
+
+} // namespace
+
+void addXref(CommandLine& app, int& status) {
+  Command command = app.add("xref", "List which rungs read and write what");
+  auto options = std::make_shared<XrefOptions>();
+  addSourceOptions(command, options->source);
+  command.option("--place", options->places,
+                 "Only this symbol or address; may be repeated. Rungs whose index may lead there are listed, too");
+  command.flag("--odd", options->odd,
+               "Only what no rung uses, what is read and written by nobody, and what is written and read by nobody");
+  command.option("--format", options->format, "Of the list").oneOf({"text", "json"}).showDefault();
+  command.onRun([options, &status] { status = run(*options); });
+}
+
+} // namespace rung::rungc

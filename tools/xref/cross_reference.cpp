@@ -1,0 +1,111 @@
+// Places and the rungs that use them (see cross_reference.h).
+#include "tools/xref/cross_reference.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "tools/xref/place_names.h"
+
+namespace rung::xref {
+namespace {
+
+using host::Ref;
+using ir::BitRange;
+
+bool isHidden(const rung_program& program, const BitRange& place) {
+  return (program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
+}
+
+// Where a user would look: a latch that the compiler made is what it was copied from.
+BitRange named(const rung_program& program, const ir::Uses& uses, const BitRange& place) {
+  if (!isHidden(program, place)) return place;
+  const std::vector<BitRange> from = uses.copiedFrom(place);
+  return from.empty() ? place : from[0];
+}
+
+auto orderOf(const BitRange& place) { return std::tuple(place.space.index, place.first, place.count); }
+
+// One of a rung and a place stands for its reads and its writes.
+void addAccess(std::vector<Access>& accesses, const Access& access) {
+  const auto same = std::ranges::find_if(accesses, [&](const Access& a) {
+    return a.rung == access.rung && a.as == access.as && a.indexed == access.indexed;
+  });
+  if (same == accesses.end()) return accesses.push_back(access);
+  same->reads |= access.reads;
+  same->writes |= access.writes;
+}
+
+} // namespace
+
+bool Entry::isRead() const { return std::ranges::any_of(accesses, &Access::reads); }
+bool Entry::isWritten() const { return std::ranges::any_of(accesses, &Access::writes); }
+
+CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses) : program_(program), uses_(uses) {
+  for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
+    for (const ir::RungUse& use : uses.of(rung)) {
+      const BitRange element = named(program, uses, use.element);
+      if (isHidden(program, element)) continue;
+      const Access access{
+          .rung = rung, .reads = !use.writes, .writes = use.writes, .indexed = use.computed, .as = element};
+      sorted_.push_back({element, named(program, uses, use.place), use.type, access});
+      longest_ = std::max(longest_, element.count);
+    }
+  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return orderOf(use.element); });
+}
+
+void CrossReference::addPlaces(std::vector<Ref>& places) const {
+  for (const Use& use : sorted_) {
+    ir::Use place;
+    place.place = use.element;
+    place.type = use.type;
+    places.push_back(refOf(place));
+  }
+  for (uint32_t i = 0; i < program_.symbol_count; ++i) {
+    const rung_symbol& symbol = program_.symbols[i];
+    if ((symbol.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_HIDDEN)) == 0) places.push_back(host::refOf(symbol));
+  }
+}
+
+std::vector<Entry> CrossReference::all() const {
+  std::vector<Ref> places;
+  addPlaces(places);
+  std::ranges::stable_sort(places, {}, [](const Ref& place) { return orderOf(bitsOf(place)); });
+  std::vector<Entry> entries;
+  for (const Ref& place : places)
+    if (entries.empty() || bitsOf(entries.back().place) != bitsOf(place)) entries.push_back(of(place));
+  return entries;
+}
+
+Entry CrossReference::of(const Ref& place) const {
+  Entry entry{.place = place, .accesses = {}};
+  const BitRange bits = bitsOf(place);
+  const BitRange earliest{bits.space, bits.first - std::min(bits.first, longest_), 0};
+  const auto element = [](const Use& use) { return orderOf(use.element); };
+  for (auto use = std::ranges::lower_bound(sorted_, orderOf(earliest), {}, element);
+       use != sorted_.end() && use->element.space == bits.space && use->element.first < bits.first + bits.count; ++use)
+    if (overlap(use->element, bits)) addAccess(entry.accesses, use->access);
+  std::ranges::stable_sort(entry.accesses, {}, &Access::rung);
+  entry.controlWrites = isWrittenByControl(program_, uses_, place);
+  entry.controlReads = isReadByControl(program_, uses_, place);
+  return entry;
+}
+
+std::vector<Access> CrossReference::perhaps(const Ref& place) const {
+  std::vector<Access> accesses;
+  const BitRange bits = bitsOf(place);
+  for (const Use& use : sorted_)
+    if (use.access.indexed && !overlap(use.element, bits) && overlap(use.reach, bits)) addAccess(accesses, use.access);
+  std::ranges::stable_sort(accesses, {}, &Access::rung);
+  return accesses;
+}
+
+std::string oddity(const Entry& entry) {
+  const bool read = entry.isRead();
+  const bool written = entry.isWritten();
+  if (!read && !written) return "used by no rung";
+  if (!written && !entry.controlWrites) return "read, but written by no rung";
+  if (!read && !entry.controlReads) return "written, but read by no rung";
+  return {};
+}
+
+} // namespace rung::xref

@@ -1,0 +1,68 @@
+// Who reads and who writes what: of each place that a program's rungs use or its symbols name, the rungs. Made of the
+// IR as the front end built it (ir/uses), so it says what the program does and not what its text looks like: an operand
+// of four bytes is a use of all of them, an alias one of the place it names, and a latch one of what it was copied
+// from.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ir/uses/uses.h"
+#include "rtlib/host/ref.h"
+
+namespace rung::xref {
+
+struct Access {
+  uint32_t rung = 0; // as in rung_program::rungs
+  bool reads = false;
+  bool writes = false;
+  bool indexed = false; // something is added to the address at run time
+  ir::BitRange as;      // what the rung accesses; the entry's own place, or one that overlaps it
+};
+
+struct Entry {
+  host::Ref place;
+  std::vector<Access> accesses; // by rung, ascending; what an index may lead to from elsewhere is not among them
+  bool controlWrites = false;   // the control or the machine, not a rung
+  bool controlReads = false;
+
+  bool isRead() const;
+  bool isWritten() const;
+};
+
+class CrossReference {
+public:
+  // Both must outlive it.
+  CrossReference(const rung_program& program, const ir::Uses& uses);
+
+  // Places that rungs use and places of symbols, each once, in the order of addresses.
+  std::vector<Entry> all() const;
+  Entry of(const host::Ref& place) const;
+  // Rungs whose index may lead to the place, from another one.
+  std::vector<Access> perhaps(const host::Ref& place) const;
+
+  const rung_program& program() const { return program_; }
+
+private:
+  struct Use {
+    ir::BitRange element;
+    ir::BitRange reach;
+    ir::Type type;
+    Access access;
+  };
+  void addPlaces(std::vector<host::Ref>& places) const;
+
+  const rung_program& program_;
+  const ir::Uses& uses_;
+  std::vector<Use> sorted_; // by element
+  uint32_t longest_ = 1;    // bits of an element
+};
+
+// For people, an entry a paragraph, and for programs. `entries` are of `reference`; `perhaps`: with the rungs whose
+// index may lead there, which takes time in proportion to the program for each entry.
+std::string shownAsText(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
+std::string shownAsJson(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
+
+// What is odd about an entry: "" or "used by no rung", "read, but written by no rung", "written, but read by no rung".
+std::string oddity(const Entry& entry);
+
+} // namespace rung::xref

@@ -1,0 +1,56 @@
+// A cross reference for other programs (see cross_reference.h).
+#include <nlohmann/json.hpp>
+
+#include "rtlib/nc/names/names.h"
+#include "tools/xref/cross_reference.h"
+#include "tools/xref/place_names.h"
+
+namespace rung::xref {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json accessJson(const rung_program& program, const Access& access) {
+  const rung_rung_info& rung = program.rungs[access.rung];
+  const bool added = rung.file == RUNG_NONE; // by the compiler
+  Json json = {{"rung", rung.number}, {"file", added ? "" : program.files[rung.file]}, {"line", rung.first_line}};
+  const uint32_t byte = access.as.first / 8;
+  const uint32_t space = access.as.space.index;
+  const bool bit = access.as.count == 1;
+  json["address"] =
+      nc::address(program, bit ? host::bitRef(space, byte, access.as.first % 8) : host::intRef(space, byte, 8));
+  json["bits"] = access.as.count;
+  if (access.indexed) json["indexed"] = true;
+  return json;
+}
+
+Json accessesJson(const rung_program& program, const std::vector<Access>& accesses, bool Access::* kind) {
+  Json list = Json::array();
+  for (const Access& access : accesses)
+    if (access.*kind) list.push_back(accessJson(program, access));
+  return list;
+}
+
+} // namespace
+
+std::string shownAsJson(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps) {
+  const rung_program& program = reference.program();
+  Json list = Json::array();
+  for (const Entry& entry : entries) {
+    Json json = {{"name", symbolAt(program, entry.place)}, {"address", nc::address(program, entry.place)}};
+    json["written"] = accessesJson(program, entry.accesses, &Access::writes);
+    json["read"] = accessesJson(program, entry.accesses, &Access::reads);
+    if (entry.controlWrites) json["control_writes"] = true;
+    if (entry.controlReads) json["control_reads"] = true;
+    if (const std::string odd = oddity(entry); !odd.empty()) json["odd"] = odd;
+    if (perhaps) {
+      const std::vector<Access> others = reference.perhaps(entry.place);
+      json["perhaps_written"] = accessesJson(program, others, &Access::writes);
+      json["perhaps_read"] = accessesJson(program, others, &Access::reads);
+    }
+    list.push_back(std::move(json));
+  }
+  return list.dump(2) + "\n";
+}
+
+} // namespace rung::xref

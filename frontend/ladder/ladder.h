@@ -154,6 +154,9 @@ using FurtherPins = std::function<std::optional<std::span<const std::string_view
 LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
                        const FurtherPins& furtherPins = {});
 
+/// The first word of each box in the text of a drawing that could not be read: what it might have been.
+std::vector<std::string_view> boxWords(std::string_view drawing);
+
 /// The name behind `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
 std::string_view peekDialect(const SourceManager& sources, FileId file);
 

@@ -59,6 +59,7 @@ private:
   LineWords words_;
   Drawing drawing_;
   Place place_ = Place::Outside;
+  bool rungIsEmpty_ = false; // the last one
   bool hadStatement_ = false;
   bool hadOutsideRung_ = false;
 };
@@ -98,6 +99,8 @@ void Parser::drawingLine(const SourceLine& source) {
     Rung& rung = result_.rungs.back();
     rung.lastLine = source.number;
     rung.range.end = source.at(source.text.find_last_not_of(' ') + 1);
+  } else if (place_ == Place::Outside && rungIsEmpty_) { // this is its drawing, and it has been reported
+    place_ = Place::Skipped;
   } else if (place_ == Place::Outside) {
     DiagBuilder report = diagnostics_.report(Diag::StrayDrawing, source.range());
     if (!result_.rungs.empty())
@@ -229,6 +232,7 @@ void Parser::openRung(const SourceLine& source) {
   add(StatementKind::Rung, result_.rungs.size());
   result_.rungs.push_back(std::move(rung));
   drawing_.clear();
+  rungIsEmpty_ = false;
   place_ = Place::Rung;
 }
 
@@ -239,8 +243,10 @@ void Parser::closeRung() {
 
 void Parser::finishRung(Rung& rung) {
   if (!drawing_.bad && drawing_.elements.empty()) {
-    diagnostics_.report(Diag::EmptyRung, rung.statement);
+    diagnostics_.report(Diag::EmptyRung, rung.statement)
+        .note("its drawing begins on the next line, without a blank line between");
     drawing_.bad = true;
+    rungIsEmpty_ = true;
   }
   if (!drawing_.bad) groupPins(drawing_, furtherPins_, diagnostics_);
   if (!drawing_.bad) wireUp(drawing_, rung, diagnostics_);
@@ -259,6 +265,15 @@ void Parser::finishRung(Rung& rung) {
 LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
                        const FurtherPins& furtherPins) {
   return Parser(sources, file, diagnostics, furtherPins).run();
+}
+
+std::vector<std::string_view> boxWords(std::string_view drawing) {
+  std::vector<std::string_view> words;
+  for (size_t at = drawing.find('{'); at != std::string_view::npos; at = drawing.find('{', at + 1)) {
+    const size_t begin = std::min(drawing.find_first_not_of(' ', at + 1), drawing.size());
+    words.push_back(drawing.substr(begin, drawing.find_first_of(" }\n", begin) - begin));
+  }
+  return words;
 }
 
 std::string_view peekDialect(const SourceManager& sources, FileId file) {

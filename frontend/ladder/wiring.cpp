@@ -150,8 +150,11 @@ void Wiring::connect(uint32_t line, uint32_t left, uint32_t right) {
   const Token& b = drawing_.tokens[right];
   if (a.kind == TokenKind::Bar || b.kind == TokenKind::Bar) {
     const bool barIsRight = b.kind == TokenKind::Bar;
+    const bool first = left == drawing_.lines[line].tokens.first;
     loose(line, a.begin, b.end,
           barIsRight ? "this ends at a vertical wire; write '+' instead of '|' to join it"
+          : first    ? "this begins at a vertical wire; write '+' instead of '|' to join it, or put the rail into the "
+                       "first column"
                      : "this begins at a vertical wire; write '+' instead of '|' to join it");
     return;
   }

@@ -46,7 +46,9 @@ std::optional<Address> addressOf(Diagnostics& diagnostics, const AddressText& te
   Address address{text.area, static_cast<uint32_t>(std::min<uint64_t>(text.byte, UINT32_MAX)), 0, text.hasPoint};
   if (!text.hasPoint) return address;
   if (text.bit.size() != 1 || text.bit[0] < '0' || text.bit[0] > '7') {
-    diagnostics.report(Diag::BadBitNumber, word.range) << text.bit;
+    DiagBuilder report = diagnostics.report(Diag::BadBitNumber, word.range);
+    report << text.bit;
+    if (text.bit.find_first_of("oO") != std::string_view::npos) report.note("a zero is a digit, not the letter O");
     return std::nullopt;
   }
   address.bit = static_cast<uint8_t>(text.bit[0] - '0');
@@ -91,6 +93,12 @@ void suggest(const Similar& similar, DiagBuilder& report) {
 void reportUnknown(Context& context, const Word& word, std::string_view what) {
   DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
   report << word.text << fmt::format("{} address, signal or declared name", what);
+  std::string pointed(word.text);
+  std::ranges::replace(pointed, ',', '.');
+  if (pointed != word.text && splitAddress(pointed)) {
+    report.note(fmt::format("write {}", pointed)).fix(word.range, pointed);
+    return;
+  }
   suggestName(context, word, report);
 }
 

@@ -293,11 +293,14 @@ bool RungReader::read() {
   return true;
 }
 
+bool mayShapeProgram(std::string_view mnemonic) {
+  const Row* row = findFunction(mnemonic);
+  return row == nullptr || row->control != Control::Plain;
+}
+
 bool RungReader::shapesProgram() const {
-  return std::any_of(rung_.elements.begin(), rung_.elements.end(), [](const Element& element) {
-    if (element.kind != ElementKind::Box) return false;
-    const Row* row = findFunction(element.mnemonic);
-    return row == nullptr || row->control != Control::Plain;
+  return std::ranges::any_of(rung_.elements, [](const Element& element) {
+    return element.kind == ElementKind::Box && mayShapeProgram(element.mnemonic);
   });
 }
 
@@ -373,7 +376,10 @@ std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t fro
 void LadderReader::readRung(const ladder::Rung& rung) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
-  if (rung.bad) return units_.setGarbled();
+  if (rung.bad) {
+    if (std::ranges::any_of(ladder::boxWords(context_.sources.text(rung.range)), mayShapeProgram)) units_.setGarbled();
+    return;
+  }
   RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, conditionEnd_, rung));
   if (!reader.read() && reader.shapesProgram()) units_.setGarbled();
 }

@@ -4,11 +4,14 @@
 #include <charconv>
 #include <unordered_set>
 
+#include <fmt/format.h>
+
 #include "frontend/dialects/nct/build_module.h"
 #include "frontend/dialects/nct/checker.h"
 #include "frontend/dialects/nct/message_texts.h"
 #include "frontend/dialects/nct/reference.h"
 #include "frontend/dialects/nct/structure.h"
+#include "ir/support/similar.h"
 #include "rtlib/nc/nct/messages.h"
 
 namespace rung::nct {
@@ -114,8 +117,12 @@ private:
     const std::string_view name = statement.name[0].text;
     TypedModule* module = name == "MAIN" ? &program_.main : name == "INT0" ? &program_.int0 : nullptr;
     if (module == nullptr || statement.name.size() > 1) {
-      diagnostics_.report(Diag::UnknownModule, join(statement.name.front().range, statement.name.back().range))
-          << sources_.text(join(statement.name.front().range, statement.name.back().range)) << "MAIN or INT0";
+      const SourceRange range = join(statement.name.front().range, statement.name.back().range);
+      DiagBuilder report = diagnostics_.report(Diag::UnknownModule, range);
+      report << sources_.text(range) << "MAIN or INT0";
+      Similar meant(sources_.text(range));
+      for (const std::string_view known : {"MAIN", "INT0"}) meant.offer(known);
+      if (!meant.best().empty()) report.note(fmt::format("did you mean {}?", meant.best())).fix(range, meant.best());
       nameless_ = true;
       return reported_;
     }

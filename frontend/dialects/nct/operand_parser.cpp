@@ -36,6 +36,8 @@ struct ConstantReader {
       if (fixed != text) report.note("the decimal sign is a point: " + fixed);
       if (text.size() > 1 && allDigits(text.substr(1))) report.note("write " + fixed + ".0");
     }
+    if (text.starts_with('#') && text.find('.') != std::string_view::npos)
+      report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
     return std::nullopt;
   }
   std::optional<Constant> tooLarge(std::string_view range) {

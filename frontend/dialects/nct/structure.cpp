@@ -28,16 +28,6 @@ bool looksStructural(std::string_view mnemonic) {
   });
 }
 
-// The first word of each box of a drawing that could not be read.
-std::vector<std::string_view> boxesOf(std::string_view drawing) {
-  std::vector<std::string_view> words;
-  for (size_t at = drawing.find('{'); at != std::string_view::npos; at = drawing.find('{', at + 1)) {
-    const size_t begin = std::min(drawing.find_first_not_of(' ', at + 1), drawing.size());
-    words.push_back(drawing.substr(begin, drawing.find_first_of(" }\n", begin) - begin));
-  }
-  return words;
-}
-
 // Something in the rung could not be read that might have been an END, a jump, a label or a subroutine's beginning or
 // end. `text` is the rung's drawing.
 bool hidesStructure(const TypedRung& rung, std::string_view text) {
@@ -46,7 +36,7 @@ bool hidesStructure(const TypedRung& rung, std::string_view text) {
     return element.row->info.operands.size() == 1 && element.row->info.operands[0].kind == "label" && !element.label;
   };
   if (std::ranges::any_of(rung.elements, hides)) return true;
-  return rung.rung->bad && std::ranges::any_of(boxesOf(text), looksStructural);
+  return rung.rung->bad && std::ranges::any_of(ladder::boxWords(text), looksStructural);
 }
 
 class StructureChecker {

@@ -49,7 +49,9 @@ void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& 
   const std::string_view word = line.text.substr(first, last - first);
   for (char c : word)
     if (isNameChar(c)) {
-      diagnostics.report(Diag::BadIdentifier, line.range(first, last)) << word;
+      DiagBuilder report = diagnostics.report(Diag::BadIdentifier, line.range(first, last));
+      report << word;
+      if (word.starts_with('"')) report.note("a text is written between apostrophes: 'abc'");
       return;
     }
   diagnostics.report(Diag::BadCharacter, line.range(first, last)) << word;

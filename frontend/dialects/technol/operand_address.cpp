@@ -124,10 +124,10 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
     out.byte += sign * symbol.value;
     out.real += sign * static_cast<double>(symbol.value);
     return true;
-  case SymbolKind::Label: return wrong("a label");
-  case SymbolKind::Procedure: return wrong("a procedure");
-  case SymbolKind::Macro: return wrong("a macro");
-  case SymbolKind::Structure: return wrong("a structure");
+  case SymbolKind::Label:
+  case SymbolKind::Procedure:
+  case SymbolKind::Macro:
+  case SymbolKind::Structure: return wrong(describe(symbol));
   case SymbolKind::Bit:
   case SymbolKind::Cell:
   case SymbolKind::Text:
@@ -263,7 +263,8 @@ bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, co
     out.place = {.space = kMechanismSpace, .byte = symbol.mechanism * kMechanismBytes};
     return true;
   }
-  if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) return wrongKind(out, "no bit", "a bit");
+  if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism)
+    return wrongKind(out, describe(symbol), "a bit");
   if (!symbol.space.valid() && !kind.weight)
     return wrongKind(out, "a bit number", "a bit, with the address of its byte before it");
   out.place = {.space = symbol.space, .byte = symbol.byte, .bit = symbol.bit};
@@ -283,7 +284,7 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   const Symbol& symbol = member ? *member : program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) {
-    program_.diagnostics.report(Diag::WrongOperandKind, name.range()) << name.text << "no bit" << "a bit";
+    program_.diagnostics.report(Diag::WrongOperandKind, name.range()) << name.text << describe(symbol) << "a bit";
     return false;
   }
   if (own && (address.hasBase || !symbol.space.valid())) return syntax("a number of bytes after $", where);
@@ -318,7 +319,7 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   const nc::Signal* element = nc::findSignal(nc::technolSignals(), "BLK[]." + std::string(rest[0].text), "BLK");
   if (!element) return program_.symbols.reportUndefined(rest[0], file_, "BLK"), false;
   if ((element->type == nc::SignalType::Bit) != wantsBit)
-    return wrongKind(out, wantsBit ? "no bit" : "a bit", wantsBit ? "a bit" : "a value");
+    return wrongKind(out, wantsBit ? "a value" : "a bit", wantsBit ? "a bit" : "a value");
   int64_t k = 0;
   if (rest.size() == 4 && rest[1].is('[') && rest[3].is(']'))
     k = parseNumber(rest[2].text).value_or(Number{.value = -1}).value;

@@ -308,8 +308,7 @@ bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   const bool shared = kind.name == SymbolKind::Mechanism && symbol.mechanism != kNone;
-  if (symbol.kind != kind.name && !shared)
-    return wrongKind(out, "no " + std::string(kind.info.kind), "a " + std::string(kind.info.kind));
+  if (symbol.kind != kind.name && !shared) return wrongKind(out, describe(symbol), "a " + std::string(kind.info.kind));
   out.index = shared ? symbol.mechanism : symbol.index;
   out.form = kind.name == SymbolKind::Label       ? Operand::Form::Label
              : kind.name == SymbolKind::Mechanism ? Operand::Form::Mechanism

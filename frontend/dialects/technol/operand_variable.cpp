@@ -18,7 +18,7 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (byNumber) {
-    if (symbol.kind != SymbolKind::Bit) return wrongKind(out, "no bit", "a bit");
+    if (symbol.kind != SymbolKind::Bit) return wrongKind(out, describe(symbol), "a bit");
     out.form = Operand::Form::Bit;
     out.place.bit = symbol.bit;
     return true;

@@ -120,6 +120,9 @@ struct Symbol {
   SourceRange declared;
 };
 
+// What it is, for messages: "a WORD".
+std::string_view describe(const Symbol& symbol);
+
 struct SourceFile {
   FileId id;
   bool main = false;

@@ -210,6 +210,33 @@ uint32_t SymbolTable::require(const Token& name, uint32_t file) {
 }
 
 // Each statement that uses the name is wrong; what was meant is told at the first.
+// A number without the 0 before its first letter.
+static bool looksLikeNumber(std::string_view word) {
+  const bool hex = word.ends_with('h') || word.ends_with('H');
+  return (hex || word.find_first_of("0123456789") != std::string_view::npos) && parseNumber("0" + std::string(word));
+}
+
+std::string_view describe(const Symbol& symbol) {
+  switch (symbol.kind) {
+  case SymbolKind::Constant: return "a constant";
+  case SymbolKind::Label: return "a label";
+  case SymbolKind::Procedure: return "a procedure";
+  case SymbolKind::Macro: return "a macro";
+  case SymbolKind::Structure: return "a structure";
+  case SymbolKind::Bit: return "a bit";
+  case SymbolKind::Text: return "a text";
+  case SymbolKind::Mechanism: return "a mechanism";
+  case SymbolKind::Cell: break;
+  }
+  switch (symbol.type) {
+  case ir::Type::I8: return "a BYTE";
+  case ir::Type::I16: return "a WORD";
+  case ir::Type::I32: return "a DWRD";
+  case ir::Type::F64: return "a REAL";
+  default: return "a cell of several bytes";
+  }
+}
+
 void SymbolTable::reportUndefined(const Token& name, uint32_t file, const char* structure) {
   undefined_.resize(locals_.size());
   const auto [last, isNew] = undefined_[file].emplace(symbolKey(name.text), name.pos);
@@ -221,7 +248,7 @@ void SymbolTable::reportUndefined(const Token& name, uint32_t file, const char* 
   report << name.text;
   if (!meant.empty())
     report.note("did you mean " + meant + "?");
-  else if (isNew && parseNumber("0" + std::string(name.text)))
+  else if (isNew && looksLikeNumber(name.text))
     report.note("as a number: 0" + std::string(name.text));
 }
 

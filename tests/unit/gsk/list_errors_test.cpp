@@ -250,5 +250,13 @@ TEST(GskConfig, WrongValues) {
   EXPECT_EQ(codes("param.17", "x"), Codes{}) << "the NC model's";
 }
 
+TEST(GskList, HintsHowToMend) {
+  const auto text = [](const std::string& operand) {
+    return compileList("LD " + operand + "\nOUT Y0.0\nFUNC END1\nFUNC END2\n")->text();
+  };
+  EXPECT_NE(text("X9,0").find("write X9.0"), std::string::npos) << text("X9,0");
+  EXPECT_NE(text("X9.O").find("not the letter O"), std::string::npos) << text("X9.O");
+}
+
 } // namespace
 } // namespace rung::gsk::test

@@ -238,5 +238,14 @@ TEST(GskRecovery, AWrongOperandDoesNotHideTheRest) {
   EXPECT_EQ(compileList("FUNC 0\nLD X0.0\nOUT\n")->codes(), (Codes{"3 bad-operand", "3 missing-end2"}));
 }
 
+// A broken rung may have lost what its boxes begin or end; one without such boxes hides nothing.
+TEST(GskRecovery, ABrokenRungHidesWhatItsBoxesMayBe) {
+  const std::string text = "dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMPB L5}\nrung\n";
+  EXPECT_EQ(compileLadder(text + "|--[X0.1--(Y0.0)\n")->codes(), (Codes{"4 undefined-label", "6 unclosed-element"}));
+  EXPECT_EQ(compileLadder(text + "|--[X0.1]--{MOVB R0 R1\n")->codes(),
+            (Codes{"4 undefined-label", "6 unclosed-element"}));
+  EXPECT_EQ(compileLadder(text + "|--[X0.1--{LBL L5}\n")->codes(), (Codes{"6 unclosed-element"}));
+}
+
 } // namespace
 } // namespace rung::gsk::test

@@ -11,6 +11,7 @@ std::string errorsOf(const std::string& drawing) { return parseDrawing(drawing).
 TEST(DrawingErrors, EmptyRung) {
   EXPECT_EQ(errorsOf(""), "3:1 empty-rung\n");
   EXPECT_EQ(errorsOf("|\n"), "3:1 empty-rung\n");
+  EXPECT_EQ(errorsOf("\n|--[A]--(X)\n"), "3:1 empty-rung\n") << "one mistake";
   EXPECT_EQ(errorsOf("|--------\n|\n"), "3:1 empty-rung\n");
 }
 

@@ -135,6 +135,8 @@ TEST(TechnolHints, NameWhatWasMeant) {
                {"LOD SPEDE", "did you mean SPEED?"},
                {"LDR_LIC FeaturPlc1", "did you mean FeaturePlc1?"},
                {"LOD FFh", "as a number: 0FFh"},
+               {"LDR W", "'W' is a WORD, but a bit is needed here"},
+               {"STRCPY W,\"abc", "a text is written between apostrophes"},
                {"MECH BEGIN M", "did you mean MECH_BEGIN?"},
                {"CAN_ SEND 1,W", "did you mean CAN_SEND?"},
                {"FLD W", "in this language: LOD REAL."}};
@@ -142,6 +144,10 @@ TEST(TechnolHints, NameWhatWasMeant) {
     const std::string text = compileMain(" " + std::string(c.statement) + "\n", "W: DS 2\nSPEED: DS 2\n").text();
     EXPECT_NE(text.find(c.hint), std::string::npos) << c.statement << '\n' << text;
   }
+}
+
+TEST(TechnolHints, NoNumberForALetter) {
+  EXPECT_EQ(compileMain(" LOD BYTE.W.B\n", "W: DS 2\n").text().find("as a number"), std::string::npos);
 }
 
 TEST(TechnolStructure, AnEmptyFileIsToldAtItsFirstLine) {

@@ -14,6 +14,16 @@ Cell cellOf(const Op& op) {
   return {.place = {SpaceId{op.ref}, static_cast<uint32_t>(op.imm), bitWidth(op.type)}, .type = op.type};
 }
 
+uint64_t keyOf(const Cell& cell) {
+  return uint64_t{cell.place.space.index} << 40 | uint64_t{cell.place.first} << 8 | static_cast<uint64_t>(cell.type);
+}
+
+bool add(std::vector<uint64_t>& values, uint64_t value) {
+  if (values.size() > kMost || std::ranges::find(values, value) != values.end()) return false;
+  values.push_back(value);
+  return true;
+}
+
 } // namespace
 
 void findIndexCells(const Rung& rung, std::vector<Cell>& cells) {
@@ -43,20 +53,14 @@ IndexValues::IndexValues(const Module& module) : module_(module) {
 }
 
 std::span<const uint64_t> IndexValues::of(const Cell& cell) const {
-  const auto known = std::ranges::find(known_, cell, &Known::cell);
-  if (known == known_.end() || known->values.size() > kMost) return {};
-  return known->values;
+  const auto known = values_.find(keyOf(cell));
+  if (known == values_.end() || known->second.size() > kMost) return {};
+  return known->second;
 }
 
-IndexValues::Known* IndexValues::find(const Cell& cell) {
-  const auto known = std::ranges::find(known_, cell, &Known::cell);
-  return known == known_.end() ? nullptr : &*known;
-}
-
-bool IndexValues::add(Known& known, uint64_t value) {
-  if (known.values.size() > kMost || std::ranges::find(known.values, value) != known.values.end()) return false;
-  known.values.push_back(value);
-  return true;
+std::vector<uint64_t>* IndexValues::find(const Cell& cell) {
+  const auto known = values_.find(keyOf(cell));
+  return known == values_.end() ? nullptr : &known->second;
 }
 
 void IndexValues::findCells() {
@@ -64,8 +68,7 @@ void IndexValues::findCells() {
   for (const Routine& routine : module_.routines)
     for (const Rung& rung : routine.rungs) {
       findIndexCells(rung, cells);
-      for (const Cell& cell : cells)
-        if (find(cell) == nullptr) known_.push_back({.cell = cell, .values = {}});
+      for (const Cell& cell : cells) values_.try_emplace(keyOf(cell));
     }
 }
 
@@ -77,43 +80,46 @@ void IndexValues::findConstants() {
         if (op.code == OpCode::Const) constants[op.result.index] = &op;
         if (!storesCell(op)) continue;
         const Op* stored = constants[arg(rung, op, 0).index];
-        Known* known = stored == nullptr ? nullptr : find(cellOf(op));
-        if (known != nullptr) add(*known, static_cast<uint64_t>(stored->imm) & valueMask(op.type));
+        std::vector<uint64_t>* values = stored == nullptr ? nullptr : find(cellOf(op));
+        if (values != nullptr) add(*values, static_cast<uint64_t>(stored->imm) & valueMask(op.type));
       }
     }
 }
 
-size_t IndexValues::mostValues() const {
-  size_t most = 0;
-  for (const Known& known : known_) most = std::max(most, of(known.cell).size());
-  return most;
-}
-
-// One rung after the other, with each cell at its n-th value. Says whether there is something new.
+// Says whether there is something new.
 bool IndexValues::derive() {
-  std::vector<Cell> cells;
-  for (const Known& known : known_) cells.push_back(known.cell);
   RungRanges ranges(module_);
   bool isNew = false;
-  for (size_t n = 0, most = mostValues(); n < most; ++n) {
-    CellRanges before;
-    for (const Cell& cell : cells) {
-      const std::span<const uint64_t> values = of(cell);
-      before.push_back(n < values.size() ? Range{values[n], values[n]} : wholeRange(cell.type));
-    }
+  for (size_t n = 0; n < kMost; ++n)
     for (const Routine& routine : module_.routines)
-      for (const Rung& rung : routine.rungs) {
-        if (std::ranges::none_of(rung.ops, [&](const Op& op) { return storesCell(op) && find(cellOf(op)) != nullptr; }))
-          continue;
-        CellRanges held = before;
-        ranges.run(rung, cells, held);
-        for (const Op& op : rung.ops) {
-          Known* known = storesCell(op) ? find(cellOf(op)) : nullptr;
-          if (known == nullptr) continue;
-          const Range& stored = ranges.of(arg(rung, op, 0));
-          if (stored.isOne()) isNew |= add(*known, stored.low);
-        }
-      }
+      for (const Rung& rung : routine.rungs) isNew |= deriveFrom(rung, n, ranges);
+  return isNew;
+}
+
+// One rung by itself, with each cell at its n-th value.
+bool IndexValues::deriveFrom(const Rung& rung, size_t n, RungRanges& ranges) {
+  std::vector<Cell> cells;
+  CellRanges held;
+  bool stores = false;
+  bool knows = false;
+  for (const Op& op : rung.ops) {
+    if (!isInt(op.type) || (op.code != OpCode::Load && op.code != OpCode::Store)) continue;
+    const Cell cell = cellOf(op);
+    if (find(cell) == nullptr) continue;
+    stores |= op.code == OpCode::Store;
+    if (std::ranges::find(cells, cell) != cells.end()) continue;
+    const std::span<const uint64_t> values = of(cell);
+    knows |= n < values.size();
+    cells.push_back(cell);
+    held.push_back(n < values.size() ? Range{values[n], values[n]} : wholeRange(cell.type));
+  }
+  if (!stores || !knows) return false;
+  ranges.run(rung, cells, held);
+  bool isNew = false;
+  for (const Op& op : rung.ops) {
+    std::vector<uint64_t>* values = storesCell(op) ? find(cellOf(op)) : nullptr;
+    const Range stored = values == nullptr ? Range{0, 1} : ranges.of(arg(rung, op, 0));
+    if (values != nullptr && stored.isOne()) isNew |= add(*values, stored.low);
   }
   return isNew;
 }

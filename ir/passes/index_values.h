@@ -2,6 +2,7 @@
 // machine, and tell it the unit by constants. What is found here is likely and not certain: who uses it asks.
 #pragma once
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "ir/passes/rung_ranges.h"
@@ -21,19 +22,14 @@ public:
   std::span<const uint64_t> of(const Cell& cell) const;
 
 private:
-  struct Known {
-    Cell cell;
-    std::vector<uint64_t> values;
-  };
   void findCells();
   void findConstants();
   bool derive();
-  size_t mostValues() const;
-  Known* find(const Cell& cell);
-  bool add(Known& known, uint64_t value);
+  bool deriveFrom(const Rung& rung, size_t n, RungRanges& ranges);
+  std::vector<uint64_t>* find(const Cell& cell);
 
   const Module& module_;
-  std::vector<Known> known_;
+  std::unordered_map<uint64_t, std::vector<uint64_t>> values_; // by cell
 };
 
 } // namespace rung::ir

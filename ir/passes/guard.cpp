@@ -20,8 +20,6 @@ constexpr size_t kMaxCells = 3;                 // of a rung
 constexpr uint32_t kLeastGain = 4;              // windows and comparisons: less costs more than it saves
 constexpr uint32_t kLeastGainFixed = 2;         // where all indices are known
 
-bool isWindow(const Op& op) { return opInfo(op.code).attr == Attr::Window; }
-bool isOfBit(const Op& op) { return op.code == OpCode::LoadBitAt || op.code == OpCode::StoreBitAt; }
 bool isCompare(const Op& op) {
   return opInfo(op.code).result == Constraint::Bit && op.type != Type::Bit && isEvaluable(opInfo(op.code));
 }

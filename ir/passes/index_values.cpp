@@ -32,9 +32,9 @@ void findIndexCells(const Rung& rung, std::vector<Cell>& cells) {
   const auto need = [&](const Op& op, int operand) { needed[arg(rung, op, operand).index] = true; };
   for (size_t i = rung.ops.size(); i-- > 0;) {
     const Op& op = rung.ops[i];
-    if (opInfo(op.code).attr == Attr::Window) {
+    if (isWindow(op)) {
       need(op, 0);
-      if (op.code == OpCode::LoadBitAt || op.code == OpCode::StoreBitAt) need(op, 1);
+      if (isOfBit(op)) need(op, 1);
     }
     if (op.resultCount != 1 || !needed[op.result.index]) continue;
     if (op.code == OpCode::Load && isInt(op.type) && std::ranges::find(cells, cellOf(op)) == cells.end())

@@ -9,6 +9,10 @@
 
 namespace rung::ir {
 
+// Whether an operation accesses a place by an index; whether it is a bit, whose number is the second operand.
+inline bool isWindow(const Op& op) { return opInfo(op.code).attr == Attr::Window; }
+inline bool isOfBit(const Op& op) { return op.code == OpCode::LoadBitAt || op.code == OpCode::StoreBitAt; }
+
 // The cells that windows of a rung get their indices from, each once, in the order of their last use.
 void findIndexCells(const Rung& rung, std::vector<Cell>& cells);
 

@@ -69,7 +69,7 @@ void WriteTimes::writeWindow(const Op& op, uint32_t time) {
   const uint64_t end = begin + (uint64_t{op.count} - 1) * unit + std::max<uint64_t>(unit, byteWidth(op.type));
   SpaceWrites& writes = writesTo(op.ref);
   const std::span known(writes.window, writes.windows);
-  // With one that it touches, or where there is no more room with the last.
+  // Joined with a range that it touches; with the last one where there is no room for another.
   auto with = std::ranges::find_if(known, [&](const WindowWrites& w) { return begin <= w.end && w.begin <= end; });
   if (with == known.end() && writes.windows < std::size(writes.window)) {
     writes.window[writes.windows++] = {time, begin, end};

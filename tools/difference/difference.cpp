@@ -125,38 +125,46 @@ std::string meaningOf(const Module& module, const Symbol& symbol) {
          count;
 }
 
-using Texts = std::map<std::string, std::string>;
+using Names = std::map<std::string, std::string>;
+using Messages = std::map<uint32_t, std::string>;
 
-Texts namesOf(const Module& module) {
-  Texts names;
+Names namesOf(const Module& module) {
+  Names names;
   for (const Symbol& symbol : module.symbols)
     if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0) names.emplace(symbol.name, meaningOf(module, symbol));
   return names;
 }
 
-Texts messagesOf(const Module& module) {
-  Texts messages;
-  for (const ir::MessageText& message : module.messages)
-    messages.emplace(fmt::format("{:>6}", message.number), message.text);
+Messages messagesOf(const Module& module) {
+  Messages messages;
+  for (const ir::MessageText& message : module.messages) messages.emplace(message.number, message.text);
   return messages;
 }
 
+template <class Texts>
 std::vector<NameChange> changesOf(const Texts& before, const Texts& after) {
+  Texts all = before;
+  all.insert(after.begin(), after.end());
   std::vector<NameChange> changes;
-  for (const auto& [name, what] : before)
-    if (!after.contains(name)) changes.push_back({ChangeKind::Removed, name, what, ""});
-  for (const auto& [name, what] : after) {
+  for (const auto& [name, what] : all) {
     const auto old = before.find(name);
+    const auto now = after.find(name);
     if (old == before.end())
-      changes.push_back({ChangeKind::Added, name, "", what});
-    else if (old->second != what)
-      changes.push_back({ChangeKind::Changed, name, old->second, what});
+      changes.push_back({ChangeKind::Added, fmt::format("{}", name), "", now->second});
+    else if (now == after.end())
+      changes.push_back({ChangeKind::Removed, fmt::format("{}", name), old->second, ""});
+    else if (old->second != now->second)
+      changes.push_back({ChangeKind::Changed, fmt::format("{}", name), old->second, now->second});
   }
-  std::ranges::stable_sort(changes, {}, &NameChange::name);
   return changes;
 }
 
 } // namespace
+
+std::string_view nameOf(ChangeKind kind) {
+  constexpr std::string_view kNames[] = {"added", "removed", "changed", "moved"};
+  return kNames[static_cast<int>(kind)];
+}
 
 Difference compare(const Module& before, const Module& after) {
   Difference difference;

@@ -1,6 +1,7 @@
 // What has changed from one version of a program to another, by what its rungs do and not by its lines.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ir/core/module.h"
@@ -8,6 +9,8 @@
 namespace rung::difference {
 
 enum class ChangeKind { Added, Removed, Changed, Moved };
+
+std::string_view nameOf(ChangeKind kind); // "added"
 
 struct RungChange {
   ChangeKind kind = ChangeKind::Added;
@@ -24,10 +27,10 @@ struct NameChange {
 };
 
 struct Difference {
-  std::vector<RungChange> rungs; // in the order of the new program, removed ones after what they followed
-  std::vector<NameChange> names; // by name
-  std::vector<NameChange> messages;
-  size_t same = 0; // rungs
+  std::vector<RungChange> rungs;    // in the order of the new program, removed ones after what they followed
+  std::vector<NameChange> names;    // by name
+  std::vector<NameChange> messages; // by number
+  size_t same = 0;                  // rungs
   bool none() const { return rungs.empty() && names.empty() && messages.empty(); }
 };
 

@@ -17,18 +17,11 @@ Json rungJson(const ir::Module& module, const ir::Rung* rung) {
           {"text", rung->sourceText}};
 }
 
-const char* nameOf(ChangeKind kind) {
-  constexpr const char* kNames[] = {"added", "removed", "changed", "moved"};
-  return kNames[static_cast<int>(kind)];
-}
-
 Json namesJson(const std::vector<NameChange>& changes) {
   Json list = Json::array();
   for (const NameChange& change : changes)
-    list.push_back({{"change", nameOf(change.kind)},
-                    {"name", change.name.substr(std::min(change.name.find_first_not_of(' '), change.name.size()))},
-                    {"before", change.before},
-                    {"after", change.after}});
+    list.push_back(
+        {{"change", nameOf(change.kind)}, {"name", change.name}, {"before", change.before}, {"after", change.after}});
   return list;
 }
 

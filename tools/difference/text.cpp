@@ -12,11 +12,6 @@ namespace {
 using ir::Module;
 using ir::Rung;
 
-std::string_view nameOf(ChangeKind kind) {
-  constexpr std::string_view kNames[] = {"added", "removed", "changed", "moved"};
-  return kNames[static_cast<int>(kind)];
-}
-
 std::string placeOf(const Module& module, const Rung& rung) {
   const std::string title = rung.title.empty() ? "" : fmt::format(" \"{}\"", rung.title);
   return fmt::format("rung {}{}, {}:{}", rung.number, title, module.files[rung.begin.file.index], rung.begin.line);
@@ -43,8 +38,7 @@ void addRung(const RungChange& change, const Module& before, const Module& after
 
 void addNames(const std::vector<NameChange>& changes, std::string_view what, std::string& out) {
   for (const NameChange& change : changes) {
-    const size_t begin = std::min(change.name.find_first_not_of(' '), change.name.size());
-    put(out, "{} {} {}: {}", nameOf(change.kind), what, std::string_view(change.name).substr(begin),
+    put(out, "{} {} {}: {}", nameOf(change.kind), what, change.name,
         change.kind == ChangeKind::Added ? change.after : change.before);
     if (change.kind == ChangeKind::Changed) put(out, " to {}", change.after);
     out += '\n';

@@ -73,6 +73,8 @@ void printSummary(const compiler::Compiled& compiled, const SourceOptions& optio
 int sayWrote(int status, const std::string& out, const SourceOptions& options);
 // The whole text or, as the exit status and a message say, nothing (see host::replaceFile).
 int writeFile(const std::string& text, const std::string& out);
+// To a file, or with "" or "-" to standard output.
+int writeOutput(const std::string& text, const std::string& out = {});
 
 // A sealed program file: on the disk, and nobody but its owner may write to it. Gives the exit status.
 int writeProgram(const std::string& out, const std::string& file);

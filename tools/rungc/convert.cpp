@@ -1,6 +1,5 @@
 // rungc convert: a GSK program in its other source form.
 #include <fmt/format.h>
-#include <iostream>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -18,14 +17,6 @@ struct ConvertOptions {
   std::string to;
   std::string out;
 };
-
-int write(const std::string& text, const std::string& out) {
-  if (out.empty() || out == "-") {
-    std::cout << text << std::flush;
-    return std::cout ? kOk : environmentError("cannot write to standard output");
-  }
-  return writeFile(text, out);
-}
 
 std::optional<std::string> convert(SourceManager& sources, std::span<const FileId> files, const ConvertOptions& options,
                                    const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
@@ -63,7 +54,7 @@ int run(const ConvertOptions& options) {
   // With --json the diagnostics go to standard output: after a program there they would corrupt it.
   if (!options.source.json || !text || !options.out.empty()) printDiagnostics(diagnostics, sources, options.source);
   if (!text) return kWrong;
-  status = write(*text, options.out);
+  status = writeOutput(*text, options.out);
   const bool toFile = !options.out.empty() && options.out != "-";
   return toFile ? sayWrote(status, options.out, options.source) : status;
 }

@@ -1,5 +1,4 @@
 // rungc diff: what has changed between two versions of a program.
-#include <iostream>
 #include <memory>
 
 #include "tools/difference/difference.h"
@@ -36,9 +35,8 @@ int run(const DiffOptions& options) {
   if (before->dialect != after->dialect) return usageError("these are programs of two dialects");
   const difference::Difference found = difference::compare(*before->built, *after->built);
   const auto show = options.format == "json" ? difference::shownAsJson : difference::shownAsText;
-  std::cout << show(found, *before->built, *after->built) << std::flush;
-  if (!std::cout) return environmentError("cannot write to standard output");
-  return found.none() ? kOk : kWrong;
+  status = writeOutput(show(found, *before->built, *after->built));
+  return status != kOk || found.none() ? status : kWrong;
 }
 
 } // namespace

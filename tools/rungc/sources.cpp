@@ -71,6 +71,12 @@ int writeFile(const std::string& text, const std::string& out) {
   return wrong.empty() ? kOk : environmentError(wrong);
 }
 
+int writeOutput(const std::string& text, const std::string& out) {
+  if (!out.empty() && out != "-") return writeFile(text, out);
+  std::cout << text << std::flush;
+  return std::cout ? kOk : environmentError("cannot write to standard output");
+}
+
 namespace {
 
 std::string counted(size_t count, std::string_view what) {

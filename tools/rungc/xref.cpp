@@ -1,6 +1,5 @@
 // rungc xref: which rungs read and write what.
 #include <fmt/format.h>
-#include <iostream>
 #include <memory>
 
 #include "ir/layout/program_image.h"
@@ -44,10 +43,8 @@ int run(const XrefOptions& options) {
   const auto entries = entriesOf(reference, options);
   if (!entries) return kWrong;
   const bool listed = !options.places.empty();
-  std::cout << (options.format == "json" ? xref::shownAsJson(reference, *entries, listed)
-                                         : xref::shownAsText(reference, *entries, listed))
-            << std::flush;
-  return std::cout ? kOk : environmentError("cannot write to standard output");
+  const auto show = options.format == "json" ? xref::shownAsJson : xref::shownAsText;
+  return writeOutput(show(reference, *entries, listed));
 }
 
 } // namespace

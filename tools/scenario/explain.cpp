@@ -159,18 +159,11 @@ void Explanation::reads(int indent, uint32_t rung, size_t most) {
 
 // Nothing for areas that have no names, unless what is there was copied from one that has.
 std::optional<std::string> Explanation::nameLine(const Use& use) const {
-  const auto isHidden = [&](const BitRange& range) {
-    return (program_.spaces[range.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
-  };
-  BitRange shown = use.place;
-  if (isHidden(shown)) {
-    const std::vector<BitRange> sources = uses_.copiedFrom(shown);
-    if (sources.empty() || isHidden(sources[0])) return std::nullopt;
-    shown = sources[0];
-  }
-  if (use.computed) return shownRange(program_, shown) + ", at a computed address";
+  const std::optional<BitRange> shown = xref::knownPlace(program_, uses_, use.place);
+  if (!shown) return std::nullopt;
+  if (use.computed) return shownRange(program_, *shown) + ", at a computed address";
   const Ref place = refOf(use);
-  return fmt::format("{} = {}{}", shownName(program_, moved(place, shown)),
+  return fmt::format("{} = {}{}", shownName(program_, moved(place, *shown)),
                      show(readValue(instance_, session_.nc().control(), place, false)), age(place));
 }
 

@@ -12,20 +12,9 @@ namespace {
 using host::Ref;
 using ir::BitRange;
 
-bool isHidden(const rung_program& program, const BitRange& place) {
-  return (program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
-}
-
-// Where a user would look: a latch that the compiler made is what it was copied from.
-BitRange named(const rung_program& program, const ir::Uses& uses, const BitRange& place) {
-  if (!isHidden(program, place)) return place;
-  const std::vector<BitRange> from = uses.copiedFrom(place);
-  return from.empty() ? place : from[0];
-}
-
 auto orderOf(const BitRange& place) { return std::tuple(place.space.index, place.first, place.count); }
 
-// One of a rung and a place stands for its reads and its writes.
+// A rung and a place have one entry, for reads and writes.
 void addAccess(std::vector<Access>& accesses, const Access& access) {
   const auto same = std::ranges::find_if(accesses, [&](const Access& a) {
     return a.rung == access.rung && a.as == access.as && a.indexed == access.indexed;
@@ -43,20 +32,21 @@ bool Entry::isWritten() const { return std::ranges::any_of(accesses, &Access::wr
 CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses) : program_(program), uses_(uses) {
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
     for (const ir::RungUse& use : uses.of(rung)) {
-      const BitRange element = named(program, uses, use.element);
-      if (isHidden(program, element)) continue;
+      const std::optional<BitRange> element = knownPlace(program, uses, use.element);
+      const std::optional<BitRange> reach = knownPlace(program, uses, use.place);
+      if (!element || !reach) continue;
       const Access access{
-          .rung = rung, .reads = !use.writes, .writes = use.writes, .indexed = use.computed, .as = element};
-      sorted_.push_back({element, named(program, uses, use.place), use.type, access});
-      longest_ = std::max(longest_, element.count);
+          .rung = rung, .reads = !use.writes, .writes = use.writes, .indexed = use.computed, .as = *element};
+      sorted_.push_back({access, *reach, use.type});
+      longest_ = std::max(longest_, element->count);
     }
-  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return orderOf(use.element); });
+  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return orderOf(use.access.as); });
 }
 
 void CrossReference::addPlaces(std::vector<Ref>& places) const {
   for (const Use& use : sorted_) {
     ir::Use place;
-    place.place = use.element;
+    place.place = use.access.as;
     place.type = use.type;
     places.push_back(refOf(place));
   }
@@ -80,10 +70,11 @@ Entry CrossReference::of(const Ref& place) const {
   Entry entry{.place = place, .accesses = {}};
   const BitRange bits = bitsOf(place);
   const BitRange earliest{bits.space, bits.first - std::min(bits.first, longest_), 0};
-  const auto element = [](const Use& use) { return orderOf(use.element); };
+  const auto element = [](const Use& use) { return orderOf(use.access.as); };
   for (auto use = std::ranges::lower_bound(sorted_, orderOf(earliest), {}, element);
-       use != sorted_.end() && use->element.space == bits.space && use->element.first < bits.first + bits.count; ++use)
-    if (overlap(use->element, bits)) addAccess(entry.accesses, use->access);
+       use != sorted_.end() && use->access.as.space == bits.space && use->access.as.first < bits.first + bits.count;
+       ++use)
+    if (overlap(use->access.as, bits)) addAccess(entry.accesses, use->access);
   std::ranges::stable_sort(entry.accesses, {}, &Access::rung);
   entry.controlWrites = isWrittenByControl(program_, uses_, place);
   entry.controlReads = isReadByControl(program_, uses_, place);
@@ -94,7 +85,8 @@ std::vector<Access> CrossReference::perhaps(const Ref& place) const {
   std::vector<Access> accesses;
   const BitRange bits = bitsOf(place);
   for (const Use& use : sorted_)
-    if (use.access.indexed && !overlap(use.element, bits) && overlap(use.reach, bits)) addAccess(accesses, use.access);
+    if (use.access.indexed && !overlap(use.access.as, bits) && overlap(use.reach, bits))
+      addAccess(accesses, use.access);
   std::ranges::stable_sort(accesses, {}, &Access::rung);
   return accesses;
 }

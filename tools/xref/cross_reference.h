@@ -44,16 +44,15 @@ public:
 
 private:
   struct Use {
-    ir::BitRange element;
-    ir::BitRange reach;
-    ir::Type type;
     Access access;
+    ir::BitRange reach; // with an index
+    ir::Type type;
   };
   void addPlaces(std::vector<host::Ref>& places) const;
 
   const rung_program& program_;
   const ir::Uses& uses_;
-  std::vector<Use> sorted_; // by element
+  std::vector<Use> sorted_; // by place
   uint32_t longest_ = 1;    // bits of an element
 };
 

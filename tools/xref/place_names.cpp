@@ -24,6 +24,16 @@ ir::BitRange bitsOf(const Ref& place) {
   return {ir::SpaceId{place.space}, place.byte * 8, place.width * place.count};
 }
 
+std::optional<ir::BitRange> knownPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
+  const auto isHidden = [&](const ir::BitRange& range) {
+    return (program.spaces[range.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
+  };
+  if (!isHidden(place)) return place;
+  const std::vector<ir::BitRange> from = uses.copiedFrom(place);
+  if (from.empty() || isHidden(from[0])) return std::nullopt;
+  return from[0];
+}
+
 std::string symbolAt(const rung_program& program, const Ref& place) {
   for (uint32_t i = 0; i < program.symbol_count; ++i) {
     const rung_symbol& symbol = program.symbols[i];

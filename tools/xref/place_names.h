@@ -1,5 +1,6 @@
 // Places of a program by the names that its user would write.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "ir/uses/uses.h"
@@ -10,6 +11,10 @@ namespace rung::xref {
 // The place of a use that is not computed; the bits of a reference, nothing for a constant.
 host::Ref refOf(const ir::Use& use);
 ir::BitRange bitsOf(const host::Ref& place);
+
+// Where a user would look for it: a latch that the compiler made is what it was copied from. Nothing for what has no
+// name.
+std::optional<ir::BitRange> knownPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place);
 
 // The symbol that lies exactly there; "" when there is none.
 std::string symbolAt(const rung_program& program, const host::Ref& place);

@@ -4,25 +4,17 @@
 #include <algorithm>
 #include <tuple>
 
+#include "tools/xref/place_names.h"
+
 namespace rung::xref {
-namespace {
-
-// Where a user would look: a latch that the compiler made shows under the name of what it was copied from.
-ir::BitRange namedPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
-  if ((program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) == 0) return place;
-  const std::vector<ir::BitRange> from = uses.copiedFrom(place);
-  return from.empty() ? place : from[0];
-}
-
-} // namespace
-
 std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& uses) {
   std::vector<UsedPlace> all;
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
     for (ir::Use use : uses.of(rung)) {
-      use.place = namedPlace(program, uses, use.place);
-      const bool hidden = (program.spaces[use.place.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
-      if (!use.computed && !hidden) all.push_back({use, !use.writes, use.writes});
+      const std::optional<ir::BitRange> known = knownPlace(program, uses, use.place);
+      if (use.computed || !known) continue;
+      use.place = *known;
+      all.push_back({use, !use.writes, use.writes});
     }
   const auto order = [](const UsedPlace& place) {
     const ir::BitRange& bits = place.use.place;

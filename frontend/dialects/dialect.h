@@ -8,12 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/sema/analysis.h"
 #include "frontend/table/instruction.h"
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 #include "rtlib/nc/config_key.h"
+#include "rtlib/nc/signal.h"
 
 namespace rung::frontend {
 
@@ -34,6 +36,17 @@ struct CompileOptions {
   }
 };
 
+// A program after its check. The sources and the options that it was made of must outlive it.
+class CheckedProgram {
+public:
+  virtual ~CheckedProgram() = default;
+  // Also of a program with errors.
+  virtual const Analysis& analysis() const = 0;
+  // Of a program without errors, once: a module that passes the verifier. Null where building it finds an error, which
+  // is reported.
+  virtual std::unique_ptr<ir::Module> build() = 0;
+};
+
 struct Dialect {
   std::string_view name;                        // "gsk"
   std::string_view title;                       // "GSK25iMc / GSK25iTc PLC"
@@ -42,11 +55,15 @@ struct Dialect {
   // The rows, in the order of the reference.
   std::span<const InstructionInfo* const> instructions;
   std::span<const OperandKindInfo> operandKinds;
+  const nc::SignalTable& (*signals)(); // of the control's interface
   // Whether a row of `instructions` can be compiled; the others give the diagnostic not-built-yet or service-not-built.
   bool (*isBuilt)(const InstructionInfo& row);
-  // Null when there were errors; every error of all files has been reported. The module passes the verifier.
-  std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files,
-                                         const CompileOptions& options, Diagnostics& diagnostics);
+  // Of a dialect with ladders: the row of a box, see ladder::FindBox.
+  const InstructionInfo* (*findBox)(std::string_view mnemonic) = nullptr;
+  // Reads and checks a program, and reports every error of all files. Never null. `diagnostics` must outlive the
+  // result.
+  std::unique_ptr<CheckedProgram> (*check)(SourceManager& sources, std::span<const FileId> files,
+                                           const CompileOptions& options, Diagnostics& diagnostics);
   // Sections of the reference page behind the instructions, in Markdown; null when there are none.
   std::string (*reference)() = nullptr;
   // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be
@@ -56,6 +73,14 @@ struct Dialect {
   // `module`. May be null.
   std::string (*listing)(const SourceManager& sources, std::span<const FileId> files,
                          const ir::Module& module) = nullptr;
+
+  // Checks a program and builds it; null when there were errors.
+  std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
+                                      const CompileOptions& options, Diagnostics& diagnostics) const {
+    const size_t before = diagnostics.errorCount();
+    const std::unique_ptr<CheckedProgram> program = check(sources, files, options, diagnostics);
+    return diagnostics.errorCount() == before ? program->build() : nullptr;
+  }
 };
 
 // All dialects, and one by its name; null when there is none.

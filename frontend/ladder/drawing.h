@@ -50,15 +50,19 @@ struct Drawing {
 };
 
 /// The drawing of a rung of this file that is not bad, once more, with its pin lines found.
-Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, const FurtherPins& furtherPins);
+Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox);
 
-/// Adds a line to the drawing. Reports at most one error; drawing.bad is set then.
+/// Adds a line to the drawing. Reports at most one error; drawing.bad is set then, and the rest of the line is an
+/// Error.
 void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics);
 
-/// Finds the pin lines of boxes: fills headOf and nextPin.
-void groupPins(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics);
+/// Adds a line that cannot be read, which was reported, as an Error; sets drawing.bad.
+void addUnreadLine(const SourceLine& line, Drawing& drawing);
 
-/// Joins the wires: fills the rung's elements (in the order of the text), pins and nets.
+/// Finds the pin lines of boxes: fills headOf and nextPin.
+void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics);
+
+/// Joins the wires: fills the rung's elements (in the order of the text), pins and nets, also of a bad drawing.
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics);
 
 /// Fills the drivers and consumers of all nets, which must be numbered.

@@ -31,6 +31,7 @@ void symbol(std::string& out, const Rung& rung, const Element& element) {
     operands(out, rung, element);
     put(out, "}}");
     return;
+  case ElementKind::Error: put(out, "unread"); return;
   }
 }
 

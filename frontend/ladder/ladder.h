@@ -6,7 +6,8 @@
 // elements that drive it passes power. Net ids and element ids are counted per rung. Elements stand in the order of
 // evaluation: an element comes behind all elements that drive its inputs; among those that are ready the upper line
 // goes first, then the left one. There are no loops (power-loop is an error). A rung with an error in its drawing has
-// bad == true, was reported, and has no elements or nets: skip it silently.
+// bad == true and was reported. It keeps the elements that could be read, in the order of the text, and an Error where
+// one could not; of its nets nothing holds.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "frontend/syntax/word_lexer.h"
+#include "frontend/table/instruction.h"
 #include "ir/support/check.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/ids.h"
@@ -31,7 +33,8 @@ using ElementId = Id<struct ElementTag>;
 inline constexpr NetId kRail{0};
 inline constexpr NetId kNoNet{};
 
-enum class ElementKind : uint8_t { Contact, Coil, Box };
+/// Error: what could not be read, to the end of its line.
+enum class ElementKind : uint8_t { Contact, Coil, Box, Error };
 enum class CoilKind : uint8_t { Plain, Negated, Set, Reset };
 
 /// First and count of a run in one of the rung's pools.
@@ -53,7 +56,7 @@ struct Element {
   CoilKind coil = CoilKind::Plain; ///< coils only
   std::string_view mnemonic;       ///< boxes only
   SourceRange mnemonicRange;       ///< boxes only
-  Slice operands;                  ///< contact and coil: exactly one; see Rung::operandsOf
+  Slice operands;                  ///< contact and coil: exactly one, Error: none; see Rung::operandsOf
   Slice pins;                      ///< at least one; see Rung::pinsOf
   NetId output = kNoNet;           ///< kNoNet when nothing is connected on the right
   SourceRange range;               ///< with its brackets; a box: its first line
@@ -144,17 +147,15 @@ struct LadderFile {
   std::vector<Rung> rungs;
 };
 
-/// Names of the pins of a box behind its first one, from top to bottom; empty for a box with one pin; nullopt for a
-/// mnemonic that the dialect does not have. The drawing alone cannot tell `{R }` below `{CNT …}`, a pin, from `{RET}`
-/// below `{MOV …}`, another box.
-using FurtherPins = std::function<std::optional<std::span<const std::string_view>>(std::string_view mnemonic)>;
+/// The row of a box's mnemonic in the dialect's table; null for one that the dialect does not have. The drawing alone
+/// cannot tell `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
+using FindBox = const frontend::InstructionInfo* (*)(std::string_view mnemonic);
 
-/// Parses a file. Mistakes are reported, and parsing goes on with the next statement. Without furtherPins (or for a
-/// mnemonic that it does not know) every box of one word that stands exactly below a box is a pin of that box.
-LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
-                       const FurtherPins& furtherPins = {});
+/// Parses a file. Mistakes are reported, and parsing goes on with the next statement. Without findBox (or for a
+/// mnemonic that it does not know) every box of one word that is exactly below a box is a pin of that box.
+LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox = nullptr);
 
-/// The first word of each box in the text of a drawing that could not be read: what it might have been.
+/// The first word of each box in the text of an Error: what it might have been.
 std::vector<std::string_view> boxWords(std::string_view drawing);
 
 /// The name behind `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.

@@ -24,8 +24,8 @@ enum class Place : uint8_t {
 
 class Parser {
 public:
-  Parser(const SourceManager& sources, FileId file, Diagnostics& diagnostics, const FurtherPins& furtherPins)
-      : sources_(sources), diagnostics_(diagnostics), furtherPins_(furtherPins) {
+  Parser(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox)
+      : sources_(sources), diagnostics_(diagnostics), findBox_(findBox) {
     result_.file = file;
   }
 
@@ -54,7 +54,7 @@ private:
 
   const SourceManager& sources_;
   Diagnostics& diagnostics_;
-  const FurtherPins& furtherPins_;
+  const FindBox findBox_;
   LadderFile result_;
   LineWords words_;
   Drawing drawing_;
@@ -87,7 +87,7 @@ void Parser::line(const SourceLine& source) {
     closeRung();
     statement(source);
   } else if (tab != std::string_view::npos) {
-    drawing_.bad = true;
+    addUnreadLine(source, drawing_);
   } else {
     drawingLine(source);
   }
@@ -248,23 +248,17 @@ void Parser::finishRung(Rung& rung) {
     drawing_.bad = true;
     rungIsEmpty_ = true;
   }
-  if (!drawing_.bad) groupPins(drawing_, furtherPins_, diagnostics_);
-  if (!drawing_.bad) wireUp(drawing_, rung, diagnostics_);
+  Diagnostics unheard; // what else is wrong with a drawing that could not be read follows from that
+  groupPins(drawing_, findBox_, drawing_.bad ? unheard : diagnostics_);
+  wireUp(drawing_, rung, drawing_.bad ? unheard : diagnostics_);
   rung.bad = drawing_.bad;
   if (!rung.bad) orderElements(rung, diagnostics_);
-  if (!rung.bad) return;
-  rung.elements.clear();
-  rung.nets.clear();
-  rung.operandPool.clear();
-  rung.pinPool.clear();
-  rung.linkPool.clear();
 }
 
 } // namespace
 
-LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics,
-                       const FurtherPins& furtherPins) {
-  return Parser(sources, file, diagnostics, furtherPins).run();
+LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox) {
+  return Parser(sources, file, diagnostics, findBox).run();
 }
 
 std::vector<std::string_view> boxWords(std::string_view drawing) {

@@ -12,9 +12,9 @@ struct Group {
   uint32_t head = kNone;
   uint32_t lastPin = kNone;
   uint32_t pinLines = 0;
-  std::optional<std::span<const std::string_view>> names;
+  std::optional<std::span<const frontend::PinInfo>> pins; ///< its further ones; nothing where they are not known
 
-  bool lacksPins() const { return names && pinLines < names->size(); }
+  bool lacksPins() const { return pins && pinLines < pins->size(); }
 };
 
 /// A line of a group: where its braces stand.
@@ -26,8 +26,8 @@ struct Row {
 
 class PinGrouper {
 public:
-  PinGrouper(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics)
-      : drawing_(drawing), furtherPins_(furtherPins), diagnostics_(diagnostics) {}
+  PinGrouper(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics)
+      : drawing_(drawing), findBox_(findBox), diagnostics_(diagnostics) {}
 
   void run() {
     drawing_.headOf.assign(drawing_.elements.size(), kNone);
@@ -50,7 +50,7 @@ private:
   void addPin(uint32_t index, uint32_t element);
 
   Drawing& drawing_;
-  const FurtherPins& furtherPins_;
+  const FindBox findBox_;
   Diagnostics& diagnostics_;
   std::vector<Group> groups_;
   std::vector<Row> above_; ///< by column
@@ -58,13 +58,14 @@ private:
 };
 
 bool PinGrouper::isNamed(const Group& group, std::string_view word) const {
-  return group.names && std::any_of(group.names->begin(), group.names->end(),
-                                    [&](auto name) { return text::equalsIgnoringCase(name, word); });
+  return group.pins && std::ranges::any_of(*group.pins, [&](const frontend::PinInfo& pin) {
+           return text::equalsIgnoringCase(pin.name, word);
+         });
 }
 
 /// Below a box that still lacks pins a wrong name is an unknown pin, not another box.
 bool PinGrouper::accepts(const Group& group, std::string_view word) const {
-  return !group.names || group.lacksPins() || isNamed(group, word);
+  return !group.pins || group.lacksPins() || isNamed(group, word);
 }
 
 void PinGrouper::addPin(uint32_t index, uint32_t element) {
@@ -78,7 +79,8 @@ void PinGrouper::addPin(uint32_t index, uint32_t element) {
 uint32_t PinGrouper::open(uint32_t element) {
   Group group;
   group.head = element;
-  if (furtherPins_) group.names = furtherPins_(drawing_.elements[element].mnemonic);
+  const frontend::InstructionInfo* row = findBox_ == nullptr ? nullptr : findBox_(drawing_.elements[element].mnemonic);
+  if (row != nullptr) group.pins = furtherPinsOf(*row);
   groups_.push_back(group);
   return static_cast<uint32_t>(groups_.size() - 1);
 }
@@ -92,7 +94,7 @@ const Row* PinGrouper::misalignedTo(const DrawnLine& line, const Token& token,
   const uint32_t endColumn = token.column + (token.end - token.begin);
   const auto meant = [&](const Row& row) {
     const Group& group = groups_[row.group];
-    if (group.names) return group.lacksPins() && isNamed(group, word);
+    if (group.pins) return group.lacksPins() && isNamed(group, word);
     return padded && row.column < endColumn && token.column < row.endColumn;
   };
   if (near != above_.end() && near->column != token.column && meant(*near)) return &*near;
@@ -126,8 +128,8 @@ void PinGrouper::box(const DrawnLine& line, const Token& token) {
 
 } // namespace
 
-void groupPins(Drawing& drawing, const FurtherPins& furtherPins, Diagnostics& diagnostics) {
-  PinGrouper(drawing, furtherPins, diagnostics).run();
+void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics) {
+  PinGrouper(drawing, findBox, diagnostics).run();
 }
 
 } // namespace rung::ladder

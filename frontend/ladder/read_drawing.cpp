@@ -4,7 +4,7 @@
 
 namespace rung::ladder {
 
-Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, const FurtherPins& furtherPins) {
+Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox) {
   Drawing drawing;
   Diagnostics unheard;
   const char* const begin = sources.text(file).data();
@@ -15,7 +15,7 @@ Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung,
     const auto offset = static_cast<size_t>(text.data() - begin);
     scanDrawingLine({number, text, sources.position(file, offset)}, drawing, unheard);
   }
-  groupPins(drawing, furtherPins, unheard);
+  groupPins(drawing, findBox, unheard);
   RUNG_CHECK(!drawing.bad, "the rung was parsed without errors");
   return drawing;
 }

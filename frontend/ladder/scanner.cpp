@@ -25,16 +25,23 @@ public:
   void run() {
     DrawnLine drawn{line_, {static_cast<uint32_t>(drawing_.tokens.size()), 0}};
     while (good_ && at_ < text_.size() && text_[at_] != ';') step();
+    if (!good_) unread();
     drawn.tokens.count = static_cast<uint32_t>(drawing_.tokens.size()) - drawn.tokens.first;
-    if (!good_) drawing_.bad = true;
     if (good_ && at_ < text_.size()) remark(drawn);
     drawing_.lines.push_back(drawn);
+  }
+
+  void skip() {
+    const auto first = static_cast<uint32_t>(drawing_.tokens.size());
+    unread();
+    drawing_.lines.push_back({line_, {first, 1}});
   }
 
 private:
   void step();
   void wire();
   void element();
+  void unread();
   void strayText();
   void remark(const DrawnLine& drawn);
   bool contact(Element& element);
@@ -120,8 +127,9 @@ void LineScanner::remark(const DrawnLine& drawn) {
 
 void LineScanner::element() {
   const size_t begin = at_;
+  const size_t operands = drawing_.operands.size();
   Element element;
-  element.operands.first = static_cast<uint32_t>(drawing_.operands.size());
+  element.operands.first = static_cast<uint32_t>(operands);
   element.line = line_.number;
   element.column = static_cast<uint32_t>(begin - continuations_ + 1);
   switch (text_[begin]) {
@@ -129,13 +137,29 @@ void LineScanner::element() {
   case '(': good_ = coil(element); break;
   case '{': good_ = box(element); break;
   }
-  if (!good_) return;
+  if (!good_) {
+    drawing_.operands.resize(operands);
+    return;
+  }
   element.range = line_.range(begin, at_);
   element.operands.count = static_cast<uint32_t>(drawing_.operands.size()) - element.operands.first;
   push(TokenKind::Element, begin, at_, static_cast<uint32_t>(drawing_.elements.size()));
   drawing_.elements.push_back(element);
   const std::string_view drawn = text_.substr(begin, at_ - begin);
   continuations_ += drawn.size() - countCodePoints(drawn);
+}
+
+/// From here to the end of the line.
+void LineScanner::unread() {
+  drawing_.bad = true;
+  Element element;
+  element.kind = ElementKind::Error;
+  element.operands.first = static_cast<uint32_t>(drawing_.operands.size());
+  element.range = line_.range(at_, dropBlanks(at_, text_.size()));
+  element.line = line_.number;
+  element.column = static_cast<uint32_t>(at_ - continuations_ + 1);
+  push(TokenKind::Element, at_, text_.size(), static_cast<uint32_t>(drawing_.elements.size()));
+  drawing_.elements.push_back(element);
 }
 
 bool LineScanner::unclosed(size_t end, char close) {
@@ -271,6 +295,11 @@ void Drawing::clear() {
 
 void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics) {
   LineScanner(line, drawing, diagnostics).run();
+}
+
+void addUnreadLine(const SourceLine& line, Drawing& drawing) {
+  Diagnostics unheard;
+  LineScanner(line, drawing, unheard).skip();
 }
 
 void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diagnostics) {

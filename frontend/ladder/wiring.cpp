@@ -37,10 +37,11 @@ public:
     for (uint32_t i = 0; i < drawing_.lines.size(); ++i) joinLine(i);
     joinColumns();
     for (const Mark& mark : marks_) checkMark(mark);
-    if (drawing_.bad) return;
+    for (uint32_t& input : inputs_)
+      if (input == kNone) input = newNode(); // reported, or of a bad drawing
     makeElements();
     linkNets(rung_);
-    checkNets();
+    if (!drawing_.bad) checkNets();
   }
 
 private:

@@ -78,6 +78,11 @@ struct InstructionInfo {
   std::string_view example{}; // source text
 };
 
+// The pins of a box below its first, which has the mnemonic.
+constexpr std::span<const PinInfo> furtherPinsOf(const InstructionInfo& info) {
+  return info.pins.size() < 2 ? std::span<const PinInfo>() : info.pins.all().subspan(1);
+}
+
 // Whether it is one of a row's aliases; `same` compares as the dialect does.
 template <class Same>
 constexpr bool isAlias(const InstructionInfo& info, std::string_view word, Same same) {

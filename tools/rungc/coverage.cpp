@@ -11,7 +11,7 @@
 
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage_overlay.h"
-#include "tools/rungc/drawing.h"
+#include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
 #include "tools/view/overlay.h"
 
@@ -60,7 +60,7 @@ std::vector<view::TableRow> rowsOf(const coverage::Program& program) {
 Result<std::string> pageOf(const coverage::Program& program, const frontend::Dialect& dialect,
                            const frontend::CompileOptions& options) {
   const view::Overlay overlay = overlayOf(program);
-  if (!hasDrawing(dialect)) {
+  if (!view::hasDrawing(dialect)) {
     const std::vector<view::TableRow> rows = rowsOf(program);
     return view::renderTable(fmt::format("{}", fmt::join(program.files, ", ")), dialect.title, rows, overlay);
   }
@@ -68,7 +68,7 @@ Result<std::string> pageOf(const coverage::Program& program, const frontend::Dia
   const Result<std::vector<FileId>> files = compiler::addFiles(sources, program.files);
   if (!files.ok()) return files.failure();
   Diagnostics diagnostics;
-  std::optional<view::Program> drawing = drawingOf(sources, files.value(), dialect, options, diagnostics);
+  std::optional<view::Program> drawing = view::drawnProgram(sources, files.value(), dialect, options, diagnostics);
   if (!drawing) return failure(fmt::format("{} has changed while its scenarios ran", program.files[0]));
   view::lay(overlay, *drawing);
   return view::renderHtml(*drawing);

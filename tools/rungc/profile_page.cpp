@@ -5,8 +5,8 @@
 #include <fmt/ranges.h>
 
 #include "tools/profile/text.h"
-#include "tools/rungc/drawing.h"
 #include "tools/scenario/compile_step.h"
+#include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
 #include "tools/view/overlay.h"
 
@@ -53,7 +53,7 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
   const compiler::Compiled& compiled = *step.program;
   const view::Overlay overlay = overlayOf(profile);
   const std::vector<std::string>& names = compiled.module->files;
-  if (!hasDrawing(*compiled.dialect))
+  if (!view::hasDrawing(*compiled.dialect))
     return view::renderTable(fmt::format("{}", fmt::join(names, ", ")), compiled.dialect->title,
                              view::rowsOf(*compiled.module), overlay);
   SourceManager sources;
@@ -61,7 +61,7 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
   if (!files.ok()) return failure(files.error());
   Diagnostics diagnostics;
   std::optional<view::Program> drawing =
-      drawingOf(sources, files.value(), *compiled.dialect, compiled.options, diagnostics);
+      view::drawnProgram(sources, files.value(), *compiled.dialect, compiled.options, diagnostics);
   if (!drawing) return failure("the program has changed while its scenarios ran");
   view::lay(overlay, *drawing);
   return view::renderHtml(*drawing);

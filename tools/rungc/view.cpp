@@ -6,7 +6,7 @@
 
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
-#include "tools/rungc/drawing.h"
+#include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
 #include "tools/view/program.h"
 #include "tools/view/source_links.h"
@@ -28,7 +28,7 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
                                   const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
   const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
-  if (hasDrawing(*dialect)) return drawingOf(sources, files, *dialect, compile, diagnostics);
+  if (view::hasDrawing(*dialect)) return view::drawnProgram(sources, files, *dialect, compile, diagnostics);
   diagnostics.report(Diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
   return std::nullopt;
 }

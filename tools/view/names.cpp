@@ -1,164 +1,114 @@
 // Names, addresses and their comments (see names.h).
 #include "tools/view/names.h"
 
-#include <optional>
-
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/gsk.h"
-#include "rtlib/nc/gsk/signals.h"
-#include "rtlib/nc/nct/signals.h"
-#include "rtlib/text/number.h"
+#include "rtlib/nc/names/names.h"
 
 namespace rung::view {
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
+// Its bit, or its first byte.
+host::Ref refOf(const ir::BitRange& place) {
+  const uint32_t byte = place.first / 8;
+  return place.count == 1 ? host::bitRef(place.space.index, byte, place.first % 8)
+                          : host::intRef(place.space.index, byte, 8);
+}
 
 } // namespace
 
-Names::Names(const frontend::Dialect& dialect, const ir::Module& module, const std::vector<ladder::LadderFile>& files)
-    : gsk_(&dialect == &gsk::kGsk) {
-  for (const ir::Space& space : module.spaces) spaceFlags_.emplace(space.name, space.flags);
-  if (!module.retains.empty()) ownMemory_ = module.retains[0].byte;
-  std::unordered_map<std::string_view, const ir::Symbol*> symbols;
-  for (const ir::Symbol& symbol : module.symbols) symbols.emplace(symbol.name, &symbol);
-  for (const ladder::LadderFile& file : files) {
-    for (const ladder::Declaration& declaration : file.declarations) {
-      const auto at = symbols.find(declaration.name.text);
-      if (declaration.kind == ladder::DeclarationKind::Const)
-        constants_.emplace(declaration.name.text, declaration.value.text);
-      else if (at != symbols.end())
-        addSymbol(module, *at->second);
-    }
+Names::Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis,
+             const xref::CrossReference& reference)
+    : analysis_(analysis), reference_(reference) {
+  const rung_program& program = reference.program();
+  for (uint32_t i = 0; i < program.space_count; ++i) spaces_.emplace(program.spaces[i].name, i);
+  addDefinitions();
+  addSignals(dialect);
+}
+
+void Names::addDefinitions() {
+  const auto add = [&](const frontend::Definition& definition) {
+    if (const auto place = placeOf(definition.place))
+      byAddress_.try_emplace(textOf(*place), Known{definition.name, definition.comment});
+  };
+  const std::span<const frontend::Definition> definitions = analysis_.definitions();
+  for (uint32_t i = 0; i < definitions.size(); ++i) {
+    if (!definitions[i].range.valid()) continue;
+    declared_.emplace(definitions[i].range.begin, i);
+    add(definitions[i]);
   }
-  for (const ir::Symbol& symbol : module.symbols) addSymbol(module, symbol); // those that the dialect declares
-  addSignals();
+  for (const frontend::Definition& definition : definitions) add(definition); // the control's own
 }
 
-void Names::addSymbol(const ir::Module& module, const ir::Symbol& symbol) {
-  if (!symbol.space.valid()) return; // a constant
-  const std::string_view space = module.spaces[symbol.space.index].name;
-  const bool isBit = symbol.type == RUNG_TYPE_BIT;
-  add({{space, symbol.byte, symbol.bit, isBit}, symbol.name, symbol.comment});
-}
-
-// The first name of a place is the one that its address is told by, and declared names come first.
-void Names::add(const Known& known) {
-  const auto index = static_cast<uint32_t>(known_.size());
-  if (!byName_.emplace(known.name, index).second) return;
-  known_.push_back(known);
-  byAddress_.emplace(textOf(known.place), index);
-}
-
-void Names::addSignals() {
-  const nc::SignalTable& table = gsk_ ? nc::gskSignals() : nc::nctSignals();
-  for (const nc::Signal& signal : table) {
+void Names::addSignals(const frontend::Dialect& dialect) {
+  for (const nc::Signal& signal : dialect.signals()) {
     const bool isBit = signal.type == nc::SignalType::Bit;
-    add({{signal.area, signal.byteOffset + signal.bit / 8, signal.bit % 8u, isBit}, signal.symbol, signal.meaning});
+    const frontend::NamedPlace named{signal.area, signal.byteOffset * 8 + (isBit ? signal.bit : 0), isBit ? 1u : 8u};
+    if (const auto place = placeOf(named)) byAddress_.try_emplace(textOf(*place), Known{signal.symbol, signal.meaning});
   }
 }
 
-std::string Names::textOf(const Place& place) const {
-  if (gsk_) return fmt::format("{}{}", place.space, place.byte) + (place.isBit ? fmt::format(".{}", place.bit) : "");
-  const uint32_t bit = place.byte % 4 * 8 + place.bit;
-  return fmt::format("{:04}", place.byte / 4) + (place.isBit ? fmt::format(".{:02}", bit) : "");
+std::optional<ir::BitRange> Names::placeOf(const frontend::NamedPlace& place) const {
+  const auto space = spaces_.find(place.space);
+  if (space == spaces_.end() || place.bits == 0) return std::nullopt;
+  return ir::BitRange{ir::SpaceId{space->second}, place.firstBit, place.bits};
 }
 
-const Names::Known* Names::known(std::string_view name) const {
-  const auto at = byName_.find(name);
-  return at == byName_.end() ? nullptr : &known_[at->second];
+std::string Names::textOf(const ir::BitRange& place) const { return nc::address(reference_.program(), refOf(place)); }
+
+const Named& Names::at(const ir::BitRange& place) {
+  const std::string address = textOf(place);
+  const auto [found, isNew] = places_.try_emplace(fmt::format("{} {}", address, place.count));
+  if (!isNew) return found->second;
+  const xref::Entry entry = reference_.of(refOf(place));
+  found->second = {.address = {},
+                   .comment = {},
+                   .key = address,
+                   .place = place,
+                   .input = entry.controlWrites,
+                   .output = entry.controlReads};
+  return found->second;
 }
 
-// Inputs and outputs of NCT share a space.
-void Names::setTraffic(Named& named, const Place& place) const {
-  if (!gsk_) named.input = named.output = place.byte < ownMemory_;
-  const auto at = spaceFlags_.find(place.space);
-  if (!gsk_ || at == spaceFlags_.end()) return;
-  named.input = (at->second & RUNG_SPACE_INPUT) != 0;
-  named.output = (at->second & RUNG_SPACE_OUTPUT) != 0;
-}
-
-Named Names::atAddress(const Place& place) const {
+Named Names::of(const frontend::Definition& definition) {
   Named named;
-  named.key = textOf(place);
-  setTraffic(named, place);
-  const auto at = byAddress_.find(named.key);
-  if (at == byAddress_.end()) return named;
-  named.address = known_[at->second].name;
-  named.comment = known_[at->second].comment;
+  if (const auto place = placeOf(definition.place)) {
+    named = at(*place);
+    named.address = named.key;
+  }
+  if (definition.isConstant()) {
+    named.address = definition.value;
+    named.key = definition.name;
+  }
+  named.comment = definition.comment;
   return named;
 }
 
-std::string_view Names::valueOf(std::string_view operand) const {
-  const auto at = constants_.find(operand);
-  return at == constants_.end() ? operand : at->second;
+std::string_view Names::valueOf(const Word& operand) const {
+  const frontend::Definition* name = analysis_.nameAt(operand.range);
+  return name != nullptr && name->isConstant() ? name->value : operand.text;
 }
 
-Named Names::find(std::string_view operand) const {
-  const auto constant = constants_.find(operand);
-  if (constant != constants_.end()) return {std::string(constant->second), {}, std::string(operand)};
-  return gsk_ ? findGsk(operand) : findNct(operand);
-}
-
-// A name, or an area's letter and numbers.
-Named Names::findGsk(std::string_view operand) const {
-  if (const Known* name = known(operand)) {
-    const std::string address = textOf(name->place);
-    Named named{address, std::string(name->comment), address};
-    setTraffic(named, name->place);
-    return named;
+Named Names::find(const Word& operand) {
+  if (const auto declared = declared_.find(operand.range.begin); declared != declared_.end())
+    return of(analysis_.definitions()[declared->second]);
+  const frontend::OperandUse* use = analysis_.operandAt(operand.range);
+  const auto place = use == nullptr ? std::nullopt : placeOf(use->place);
+  if (!place) {
+    const frontend::Definition* name = analysis_.nameAt(operand.range);
+    return name == nullptr ? Named{} : of(*name);
   }
-  if (operand.size() < 2 || !isDigit(operand[1])) return {{}, {}, isDigit(operand[0]) ? "" : std::string(operand)};
-  const size_t point = operand.find('.');
-  const auto byte = text::numberIn<uint32_t>(operand.substr(1, point == std::string_view::npos ? point : point - 1));
-  const auto bit = point == std::string_view::npos ? 0u : text::numberIn<uint32_t>(operand.substr(point + 1));
-  if (!byte || !bit || std::string_view("XYFGRDCTAK").find(operand[0]) == std::string_view::npos)
-    return {{}, {}, isDigit(operand[0]) ? "" : std::string(operand)};
-  return atAddress({operand.substr(0, 1), *byte, *bit, point != std::string_view::npos});
-}
-
-// [!] base [.bit | :register] [,index]; base is four digits or a name.
-Named Names::findNct(std::string_view operand) const {
-  const size_t start = operand.find_first_not_of("@%!");
-  if (start == std::string_view::npos || operand[start] == '#' || operand[start] == '*') return {};
-  operand.remove_prefix(start);
-  const size_t end = std::min(operand.find_first_of(".:,"), operand.size());
-  const std::string_view base = operand.substr(0, end);
-  const std::string_view rest = operand.substr(end);
-  const bool numeric = isDigit(base[0]);
-  Place place;
-  const Known* name = numeric ? nullptr : known(base);
-  if (name != nullptr) {
-    place = name->place;
-  } else if (const auto word = text::numberIn<uint32_t>(base)) {
-    place.byte = *word * 4;
-  } else {
-    return {{}, {}, std::string(base)};
+  Named named = at(*place);
+  if (use->base != frontend::kNoDefinition) {
+    named.address = named.key + std::string(use->computed);
+    named.comment = analysis_.definitions()[use->base].comment;
+  } else if (const auto known = byAddress_.find(named.key); known != byAddress_.end()) {
+    named.address = known->second.name;
+    named.comment = known->second.comment;
   }
-  const size_t comma = rest.find(',');
-  const std::string_view bit = rest.substr(0, comma);
-  const std::string_view index = comma == std::string_view::npos ? "" : rest.substr(comma + 1);
-  std::string open; // what is known at run time only
-  if (bit.starts_with('.')) {
-    const uint32_t value = text::numberIn<uint32_t>(bit.substr(1)).value_or(0);
-    place.isBit = true;
-    place.byte = place.byte / 4 * 4 + value / 8;
-    place.bit = value % 8;
-  } else {
-    open = bit;
-  }
-  std::string_view constant = valueOf(index);
-  if (constant.starts_with('#') && text::numberIn<uint32_t>(constant.substr(1)))
-    place.byte += 4 * *text::numberIn<uint32_t>(constant.substr(1));
-  else if (!index.empty())
-    open.append(",").append(index);
-  Named named = atAddress(place);
-  if (name != nullptr) {
-    named.address = named.key + open;
-    named.comment = name->comment;
-  }
-  if (!open.empty()) named.key += open;
+  if (use->computed.empty()) return named;
+  named.key += use->computed;
+  named.place.reset();
   return named;
 }
 

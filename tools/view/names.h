@@ -1,65 +1,54 @@
 // What an operand names: its address, its comment, and what it is counted under in the cross reference.
 #pragma once
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
-#include <vector>
+#include <utility>
 
 #include "frontend/dialects/dialect.h"
-#include "frontend/ladder/ladder.h"
-#include "rtlib/nc/signal.h"
+#include "frontend/syntax/word_lexer.h"
+#include "tools/xref/cross_reference.h"
 
 namespace rung::view {
 
 struct Named {
   std::string address; // of a name; of an address the name that is declared for it
   std::string comment;
-  std::string key;     // the same for all spellings of one place; empty for constants
-  bool input = false;  // known to be written by the machine or the NC
-  bool output = false; // known to be read by them
+  std::string key;                   // the same for all spellings of one place; empty for constants
+  std::optional<ir::BitRange> place; // nothing where it is known at run time only, and for constants
+  bool input = false;                // written by the machine or the NC
+  bool output = false;               // read by them
 };
 
 class Names {
 public:
-  // `module` is what the files compile to; it holds the program's symbols with their places.
-  Names(const frontend::Dialect& dialect, const ir::Module& module, const std::vector<ladder::LadderFile>& files);
+  // All must outlive it. `analysis` is of the text that is drawn, `reference` of the program that it compiles to.
+  Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis, const xref::CrossReference& reference);
 
-  Named find(std::string_view operand) const;
+  // Of an operand of the text, and of a name where it is declared.
+  Named find(const Word& operand);
   // What a constant means: its value as declared, otherwise the text itself.
-  std::string_view valueOf(std::string_view operand) const;
-  bool isGsk() const { return gsk_; }
+  std::string_view valueOf(const Word& operand) const;
 
 private:
-  // A place in memory; what is not fixed follows it as it is written.
-  struct Place {
-    std::string_view space;
-    uint32_t byte = 0;
-    uint32_t bit = 0;
-    bool isBit = false;
-  };
   struct Known {
-    Place place;
     std::string_view name;
     std::string_view comment;
   };
+  void addDefinitions();
+  void addSignals(const frontend::Dialect& dialect);
+  std::optional<ir::BitRange> placeOf(const frontend::NamedPlace& place) const;
+  std::string textOf(const ir::BitRange& place) const;
+  const Named& at(const ir::BitRange& place);
+  Named of(const frontend::Definition& definition);
 
-  void add(const Known& known);
-  void addSymbol(const ir::Module& module, const ir::Symbol& symbol);
-  void addSignals();
-  std::string textOf(const Place& place) const;
-  Named findNct(std::string_view operand) const;
-  Named findGsk(std::string_view operand) const;
-  Named atAddress(const Place& place) const;
-  const Known* known(std::string_view name) const;
-  void setTraffic(Named& named, const Place& place) const;
-
-  bool gsk_ = false;
-  std::vector<Known> known_;
-  std::unordered_map<std::string_view, uint32_t> spaceFlags_; // GSK: enum rung_space_flags
-  uint32_t ownMemory_ = 0;                                    // NCT: the byte that the program's own memory begins with
-  std::unordered_map<std::string_view, uint32_t> byName_;
-  std::unordered_map<std::string, uint32_t> byAddress_;
-  std::unordered_map<std::string_view, std::string_view> constants_;
+  const frontend::Analysis& analysis_;
+  const xref::CrossReference& reference_;
+  std::map<std::string_view, uint32_t> spaces_;
+  std::map<std::string, Known> byAddress_; // the first name of a place; declared ones come first
+  std::map<SourcePos, uint32_t> declared_; // where: the definition
+  std::map<std::string, Named> places_;    // that were asked for, by address and length
 };
 
 } // namespace rung::view

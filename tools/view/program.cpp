@@ -4,17 +4,18 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <memory>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/gsk.h"
 #include "frontend/ladder/drawing.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 #include "tools/view/names.h"
 #include "tools/view/sheet_builder.h"
+#include "tools/view/use_index.h"
 
 namespace rung::view {
 namespace {
@@ -63,18 +64,28 @@ public:
     std::vector<Use> uses;
   };
 
+  explicit UseList(const xref::CrossReference& reference) : index_(reference) {}
+
   // The index of the entry; kNone for what is not counted.
   uint32_t add(const Named& named, std::string_view name, Use use) {
     if (named.key.empty()) return kNone;
     const auto [at, fresh] = byKey_.emplace(named.key, static_cast<uint32_t>(entries_.size()));
     if (fresh) entries_.push_back({std::string(name), named, {}});
+    if (named.place) index_.add(*named.place, use);
     std::vector<Use>& uses = entries_[at->second].uses;
     // A rung comes twice at most: it reads and writes.
-    const auto same = [&](const Use& one) { return one.rung == use.rung && one.writes == use.writes; };
-    if (!std::any_of(uses.rbegin(), uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)), same))
+    if (std::find(uses.rbegin(), uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)), use) ==
+        uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)))
       uses.push_back(use);
     return at->second;
   }
+  // Once all are added: of a place also the uses by other operands, and by none.
+  void settle() {
+    for (Entry& entry : entries_)
+      if (entry.named.place) entry.uses = index_.of(*entry.named.place);
+  }
+  // Then: of a place, whether an operand names it or not.
+  std::vector<Use> of(const ir::BitRange& place) { return index_.of(place); }
   const Entry* find(const std::string& key) const {
     const auto at = byKey_.find(key);
     return at == byKey_.end() ? nullptr : &entries_[at->second];
@@ -82,6 +93,7 @@ public:
   const std::vector<Entry>& entries() const { return entries_; }
 
 private:
+  UseIndex index_;
   std::unordered_map<std::string, uint32_t> byKey_;
   std::vector<Entry> entries_;
 };
@@ -101,7 +113,9 @@ struct Sides {
 
 class Reader : private SheetListener {
 public:
-  Reader(const SourceManager& sources, const Input& input) : sources_(sources), input_(input), rows_(*input.dialect) {}
+  Reader(const SourceManager& sources, const Input& input)
+      : sources_(sources), input_(input), isGsk_(input.dialect == &gsk::kGsk),
+        names_(*input.dialect, *input.analysis, *input.reference), uses_(*input.reference) {}
   Program run();
 
 private:
@@ -140,9 +154,9 @@ private:
 
   const SourceManager& sources_;
   const Input& input_;
-  Rows rows_;
+  const bool isGsk_;
   std::vector<LadderFile> files_;
-  std::unique_ptr<Names> names_;
+  Names names_;
   Texts texts_;
   Program program_;
   UseList uses_;
@@ -154,6 +168,7 @@ private:
   std::vector<uint32_t> rowIds_;                           // by entry of uses_
   std::string module_;                                     // that labels are counted in
   std::vector<NameRow> declared_;
+  std::map<size_t, std::optional<ir::BitRange>> places_; // of those with a name
 
   // In the file at hand.
   LineWords words_;
@@ -168,8 +183,8 @@ void Reader::readTexts() {
     for (const Declaration& declaration : file.declarations)
       if (declaration.kind == DeclarationKind::Message)
         texts_.emplace(plainNumber(declaration.name.text), declaration.value.text);
-  if (!names_->isGsk()) return;
-  for (const ir::MessageText& message : input_.module->messages) {
+  if (!isGsk_) return;
+  for (const ir::MessageText& message : input_.messages) {
     const uint32_t bit = message.number - 1;
     texts_.emplace(fmt::format("A{}.{}", bit / 8, bit % 8), message.text);
   }
@@ -251,8 +266,14 @@ void Reader::readDeclaration(const Declaration& declaration) {
   }
   comments_.clear();
   if (declaration.kind == DeclarationKind::Message || declaration.kind == DeclarationKind::Button) return;
-  declared_.push_back({.constant = declaration.kind == DeclarationKind::Const,
+  const Named named = names_.find(declaration.name);
+  places_.emplace(declared_.size(), named.place);
+  declared_.push_back({.key = named.key,
+                       .constant = declaration.kind == DeclarationKind::Const,
+                       .input = named.input,
+                       .output = named.output,
                        .name = std::string(declaration.name.text),
+                       .address = named.address,
                        .comment = std::string(declaration.comment)});
 }
 
@@ -263,10 +284,10 @@ void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::str
   figure.title = rung.comment;
   figure.place = placeOfRung(file, rung);
   if (!remark.empty()) figure.comments.emplace_back(remark);
-  const ladder::Drawing drawing = ladder::readDrawing(sources_, file.file, rung, rows_.furtherPins());
+  const ladder::Drawing drawing = ladder::readDrawing(sources_, file.file, rung, input_.dialect->findBox);
   const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   program_.figures.push_back(std::move(figure));
-  Sheet sheet = buildSheet({rows_, *names_, texts_, placeOf}, drawing, *this);
+  Sheet sheet = buildSheet({input_.dialect->findBox, names_, texts_, placeOf, isGsk_}, drawing, *this);
   program_.figures[index].sheet = std::move(sheet);
   program_.blocks.push_back({.kind = Block::Kind::Rung, .figure = index});
   if (!subprograms_.empty() && targets_.at(subprograms_.back().second).rung == 0)
@@ -318,7 +339,7 @@ void Reader::titleFromSection(Block& block, const ladder::Module& module) {
     block.title = withoutName(before.text, block.text);
     if (block.comment.empty()) block.comment = before.comment;
     program_.blocks.pop_back();
-  } else if (before.kind == Block::Kind::Comment && names_->isGsk() && module.name.size() == 2) {
+  } else if (before.kind == Block::Kind::Comment && isGsk_ && module.name.size() == 2) {
     const std::string_view line = std::string_view(before.text).substr(before.text.find_last_of('\n') + 1);
     if (line.size() <= kTitle) block.title = withoutName(line, block.text);
   }
@@ -329,7 +350,7 @@ void Reader::beginModule(const ladder::Module& module, std::string_view remark, 
   for (const Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
   Block block{.kind = Block::Kind::Module, .text = name, .comment = std::string(remark), .place = place};
   titleFromSection(block, module);
-  if (!names_->isGsk()) {
+  if (!isGsk_) {
     module_ = name;
     block.text = "Module " + name;
   } else if (module.name.size() == 2) {
@@ -490,15 +511,14 @@ void Reader::addMessageTable(DeclarationKind kind, std::string_view title) {
 
 void Reader::addNameTables() {
   std::unordered_map<std::string, bool> taken;
-  for (NameRow& row : declared_) {
+  for (size_t i = 0; i < declared_.size(); ++i) {
+    NameRow& row = declared_[i];
     if (row.name.empty()) continue;
-    const Named named = names_->find(row.name);
-    row.address = named.address;
-    row.key = named.key;
-    row.input = named.input;
-    row.output = named.output;
-    taken[named.key] = true;
-    if (const auto* entry = uses_.find(named.key)) row.uses = entry->uses;
+    taken[row.key] = true;
+    if (const auto& place = places_.at(i))
+      row.uses = uses_.of(*place);
+    else if (const auto* entry = uses_.find(row.key))
+      row.uses = entry->uses;
   }
   const bool any = std::any_of(declared_.begin(), declared_.end(), [](const NameRow& r) { return !r.name.empty(); });
   if (any) program_.tables.push_back({"Declared names", false, std::move(declared_)});
@@ -519,13 +539,14 @@ void Reader::addNameTables() {
 
 Program Reader::run() {
   Diagnostics unheard; // reported when the program was compiled
-  for (FileId file : input_.files) files_.push_back(ladder::parseLadder(sources_, file, unheard, rows_.furtherPins()));
+  for (FileId file : input_.files)
+    files_.push_back(ladder::parseLadder(sources_, file, unheard, input_.dialect->findBox));
   nameFiles();
   RUNG_CHECK(!unheard.hasErrors(), "the program has been compiled");
   program_.control = input_.dialect->title;
-  names_ = std::make_unique<Names>(*input_.dialect, *input_.module, files_);
   readTexts();
   for (const LadderFile& file : files_) readFile(file);
+  uses_.settle();
   addNameTables();
   addMessageTable(DeclarationKind::Message, "Messages");
   addMessageTable(DeclarationKind::Button, "Function buttons");

@@ -10,6 +10,7 @@
 #include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/ladder/ladder.h"
 #include "tools/view/sheet.h"
+#include "tools/xref/cross_reference.h"
 
 namespace rung::view {
 
@@ -51,6 +52,7 @@ struct Block {
 struct Use {
   uint32_t rung = 0; // its number
   bool writes = false;
+  auto operator<=>(const Use&) const = default;
 };
 
 // A row of the list of names; one without a name is a comment between declarations.
@@ -97,10 +99,12 @@ struct Origins {
 
 struct Input {
   const frontend::Dialect* dialect = nullptr;
-  const ir::Module* module = nullptr; // what the files compile to
-  std::vector<FileId> files;          // ladder text without errors
-  Origins origins;                    // where `files` is a conversion
-  std::vector<FileId> authors;        // the files that the reader knows
+  std::vector<FileId> files;                       // ladder text without errors
+  const frontend::Analysis* analysis = nullptr;    // of `files`
+  const xref::CrossReference* reference = nullptr; // of what they compile to
+  std::span<const ir::MessageText> messages;       // of the same
+  Origins origins;                                 // where `files` is a conversion
+  std::vector<FileId> authors;                     // the files that the reader knows
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);

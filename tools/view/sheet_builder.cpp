@@ -187,7 +187,7 @@ uint32_t SheetDrawing::elementCell(uint32_t element, uint32_t line) {
 void SheetDrawing::addContact(Cell& cell, const Element& element) {
   const Word& word = drawing_.operands[element.operands.first];
   const bool coil = element.kind == ElementKind::Coil;
-  const Named named = context_.names.find(word.text);
+  const Named named = context_.names.find(word);
   cell.kind = coil ? Cell::Kind::Coil : Cell::Kind::Contact;
   cell.mark = markOf(element, word.text);
   cell.operand = {{}, std::string(word.text), named.address, named.comment, {}};
@@ -206,13 +206,13 @@ Operand SheetDrawing::operandOf(const Word& word, const frontend::OperandInfo* i
     operand.name = fmt::format("\"{}\"", word.text);
     return operand;
   }
-  const Named named = context_.names.find(word.text);
+  const Named named = context_.names.find(word);
   operand.address = named.address;
   operand.note = named.comment;
   if (info == nullptr) return operand;
   const bool message = info->name == "Message Number";
   if (message) {
-    std::string_view number = context_.names.valueOf(word.text);
+    std::string_view number = context_.names.valueOf(word);
     number.remove_prefix(number.starts_with('#') ? 1 : 0);
     const std::string_view text = messageOf(std::string(number));
     if (!text.empty()) operand.note = fmt::format("“{}”", text);
@@ -227,7 +227,7 @@ Operand SheetDrawing::operandOf(const Word& word, const frontend::OperandInfo* i
 }
 
 void SheetDrawing::addBox(Cell& cell, const Element& element) {
-  const frontend::InstructionInfo* info = context_.rows.find(element.mnemonic);
+  const frontend::InstructionInfo* info = context_.findBox(element.mnemonic);
   cell.kind = Cell::Kind::Box;
   cell.title = element.mnemonic;
   cell.pins.emplace_back(info == nullptr || info->pins.size() == 0 ? "" : info->pins[0].name);
@@ -236,7 +236,7 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
   bool table = false;
   for (uint32_t i = 0; i < element.operands.count; ++i) {
     const Word& word = drawing_.operands[element.operands.first + i];
-    if (context_.names.isGsk() && isTableWord(word.text)) {
+    if (context_.hasTables && isTableWord(word.text)) {
       table = true;
       cell.operands.push_back({"table", "", "", "", {}});
       continue;
@@ -249,7 +249,7 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
     ++place;
     const TargetRole role = of == nullptr ? TargetRole::None : roleOf(*info, *of);
     const Link target =
-        role == TargetRole::None ? Link{} : listener_.onTarget(role, context_.names.valueOf(word.text), cell.firstRow);
+        role == TargetRole::None ? Link{} : listener_.onTarget(role, context_.names.valueOf(word), cell.firstRow);
     if (target.to != Link::To::Nothing) cell.link = operand.link = target;
     // Values of a table follow each other.
     if (table && operand.address.empty() && cell.operands.back().name.size() < 28 &&

@@ -7,7 +7,6 @@
 
 #include "frontend/ladder/drawing.h"
 #include "tools/view/names.h"
-#include "tools/view/rows.h"
 #include "tools/view/sheet.h"
 #include "tools/view/targets.h"
 
@@ -34,10 +33,11 @@ public:
 using Texts = std::unordered_map<std::string, std::string>;
 
 struct SheetContext {
-  const Rows& rows;
-  const Names& names;
+  ladder::FindBox findBox;
+  Names& names;
   const Texts& texts;
   std::function<Place(SourcePos drawn)> placeOf; // of an element
+  bool hasTables = false;                        // boxes may have values after the word TABLE
 };
 
 // A message's number as its key in the list of uses.

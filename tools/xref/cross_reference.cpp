@@ -66,16 +66,20 @@ std::vector<Entry> CrossReference::all() const {
   return entries;
 }
 
-Entry CrossReference::of(const Ref& place) const {
-  Entry entry{.place = place, .accesses = {}};
-  const BitRange bits = bitsOf(place);
+std::vector<Access> CrossReference::accessesOf(const BitRange& bits) const {
+  std::vector<Access> accesses;
   const BitRange earliest{bits.space, bits.first - std::min(bits.first, longest_), 0};
   const auto element = [](const Use& use) { return orderOf(use.access.as); };
   for (auto use = std::ranges::lower_bound(sorted_, orderOf(earliest), {}, element);
        use != sorted_.end() && use->access.as.space == bits.space && use->access.as.first < bits.first + bits.count;
        ++use)
-    if (overlap(use->access.as, bits)) addAccess(entry.accesses, use->access);
-  std::ranges::stable_sort(entry.accesses, {}, &Access::rung);
+    if (overlap(use->access.as, bits)) addAccess(accesses, use->access);
+  std::ranges::stable_sort(accesses, {}, &Access::rung);
+  return accesses;
+}
+
+Entry CrossReference::of(const Ref& place) const {
+  Entry entry{.place = place, .accesses = accessesOf(bitsOf(place))};
   entry.controlWrites = isWrittenByControl(program_, uses_, place);
   entry.controlReads = isReadByControl(program_, uses_, place);
   return entry;

@@ -37,6 +37,8 @@ public:
   // Places that rungs use and places of symbols, each once, in the order of addresses.
   std::vector<Entry> all() const;
   Entry of(const host::Ref& place) const;
+  // Rungs that use something of the place, ascending; each once for every place that it uses.
+  std::vector<Access> accessesOf(const ir::BitRange& place) const;
   // Rungs whose index may lead to the place, from another one.
   std::vector<Access> perhaps(const host::Ref& place) const;
 

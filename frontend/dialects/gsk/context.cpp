@@ -42,8 +42,8 @@ bool checkArea(Diagnostics& diagnostics, const Word& word, Area area, uint64_t b
 }
 
 // The range is checked by the caller, who knows the length.
-std::optional<Address> addressOf(Diagnostics& diagnostics, const AddressText& text, const Word& word) {
-  Address address{text.area, static_cast<uint32_t>(std::min<uint64_t>(text.byte, UINT32_MAX)), 0, text.hasPoint};
+std::optional<NamedAddress> addressOf(Diagnostics& diagnostics, const AddressText& text, const Word& word) {
+  NamedAddress address{{text.area, static_cast<uint32_t>(std::min<uint64_t>(text.byte, UINT32_MAX)), 0, text.hasPoint}};
   if (!text.hasPoint) return address;
   if (text.bit.size() != 1 || text.bit[0] < '0' || text.bit[0] > '7') {
     DiagBuilder report = diagnostics.report(Diag::BadBitNumber, word.range);
@@ -56,15 +56,15 @@ std::optional<Address> addressOf(Diagnostics& diagnostics, const AddressText& te
 }
 
 struct Found {
-  std::optional<Address> address;
+  std::optional<NamedAddress> address;
   bool known = false; // as a name or by its shape; then nothing more is to be said about it
 };
 
 Found findAddress(Context& context, const Word& word) {
-  if (const UserSymbol* symbol = context.names.findSymbol(word.text))
-    return {symbol->bad ? std::nullopt : std::optional(symbol->address), true};
+  if (const UserSymbol* symbol = context.names.useSymbol(context.analysis, word))
+    return {symbol->bad ? std::nullopt : std::optional(NamedAddress{symbol->address, symbol->definition}), true};
   if (const auto text = splitAddress(word.text)) return {addressOf(context.diagnostics, *text, word), true};
-  if (const nc::Signal* signal = findSignalByName(word.text)) return {signalAddress(*signal), true};
+  if (const auto signal = context.names.useSignal(context.analysis, word)) return {signal, true};
   return {};
 }
 
@@ -124,6 +124,10 @@ void checkMachine(Context& context, const Word& word, const Address& address, ui
 
 } // namespace
 
+frontend::NamedPlace placeOf(const Address& address, uint32_t bytes) {
+  return {{&areaInfo(address.area).letter, 1}, address.byte * 8 + address.bit, address.isBit ? 1 : bytes * 8};
+}
+
 bool Names::declare(Diagnostics& diagnostics, const Word& name) {
   if (name.quoted || !isFreeName(name.text)) {
     diagnostics.report(Diag::BadOperand, name.range)
@@ -135,39 +139,57 @@ bool Names::declare(Diagnostics& diagnostics, const Word& name) {
   return isNew;
 }
 
-void Names::addSymbol(Diagnostics& diagnostics, const Word& name, const Word& value, std::string_view comment) {
-  if (!declare(diagnostics, name)) return;
+void Names::addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment) {
+  if (!declare(context.diagnostics, name)) return;
   UserSymbol symbol{std::string(name.text), std::string(comment), {}, true, name.range};
   if (const auto text = splitAddress(value.text)) {
-    if (const auto address = addressOf(diagnostics, *text, value)) {
+    if (const auto address = addressOf(context.diagnostics, *text, value)) {
       symbol.address = *address;
-      symbol.bad = !checkArea(diagnostics, value, text->area, text->byte, 1);
+      symbol.bad = !checkArea(context.diagnostics, value, text->area, text->byte, 1);
     }
-  } else if (const nc::Signal* signal = findSignalByName(value.text)) {
-    symbol.address = signalAddress(*signal);
+  } else if (const auto signal = useSignal(context.analysis, value)) {
+    symbol.address = *signal;
     symbol.bad = false;
   } else {
-    diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
+    context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
   }
+  symbol.definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
+  if (!symbol.bad) context.analysis.definition(symbol.definition).place = placeOf(symbol.address, 1);
   symbolByName_.emplace(symbol.name, static_cast<uint32_t>(symbols_.size()));
   symbols_.push_back(std::move(symbol));
 }
 
-void Names::addConstant(Diagnostics& diagnostics, const Word& name, const Word& value) {
-  if (!declare(diagnostics, name)) return;
+void Names::addConstant(Context& context, const Word& name, const Word& value) {
+  if (!declare(context.diagnostics, name)) return;
   const auto number = parseConstant(value.text);
-  if (!number) diagnostics.report(Diag::BadOperand, value.range) << value.text << "constant";
-  constants_.emplace(std::string(name.text), UserConstant{number.value_or(0), !number});
+  if (!number) context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "constant";
+  const uint32_t definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
+  constants_.emplace(std::string(name.text), UserConstant{number.value_or(0), !number, definition});
 }
 
-const UserSymbol* Names::findSymbol(std::string_view name) const {
-  const auto at = symbolByName_.find(name);
-  return at == symbolByName_.end() ? nullptr : &symbols_[at->second];
+const UserSymbol* Names::useSymbol(frontend::Analysis& analysis, const Word& word) const {
+  const auto at = symbolByName_.find(word.text);
+  if (at == symbolByName_.end()) return nullptr;
+  analysis.use(word.range, symbols_[at->second].definition);
+  return &symbols_[at->second];
 }
 
-const UserConstant* Names::findConstant(std::string_view name) const {
-  const auto at = constants_.find(name);
-  return at == constants_.end() ? nullptr : &at->second;
+const UserConstant* Names::useConstant(frontend::Analysis& analysis, const Word& word) const {
+  const auto at = constants_.find(word.text);
+  if (at == constants_.end()) return nullptr;
+  analysis.use(word.range, at->second.definition);
+  return &at->second;
+}
+
+std::optional<NamedAddress> Names::useSignal(frontend::Analysis& analysis, const Word& word) {
+  const nc::Signal* signal = findSignalByName(word.text);
+  if (signal == nullptr) return std::nullopt;
+  const auto [at, isNew] = signals_.emplace(signal, 0);
+  if (isNew)
+    at->second = analysis.define(
+        {.name = signal->symbol, .comment = signal->meaning, .place = placeOf(signalAddress(*signal), 1)});
+  analysis.use(word.range, at->second);
+  return NamedAddress{signalAddress(*signal), at->second};
 }
 
 void reportUnknownCommand(Context& context, const Word& word, std::span<const std::string_view> commands) {
@@ -197,21 +219,7 @@ void countStep(Context& context, SourceRange range) {
   if (++context.steps == kMaxSteps + 1) context.diagnostics.report(Diag::ProgramTooLarge, range) << kMaxSteps;
 }
 
-std::optional<Address> bitOperand(Context& context, const Word& word) {
-  if (!word.range.valid()) return std::nullopt;
-  const Found found = findAddress(context, word);
-  if (!found.known) reportUnknown(context, word, "bit");
-  if (!found.address) return std::nullopt;
-  if (!found.address->isBit) {
-    reportNoBit(context, word, *found.address);
-    return std::nullopt;
-  }
-  if (!checkArea(context.diagnostics, word, found.address->area, found.address->byte, 1)) return std::nullopt;
-  checkMachine(context, word, *found.address, 1);
-  return found.address;
-}
-
-std::optional<Address> byteOperand(Context& context, const Word& word, uint32_t length) {
+std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length) {
   const Found found = findAddress(context, word);
   if (!found.known) reportUnknown(context, word, "byte");
   if (!found.address) return std::nullopt;
@@ -236,6 +244,28 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
   if (address.area == Area::R && address.byte + length > kSystemRelays)
     context.diagnostics.report(Diag::SystemAreaWrite, range) << textOf(address);
   return true;
+}
+
+std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
+  if (!word.range.valid()) return std::nullopt;
+  const Found found = findAddress(context, word);
+  if (!found.known) reportUnknown(context, word, "bit");
+  if (!found.address) return std::nullopt;
+  if (!found.address->isBit) {
+    reportNoBit(context, word, *found.address);
+    return std::nullopt;
+  }
+  if (!checkArea(context.diagnostics, word, found.address->area, found.address->byte, 1)) return std::nullopt;
+  checkMachine(context, word, *found.address, 1);
+  return found.address;
+}
+
+std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access) {
+  const std::optional<NamedAddress> bit = bitOperand(context, word);
+  if (!bit) return std::nullopt;
+  context.analysis.use({.range = word.range, .base = bit->name, .place = placeOf(*bit, 1), .access = access});
+  if (access == frontend::Access::Write && !checkWritable(context, *bit, 1, word.range)) return std::nullopt;
+  return bit;
 }
 
 } // namespace rung::gsk

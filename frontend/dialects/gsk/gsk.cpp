@@ -6,6 +6,7 @@
 #include "frontend/dialects/gsk/messages.h"
 #include "frontend/dialects/gsk/reading.h"
 #include "frontend/dialects/gsk/reference.h"
+#include "rtlib/nc/gsk/signals.h"
 
 namespace rung::gsk {
 namespace {
@@ -17,24 +18,49 @@ std::vector<ir::MessageText> configuredMessages(SourceManager& sources, FileId p
   return readMessages(sources, program, at->second, diagnostics);
 }
 
-std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
-                                    const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+class GskProgram : public frontend::CheckedProgram {
+public:
+  GskProgram(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
+             Diagnostics& diagnostics)
+      : files_(files.begin(), files.end()), options_(options),
+        context_{.sources = sources, .diagnostics = diagnostics} {}
+
+  void check() {
+    if (files_.empty()) return;
+    checkConfig(options_, context_.diagnostics);
+    context_.machine = configuredMachine(options_, context_.diagnostics);
+    Reading reading(context_, program_);
+    for (FileId file : files_) reading.add(file);
+    const bool understood = reading.read();
+    analyse(context_, program_, !understood);
+    texts_ = configuredMessages(context_.sources, files_[0], options_, context_.diagnostics);
+    context_.analysis.settle();
+  }
+
+  const frontend::Analysis& analysis() const override { return context_.analysis; }
+
+  std::unique_ptr<ir::Module> build() override {
+    const size_t before = context_.diagnostics.errorCount();
+    std::unique_ptr<ir::Module> module = lowerProgram(program_, context_, files_, options_);
+    if (context_.diagnostics.errorCount() != before) return nullptr; // a slot is too short
+    module->messages = std::move(texts_);
+    return module;
+  }
+
+private:
+  const std::vector<FileId> files_;
+  const frontend::CompileOptions& options_;
+  Context context_;
+  Program program_;
+  std::vector<ir::MessageText> texts_;
+};
+
+std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
+                                                const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (options.strict) diagnostics.raiseToError({Diag::DuplicateCounter, Diag::DoubleCoil, Diag::MixedOutput}); // P29
-  Context context{sources, diagnostics, {}, 0};
-  Program program;
-  checkConfig(options, diagnostics);
-  context.machine = configuredMachine(options, diagnostics);
-  if (files.empty()) return nullptr;
-  Reading reading(context, program);
-  for (FileId file : files) reading.add(file);
-  const bool understood = reading.read();
-  analyse(context, program, !understood);
-  std::vector<ir::MessageText> texts = configuredMessages(sources, files[0], options, diagnostics);
-  if (diagnostics.hasErrors()) return nullptr;
-  std::unique_ptr<ir::Module> module = lowerProgram(program, context, files, options);
-  if (diagnostics.hasErrors()) return nullptr; // a slot is too short
-  module->messages = std::move(texts);
-  return module;
+  auto program = std::make_unique<GskProgram>(sources, files, options, diagnostics);
+  program->check();
+  return program;
 }
 
 constexpr std::string_view kExtensions[] = {".pmc"};
@@ -54,8 +80,10 @@ const frontend::Dialect kGsk = {
     .configKeys = nc::gskConfigKeys(),
     .instructions = instructionInfos(),
     .operandKinds = operandKindInfos(),
+    .signals = nc::gskSignals,
     .isBuilt = isBuilt,
-    .compile = &compile,
+    .findBox = findBox,
+    .check = &check,
     .reference = &referenceSections,
     .explain = &explainSignal,
 };

@@ -57,18 +57,6 @@ constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
 }
 constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
 
-// The names of all pins, one after the other, so that furtherPinsOf can give a span of them.
-struct PinNames {
-  std::array<std::array<std::string_view, 6>, kRowCount> names{};
-};
-constexpr PinNames pinNames() {
-  PinNames result;
-  for (size_t i = 0; i < kRowCount; ++i)
-    for (size_t pin = 0; pin < kRows[i].info.pins.size(); ++pin) result.names[i][pin] = kRows[i].info.pins[pin].name;
-  return result;
-}
-constexpr PinNames kPinNames = pinNames();
-
 constexpr int kFunctionNumbers = 50;
 constexpr std::array<const Row*, kFunctionNumbers> rowsByNumber() {
   std::array<const Row*, kFunctionNumbers> result{};
@@ -90,10 +78,9 @@ const Row* findFunction(std::string_view mnemonic) {
   return nullptr;
 }
 
-std::span<const std::string_view> furtherPinsOf(const Row& row) {
-  const size_t count = row.info.pins.size();
-  if (count < 2) return {};
-  return std::span(kPinNames.names[static_cast<size_t>(&row - kRows.data())]).subspan(1, count - 1);
+const InstructionInfo* findBox(std::string_view mnemonic) {
+  const Row* row = findFunction(mnemonic);
+  return row == nullptr ? nullptr : &row->info;
 }
 
 std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }

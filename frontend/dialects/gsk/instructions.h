@@ -63,8 +63,8 @@ std::span<const Row> allRows();
 // The rows of FUNC; null when there is none.
 const Row* findFunction(uint64_t number);
 const Row* findFunction(std::string_view mnemonic);
-// Pins of a box behind its first, for the ladder parser; empty names where the box has one pin or none.
-std::span<const std::string_view> furtherPinsOf(const Row& row);
+// Its data alone, of a box.
+const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 
 std::span<const frontend::InstructionInfo* const> instructionInfos();
 std::span<const frontend::OperandKindInfo> operandKindInfos();

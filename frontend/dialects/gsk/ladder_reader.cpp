@@ -15,6 +15,7 @@
 namespace rung::gsk {
 namespace {
 
+using frontend::Access;
 using ladder::Element;
 using ladder::ElementId;
 using ladder::ElementKind;
@@ -40,8 +41,6 @@ public:
 
   // False when the drawing was rejected; it was reported, and nothing has reached the builder.
   bool read();
-  // Whether a region, label or call is lost with the drawing.
-  bool shapesProgram() const;
 
 private:
   void reportSecondBox(const Element& element);
@@ -110,7 +109,8 @@ void RungReader::reportSecondBox(const Element& element) {
   if (findFunction(element.mnemonic) == nullptr && element.column == box_->column)
     diagnostics_.report(Diag::UnknownPin, element.range)
         << box_->mnemonic << element.mnemonic
-        << (row == nullptr || furtherPinsOf(*row).empty() ? "no further pins" : "its pins on the lines directly below");
+        << (row == nullptr || furtherPinsOf(row->info).empty() ? "no further pins"
+                                                               : "its pins on the lines directly below");
   else
     diagnostics_.report(Diag::MultiLevelOutput, element.range);
 }
@@ -173,14 +173,13 @@ bool RungReader::checkBox() {
 bool RungReader::checkPins() {
   const auto pins = rung_.pinsOf(*box_);
   const auto wanted = row_->info.pins.all();
-  const auto further = furtherPinsOf(*row_);
-  for (size_t i = 1; i < std::max(pins.size(), further.size() + 1); ++i) {
+  for (size_t i = 1; i < std::max(pins.size(), wanted.size()); ++i) {
     if (i >= pins.size()) {
-      diagnostics_.report(Diag::MissingPin, box_->range) << row_->info.mnemonic << further[i - 1];
+      diagnostics_.report(Diag::MissingPin, box_->range) << row_->info.mnemonic << wanted[i].name;
       return false;
     }
-    if (i > further.size() || !text::equalsIgnoringCase(pins[i].name, further[i - 1])) {
-      const std::string expected = i > further.size() ? "none" : std::string(further[i - 1]);
+    if (i >= wanted.size() || !text::equalsIgnoringCase(pins[i].name, wanted[i].name)) {
+      const std::string_view expected = i >= wanted.size() ? "none" : wanted[i].name;
       diagnostics_.report(Diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
       return false;
     }
@@ -269,12 +268,14 @@ std::optional<std::vector<Logic>> RungReader::hint() const {
   return parseBlocksHint(trimmed(line.substr(1)));
 }
 
+bool isTableWord(const Word& word) { return text::equalsIgnoringCase(word.text, "TABLE"); }
+
 void RungReader::emitBox() {
   builder_.function(row_, placeOf(*box_));
   bool table = false;
   for (const Word& operand : rung_.operandsOf(*box_)) {
     const Place at{operand.range, box_->line};
-    if (row_->hasTable && !table && text::equalsIgnoringCase(operand.text, "TABLE"))
+    if (row_->hasTable && !table && isTableWord(operand))
       table = true;
     else if (table)
       builder_.tableRow(operand, at);
@@ -293,13 +294,18 @@ bool RungReader::read() {
   return true;
 }
 
+// The function of a box may begin or end a region, be a label or a call.
 bool mayShapeProgram(std::string_view mnemonic) {
   const Row* row = findFunction(mnemonic);
   return row == nullptr || row->control != Control::Plain;
 }
 
-bool RungReader::shapesProgram() const {
-  return std::ranges::any_of(rung_.elements, [](const Element& element) {
+// Whether a region, label or call may be lost with a rung that is rejected.
+bool mayShapeProgram(const SourceManager& sources, const ladder::Rung& rung) {
+  return std::ranges::any_of(rung.elements, [&](const Element& element) {
+    if (element.kind == ElementKind::Error)
+      return std::ranges::any_of(ladder::boxWords(sources.text(element.range)),
+                                 [](std::string_view word) { return mayShapeProgram(word); });
     return element.kind == ElementKind::Box && mayShapeProgram(element.mnemonic);
   });
 }
@@ -321,6 +327,8 @@ private:
   void module(const ladder::Module& module);
   void condition(const ladder::Module& module);
   void readRung(const ladder::Rung& rung);
+  void readRejected(const ladder::Rung& rung);
+  void readOperands(const ladder::Rung& rung, const Element& element);
   void take(Network&& network) {
     network.firstLine = rung_->firstLine;
     network.lastLine = rung_->lastLine;
@@ -376,23 +384,38 @@ std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t fro
 void LadderReader::readRung(const ladder::Rung& rung) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
-  if (rung.bad) {
-    if (std::ranges::any_of(ladder::boxWords(context_.sources.text(rung.range)), mayShapeProgram)) units_.setGarbled();
-    return;
-  }
   RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, conditionEnd_, rung));
-  if (!reader.read() && reader.shapesProgram()) units_.setGarbled();
+  if (rung.bad || !reader.read()) readRejected(rung);
+}
+
+// The drawing of a rung was reported; its operands are looked at all the same.
+void LadderReader::readRejected(const ladder::Rung& rung) {
+  if (mayShapeProgram(context_.sources, rung)) units_.setGarbled();
+  for (const Element& element : rung.elements) readOperands(rung, element);
+}
+
+void LadderReader::readOperands(const ladder::Rung& rung, const Element& element) {
+  const std::span<const Word> words = rung.operandsOf(element);
+  switch (element.kind) {
+  case ElementKind::Contact: readBit(context_, words[0], Access::Read); return;
+  case ElementKind::Coil: readBit(context_, words[0], Access::Write); return;
+  case ElementKind::Error: return;
+  case ElementKind::Box: break;
+  }
+  Function function{.row = findFunction(element.mnemonic), .range = element.range};
+  const bool mayBePin = words.empty();
+  if (function.row == nullptr && !mayBePin) reportUnknownFunction(context_, element.mnemonic, element.mnemonicRange);
+  if (function.row == nullptr) return;
+  const auto table =
+      std::ranges::find_if(words, [&](const Word& word) { return function.row->hasTable && isTableWord(word); });
+  const auto rows = table == words.end() ? words.end() : table + 1;
+  checkFunction(context_, {words.begin(), table}, {rows, words.end()}, function);
 }
 
 } // namespace
 
 ladder::LadderFile parseLadderFile(Context& context, FileId file) {
-  return ladder::parseLadder(context.sources, file, context.diagnostics,
-                             [](std::string_view mnemonic) -> std::optional<std::span<const std::string_view>> {
-                               const Row* row = findFunction(mnemonic);
-                               if (row == nullptr) return std::nullopt;
-                               return furtherPinsOf(*row);
-                             });
+  return ladder::parseLadder(context.sources, file, context.diagnostics, findBox);
 }
 
 void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
@@ -402,11 +425,9 @@ void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
   for (const ladder::Declaration& declaration : file.declarations) {
     switch (declaration.kind) {
     case ladder::DeclarationKind::Symbol:
-      context.names.addSymbol(diagnostics, declaration.name, declaration.value, declaration.comment);
+      context.names.addSymbol(context, declaration.name, declaration.value, declaration.comment);
       break;
-    case ladder::DeclarationKind::Const:
-      context.names.addConstant(diagnostics, declaration.name, declaration.value);
-      break;
+    case ladder::DeclarationKind::Const: context.names.addConstant(context, declaration.name, declaration.value); break;
     case ladder::DeclarationKind::Message:
     case ladder::DeclarationKind::Button:
       diagnostics.report(Diag::UnsupportedElement, declaration.range)

@@ -227,9 +227,9 @@ void readListSymbols(Context& context, FileId file) {
           << (*command == Command::Symbol ? "complete statement: `symbol NAME ADDRESS`"
                                           : "complete statement: `const NAME VALUE`");
     else if (*command == Command::Symbol)
-      context.names.addSymbol(context.diagnostics, statement[1], statement[2], words.comment);
+      context.names.addSymbol(context, statement[1], statement[2], words.comment);
     else
-      context.names.addConstant(context.diagnostics, statement[1], statement[2]);
+      context.names.addConstant(context, statement[1], statement[2]);
   }
 }
 

@@ -77,7 +77,7 @@ void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Plac
   }
   extend(at);
   write(commandOf(kind, negated), operand.text, at);
-  const auto bit = bitOperand(context_, operand);
+  const auto bit = readBit(context_, operand, frontend::Access::Read);
   if (bit)
     network_.logic.push_back({kind, negated, *bit, at.line, at.range});
   else
@@ -109,8 +109,8 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
   extend(at);
   write(commandOf(kind), operand.text, at);
   if (state_ != State::Function || mayHaveCoils()) state_ = State::Outputs;
-  const auto bit = bitOperand(context_, operand);
-  if (bit && checkWritable(context_, *bit, 1, operand.range))
+  const auto bit = readBit(context_, operand, frontend::Access::Write);
+  if (bit)
     network_.coils.push_back({kind, *bit, at.line, at.range});
   else
     network_.bad = true;

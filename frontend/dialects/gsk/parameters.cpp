@@ -18,7 +18,7 @@ struct ConstantWord {
   bool reported = false;
 };
 ConstantWord constantWord(Context& context, const Word& word, std::string_view what) {
-  if (const UserConstant* constant = context.names.findConstant(word.text)) {
+  if (const UserConstant* constant = context.names.useConstant(context.analysis, word)) {
     if (constant->bad) return {std::nullopt, true};
     return {constant->value};
   }
@@ -174,6 +174,8 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
   if (!address) return false;
   param.isAddress = true;
   param.address = *address;
+  context_.analysis.use(
+      {.range = word.range, .base = address->name, .place = placeOf(*address, length), .access = info.access});
   param.bytes = param.kind == Kind::DataTable ? areaInfo(address->area).bytes - address->byte : length;
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }

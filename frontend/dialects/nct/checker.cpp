@@ -61,7 +61,8 @@ std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
   case ElementKind::Contact: return "a contact";
   case ElementKind::Coil:
     return row.claim == Claim::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
-  case ElementKind::Box: return std::string(row.info.mnemonic);
+  case ElementKind::Box:
+  case ElementKind::Error: return std::string(row.info.mnemonic);
   }
   return {};
 }
@@ -91,8 +92,9 @@ void OutputClaims::add(Claim claim, const Operand& operand) {
 
 // --- rungs
 // --------------------------------------------------------------------------------------------------------------
-RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, Diagnostics& diagnostics, bool inInt0)
-    : symbols_(symbols), claims_(claims), diagnostics_(diagnostics), inInt0_(inInt0),
+RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis,
+                         Diagnostics& diagnostics, bool inInt0)
+    : symbols_(symbols), claims_(claims), analysis_(analysis), diagnostics_(diagnostics), inInt0_(inInt0),
       handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")), fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
 
 TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung& rung) {
@@ -119,11 +121,10 @@ const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const O
   switch (element.kind) {
   case ElementKind::Contact: return &contactRow(first->form == Form::Bit, element.negated);
   case ElementKind::Coil: return &coilRow(static_cast<int>(element.coil));
-  case ElementKind::Box: break;
+  case ElementKind::Box: return findBox(element.mnemonic);
+  case ElementKind::Error: return nullptr;
   }
-  const NctInstruction* row = findBox(element.mnemonic);
-  if (row == nullptr) reportUnknown(element);
-  return row;
+  return nullptr;
 }
 
 void RungChecker::reportUnknown(const ladder::Element& element) {
@@ -141,6 +142,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   TypedElement& added = typed.elements.emplace_back();
   added.element = &element;
   added.firstOperand = static_cast<uint32_t>(typed.operands.size());
+  if (element.kind == ElementKind::Error) return;
   if (element.kind != ElementKind::Box) {
     typed.operands.push_back(parseOperand(rung.operandOf(element), symbols_, diagnostics_));
     added.operandCount = 1;
@@ -154,18 +156,25 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   }
   added.row = rowOf(element, typed.operands.empty() ? nullptr : &typed.operands.back());
   if (added.row == nullptr) {
+    // Of a drawing with an error it may be a pin of a box that was not read.
+    const bool mayBePin = rung.bad && element.operands.count == 0;
+    if (!mayBePin) reportUnknown(element);
     typed.bad = true;
     return;
   }
-  // All three speak of different things, so each may report.
-  bool ok = checkPlacement(rung, element, *added.row);
-  ok = checkPins(rung, element, *added.row) && ok;
-  ok = readOperands(typed, added) && ok;
+  const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // of a bad one no net is known
+  bool ok = readOperands(typed, added) && drawn;
   if (ok && !added.row->isBuilt()) {
     diagnostics_.report(Diag::NotBuiltYet, element.mnemonicRange) << added.row->info.mnemonic;
     ok = false;
   }
   if (!ok) typed.bad = true;
+}
+
+// Each of the two speaks of something else, so both may report.
+bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+  const bool placed = checkPlacement(rung, element, row);
+  return checkPins(rung, element, row) && placed;
 }
 
 bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
@@ -246,6 +255,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
       ++typedElement.operandCount;
     }
     const Operand& operand = typed.operands.back();
+    note(row.info.operands[i], operand);
     ok = operand.form != Form::Bad && checkOperand(row, i, operand) && checkModifiers(row, element, operand) && ok;
   }
   if (!ok) return false;
@@ -374,6 +384,31 @@ bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Elemen
     return false;
   }
   return true;
+}
+
+// What is added at run time, as written: of 7000:REG,IREG all from the ':' on, of 7000:REG,#1 ":REG".
+std::string_view computedPart(const Operand& operand) {
+  const Address& address = operand.address;
+  const std::string_view text = operand.source->text;
+  const size_t comma = std::min(text.find(','), text.size());
+  const size_t begin = address.bitRegister == kNoRegister ? comma : text.find(':');
+  const size_t end = address.indexRegister == kNoRegister ? comma : text.size();
+  return begin < end ? text.substr(begin, end - begin) : std::string_view();
+}
+
+// Of a bit whose number is in a register the word.
+frontend::NamedPlace placeOf(const OperandInfo& info, const Address& address) {
+  if (address.isBit && address.bitRegister == kNoRegister) return {"M", address.word * 32 + address.bit, 1};
+  return {"M", address.word * 32, classOf(info.kind) == Class::Double ? 64u : 32u};
+}
+
+void RungChecker::note(const OperandInfo& info, const Operand& operand) {
+  if (operand.form != Form::Bit && operand.form != Form::Word) return;
+  analysis_.use({.range = operand.source->range,
+                 .base = operand.base == nullptr ? frontend::kNoDefinition : operand.base->index,
+                 .place = placeOf(info, operand.address),
+                 .computed = computedPart(operand),
+                 .access = info.access});
 }
 
 void RungChecker::warnInt0Only(const Operand& operand) {

@@ -23,13 +23,15 @@ private:
 
 class RungChecker {
 public:
-  RungChecker(SymbolTable& symbols, OutputClaims& claims, Diagnostics& diagnostics, bool inInt0);
+  RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis, Diagnostics& diagnostics,
+              bool inInt0);
   TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
 
 private:
   const NctInstruction* rowOf(const ladder::Element& element, const Operand* first);
   void reportUnknown(const ladder::Element& element);
   void checkElement(TypedRung& typed, const ladder::Element& element);
+  bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkCount(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
@@ -40,9 +42,11 @@ private:
   bool checkDestination(const frontend::OperandInfo& info, const Operand& operand);
   bool checkModifiers(const NctInstruction& row, const ladder::Element& element, const Operand& operand);
   void warnInt0Only(const Operand& operand);
+  void note(const frontend::OperandInfo& info, const Operand& operand);
 
   SymbolTable& symbols_;
   OutputClaims& claims_;
+  frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
   bool inInt0_;
   const nc::Signal* handwheel_; // HWMOVE

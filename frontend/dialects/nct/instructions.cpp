@@ -101,6 +101,11 @@ const NctInstruction* findBox(std::string_view mnemonic) {
   return alias == std::end(kRows) ? nullptr : &*alias;
 }
 
+const InstructionInfo* findBoxInfo(std::string_view mnemonic) {
+  const NctInstruction* row = findBox(mnemonic);
+  return row == nullptr ? nullptr : &row->info;
+}
+
 const NctInstruction& contactRow(bool onBit, bool closed) {
   constexpr size_t kOpenBit = indexOf("open-contact-bit"), kClosedBit = indexOf("closed-contact-bit");
   constexpr size_t kOpenWord = indexOf("open-contact-dword"), kClosedWord = indexOf("closed-contact-dword");

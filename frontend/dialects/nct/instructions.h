@@ -47,6 +47,8 @@ std::span<const frontend::OperandKindInfo> operandKinds();
 // A box by its mnemonic or one of its other spellings, also section (SEC); null for contacts and coils, and when there
 // is none.
 const NctInstruction* findBox(std::string_view mnemonic);
+// Its data alone.
+const frontend::InstructionInfo* findBoxInfo(std::string_view mnemonic);
 // Row of a contact: on a bit or a word, closed or open.
 const NctInstruction& contactRow(bool onBit, bool closed);
 const NctInstruction& coilRow(int coilKind); // ladder::CoilKind as a number

@@ -19,37 +19,33 @@ namespace {
 
 using frontend::CompileOptions;
 
-// The names of a box's pins behind its first, for the drawing's parser.
-class PinNames {
+class NctProgram : public frontend::CheckedProgram {
 public:
-  PinNames() {
-    for (const NctInstruction& row : allInstructions()) {
-      if (row.shape != Shape::Box) continue;
-      std::vector<std::string_view>& names = names_[row.info.mnemonic];
-      for (const frontend::PinInfo& pin : row.info.pins.all()) names.push_back(pin.name);
-    }
+  NctProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
+             Diagnostics& diagnostics)
+      : sources_(sources), ids_(files.begin(), files.end()), marks_(options.marks), diagnostics_(diagnostics),
+        config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics), claims_(diagnostics) {}
+
+  void check() {
+    read();
+    declare();
+    checkRungs();
+    checkModules();
+    symbols_.defineAll();
+    analysis_.settle();
   }
-  std::optional<std::span<const std::string_view>> operator()(std::string_view mnemonic) const {
-    const NctInstruction* row = findBox(mnemonic);
-    if (row == nullptr) return std::nullopt;
-    return std::span(names_.find(row->info.mnemonic)->second).subspan(1);
+
+  const frontend::Analysis& analysis() const override { return analysis_; }
+
+  std::unique_ptr<ir::Module> build() override {
+    return buildModule(program_, symbols_, texts_, sources_, ids_, marks_);
   }
 
 private:
-  std::unordered_map<std::string_view, std::vector<std::string_view>> names_;
-};
-
-class Compiler {
-public:
-  Compiler(SourceManager& sources, const Config& config, Diagnostics& diagnostics)
-      : sources_(sources), diagnostics_(diagnostics), symbols_(config, diagnostics), claims_(diagnostics) {}
-
-  void read(std::span<const FileId> files) {
-    const PinNames pins;
-    files_.reserve(files.size());
-    for (FileId file : files) {
-      ladder::LadderFile& parsed =
-          files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, std::cref(pins)));
+  void read() {
+    files_.reserve(ids_.size());
+    for (FileId file : ids_) {
+      ladder::LadderFile& parsed = files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, findBoxInfo));
       if (!parsed.dialect.empty() && parsed.dialect != "nct")
         diagnostics_.report(Diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
       if (parsed.dialect.empty()) nameless_ = true; // the file could not be read
@@ -69,8 +65,11 @@ public:
     symbols_.resolveAll();
   }
 
-  void check() {
+  void checkRungs() {
     for (const ladder::LadderFile& file : files_) checkFile(file);
+  }
+
+  void checkModules() {
     for (TypedModule* module : {&program_.main, &program_.int0}) {
       if (!module->exists) continue;
       arrangeParts(*module);
@@ -83,11 +82,6 @@ public:
     }
   }
 
-  std::unique_ptr<ir::Module> build(std::span<const FileId> files, ir::Marks* marks) {
-    return buildModule(program_, symbols_, texts_, sources_, files, marks);
-  }
-
-private:
   void addMessage(const ladder::Declaration& declaration) {
     if (const auto number = addText(declaration, nc::nct::kMessages, 0))
       textKinds_[*number] = {.kind = checkText(declaration.value, diagnostics_), .range = declaration.value.range};
@@ -145,7 +139,8 @@ private:
       switch (statement.kind) {
       case ladder::StatementKind::Module:
         module = &open(file, file.modules[statement.index]);
-        checker.emplace(symbols_, claims_, diagnostics_, file.modules[statement.index].name[0].text != "MAIN");
+        checker.emplace(symbols_, claims_, analysis_, diagnostics_,
+                        file.modules[statement.index].name[0].text != "MAIN");
         break;
       case ladder::StatementKind::Rung:
         if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
@@ -161,7 +156,11 @@ private:
   }
 
   SourceManager& sources_;
+  const std::vector<FileId> ids_;
+  ir::Marks* const marks_;
   Diagnostics& diagnostics_;
+  const Config config_;
+  frontend::Analysis analysis_;
   SymbolTable symbols_;
   OutputClaims claims_;
   std::vector<ladder::LadderFile> files_;
@@ -174,17 +173,12 @@ private:
   bool nameless_ = false;                // rungs stand in no known module, or were not read: MAIN may be among them
 };
 
-std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
-                                    const CompileOptions& options, Diagnostics& diagnostics) {
+std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
+                                                const CompileOptions& options, Diagnostics& diagnostics) {
   if (options.strict) diagnostics.raiseToError({Diag::SymbolInNcArea});
-  const size_t before = diagnostics.errorCount();
-  const Config config = readConfig(options, diagnostics);
-  Compiler compiler(sources, config, diagnostics);
-  compiler.read(files);
-  compiler.declare();
-  compiler.check();
-  if (diagnostics.errorCount() != before) return nullptr;
-  return compiler.build(files, options.marks);
+  auto program = std::make_unique<NctProgram>(sources, files, options, diagnostics);
+  program->check();
+  return program;
 }
 
 constexpr std::string_view kExtensions[] = {".nct"};
@@ -204,8 +198,10 @@ const frontend::Dialect kNct = {
     .configKeys = nc::nctConfigKeys(),
     .instructions = allInfos(),
     .operandKinds = operandKinds(),
+    .signals = nc::nctSignals,
     .isBuilt = isBuilt,
-    .compile = compile,
+    .findBox = findBoxInfo,
+    .check = check,
     .reference = referenceSections,
     .explain = explainWord,
 };

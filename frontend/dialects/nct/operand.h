@@ -8,6 +8,8 @@
 
 namespace rung::nct {
 
+struct Symbol; // symbols.h
+
 inline constexpr uint32_t kNoRegister = UINT32_MAX;
 
 enum class ConstantKind : uint8_t { Decimal, Hex, Real };
@@ -38,7 +40,8 @@ struct Operand {
   bool fromSymbol = false; // written as a name
   char edge = 0;           // '@' or '%' in front
   Constant constant;
-  Address address; // Word and Bit
+  Address address;              // Word and Bit
+  const Symbol* base = nullptr; // Word and Bit: the name that it is counted from; null: it is an address
   const Word* source = nullptr;
 };
 

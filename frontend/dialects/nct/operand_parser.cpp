@@ -95,18 +95,20 @@ public:
       return std::nullopt;
     }
     result_.address.word = static_cast<uint32_t>(word64_);
-    if (signal_ != nullptr && comma != std::string_view::npos) checkElement(text);
+    if (result_.base != nullptr && result_.base->signal != nullptr && comma != std::string_view::npos)
+      checkElement(text);
     return result_;
   }
 
 private:
   // A constant index that leads from one signal into another: nothing the manual forbids, and hardly meant (l.6438).
   void checkElement(std::string_view text) {
-    const int64_t words = int64_t{signal_->count} * signal_->strideBytes / 4;
-    const int64_t offset = word64_ - signal_->byteOffset / 4;
+    const nc::Signal& signal = *result_.base->signal;
+    const int64_t words = int64_t{signal.count} * signal.strideBytes / 4;
+    const int64_t offset = word64_ - signal.byteOffset / 4;
     if (words < 2 || (offset >= 0 && offset < words)) return;
     diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text))
-        << text << signal_->symbol << (signal_->count - 1) * signal_->strideBytes / 4;
+        << text << signal.symbol << (signal.count - 1) * signal.strideBytes / 4;
   }
 
   std::optional<uint32_t> number(std::string_view text) {
@@ -128,7 +130,7 @@ private:
       if (word_.text.ends_with(',')) report.note("operands are separated by blanks, without commas");
       return nullptr;
     }
-    const Symbol* found = symbols_.find(name);
+    const Symbol* found = symbols_.use(name, rangeOf(word_, name));
     if (found == nullptr) reportUndeclared(name);
     return found == nullptr || found->kind == SymbolKind::Bad ? nullptr : found;
   }
@@ -155,7 +157,6 @@ private:
   bool readBase(std::string_view base, bool bitFollows) {
     if (!base.empty() && isDigit(base[0])) {
       const std::optional<uint32_t> n = number(base);
-      result_.numeric = true;
       word64_ = n.value_or(0);
       return n.has_value();
     }
@@ -168,7 +169,7 @@ private:
       result_.address.bit = found->bit;
     }
     word64_ = found->word;
-    signal_ = found->signal;
+    result_.base = found;
     return true;
   }
 
@@ -234,7 +235,6 @@ private:
   SymbolTable& symbols_;
   Diagnostics& diagnostics_;
   ParsedAddress result_;
-  const nc::Signal* signal_ = nullptr; // that the base is
   int64_t word64_ = 0;
 };
 
@@ -304,6 +304,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
   }
   operand.fromSymbol = !text.empty() && !isDigit(text[0]);
   if (const Symbol* named = constantSymbol(text, symbols)) {
+    symbols.use(text, rangeOf(word, text));
     operand.form = Form::Constant;
     operand.constant = named->constant;
     return operand;
@@ -312,6 +313,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
   if (!parsed) return operand;
   const bool immediate = operand.address.immediate;
   operand.address = parsed->address;
+  operand.base = parsed->base;
   operand.address.immediate = immediate;
   operand.form = parsed->address.isBit ? Form::Bit : Form::Word;
   return operand;

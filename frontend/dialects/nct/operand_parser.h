@@ -16,7 +16,7 @@ std::optional<Constant> parseConstant(const Word& word, std::string_view text, D
 
 struct ParsedAddress {
   Address address;
-  bool numeric = false; // the base is digits, not a name
+  const Symbol* base = nullptr; // null: it is digits
 };
 // Without modifiers. Names are looked up in `symbols`.
 std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,

@@ -29,14 +29,15 @@ bool looksStructural(std::string_view mnemonic) {
 }
 
 // Something in the rung could not be read that might have been an END, a jump, a label or a subroutine's beginning or
-// end. `text` is the rung's drawing.
-bool hidesStructure(const TypedRung& rung, std::string_view text) {
-  const auto hides = [](const TypedElement& element) {
+// end.
+bool hidesStructure(const TypedRung& rung, const SourceManager& sources) {
+  const auto hides = [&](const TypedElement& element) {
+    if (element.element->kind == ladder::ElementKind::Error)
+      return std::ranges::any_of(ladder::boxWords(sources.text(element.element->range)), looksStructural);
     if (element.row == nullptr) return looksStructural(element.element->mnemonic);
     return element.row->info.operands.size() == 1 && element.row->info.operands[0].kind == "label" && !element.label;
   };
-  if (std::ranges::any_of(rung.elements, hides)) return true;
-  return rung.rung->bad && std::ranges::any_of(ladder::boxWords(text), looksStructural);
+  return std::ranges::any_of(rung.elements, hides);
 }
 
 class StructureChecker {
@@ -66,7 +67,7 @@ public:
   }
 
 private:
-  bool hides(const TypedRung& rung) const { return rung.bad && hidesStructure(rung, sources_.text(rung.rung->range)); }
+  bool hides(const TypedRung& rung) const { return rung.bad && hidesStructure(rung, sources_); }
 
   void rungBegins(uint32_t rung) {
     const auto& elements = module_.rungs[rung].elements;

@@ -38,7 +38,8 @@ std::string_view aliasOf(std::string_view name) {
   return name;
 }
 
-SymbolTable::SymbolTable(const Config& config, Diagnostics& diagnostics) : config_(config), diagnostics_(diagnostics) {
+SymbolTable::SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics)
+    : config_(config), analysis_(analysis), diagnostics_(diagnostics) {
   enter(word("PLCNVRAM", config.plcNvram));
   enter(word("PLCRAM", config.plcRam));
   uint32_t bit = 0;
@@ -57,6 +58,7 @@ SymbolTable::SymbolTable(const Config& config, Diagnostics& diagnostics) : confi
 }
 
 Symbol* SymbolTable::enter(Symbol symbol) {
+  symbol.index = static_cast<uint32_t>(symbols_.size());
   symbols_.push_back(symbol);
   byName_.emplace(symbol.name, &symbols_.back());
   return &symbols_.back();
@@ -81,6 +83,23 @@ const Symbol* SymbolTable::find(std::string_view name) {
   if (found == byName_.end()) return enterPredefined(name);
   if (found->second->pending) resolve(*found->second);
   return found->second;
+}
+
+const Symbol* SymbolTable::use(std::string_view name, SourceRange range) {
+  const Symbol* found = find(name);
+  if (found != nullptr) analysis_.use(range, found->index);
+  return found;
+}
+
+void SymbolTable::defineAll() {
+  for (const Symbol& symbol : symbols_) {
+    frontend::Definition definition{.name = symbol.name, .comment = symbol.comment};
+    if (symbol.declaration != nullptr) definition.range = symbol.declaration->name.range;
+    if (symbol.kind == SymbolKind::Constant) definition.value = symbol.declaration->value.text;
+    const bool known = symbol.kind == SymbolKind::Word || symbol.kind == SymbolKind::Bit;
+    if (known) definition.place = {"M", symbol.word * 32 + symbol.bit, symbol.kind == SymbolKind::Bit ? 1u : 32u};
+    analysis_.define(definition);
+  }
 }
 
 std::string_view SymbolTable::similarTo(std::string_view name) const {
@@ -186,7 +205,7 @@ void SymbolTable::resolveAddress(Symbol& symbol) {
   symbol.word = address.word;
   symbol.bit = address.bit;
   // NC addresses differ between versions of the control (l.6450).
-  if (parsed->numeric && address.word > kFlagsWord && address.word < config_.plcNvram)
+  if (parsed->base == nullptr && address.word > kFlagsWord && address.word < config_.plcNvram)
     diagnostics_.report(Diag::SymbolInNcArea, value.range) << symbol.name << value.text;
 }
 

@@ -9,6 +9,7 @@
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/operand.h"
 #include "frontend/ladder/ladder.h"
+#include "frontend/sema/analysis.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nct {
@@ -26,6 +27,7 @@ std::string_view aliasOf(std::string_view name);
 enum class SymbolKind : uint8_t { Bad, Word, Bit, Constant };
 
 struct Symbol {
+  uint32_t index = 0; // in SymbolTable::all and Analysis::definitions
   std::string_view name;
   SymbolKind kind = SymbolKind::Bad; // Bad: its declaration was reported, uses stay silent
   uint32_t word = 0;
@@ -40,7 +42,7 @@ struct Symbol {
 
 class SymbolTable {
 public:
-  SymbolTable(const Config& config, Diagnostics& diagnostics);
+  SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics);
 
   // Enters a name; a name that is there already is reported.
   void declare(const ladder::Declaration& declaration);
@@ -49,11 +51,16 @@ public:
   // Reads the values of all declarations; afterwards `find` gives complete symbols.
   void resolveAll();
 
-  // Null when there is no such name. Symbols of the NC and FLAGS enter the table when they are looked up first: FLAGS
-  // of a program that does not name it may lie bit by bit in bytes (ir/layout). The result stays where it is.
+  // What a name at that place of the source means, and a use of it. Null when there is no such name. Symbols of the NC
+  // and FLAGS enter the table when they are looked up first: FLAGS of a program that does not name it may lie bit by
+  // bit in bytes (ir/layout). The result stays where it is.
+  const Symbol* use(std::string_view name, SourceRange range);
+  // The same for a text that may be something else: no use.
   const Symbol* find(std::string_view name);
   // The known name that is most like a misspelt one; empty when none is close.
   std::string_view similarTo(std::string_view name) const;
+  // Says in the analysis what all names are. To be called last.
+  void defineAll();
   // All names but those of the NC that nothing mentions, in the order of entering.
   const std::deque<Symbol>& all() const { return symbols_; }
 
@@ -71,6 +78,7 @@ private:
 
   static constexpr uint8_t kInput = 1;
   const Config& config_;
+  frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
   std::deque<Symbol> symbols_;
   std::unordered_map<std::string_view, Symbol*> byName_;

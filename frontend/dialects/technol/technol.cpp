@@ -6,6 +6,7 @@
 #include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/reader.h"
 #include "frontend/dialects/technol/reference.h"
+#include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend {
 namespace {
@@ -38,28 +39,60 @@ std::string baseName(std::string_view path) {
   return std::string(path.substr(0, path.rfind('.')));
 }
 
-std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
-                                    const CompileOptions& options, Diagnostics& diagnostics) {
-  technol::Program program(sources, diagnostics);
-  if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
-    program.systemFolder = folder->second;
-  program.includePaths = options.includePaths;
-  program.encoding = encodingOf(options, diagnostics);
-  technol::readProgram(program, files);
-  if (program.files.empty()) return nullptr;
+class TechnolProgram : public CheckedProgram {
+public:
+  TechnolProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
+                 Diagnostics& diagnostics)
+      : files_(files.begin(), files.end()), options_(options), diagnostics_(diagnostics),
+        program_(sources, diagnostics) {}
+
+  void check() {
+    if (const auto folder = options_.config.find("system_folder"); folder != options_.config.end())
+      program_.systemFolder = folder->second;
+    program_.includePaths = options_.includePaths;
+    program_.encoding = encodingOf(options_, diagnostics_);
+    technol::readProgram(program_, files_);
+    if (program_.files.empty()) return;
+    lower();
+  }
+
+  const Analysis& analysis() const override { return analysis_; }
+
+  std::unique_ptr<ir::Module> build() override { return std::move(module_); }
+
+private:
+  void lower();
+
+  const std::vector<FileId> files_;
+  const CompileOptions& options_;
+  Diagnostics& diagnostics_;
+  technol::Program program_;
+  Analysis analysis_;
+  std::unique_ptr<ir::Module> module_;
+};
+
+// Operands are checked on the way.
+void TechnolProgram::lower() {
   auto module = std::make_unique<ir::Module>();
-  module->name = baseName(sources.name(files[0]));
+  module->name = baseName(program_.sources.name(files_[0]));
   module->dialect = "technol";
-  for (const FileId file : files) module->files.emplace_back(sources.name(file));
-  technol::addSpaces(program, *module);
-  const uint32_t period = periodOf(options, diagnostics);
-  technol::Lowering lowering(program, *module, period, options.marks);
+  for (const FileId file : files_) module->files.emplace_back(program_.sources.name(file));
+  technol::addSpaces(program_, *module);
+  const uint32_t period = periodOf(options_, diagnostics_);
+  technol::Lowering lowering(program_, *module, period, options_.marks);
   lowering.run();
-  if (diagnostics.hasErrors()) return nullptr;
+  if (diagnostics_.hasErrors()) return;
   technol::addTasks(lowering, *module, period);
-  technol::addSymbols(program, *module);
+  technol::addSymbols(program_, *module);
   technol::numberRungs(*module);
-  return module;
+  module_ = std::move(module);
+}
+
+std::unique_ptr<CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
+                                      const CompileOptions& options, Diagnostics& diagnostics) {
+  auto program = std::make_unique<TechnolProgram>(sources, files, options, diagnostics);
+  program->check();
+  return program;
 }
 
 } // namespace
@@ -77,8 +110,9 @@ const Dialect kTechnol = {
     .configKeys = nc::technolConfigKeys(),
     .instructions = technol::instructionInfos(),
     .operandKinds = technol::operandKindInfos(),
+    .signals = nc::technolSignals,
     .isBuilt = isBuilt,
-    .compile = compile,
+    .check = check,
     .reference = technol::reference,
     .explain = technol::explainWord,
     .listing = technol::listing,

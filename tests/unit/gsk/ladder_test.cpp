@@ -12,7 +12,7 @@ std::string listOf(const std::string& drawing) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer("test.lad", "dialect gsk\nmodule LEVEL2\nrung\n" + drawing);
-  Context context{sources, diagnostics, {}, 0};
+  Context context{.sources = sources, .diagnostics = diagnostics};
   Program program;
   UnitAssembler units(context, program);
   const ladder::LadderFile parsed = parseLadderFile(context, file);
@@ -247,6 +247,14 @@ TEST(GskLadderErrors, ConditionBeforeSp) {
 TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {
   EXPECT_EQ(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes(),
             (Codes{"4 unclosed-element"}));
+}
+
+TEST(GskLadderErrors, OperandsOfALostRungAreChecked) {
+  EXPECT_EQ(errorsOf("|--[X0.9]--{MOVB D0 D5000\n"), (Codes{"4 bad-bit-number", "4 unclosed-element"}));
+  EXPECT_EQ(errorsOf("|--[X0.9]--+--(Y0.0)\n           +--[X0.1]--{MOVB D0 D5000}\n"),
+            (Codes{"4 bad-bit-number", "4 multi-level-output", "5 address-out-of-range"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}---\n"), (Codes{"4 parameter-out-of-range", "4 missing-closing-element"}));
+  EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}---\n"), (Codes{"4 unknown-function", "4 missing-closing-element"}));
 }
 
 } // namespace

@@ -122,10 +122,27 @@ TEST(DrawingErrors, OneErrorALineAndGoOnWithTheNextRung) {
       "dialect t\nmodule M\nrung\n|--[A-[B--[C\n|--(--[D\n\nrung\n|--[A]-- --  (X)\n\nrung\n|--[A]--(X)\n");
   EXPECT_EQ(parsed.errors(), "4:4 unclosed-element\n5:4 unclosed-element\n8:10 dangling-wire\n");
   EXPECT_TRUE(parsed.ladder.rungs.at(0).bad);
-  EXPECT_TRUE(parsed.ladder.rungs.at(0).elements.empty());
   EXPECT_TRUE(parsed.ladder.rungs.at(1).bad);
   EXPECT_FALSE(parsed.ladder.rungs.at(2).bad);
   EXPECT_EQ(parsed.ladder.rungs.at(2).elements.size(), 2u);
+}
+
+TEST(DrawingErrors, WhatCanBeReadStays) {
+  const Parsed broken = parseDrawing("|--[A]--+--[B]--{MOV C\n"
+                                     "        +--[/D]--(E)\n"
+                                     "|--[@F]--{CNT G}--(H)\n"
+                                     "|--[I]---{R    }\n");
+  EXPECT_EQ(broken.errors(), "4:17 unclosed-element\n");
+  EXPECT_EQ(dumpRung(broken.ladder.rungs.at(0)), "rung 3-7 bad\n"
+                                                 "e0 [A] n0 -> n1\n"
+                                                 "e1 [B] n1 -> n2\n"
+                                                 "e2 unread n2 -> .\n"
+                                                 "e3 [/D] n1 -> n3\n"
+                                                 "e4 (E) n3 -> .\n"
+                                                 "e5 [@F] n0 -> n4\n"
+                                                 "e6 {CNT G} n4 R=n5 -> n6\n"
+                                                 "e7 (H) n6 -> .\n"
+                                                 "e8 [I] n0 -> n5\n");
 }
 
 } // namespace

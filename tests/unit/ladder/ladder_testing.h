@@ -8,14 +8,15 @@
 
 namespace rung::ladder {
 
-/// The pins of a few boxes, in the manner of a dialect's table.
-inline std::optional<std::span<const std::string_view>> testPins(std::string_view mnemonic) {
-  static constexpr std::string_view kCounter[] = {"U/D", "R"};
-  if (mnemonic == "CNT") return kCounter;
-  if (mnemonic == "MOV" || mnemonic == "RET" || mnemonic == "END" || mnemonic == "TOND") {
-    return std::span<const std::string_view>();
-  }
-  return std::nullopt;
+/// The rows of a few boxes, in the manner of a dialect's table.
+inline const frontend::InstructionInfo* testBox(std::string_view mnemonic) {
+  using frontend::PinInfo;
+  static constexpr frontend::InstructionInfo kCounter = {
+      .pins = {PinInfo{.name = "CLK"}, PinInfo{.name = "U/D"}, PinInfo{.name = "R"}}};
+  static constexpr frontend::InstructionInfo kPlain = {.pins = {PinInfo{.name = "EN"}}};
+  if (mnemonic == "CNT") return &kCounter;
+  if (mnemonic == "MOV" || mnemonic == "RET" || mnemonic == "END" || mnemonic == "TOND") return &kPlain;
+  return nullptr;
 }
 
 /// A parsed text; the views in `ladder` look into `sources`.
@@ -24,9 +25,9 @@ struct Parsed {
   Diagnostics diags;
   LadderFile ladder;
 
-  explicit Parsed(std::string text, const FurtherPins& pins = testPins) {
+  explicit Parsed(std::string text, FindBox findBox = testBox) {
     const FileId file = sources.addBuffer("t.lad", std::move(text));
-    ladder = parseLadder(sources, file, diags, pins);
+    ladder = parseLadder(sources, file, diags, findBox);
   }
 
   /// One diagnostic a line: "3:5 unclosed-element".
@@ -42,13 +43,13 @@ struct Parsed {
 };
 
 /// The drawing as the only rung of a file; it begins in line 4.
-inline Parsed parseDrawing(const std::string& drawing, const FurtherPins& pins = testPins) {
-  return Parsed("dialect test\nmodule MAIN\nrung\n" + drawing, pins);
+inline Parsed parseDrawing(const std::string& drawing, FindBox findBox = testBox) {
+  return Parsed("dialect test\nmodule MAIN\nrung\n" + drawing, findBox);
 }
 
 /// Elements and nets of a drawing, without the heading; the diagnostics when it is bad.
-inline std::string elementsOf(const std::string& drawing, const FurtherPins& pins = testPins) {
-  const Parsed parsed = parseDrawing(drawing, pins);
+inline std::string elementsOf(const std::string& drawing, FindBox findBox = testBox) {
+  const Parsed parsed = parseDrawing(drawing, findBox);
   if (!parsed.errors().empty()) return parsed.errors();
   const std::string dump = dumpRung(parsed.ladder.rungs.at(0));
   return dump.substr(dump.find('\n') + 1);

@@ -417,8 +417,22 @@ TEST(NctDiagnostics, OtherBrokenRungsHideNothing) {
 TEST(NctDiagnostics, NamesInABrokenRungHideNothing) {
   const char* text = "|--[7000.00]--{JMP #1}";
   EXPECT_THAT(compileMain(rungs({text, "|--[T_END]--{TOND JMP_TIME #1 SEC"})).codes(),
-              ElementsAre("4:15 undefined-label", "7:13 unclosed-element"));
+              ElementsAre("4:15 undefined-label", "7:5 undeclared-symbol", "7:13 unclosed-element"));
   EXPECT_THAT(compileMain(rungs({text, "|--[7000.00]--{JME #1"})).codes(), ElementsAre("7:15 unclosed-element"));
+}
+
+// What can be read of it is checked, where no net is asked for.
+TEST(NctDiagnostics, ABrokenRungIsCheckedAllTheSame) {
+  EXPECT_THAT(compileMain(rungs({"|--[NOWHERE]--{MOV 7000 *5.5}--{TOND 7001"})).codes(),
+              ElementsAre("4:5 undeclared-symbol", "4:25 operand-type-mismatch", "4:32 unclosed-element"));
+  EXPECT_THAT(compileMain(rungs({"|--[7000.00]--{FOO 7001}---"})).codes(),
+              ElementsAre("4:16 unknown-instruction", "4:25 missing-closing-element"));
+  // Its labels are there, and so is what it jumps to.
+  EXPECT_THAT(compileMain(rungs({"|--[7000.00]--{JMP #1}", "|--{JME #1}--[7000.00]--"})).codes(),
+              ElementsAre("7:23 missing-closing-element"));
+  // A box of one word may be a pin of one that was not read.
+  EXPECT_THAT(compileMain(rungs({"|--[7000.00]--{CNT 7310 #0 #1 #10\n|--[7000.01]--{R  }"})).codes(),
+              ElementsAre("4:15 unclosed-element"));
 }
 
 // A subroutine in front of END leaves open where bodies begin and end.

@@ -13,7 +13,7 @@
 #include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/dialects/gsk/gsk.h"
 #include "ir/support/diag_render.h"
-#include "tools/view/rows.h"
+#include "tools/view/drawn_program.h"
 
 namespace rung::view::test {
 namespace {
@@ -144,20 +144,15 @@ std::vector<int> portsOf(const Picture& picture, const Frame& frame, bool left) 
 namespace {
 
 std::unique_ptr<Drawn> drawProgram(std::unique_ptr<Drawn> drawn, const std::vector<FileId>& files) {
-  const frontend::Dialect* dialect = frontend::dialectOf(drawn->sources, files[0]);
-  drawn->module = dialect->compile(drawn->sources, files, {}, drawn->diagnostics);
-  EXPECT_NE(drawn->module, nullptr) << renderText(drawn->diagnostics, drawn->sources, {})
-                                    << drawn->sources.text(files[0]);
-  if (drawn->module == nullptr) return nullptr;
-  Input input{dialect, drawn->module.get(), files, {}, files};
-  if (dialect == &gsk::kGsk) {
-    drawn->form = *gsk::ladderForm(drawn->sources, input.files, {}, drawn->diagnostics);
-    input.files = drawn->form.files;
-    input.origins = {drawn->form.networks, drawn->form.elements};
-  }
-  const Rows rows(*dialect);
-  drawn->ladders.push_back(ladder::parseLadder(drawn->sources, input.files[0], drawn->diagnostics, rows.furtherPins()));
-  drawn->program = readProgram(drawn->sources, input);
+  const frontend::Dialect& dialect = *frontend::dialectOf(drawn->sources, files[0]);
+  auto program = drawnProgram(drawn->sources, files, dialect, {}, drawn->diagnostics);
+  EXPECT_TRUE(program) << renderText(drawn->diagnostics, drawn->sources, {}) << drawn->sources.text(files[0]);
+  if (!program) return nullptr;
+  drawn->program = std::move(*program);
+  drawn->module = dialect.compile(drawn->sources, files, {}, drawn->diagnostics);
+  FileId first = files[0];
+  if (&dialect == &gsk::kGsk) first = gsk::ladderForm(drawn->sources, files, {}, drawn->diagnostics)->files[0];
+  drawn->ladders.push_back(ladder::parseLadder(drawn->sources, first, drawn->diagnostics, dialect.findBox));
   return drawn;
 }
 

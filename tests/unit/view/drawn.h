@@ -16,7 +16,6 @@ struct Drawn {
   SourceManager sources;
   Diagnostics diagnostics;
   std::unique_ptr<ir::Module> module;
-  gsk::LadderForm form;                    // of GSK
   std::vector<ladder::LadderFile> ladders; // as the drawings were read from them
   Program program;
 

@@ -159,7 +159,7 @@ TEST(ViewNames, UsesAreFoundWhateverTheSpelling) {
                                    "rung\n|--[A]--[/A]--{MOV W #5}\n\nrung\n|--[7000.05]--{ADD 7100 W #1}\n\n"
                                    "rung\n|--[N_ON]--(A)\n");
   EXPECT_EQ(usesOf(drawn->program, "A"), " r1 r2 w3");
-  EXPECT_EQ(usesOf(drawn->program, "W"), " w1 w2 r2");
+  EXPECT_EQ(usesOf(drawn->program, "W"), " w1 r2 w2");
   EXPECT_EQ(usesOf(drawn->program, "LONELY"), "");
   EXPECT_EQ(usesOf(drawn->program, "N_ON"), " r3");
   EXPECT_EQ(usesOf(drawn->program, "7000.05"), "no row"); // it is A's

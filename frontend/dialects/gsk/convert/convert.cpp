@@ -21,7 +21,7 @@ using convert::SourceUnit;
 
 std::optional<SourceProgram> readModel(SourceManager& sources, std::span<const FileId> files, Machine machine,
                                        Diagnostics& diagnostics) {
-  Context context{.sources = sources, .diagnostics = diagnostics, .names = {}};
+  Context context{.sources = sources, .diagnostics = diagnostics};
   context.machine = machine;
   std::vector<Network> networks;
   context.onNetwork = [&networks](const Network& network) { networks.push_back(network); };

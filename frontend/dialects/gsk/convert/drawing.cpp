@@ -286,10 +286,10 @@ void Painter::paintPins() {
 void Painter::paintBox() {
   if (trees_.empty()) put(0, 0, "|--");
   element(0, boxColumn_, function_, box_);
-  const auto pins = furtherPinsOf(*network_.row);
+  const auto pins = furtherPinsOf(network_.row->info);
   for (uint32_t pin = 1; pin < trees_.size(); ++pin) {
     const size_t width = box_.size() > kMaxPad ? 0 : box_.size() - 2;
-    put(pin, boxColumn_, fmt::format("{{{:<{}}", pins[pin - 1], width) + '}');
+    put(pin, boxColumn_, fmt::format("{{{:<{}}", pins[pin - 1].name, width) + '}');
   }
   paintCoils(boxColumn_ + static_cast<uint32_t>(box_.size()));
 }

@@ -1,0 +1,75 @@
+// What a front end knows of a program's text: the names that it declares or uses, and the places that its operands
+// name. Tools ask here; none reads an operand by itself. A program with errors has one too, of all that was understood.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "frontend/table/instruction.h"
+#include "ir/support/source.h"
+
+namespace rung::frontend {
+
+// Bits of one of the dialect's spaces (ir::Space::name), counted from its beginning.
+struct NamedPlace {
+  std::string_view space;
+  uint32_t firstBit = 0;
+  uint32_t bits = 0; // 1: a bit; 0: it is not known, as the declaration has an error
+};
+
+// A name that the program declares, or one of the control's that it uses.
+struct Definition {
+  std::string_view name;
+  std::string_view comment;
+  SourceRange range;      // of the name in its declaration; invalid: the control's own
+  NamedPlace place;       // not of a constant
+  std::string_view value; // of a constant, as declared; empty: it is a place
+  bool isConstant() const { return !value.empty(); }
+};
+
+// A name in an operand or in another declaration.
+struct NameUse {
+  SourceRange range;
+  uint32_t definition = 0;
+};
+
+inline constexpr uint32_t kNoDefinition = UINT32_MAX;
+
+// An operand that names a place.
+struct OperandUse {
+  SourceRange range;
+  uint32_t base = kNoDefinition; // the name that the place is counted from; none where it is an address
+  NamedPlace place;              // with what is added at run time left out
+  std::string_view computed;     // that, as written: ",REG" or ":REG"; empty: nothing is added
+  Access access = Access::Read;
+};
+
+// All texts are in the sources or in tables of the compiler, and live as long as these.
+class Analysis {
+public:
+  // While the program is read, in any order.
+  uint32_t define(const Definition& definition);
+  Definition& definition(uint32_t index) { return definitions_[index]; }
+  void use(SourceRange name, uint32_t definition) { names_.push_back({name, definition}); }
+  void use(const OperandUse& operand) { operands_.push_back(operand); }
+  // Once, when it is complete: puts uses in the order of the sources.
+  void settle();
+
+  // Afterwards.
+  std::span<const Definition> definitions() const { return definitions_; }
+  std::span<const NameUse> names() const { return names_; }
+  std::span<const OperandUse> operands() const { return operands_; }
+  // The operand that is written there, exactly; null when that names no place.
+  const OperandUse* operandAt(SourceRange range) const;
+  // What the name that is written there, exactly, means; null when that is no name.
+  const Definition* nameAt(SourceRange range) const;
+
+private:
+  std::vector<Definition> definitions_;
+  std::vector<NameUse> names_;
+  std::vector<OperandUse> operands_;
+};
+
+} // namespace rung::frontend

@@ -1,0 +1,98 @@
+// Programs beside what their operands name: NAME.lad or NAME.pmc with NAME.EXTENSION.names. A person has checked each
+// line against the source; a place too many is as wrong as one that is missing.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "frontend/dialects/dialect.h"
+#include "ir/support/diag_render.h"
+#include "ir/support/put.h"
+#include "tests/support/golden.h"
+
+namespace rung::frontend {
+namespace {
+
+std::string_view nameOf(Access access) {
+  switch (access) {
+  case Access::Read: return "read";
+  case Access::Write: return "written";
+  case Access::ReadWrite: return "read and written";
+  case Access::None: return "named";
+  }
+  return "";
+}
+
+class Lister {
+public:
+  Lister(const SourceManager& sources, const Analysis& analysis) : sources_(sources), analysis_(analysis) {}
+
+  std::string run() {
+    for (const Definition& definition : analysis_.definitions()) add(definition);
+    for (const OperandUse& operand : analysis_.operands()) add(operand);
+    for (const NameUse& name : analysis_.names()) add(name);
+    return std::move(out_);
+  }
+
+private:
+  std::string whereIs(SourceRange range) const {
+    if (!range.valid()) return "the control's";
+    const LineCol at = sources_.lineCol(range.begin);
+    return fmt::format("{}:{}", at.line, at.column);
+  }
+  static std::string textOf(const NamedPlace& place) {
+    if (place.bits == 1) return fmt::format("{}+{}.{}", place.space, place.firstBit / 8, place.firstBit % 8);
+    const uint32_t bytes = place.bits / 8;
+    return fmt::format("{}+{}{}", place.space, place.firstBit / 8, bytes == 1 ? "" : fmt::format(":{}", bytes));
+  }
+
+  void add(const Definition& definition) {
+    put(out_, "name {} ({}) = {}{}\n", definition.name, whereIs(definition.range),
+        definition.isConstant() ? std::string(definition.value) : textOf(definition.place),
+        definition.comment.empty() ? "" : fmt::format(" ; {}", definition.comment));
+  }
+  void add(const OperandUse& operand) {
+    put(out_, "{} {} is {}{}, {}{}\n", whereIs(operand.range), sources_.text(operand.range), textOf(operand.place),
+        operand.computed.empty() ? "" : fmt::format(" and '{}'", operand.computed), nameOf(operand.access),
+        operand.base == kNoDefinition ? "" : fmt::format(", from {}", analysis_.definitions()[operand.base].name));
+  }
+  void add(const NameUse& name) {
+    put(out_, "{} uses {}\n", whereIs(name.range), analysis_.definitions()[name.definition].name);
+  }
+
+  const SourceManager& sources_;
+  const Analysis& analysis_;
+  std::string out_;
+};
+
+TEST(SemaGolden, Names) {
+  test::Golden golden("tests/golden/sema", {".lad", ".pmc"});
+  for (const std::filesystem::path& input : golden.inputs()) {
+    SourceManager sources;
+    Diagnostics diagnostics;
+    const FileId file = sources.addBuffer(input.filename(), golden.read(input));
+    const auto program = dialectOf(sources, file)->check(sources, {&file, 1}, {}, diagnostics);
+    golden.expect(input.filename().string() + ".names",
+                  renderText(diagnostics, sources) + Lister(sources, program->analysis()).run());
+  }
+}
+
+// What is written there, exactly.
+TEST(Analysis, IsAskedByPlace) {
+  SourceManager sources;
+  Diagnostics diagnostics;
+  const FileId file =
+      sources.addBuffer("t.lad", "dialect nct\nmodule MAIN\nsymbol A 7000.00\nrung\n|--[A]--(7001,#1)\n");
+  const auto program = dialectOf(sources, file)->check(sources, {&file, 1}, {}, diagnostics);
+  EXPECT_TRUE(diagnostics.hasErrors()) << "a word is not a coil";
+  const Analysis& analysis = program->analysis();
+  const size_t at = sources.text(file).find("[A]") + 1;
+  const SourceRange a = sources.range(file, at, at + 1);
+  ASSERT_NE(analysis.nameAt(a), nullptr) << "also of a program with errors";
+  EXPECT_EQ(analysis.nameAt(a)->name, "A");
+  ASSERT_NE(analysis.operandAt(a), nullptr);
+  EXPECT_EQ(analysis.operandAt(a)->place.bits, 1u);
+  EXPECT_EQ(analysis.operandAt(sources.range(file, at, at + 2)), nullptr);
+  EXPECT_EQ(analysis.nameAt(sources.range(file, at - 1, at)), nullptr);
+}
+
+} // namespace
+} // namespace rung::frontend

@@ -118,7 +118,7 @@ void Parser::reportUnknown(const Word& keyword) {
   }
   Similar similar(keyword.text);
   for (std::string_view known : kKeywords) similar.offer(known);
-  if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
+  report.meant(keyword.range, similar.best());
 }
 
 /// Splits the line; false when its words are not even words.

@@ -92,7 +92,8 @@ uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) con
     const uint32_t number = layout_.rungNumber(place.routine, next.rung);
     const std::span<uint64_t> values = room.first(rung.values.size());
     std::ranges::fill(values, uint64_t{0});
-    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values, room.last(mostArgs_), counting_);
+    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values, room.last(mostArgs_), counting_,
+                observer_.get());
     const bool completed = run.run();
     if (observer_ != nullptr) observer_->rungRan(number, completed ? values : std::span<const uint64_t>());
     if (!completed) return RUNG_PC_FAULT;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ir/core/memory_use.h"
 #include "ir/layout/layout.h"
 #include "ir/layout/program_image.h"
 #include "rtlib/host/engine.h"
@@ -22,6 +23,8 @@ public:
   // The rung of this number (over all routines) has run; `values` holds the bits of its values, 0 where a region was
   // not entered. No values: it stopped the program with a fault.
   virtual void rungRan(uint32_t number, std::span<const uint64_t> values) = 0;
+  // An operation of that rung reads or writes bits of a space.
+  virtual void touched(uint32_t /*number*/, const BitRange& /*place*/, bool /*writes*/) {}
 };
 
 // What the profile counters of an instrumented module count in place of time.

@@ -56,9 +56,15 @@ void RungRun::writeBit(BitLocation at, bool value) {
     mem_[at.offset] = static_cast<uint8_t>(value ? mem_[at.offset] | mask : mem_[at.offset] & ~mask);
 }
 
+void RungRun::touch(const Op& op, uint64_t bit, bool writes) const {
+  if (observer_ == nullptr) return;
+  observer_->touched(number_, {SpaceId{op.ref}, static_cast<uint32_t>(bit), bitWidth(op.type)}, writes);
+}
+
 void RungRun::load(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
+  touch(op, place, false);
   give(op, op.type == Type::Bit ? readBit(layout_.bit(space, place))
                                 : readBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type));
 }
@@ -66,6 +72,7 @@ void RungRun::load(const Op& op) {
 void RungRun::store(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
+  touch(op, place, true);
   if (op.type == Type::Bit)
     writeBit(layout_.bit(space, place), in(op, 0) != 0);
   else
@@ -75,15 +82,17 @@ void RungRun::store(const Op& op) {
 void RungRun::loadAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return give(op, 0);
-  give(op,
-       readBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type));
+  const auto byte = static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op);
+  touch(op, uint64_t{byte} * 8, false);
+  give(op, readBytes(layout_.byte(SpaceId{op.ref}, byte), op.type));
 }
 
 void RungRun::storeAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return;
-  writeBytes(layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op)), op.type,
-             in(op, 1));
+  const auto byte = static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op);
+  touch(op, uint64_t{byte} * 8, true);
+  writeBytes(layout_.byte(SpaceId{op.ref}, byte), op.type, in(op, 1));
 }
 
 void RungRun::loadBitAt(const Op& op) {
@@ -91,7 +100,9 @@ void RungRun::loadBitAt(const Op& op) {
   const auto bit = static_cast<uint32_t>(in(op, 1));
   const uint32_t unitBits = unitBytes(op) * 8;
   if (index >= op.count || bit >= unitBits) return give(op, 0);
-  give(op, readBit(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit)));
+  const uint64_t place = static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit;
+  touch(op, place, false);
+  give(op, readBit(layout_.bit(SpaceId{op.ref}, place)));
 }
 
 void RungRun::storeBitAt(const Op& op) {
@@ -99,8 +110,9 @@ void RungRun::storeBitAt(const Op& op) {
   const auto bit = static_cast<uint32_t>(in(op, 1));
   const uint32_t unitBits = unitBytes(op) * 8;
   if (index >= op.count || bit >= unitBits) return;
-  writeBit(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit),
-           in(op, 2) != 0);
+  const uint64_t place = static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit;
+  touch(op, place, true);
+  writeBit(layout_.bit(SpaceId{op.ref}, place), in(op, 2) != 0);
 }
 
 // ---- regions -------------------------------------------------------------------------------------------------------

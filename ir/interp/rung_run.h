@@ -14,9 +14,10 @@ public:
   // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); `carried` has one for
   // each operand of any operation. All outlive the run.
   RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem,
-          rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting)
+          rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting,
+          RungObserver* observer)
       : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values),
-        carried_(carried), counting_(counting) {}
+        carried_(carried), counting_(counting), observer_(observer) {}
 
   // False: a fault, which stands in the context.
   bool run();
@@ -32,6 +33,7 @@ private:
   uint64_t readBit(BitLocation at) const;
   void writeBit(BitLocation at, bool value);
   uint32_t slotOffset(const Op& op) const { return layout_.slot(SlotId{op.ref}); }
+  void touch(const Op& op, uint64_t bit, bool writes) const;
   uint32_t unitBytes(const Op& op) const { return layout_.module().spaces[op.ref].unitBytes; }
 
   void load(const Op& op);
@@ -58,7 +60,8 @@ private:
   std::span<uint64_t> values_;
   std::span<uint64_t> carried_;
   const Counting counting_;
-  uint64_t operations_ = 0; // executed so far
+  RungObserver* const observer_; // null: none
+  uint64_t operations_ = 0;      // executed so far
 };
 
 } // namespace rung::ir

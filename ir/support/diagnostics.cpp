@@ -100,6 +100,12 @@ DiagBuilder& DiagBuilder::fix(SourceRange range, std::string_view replacement) {
   return *this;
 }
 
+DiagBuilder& DiagBuilder::meant(SourceRange range, std::string_view word) {
+  if (word.empty()) return *this;
+  note("did you mean " + std::string(word) + "?");
+  return range.valid() ? fix(range, word) : *this;
+}
+
 DiagBuilder& DiagBuilder::severity(Severity severity) {
   diagnostic_.severity = severity;
   return *this;

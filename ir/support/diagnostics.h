@@ -94,6 +94,8 @@ public:
   DiagBuilder& note(SourceRange range, std::string_view text);
   DiagBuilder& note(std::string_view text) { return note(SourceRange{}, text); }
   DiagBuilder& fix(SourceRange range, std::string_view replacement);
+  /// "did you mean WORD?" and, where the range is valid, the fix that puts it there. Nothing for an empty word.
+  DiagBuilder& meant(SourceRange range, std::string_view word);
   /// For a code that is an error in one dialect and a warning in another. Strict mode still raises it.
   DiagBuilder& severity(Severity severity);
 
@@ -123,6 +125,8 @@ public:
   /// How many were counted but not kept.
   size_t droppedCount() const { return dropped_; }
   bool has(Diag id) const;
+  /// Of so many errors nobody reads suggestions, and to look for them takes long in a file of rubbish.
+  bool suggests() const { return errors_ <= 100; }
 
   /// In the order of reporting.
   const std::vector<Diagnostic>& reported() const { return kept_; }

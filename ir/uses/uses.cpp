@@ -19,6 +19,10 @@ void addOnce(std::vector<T>& list, const T& item) {
 
 BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
 
+bool anyMeets(const std::vector<SpaceSpan>& spans, const BitRange& place) {
+  return std::ranges::any_of(spans, [&](const SpaceSpan& span) { return overlap(bitsOf(span), place); });
+}
+
 // Of an index or a bit's number: what is there before anything is added at run time.
 std::optional<int64_t> constantPart(const Rung& rung, std::span<const Op* const> definitions, ValueId value) {
   const Op* op = definitions[value.index];
@@ -71,7 +75,7 @@ Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
   return facts;
 }
 
-Uses::Uses(const Module& module) {
+Uses::Uses(const Module& module) : cleared_(module.safeSpans), retained_(module.retains) {
   for (uint32_t r = 0; r < module.routines.size(); ++r) {
     const auto first = static_cast<uint32_t>(rungs_.size());
     firstRung_.push_back(first);
@@ -127,6 +131,9 @@ std::vector<BitRange> Uses::copiedTo(const BitRange& place) const {
   }
   return targets;
 }
+
+bool Uses::isCleared(const BitRange& place) const { return anyMeets(cleared_, place); }
+bool Uses::isRetained(const BitRange& place) const { return anyMeets(retained_, place); }
 
 std::vector<uint32_t> Uses::registersFrom(uint32_t rung) const {
   std::vector<uint32_t> sources;

@@ -36,6 +36,10 @@ public:
   std::vector<BitRange> copiedFrom(const BitRange& place) const;
   // Where they go then.
   std::vector<BitRange> copiedTo(const BitRange& place) const;
+  // Whether a fault clears something of the place: what the control or the machine reads.
+  bool isCleared(const BitRange& place) const;
+  // Whether something of it is kept through power-off.
+  bool isRetained(const BitRange& place) const;
 
   // Earlier rungs of the routine that hand a register to this one, the last first. One that calls a routine ends the
   // list: that routine may have changed the registers.
@@ -64,6 +68,8 @@ private:
   std::vector<RungFacts> rungs_;
   std::vector<uint32_t> firstRung_; // by routine
   std::vector<Copy> copies_;
+  std::vector<SpaceSpan> cleared_;
+  std::vector<SpaceSpan> retained_;
 };
 
 } // namespace rung::ir

@@ -1,9 +1,20 @@
-// rungc check: reports every mistake of a program.
+// rungc check: reports every mistake of a program, and names that look like mistakes.
 #include <memory>
 
+#include "ir/layout/program_image.h"
 #include "tools/rungc/commands.h"
+#include "tools/xref/odd_names.h"
 
 namespace rung::rungc {
+namespace {
+
+void checkNames(const compiler::Compiled& compiled, const SourceManager& sources, Diagnostics& diagnostics) {
+  const ir::ProgramImage image(*compiled.layout, compiled.codeHash);
+  const xref::CrossReference reference(image.program(), *compiled.uses, compiled.dialect->shownSpaces);
+  xref::reportOddNames(sources, compiled.analysis, reference, diagnostics);
+}
+
+} // namespace
 
 void addCheck(CommandLine& app, int& status) {
   Command command = app.add("check", "Report all mistakes of a program");
@@ -11,7 +22,8 @@ void addCheck(CommandLine& app, int& status) {
   addSourceOptions(command, *options);
   command.onRun([options, &status] {
     SourceManager sources;
-    if (const auto compiled = compileSources(sources, *options, {}, status)) printSummary(*compiled, *options, "");
+    const auto compiled = compileSources(sources, *options, {.analysis = true}, status, checkNames);
+    if (compiled) printSummary(*compiled, *options, "");
   });
 }
 

@@ -174,7 +174,8 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
 }
 
 std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
-                                                 compiler::CompileRequest request, int& status) {
+                                                 compiler::CompileRequest request, int& status,
+                                                 const FurtherCheck& further) {
   request.dialect = options.dialect;
   request.activity = options.activity || (options.project && options.project->activity);
   const auto files = addSources(sources, options, request.options, status);
@@ -185,6 +186,8 @@ std::optional<compiler::Compiled> compileSources(SourceManager& sources, const S
     return compiler::compile(sources, *files, request, diagnostics);
   }();
   if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
+  if (compiled && further) further(*compiled, sources, diagnostics);
+  if (compiled) compiled->warnings = diagnostics.warningCount();
   if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);
   status = compiled ? kOk : kWrong;

@@ -39,7 +39,7 @@ int run(const XrefOptions& options) {
   const auto compiled = compileSources(sources, options.source, {}, status);
   if (!compiled) return status;
   const ir::ProgramImage image(*compiled->layout, compiled->codeHash);
-  const xref::CrossReference reference(image.program(), *compiled->uses);
+  const xref::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
   const auto entries = entriesOf(reference, options);
   if (!entries) return kWrong;
   const bool listed = !options.places.empty();

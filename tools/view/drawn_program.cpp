@@ -30,7 +30,7 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   const ir::Layout layout(*module, {});
   const ir::ProgramImage image(layout, 0);
   const ir::Uses uses(*module);
-  const xref::CrossReference reference(image.program(), uses);
+  const xref::CrossReference reference(image.program(), uses, dialect.shownSpaces);
   return readProgram(sources, {.dialect = &dialect,
                                .files = ladders->files,
                                .analysis = &drawn->analysis(),

@@ -4,19 +4,9 @@
 #include <fmt/format.h>
 
 #include "rtlib/nc/names/names.h"
+#include "tools/xref/place_names.h"
 
 namespace rung::view {
-namespace {
-
-// Its bit, or its first byte.
-host::Ref refOf(const ir::BitRange& place) {
-  const uint32_t byte = place.first / 8;
-  return place.count == 1 ? host::bitRef(place.space.index, byte, place.first % 8)
-                          : host::intRef(place.space.index, byte, 8);
-}
-
-} // namespace
-
 Names::Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis,
              const xref::CrossReference& reference)
     : analysis_(analysis), reference_(reference) {
@@ -54,13 +44,15 @@ std::optional<ir::BitRange> Names::placeOf(const frontend::NamedPlace& place) co
   return ir::BitRange{ir::SpaceId{space->second}, place.firstBit, place.bits};
 }
 
-std::string Names::textOf(const ir::BitRange& place) const { return nc::address(reference_.program(), refOf(place)); }
+std::string Names::textOf(const ir::BitRange& place) const {
+  return nc::address(reference_.program(), xref::refAt(place));
+}
 
 const Named& Names::at(const ir::BitRange& place) {
   const std::string address = textOf(place);
   const auto [found, isNew] = places_.try_emplace(fmt::format("{} {}", address, place.count));
   if (!isNew) return found->second;
-  const xref::Entry entry = reference_.of(refOf(place));
+  const xref::Entry entry = reference_.of(xref::refAt(place));
   found->second = {.address = {},
                    .comment = {},
                    .key = address,

@@ -29,7 +29,9 @@ void addAccess(std::vector<Access>& accesses, const Access& access) {
 bool Entry::isRead() const { return std::ranges::any_of(accesses, &Access::reads); }
 bool Entry::isWritten() const { return std::ranges::any_of(accesses, &Access::writes); }
 
-CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses) : program_(program), uses_(uses) {
+CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses,
+                               std::span<const std::string_view> shown)
+    : program_(program), uses_(uses), shown_(shown) {
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
     for (const ir::RungUse& use : uses.of(rung)) {
       const std::optional<BitRange> element = knownPlace(program, uses, use.element);
@@ -81,7 +83,8 @@ std::vector<Access> CrossReference::accessesOf(const BitRange& bits) const {
 Entry CrossReference::of(const Ref& place) const {
   Entry entry{.place = place, .accesses = accessesOf(bitsOf(place))};
   entry.controlWrites = isWrittenByControl(program_, uses_, place);
-  entry.controlReads = isReadByControl(program_, uses_, place);
+  entry.controlReads = isReadByControl(program_, uses_, place) ||
+                       std::ranges::find(shown_, program_.spaces[place.space].name) != shown_.end();
   return entry;
 }
 

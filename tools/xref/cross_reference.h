@@ -3,7 +3,9 @@
 // of four bytes is a use of all of them, an alias one of the place it names, and a latch one of what it was copied
 // from.
 #pragma once
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ir/uses/uses.h"
@@ -31,8 +33,8 @@ struct Entry {
 
 class CrossReference {
 public:
-  // Both must outlive it.
-  CrossReference(const rung_program& program, const ir::Uses& uses);
+  // All must outlive it. `shown`: spaces whose cells the control shows to the operator (frontend::Dialect).
+  CrossReference(const rung_program& program, const ir::Uses& uses, std::span<const std::string_view> shown);
 
   // Places that rungs use and places of symbols, each once, in the order of addresses.
   std::vector<Entry> all() const;
@@ -43,6 +45,7 @@ public:
   std::vector<Access> perhaps(const host::Ref& place) const;
 
   const rung_program& program() const { return program_; }
+  const ir::Uses& uses() const { return uses_; }
 
 private:
   struct Use {
@@ -54,6 +57,7 @@ private:
 
   const rung_program& program_;
   const ir::Uses& uses_;
+  const std::span<const std::string_view> shown_;
   std::vector<Use> sorted_; // by place
   uint32_t longest_ = 1;    // bits of an element
 };

@@ -18,6 +18,14 @@ Ref refOf(const ir::Use& use) {
   return host::intRef(use.place.space.index, byte, ir::bitWidth(use.type));
 }
 
+Ref refAt(const ir::BitRange& bits) {
+  const uint32_t byte = bits.first / 8;
+  if (bits.count == 1) return host::bitRef(bits.space.index, byte, bits.first % 8);
+  Ref bytes = host::intRef(bits.space.index, byte, 8);
+  bytes.count = bits.count / 8;
+  return bytes;
+}
+
 ir::BitRange bitsOf(const Ref& place) {
   if (place.kind == RefKind::Bit) return {ir::SpaceId{place.space}, place.byte * 8 + place.bit, place.count};
   if (place.kind == RefKind::Constant) return {ir::SpaceId{place.space}, 0, 0};
@@ -87,7 +95,7 @@ bool isWrittenByControl(const rung_program& program, const ir::Uses& uses, const
 }
 
 bool isReadByControl(const rung_program& program, const ir::Uses& uses, const Ref& place) {
-  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) ||
+  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) || uses.isCleared(bitsOf(place)) ||
          anyHas(program, uses.copiedTo(bitsOf(place)), RUNG_SPACE_OUTPUT);
 }
 

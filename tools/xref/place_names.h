@@ -10,6 +10,8 @@ namespace rung::xref {
 
 // The place of a use that is not computed; the bits of a reference, nothing for a constant.
 host::Ref refOf(const ir::Use& use);
+// A bit, or whole bytes.
+host::Ref refAt(const ir::BitRange& bits);
 ir::BitRange bitsOf(const host::Ref& place);
 
 // Where a user would look for it: a latch that the compiler made is what it was copied from. Nothing for what has no

@@ -68,26 +68,21 @@ Found findAddress(Context& context, const Word& word) {
   return {};
 }
 
-// Looking for likeness in a file of rubbish would take long and help nobody.
-constexpr size_t kMostSuggestions = 100;
-
 void suggestName(const Context& context, const Word& word, DiagBuilder& report) {
-  if (context.diagnostics.errorCount() > kMostSuggestions) return;
+  if (!context.diagnostics.suggests()) return;
   Similar similar(word.text);
   for (const UserSymbol& symbol : context.names.symbols()) similar.offer(symbol.name);
-  if (!similar.best().empty())
-    report.note(fmt::format("did you mean {}?", similar.best()));
-  else if (const nc::Signal* signal = similarSignal(word.text))
+  report.meant(word.range, similar.best());
+  if (!similar.best().empty()) return;
+  if (const nc::Signal* signal = similarSignal(word.text))
     report.note(
         fmt::format("did you mean {} ({}, {})?", signal->symbol, textOf(signalAddress(*signal)), signal->meaning));
 }
 
 // Of an instruction: names of other controls (TON, CTU) are like none of these.
-void suggest(const Similar& similar, DiagBuilder& report) {
-  if (similar.best().empty())
-    report.note("`rungc explain gsk` lists the instructions by what they do");
-  else
-    report.note(fmt::format("did you mean {}?", similar.best()));
+void suggest(SourceRange range, const Similar& similar, DiagBuilder& report) {
+  report.meant(range, similar.best());
+  if (similar.best().empty()) report.note("`rungc explain gsk` lists the instructions by what they do");
 }
 
 void reportUnknown(Context& context, const Word& word, std::string_view what) {
@@ -199,20 +194,20 @@ void reportUnknownCommand(Context& context, const Word& word, std::span<const st
     report.note(fmt::format("{} is a function: write `FUNC {}`", row->info.mnemonic, row->info.mnemonic));
     return;
   }
-  if (context.diagnostics.errorCount() > kMostSuggestions) return;
+  if (!context.diagnostics.suggests()) return;
   Similar similar(word.text);
   for (std::string_view command : commands) similar.offer(command);
-  suggest(similar, report);
+  suggest(word.range, similar, report);
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
   DiagBuilder report = context.diagnostics.report(Diag::UnknownFunction, range);
   report << name;
-  if (context.diagnostics.errorCount() > kMostSuggestions) return;
+  if (!context.diagnostics.suggests()) return;
   Similar similar(name);
   for (const Row& row : allRows())
     if (row.info.number >= 0) similar.offer(row.info.mnemonic);
-  suggest(similar, report);
+  suggest(range, similar, report);
 }
 
 void countStep(Context& context, SourceRange range) {

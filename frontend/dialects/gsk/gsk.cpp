@@ -64,6 +64,7 @@ std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::spa
 }
 
 constexpr std::string_view kExtensions[] = {".pmc"};
+constexpr std::string_view kShownSpaces[] = {"A"}; // requests of messages
 
 } // namespace
 
@@ -81,6 +82,7 @@ const frontend::Dialect kGsk = {
     .instructions = instructionInfos(),
     .operandKinds = operandKindInfos(),
     .signals = nc::gskSignals,
+    .shownSpaces = kShownSpaces,
     .isBuilt = isBuilt,
     .findBox = findBox,
     .check = &check,

@@ -130,11 +130,11 @@ const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const O
 void RungChecker::reportUnknown(const ladder::Element& element) {
   DiagBuilder report = diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
-  if (diagnostics_.errorCount() > kMostSuggestions) return;
+  if (!diagnostics_.suggests()) return;
   Similar similar(element.mnemonic);
   for (const NctInstruction& row : allInstructions())
     if (row.shape == Shape::Box) similar.offer(row.info.mnemonic);
-  if (!similar.best().empty()) report.note(fmt::format("did you mean {}?", similar.best()));
+  report.meant(element.mnemonicRange, similar.best());
 }
 
 void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {

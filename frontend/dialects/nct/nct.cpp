@@ -116,7 +116,7 @@ private:
       report << sources_.text(range) << "MAIN or INT0";
       Similar meant(sources_.text(range));
       for (const std::string_view known : {"MAIN", "INT0"}) meant.offer(known);
-      if (!meant.best().empty()) report.note(fmt::format("did you mean {}?", meant.best())).fix(range, meant.best());
+      report.meant(range, meant.best());
       nameless_ = true;
       return reported_;
     }

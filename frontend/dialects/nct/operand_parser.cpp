@@ -138,9 +138,8 @@ private:
   void reportUndeclared(std::string_view name) {
     DiagBuilder report = diagnostics_.report(Diag::UndeclaredSymbol, rangeOf(word_, name));
     report << name;
-    if (diagnostics_.errorCount() > kMostSuggestions) return;
-    const std::string_view similar = symbols_.similarTo(name);
-    if (!similar.empty()) report.note("did you mean " + std::string(similar) + "?");
+    if (!diagnostics_.suggests()) return;
+    report.meant(rangeOf(word_, name), symbols_.similarTo(name));
     // (S7001.00) is a coil of the name S7001.
     const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && &name[0] == &word_.text[0] &&
                        (isDigit(name[1]) || symbols_.find(name.substr(1)) != nullptr);
@@ -333,7 +332,7 @@ Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
   for (const nc::nct::ScopeSymbol& symbol : symbols) similar.offer(symbol.name);
   DiagBuilder report = diagnostics.report(Diag::UnknownScopeSymbol, word.range);
   report << word.text;
-  if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
+  report.meant(word.range, similar.best());
   return operand;
 }
 

@@ -14,9 +14,6 @@
 
 namespace rung::nct {
 
-// Looking for likeness in a file of rubbish would take long and help nobody.
-inline constexpr size_t kMostSuggestions = 100;
-
 inline constexpr std::string_view kFlagsName = "FLAGS";
 // Bits of FLAGS; the order of the manual's chapter 5 (l.725-777).
 inline constexpr std::string_view kFlagNames[] = {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"};

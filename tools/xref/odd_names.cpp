@@ -1,0 +1,142 @@
+// Names that look like mistakes (see odd_names.h).
+#include "tools/xref/odd_names.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "tools/xref/place_names.h"
+
+namespace rung::xref {
+namespace {
+
+using frontend::Access;
+using frontend::Analysis;
+using frontend::Definition;
+using frontend::OperandUse;
+
+// What is done with a place.
+struct Sides {
+  bool read = false;
+  bool written = false;
+  std::vector<SourceRange> operands; // that do it
+
+  void add(bool reads, bool writes) {
+    read |= reads;
+    written |= writes;
+  }
+};
+
+class Checker {
+public:
+  Checker(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
+          Diagnostics& diagnostics)
+      : sources_(sources), analysis_(analysis), reference_(reference), diagnostics_(diagnostics),
+        used_(analysis.definitions().size()) {
+    for (const frontend::NameUse& name : analysis.names()) used_[name.definition] = true;
+    for (const OperandUse& operand : analysis.operands())
+      if (const auto place = placeOf(operand.place)) operands_.push_back({*place, &operand});
+    std::ranges::stable_sort(operands_, {}, [](const Placed& one) { return orderOf(one.place); });
+    for (const Placed& one : operands_) longest_ = std::max(longest_, one.place.count);
+  }
+
+  void run() {
+    for (uint32_t i = 0; i < used_.size(); ++i) {
+      const Definition& definition = analysis_.definitions()[i];
+      if (definition.range.valid()) check(definition, used_[i]);
+    }
+  }
+
+private:
+  struct Placed {
+    ir::BitRange place;
+    const OperandUse* operand;
+  };
+  static std::pair<uint32_t, uint32_t> orderOf(const ir::BitRange& place) { return {place.space.index, place.first}; }
+
+  std::optional<ir::BitRange> placeOf(const frontend::NamedPlace& place) const {
+    const rung_program& program = reference_.program();
+    for (uint32_t i = 0; i < program.space_count && place.bits != 0; ++i)
+      if (place.space == program.spaces[i].name) return ir::BitRange{ir::SpaceId{i}, place.firstBit, place.bits};
+    return std::nullopt;
+  }
+
+  void check(const Definition& definition, bool used);
+  Sides operandsAt(const ir::BitRange& place) const;
+  bool isIn(SourceRange operand, uint32_t rung) const;
+  void addImplicit(const ir::BitRange& place, Sides& sides) const;
+  void report(Diag code, const Definition& definition, SourceRange operand = {});
+
+  const SourceManager& sources_;
+  const Analysis& analysis_;
+  const CrossReference& reference_;
+  Diagnostics& diagnostics_;
+  std::vector<bool> used_; // by definition
+  std::vector<Placed> operands_;
+  uint32_t longest_ = 1; // bits of an operand's place
+};
+
+Sides Checker::operandsAt(const ir::BitRange& place) const {
+  Sides sides;
+  const std::pair earliest{place.space.index, place.first - std::min(place.first, longest_)};
+  for (auto at =
+           std::ranges::lower_bound(operands_, earliest, {}, [](const Placed& one) { return orderOf(one.place); });
+       at != operands_.end() && orderOf(at->place) < std::pair(place.space.index, place.first + place.count); ++at) {
+    if (!overlap(at->place, place)) continue;
+    const Access access = at->operand->access;
+    sides.add(access == Access::Read || access == Access::ReadWrite, access != Access::Read);
+    sides.operands.push_back(at->operand->range);
+  }
+  return sides;
+}
+
+bool Checker::isIn(SourceRange operand, uint32_t rung) const {
+  const rung_program& program = reference_.program();
+  const rung_rung_info& info = program.rungs[rung];
+  const LineCol at = sources_.lineCol(operand.begin);
+  return info.file != RUNG_NONE && at.file == program.files[info.file] && at.line >= info.first_line &&
+         at.line <= info.last_line;
+}
+
+// What no operand says. A rung that has an operand there does what that says: a coil that sets a bit also reads it.
+void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
+  for (const xref::Access& access : reference_.accessesOf(place))
+    if (std::ranges::none_of(sides.operands, [&](SourceRange operand) { return isIn(operand, access.rung); }))
+      sides.add(access.reads, access.writes);
+  for (const xref::Access& access : reference_.perhaps(refAt(place))) sides.add(access.reads, access.writes);
+}
+
+void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
+  if (definition.comment.find(fmt::format("allow({})", diagInfo(code).code)) != std::string_view::npos) return;
+  DiagBuilder report = diagnostics_.report(code, definition.range);
+  report << definition.name;
+  if (operand.valid()) report.note(operand, "here");
+}
+
+void Checker::check(const Definition& definition, bool used) {
+  const std::optional<ir::BitRange> place = placeOf(definition.place);
+  if (!place) {
+    if (!used && definition.isConstant()) report(Diag::UnusedName, definition);
+    return;
+  }
+  Sides sides = operandsAt(*place);
+  const bool unused = !used && sides.operands.empty();
+  if (!unused && sides.read == sides.written) return;
+  addImplicit(*place, sides);
+  if (unused && !sides.read && !sides.written) return report(Diag::UnusedName, definition);
+  if (sides.read == sides.written || reference_.uses().isRetained(*place)) return;
+  const Entry entry = reference_.of(refAt(*place));
+  const SourceRange operand = sides.operands.empty() ? SourceRange{} : sides.operands.front();
+  if (!sides.written && !entry.controlWrites) report(Diag::NeverWritten, definition, operand);
+  if (!sides.read && !entry.controlReads) report(Diag::NeverRead, definition, operand);
+}
+
+} // namespace
+
+void reportOddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
+                    Diagnostics& diagnostics) {
+  Checker(sources, analysis, reference, diagnostics).run();
+}
+
+} // namespace rung::xref

@@ -1,6 +1,8 @@
 // Builds one rung, operation by operation. It types results by the table of operations and stops the process when an
 // operand has the wrong type: that is an error of the compiler, never of the user's program.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -79,6 +81,24 @@ public:
   void if_(ValueId cond);
   void else_(std::span<const ValueId> yields = {});
   std::vector<ValueId> endIf(std::span<const ValueId> yields = {});
+  // `body` adds the operations of a region without results.
+  template <class Body>
+  void when(ValueId cond, Body body) {
+    if_(cond);
+    body();
+    endIf();
+  }
+  // Each branch adds its operations and gives its value, or a std::array of them; gives that of the branch which runs.
+  template <class Yes, class No>
+  auto choose(ValueId cond, Yes yes, No no) {
+    if_(cond);
+    auto result = yes();
+    else_(valuesOf(result));
+    const auto other = no();
+    const std::vector<ValueId> joined = endIf(valuesOf(other));
+    std::ranges::copy(joined, valuesOf(result).begin());
+    return result;
+  }
   // Gives the pass number (i32) and then the carried values.
   std::vector<ValueId> loop(uint32_t count, std::span<const ValueId> carried = {});
   std::vector<ValueId> endLoop(std::span<const ValueId> next = {});
@@ -98,6 +118,16 @@ public:
   void switchTo(ValueId value, std::vector<uint32_t> targets);
 
 private:
+  static std::span<ValueId> valuesOf(ValueId& value) { return {&value, 1}; }
+  static std::span<const ValueId> valuesOf(const ValueId& value) { return {&value, 1}; }
+  template <size_t N>
+  static std::span<ValueId> valuesOf(std::array<ValueId, N>& values) {
+    return values;
+  }
+  template <size_t N>
+  static std::span<const ValueId> valuesOf(const std::array<ValueId, N>& values) {
+    return values;
+  }
   Op& append(OpCode code, Type type, std::span<const ValueId> args);
   ValueId newResult(Op& op, Type type);
   ValueId resize(OpCode widen, Type type, ValueId a);

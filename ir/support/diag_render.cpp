@@ -81,7 +81,8 @@ public:
       out_ += printable(note.text) + "\n";
       snippet(note.range, '^', kBlue, "");
     }
-    for (const DiagFix& fix : d.fixes) help(fix);
+    for (const DiagFix& fix : d.fixes)
+      if (!fix.noted) help(fix);
   }
 
   void dropped(size_t count) {

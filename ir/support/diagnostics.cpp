@@ -96,14 +96,15 @@ DiagBuilder& DiagBuilder::note(SourceRange range, std::string_view text) {
 }
 
 DiagBuilder& DiagBuilder::fix(SourceRange range, std::string_view replacement) {
-  diagnostic_.fixes.push_back({range, std::string(replacement)});
+  diagnostic_.fixes.push_back({.range = range, .replacement = std::string(replacement)});
   return *this;
 }
 
 DiagBuilder& DiagBuilder::meant(SourceRange range, std::string_view word) {
   if (word.empty()) return *this;
   note("did you mean " + std::string(word) + "?");
-  return range.valid() ? fix(range, word) : *this;
+  if (range.valid()) diagnostic_.fixes.push_back({.range = range, .replacement = std::string(word), .noted = true});
+  return *this;
 }
 
 DiagBuilder& DiagBuilder::severity(Severity severity) {

@@ -56,6 +56,7 @@ struct DiagNote {
 struct DiagFix {
   SourceRange range;
   std::string replacement;
+  bool noted = false; ///< a note says it for people
 };
 
 struct Diagnostic {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/canonical.h"
+#include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/ladder/drawing.h"
 #include "ir/support/check.h"

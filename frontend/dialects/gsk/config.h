@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "frontend/dialects/gsk/address.h"
-#include "frontend/dialects/gsk/signals.h"
+#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/dialects/gsk/read/signals.h"
 
 namespace rung::gsk {
 

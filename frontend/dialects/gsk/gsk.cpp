@@ -1,10 +1,11 @@
 // The dialect's entry: reads all files, checks the program, lowers it.
 #include "frontend/dialects/gsk/gsk.h"
 
+#include "frontend/dialects/gsk/check/analyse.h"
 #include "frontend/dialects/gsk/config.h"
-#include "frontend/dialects/gsk/lower.h"
-#include "frontend/dialects/gsk/messages.h"
-#include "frontend/dialects/gsk/reading.h"
+#include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/dialects/gsk/read/messages.h"
+#include "frontend/dialects/gsk/read/reading.h"
 #include "frontend/dialects/gsk/reference.h"
 #include "rtlib/nc/gsk/signals.h"
 

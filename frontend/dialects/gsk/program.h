@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/dialects/gsk/address.h"
-#include "frontend/dialects/gsk/instructions.h"
+#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
 #include "ir/support/source.h"
 
 namespace rung::gsk {

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/address.h"
-#include "frontend/dialects/gsk/context.h"
-#include "frontend/dialects/gsk/instructions.h"
-#include "frontend/dialects/gsk/signals.h"
+#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/dialects/gsk/read/context.h"
+#include "frontend/dialects/gsk/read/signals.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/table/markdown.h"
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/gsk/axis_commands.h"

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/nct/build_module.h"
-#include "frontend/dialects/nct/checker.h"
-#include "frontend/dialects/nct/message_texts.h"
+#include "frontend/dialects/nct/check/checker.h"
+#include "frontend/dialects/nct/check/message_texts.h"
+#include "frontend/dialects/nct/check/structure.h"
+#include "frontend/dialects/nct/lower/build_module.h"
 #include "frontend/dialects/nct/reference.h"
-#include "frontend/dialects/nct/structure.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/messages.h"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/dialects/nct/instructions.h"
-#include "frontend/dialects/nct/symbols.h"
+#include "frontend/dialects/nct/read/symbols.h"
+#include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/ladder/ladder.h"
 
 namespace rung::nct {

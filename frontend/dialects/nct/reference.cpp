@@ -2,7 +2,7 @@
 #include "frontend/dialects/nct/reference.h"
 
 #include "frontend/dialects/nct/config.h"
-#include "frontend/dialects/nct/instructions.h"
+#include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/dialects/nct/signal_text.h"
 #include "frontend/table/markdown.h"
 #include "ir/support/diagnostics.h"

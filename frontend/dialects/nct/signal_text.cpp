@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/dialects/nct/reference.h"
-#include "frontend/dialects/nct/symbols.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"

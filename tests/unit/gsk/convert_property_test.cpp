@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-#include "frontend/dialects/gsk/list_reader.h"
+#include "frontend/dialects/gsk/read/list_reader.h"
 #include "ir/text/text.h"
 #include "tests/unit/gsk/convert.h"
 #include "tests/unit/gsk/program_generator.h"

@@ -1,7 +1,7 @@
 // Ladder text: what list a drawing becomes, that both forms give one program, and the errors of drawings.
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/ladder_reader.h"
+#include "frontend/dialects/gsk/read/ladder_reader.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/dialects/gsk/instructions.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
 
 namespace rung::gsk::test {
 

@@ -1,5 +1,5 @@
 // What programs do, where a scenario cannot show it: tasks, latches, the schedule.
-#include "frontend/dialects/gsk/instructions.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
 #include "tests/unit/gsk/machine.h"
 
 namespace rung::gsk::test {

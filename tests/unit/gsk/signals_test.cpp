@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/signals.h"
+#include "frontend/dialects/gsk/read/signals.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {

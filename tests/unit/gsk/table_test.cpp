@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/instructions.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {
@@ -44,7 +44,7 @@ size_t listLength(const std::string& field) {
 }
 
 TEST(GskTable, AgreesWithTheInventory) {
-  std::ifstream file("frontend/dialects/gsk/instructions.csv");
+  std::ifstream file("frontend/dialects/gsk/rows/instructions.csv");
   ASSERT_TRUE(file);
   std::string line;
   std::getline(file, line);

@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "frontend/dialects/nct/instructions.h"
 #include "frontend/dialects/nct/nct.h"
+#include "frontend/dialects/nct/rows/instructions.h"
 #include "ir/verify/verify.h"
 #include "tests/unit/nct/support.h"
 
@@ -46,7 +46,7 @@ size_t operandsIn(const std::string& column) {
 }
 
 TEST(NctTable, HoldsTheWholeInventory) {
-  std::ifstream file("frontend/dialects/nct/instructions.csv");
+  std::ifstream file("frontend/dialects/nct/rows/instructions.csv");
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::string line;
   std::getline(file, line);

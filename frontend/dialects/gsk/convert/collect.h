@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "frontend/dialects/gsk/convert/source_model.h"
-#include "frontend/dialects/gsk/reading.h"
+#include "frontend/dialects/gsk/read/reading.h"
 
 namespace rung::gsk::convert {
 

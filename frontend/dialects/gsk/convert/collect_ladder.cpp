@@ -4,11 +4,11 @@
 #include <map>
 #include <optional>
 
-#include "frontend/dialects/gsk/canonical.h"
-#include "frontend/dialects/gsk/condition.h"
 #include "frontend/dialects/gsk/convert/collector.h"
 #include "frontend/dialects/gsk/convert/hints.h"
-#include "frontend/dialects/gsk/title.h"
+#include "frontend/dialects/gsk/read/canonical.h"
+#include "frontend/dialects/gsk/read/condition.h"
+#include "frontend/dialects/gsk/read/title.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 

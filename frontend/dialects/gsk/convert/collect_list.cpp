@@ -1,6 +1,6 @@
 // Command lists to the source model: every line that is a command is the next one of the networks that were read.
 #include "frontend/dialects/gsk/convert/collector.h"
-#include "frontend/dialects/gsk/list_reader.h"
+#include "frontend/dialects/gsk/read/list_reader.h"
 #include "ir/support/check.h"
 
 namespace rung::gsk::convert {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "frontend/dialects/gsk/context.h"
 #include "frontend/dialects/gsk/convert/source_model.h"
-#include "frontend/dialects/gsk/title.h"
+#include "frontend/dialects/gsk/read/context.h"
+#include "frontend/dialects/gsk/read/title.h"
 #include "frontend/ladder/ladder.h"
 
 namespace rung::gsk::convert {

@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/canonical.h"
 #include "frontend/dialects/gsk/convert/hints.h"
+#include "frontend/dialects/gsk/read/canonical.h"
 #include "ir/support/check.h"
 
 namespace rung::gsk::convert {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/title.h"
+#include "frontend/dialects/gsk/read/title.h"
 
 namespace rung::gsk::convert {
 namespace {

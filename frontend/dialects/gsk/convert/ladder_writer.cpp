@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/canonical.h"
-#include "frontend/dialects/gsk/condition.h"
 #include "frontend/dialects/gsk/convert/drawing.h"
 #include "frontend/dialects/gsk/convert/gap_writer.h"
 #include "frontend/dialects/gsk/convert/hints.h"
 #include "frontend/dialects/gsk/convert/writers.h"
+#include "frontend/dialects/gsk/read/canonical.h"
+#include "frontend/dialects/gsk/read/condition.h"
 
 namespace rung::gsk::convert {
 namespace {

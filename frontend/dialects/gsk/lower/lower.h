@@ -1,0 +1,140 @@
+// Lowering of networks to IR. A lowering function of the table gets a FunctionLowering: conditions as values, checked
+// parameters, and the few things that functions do with them. It says what the output bit W is; coils are not its
+// business.
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "frontend/dialects/dialect.h"
+#include "frontend/dialects/gsk/program.h"
+#include "frontend/dialects/gsk/read/context.h"
+#include "ir/core/builder.h"
+
+namespace rung::gsk {
+
+// Machine positions that the CNC gives: one each of the axes 1-8 (signals of axes are 1-8 as well, man. l.3368).
+inline constexpr uint32_t kMachineAxes = 8;
+
+class ModuleLowering;
+struct RoutineContext;
+
+class FunctionLowering {
+public:
+  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
+                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
+
+  ir::RungBuilder& b;
+  const Network& network;
+  const Function& function;
+
+  int variant() const { return function.row->variant; }
+  const Param& param(size_t i) const { return function.params[i]; }
+  ir::ValueId condition(size_t i) const { return conditions_[i]; }
+  ir::ValueId act() const { return conditions_.back(); }
+  // The type of as many bytes as the format says.
+  ir::Type dataType() const { return ir::intOfBytes(function.length); }
+
+  ir::ValueId load(ir::Type type, const Address& address);
+  void store(const Address& address, ir::ValueId value);
+  // `legal` bytes of the `bytes` from `address` may be the first of an element.
+  ir::Window window(const Address& address, uint32_t bytes, uint32_t legal) const;
+  // A parameter that is an address or a constant.
+  ir::ValueId operand(size_t i, ir::Type type);
+
+  // State of this instruction; all calls with one role give the same slot, also from the other level.
+  ir::SlotId slot(std::string_view role, ir::Type type, int64_t init = 0);
+  // Microseconds between the beginnings of this and the last run of the level.
+  ir::ValueId scanTime();
+  // Every run of the level takes this network, and once.
+  bool onceEachRun() const;
+  // Microseconds since the last run of the level began.
+  ir::ValueId sinceLastRun();
+  // State that all instructions of the program share.
+  ir::SlotId shared(const std::string& key, ir::Type type);
+  // Remembers the current run of each level; how many runs ago that was, on this level (signed).
+  void markRun();
+  ir::ValueId runsSinceMark();
+  ir::ServiceId service(std::string_view signature);
+  // The machine positions that the NC keeps: 8 cells of 4 bytes, axis n at byte 4(n-1), in 0.001 mm.
+  ir::Window machinePositions();
+  // Constant bytes in a hidden space; `legal` of them may be the first of an element.
+  ir::Window constants(const std::vector<uint8_t>& bytes, uint32_t legal);
+
+  void setOutput(ir::ValueId w) { output_ = w; }
+  ir::ValueId output() const { return output_; }
+  // The latched output of §6.3: with `execute` W is what `body` gives, else it keeps its value; `reset` (may be
+  // invalid) makes it 0 and wins (P15, P17).
+  void latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body);
+  // W as the last scan left it, for a `body` that changes nothing.
+  ir::ValueId oldOutput();
+  // What most functions do with RST and ACT, their last two conditions.
+  void resettable(const std::function<ir::ValueId()>& body);
+
+  // Control: rungs and routines of this level.
+  uint32_t targetRung() const;
+  ir::RoutineId callee() const;
+  // What COM found, for the networks up to COME.
+  ir::SlotId commonLine();
+  // Where a JMPC leads, plus 1; 0: none is under way.
+  ir::SlotId leaveTarget();
+
+private:
+  ModuleLowering& module_;
+  RoutineContext& routine_;
+  std::span<const ir::ValueId> conditions_;
+  std::string_view slotPrefix_;
+  ir::ValueId output_{};
+};
+
+enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
+enum CounterVariant { kCounterPage, kCounterMemory };
+enum EdgeVariant { kRising, kFalling };
+enum WindowVariant { kWindowRead, kWindowWrite };
+enum ArithmeticVariant { kAdd, kSubtract, kMultiply };
+
+void lowerTimer(FunctionLowering& f);
+void lowerCounter(FunctionLowering& f);
+void lowerEdge(FunctionLowering& f);
+
+void lowerDecode(FunctionLowering& f);
+void lowerMoveMasked(FunctionLowering& f);
+void lowerMoveOr(FunctionLowering& f);
+void lowerMove(FunctionLowering& f);
+void lowerMoveBlock(FunctionLowering& f);
+void lowerNumber(FunctionLowering& f);
+void lowerLogic(FunctionLowering& f);
+void lowerNot(FunctionLowering& f);
+void lowerShift(FunctionLowering& f);
+void lowerParity(FunctionLowering& f);
+void lowerCompare(FunctionLowering& f);
+void lowerCoincidence(FunctionLowering& f);
+
+void lowerArithmetic(FunctionLowering& f);
+void lowerDivision(FunctionLowering& f);
+void lowerBcd(FunctionLowering& f);
+
+void lowerRotation(FunctionLowering& f);
+void lowerCodeTable(FunctionLowering& f);
+void lowerSearch(FunctionLowering& f);
+void lowerIndexedMove(FunctionLowering& f);
+
+void lowerWindow(FunctionLowering& f);
+void lowerAxisControl(FunctionLowering& f);
+void lowerPositionZones(FunctionLowering& f);
+void lowerPositionRange(FunctionLowering& f);
+
+void lowerMark(FunctionLowering& f);
+void lowerEnd(FunctionLowering& f);
+void lowerJump(FunctionLowering& f);
+void lowerCall(FunctionLowering& f);
+void lowerLeave(FunctionLowering& f);
+void lowerCommonLine(FunctionLowering& f);
+
+// The module of a program without errors.
+std::unique_ptr<ir::Module> lowerProgram(const Program& program, Context& context, std::span<const FileId> files,
+                                         const frontend::CompileOptions& options);
+
+} // namespace rung::gsk

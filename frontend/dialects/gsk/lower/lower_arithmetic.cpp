@@ -1,0 +1,105 @@
+// Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing
+// overflows.
+#include "frontend/dialects/gsk/lower/lower.h"
+
+namespace rung::gsk {
+namespace {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+Type doubled(const FunctionLowering& f) { return ir::intOfBytes(2 * f.function.length); }
+
+// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid value is 0.
+void storeFlags(FunctionLowering& f, ValueId zero, ValueId negative, ValueId overflow) {
+  ir::RungBuilder& b = f.b;
+  ValueId byte = b.constant(Type::I8, 0);
+  const auto add = [&](ValueId flag, int64_t bit) {
+    if (flag.valid())
+      byte = b.or_(byte, b.select(flag, b.constant(Type::I8, int64_t{1} << bit), b.constant(Type::I8, 0)));
+  };
+  add(zero, 0);
+  add(negative, 1);
+  add(overflow, 5);
+  f.store({Area::R, kResultFlags}, byte);
+}
+
+// Stores the low bytes of a result and the flags; gives W, the overflow (P38).
+ValueId storeResult(FunctionLowering& f, const Address& address, ValueId wide) {
+  ir::RungBuilder& b = f.b;
+  const ValueId low = b.op(OpCode::Trunc, f.dataType(), {wide});
+  const ValueId overflow = b.ne(b.sextOrTrunc(doubled(f), low), wide);
+  const ValueId zero = b.constant(doubled(f), 0);
+  f.store(address, low);
+  storeFlags(f, b.eq(wide, zero), b.ltS(wide, zero), overflow);
+  return overflow;
+}
+
+ValueId wideOperand(FunctionLowering& f, size_t i) { return f.b.sextOrTrunc(doubled(f), f.operand(i, f.dataType())); }
+
+} // namespace
+
+void lowerArithmetic(FunctionLowering& f) {
+  f.resettable([&] {
+    constexpr OpCode kOps[] = {OpCode::Add, OpCode::Sub, OpCode::Mul};
+    const ValueId a = wideOperand(f, 1);
+    return storeResult(f, f.param(3).address, f.b.binary(kOps[f.variant()], a, wideOperand(f, 2)));
+  });
+}
+
+// A divisor of 0 changes nothing but W (P38).
+void lowerDivision(FunctionLowering& f) {
+  f.resettable([&] {
+    ir::RungBuilder& b = f.b;
+    const ValueId a = wideOperand(f, 1);
+    const ValueId divisor = wideOperand(f, 2);
+    const auto divide = [&] {
+      const ValueId remainder = b.op(OpCode::Trunc, f.dataType(), {b.op(OpCode::RemS, doubled(f), {a, divisor})});
+      const ValueId overflow = storeResult(f, f.param(3).address, b.op(OpCode::DivS, doubled(f), {a, divisor}));
+      f.store({Area::R, kRemainder}, remainder);
+      return overflow;
+    };
+    return b.choose(b.ne(divisor, b.constant(doubled(f), 0)), divide, [&] { return b.bit(true); });
+  });
+}
+
+namespace {
+
+// Signed binary to BCD; W when the magnitude has more digits than the length holds.
+ValueId toBcd(FunctionLowering& f, ValueId source) {
+  constexpr int64_t kLimits[] = {0, 99, 9999, 0, 99999999};
+  ir::RungBuilder& b = f.b;
+  const ValueId negative = b.ltS(source, b.constant(f.dataType(), 0));
+  const ValueId magnitude = b.select(negative, b.op(OpCode::Neg, f.dataType(), {source}), source);
+  const ValueId overflow = b.ltU(b.constant(f.dataType(), kLimits[f.function.length]), magnitude);
+  f.b.when(b.not_(overflow), [&] { f.store(f.param(2).address, b.op(OpCode::BcdEncode, f.dataType(), {magnitude})); });
+  storeFlags(f, {}, negative, overflow);
+  return overflow;
+}
+
+// BCD to binary; W when a digit is above 9, which shows when the number is written in BCD again.
+ValueId fromBcd(FunctionLowering& f, ValueId source, ValueId sign) {
+  ir::RungBuilder& b = f.b;
+  const ValueId magnitude = b.op(OpCode::BcdDecode, f.dataType(), {source});
+  const ValueId error = b.ne(b.op(OpCode::BcdEncode, f.dataType(), {magnitude}), source);
+  const ValueId result = b.select(sign, b.op(OpCode::Neg, f.dataType(), {magnitude}), magnitude);
+  const ValueId good = b.not_(error);
+  f.b.when(good, [&] { f.store(f.param(2).address, result); });
+  storeFlags(f, {}, b.and_(good, b.ltS(result, b.constant(f.dataType(), 0))), {});
+  return error;
+}
+
+} // namespace
+
+// Conditions SIN, CNV, RST, ACT.
+void lowerBcd(FunctionLowering& f) {
+  f.resettable([&] {
+    ir::RungBuilder& b = f.b;
+    const ValueId source = f.load(f.dataType(), f.param(1).address);
+    return b.choose(
+        f.condition(1), [&] { return fromBcd(f, source, f.condition(0)); }, [&] { return toBcd(f, source); });
+  });
+}
+
+} // namespace rung::gsk

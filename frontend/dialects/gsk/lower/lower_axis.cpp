@@ -1,0 +1,122 @@
+// PLC axis control: hands command blocks to the CNC over the signals of a group (§9; man. l.3241-3393, 7591-7803).
+#include <array>
+
+#include "frontend/dialects/gsk/lower/lower.h"
+#include "rtlib/nc/gsk/axis_commands.h"
+
+namespace rung::gsk {
+namespace {
+
+using ir::Type;
+using ir::ValueId;
+namespace axis = nc::gsk;
+
+enum : uint8_t { kIdle, kSent, kDone };
+constexpr int64_t kUnknownCommand = 1 << 5; // of the result (P53); groups are checked by the compiler
+
+struct Step {
+  ValueId state, out;
+};
+
+class AxisLowering {
+public:
+  explicit AxisLowering(FunctionLowering& f)
+      : f_(f), b_(f.b), group_(axis::axisGroups()[static_cast<size_t>(f.param(0).value - 1)]) {}
+  void run();
+
+private:
+  Address bit(Area area, uint32_t byte, uint8_t number) const { return {area, byte, number, true}; }
+  Address buffer() const { return bit(Area::G, group_.control, axis::kEbufBit); }
+  Address data(uint32_t offset) const {
+    Address address = f_.param(1).address;
+    address.byte += offset;
+    return address;
+  }
+  ValueId state(uint8_t value) { return b_.constant(Type::I8, value); }
+  ValueId isKnown(ValueId command);
+  template <class Yes, class No>
+  Step fork(ValueId condition, Yes yes, No no);
+  Step call(ValueId ready);
+  Step idle(ValueId ready);
+  void send();
+
+  FunctionLowering& f_;
+  ir::RungBuilder& b_;
+  const axis::AxisGroup& group_;
+};
+
+template <class Yes, class No>
+Step AxisLowering::fork(ValueId condition, Yes yes, No no) {
+  const auto yields = [](const Step& step) { return std::array{step.state, step.out}; };
+  const auto joined = b_.choose(condition, [&] { return yields(yes()); }, [&] { return yields(no()); });
+  return {joined[0], joined[1]};
+}
+
+ValueId AxisLowering::isKnown(ValueId command) {
+  uint64_t set = 0;
+  for (const axis::AxisCommand& known : axis::axisCommands()) set |= uint64_t{1} << known.code;
+  const ValueId code = b_.and_(command, b_.constant(Type::I8, axis::kAxisCommandBits));
+  const ValueId bits = b_.constant(Type::I64, static_cast<int64_t>(set));
+  return b_.op(ir::OpCode::Trunc, Type::Bit,
+               {b_.op(ir::OpCode::ShrU, Type::I64, {bits, b_.zextOrTrunc(Type::I32, code)})});
+}
+
+// Seven bytes, EMSBK and EC first (P51), then the CNC is told by EBUF (man. l.7672).
+void AxisLowering::send() {
+  const auto signal = [](uint32_t byte) { return Address{Area::G, byte}; };
+  const ValueId command = f_.load(Type::I8, data(axis::kAxisCommandAt));
+  const ValueId data1 = f_.load(Type::I16, data(axis::kAxisData1At));
+  const ValueId data2 = f_.load(Type::I32, data(axis::kAxisData2At));
+  f_.store(signal(group_.command), command);
+  f_.store(signal(group_.data1()), data1);
+  f_.store(signal(group_.data2()), data2);
+  f_.store(buffer(), b_.not_(f_.load(Type::Bit, buffer())));
+  f_.store(f_.param(2).address, state(0));
+}
+
+// ACT=1 in the state idle.
+Step AxisLowering::idle(ValueId ready) {
+  return fork(
+      isKnown(f_.load(Type::I8, data(axis::kAxisCommandAt))),
+      [&] {
+        b_.when(ready, [&] { send(); });
+        return Step{b_.select(ready, state(kSent), state(kIdle)), b_.bit(false)};
+      },
+      [&] {
+        f_.store(f_.param(2).address, b_.constant(Type::I8, kUnknownCommand));
+        return Step{state(kDone), b_.bit(true)};
+      });
+}
+
+// RST=0. OUT comes when EBSY has followed EBUF, whatever ACT is (man. l.3322), and goes when ACT is 0.
+Step AxisLowering::call(ValueId ready) {
+  const ValueId old = b_.slotLoad(f_.slot("state", Type::I8));
+  return fork(
+      b_.and_(f_.act(), b_.eq(old, state(kIdle))), [&] { return idle(ready); },
+      [&] {
+        const ValueId sent = b_.eq(old, state(kSent));
+        const ValueId done = b_.eq(old, state(kDone));
+        const ValueId out = b_.select(sent, ready, b_.and_(done, f_.act()));
+        const ValueId stays = b_.and_(sent, b_.not_(ready));
+        return Step{b_.select(out, state(kDone), b_.select(stays, state(kSent), state(kIdle))), out};
+      });
+}
+
+void AxisLowering::run() {
+  const ValueId reset = f_.condition(0);
+  f_.store(bit(Area::G, group_.control, axis::kEclrBit), reset);
+  const Step step = fork(
+      reset, [&] { return Step{state(kIdle), b_.bit(false)}; },
+      [&] {
+        return call(
+            b_.eq(f_.load(Type::Bit, buffer()), f_.load(Type::Bit, bit(Area::F, group_.status, axis::kEbsyBit))));
+      });
+  b_.slotStore(f_.slot("state", Type::I8), step.state);
+  f_.setOutput(step.out);
+}
+
+} // namespace
+
+void lowerAxisControl(FunctionLowering& f) { AxisLowering(f).run(); }
+
+} // namespace rung::gsk

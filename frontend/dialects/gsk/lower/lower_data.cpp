@@ -1,0 +1,115 @@
+// Transfers, decoding, comparison, bit logic, shift and parity (§7.3, §7.7, §7.8, §7.10, §7.14, §7.15).
+#include "frontend/dialects/gsk/lower/lower.h"
+
+namespace rung::gsk {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+// Bit i is (code = first + i): 1 shifted by code - first, which shifts everything out where the difference is above 7.
+void lowerDecode(FunctionLowering& f) {
+  ir::RungBuilder& b = f.b;
+  const ValueId code = f.load(f.dataType(), f.param(1).address);
+  const ValueId distance = b.zextOrTrunc(Type::I32, b.sub(code, b.constant(f.dataType(), f.param(2).value)));
+  const ValueId bits = b.op(OpCode::Shl, Type::I8, {b.constant(Type::I8, 1), distance});
+  f.store(f.param(3).address, b.select(f.act(), bits, b.constant(Type::I8, 0)));
+}
+
+void lowerMoveMasked(FunctionLowering& f) {
+  f.b.when(f.act(), [&] {
+    const ValueId mask = f.b.constant(Type::I8, f.param(0).value * 16 + f.param(1).value);
+    f.store(f.param(3).address, f.b.and_(f.load(Type::I8, f.param(2).address), mask));
+  });
+}
+
+void lowerMoveOr(FunctionLowering& f) {
+  f.b.when(f.act(), [&] {
+    const ValueId source = f.load(Type::I8, f.param(0).address);
+    f.store(f.param(2).address, f.b.or_(source, f.load(Type::I8, f.param(1).address)));
+  });
+}
+
+void lowerMove(FunctionLowering& f) {
+  f.b.when(f.act(), [&] {
+    const Type type = ir::intOfBytes(static_cast<uint32_t>(f.variant()));
+    f.store(f.param(1).address, f.load(type, f.param(0).address));
+  });
+}
+
+// All is read before anything is written, so that areas may overlap (P33).
+void lowerMoveBlock(FunctionLowering& f) {
+  f.b.when(f.act(), [&] {
+    struct Piece {
+      uint32_t offset;
+      ValueId value;
+    };
+    std::vector<Piece> pieces;
+    const auto size = static_cast<uint32_t>(f.param(0).value);
+    const auto at = [](Address address, uint32_t offset) {
+      address.byte += offset;
+      return address;
+    };
+    uint32_t offset = 0;
+    for (uint32_t width : {8u, 4u, 2u, 1u})
+      for (; size - offset >= width; offset += width)
+        pieces.push_back({offset, f.load(ir::intOfBytes(width), at(f.param(1).address, offset))});
+    for (const Piece& piece : pieces) f.store(at(f.param(2).address, piece.offset), piece.value);
+  });
+}
+
+void lowerNumber(FunctionLowering& f) {
+  f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.constant(f.dataType(), f.param(1).value)); });
+}
+
+void lowerLogic(FunctionLowering& f) {
+  f.b.when(f.act(), [&] {
+    const ValueId a = f.load(f.dataType(), f.param(1).address);
+    f.store(f.param(3).address, f.b.binary(static_cast<OpCode>(f.variant()), a, f.operand(2, f.dataType())));
+  });
+}
+
+void lowerNot(FunctionLowering& f) {
+  f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.not_(f.load(f.dataType(), f.param(1).address))); });
+}
+
+// Conditions DIR, CONT, RST, ACT.
+void lowerShift(FunctionLowering& f) {
+  f.resettable([&] {
+    ir::RungBuilder& b = f.b;
+    const ValueId right = f.condition(0);
+    const ValueId old = f.load(Type::I16, f.param(0).address);
+    const ValueId one = b.i32(1);
+    const ValueId shifted =
+        b.select(right, b.op(OpCode::ShrU, Type::I16, {old, one}), b.op(OpCode::Shl, Type::I16, {old, one}));
+    const ValueId kept = b.select(f.condition(1), b.or_(shifted, old), shifted);
+    const ValueId end = b.select(right, old, b.op(OpCode::ShrU, Type::I16, {old, b.i32(15)}));
+    f.store(f.param(0).address, kept);
+    return b.op(OpCode::Trunc, Type::Bit, {end});
+  });
+}
+
+// Conditions OE, RST, ACT.
+void lowerParity(FunctionLowering& f) {
+  f.resettable([&] {
+    const ValueId ones = f.b.op(OpCode::PopCount, Type::I8, {f.load(Type::I8, f.param(0).address)});
+    return f.b.xor_(f.b.op(OpCode::Trunc, Type::Bit, {ones}), f.condition(0));
+  });
+}
+
+void lowerCompare(FunctionLowering& f) {
+  f.b.when(f.act(), [&] {
+    ir::RungBuilder& b = f.b;
+    const ValueId benchmark = f.operand(1, f.dataType());
+    const ValueId data = f.load(f.dataType(), f.param(2).address);
+    const ValueId unequal = b.select(b.ltS(data, benchmark), b.constant(Type::I8, 2), b.constant(Type::I8, 4));
+    f.store(f.param(3).address, b.select(b.eq(benchmark, data), b.constant(Type::I8, 1), unequal));
+  });
+}
+
+void lowerCoincidence(FunctionLowering& f) {
+  f.latchedOutput(f.act(), {},
+                  [&] { return f.b.eq(f.operand(1, f.dataType()), f.load(f.dataType(), f.param(2).address)); });
+}
+
+} // namespace rung::gsk

@@ -1,0 +1,247 @@
+// One network to one rung, and what lowering functions may use.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/lower/lower_module.h"
+#include "ir/support/check.h"
+
+namespace rung::gsk {
+namespace {
+
+ir::SpaceId spaceOf(const LevelState& level, const Address& address) {
+  return level.spaces[static_cast<size_t>(address.area)];
+}
+
+ir::Place placeOf(const LevelState& level, const Address& address) {
+  return {spaceOf(level, address), address.byte, address.isBit ? address.bit : 0u};
+}
+
+// The lines of a network as written.
+std::string linesOf(const SourceManager& sources, const Network& network) {
+  std::string text;
+  for (uint32_t line = network.firstLine; line <= network.lastLine; ++line) {
+    if (line != network.firstLine) text += '\n';
+    text += sources.lineText(network.file, line);
+  }
+  return text;
+}
+
+} // namespace
+
+void ModuleLowering::describe(ir::Rung& rung, const Network& network, uint64_t key) const {
+  const auto number = numbers_.find(&network);
+  rung.number = number == numbers_.end() ? 0 : number->second;
+  rung.title = network.title;
+  rung.sourceText = linesOf(context_.sources, network);
+  rung.begin = {fileIndex_.at(network.file.index), network.firstLine,
+                context_.sources.lineCol(network.range.begin).column};
+  rung.lastLine = network.lastLine;
+  rung.key = key;
+  rung.weight = std::max(network.steps, 1u);
+}
+
+void RungMarks::add(ir::MarkKind kind, ir::ValueId value, SourceRange range, std::string text) const {
+  const LineCol at = sources_.lineCol(range.begin);
+  marks_->add(routine_, rung_, {kind, value, at.line, at.column, std::move(text)});
+}
+
+void RungMarks::element(ir::MarkKind kind, ir::ValueId value, SourceRange range) const {
+  if (marks_ != nullptr) add(kind, value, range, std::string(sources_.text(range)));
+}
+
+void RungMarks::function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more) const {
+  if (marks_ == nullptr) return;
+  std::string text(function.row->info.mnemonic);
+  for (const Param& param : function.params) text.append(" ").append(sources_.text(param.range));
+  add(kind, value, function.range, text.append(more));
+}
+
+std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
+                                                    const RungMarks& marks) {
+  std::vector<ir::ValueId> stack;
+  for (const LogicStep& step : network.logic) {
+    b.setLine(step.line);
+    if (step.kind == Logic::OrBlock || step.kind == Logic::AndBlock) {
+      const ir::ValueId top = stack.back();
+      stack.pop_back();
+      stack.back() = step.kind == Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
+      continue;
+    }
+    use(level, step.bit, 1);
+    ir::ValueId value = b.load(ir::Type::Bit, placeOf(level, step.bit));
+    if (step.negated) value = b.not_(value);
+    marks.element(ir::MarkKind::Contact, value, step.range);
+    if (step.kind == Logic::Load)
+      stack.push_back(value);
+    else
+      stack.back() = step.kind == Logic::And ? b.and_(stack.back(), value) : b.or_(stack.back(), value);
+  }
+  return stack;
+}
+
+// Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0.
+void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
+                                const RungMarks& marks) {
+  if (network.com != kNone) {
+    const ir::ValueId line = b.slotLoad(slot(slotPrefixes_[routine.unit][network.com] + "com", ir::Type::Bit, 0, true));
+    marks.function(ir::MarkKind::Result, line, program_.units[routine.unit].networks[network.com].function);
+    value = b.and_(value, line);
+  }
+  for (const CoilStep& coil : network.coils) {
+    b.setLine(coil.line);
+    marks.element(ir::MarkKind::Coil, value, coil.range);
+    use(*routine.level, coil.bit, 1);
+    const ir::Place place = placeOf(*routine.level, coil.bit);
+    switch (coil.kind) {
+    case Coil::Out: b.store(place, value); break;
+    case Coil::OutInverted: b.store(place, b.not_(value)); break;
+    case Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
+    case Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
+    }
+  }
+}
+
+// Gives the output. One that passes on a condition asks nothing of its own.
+ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t index,
+                                          std::span<const ir::ValueId> conditions, const RungMarks& marks) {
+  const Network& network = program_.units[routine.unit].networks[index];
+  const Row& row = *network.function.row;
+  for (size_t i = 0; i < conditions.size(); ++i) {
+    const bool one = conditions.size() == 1;
+    marks.function(ir::MarkKind::Input, conditions[i], network.function,
+                   one ? std::string() : fmt::format(" {}", row.info.pins[i].name));
+  }
+  FunctionLowering f(*this, routine, b, network, conditions, slotPrefixes_[routine.unit][index]);
+  b.setLine(network.function.line);
+  if (row.control == Control::Plain) b.note(row.info.mnemonic);
+  row.lower(f);
+  const bool passes = std::find(conditions.begin(), conditions.end(), f.output()) != conditions.end();
+  if (f.output().valid() && !passes) marks.function(ir::MarkKind::Result, f.output(), network.function);
+  return f.output();
+}
+
+void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t index) {
+  const Network& network = program_.units[routine.unit].networks[index];
+  describe(rung, network, keys_[routine.unit][index]);
+  ir::RungBuilder b(*module_, rung);
+  const RungMarks marks(options_.marks, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
+  const std::vector<ir::ValueId> conditions = lowerLogic(*routine.level, b, network, marks);
+  ir::ValueId value = conditions.empty() ? ir::ValueId{} : conditions[0];
+  if (network.function.row != nullptr) value = lowerFunction(routine, b, index, conditions, marks);
+  if (!network.coils.empty()) lowerCoils(routine, b, network, value, marks);
+}
+
+// Behind a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 goes on at the label.
+void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next) {
+  const ir::Rung& call = *(&rung - 1);
+  rung.number = call.number;
+  rung.title = call.title;
+  rung.begin = call.begin;
+  rung.lastLine = call.lastLine;
+  rung.key = ~call.key;
+  ir::RungBuilder b(*module_, rung);
+  b.note("return of the call");
+  const ir::ValueId target = b.slotLoad(leaveTarget());
+  if (routine.unit != kLevel2) return b.ret(b.ne(target, b.i32(0)));
+  b.slotStore(leaveTarget(), b.i32(0));
+  std::vector<uint32_t> targets{next};
+  for (uint32_t network : program_.jumpTargets) targets.push_back(routine.rungOf[network]);
+  b.switchTo(target, std::move(targets));
+}
+
+// ---- FunctionLowering ----------------------------------------------------------------------------------------------
+
+FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
+                                   const Network& net, std::span<const ir::ValueId> conditions,
+                                   std::string_view slotPrefix)
+    : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
+      slotPrefix_(slotPrefix) {}
+
+ir::ValueId FunctionLowering::load(ir::Type type, const Address& address) {
+  module_.use(*routine_.level, address, std::max(ir::byteWidth(type), 1u));
+  return b.load(type, placeOf(*routine_.level, address));
+}
+
+void FunctionLowering::store(const Address& address, ir::ValueId value) {
+  module_.use(*routine_.level, address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
+  b.store(placeOf(*routine_.level, address), value);
+}
+
+ir::Window FunctionLowering::window(const Address& address, uint32_t bytes, uint32_t legal) const {
+  module_.use(*routine_.level, address, bytes);
+  return {spaceOf(*routine_.level, address), address.byte, legal};
+}
+
+ir::ValueId FunctionLowering::operand(size_t i, ir::Type type) {
+  return param(i).isAddress ? load(type, param(i).address) : b.constant(type, param(i).value);
+}
+
+ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t init) {
+  return module_.slot(fmt::format("{}{}", slotPrefix_, role), type, init, false);
+}
+
+ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
+
+bool FunctionLowering::onceEachRun() const {
+  return routine_.level->straight && (routine_.unit == kLevel1 || routine_.unit == kLevel2);
+}
+
+ir::ValueId FunctionLowering::sinceLastRun() {
+  return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
+}
+
+ir::SlotId FunctionLowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
+
+// A unit that both levels run shares its state, but each level has a count of its own. What Level 2 does behind Level 1
+// in one slot belongs to the same scan.
+void FunctionLowering::markRun() {
+  for (const LevelState& level : module_.levels()) {
+    if (!level.routines[routine_.unit].valid()) continue;
+    const bool behind = level.isLevel2 && !routine_.level->isLevel2;
+    const ir::ValueId runs = b.slotLoad(level.runs);
+    b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), behind ? b.add(runs, b.i32(1)) : runs);
+  }
+}
+
+ir::ValueId FunctionLowering::runsSinceMark() {
+  const ir::SlotId mark = slot(routine_.level->isLevel2 ? "mark2" : "mark1", ir::Type::I32);
+  return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(mark));
+}
+
+ir::ServiceId FunctionLowering::service(std::string_view signature) { return module_.service(signature); }
+
+ir::Window FunctionLowering::machinePositions() {
+  constexpr uint32_t kLast = 4 * (kMachineAxes - 1);
+  return {module_.machinePositions(), 0, kLast + 1};
+}
+
+ir::Window FunctionLowering::constants(const std::vector<uint8_t>& bytes, uint32_t legal) {
+  return {module_.constantSpace(bytes), 0, legal};
+}
+
+ir::ValueId FunctionLowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
+
+void FunctionLowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
+  ir::ValueId keep = oldOutput();
+  if (reset.valid()) {
+    const ir::ValueId free = b.not_(reset);
+    keep = b.and_(keep, free);
+    execute = b.and_(execute, free);
+  }
+  output_ = b.choose(execute, body, [&] { return keep; });
+  b.slotStore(slot("W", ir::Type::Bit), output_);
+}
+
+void FunctionLowering::resettable(const std::function<ir::ValueId()>& body) {
+  latchedOutput(act(), conditions_[conditions_.size() - 2], body);
+}
+
+uint32_t FunctionLowering::targetRung() const { return routine_.rungOf[network.target]; }
+ir::RoutineId FunctionLowering::callee() const { return routine_.level->routines[network.callee]; }
+ir::SlotId FunctionLowering::commonLine() {
+  return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true);
+}
+ir::SlotId FunctionLowering::leaveTarget() { return module_.leaveTarget(); }
+
+} // namespace rung::gsk

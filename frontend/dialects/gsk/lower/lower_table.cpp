@@ -1,0 +1,159 @@
+// Rotation, code conversion and data tables (§7.5, §7.6, §7.11).
+#include <algorithm>
+#include <array>
+
+#include "frontend/dialects/gsk/lower/lower.h"
+
+namespace rung::gsk {
+namespace {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+// Entries of a table in D that exist (P35).
+uint32_t entriesFrom(const Address& table, uint32_t length) {
+  return (areaInfo(table.area).bytes - table.byte) / length;
+}
+
+// Entries of `length` bytes one behind the other; the index counts bytes.
+ir::Window tableWindow(FunctionLowering& f, const Address& table) {
+  const uint32_t entries = entriesFrom(table, f.function.length);
+  return f.window(table, entries * f.function.length, (entries - 1) * f.function.length + 1);
+}
+
+ValueId byteIndex(FunctionLowering& f, ValueId entry) { return f.b.mul(entry, f.b.i32(f.function.length)); }
+
+ValueId unsignedWord(FunctionLowering& f, size_t param, Type type) {
+  return f.b.zextOrTrunc(type, f.load(f.dataType(), f.param(param).address));
+}
+
+// Where a way leads, counted from position 0 (§7.5).
+struct Way {
+  ValueId reverse; // bit
+  ValueId result;
+};
+
+Way wayOf(FunctionLowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
+  ir::RungBuilder& b = f.b;
+  const auto wrapped = [&](ValueId x) { return b.op(OpCode::RemU, Type::I64, {x, count}); };
+  const ValueId one = b.constant(Type::I64, 1);
+  const ValueId forward = wrapped(b.sub(b.add(target, count), current));
+  const ValueId backward = wrapped(b.sub(b.add(current, count), target));
+  const ValueId reverse = b.and_(f.condition(1), b.ltU(backward, forward)); // P30: equal ways go forward
+  const ValueId pos = f.condition(2);
+  const ValueId steps = b.select(reverse, backward, forward);
+  const ValueId fewer = b.sub(steps, b.zextOrTrunc(Type::I64, pos));
+  const ValueId number = b.select(b.eq(steps, b.constant(Type::I64, 0)), steps, fewer); // P31
+  const ValueId before = b.select(reverse, wrapped(b.add(target, one)), wrapped(b.sub(b.add(target, count), one)));
+  const ValueId position = b.add(b.select(pos, before, target), base);
+  return {reverse, b.select(f.condition(3), number, position)};
+}
+
+} // namespace
+
+// Conditions CN0, DIR, POS, INC, ACT. A position outside the table changes nothing (P31).
+void lowerRotation(FunctionLowering& f) {
+  f.latchedOutput(f.act(), {}, [&] {
+    ir::RungBuilder& b = f.b;
+    const ValueId base = b.zextOrTrunc(Type::I64, f.condition(0));
+    const ValueId count = unsignedWord(f, 1, Type::I64);
+    const ValueId current = b.sub(unsignedWord(f, 2, Type::I64), base);
+    const ValueId target = b.sub(unsignedWord(f, 3, Type::I64), base);
+    const auto turn = [&] {
+      const Way way = wayOf(f, count, current, target, base);
+      f.store(f.param(4).address, b.op(OpCode::Trunc, f.dataType(), {way.result}));
+      return way.reverse;
+    };
+    // Never with a count of 0.
+    return b.choose(b.and_(b.ltU(current, count), b.ltU(target, count)), turn, [&] { return f.oldOutput(); });
+  });
+}
+
+void lowerCodeTable(FunctionLowering& f) {
+  std::vector<uint8_t> bytes;
+  for (int64_t row : f.function.table)
+    for (uint32_t i = 0; i < f.function.length; ++i)
+      bytes.push_back(static_cast<uint8_t>(static_cast<uint64_t>(row) >> (8 * i)));
+  const auto rows = static_cast<uint32_t>(f.function.table.size());
+  f.resettable([&] {
+    ir::RungBuilder& b = f.b;
+    const ValueId index = b.zextOrTrunc(Type::I32, f.load(Type::I8, f.param(2).address));
+    const ValueId legal = b.ltU(index, b.i32(rows));
+    f.b.when(legal, [&] {
+      const ir::Window table = f.constants(bytes, (rows - 1) * f.function.length + 1);
+      f.store(f.param(3).address, b.loadAt(f.dataType(), table, byteIndex(f, index)));
+    });
+    return b.not_(legal);
+  });
+}
+
+namespace {
+
+// Entries that are compared together: a short table does not cost what the area holds.
+constexpr uint32_t kBlock = 32;
+
+struct Found {
+  ValueId yes; // bit
+  ValueId at;
+};
+
+// The lowest entry of the block from `start` that matches, of those below `limit`.
+Found searchBlock(FunctionLowering& f, ValueId start, ValueId limit, ValueId searched) {
+  ir::RungBuilder& b = f.b;
+  const Address& table = f.param(2).address;
+  const ValueId none[] = {b.bit(false), b.i32(0)};
+  const auto inside = b.loop(kBlock, none);
+  const ValueId entry = b.add(start, inside[0]);
+  const ValueId exists = b.ltU(entry, limit);
+  const ValueId value = b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, b.select(exists, entry, b.i32(0))));
+  const ValueId hit = b.and_(b.and_(exists, b.eq(value, searched)), b.not_(inside[1]));
+  const ValueId next[] = {b.or_(inside[1], hit), b.select(hit, entry, inside[2])};
+  const auto found = b.endLoop(next);
+  return {found[0], found[1]};
+}
+
+} // namespace
+
+// The lowest entry that matches. As many entries as the number given says, 0 to n for n+1 (man. l.2022-2026), as far as
+// they exist (P35).
+void lowerSearch(FunctionLowering& f) {
+  f.resettable([&] {
+    ir::RungBuilder& b = f.b;
+    const uint32_t exist = entriesFrom(f.param(2).address, f.function.length);
+    const ValueId entries = unsignedWord(f, 1, Type::I32);
+    const ValueId limit = b.select(b.ltU(entries, b.i32(exist)), entries, b.i32(exist));
+    const ValueId searched = f.load(f.dataType(), f.param(3).address);
+    const ValueId none[] = {b.bit(false), b.i32(0)};
+    const auto block = b.loop((exist + kBlock - 1) / kBlock, none);
+    const ValueId start = b.mul(block[0], b.i32(kBlock));
+    const auto search = [&] {
+      const Found here = searchBlock(f, start, limit, searched);
+      return std::array{here.yes, here.at};
+    };
+    const auto found = b.endLoop(b.choose(b.and_(b.ltU(start, limit), b.not_(block[1])), search,
+                                          [&] { return std::array{block[1], block[2]}; }));
+    f.b.when(found[0], [&] { f.store(f.param(4).address, b.zextOrTrunc(f.dataType(), found[1])); });
+    return b.not_(found[0]);
+  });
+}
+
+// Conditions RW, RST, ACT. Valid are the numbers below that of the entries (P36), as far as they exist.
+void lowerIndexedMove(FunctionLowering& f) {
+  f.resettable([&] {
+    ir::RungBuilder& b = f.b;
+    const Address& table = f.param(2).address;
+    const Address& data = f.param(3).address;
+    const ValueId index = unsignedWord(f, 4, Type::I32);
+    const ValueId exists = b.ltU(index, b.i32(entriesFrom(table, f.function.length)));
+    const ValueId legal = b.and_(b.ltU(index, unsignedWord(f, 1, Type::I32)), exists);
+    const ValueId write = f.condition(0);
+    f.b.when(b.and_(legal, write),
+             [&] { b.storeAt(tableWindow(f, table), byteIndex(f, index), f.load(f.dataType(), data)); });
+    f.b.when(b.and_(legal, b.not_(write)),
+             [&] { f.store(data, b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, index))); });
+    return b.not_(legal);
+  });
+}
+
+} // namespace rung::gsk

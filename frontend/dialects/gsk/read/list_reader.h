@@ -1,0 +1,23 @@
+// Command lists, `*.pmc` (P12): one statement a line.
+#pragma once
+#include <optional>
+#include <span>
+
+#include "frontend/dialects/gsk/read/context.h"
+#include "frontend/dialects/gsk/read/units.h"
+
+namespace rung::gsk {
+
+// Comments begin with ';', there are no quoted texts.
+inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
+std::optional<Command> findCommand(std::string_view name);
+// The words behind the step number.
+std::span<const Word> statementOf(const LineWords& line);
+
+// The `symbol` and `const` statements of a file; they hold for the whole program, so they are read before all networks.
+void readListSymbols(Context& context, FileId file);
+void readList(Context& context, FileId file, UnitAssembler& units);
+// The last line with something on it, for errors about what is missing at the end.
+SourceRange lastLineOf(const SourceManager& sources, FileId file);
+
+} // namespace rung::gsk

@@ -1,0 +1,102 @@
+// The file of message texts.
+#include "frontend/dialects/gsk/read/messages.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/syntax/word_lexer.h"
+
+namespace rung::gsk {
+namespace {
+
+constexpr uint64_t kMessages = 256;
+
+// 8 x byte + bit + 1 of a bit in A (P57), or the number itself; nullopt for anything else.
+std::optional<uint64_t> numberOf(std::string_view text) {
+  if (const auto number = parseDigits(text)) return number;
+  const auto split = splitAddress(text);
+  if (!split || split->area != Area::A || split->bit.size() != 1) return std::nullopt;
+  if (split->bit[0] < '0' || split->bit[0] > '7') return std::nullopt;
+  return 8 * split->byte + static_cast<uint64_t>(split->bit[0] - '0') + 1;
+}
+
+class MessageReader {
+public:
+  explicit MessageReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void line(const LineWords& line) {
+    const std::vector<Word>& words = line.words;
+    if (words.empty()) return;
+    const auto number = words[0].quoted ? std::nullopt : numberOf(words[0].text);
+    if (!number)
+      bad(words[0], fmt::format("found '{}' in place of the number", words[0].text));
+    else if (words.size() == 1)
+      bad(words[0], "the text is missing");
+    else if (!words[1].quoted)
+      bad(words[1], fmt::format("'{}' has no quotation marks", words[1].text));
+    else if (line.unterminatedQuote)
+      bad(words.back(), "the closing quotation mark is missing");
+    else if (words.size() > 2)
+      bad(words[2], fmt::format("'{}' follows the text", words[2].text));
+    else
+      add(words[0], *number, words[1].text);
+  }
+
+  std::vector<ir::MessageText> result() const {
+    std::vector<ir::MessageText> list;
+    for (const auto& [number, entry] : texts_) list.push_back({number, std::string(entry.text)});
+    return list;
+  }
+
+private:
+  struct Entry {
+    std::string_view text;
+    SourceRange range;
+  };
+
+  void bad(const Word& at, std::string_view what) { diagnostics_.report(Diag::BadMessage, at.range) << what; }
+
+  void add(const Word& word, uint64_t number, std::string_view text) {
+    if (number < 1 || number > kMessages) {
+      diagnostics_.report(Diag::ConstantOutOfRange, word.range)
+          << word.text << fmt::format("1 to {} (A0.0 to A31.7)", kMessages);
+      return;
+    }
+    const auto [at, isNew] = texts_.emplace(static_cast<uint32_t>(number), Entry{text, word.range});
+    if (!isNew)
+      diagnostics_.report(Diag::DuplicateSymbol, word.range).note(at->second.range, "the first text of this message")
+          << word.text;
+  }
+
+  Diagnostics& diagnostics_;
+  std::map<uint32_t, Entry> texts_;
+};
+
+} // namespace
+
+std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program, std::string_view path,
+                                          Diagnostics& diagnostics) {
+  const std::filesystem::path folder = std::filesystem::path(sources.name(program)).parent_path();
+  const std::string name = (folder / path).lexically_normal().string();
+  const Result<FileId> file = sources.addFile(name);
+  if (!file.ok()) {
+    diagnostics.report(Diag::FileNotFound) << name << file.error();
+    return {};
+  }
+  if (!checkEncoding(sources, file.value(), diagnostics)) return {};
+  MessageReader reader(diagnostics);
+  LineReader lines(sources, file.value());
+  SourceLine line;
+  LineWords words;
+  while (lines.next(line)) {
+    splitWords(line, {}, words);
+    reader.line(words);
+  }
+  return reader.result();
+}
+
+} // namespace rung::gsk

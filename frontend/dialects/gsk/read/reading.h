@@ -1,0 +1,34 @@
+// All files of one program, read in the order that the dialect wants: command lists in front of ladder text.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "frontend/dialects/gsk/read/context.h"
+#include "frontend/dialects/gsk/read/units.h"
+#include "frontend/ladder/ladder.h"
+
+namespace rung::gsk {
+
+// Ladder text; the others are command lists.
+bool isLadder(const SourceManager& sources, FileId file);
+
+class Reading {
+public:
+  Reading(Context& context, Program& program) : context_(context), units_(context, program) {}
+
+  void add(FileId file);
+  // True when all function commands were understood as such.
+  bool read();
+
+  const std::vector<FileId>& lists() const { return lists_; }
+  const std::vector<ladder::LadderFile>& ladders() const { return ladders_; }
+
+private:
+  Context& context_;
+  UnitAssembler units_;
+  std::vector<FileId> lists_;
+  std::vector<ladder::LadderFile> ladders_;
+  FileId last_;
+};
+
+} // namespace rung::gsk

@@ -1,0 +1,97 @@
+// Names and places of signals.
+#include "frontend/dialects/gsk/read/signals.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "ir/support/similar.h"
+#include "rtlib/nc/gsk/signals.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::gsk {
+namespace {
+
+uint32_t bytesOf(const nc::Signal& signal) { return std::max(1u, nc::elementBytes(signal.type)); }
+
+bool covers(const nc::Signal& signal, const Address& address) {
+  const Address own = signalAddress(signal);
+  if (own.area != address.area || address.byte < own.byte || address.byte >= own.byte + bytesOf(signal)) return false;
+  return !own.isBit || !address.isBit || own.bit == address.bit;
+}
+
+std::string_view groupOf(Machine machine) { return machine == Machine::Mill ? "mc" : "tc"; }
+
+std::string_view machineNote(std::string_view group) {
+  if (group == "mc") return " Only the milling control GSK25iMc has it.";
+  if (group == "tc") return " Only the turning control GSK25iTc has it.";
+  return "";
+}
+
+std::string textOf(const nc::Signal& signal) {
+  const Address address = signalAddress(signal);
+  const uint32_t bytes = bytesOf(signal);
+  const std::string width = address.isBit ? "" : bytes == 1 ? " (1 byte)" : fmt::format(" ({} bytes)", bytes);
+  return fmt::format("[gsk] {}: {}{}, {}\n  {}\n  Manual: l.{}.{}\n", signal.symbol, textOf(address), width,
+                     areaInfo(address.area).doc, signal.meaning, signal.manualLine, machineNote(signal.group));
+}
+
+} // namespace
+
+const nc::Signal* findSignalByName(std::string_view name) { return nc::findSignal(nc::gskSignals(), name); }
+
+Address signalAddress(const nc::Signal& signal) {
+  const auto area = splitAddress(std::string(signal.area) + "0");
+  const bool isBit = signal.type == nc::SignalType::Bit;
+  return {area ? area->area : Area::R, signal.byteOffset, isBit ? signal.bit : uint8_t{0}, isBit};
+}
+
+const nc::Signal* foreignSignal(Machine machine, const Address& address, uint32_t length) {
+  if (machine == Machine::Any || areaInfo(address.area).use == AreaUse::Memory) return nullptr;
+  static const std::vector<const nc::Signal*> kOfOneMachine = [] {
+    std::vector<const nc::Signal*> found;
+    for (const nc::Signal& signal : nc::gskSignals())
+      if (std::string_view(signal.group) != "both") found.push_back(&signal);
+    return found;
+  }();
+  for (const nc::Signal* signal : kOfOneMachine) {
+    if (signal->group == groupOf(machine)) continue;
+    // Bytes that hold a single bit of the other machine among signals of both are none of its business.
+    if (signal->type == nc::SignalType::Bit && !address.isBit) continue;
+    for (uint32_t i = 0; i < length; ++i) {
+      Address byte = address;
+      byte.byte += i;
+      if (covers(*signal, byte)) return signal;
+    }
+  }
+  return nullptr;
+}
+
+const nc::Signal* similarSignal(std::string_view name) {
+  Similar similar(name);
+  for (const nc::Signal& signal : nc::gskSignals()) similar.offer(signal.symbol);
+  return similar.best().empty() ? nullptr : findSignalByName(similar.best());
+}
+
+std::string explainSignal(std::string_view word) {
+  std::string text;
+  for (const nc::Signal& signal : nc::gskSignals())
+    if (text::equalsIgnoringCase(signal.symbol, word)) text += textOf(signal);
+  const auto split = splitAddress(word);
+  if (!split || split->byte >= areaInfo(split->area).bytes) return text;
+  Address address{split->area, static_cast<uint32_t>(split->byte), 0, split->hasPoint};
+  if (split->hasPoint) {
+    if (split->bit.size() != 1 || split->bit[0] < '0' || split->bit[0] > '7') return text;
+    address.bit = static_cast<uint8_t>(split->bit[0] - '0');
+  }
+  const size_t before = text.size();
+  for (const nc::Signal& signal : nc::gskSignals())
+    if (covers(signal, address)) text += textOf(signal);
+  if (text.size() == before)
+    text += fmt::format("[gsk] {}: area {} ({}), not a signal of the manual\n", textOf(address),
+                        areaInfo(address.area).letter, areaInfo(address.area).doc);
+  return text;
+}
+
+} // namespace rung::gsk

@@ -1,0 +1,145 @@
+// Rows: timers, counters, decoding, rotation, code tables: FUNC 2-9 (man. Part I §5.3-§5.10). Included by
+// instructions.cpp only.
+#pragma once
+#include "frontend/dialects/gsk/rows/row_parts.h"
+
+namespace rung::gsk {
+
+inline constexpr Row kTimingRows[] = {
+    {.info = {.mnemonic = "TMR",
+              .title = "on-delay timer",
+              .group = "timers",
+              .number = 2,
+              .pins = {kAct},
+              .operands = {number("number", 1, 100)},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "5.3, l.1074",
+              .doc = "OUT becomes 1 when ACT has been 1 for the preset time, which is set on the timer page and kept "
+                     "through power-off: "
+                     "timers 1-20 in units of 48 ms, 21-100 in units of 8 ms, the remainder dropped. ACT=0: OUT=0, the "
+                     "time is forgotten. "
+                     "The time counts from the first scan with ACT=1 (P23).",
+              .example = "LD X9.0\nFUNC 2\nPRM 1\nOUT Y9.0"},
+     .numbers = Row::Numbers::Timer,
+     .lower = &lowerTimer,
+     .variant = kTimerPage},
+    {.info = {.mnemonic = "TMRB",
+              .title = "fixed on-delay timer",
+              .group = "timers",
+              .number = 3,
+              .pins = {kAct},
+              .operands = {number("number", 1, 200),
+                           number("preset", 8, 999999, "milliseconds; a remainder of 8 is dropped")},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "5.4, l.1118",
+              .doc =
+                  "As TMR, but the preset is part of the program, in milliseconds and units of 8 ms. Its numbers are "
+                  "a set of their own.",
+              .example = "LD X9.0\nFUNC 3\nPRM 1\nPRM 1000\nOUT Y9.0"},
+     .numbers = Row::Numbers::Timer,
+     .lower = &lowerTimer,
+     .variant = kTimerFixed},
+    {.info = {.mnemonic = "TMRC",
+              .title = "on-delay timer, preset in memory",
+              .group = "timers",
+              .number = 4,
+              .pins = {kAct},
+              .operands = {number("accuracy", 0, 2, "0: 8 ms, 1: 48 ms, 2: 1 s"),
+                           in("preset", Kind::Word, "unsigned, in units of the accuracy"),
+                           inout("register", Kind::WorkArea, "for the control's own use")},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "5.5, l.1164",
+              .doc = "As TMR, but the preset is a word of memory that may change at any time. The contents of the "
+                     "register are not defined.",
+              .example = "LD X9.0\nFUNC 4\nPRM 0\nPRM D10\nPRM R100\nOUT Y9.0"},
+     .lower = &lowerTimer,
+     .variant = kTimerMemory},
+
+    {.info = {.mnemonic = "DECB",
+              .title = "binary decoding",
+              .group = "decoding",
+              .number = 5,
+              .pins = {kAct},
+              .operands = {kFormat, in("code", Kind::Data), in("first code", Kind::Constant),
+                           out("result", Kind::Byte)},
+              .ref = "5.6, l.1217",
+              .doc = "Bit i of the result becomes 1 when the code equals first code + i, for i = 0-7; the others "
+                     "become 0. Codes are compared as "
+                     "bit patterns (P25). ACT=0: all eight bits become 0.",
+              .example = "LD F7.0\nFUNC 5\nPRM 2\nPRM F10\nPRM 3\nPRM R200"},
+     .lower = &lowerDecode},
+
+    {.info = {.mnemonic = "CTR",
+              .title = "ring counter",
+              .group = "counters",
+              .number = 6,
+              .pins = {kCn0, kUpDown, kRst, kCount},
+              .operands = {number("number", 1, 100)},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "5.7, l.1271",
+              .doc = "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins "
+                     "again. Down: from the preset "
+                     "to CN0 (P26). RST=1 sets the start value and OUT=0. OUT=1 when a count arrives at the end of its "
+                     "way. Preset and value lie in "
+                     "C, two bytes each from C(4(n-1)), and are kept through power-off (P8).",
+              .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 6\nPRM 1\nOUT Y9.0"},
+     .numbers = Row::Numbers::Counter,
+     .lower = &lowerCounter,
+     .variant = kCounterPage},
+    {.info =
+         {.mnemonic = "CTRC",
+          .title = "ring counter, preset in memory",
+          .group = "counters",
+          .number = 7,
+          .pins = {kCn0, kUpDown, kRst, kCount},
+          .operands = {in("preset", Kind::Word, "0-32767"),
+                       inout("register", Kind::Dword, "+0 current value, +2 for the control's own use")},
+          .output = Output::Always,
+          .stateful = true,
+          .ref = "5.8, l.1340",
+          .doc =
+              "As CTR, with preset and current value in memory. With its register in R it begins at 0 after power-on.",
+          .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 7\nPRM D10\nPRM D12\nOUT Y9.0"},
+     .lower = &lowerCounter,
+     .variant = kCounterMemory},
+
+    {.info = {.mnemonic = "ROTB",
+              .title = "rotation control",
+              .group = "rotation",
+              .number = 8,
+              .pins = {kCn0, PinInfo{.name = "DIR", .doc = "0 always forward, 1 the shorter way"},
+                       PinInfo{.name = "POS", .doc = "0 the target, 1 the position before it"},
+                       PinInfo{.name = "INC", .doc = "0 the result is a position, 1 a number of steps"}, kAct},
+              .operands = {kFormat, in("positions", Kind::Data), in("current", Kind::Data), in("target", Kind::Data),
+                           out("result", Kind::Data)},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "5.9, l.1425",
+              .doc = "Way of a turret or magazine from the current to the target position. OUT: 0 forward (numbers "
+                     "increase), 1 reverse; equal ways go "
+                     "forward (P30). ACT=0, or a position outside the table: result and OUT stay (P31).",
+              .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD R0.3\nLD X9.0\nFUNC 8\nPRM 1\nPRM D10\nPRM D11\nPRM D12\nPRM "
+                         "D13\nOUT Y9.0"},
+     .lower = &lowerRotation},
+    {.info = {.mnemonic = "CODB",
+              .title = "code conversion by a table",
+              .group = "conversion",
+              .number = 9,
+              .pins = {kRst, kAct},
+              .operands = {kFormat, number("capacity", 1, 256, "rows of the table"), in("index", Kind::Byte),
+                           out("result", Kind::Data)},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "5.10, l.1509",
+              .doc = "result := row `index` of the table that follows as TABLE rows, the first being number 0. OUT=1 "
+                     "when there is no such row (P32).",
+              .example = "LD R0.0\nLD X9.0\nFUNC 9\nPRM 1\nPRM 2\nPRM D10\nPRM D11\nTABLE 10\nTABLE 20\nOUT Y9.0"},
+     .hasTable = true,
+     .lower = &lowerCodeTable},
+};
+
+} // namespace rung::gsk

@@ -1,0 +1,426 @@
+// Checking rungs (see checker.h). Of an operand only the first mistake is reported, in the order of the inventory.
+#include "frontend/dialects/nct/check/checker.h"
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/nct/read/operand_parser.h"
+#include "ir/support/similar.h"
+
+namespace rung::nct {
+namespace {
+
+using frontend::Access;
+using frontend::OperandInfo;
+using frontend::Output;
+using frontend::Placement;
+using ladder::ElementKind;
+
+enum class Class : uint8_t { Bit, Word, Double, Label, Scope, Other };
+
+Class classOf(std::string_view kind) {
+  if (kind == "bit") return Class::Bit;
+  if (kind == "label") return Class::Label;
+  if (kind == "double" || kind == "udouble" || kind == "float") return Class::Double;
+  if (kind == "scope") return Class::Scope;
+  if (kind == "text") return Class::Other;
+  return Class::Word;
+}
+bool takesConstant(std::string_view kind) { return kind == "int" || kind == "dec" || kind == "hex" || kind == "float"; }
+bool inUserMemory(std::string_view kind) { return kind == "uword" || kind == "udouble"; }
+
+std::string_view describe(Form form) {
+  switch (form) {
+  case Form::Bad: return "wrong";
+  case Form::Constant: return "a constant";
+  case Form::Word: return "a word";
+  case Form::Bit: return "a bit";
+  case Form::Text: return "a text";
+  }
+  return "";
+}
+std::string_view describe(ConstantKind kind) {
+  switch (kind) {
+  case ConstantKind::Decimal: return "a decimal constant";
+  case ConstantKind::Hex: return "a hexadecimal constant";
+  case ConstantKind::Real: return "a floating-point constant";
+  }
+  return "";
+}
+// What a kind of operand takes, in the words of a message.
+std::string_view wanted(std::string_view kind) {
+  if (kind == "int") return "#decimal, #$hexadecimal or a word";
+  if (kind == "dec") return "#decimal or a word";
+  if (kind == "hex") return "#$hexadecimal or a word";
+  if (kind == "float") return "*floating-point or a double";
+  return "a word";
+}
+
+// How messages name an element.
+std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
+  switch (element.kind) {
+  case ElementKind::Contact: return "a contact";
+  case ElementKind::Coil:
+    return row.claim == Claim::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
+  case ElementKind::Box:
+  case ElementKind::Error: return std::string(row.info.mnemonic);
+  }
+  return {};
+}
+
+} // namespace
+
+// --- each output once
+// ---------------------------------------------------------------------------------------------------
+void OutputClaims::add(Claim claim, const Operand& operand) {
+  const Address& address = operand.address;
+  if (claim == Claim::None || !address.isFixed()) return;
+  const uint64_t key = address.isBit ? address.word * 32 + address.bit : (1ull << 32) + address.word;
+  Owner& owner = owners_[key];
+  const SourceRange here = operand.source->range;
+  if (claim == Claim::Once && owner.once.valid()) {
+    diagnostics_.report(Diag::DuplicateOutput, here).note(owner.once, "here") << operand.source->text;
+    return;
+  }
+  const bool wasMixed = owner.once.valid() && owner.setReset.valid();
+  if (claim == Claim::Once) owner.once = here;
+  if (claim == Claim::SetReset && !owner.setReset.valid()) owner.setReset = here;
+  if (!wasMixed && owner.once.valid() && owner.setReset.valid())
+    diagnostics_.report(Diag::MixedOutput, here)
+            .note(claim == Claim::Once ? owner.setReset : owner.once, "the other one")
+        << operand.source->text;
+}
+
+// --- rungs
+// --------------------------------------------------------------------------------------------------------------
+RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis,
+                         Diagnostics& diagnostics, bool inInt0)
+    : symbols_(symbols), claims_(claims), analysis_(analysis), diagnostics_(diagnostics), inInt0_(inInt0),
+      handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")), fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
+
+TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung& rung) {
+  TypedRung typed;
+  typed.file = &file;
+  typed.rung = &rung;
+  typed.bad = rung.bad;
+  typed.elements.reserve(rung.elements.size());
+  typed.operands.reserve(rung.operandPool.size());
+  for (const ladder::Element& element : rung.elements) checkElement(typed, element);
+  // What marks a place in the program has a rung of its own (l.2926, l.2968, l.3022).
+  for (const TypedElement& element : typed.elements) {
+    if (typed.elements.size() == 1 || element.row == nullptr || element.row->info.placement != Placement::AtRail)
+      continue;
+    if (typed.bad) break;
+    typed.bad = true;
+    diagnostics_.report(Diag::FirstColumnRequired, element.element->range).note("it needs a rung of its own")
+        << element.row->info.mnemonic;
+  }
+  return typed;
+}
+
+const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const Operand* first) {
+  switch (element.kind) {
+  case ElementKind::Contact: return &contactRow(first->form == Form::Bit, element.negated);
+  case ElementKind::Coil: return &coilRow(static_cast<int>(element.coil));
+  case ElementKind::Box: return findBox(element.mnemonic);
+  case ElementKind::Error: return nullptr;
+  }
+  return nullptr;
+}
+
+void RungChecker::reportUnknown(const ladder::Element& element) {
+  DiagBuilder report = diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange);
+  report << element.mnemonic;
+  if (!diagnostics_.suggests()) return;
+  Similar similar(element.mnemonic);
+  for (const NctInstruction& row : allInstructions())
+    if (row.shape == Shape::Box) similar.offer(row.info.mnemonic);
+  report.meant(element.mnemonicRange, similar.best());
+}
+
+void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {
+  const ladder::Rung& rung = *typed.rung;
+  TypedElement& added = typed.elements.emplace_back();
+  added.element = &element;
+  added.firstOperand = static_cast<uint32_t>(typed.operands.size());
+  if (element.kind == ElementKind::Error) return;
+  if (element.kind != ElementKind::Box) {
+    typed.operands.push_back(parseOperand(rung.operandOf(element), symbols_, diagnostics_));
+    added.operandCount = 1;
+    Operand& operand = typed.operands.back();
+    if (element.edge != 0 && operand.edge != 0) {
+      diagnostics_.report(Diag::ModifierNotAllowed, operand.source->range)
+          << std::string(1, operand.edge) << fmt::format("a contact with '{}'", element.edge);
+      operand.form = Form::Bad;
+    }
+    if (element.edge != 0) operand.edge = element.edge;
+  }
+  added.row = rowOf(element, typed.operands.empty() ? nullptr : &typed.operands.back());
+  if (added.row == nullptr) {
+    // Of a drawing with an error it may be a pin of a box that was not read.
+    const bool mayBePin = rung.bad && element.operands.count == 0;
+    if (!mayBePin) reportUnknown(element);
+    typed.bad = true;
+    return;
+  }
+  const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // of a bad one no net is known
+  bool ok = readOperands(typed, added) && drawn;
+  if (ok && !added.row->isBuilt()) {
+    diagnostics_.report(Diag::NotBuiltYet, element.mnemonicRange) << added.row->info.mnemonic;
+    ok = false;
+  }
+  if (!ok) typed.bad = true;
+}
+
+// Each of the two speaks of something else, so both may report.
+bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+  const bool placed = checkPlacement(rung, element, row);
+  return checkPins(rung, element, row) && placed;
+}
+
+bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+  bool ok = true;
+  const auto complain = [&](Diag code, SourceRange range) {
+    diagnostics_.report(code, range) << nameOf(element, row);
+    ok = false;
+  };
+  for (const ladder::Pin& pin : rung.pinsOf(element)) {
+    if (row.info.placement == Placement::BehindContact && pin.input == ladder::kRail)
+      complain(Diag::FirstColumnNotAllowed, pin.range);
+    if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail)
+      complain(Diag::FirstColumnRequired, pin.range);
+  }
+  const bool connected = element.output.valid();
+  if (row.info.output == Output::None && connected) complain(Diag::ElementAfterClosing, element.range);
+  if (row.info.output == Output::Always && !connected) complain(Diag::MissingClosingElement, element.range);
+  return ok;
+}
+
+bool RungChecker::checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+  const auto known = row.info.pins.all();
+  const std::span<const ladder::Pin> drawn = rung.pinsOf(element);
+  bool ok = true;
+  for (size_t i = 1; i < drawn.size() || i < known.size(); ++i) {
+    if (i >= drawn.size()) {
+      diagnostics_.report(Diag::MissingPin, element.range) << row.info.mnemonic << known[i].name;
+      return false;
+    }
+    if (i < known.size() && drawn[i].name == known[i].name) continue;
+    diagnostics_.report(Diag::UnknownPin, drawn[i].range)
+        << row.info.mnemonic << drawn[i].name
+        << (i < known.size() ? known[i].name : std::string_view("no further pin"));
+    ok = false;
+  }
+  return ok;
+}
+
+bool RungChecker::checkCount(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+  const std::span<const Word> words = rung.operandsOf(element);
+  size_t least = 0;
+  for (const OperandInfo& info : row.info.operands.all()) least += info.optional ? 0 : 1;
+  const size_t most = row.info.operands.size();
+  if (words.size() >= least && words.size() <= most) return true;
+  const SourceRange range = words.size() > most ? words[most].range : element.mnemonicRange;
+  diagnostics_.report(Diag::OperandCount, range)
+      << row.info.mnemonic
+      << (least == most ? fmt::format("{} operand{}", most, most == 1 ? "" : "s")
+                        : fmt::format("{} or {} operands", least, most))
+      << static_cast<int>(words.size());
+  return false;
+}
+
+bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
+  const ladder::Element& element = *typedElement.element;
+  const NctInstruction& row = *typedElement.row;
+  const std::span<const Word> words = typed.rung->operandsOf(element);
+  if (element.kind == ElementKind::Box && !checkCount(*typed.rung, element, row)) return false;
+  bool ok = true;
+  for (size_t i = 0; i < words.size(); ++i) {
+    switch (classOf(row.info.operands[i].kind)) {
+    case Class::Label:
+      typedElement.label = parseLabel(words[i], symbols_, diagnostics_);
+      ok = typedElement.label.has_value() && ok;
+      continue;
+    case Class::Scope:
+      typed.operands.push_back(parseScopeSymbol(words[i], diagnostics_));
+      ++typedElement.operandCount;
+      ok = typed.operands.back().form != Form::Bad && ok;
+      continue;
+    case Class::Other: continue;
+    case Class::Bit:
+    case Class::Word:
+    case Class::Double: break;
+    }
+    if (element.kind == ElementKind::Box) {
+      typed.operands.push_back(parseOperand(words[i], symbols_, diagnostics_));
+      ++typedElement.operandCount;
+    }
+    const Operand& operand = typed.operands.back();
+    note(row.info.operands[i], operand);
+    ok = operand.form != Form::Bad && checkOperand(row, i, operand) && checkModifiers(row, element, operand) && ok;
+  }
+  if (!ok) return false;
+  const std::span<const Operand> operands = typed.operandsOf(typedElement);
+  if (row.check != nullptr) {
+    const size_t before = diagnostics_.errorCount();
+    row.check(operands, symbols_.config(), diagnostics_);
+    if (diagnostics_.errorCount() != before) return false;
+  }
+  for (const Operand& operand : operands) warnInt0Only(operand);
+  if (!operands.empty()) claims_.add(row.claim, operands[0]);
+  return true;
+}
+
+// --- operands
+// -----------------------------------------------------------------------------------------------------------
+bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Operand& operand) {
+  const OperandInfo& info = row.info.operands[index];
+  const std::string_view text = operand.source->text;
+  const SourceRange range = operand.source->range;
+  if (operand.form == Form::Constant) {
+    if (takesConstant(info.kind)) return checkConstant(row, index, operand);
+    if (operand.fromSymbol)
+      diagnostics_.report(Diag::SymbolKindMismatch, range)
+          << text << "a constant" << (info.kind == "bit" ? "a bit" : "an address");
+    else
+      diagnostics_.report(Diag::OperandNotRegister, range) << static_cast<int>(index + 1)
+                                                           << (row.shape == Shape::Contact ? "a contact"
+                                                               : row.shape == Shape::Coil  ? "a coil"
+                                                                                           : row.info.mnemonic);
+    return false;
+  }
+  const Form needed = classOf(info.kind) == Class::Bit ? Form::Bit : Form::Word;
+  if (operand.form != needed) {
+    diagnostics_.report(Diag::SymbolKindMismatch, range) << text << describe(operand.form) << describe(needed);
+    return false;
+  }
+  return checkRegister(row, index, operand);
+}
+
+bool RungChecker::checkRegister(const NctInstruction& row, size_t index, const Operand& operand) {
+  const OperandInfo& info = row.info.operands[index];
+  const Address& address = operand.address;
+  const SourceRange range = operand.source->range;
+  if (classOf(info.kind) == Class::Double) {
+    if (address.word == kWords - 1 && address.isFixed()) {
+      diagnostics_.report(Diag::DoubleAt9999, range);
+      return false;
+    }
+    if (address.oddIndex) {
+      diagnostics_.report(Diag::OddDoubleIndex, range) << operand.source->text;
+      return false;
+    }
+  }
+  const uint32_t userMemory = symbols_.config().plcNvram;
+  if (inUserMemory(info.kind) && address.isFixed() && address.word < userMemory) {
+    diagnostics_.report(Diag::UserAreaRequired, range) << operand.source->text << fmt::format("{:04}", userMemory);
+    return false;
+  }
+  return info.access == Access::Read || checkDestination(info, operand);
+}
+
+bool RungChecker::checkDestination(const OperandInfo& info, const Operand& operand) {
+  const Address& address = operand.address;
+  if (address.indexRegister != kNoRegister) return true;
+  const SourceRange range = operand.source->range;
+  if (address.word == kFlagsWord) {
+    diagnostics_.report(Diag::WriteToFlags, range);
+    return false;
+  }
+  const bool isDouble = classOf(info.kind) == Class::Double;
+  if (symbols_.isInputWord(address.word) || (isDouble && symbols_.isInputWord(address.word + 1)))
+    diagnostics_.report(Diag::WriteToInput, range).severity(Severity::Warning)
+        << operand.source->text
+        << (address.word == kReserved ? "a reserved word and the next one an input; nothing that is written there stays"
+                                      : "an input; what is written there stays until the NC writes it again");
+  return true;
+}
+
+bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const Operand& operand) {
+  const OperandInfo& info = row.info.operands[index];
+  const ConstantKind kind = operand.constant.kind;
+  const bool fits = (kind == ConstantKind::Decimal && (info.kind == "int" || info.kind == "dec")) ||
+                    (kind == ConstantKind::Hex && (info.kind == "int" || info.kind == "hex")) ||
+                    (kind == ConstantKind::Real && info.kind == "float");
+  const int64_t value = operand.constant.integer;
+  if (fits && info.min <= info.max && (value < info.min || value > info.max)) {
+    diagnostics_.report(Diag::ConstantOutOfRange, operand.source->range)
+        << operand.source->text << fmt::format("{} to {}", info.min, info.max);
+    return false;
+  }
+  if (!fits)
+    diagnostics_.report(Diag::OperandTypeMismatch, operand.source->range)
+        << operand.source->text << describe(kind) << row.info.mnemonic << wanted(info.kind);
+  return fits;
+}
+
+// Edges belong to contacts; `!` to single bits of the NC area in INT0 (l.546, l.590-596).
+bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Element& element, const Operand& operand) {
+  const SourceRange range = operand.source->range;
+  const bool immediate = operand.address.immediate;
+  const std::string edge(operand.edge == 0 ? 0 : 1, operand.edge);
+  if (immediate && operand.edge != 0) {
+    diagnostics_.report(Diag::EdgeWithImmediate, range) << edge;
+    return false;
+  }
+  if (immediate && !inInt0_) {
+    DiagBuilder report = diagnostics_.report(Diag::ImmediateOutsideInt0, range);
+    if (element.kind == ElementKind::Contact) report.note("a closed contact is written [/x]");
+    return false;
+  }
+  if (immediate && element.kind == ElementKind::Box) {
+    diagnostics_.report(Diag::ImmediateNotAllowed, range) << "an operand of " + std::string(row.info.mnemonic);
+    return false;
+  }
+  if (immediate && operand.form == Form::Word) {
+    diagnostics_.report(Diag::ImmediateNotAllowed, range) << "a contact on a word";
+    return false;
+  }
+  if (immediate && !symbols_.isNcWord(operand.address.word)) {
+    diagnostics_.report(Diag::ImmediateNotAllowed, range) << "an address outside the NC's area";
+    return false;
+  }
+  if (operand.edge != 0 && element.kind != ElementKind::Contact) {
+    diagnostics_.report(Diag::ModifierNotAllowed, range) << edge << nameOf(element, row);
+    return false;
+  }
+  return true;
+}
+
+// What is added at run time, as written: of 7000:REG,IREG all from the ':' on, of 7000:REG,#1 ":REG".
+std::string_view computedPart(const Operand& operand) {
+  const Address& address = operand.address;
+  const std::string_view text = operand.source->text;
+  const size_t comma = std::min(text.find(','), text.size());
+  const size_t begin = address.bitRegister == kNoRegister ? comma : text.find(':');
+  const size_t end = address.indexRegister == kNoRegister ? comma : text.size();
+  return begin < end ? text.substr(begin, end - begin) : std::string_view();
+}
+
+// Of a bit whose number is in a register the word.
+frontend::NamedPlace placeOf(const OperandInfo& info, const Address& address) {
+  if (address.isBit && address.bitRegister == kNoRegister) return {"M", address.word * 32 + address.bit, 1};
+  return {"M", address.word * 32, classOf(info.kind) == Class::Double ? 64u : 32u};
+}
+
+void RungChecker::note(const OperandInfo& info, const Operand& operand) {
+  if (operand.form != Form::Bit && operand.form != Form::Word) return;
+  analysis_.use({.range = operand.source->range,
+                 .base = operand.base == nullptr ? frontend::kNoDefinition : operand.base->index,
+                 .place = placeOf(info, operand.address),
+                 .computed = computedPart(operand),
+                 .access = info.access});
+}
+
+void RungChecker::warnInt0Only(const Operand& operand) {
+  if (inInt0_ || (operand.form != Form::Bit && operand.form != Form::Word)) return;
+  const auto concerns = [&](const nc::Signal* signal) {
+    if (signal == nullptr) return false;
+    const uint32_t first = signal->byteOffset / 4;
+    if (operand.address.word < first || operand.address.word >= first + signal->count) return false;
+    return signal->type != nc::SignalType::Bit || (operand.address.isBit && operand.address.bit == signal->bit);
+  };
+  for (const nc::Signal* signal : {handwheel_, fastClock_})
+    if (concerns(signal)) diagnostics_.report(Diag::Int0OnlySignal, operand.source->range) << operand.source->text;
+}
+
+} // namespace rung::nct

@@ -1,0 +1,282 @@
+// MR and MW: reading and writing arrays of the NC (man. §6.18, l.3390-3542), and what boxes share with the NC.
+//
+// A request lasts several cycles (l.3414). The box copies its block into a buffer of its own and asks; from then on the
+// block is the program's again. The answer is taken in the first evaluation with power that finds it there. The box
+// keeps its output while EN stays TRUE and asks again only after EN was FALSE; when EN went FALSE too early the answer
+// is dropped, and the buffer is free when it has come.
+#include <algorithm>
+#include <array>
+
+#include "frontend/dialects/nct/lower/lowering.h"
+#include "rtlib/nc/nct/operand_block.h"
+#include "rtlib/nc/nct/service_functions.h"
+
+namespace rung::nct {
+
+using ir::OpCode;
+using ir::RungBuilder;
+using ir::SlotId;
+using ir::Type;
+using ir::ValueId;
+using nc::nct::FunctionAccess;
+
+ir::ServiceId Shared::service(std::string_view signature) {
+  const auto found = std::ranges::find(module_.services, signature);
+  const auto index = static_cast<uint32_t>(found - module_.services.begin());
+  if (found == module_.services.end()) module_.services.emplace_back(signature);
+  return {index};
+}
+
+SharedWords Shared::words(std::string_view space, uint32_t count, const std::string& key) {
+  ir::SpaceId id = ir::findSpace(module_, space);
+  if (!id.valid()) {
+    id = {static_cast<uint32_t>(module_.spaces.size())};
+    module_.spaces.push_back({.name = std::string(space),
+                              .unitBytes = 4,
+                              .units = 0,
+                              .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED,
+                              .packedOnly = true});
+  }
+  const SharedWords words{.space = id, .first = module_.spaces[id.index].units};
+  module_.spaces[id.index].units += count;
+  module_.symbols.push_back({.name = "@" + key,
+                             .space = id,
+                             .byte = words.first * 4,
+                             .type = RUNG_TYPE_I32,
+                             .count = count,
+                             .flags = RUNG_SYMBOL_HIDDEN});
+  return words;
+}
+
+namespace {
+
+enum : uint8_t {
+  kIdle,
+  kPending,
+  kDone,      // answered, EN has not been FALSE since
+  kAbandoned, // EN went FALSE while the request was pending
+};
+
+// What an evaluation comes to.
+struct Step {
+  ValueId output, state;
+};
+
+class ArrayServiceLowering {
+public:
+  explicit ArrayServiceLowering(Lowering& box)
+      : box_(box), b_(box.b), state_(box.slots.make("state", Type::I8)), ticket_(box.slots.make("ticket", Type::I32)),
+        buffer_(box.shared.words(nc::nct::kBlockSpace, nc::nct::kBlockStride, box.slots.key("block"))),
+        function_(box.operands[1]) {}
+
+  ValueId run();
+
+private:
+  FunctionAccess access() const { return box_.variant == kWriteArray ? FunctionAccess::Write : FunctionAccess::Read; }
+  ValueId is(uint8_t state) { return b_.constant(Type::I8, state); }
+  ValueId poll() { return b_.servicePoll(b_.slotLoad(ticket_)); }
+  ValueId answered() { return b_.ne(poll(), b_.i32(RUNG_SERVICE_PENDING)); }
+  Step rest(uint8_t state, bool output = false) { return {b_.bit(output), is(state)}; }
+  template <class Yes, class No>
+  Step fork(ValueId condition, Yes yes, No no);
+
+  uint32_t blockWords() const;
+  WordRange block(const Place& place) const;
+  ir::Window words() const { return buffer_.window(0, nc::nct::kBlockWords); }
+  ir::Window mask() const { return buffer_.window(nc::nct::kBlockWords, nc::nct::kMaskWords); }
+  ValueId isKnown(ValueId function);
+  ValueId fits(const WordRange& range, const Place& place);
+
+  ValueId freed(ValueId enable, ValueId state);
+  Step evaluate(ValueId enable, ValueId state);
+  Step begin();
+  Step start(const Place& place, ValueId function);
+  Step ask(const WordRange& range, const Place& place, ValueId function);
+  Step await();
+  void takeAnswer(const WordRange& range);
+
+  Lowering& box_;
+  RungBuilder& b_;
+  SlotId state_, ticket_;
+  SlotId first_{}; // of a computed block: its first word at the time of the request
+  SharedWords buffer_;
+  const Operand& function_;
+};
+
+template <class Yes, class No>
+Step ArrayServiceLowering::fork(ValueId condition, Yes yes, No no) {
+  const auto yields = [](const Step& step) { return std::array{step.output, step.state}; };
+  const auto joined = b_.choose(condition, [&] { return yields(yes()); }, [&] { return yields(no()); });
+  return {joined[0], joined[1]};
+}
+
+// A box that rests costs one comparison.
+ValueId ArrayServiceLowering::run() {
+  if (!box_.operands[0].address.isFixed()) first_ = box_.slots.make("first", Type::I32);
+  const ValueId enable = box_.power();
+  const ValueId state = b_.slotLoad(state_);
+  const auto work = [&] {
+    const Step step = evaluate(enable, freed(enable, state));
+    b_.slotStore(state_, step.state);
+    return step.output;
+  };
+  return b_.choose(b_.or_(enable, b_.ne(state, is(kIdle))), work, [&] { return b_.bit(false); });
+}
+
+// The state when an answer that nobody waits for has been dropped.
+ValueId ArrayServiceLowering::freed(ValueId enable, ValueId state) {
+  const ValueId given = b_.and_(b_.eq(state, is(kPending)), b_.not_(enable));
+  return b_.choose(
+      b_.or_(given, b_.eq(state, is(kAbandoned))), [&] { return b_.select(answered(), is(kIdle), is(kAbandoned)); },
+      [&] { return state; });
+}
+
+Step ArrayServiceLowering::evaluate(ValueId enable, ValueId state) {
+  const ValueId done = b_.eq(state, is(kDone));
+  return fork(
+      enable,
+      [&] {
+        return fork(
+            b_.eq(state, is(kIdle)), [&] { return begin(); },
+            [&] {
+              return fork(b_.eq(state, is(kPending)), [&] { return await(); }, [&] { return Step{done, state}; });
+            });
+      },
+      [&] { return Step{b_.bit(false), b_.select(done, is(kIdle), state)}; });
+}
+
+// --- a request ------------------------------------------------------------------------------------------------------
+
+// Words of the program's block that may matter. Of a function that is known the list says how many.
+uint32_t ArrayServiceLowering::blockWords() const {
+  constexpr uint32_t kLeast = 16;
+  if (function_.form != Form::Constant) return nc::nct::kBlockWords;
+  const nc::nct::ServiceFunction* function = nc::nct::findServiceFunction(function_.constant.integer);
+  return function == nullptr ? kLeast : std::max<uint32_t>(kLeast, function->words.back().last + 1u);
+}
+
+// The block in memory; words behind the end of memory read 0 and take nothing.
+WordRange ArrayServiceLowering::block(const Place& place) const {
+  WordRange range;
+  range.mostWords = blockWords();
+  if (!place.fixed) {
+    range.window = {.space = place.space, .byte = 0, .count = kWords};
+    range.first = place.wordNo;
+    return range;
+  }
+  range.window = {
+      .space = place.space, .byte = place.word * 4, .count = std::min(range.mostWords, kWords - place.word)};
+  return range;
+}
+
+ValueId ArrayServiceLowering::isKnown(ValueId function) {
+  ValueId known = b_.bit(false);
+  for (const nc::nct::ServiceFunction& f : nc::nct::serviceFunctions())
+    if (f.access == access()) known = b_.or_(known, b_.eq(function, b_.i32(f.code)));
+  return known;
+}
+
+// The last word is amount + 1 words behind the first (l.3457, l.3532).
+ValueId ArrayServiceLowering::fits(const WordRange& range, const Place& place) {
+  const ValueId amount = box_.memory.loadIn(range, b_.i32(nc::nct::kAmountWord));
+  const ValueId behind = place.fixed ? b_.i32(kWords - 1 - place.word) : b_.sub(b_.i32(kWords - 1), place.wordNo);
+  return b_.ltU(amount, behind);
+}
+
+Step ArrayServiceLowering::begin() {
+  const Place place = box_.memory.word(box_.operands[0].address, Reach::Write);
+  ValueId valid = place.valid;
+  const ValueId function = box_.memory.integer(function_, valid);
+  if (!valid.valid()) return start(place, function);
+  return fork(
+      valid, [&] { return start(place, function); },
+      [&] { // there is no block that could take an execution code
+        box_.memory.setErrorFlag(true);
+        return rest(kIdle);
+      });
+}
+
+// What cannot be asked is answered at once.
+Step ArrayServiceLowering::start(const Place& place, ValueId function) {
+  const WordRange range = block(place);
+  const ValueId refusal = b_.select(
+      isKnown(function), b_.select(fits(range, place), b_.i32(nc::nct::kExecuted), b_.i32(nc::nct::kBadAmount)),
+      b_.i32(nc::nct::kBadFunction));
+  return fork(
+      b_.eq(refusal, b_.i32(nc::nct::kExecuted)), [&] { return ask(range, place, function); },
+      [&] {
+        box_.memory.storeIn(range, b_.i32(nc::nct::kCodeWord), refusal);
+        return rest(kDone, true);
+      });
+}
+
+Step ArrayServiceLowering::ask(const WordRange& range, const Place& place, ValueId function) {
+  const ValueId word = b_.loop(range.mostWords).front();
+  b_.storeAt(words(), word, box_.memory.loadIn(range, word));
+  b_.endLoop();
+  const ValueId i = b_.loop(nc::nct::kMaskWords).front();
+  b_.storeAt(mask(), i, b_.i32(0));
+  b_.endLoop();
+  const ValueId first = place.fixed ? b_.i32(place.word) : place.wordNo;
+  if (first_.valid()) b_.slotStore(first_, first);
+  const ValueId args[] = {b_.sextOrTrunc(Type::I64, function), b_.sextOrTrunc(Type::I64, first),
+                          b_.constant(Type::I64, buffer_.first)};
+  const ir::ServiceId service = box_.shared.service(
+      access() == FunctionAccess::Write ? "MW function address block -> code" : "MR function address block -> code");
+  const ValueId ticket = b_.serviceRequest(service, args);
+  b_.slotStore(ticket_, ticket);
+  const ValueId queueFull = b_.eq(ticket, b_.i32(0));
+  return {b_.bit(false), b_.select(queueFull, is(kIdle), is(kPending))};
+}
+
+// --- its answer -----------------------------------------------------------------------------------------------------
+
+Step ArrayServiceLowering::await() {
+  return fork(
+      answered(),
+      [&] {
+        Place place = box_.memory.word(box_.operands[0].address, Reach::Write);
+        if (first_.valid()) place.wordNo = b_.slotLoad(first_);
+        takeAnswer(block(place));
+        return rest(kDone, true);
+      },
+      [&] { return rest(kPending); });
+}
+
+// A host without an NC answers with an error: no function is known there.
+void ArrayServiceLowering::takeAnswer(const WordRange& range) {
+  const ValueId word = b_.loop(range.mostWords).front();
+  const ValueId bits = b_.loadAt(Type::I32, mask(), b_.op(OpCode::ShrU, Type::I32, {word, b_.i32(5)}));
+  const ValueId bit = b_.op(OpCode::ShrU, Type::I32, {bits, b_.and_(word, b_.i32(31))});
+  b_.when(b_.zextOrTrunc(Type::Bit, bit),
+          [&] { box_.memory.storeIn(range, word, b_.loadAt(Type::I32, words(), word)); });
+  b_.endLoop();
+  const ValueId code = b_.sextOrTrunc(Type::I32, b_.serviceResult(b_.slotLoad(ticket_), 0));
+  const ValueId done = b_.eq(poll(), b_.i32(RUNG_SERVICE_DONE));
+  box_.memory.storeIn(range, b_.i32(nc::nct::kCodeWord), b_.select(done, code, b_.i32(nc::nct::kBadFunction)));
+}
+
+void checkFunction(const Operand& function, FunctionAccess access, Diagnostics& diagnostics) {
+  if (function.form != Form::Constant) return;
+  const nc::nct::ServiceFunction* known = nc::nct::findServiceFunction(function.constant.integer);
+  if (known != nullptr && known->access == access) return;
+  DiagBuilder report = diagnostics.report(Diag::UnknownFunctionCode, function.source->range);
+  report << function.source->text << nc::nct::mnemonicOf(access);
+  if (known != nullptr)
+    report.note(std::string(function.source->text) + " is a function of " +
+                std::string(nc::nct::mnemonicOf(known->access)));
+}
+
+} // namespace
+
+ValueId lowerArrayService(Lowering& box) { return ArrayServiceLowering(box).run(); }
+
+void checkReadFunction(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
+  checkFunction(operands[1], FunctionAccess::Read, diagnostics);
+}
+
+void checkWriteFunction(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
+  checkFunction(operands[1], FunctionAccess::Write, diagnostics);
+}
+
+} // namespace rung::nct

@@ -1,0 +1,101 @@
+// Contacts, coils, SET, RST, DIFU, DIFD (man. §6.1).
+#include <fmt/format.h>
+
+#include "frontend/dialects/nct/lower/lowering.h"
+
+namespace rung::nct {
+
+using ir::RungBuilder;
+using ir::SlotId;
+using ir::Type;
+using ir::ValueId;
+
+void SlotMaker::setElement(std::string text) {
+  element_ = std::move(text);
+  numbered_ = false;
+}
+
+std::string SlotMaker::key(std::string_view role) {
+  if (!numbered_)
+    if (const uint32_t number = alike_[element_]++; number != 0) element_ += fmt::format("#{}", number);
+  numbered_ = true;
+  return fmt::format("{}/{}/{}", routine_, element_, role);
+}
+
+SlotId SlotMaker::make(std::string_view role, Type type, int64_t init, bool transient) {
+  const SlotId id{static_cast<uint32_t>(module_.slots.size())};
+  module_.slots.push_back({.type = type, .init = init, .transient = transient, .key = key(role)});
+  return id;
+}
+
+namespace {
+
+// value and not before, or the other way round; `before` becomes `value`.
+ValueId pulse(RungBuilder& b, SlotId slot, ValueId value, bool rising) {
+  const ValueId before = b.slotLoad(slot);
+  b.slotStore(slot, value);
+  return rising ? b.and_(value, b.not_(before)) : b.and_(before, b.not_(value));
+}
+
+constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
+
+// The edge of a contact whose address is computed. Its memory belongs to the address it was taken from: when that
+// moved, the memory starts anew without an edge. Before the first evaluation there is no address and the value is 0.
+ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
+  RungBuilder& b = box.b;
+  const SlotId addressSlot = box.slots.make("address", Type::I32, kNoAddress);
+  const SlotId valueSlot = box.slots.make("value", Type::Bit);
+  const ValueId address = box.memory.bitAddress(place);
+  const ValueId lastAddress = b.slotLoad(addressSlot);
+  const ValueId lastValue = b.slotLoad(valueSlot);
+  const ValueId same = b.or_(b.eq(address, lastAddress), b.eq(lastAddress, b.i32(kNoAddress)));
+  const ValueId edge = box.edge == '@' ? b.and_(value, b.not_(lastValue)) : b.and_(lastValue, b.not_(value));
+  const bool guard = place.valid.valid();
+  b.slotStore(addressSlot, guard ? b.select(place.valid, address, lastAddress) : address);
+  b.slotStore(valueSlot, guard ? b.select(place.valid, value, lastValue) : value);
+  return b.and_(edge, same);
+}
+
+} // namespace
+
+// A contact is evaluated for its edge also without power on its left; it raises FL_ER only with power.
+ValueId lowerContact(Lowering& box) {
+  RungBuilder& b = box.b;
+  Memory& memory = box.memory;
+  const bool onWord = (box.variant & kOnWord) != 0;
+  const Address& address = box.operands[0].address;
+  const Place place = onWord ? memory.word(address, Reach::Read) : memory.bit(address, Reach::Read);
+  ValueId value = onWord ? b.ne(memory.loadWord(place), b.i32(0)) : memory.loadBit(place);
+  if (box.edge != 0 && place.fixed) value = pulse(b, box.slots.make("edge", Type::Bit), value, box.edge == '@');
+  if (box.edge != 0 && !place.fixed) value = movingPulse(box, place, value);
+  if ((box.variant & kClosed) != 0) value = b.not_(value);
+  if (!place.valid.valid()) return box.pass(value);
+  memory.raiseErrorFlag(box.gate(b.not_(place.valid)));
+  return box.pass(b.and_(value, place.valid));
+}
+
+ValueId lowerCoil(Lowering& box) {
+  RungBuilder& b = box.b;
+  const ValueId power = box.power();
+  const Place place = box.memory.bit(box.operands[0].address, Reach::Write);
+  const bool force = box.variant == kSet || box.variant == kReset;
+  if (force)
+    box.memory.forceBit(place, power, box.variant == kSet);
+  else
+    box.memory.storeBit(place, box.variant == kNegatedCoil ? b.not_(power) : power);
+  if (place.valid.valid()) {
+    const ValueId wrong = b.not_(place.valid);
+    box.memory.raiseErrorFlag(force ? b.and_(power, wrong) : wrong);
+  }
+  return {};
+}
+
+ValueId lowerPulse(Lowering& box) {
+  const ValueId edge = pulse(box.b, box.slots.make("edge", Type::Bit), box.power(), box.variant == kRising);
+  const Place place = box.memory.bit(box.operands[0].address, Reach::Write);
+  box.memory.storeBit(place, edge);
+  if (place.valid.valid()) box.memory.raiseErrorFlag(box.b.not_(place.valid));
+  return {};
+}
+
+} // namespace rung::nct

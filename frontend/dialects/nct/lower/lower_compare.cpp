@@ -1,0 +1,55 @@
+// Comparisons of integers (man. §6.12): CMP, which sets flags, and the contacts CLT to CGT.
+#include "frontend/dialects/nct/lower/lowering.h"
+
+namespace rung::nct {
+
+using ir::RungBuilder;
+using ir::Type;
+using ir::ValueId;
+
+// Exactly one of FL_GT, FL_EQ, FL_LT is 1 afterwards.
+ValueId lowerCompare(Lowering& box) {
+  RungBuilder& b = box.b;
+  execute(box, [&] {
+    ValueId valid;
+    const ValueId x = box.memory.integer(box.operands[0], valid);
+    const ValueId y = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      box.memory.setErrorFlag(false);
+      box.memory.setFlag(kFlagGt, b.ltS(y, x));
+      box.memory.setFlag(kFlagEq, b.eq(x, y));
+      box.memory.setFlag(kFlagLt, b.ltS(x, y));
+      return ValueId{};
+    });
+  });
+  return {};
+}
+
+namespace {
+
+ValueId compare(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
+  switch (variant) {
+  case kLess: return b.ltS(x, y);
+  case kLessEqual: return b.leS(x, y);
+  case kEqual: return b.eq(x, y);
+  case kNotEqual: return b.ne(x, y);
+  case kGreaterEqual: return b.leS(y, x);
+  case kGreater: return b.ltS(y, x);
+  }
+  return {};
+}
+
+} // namespace
+
+ValueId lowerCompareContact(Lowering& box) {
+  RungBuilder& b = box.b;
+  ValueId valid;
+  const ValueId x = box.memory.integer(box.operands[0], valid);
+  const ValueId y = box.memory.integer(box.operands[1], valid);
+  const ValueId holds = compare(b, static_cast<CompareVariant>(box.variant), x, y);
+  if (!valid.valid()) return box.pass(holds);
+  box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
+  return box.pass(b.and_(holds, valid));
+}
+
+} // namespace rung::nct

@@ -1,0 +1,255 @@
+// Floating-point arithmetic and conversions (man. §6.10, §6.11).
+#include <limits>
+#include <numbers>
+
+#include "frontend/dialects/nct/lower/lowering.h"
+
+namespace rung::nct {
+
+using ir::OpCode;
+using ir::RungBuilder;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+ValueId isFinite(RungBuilder& b, ValueId x) {
+  return b.op(OpCode::FLe, Type::F64, {b.op(OpCode::FAbs, Type::F64, {x}), b.real(std::numeric_limits<double>::max())});
+}
+ValueId isZero(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, b.real(0)}); }
+ValueId isNumber(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, x}); }
+
+// Does `store` when `ok` holds, else only sets FL_ER; gives `ok`. `store` clears FL_ER.
+template <class Store>
+ValueId when(Lowering& box, ValueId ok, Store store) {
+  box.b.if_(ok);
+  store();
+  box.b.else_();
+  box.memory.setErrorFlag(true);
+  box.b.endIf();
+  return ok;
+}
+
+// Underflow: the result is 0 and the exact one is not (l.694-704). Sums of doubles are exact where they are that small.
+ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, ValueId result) {
+  switch (variant) {
+  case kFloatAdd:
+  case kFloatSub: return b.bit(false);
+  case kFloatMul: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
+  case kFloatDiv: return b.and_(isZero(b, result), b.and_(b.not_(isZero(b, x)), isFinite(b, y)));
+  }
+  return {};
+}
+
+} // namespace
+
+// Overflow: finite operands, infinite result. A NaN operand, or a result that is none (∞ - ∞), is not executed; nor is
+// a division by 0.
+ValueId lowerFloatArithmetic(Lowering& box) {
+  constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId x = box.memory.real(box.operands[1], valid);
+    const ValueId y = box.memory.real(box.operands[2], valid);
+    return guarded(box, valid, [&] {
+      const auto variant = static_cast<FloatVariant>(box.variant);
+      const ValueId result = b.op(kCodes[variant], Type::F64, {x, y});
+      ValueId ok = isNumber(b, result);
+      if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
+      return when(box, ok, [&] {
+        const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
+        const ValueId under = underflows(b, variant, x, y, result);
+        box.memory.storeDouble(target, result);
+        box.memory.setErrorFlag(false);
+        box.memory.setFlag(kFlagUf, under);
+        box.memory.setFlag(kFlagOf, over);
+      });
+    });
+  });
+}
+
+// The operations give NaN where there is no value; what the manual forbids besides that is no logarithm of 0 and no
+// power of a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
+// the range of doubles.
+ValueId lowerFloatFunction(Lowering& box) {
+  constexpr OpCode kCodes[] = {OpCode::FPow,  OpCode::FSqrt, OpCode::FSin,  OpCode::FCos, OpCode::FTan,
+                               OpCode::FAsin, OpCode::FAcos, OpCode::FAtan, OpCode::FExp, OpCode::FLog};
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const auto variant = static_cast<FunctionVariant>(box.variant);
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId x = box.memory.real(box.operands[1], valid);
+    const ValueId y = variant == kPower ? box.memory.real(box.operands[2], valid) : ValueId{};
+    return guarded(box, valid, [&] {
+      const ValueId zero = b.real(0);
+      const ValueId result =
+          variant == kPower ? b.op(OpCode::FPow, Type::F64, {x, y}) : b.op(kCodes[variant], Type::F64, {x});
+      ValueId ok = isNumber(b, result);
+      if (variant == kLogarithm) ok = b.op(OpCode::FLt, Type::F64, {zero, x});
+      if (variant == kPower) {
+        const ValueId pole = b.and_(isZero(b, x), b.op(OpCode::FLt, Type::F64, {y, zero}));
+        ok = b.and_(b.and_(isNumber(b, y), b.op(OpCode::FLe, Type::F64, {zero, x})), b.not_(pole));
+      }
+      return when(box, ok, [&] {
+        box.memory.storeDouble(target, result);
+        ValueId over;
+        ValueId under;
+        if (variant == kPower || variant == kExponential) {
+          const ValueId finite = y.valid() ? b.and_(isFinite(b, x), isFinite(b, y)) : isFinite(b, x);
+          over = b.and_(finite, b.not_(isFinite(b, result)));
+          under = b.and_(finite, isZero(b, result));
+          if (variant == kPower) under = b.and_(under, b.not_(isZero(b, x)));
+        }
+        box.memory.setErrorFlag(false);
+        box.memory.setFlag(kFlagUf, under);
+        box.memory.setFlag(kFlagOf, over);
+      });
+    });
+  });
+}
+
+namespace {
+
+// Word to word; `convert` gives the result and whether it exists.
+template <class Convert>
+ValueId convertWord(Lowering& box, Convert convert) {
+  return execute(box, [&] {
+    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      const auto [result, ok] = convert(source);
+      return when(box, ok, [&] {
+        box.memory.storeWord(target, result);
+        box.memory.setErrorFlag(false);
+      });
+    });
+  });
+}
+
+struct Converted {
+  ValueId result;
+  ValueId ok;
+};
+
+} // namespace
+
+// A digit above 9 does not survive the way back.
+ValueId lowerBin(Lowering& box) {
+  RungBuilder& b = box.b;
+  return convertWord(box, [&](ValueId source) {
+    const ValueId binary = b.op(OpCode::BcdDecode, Type::I32, {source});
+    return Converted{binary, b.eq(b.op(OpCode::BcdEncode, Type::I32, {binary}), source)};
+  });
+}
+
+ValueId lowerBcd(Lowering& box) {
+  RungBuilder& b = box.b;
+  return convertWord(box, [&](ValueId source) {
+    return Converted{b.op(OpCode::BcdEncode, Type::I32, {source}), b.leU(source, b.i32(99'999'999))};
+  });
+}
+
+ValueId lowerFlt(Lowering& box) {
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      box.memory.storeDouble(target, b.op(OpCode::IntToF, Type::F64, {source}));
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
+  });
+}
+
+// The range holds for the operand itself, before its fraction is cut off (l.2505).
+ValueId lowerFix(Lowering& box) {
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.real(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      const ValueId aboveLeast = b.op(OpCode::FLe, Type::F64, {b.real(INT32_MIN), source});
+      const ValueId belowGreatest = b.op(OpCode::FLe, Type::F64, {source, b.real(INT32_MAX)});
+      return when(box, b.and_(aboveLeast, belowGreatest), [&] {
+        box.memory.storeWord(target, b.op(OpCode::FToInt, Type::I32, {source}));
+        box.memory.setErrorFlag(false);
+      });
+    });
+  });
+}
+
+ValueId lowerAngle(Lowering& box) {
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = target.valid;
+    const ValueId source = box.memory.real(box.operands[1], valid);
+    const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;
+    return guarded(box, valid, [&] {
+      return when(box, isNumber(b, source), [&] {
+        box.memory.storeDouble(target, b.op(OpCode::FMul, Type::F64, {source, b.real(factor)}));
+        box.memory.setErrorFlag(false);
+      });
+    });
+  });
+}
+
+// With a NaN none of the three flags is 1, and FL_ER is.
+ValueId lowerFloatCompare(Lowering& box) {
+  RungBuilder& b = box.b;
+  execute(box, [&] {
+    ValueId valid;
+    const ValueId x = box.memory.real(box.operands[0], valid);
+    const ValueId y = box.memory.real(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
+      const ValueId greater = test(OpCode::FLt, y, x);
+      const ValueId equal = test(OpCode::FEq, x, y);
+      const ValueId less = test(OpCode::FLt, x, y);
+      box.memory.setFlag(kFlagEr, b.not_(b.or_(b.or_(greater, equal), less)));
+      box.memory.setFlag(kFlagGt, greater);
+      box.memory.setFlag(kFlagEq, equal);
+      box.memory.setFlag(kFlagLt, less);
+      return ValueId{};
+    });
+  });
+  return {};
+}
+
+namespace {
+
+ValueId compareDoubles(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
+  const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
+  switch (variant) {
+  case kLess: return test(OpCode::FLt, x, y);
+  case kLessEqual: return test(OpCode::FLe, x, y);
+  case kEqual: return test(OpCode::FEq, x, y);
+  case kNotEqual: return b.not_(test(OpCode::FEq, x, y));
+  case kGreaterEqual: return test(OpCode::FLe, y, x);
+  case kGreater: return test(OpCode::FLt, y, x);
+  }
+  return {};
+}
+
+} // namespace
+
+// A NaN is an error like an address outside the memory: no power, FL_ER.
+ValueId lowerFloatContact(Lowering& box) {
+  RungBuilder& b = box.b;
+  ValueId valid;
+  const ValueId x = box.memory.real(box.operands[0], valid);
+  const ValueId y = box.memory.real(box.operands[1], valid);
+  valid = box.memory.both(valid, b.and_(isNumber(b, x), isNumber(b, y)));
+  const ValueId holds = compareDoubles(b, static_cast<CompareVariant>(box.variant), x, y);
+  box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
+  return box.pass(b.and_(holds, valid));
+}
+
+} // namespace rung::nct

@@ -1,0 +1,173 @@
+// ROT, the shift register and the arrays (man. §6.6, §6.7).
+#include "frontend/dialects/nct/lower/lowering.h"
+
+namespace rung::nct {
+
+using ir::OpCode;
+using ir::RungBuilder;
+using ir::SlotId;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+ValueId risingEdge(Lowering& box) {
+  RungBuilder& b = box.b;
+  const SlotId slot = box.slots.make("edge", Type::Bit);
+  const ValueId power = box.power();
+  const ValueId edge = b.and_(power, b.not_(b.slotLoad(slot)));
+  b.slotStore(slot, power);
+  return edge;
+}
+
+enum RotationPins : size_t { kEnablePin, kShorter, kDirection, kSteps, kBefore };
+
+struct Ring {
+  ValueId current, goal, start, end;
+};
+
+struct Way {
+  ValueId toGo;
+  ValueId negative;
+};
+
+// All four are at least 0 and in range, so no difference overflows; only the number of positions may be 2^31.
+Way findWay(Lowering& box, const Ring& ring) {
+  RungBuilder& b = box.b;
+  const ValueId one = b.i32(1), zero = b.i32(0);
+  const ValueId positions = b.add(b.sub(ring.end, ring.start), one);
+  const ValueId ahead = b.leS(ring.current, ring.goal);
+  const ValueId distance = b.select(ahead, b.sub(ring.goal, ring.current), b.sub(ring.current, ring.goal));
+  const ValueId there = b.eq(distance, zero);
+  const ValueId otherWay = b.select(there, zero, b.sub(positions, distance));
+  const ValueId up = b.select(ahead, distance, otherWay);
+  const ValueId down = b.select(ahead, otherWay, distance);
+  const ValueId negative = b.select(box.power(kShorter), b.ltU(down, up), box.power(kDirection)); // a tie is positive
+  const ValueId steps = b.select(negative, down, up);
+  const ValueId before = b.and_(box.power(kBefore), b.not_(there));
+  const ValueId above = b.select(b.eq(ring.goal, ring.end), ring.start, b.add(ring.goal, one));
+  const ValueId below = b.select(b.eq(ring.goal, ring.start), ring.end, b.sub(ring.goal, one));
+  const ValueId position = b.select(before, b.select(negative, above, below), ring.goal);
+  const ValueId count = b.select(before, b.sub(steps, one), steps);
+  return {b.select(box.power(kSteps), count, position), negative};
+}
+
+} // namespace
+
+// Calculates on the rising edge; the output keeps the last direction (l.1675), also when a value was out of range.
+ValueId lowerRotation(Lowering& box) {
+  RungBuilder& b = box.b;
+  Memory& memory = box.memory;
+  const ValueId edge = risingEdge(box);
+  const SlotId output = box.slots.make("direction", Type::Bit);
+  const Place target = memory.word(box.operands[0].address, Reach::Write);
+  ValueId valid = target.valid;
+  Ring ring;
+  ring.current = memory.integer(box.operands[1], valid);
+  ring.goal = memory.integer(box.operands[2], valid);
+  ring.start = memory.integer(box.operands[3], valid);
+  ring.end = memory.integer(box.operands[4], valid);
+  valid = memory.both(valid, b.leS(b.i32(0), ring.start));
+  for (ValueId position : {ring.current, ring.goal})
+    valid = memory.both(valid, b.and_(b.leS(ring.start, position), b.leS(position, ring.end)));
+  b.when(edge, [&] {
+    guarded(box, valid, [&] {
+      const Way way = findWay(box, ring);
+      memory.storeWord(target, way.toGo);
+      b.slotStore(output, way.negative);
+      memory.setErrorFlag(false);
+      return ValueId{};
+    });
+  });
+  return b.slotLoad(output);
+}
+
+// Left: the incoming bit enters at bit 0 and bit 31 goes out; right: the other way round. The output keeps its bit.
+ValueId lowerShiftRegister(Lowering& box) {
+  RungBuilder& b = box.b;
+  const ValueId edge = risingEdge(box);
+  const SlotId output = box.slots.make("out", Type::Bit);
+  const Place place = box.memory.word(box.operands[0].address, Reach::Write);
+  b.when(edge, [&] {
+    guarded(box, place.valid, [&] {
+      const ValueId word = box.memory.loadWord(place);
+      const ValueId one = b.i32(1), top = b.i32(31);
+      const ValueId in = b.zextOrTrunc(Type::I32, box.power(2));
+      const ValueId left = b.or_(b.op(OpCode::Shl, Type::I32, {word, one}), in);
+      const ValueId right = b.or_(b.op(OpCode::ShrU, Type::I32, {word, one}), b.op(OpCode::Shl, Type::I32, {in, top}));
+      const ValueId toRight = box.power(1);
+      const ValueId highest = b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {word, top}));
+      b.slotStore(output, b.select(toRight, b.zextOrTrunc(Type::Bit, word), highest));
+      box.memory.storeWord(place, b.select(toRight, right, left));
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
+  });
+  return b.slotLoad(output);
+}
+
+namespace {
+
+// Word i of the shifted or rotated bit string, from two words of the original. A shift reads 0 outside the array.
+ValueId shiftedWord(Lowering& box, const WordRange& array, ValueId i, ValueId words, ValueId bits) {
+  RungBuilder& b = box.b;
+  const bool left = box.variant == kShiftLeft || box.variant == kRotateLeft;
+  const bool rotate = box.variant == kRotateLeft || box.variant == kRotateRight;
+  const ValueId one = b.i32(1);
+  const auto fetch = [&](ValueId index) {
+    if (rotate) {
+      // `index` is at most one length away from the array.
+      const ValueId wrapped = left ? b.select(b.ltS(index, b.i32(0)), b.add(index, array.length), index)
+                                   : b.select(b.leS(array.length, index), b.sub(index, array.length), index);
+      return box.memory.loadIn(array, wrapped);
+    }
+    return b.select(b.ltU(index, array.length), box.memory.loadIn(array, index), b.i32(0));
+  };
+  const ValueId near = left ? b.sub(i, words) : b.add(i, words);
+  const ValueId far = left ? b.sub(near, one) : b.add(near, one);
+  const ValueId rest = b.sub(b.i32(32), bits); // 32 shifts everything out
+  const OpCode toward = left ? OpCode::Shl : OpCode::ShrU;
+  const OpCode away = left ? OpCode::ShrU : OpCode::Shl;
+  const ValueId low = b.op(toward, Type::I32, {fetch(near), bits});
+  return b.or_(low, b.op(away, Type::I32, {fetch(far), rest}));
+}
+
+} // namespace
+
+// The result is put together in scratch memory and copied back, so that no word is read after it was written. With
+// fixed addresses the loops are as long as the array, else as long as the memory.
+ValueId lowerArray(Lowering& box) {
+  RungBuilder& b = box.b;
+  Memory& memory = box.memory;
+  return execute(box, [&] {
+    const Place from = memory.word(box.operands[0].address, Reach::Write);
+    const Place to = memory.word(box.operands[1].address, Reach::Write);
+    ValueId valid = memory.both(from.valid, to.valid);
+    const ValueId count = memory.integer(box.operands[2], valid);
+    if (box.operands[2].form != Form::Constant) valid = memory.both(valid, b.not_(b.ltS(count, b.i32(0))));
+    const WordRange array = memory.range(from, to);
+    // In order: at least one word.
+    if (array.first.valid()) valid = memory.both(valid, b.ltS(b.i32(0), array.length));
+    const bool fixed = !array.first.valid();
+    return guarded(box, valid, [&] {
+      ValueId amount = count;
+      if (box.variant == kRotateLeft || box.variant == kRotateRight)
+        amount = b.op(OpCode::RemU, Type::I32, {count, b.mul(array.length, b.i32(32))});
+      const ValueId words = b.op(OpCode::ShrU, Type::I32, {amount, b.i32(5)});
+      const ValueId bits = b.and_(amount, b.i32(31));
+      const auto eachWord = [&](auto act) {
+        const ValueId i = b.loop(array.mostWords).front();
+        if (!fixed) b.if_(b.ltU(i, array.length));
+        act(i);
+        if (!fixed) b.endIf();
+        b.endLoop();
+      };
+      eachWord([&](ValueId i) { memory.storeScratch(i, shiftedWord(box, array, i, words, bits)); });
+      eachWord([&](ValueId i) { memory.storeIn(array, i, memory.loadScratch(i)); });
+      memory.setErrorFlag(false);
+      return ValueId{};
+    });
+  });
+}
+
+} // namespace rung::nct

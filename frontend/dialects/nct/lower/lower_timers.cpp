@@ -1,0 +1,165 @@
+// TOND, TOFFD, TPULSE (man. §6.4): the register holds the time that remains, in milliseconds.
+#include <array>
+
+#include "frontend/dialects/nct/lower/lowering.h"
+
+namespace rung::nct {
+
+using ir::OpCode;
+using ir::RungBuilder;
+using ir::SlotId;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+// By time basis: milliseconds a unit, and the greatest set value (l.1353-1385).
+constexpr int64_t kUnitMs[] = {1, 1000, 60'000, 3'600'000};
+constexpr int64_t kLimit[] = {2'147'483'647, 2'147'483, 35'791, 596};
+constexpr int64_t kUsPerMs = 1000;
+
+// A set value that is known to be more than 0.
+bool isLong(std::span<const Operand> operands) {
+  const Operand& set = operands[1];
+  return set.form == Form::Constant && operands[2].form == Form::Constant && set.constant.integer > 0;
+}
+
+struct TimerState {
+  SlotId active;    // triggered at the last evaluation
+  SlotId evaluated; // of an off-delay: at least once
+  SlotId since;     // see countedSince; invalid: each run evaluates the timer, its time is the run's
+};
+
+// The entry of a table for a basis that is known at run time only.
+ValueId choose(RungBuilder& b, ValueId basis, const int64_t (&table)[4]) {
+  ValueId value = b.i32(table[3]);
+  for (int i = 2; i >= 0; --i) value = b.select(b.eq(basis, b.i32(i)), b.i32(table[i]), value);
+  return value;
+}
+
+// The set value in milliseconds; a value or basis out of range clears `valid`.
+ValueId preset(Lowering& box, ValueId& valid) {
+  RungBuilder& b = box.b;
+  const Operand& set = box.operands[1];
+  const Operand& basis = box.operands[2];
+  if (set.form == Form::Constant && basis.form == Form::Constant)
+    return b.i32(set.constant.integer * kUnitMs[basis.constant.integer]);
+  const ValueId count = box.memory.integer(set, valid);
+  ValueId unit;
+  ValueId limit;
+  if (basis.form == Form::Constant) {
+    unit = b.i32(kUnitMs[basis.constant.integer]);
+    limit = b.i32(kLimit[basis.constant.integer]);
+  } else {
+    const ValueId number = box.memory.integer(basis, valid);
+    unit = choose(b, number, kUnitMs);
+    limit = choose(b, number, kLimit);
+    valid = box.memory.both(valid, b.ltU(number, b.i32(4)));
+  }
+  valid = box.memory.both(valid, b.leU(count, limit)); // unsigned: a negative value is too large
+  return b.mul(count, unit);
+}
+
+ValueId wholeMs(RungBuilder& b, ValueId us) {
+  return b.op(OpCode::DivU, Type::I64, {us, b.constant(Type::I64, kUsPerMs)});
+}
+
+// As i32: more than a register can hold (24 days) leaves nothing of what it holds.
+ValueId atMostRegister(RungBuilder& b, ValueId ms) {
+  const ValueId most = b.constant(Type::I64, INT32_MAX);
+  return b.zextOrTrunc(Type::I32, b.select(b.ltU(ms, most), ms, most));
+}
+
+// What the register holds after `passedMs`; what the program wrote there is counted down, too.
+ValueId countDown(RungBuilder& b, ValueId left, ValueId passedMs) {
+  return b.select(b.leS(left, passedMs), b.i32(0), b.sub(left, passedMs));
+}
+
+// Where it is not known when the last evaluation was: `since` is what the register has been counted down to, in
+// microseconds, for what is less than a millisecond counts later. -1: the timer was never evaluated, or runs on in a
+// changed program where its time was the run's; then nothing counts yet.
+ValueId countedSince(Lowering& box, SlotId slot, ValueId counting, ValueId left, ValueId rest) {
+  RungBuilder& b = box.b;
+  const ValueId now = b.now();
+  const auto countOn = [&] {
+    const ValueId last = b.slotLoad(slot);
+    const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), now, last);
+    const ValueId ms = wholeMs(b, b.sub(now, since));
+    return std::array{countDown(b, left, atMostRegister(b, ms)),
+                      b.add(since, b.mul(ms, b.constant(Type::I64, kUsPerMs)))};
+  };
+  const auto [counted, until] = b.choose(counting, countOn, [&] { return std::array{rest, now}; });
+  b.slotStore(slot, until);
+  return counted;
+}
+
+// One evaluation; gives the output. The trigger writes the preset and counts nothing; afterwards the register loses
+// the whole milliseconds since the last evaluation. Idle, it holds the preset.
+ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerState& state) {
+  RungBuilder& b = box.b;
+  const ValueId input = box.power();
+  const ValueId active = box.variant == kOffDelay ? b.not_(input) : input;
+  const ValueId counting = b.and_(active, b.slotLoad(state.active));
+  b.slotStore(state.active, active);
+  const ValueId none = b.i32(0);
+  ValueId rest = presetMs;
+  if (box.variant == kOffDelay) {
+    // Never evaluated and its input is off: it has not been triggered, whatever the register holds.
+    rest = b.select(b.or_(input, b.slotLoad(state.evaluated)), presetMs, none);
+    b.slotStore(state.evaluated, b.bit(true));
+  }
+  const ValueId left = box.memory.loadWord(timer);
+  const ValueId value = state.since.valid()
+                            ? countedSince(box, state.since, counting, left, rest)
+                            : b.select(counting, countDown(b, left, b.slotLoad(box.time.passedMs)), rest);
+  box.memory.storeWord(timer, value);
+  const ValueId over = b.eq(value, none);
+  // A register that does not count down holds the preset (of an off-delay that was never triggered: 0). Where that is
+  // not 0, the register alone says whether the time is over.
+  const bool alone = isLong(box.operands);
+  switch (static_cast<TimerVariant>(box.variant)) {
+  case kOnDelay: return alone ? over : b.and_(active, over);
+  case kOffDelay: return alone ? b.not_(over) : b.or_(input, b.not_(over));
+  case kTimedPulse: return b.and_(active, b.not_(over));
+  }
+  return {};
+}
+
+} // namespace
+
+// The time since the run before, of a task whose runs are whole milliseconds apart.
+RunTime lowerRunTime(RungBuilder& b, SlotMaker& slots) {
+  const SlotId last = slots.make("last", Type::I64, -1); // when the run before was; -1: there was none
+  const RunTime time{slots.make("passed", Type::I32, 0, true)};
+  const ValueId now = b.now();
+  const ValueId before = b.slotLoad(last);
+  const ValueId none = b.constant(Type::I64, 0);
+  const ValueId passed = b.select(b.ltS(before, none), none, wholeMs(b, b.sub(now, before)));
+  b.slotStore(time.passedMs, atMostRegister(b, passed));
+  b.slotStore(last, now);
+  return time;
+}
+
+// An evaluation with invalid operands leaves the timer alone, so with operands that may be invalid its time is its own.
+ValueId lowerTimer(Lowering& box) {
+  const Place timer = box.memory.word(box.operands[0].address, Reach::User);
+  ValueId valid = timer.valid;
+  const ValueId presetMs = preset(box, valid);
+  TimerState state{.active = box.slots.make("active", Type::Bit), .evaluated = {}, .since = {}};
+  if (box.variant == kOffDelay) state.evaluated = box.slots.make("evaluated", Type::Bit);
+  if (valid.valid() || !box.time.passedMs.valid()) state.since = box.slots.make("since", Type::I64, -1);
+  return guarded(box, valid, [&] { return step(box, timer, presetMs, state); });
+}
+
+// The limit of the set value depends on the basis.
+void checkTimer(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
+  const Operand& set = operands[1];
+  const Operand& basis = operands[2];
+  if (set.form != Form::Constant || basis.form != Form::Constant) return;
+  const int64_t limit = kLimit[basis.constant.integer];
+  if (set.constant.integer > limit)
+    diagnostics.report(Diag::ConstantOutOfRange, set.source->range)
+        << set.source->text << "0 to " + std::to_string(limit);
+}
+
+} // namespace rung::nct

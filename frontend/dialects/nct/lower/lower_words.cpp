@@ -1,0 +1,137 @@
+// Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
+#include "frontend/dialects/nct/lower/lowering.h"
+
+namespace rung::nct {
+
+using ir::OpCode;
+using ir::RungBuilder;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+// `compute` gives the result's value and sets the flags.
+template <class Compute>
+ValueId binary(Lowering& box, Compute compute) {
+  return execute(box, [&] {
+    ValueId valid;
+    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    valid = result.valid;
+    const ValueId a = box.memory.integer(box.operands[1], valid);
+    const ValueId b = box.memory.integer(box.operands[2], valid);
+    return guarded(box, valid, [&] {
+      box.memory.storeWord(result, compute(a, b));
+      return ValueId{};
+    });
+  });
+}
+
+// Invalid ids: 0.
+struct ArithmeticFlags {
+  ValueId error;
+  ValueId under;
+  ValueId over;
+  ValueId carry;
+};
+
+void setFlags(Memory& memory, const ArithmeticFlags& flags) {
+  memory.setFlag(kFlagEr, flags.error);
+  memory.setFlag(kFlagUf, flags.under);
+  memory.setFlag(kFlagOf, flags.over);
+  memory.setFlag(kFlagCy, flags.carry);
+}
+
+} // namespace
+
+ValueId lowerMove(Lowering& box) {
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = result.valid;
+    const ValueId source = box.memory.integer(box.operands[1], valid);
+    return guarded(box, valid, [&] {
+      box.memory.storeWord(result, box.variant == kMoveComplement ? b.not_(source) : source);
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
+  });
+}
+
+// The bit pattern, also of a NaN.
+ValueId lowerMoveDouble(Lowering& box) {
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place result = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    ValueId valid = result.valid;
+    ValueId source;
+    if (box.operands[1].form == Form::Constant) {
+      source = b.op(OpCode::FToBits, Type::I64, {b.real(box.operands[1].constant.real)});
+    } else {
+      const Place from = box.memory.twoWords(box.operands[1].address, Reach::Read);
+      valid = box.memory.both(valid, from.valid);
+      source = box.memory.loadDouble(from, Type::I64);
+    }
+    return guarded(box, valid, [&] {
+      box.memory.storeDouble(result, source);
+      box.memory.setErrorFlag(false);
+      return ValueId{};
+    });
+  });
+}
+
+ValueId lowerLogic(Lowering& box) {
+  constexpr OpCode kCodes[] = {OpCode::And, OpCode::Or, OpCode::Xor};
+  return binary(box, [&](ValueId a, ValueId b) {
+    box.memory.setErrorFlag(false);
+    return box.b.binary(kCodes[box.variant], a, b);
+  });
+}
+
+// FL_CY is the unsigned carry or borrow. FL_OF: two numbers without sign give one with it; FL_UF: the other way round
+// (l.738-759). So the exact result is above or below what a word can hold.
+ValueId lowerAddSub(Lowering& box) {
+  RungBuilder& b = box.b;
+  return binary(box, [&](ValueId x, ValueId y) {
+    const bool add = box.variant == kAdd;
+    const ValueId exact =
+        b.binary(add ? OpCode::Add : OpCode::Sub, b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
+    const ValueId result = b.zextOrTrunc(Type::I32, exact);
+    setFlags(box.memory, {.error = {},
+                          .under = b.ltS(exact, b.constant(Type::I64, INT32_MIN)),
+                          .over = b.ltS(b.constant(Type::I64, INT32_MAX), exact),
+                          .carry = add ? b.ltU(result, x) : b.ltU(x, y)});
+    return result;
+  });
+}
+
+// FL_OF: the product does not fit into 32 bits (l.2090).
+ValueId lowerMul(Lowering& box) {
+  RungBuilder& b = box.b;
+  return binary(box, [&](ValueId x, ValueId y) {
+    const ValueId wide = b.mul(b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
+    const ValueId result = b.zextOrTrunc(Type::I32, wide);
+    const ValueId over = b.ne(b.sextOrTrunc(Type::I64, result), wide);
+    setFlags(box.memory, {.error = {}, .under = {}, .over = over, .carry = {}});
+    return result;
+  });
+}
+
+// Divisor 0: the result is 0, FL_ER is set and the output stays off (l.1976, l.2113). -2147483648 / -1 overflows.
+ValueId lowerDiv(Lowering& box) {
+  RungBuilder& b = box.b;
+  return execute(box, [&] {
+    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    ValueId valid = result.valid;
+    const ValueId x = box.memory.integer(box.operands[1], valid);
+    const ValueId y = box.memory.integer(box.operands[2], valid);
+    return guarded(box, valid, [&] {
+      const ValueId zero = b.eq(y, b.i32(0));
+      const ValueId over = b.and_(b.eq(x, b.i32(INT32_MIN)), b.eq(y, b.i32(-1)));
+      box.memory.storeWord(result, b.op(OpCode::DivS, Type::I32, {x, y}));
+      setFlags(box.memory, {.error = zero, .under = {}, .over = over, .carry = {}});
+      return b.not_(zero);
+    });
+  });
+}
+
+} // namespace rung::nct

@@ -1,0 +1,200 @@
+// What a lowering function works with: the builder, the memory of the dialect, its operands and the power at its pins.
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "frontend/dialects/nct/lower/memory.h"
+#include "frontend/dialects/nct/rows/instructions.h"
+#include "ir/core/builder.h"
+
+namespace rung::nct {
+
+// Makes the state slots of a routine's elements. Their keys name the element itself, so that they stay the same
+// whatever changes around it: routine, instruction and operands, with a number where several are alike.
+class SlotMaker {
+public:
+  SlotMaker(ir::Module& module, std::string_view routine) : module_(module), routine_(routine) {}
+  void setElement(std::string text);
+  // `role` tells the slots of one element apart. Elements without a slot have no number.
+  std::string key(std::string_view role);
+  ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
+
+private:
+  ir::Module& module_;
+  std::string_view routine_;
+  std::string element_;
+  bool numbered_ = false;                 // element_ has its number
+  std::map<std::string, uint32_t> alike_; // elements with a slot so far, by their text
+};
+
+// Time as the runs of a task see it.
+struct RunTime {
+  // i32, written where a run begins: the milliseconds since the run before. Invalid: nobody asks for it, or the runs
+  // are not whole milliseconds apart, so that each timer has its own rest.
+  ir::SlotId passedMs;
+};
+
+// Words of a hidden space, unit 4.
+struct SharedWords {
+  ir::SpaceId space;
+  uint32_t first = 0;
+  // `count` words behind the first `skip`, for a computed index.
+  ir::Window window(uint32_t skip, uint32_t count) const {
+    return {.space = space, .byte = (first + skip) * 4, .count = count};
+  }
+};
+
+// What boxes share with the NC: the services of the program, and words in hidden spaces that the host knows by name.
+class Shared {
+public:
+  explicit Shared(ir::Module& module) : module_(module) {}
+  // "NAME arguments -> results", see docs/scenario-format.md.
+  ir::ServiceId service(std::string_view signature);
+  // Words of this box alone, under its key: a hidden symbol, so that they are found again in a changed program. The
+  // space is made when it is asked for first.
+  SharedWords words(std::string_view space, uint32_t count, const std::string& key);
+
+private:
+  ir::Module& module_;
+};
+
+struct Lowering {
+  ir::RungBuilder& b;
+  Memory& memory;
+  SlotMaker& slots;
+  Shared& shared;
+  RunTime time; // where each run evaluates the box exactly once; else without passedMs
+  std::span<const Operand> operands;
+  std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
+  int variant = 0;
+  char edge = 0; // '@' or '%' of a contact
+  // What the element itself asks, where pass() joined it with the power; its output is more than that.
+  ir::ValueId condition{};
+
+  // The power at a pin as a value.
+  ir::ValueId power(size_t pin = 0) { return pins[pin].valid() ? pins[pin] : b.bit(true); }
+  // value AND the power at the first pin.
+  ir::ValueId gate(ir::ValueId value) { return pins[0].valid() ? b.and_(pins[0], value) : value; }
+  // The output of a contact, which passes the power on while the value is 1.
+  ir::ValueId pass(ir::ValueId value) {
+    condition = value;
+    return gate(value);
+  }
+};
+
+// --- boxes ----------------------------------------------------------------------------------------------------------
+// Runs `body` when `valid` (invalid id: always) holds. An operand that is not valid sets FL_ER, leaves everything else
+// alone and makes the output 0 (man. l.729). `body` gives the output, an invalid id for "always 1"; so does guarded.
+template <class Body>
+ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
+  if (!valid.valid()) return body();
+  ir::RungBuilder& b = box.b;
+  const auto work = [&] {
+    const ir::ValueId output = body();
+    return output.valid() ? output : b.bit(true);
+  };
+  return b.choose(valid, work, [&] {
+    box.memory.setErrorFlag(true);
+    return b.bit(false);
+  });
+}
+
+// A box that works while its first pin has power: `body` evaluates the operands, so that a box at rest costs a test. It
+// gives the output, an invalid id for "always 1"; without power the output is 0.
+template <class Body>
+ir::ValueId execute(Lowering& box, Body body) {
+  ir::RungBuilder& b = box.b;
+  const ir::ValueId enable = box.power();
+  b.if_(enable);
+  const ir::ValueId output = body();
+  if (!output.valid()) {
+    b.endIf();
+    return enable;
+  }
+  b.else_(std::span(&output, 1));
+  const ir::ValueId off = b.bit(false);
+  return b.endIf(std::span(&off, 1)).front();
+}
+
+// --- lowering functions, by family ----------------------------------------------------------------------------------
+// Contacts: variant bit 0: closed; bit 1: on a word.
+inline constexpr int kClosed = 1;
+inline constexpr int kOnWord = 2;
+ir::ValueId lowerContact(Lowering& box);
+enum CoilVariant : int { kCoil, kNegatedCoil, kSet, kReset };
+ir::ValueId lowerCoil(Lowering& box);
+enum PulseVariant : int { kRising, kFalling };
+ir::ValueId lowerPulse(Lowering& box); // DIFU, DIFD
+
+enum MoveVariant : int { kMove, kMoveComplement };
+ir::ValueId lowerMove(Lowering& box);
+ir::ValueId lowerMoveDouble(Lowering& box);
+enum LogicVariant : int { kAnd, kOr, kXor };
+ir::ValueId lowerLogic(Lowering& box);
+enum ArithmeticVariant : int { kAdd, kSub };
+ir::ValueId lowerAddSub(Lowering& box);
+ir::ValueId lowerMul(Lowering& box);
+ir::ValueId lowerDiv(Lowering& box);
+
+enum TimerVariant : int { kOnDelay, kOffDelay, kTimedPulse };
+ir::ValueId lowerTimer(Lowering& box);
+RunTime lowerRunTime(ir::RungBuilder& b, SlotMaker& slots); // what a run begins with where timers need it
+enum CounterVariant : int { kStopping, kRing };
+ir::ValueId lowerCounter(Lowering& box);
+
+enum FloatVariant : int { kFloatAdd, kFloatSub, kFloatMul, kFloatDiv };
+ir::ValueId lowerFloatArithmetic(Lowering& box);
+enum FunctionVariant : int {
+  kPower,
+  kSquareRoot,
+  kSine,
+  kCosine,
+  kTangent,
+  kArcSine,
+  kArcCosine,
+  kArcTangent,
+  kExponential,
+  kLogarithm
+};
+ir::ValueId lowerFloatFunction(Lowering& box); // PWR to LOG
+
+// Bits of the variant.
+inline constexpr int kMessageOnScreen = 1;
+inline constexpr int kMessageToLog = 2;
+inline constexpr int kMessageOfReal = 4;
+ir::ValueId lowerMessage(Lowering& box);
+ir::ValueId lowerBin(Lowering& box);
+ir::ValueId lowerBcd(Lowering& box);
+ir::ValueId lowerFlt(Lowering& box);
+ir::ValueId lowerFix(Lowering& box);
+enum AngleVariant : int { kToDegrees, kToRadians };
+ir::ValueId lowerAngle(Lowering& box);
+
+ir::ValueId lowerRotation(Lowering& box); // ROT
+ir::ValueId lowerShiftRegister(Lowering& box);
+enum ArrayVariant : int { kShiftLeft, kShiftRight, kRotateLeft, kRotateRight };
+ir::ValueId lowerArray(Lowering& box);
+
+ir::ValueId lowerCompare(Lowering& box);      // CMP
+ir::ValueId lowerFloatCompare(Lowering& box); // FCMP
+enum CompareVariant : int { kLess, kLessEqual, kEqual, kNotEqual, kGreaterEqual, kGreater };
+ir::ValueId lowerCompareContact(Lowering& box);
+ir::ValueId lowerFloatContact(Lowering& box);
+
+enum ArrayServiceVariant : int { kReadArray, kWriteArray };
+ir::ValueId lowerArrayService(Lowering& box); // MR, MW
+enum MacroVariant : int { kReadMacro, kWriteMacro };
+ir::ValueId lowerMacro(Lowering& box);       // MACR, MACW
+ir::ValueId lowerScope(Lowering& box);       // SCP
+ir::ValueId lowerAxisCommand(Lowering& box); // MOVCMND
+
+// --- checks
+// -----------------------------------------------------------------------------------------------------------
+void checkTimer(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkReadFunction(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkWriteFunction(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkScope(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+
+} // namespace rung::nct

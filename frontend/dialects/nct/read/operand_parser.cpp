@@ -1,0 +1,371 @@
+// Reading operands (see operand_parser.h).
+#include "frontend/dialects/nct/read/operand_parser.h"
+
+#include <algorithm>
+#include <string>
+
+#include "ir/support/similar.h"
+#include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/text/number.h"
+
+namespace rung::nct {
+namespace {
+
+constexpr std::string_view kDecimalRange = "-2147483648 to 2147483647";
+constexpr std::string_view kHexRange = "0 to FFFFFFFF";
+constexpr std::string_view kRealRange = "the range of a double";
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isHexDigit(char c) { return isDigit(c) || (c >= 'A' && c <= 'F') || (c >= 'a' && c <= 'f'); }
+bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, isDigit); }
+
+// A number of too many digits is too large for everything.
+int64_t decimalValue(std::string_view digits) { return text::numberIn<int64_t>(digits).value_or(INT64_MAX); }
+
+struct ConstantReader {
+  const Word& word;
+  std::string_view text;
+  Diagnostics& diagnostics;
+
+  std::optional<Constant> malformed() {
+    DiagBuilder report = diagnostics.report(Diag::ConstantFormat, rangeOf(word, text));
+    report << text;
+    std::string fixed(text);
+    std::ranges::replace(fixed, ',', '.');
+    if (text.starts_with('*') && fixed.find('.') == fixed.rfind('.')) {
+      if (fixed != text) report.note("the decimal sign is a point: " + fixed);
+      if (text.size() > 1 && allDigits(text.substr(1))) report.note("write " + fixed + ".0");
+    }
+    if (text.starts_with('#') && text.find('.') != std::string_view::npos)
+      report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
+    return std::nullopt;
+  }
+  std::optional<Constant> tooLarge(std::string_view range) {
+    diagnostics.report(Diag::ConstantOutOfRange, rangeOf(word, text)) << text << range;
+    return std::nullopt;
+  }
+
+  std::optional<Constant> decimal(std::string_view digits) {
+    const bool negative = digits.starts_with('-'); // no '+', l.608
+    if (negative) digits.remove_prefix(1);
+    if (!allDigits(digits)) return malformed();
+    const int64_t value = negative ? -decimalValue(digits) : decimalValue(digits);
+    if (value < INT32_MIN || value > INT32_MAX) return tooLarge(kDecimalRange);
+    return Constant{.kind = ConstantKind::Decimal, .integer = value, .real = 0};
+  }
+
+  std::optional<Constant> hexadecimal(std::string_view digits) {
+    if (digits.empty() || !std::ranges::all_of(digits, isHexDigit)) return malformed();
+    const auto value = text::numberIn<uint32_t>(digits, 16);
+    if (!value) return tooLarge(kHexRange);
+    return Constant{.kind = ConstantKind::Hex, .integer = static_cast<int32_t>(*value), .real = 0};
+  }
+
+  // The decimal point is required, an exponent does not exist (l.660).
+  std::optional<Constant> real(std::string_view digits) {
+    const bool negative = digits.starts_with('-');
+    if (negative || digits.starts_with('+')) digits.remove_prefix(1);
+    const size_t point = digits.find('.');
+    if (point == std::string_view::npos || digits.size() < 2) return malformed();
+    for (size_t i = 0; i < digits.size(); ++i)
+      if (i != point && !isDigit(digits[i])) return malformed();
+    const std::string padded = "0" + std::string(digits) + "0"; // a digit on both sides of the point
+    const auto value = text::realIn(padded);
+    if (!value) return tooLarge(kRealRange);
+    return Constant{.kind = ConstantKind::Real, .integer = 0, .real = negative ? -*value : *value};
+  }
+};
+
+class AddressReader {
+public:
+  AddressReader(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics)
+      : word_(word), symbols_(symbols), diagnostics_(diagnostics) {}
+
+  std::optional<ParsedAddress> read(std::string_view text) {
+    const size_t comma = text.find(',');
+    const std::string_view place = text.substr(0, comma);
+    const size_t mark = place.find_first_of(".:");
+    const std::string_view base = place.substr(0, mark);
+    const bool ok = readBase(base, mark != std::string_view::npos) &&
+                    (mark == std::string_view::npos || readBit(place[mark], place.substr(mark + 1))) &&
+                    (comma == std::string_view::npos || readIndex(text.substr(comma + 1)));
+    if (!ok) return std::nullopt;
+    if (word64_ < 0 || word64_ >= kWords) {
+      diagnostics_.report(Diag::AddressOutOfRange, rangeOf(word_, text)) << text << "0000 to 9999";
+      return std::nullopt;
+    }
+    result_.address.word = static_cast<uint32_t>(word64_);
+    if (result_.base != nullptr && result_.base->signal != nullptr && comma != std::string_view::npos)
+      checkElement(text);
+    return result_;
+  }
+
+private:
+  // A constant index that leads from one signal into another: nothing the manual forbids, and hardly meant (l.6438).
+  void checkElement(std::string_view text) {
+    const nc::Signal& signal = *result_.base->signal;
+    const int64_t words = int64_t{signal.count} * signal.strideBytes / 4;
+    const int64_t offset = word64_ - signal.byteOffset / 4;
+    if (words < 2 || (offset >= 0 && offset < words)) return;
+    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text))
+        << text << signal.symbol << (signal.count - 1) * signal.strideBytes / 4;
+  }
+
+  std::optional<uint32_t> number(std::string_view text) {
+    if (text.size() == 4 && allDigits(text)) return static_cast<uint32_t>(decimalValue(text));
+    DiagBuilder report = diagnostics_.report(Diag::AddressFormat, rangeOf(word_, text));
+    report << text;
+    if (allDigits(text) && text.size() < 4)
+      report.note("an address is written " + std::string(4 - text.size(), '0') + std::string(text) + ", a constant #" +
+                  std::string(text));
+    else if (allDigits(text))
+      report.note("a constant is written #" + std::string(text));
+    return std::nullopt;
+  }
+
+  const Symbol* symbol(std::string_view name) {
+    if (name.empty()) {
+      DiagBuilder report = diagnostics_.report(Diag::AddressFormat, word_.range);
+      report << word_.text;
+      if (word_.text.ends_with(',')) report.note("operands are separated by blanks, without commas");
+      return nullptr;
+    }
+    const Symbol* found = symbols_.use(name, rangeOf(word_, name));
+    if (found == nullptr) reportUndeclared(name);
+    return found == nullptr || found->kind == SymbolKind::Bad ? nullptr : found;
+  }
+
+  void reportUndeclared(std::string_view name) {
+    DiagBuilder report = diagnostics_.report(Diag::UndeclaredSymbol, rangeOf(word_, name));
+    report << name;
+    if (!diagnostics_.suggests()) return;
+    report.meant(rangeOf(word_, name), symbols_.similarTo(name));
+    // (S7001.00) is a coil of the name S7001.
+    const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && &name[0] == &word_.text[0] &&
+                       (isDigit(name[1]) || symbols_.find(name.substr(1)) != nullptr);
+    if (glued)
+      report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(word_.text.substr(1)) +
+                  ")");
+  }
+
+  bool mismatch(std::string_view name, SymbolKind is, std::string_view needed) {
+    diagnostics_.report(Diag::SymbolKindMismatch, rangeOf(word_, name)) << name << describe(is) << needed;
+    return false;
+  }
+
+  bool readBase(std::string_view base, bool bitFollows) {
+    if (!base.empty() && isDigit(base[0])) {
+      const std::optional<uint32_t> n = number(base);
+      word64_ = n.value_or(0);
+      return n.has_value();
+    }
+    const Symbol* found = symbol(base);
+    if (found == nullptr) return false;
+    if (found->kind == SymbolKind::Constant) return mismatch(base, found->kind, "an address");
+    if (found->kind == SymbolKind::Bit) {
+      if (bitFollows) return mismatch(base, found->kind, "a word");
+      result_.address.isBit = true;
+      result_.address.bit = found->bit;
+    }
+    word64_ = found->word;
+    result_.base = found;
+    return true;
+  }
+
+  bool readBit(char mark, std::string_view text) {
+    result_.address.isBit = true;
+    if (mark == ':') return readRegister(text, result_.address.bitRegister);
+    if (text.size() != 2 || !allDigits(text)) {
+      DiagBuilder report = diagnostics_.report(Diag::BitFormat, text.empty() ? word_.range : rangeOf(word_, text));
+      report << text;
+      if (text.size() == 1 && allDigits(text)) report.note("write .0" + std::string(text));
+      const size_t modifier = text.find_first_of("@%!");
+      if (modifier != std::string_view::npos)
+        report.note("'" + std::string(1, text[modifier]) + "' is written before the operand");
+      return false;
+    }
+    result_.address.bit = static_cast<uint32_t>(decimalValue(text));
+    if (result_.address.bit < 32) return true;
+    diagnostics_.report(Diag::BitOutOfRange, rangeOf(word_, text)) << text;
+    return false;
+  }
+
+  bool readRegister(std::string_view text, uint32_t& out) {
+    if (!text.empty() && isDigit(text[0])) {
+      const std::optional<uint32_t> n = number(text);
+      out = n.value_or(0);
+      return n.has_value();
+    }
+    const Symbol* found = symbol(text);
+    if (found == nullptr) return false;
+    if (found->kind != SymbolKind::Word) return mismatch(text, found->kind, "a word");
+    out = found->word;
+    return true;
+  }
+
+  bool readIndex(std::string_view text) {
+    if (text.starts_with('#')) {
+      const std::optional<Constant> constant = parseConstant(word_, text, diagnostics_);
+      if (!constant) return false;
+      if (constant->kind == ConstantKind::Decimal) return constantIndex(*constant);
+      diagnostics_.report(Diag::ConstantFormat, rangeOf(word_, text)) << text;
+      return false;
+    }
+    if (text.empty() || isDigit(text[0])) return readRegister(text, result_.address.indexRegister);
+    const Symbol* found = symbol(text);
+    if (found == nullptr) return false;
+    if (found->kind == SymbolKind::Bit) return mismatch(text, found->kind, "a word or a constant");
+    if (found->kind == SymbolKind::Constant) {
+      if (found->constant.kind != ConstantKind::Real) return constantIndex(found->constant);
+      diagnostics_.report(Diag::OperandTypeMismatch, rangeOf(word_, text)) << text << "a double" << "an index" << "#";
+      return false;
+    }
+    result_.address.indexRegister = found->word;
+    return true;
+  }
+
+  bool constantIndex(const Constant& constant) {
+    word64_ += constant.integer;
+    result_.address.oddIndex = (constant.integer & 1) != 0;
+    return true;
+  }
+
+  const Word& word_;
+  SymbolTable& symbols_;
+  Diagnostics& diagnostics_;
+  ParsedAddress result_;
+  int64_t word64_ = 0;
+};
+
+bool isConstantText(std::string_view text) { return text.starts_with('#') || text.starts_with('*'); }
+
+// A lone name of a constant; null when it is anything else. Says nothing.
+const Symbol* constantSymbol(std::string_view text, SymbolTable& symbols) {
+  if (text.empty() || isDigit(text[0]) || text.find_first_of(".:,") != std::string_view::npos) return nullptr;
+  const Symbol* found = symbols.find(text);
+  return found != nullptr && found->kind == SymbolKind::Constant ? found : nullptr;
+}
+
+} // namespace
+
+SourceRange rangeOf(const Word& word, std::string_view part) {
+  if (part.empty()) return word.range;
+  const uint32_t begin =
+      word.range.begin.value + (word.quoted ? 1 : 0) + static_cast<uint32_t>(part.data() - word.text.data());
+  return {{begin}, {begin + static_cast<uint32_t>(part.size())}};
+}
+
+std::string_view describe(SymbolKind kind) {
+  switch (kind) {
+  case SymbolKind::Bad: return "wrong";
+  case SymbolKind::Word: return "a word";
+  case SymbolKind::Bit: return "a bit";
+  case SymbolKind::Constant: return "a constant";
+  }
+  return "";
+}
+
+std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics) {
+  ConstantReader reader{word, text, diagnostics};
+  if (text.starts_with("#$")) return reader.hexadecimal(text.substr(2));
+  if (text.starts_with('#')) return reader.decimal(text.substr(1));
+  return reader.real(text.substr(1));
+}
+
+std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,
+                                          Diagnostics& diagnostics) {
+  return AddressReader(word, symbols, diagnostics).read(text);
+}
+
+Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics) {
+  Operand operand;
+  operand.source = &word;
+  if (word.quoted) {
+    operand.form = Form::Text;
+    return operand;
+  }
+  std::string_view text = word.text;
+  for (; !text.empty() && std::string_view("@%!").find(text[0]) != std::string_view::npos; text.remove_prefix(1)) {
+    if (text[0] == '!')
+      operand.address.immediate = true;
+    else
+      operand.edge = text[0];
+  }
+  if (isConstantText(text)) {
+    const std::optional<Constant> constant = parseConstant(word, text, diagnostics);
+    if (constant) operand.constant = *constant;
+    operand.form = constant ? Form::Constant : Form::Bad;
+    return operand;
+  }
+  if (text.starts_with('-') || text.starts_with('+')) {
+    diagnostics.report(Diag::ConstantFormat, rangeOf(word, text)) << text;
+    return operand;
+  }
+  operand.fromSymbol = !text.empty() && !isDigit(text[0]);
+  if (const Symbol* named = constantSymbol(text, symbols)) {
+    symbols.use(text, rangeOf(word, text));
+    operand.form = Form::Constant;
+    operand.constant = named->constant;
+    return operand;
+  }
+  const std::optional<ParsedAddress> parsed = parseAddress(word, text, symbols, diagnostics);
+  if (!parsed) return operand;
+  const bool immediate = operand.address.immediate;
+  operand.address = parsed->address;
+  operand.base = parsed->base;
+  operand.address.immediate = immediate;
+  operand.form = parsed->address.isBit ? Form::Bit : Form::Word;
+  return operand;
+}
+
+Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
+  Operand operand;
+  operand.source = &word;
+  const std::span<const nc::nct::ScopeSymbol> symbols = nc::nct::scopeSymbols();
+  const auto found = std::ranges::find(symbols, word.text, &nc::nct::ScopeSymbol::name);
+  if (found != symbols.end()) {
+    operand.form = Form::Constant;
+    operand.constant.integer = found - symbols.begin();
+    return operand;
+  }
+  Similar similar(word.text);
+  for (const nc::nct::ScopeSymbol& symbol : symbols) similar.offer(symbol.name);
+  DiagBuilder report = diagnostics.report(Diag::UnknownScopeSymbol, word.range);
+  report << word.text;
+  report.meant(word.range, similar.best());
+  return operand;
+}
+
+std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics) {
+  std::string_view digits = word.text;
+  int64_t number = 0;
+  if (allDigits(digits)) {
+    number = decimalValue(digits);
+  } else if (digits.starts_with("#") && !digits.starts_with("#$")) {
+    const std::optional<Constant> constant = parseConstant(word, digits, diagnostics);
+    if (!constant) return std::nullopt;
+    number = constant->integer;
+  } else {
+    const Operand operand = parseOperand(word, symbols, diagnostics);
+    if (operand.form == Form::Bad) return std::nullopt;
+    if (operand.form != Form::Constant) {
+      diagnostics.report(Diag::SymbolKindMismatch, word.range) << word.text
+                                                               << (operand.form == Form::Bit    ? "a bit"
+                                                                   : operand.form == Form::Word ? "a word"
+                                                                                                : "a text")
+                                                               << "a label number";
+      return std::nullopt;
+    }
+    if (operand.constant.kind != ConstantKind::Decimal) {
+      diagnostics.report(Diag::OperandTypeMismatch, word.range)
+          << word.text << "no decimal constant" << "a label" << "#0 to #99";
+      return std::nullopt;
+    }
+    number = operand.constant.integer;
+  }
+  if (number >= 0 && number <= 99) return static_cast<uint32_t>(number);
+  diagnostics.report(Diag::LabelOutOfRange, word.range) << word.text;
+  return std::nullopt;
+}
+
+} // namespace rung::nct

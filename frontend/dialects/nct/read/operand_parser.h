@@ -1,0 +1,37 @@
+// Reads operands (man. §2, §4.5-4.8): what is written, whatever the instruction wants. Every function reports its
+// mistakes at the exact characters and then gives nothing (or Form::Bad).
+#pragma once
+#include <optional>
+
+#include "frontend/dialects/nct/read/operand.h"
+#include "frontend/dialects/nct/read/symbols.h"
+
+namespace rung::nct {
+
+// The characters of `part`, a piece of word.text, in the source.
+SourceRange rangeOf(const Word& word, std::string_view part);
+
+// `text`, a piece of `word`, begins with # or *.
+std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics);
+
+struct ParsedAddress {
+  Address address;
+  const Symbol* base = nullptr; // null: it is digits
+};
+// Without modifiers. Names are looked up in `symbols`.
+std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,
+                                          Diagnostics& diagnostics);
+
+// An operand of a contact, coil or box, with its modifiers. A quoted word is Form::Text.
+Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);
+
+// The name of a quantity that SCP queries: a constant, its index in the list.
+Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics);
+
+// The number of a label or subroutine: #12, 12, or a constant's name (man. l.2942).
+std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);
+
+// "a word", "a bit", "a constant": for messages.
+std::string_view describe(SymbolKind kind);
+
+} // namespace rung::nct

@@ -1,0 +1,212 @@
+// Names of a program (see symbols.h).
+#include "frontend/dialects/nct/read/symbols.h"
+
+#include "frontend/dialects/nct/read/operand_parser.h"
+#include "ir/support/similar.h"
+
+namespace rung::nct {
+namespace {
+
+// Declarations that refer to each other, one behind the other; bounds the recursion.
+constexpr int kMaxDepth = 200;
+
+struct Alias {
+  std::string_view misprint;
+  std::string_view name;
+};
+// Misprints of the manual that programs may have taken over (l.8220, l.8796).
+constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
+
+bool isName(std::string_view text) {
+  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') && text[0] != '-' && text[0] != '+' &&
+         text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
+}
+
+Symbol word(std::string_view name, uint32_t address) {
+  Symbol symbol;
+  symbol.name = name;
+  symbol.kind = SymbolKind::Word;
+  symbol.word = address;
+  return symbol;
+}
+
+} // namespace
+
+std::string_view aliasOf(std::string_view name) {
+  for (const Alias& alias : kAliases)
+    if (alias.misprint == name) return alias.name;
+  return name;
+}
+
+SymbolTable::SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics)
+    : config_(config), analysis_(analysis), diagnostics_(diagnostics) {
+  enter(word("PLCNVRAM", config.plcNvram));
+  enter(word("PLCRAM", config.plcRam));
+  uint32_t bit = 0;
+  for (std::string_view name : kFlagNames) {
+    Symbol flag = word(name, kFlagsWord);
+    flag.kind = SymbolKind::Bit;
+    flag.bit = bit++;
+    enter(flag);
+  }
+  direction_.resize(config.plcNvram);
+  for (const nc::Signal& signal : nc::nctSignals()) {
+    if (signal.direction != nc::Direction::In) continue;
+    const uint32_t words = signal.count * signal.strideBytes / 4;
+    for (uint32_t i = 0; i < words; ++i) direction_[signal.byteOffset / 4 + i] = kInput;
+  }
+}
+
+Symbol* SymbolTable::enter(Symbol symbol) {
+  symbol.index = static_cast<uint32_t>(symbols_.size());
+  symbols_.push_back(symbol);
+  byName_.emplace(symbol.name, &symbols_.back());
+  return &symbols_.back();
+}
+
+Symbol* SymbolTable::enterPredefined(std::string_view name) {
+  if (name == kFlagsName) return enter(word(name, kFlagsWord));
+  const nc::Signal* signal = nc::findSignal(nc::nctSignals(), aliasOf(name));
+  if (signal == nullptr) return nullptr;
+  Symbol symbol = word(name, signal->byteOffset / 4);
+  if (signal->type == nc::SignalType::Bit) {
+    symbol.kind = SymbolKind::Bit;
+    symbol.bit = signal->bit;
+  }
+  symbol.signal = signal;
+  symbol.comment = signal->meaning;
+  return enter(symbol);
+}
+
+const Symbol* SymbolTable::find(std::string_view name) {
+  const auto found = byName_.find(name);
+  if (found == byName_.end()) return enterPredefined(name);
+  if (found->second->pending) resolve(*found->second);
+  return found->second;
+}
+
+const Symbol* SymbolTable::use(std::string_view name, SourceRange range) {
+  const Symbol* found = find(name);
+  if (found != nullptr) analysis_.use(range, found->index);
+  return found;
+}
+
+void SymbolTable::defineAll() {
+  for (const Symbol& symbol : symbols_) {
+    frontend::Definition definition{.name = symbol.name, .comment = symbol.comment};
+    if (symbol.declaration != nullptr) definition.range = symbol.declaration->name.range;
+    if (symbol.kind == SymbolKind::Constant) definition.value = symbol.declaration->value.text;
+    const bool known = symbol.kind == SymbolKind::Word || symbol.kind == SymbolKind::Bit;
+    if (known) definition.place = {"M", symbol.word * 32 + symbol.bit, symbol.kind == SymbolKind::Bit ? 1u : 32u};
+    analysis_.define(definition);
+  }
+}
+
+std::string_view SymbolTable::similarTo(std::string_view name) const {
+  Similar similar(name);
+  for (const Symbol& symbol : symbols_) similar.offer(symbol.name);
+  // Names of the program come first.
+  if (similar.best().empty())
+    for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
+  similar.offer(kFlagsName);
+  return similar.best();
+}
+
+void SymbolTable::declare(const ladder::Declaration& declaration) {
+  const std::string_view name = declaration.name.text;
+  if (!isName(name)) {
+    diagnostics_.report(Diag::BadOperand, declaration.name.range) << name << "name of a symbol";
+    return;
+  }
+  auto found = byName_.find(name);
+  const Symbol* first = found == byName_.end() ? enterPredefined(name) : found->second;
+  if (first != nullptr) {
+    auto report = diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range);
+    if (first->declaration != nullptr)
+      report.note(first->declaration->name.range, "first declared here");
+    else
+      report.note("it is predefined");
+    report << name;
+    return;
+  }
+  Symbol symbol = word(name, 0);
+  symbol.kind = SymbolKind::Bad;
+  symbol.comment = declaration.comment;
+  symbol.declaration = &declaration;
+  symbol.pending = true;
+  enter(symbol);
+}
+
+void SymbolTable::declareBad(std::string_view name) {
+  if (byName_.contains(name) || enterPredefined(name) != nullptr) return;
+  Symbol symbol = word(name, 0);
+  symbol.kind = SymbolKind::Bad;
+  enter(symbol);
+}
+
+void SymbolTable::resolveAll() {
+  for (size_t i = 0; i < symbols_.size(); ++i)
+    if (symbols_[i].pending) resolve(symbols_[i]);
+}
+
+void SymbolTable::resolve(Symbol& symbol) {
+  const Word& value = symbol.declaration->value;
+  if (symbol.resolving) {
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a cycle";
+    symbol.pending = false;
+    return;
+  }
+  if (depth_ >= kMaxDepth) {
+    diagnostics_.report(Diag::TooDeep, value.range) << "declarations that refer to each other are" << kMaxDepth;
+    symbol.pending = false;
+    return;
+  }
+  symbol.resolving = true;
+  ++depth_;
+  if (symbol.declaration->kind == ladder::DeclarationKind::Const)
+    resolveConstant(symbol);
+  else
+    resolveAddress(symbol);
+  --depth_;
+  symbol.resolving = false;
+  symbol.pending = false;
+}
+
+void SymbolTable::resolveConstant(Symbol& symbol) {
+  const Word& value = symbol.declaration->value;
+  if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
+    DiagBuilder report = diagnostics_.report(Diag::ConstantFormat, value.range);
+    report << value.text;
+    if (!value.text.empty() && value.text.find_first_not_of("0123456789") == std::string_view::npos)
+      report.note("write #" + std::string(value.text));
+    return;
+  }
+  const std::optional<Constant> constant = parseConstant(value, value.text, diagnostics_);
+  if (!constant) return;
+  symbol.kind = SymbolKind::Constant;
+  symbol.constant = *constant;
+}
+
+void SymbolTable::resolveAddress(Symbol& symbol) {
+  const Word& value = symbol.declaration->value;
+  if (value.text.empty() || std::string_view("#*@%!/+-").find(value.text[0]) != std::string_view::npos) {
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "address";
+    return;
+  }
+  const std::optional<ParsedAddress> parsed = parseAddress(value, value.text, *this, diagnostics_);
+  // In a circle the inner meeting was reported and has settled the symbol.
+  if (!parsed || !symbol.pending) return;
+  const Address& address = parsed->address;
+  if (!address.isFixed()) {
+    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address";
+    return;
+  }
+  symbol.kind = address.isBit ? SymbolKind::Bit : SymbolKind::Word;
+  symbol.word = address.word;
+  symbol.bit = address.bit;
+  // NC addresses differ between versions of the control (l.6450).
+  if (parsed->base == nullptr && address.word > kFlagsWord && address.word < config_.plcNvram)
+    diagnostics_.report(Diag::SymbolInNcArea, value.range) << symbol.name << value.text;
+}
+
+} // namespace rung::nct

@@ -1,0 +1,86 @@
+// Names of a program: the flags and limits, the symbols of the NC, and what the program declares. Names are common to
+// all modules and files and may be used above their declaration; case matters.
+#pragma once
+#include <deque>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/dialects/nct/config.h"
+#include "frontend/dialects/nct/read/operand.h"
+#include "frontend/ladder/ladder.h"
+#include "frontend/sema/analysis.h"
+#include "rtlib/nc/nct/signals.h"
+
+namespace rung::nct {
+
+inline constexpr std::string_view kFlagsName = "FLAGS";
+// Bits of FLAGS; the order of the manual's chapter 5 (l.725-777).
+inline constexpr std::string_view kFlagNames[] = {"FL_ER", "FL_UF", "FL_OF", "FL_CY", "FL_GT", "FL_EQ", "FL_LT"};
+
+// The signal that a name of the manual means: itself but for some misprints.
+std::string_view aliasOf(std::string_view name);
+
+enum class SymbolKind : uint8_t { Bad, Word, Bit, Constant };
+
+struct Symbol {
+  uint32_t index = 0; // in SymbolTable::all and Analysis::definitions
+  std::string_view name;
+  SymbolKind kind = SymbolKind::Bad; // Bad: its declaration was reported, uses stay silent
+  uint32_t word = 0;
+  uint32_t bit = 0;
+  Constant constant;
+  std::string_view comment;
+  const nc::Signal* signal = nullptr; // of the NC
+  const ladder::Declaration* declaration = nullptr;
+  bool pending = false;   // its value has not been read yet
+  bool resolving = false; // it is being read: meeting it again is a circle
+};
+
+class SymbolTable {
+public:
+  SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics);
+
+  // Enters a name; a name that is there already is reported.
+  void declare(const ladder::Declaration& declaration);
+  // Enters a name whose declaration was reported, unless it is there.
+  void declareBad(std::string_view name);
+  // Reads the values of all declarations; afterwards `find` gives complete symbols.
+  void resolveAll();
+
+  // What a name at that place of the source means, and a use of it. Null when there is no such name. Symbols of the NC
+  // and FLAGS enter the table when they are looked up first: FLAGS of a program that does not name it may lie bit by
+  // bit in bytes (ir/layout). The result stays where it is.
+  const Symbol* use(std::string_view name, SourceRange range);
+  // The same for a text that may be something else: no use.
+  const Symbol* find(std::string_view name);
+  // The known name that is most like a misspelt one; empty when none is close.
+  std::string_view similarTo(std::string_view name) const;
+  // Says in the analysis what all names are. To be called last.
+  void defineAll();
+  // All names but those of the NC that nothing mentions, in the order of entering.
+  const std::deque<Symbol>& all() const { return symbols_; }
+
+  const Config& config() const { return config_; }
+  // An input of the NC lives in this word.
+  bool isInputWord(uint32_t word) const { return word < direction_.size() && direction_[word] == kInput; }
+  bool isNcWord(uint32_t word) const { return word >= kFirstNcWord && word < config_.plcNvram; }
+
+private:
+  Symbol* enter(Symbol symbol);
+  Symbol* enterPredefined(std::string_view name);
+  void resolve(Symbol& symbol);
+  void resolveConstant(Symbol& symbol);
+  void resolveAddress(Symbol& symbol);
+
+  static constexpr uint8_t kInput = 1;
+  const Config& config_;
+  frontend::Analysis& analysis_;
+  Diagnostics& diagnostics_;
+  std::deque<Symbol> symbols_;
+  std::unordered_map<std::string_view, Symbol*> byName_;
+  std::vector<uint8_t> direction_; // by word of the NC area
+  int depth_ = 0;                  // of declarations that refer to each other
+};
+
+} // namespace rung::nct

@@ -1,0 +1,121 @@
+// The table (see instructions.h): the rows of all families in one list, and ways to find one.
+#include "frontend/dialects/nct/rows/instructions.h"
+
+#include <algorithm>
+#include <array>
+
+#include "frontend/dialects/nct/rows/rows_control.h"
+#include "frontend/dialects/nct/rows/rows_message.h"
+#include "frontend/dialects/nct/rows/rows_nc.h"
+#include "ir/support/check.h"
+
+namespace rung::nct {
+namespace {
+
+using frontend::InstructionInfo;
+using frontend::OperandKindInfo;
+
+constexpr size_t kRowCount = std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) +
+                             std::size(kMessageRows) + std::size(kControlRows) + std::size(kNcRows);
+
+constexpr std::array<NctInstruction, kRowCount> joinRows() {
+  std::array<NctInstruction, kRowCount> rows{};
+  size_t n = 0;
+  for (const NctInstruction& row : kBitRows) rows[n++] = row;
+  for (const NctInstruction& row : kWordRows) rows[n++] = row;
+  for (const NctInstruction& row : kFloatRows) rows[n++] = row;
+  for (const NctInstruction& row : kMessageRows) rows[n++] = row;
+  for (const NctInstruction& row : kControlRows) rows[n++] = row;
+  for (const NctInstruction& row : kNcRows) rows[n++] = row;
+  return rows;
+}
+constexpr std::array<NctInstruction, kRowCount> kRows = joinRows();
+
+constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
+  std::array<const InstructionInfo*, kRowCount> infos{};
+  for (size_t i = 0; i < kRowCount; ++i) infos[i] = &kRows[i].info;
+  return infos;
+}
+constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
+
+constexpr std::array<uint8_t, kRowCount> sortByMnemonic() {
+  std::array<uint8_t, kRowCount> order{};
+  for (size_t i = 0; i < kRowCount; ++i) order[i] = static_cast<uint8_t>(i);
+  std::sort(order.begin(), order.end(),
+            [](uint8_t a, uint8_t b) { return kRows[a].info.mnemonic < kRows[b].info.mnemonic; });
+  return order;
+}
+constexpr std::array<uint8_t, kRowCount> kByMnemonic = sortByMnemonic();
+
+constexpr bool complete() {
+  for (const NctInstruction& row : kRows) {
+    const InstructionInfo& info = row.info;
+    if (info.mnemonic.empty() || info.title.empty() || info.group.empty() || info.ref.empty() || info.doc.empty() ||
+        info.example.empty())
+      return false;
+    if (info.pins.size() == 0) return false;
+  }
+  for (size_t i = 1; i < kRowCount; ++i)
+    if (kRows[kByMnemonic[i - 1]].info.mnemonic == kRows[kByMnemonic[i]].info.mnemonic) return false;
+  return true;
+}
+static_assert(complete(), "every row says what it is, where the manual describes it, and has a name of its own");
+
+constexpr OperandKindInfo kKinds[] = {
+    {"bit",
+     "A bit: 0056.17, a bit symbol, 0056:REG (the bit's number in a register), each with ,#3 or ,REG to move by whole "
+     "words.",
+     "7000.05", "7000", "symbol-kind-mismatch"},
+    {"word", "A double word: 0056, a word symbol, with ,#3 or ,REG.", "7000", "#5", "operand-not-register"},
+    {"uword", "A double word of the user memory, from PLCNVRAM on.", "7000", "2000", "user-area-required"},
+    {"double", "The first of two words of a double; an index is even.", "7000", "9999", "double-at-9999"},
+    {"udouble", "The first of two words of a double in user memory.", "7000", "2000", "user-area-required"},
+    {"int", "#14, #-25, #$FF or a word.", "#-25", "*1.5", "operand-type-mismatch"},
+    {"dec", "#14 or a word.", "#14", "#$FF", "operand-type-mismatch"},
+    {"hex", "#$FF or a word.", "#$FF", "#14", "operand-type-mismatch"},
+    {"float", "*3.5 or a double.", "*3.5", "#3", "operand-type-mismatch"},
+    {"label", "#0 to #99.", "#5", "#100", "label-out-of-range"},
+    {"scope", "The name of a quantity of the NC.", "ActPosAx", "ActPosXx", "unknown-scope-symbol"},
+    {"text", "A text in quotes.", "\"Spindle\"", "", ""},
+};
+
+constexpr size_t indexOf(std::string_view mnemonic) {
+  for (size_t i = 0; i < kRowCount; ++i)
+    if (kRows[i].info.mnemonic == mnemonic) return i;
+  return kRowCount;
+}
+
+} // namespace
+
+std::span<const NctInstruction> allInstructions() { return kRows; }
+std::span<const InstructionInfo* const> allInfos() { return kInfos; }
+std::span<const OperandKindInfo> operandKinds() { return kKinds; }
+
+const NctInstruction* findBox(std::string_view mnemonic) {
+  const auto found =
+      std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
+  if (found != kByMnemonic.end() && kRows[*found].info.mnemonic == mnemonic)
+    return kRows[*found].shape == Shape::Box ? &kRows[*found] : nullptr;
+  const auto alias = std::ranges::find_if(
+      kRows, [&](const NctInstruction& row) { return isAlias(row.info, mnemonic, std::equal_to<>()); });
+  return alias == std::end(kRows) ? nullptr : &*alias;
+}
+
+const InstructionInfo* findBoxInfo(std::string_view mnemonic) {
+  const NctInstruction* row = findBox(mnemonic);
+  return row == nullptr ? nullptr : &row->info;
+}
+
+const NctInstruction& contactRow(bool onBit, bool closed) {
+  constexpr size_t kOpenBit = indexOf("open-contact-bit"), kClosedBit = indexOf("closed-contact-bit");
+  constexpr size_t kOpenWord = indexOf("open-contact-dword"), kClosedWord = indexOf("closed-contact-dword");
+  if (onBit) return kRows[closed ? kClosedBit : kOpenBit];
+  return kRows[closed ? kClosedWord : kOpenWord];
+}
+
+const NctInstruction& coilRow(int coilKind) {
+  constexpr size_t kByKind[] = {indexOf("coil"), indexOf("negated-coil"), indexOf("SET"), indexOf("RST")};
+  return kRows[kByKind[coilKind]];
+}
+
+} // namespace rung::nct

@@ -1,0 +1,56 @@
+// The instruction table of the dialect: one row an instruction, data beside its check and its lowering.
+// README.md says how to add one.
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "frontend/dialects/nct/config.h"
+#include "frontend/dialects/nct/read/operand.h"
+#include "frontend/table/instruction.h"
+#include "ir/core/builder.h"
+#include "ir/support/diagnostics.h"
+
+namespace rung::nct {
+
+struct Lowering; // lowering.h
+
+// Gives the power at the output; nothing for a row without output.
+using Lower = ir::ValueId (*)(Lowering& box);
+// What a row's data cannot say about the operands; all of them are of the right kinds.
+using Check = void (*)(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+
+// What "each output once" (l.233) means for the row's first operand.
+enum class Claim : uint8_t { None, Once, SetReset };
+
+enum class Flow : uint8_t { None, End, Jump, Label, Call, Subroutine, Return, Section };
+
+// How it is drawn: contacts and coils are found by their form, not by a mnemonic.
+enum class Shape : uint8_t { Box, Contact, Coil };
+
+struct NctInstruction {
+  frontend::InstructionInfo info;
+  Lower lower = nullptr; // null: not built yet, unless `flow` says that there is nothing to do
+  int variant = 0;       // meaning is the lowering function's
+  Check check = nullptr;
+  Claim claim = Claim::None;
+  Flow flow = Flow::None;
+  Shape shape = Shape::Box;
+  bool usesScratch = false; // works on the space @S
+  bool isBuilt() const { return lower != nullptr || flow != Flow::None; }
+};
+
+// In the order of the manual.
+std::span<const NctInstruction> allInstructions();
+std::span<const frontend::InstructionInfo* const> allInfos();
+std::span<const frontend::OperandKindInfo> operandKinds();
+
+// A box by its mnemonic or one of its other spellings, also section (SEC); null for contacts and coils, and when there
+// is none.
+const NctInstruction* findBox(std::string_view mnemonic);
+// Its data alone.
+const frontend::InstructionInfo* findBoxInfo(std::string_view mnemonic);
+// Row of a contact: on a bit or a word, closed or open.
+const NctInstruction& contactRow(bool onBit, bool closed);
+const NctInstruction& coilRow(int coilKind); // ladder::CoilKind as a number
+
+} // namespace rung::nct

@@ -1,0 +1,234 @@
+// Rows: moving, timers, counters, rotation, shifts, logic, integer arithmetic (man. §6.3-§6.9). Included by
+// instructions.cpp only.
+#pragma once
+#include "frontend/dialects/nct/rows/rows_bit.h"
+
+namespace rung::nct {
+
+inline constexpr frontend::PinInfo kEnable{"EN", "enables the instruction in every cycle"};
+
+// --- families: rows that differ in a few words
+// --------------------------------------------------------------------------
+struct RowText {
+  std::string_view mnemonic;
+  std::string_view title;
+  std::string_view ref;
+  std::string_view doc;
+  std::string_view example;
+};
+
+// Result and one source.
+constexpr NctInstruction convertRow(RowText text, std::string_view group, std::string_view resultKind,
+                                    std::string_view sourceKind, Lower lower, int variant) {
+  return {.info = {.mnemonic = text.mnemonic,
+                   .title = text.title,
+                   .group = group,
+                   .pins = {kEnable},
+                   .operands = {O{"Result", resultKind, Access::Write, "where the result goes"},
+                                O{"Operand", sourceKind, Access::Read, "the source"}},
+                   .output = Output::Optional,
+                   .ref = text.ref,
+                   .doc = text.doc,
+                   .example = text.example},
+          .lower = lower,
+          .variant = variant};
+}
+
+// Result, a register and a second operand.
+constexpr NctInstruction binaryRow(RowText text, std::string_view group, std::string_view secondKind, Lower lower,
+                                   int variant) {
+  return {.info = {.mnemonic = text.mnemonic,
+                   .title = text.title,
+                   .group = group,
+                   .pins = {kEnable},
+                   .operands = {O{"Result", "word", Access::Write, "where the result goes"},
+                                O{"1st Operand", "word", Access::Read, "register"},
+                                O{"2nd Operand", secondKind, Access::Read, "constant or register"}},
+                   .output = Output::Optional,
+                   .ref = text.ref,
+                   .doc = text.doc,
+                   .example = text.example},
+          .lower = lower,
+          .variant = variant};
+}
+
+constexpr NctInstruction timerRow(RowText text, int variant) {
+  return {.info = {.mnemonic = text.mnemonic,
+                   .title = text.title,
+                   .group = "timer",
+                   .pins = {P{"EN", "starts the timer", true}},
+                   .operands = {O{"Address of Timer", "uword", Access::ReadWrite, "time that remains, in milliseconds"},
+                                O{"Set Value", "dec", Access::Read, "0 to 2147483647 ms, 2147483 s, 35791 min or 596 h",
+                                  0, INT32_MAX},
+                                O{"Time Basis", "dec", Access::Read, "0 msec, 1 sec, 2 min, 3 hours", 0, 3}},
+                   .output = Output::Always,
+                   .stateful = true,
+                   .ref = text.ref,
+                   .doc = text.doc,
+                   .example = text.example},
+          .lower = lowerTimer,
+          .variant = variant,
+          .check = checkTimer,
+          .claim = Claim::Once};
+}
+
+constexpr NctInstruction counterRow(RowText text, int variant) {
+  return {.info = {.mnemonic = text.mnemonic,
+                   .title = text.title,
+                   .group = "counter",
+                   .pins = {P{"CK", "counts on its rising edge", true}, P{"U/D", "FALSE up, TRUE down"},
+                            P{"R", "TRUE: back to the starting value"}},
+                   .operands = {O{"Address of Counter", "uword", Access::ReadWrite, "the content"},
+                                O{"Starting Value", "dec", Access::Read, "0 to 2147483647", 0, INT32_MAX},
+                                O{"Ending Value", "dec", Access::Read, "0 to 2147483647", 0, INT32_MAX},
+                                O{"Compare Value", "dec", Access::Read, "0 to 2147483647", 0, INT32_MAX}},
+                   .output = Output::Always,
+                   .stateful = true,
+                   .ref = text.ref,
+                   .doc = text.doc,
+                   .example = text.example},
+          .lower = lowerCounter,
+          .variant = variant,
+          .claim = Claim::Once};
+}
+
+constexpr NctInstruction arrayRow(RowText text, std::string_view count, int variant) {
+  return {.info = {.mnemonic = text.mnemonic,
+                   .title = text.title,
+                   .group = "shift",
+                   .pins = {kEnable},
+                   .operands = {O{"Starting Address", "word", Access::ReadWrite, "word with the lowest bits"},
+                                O{"Ending Address", "word", Access::ReadWrite, "word with the highest bits"},
+                                O{count, "dec", Access::Read, "0 to 2147483647", 0, INT32_MAX}},
+                   .output = Output::Optional,
+                   .ref = text.ref,
+                   .doc = text.doc,
+                   .example = text.example},
+          .lower = lowerArray,
+          .variant = variant,
+          .usesScratch = true};
+}
+
+inline constexpr NctInstruction kWordRows[] = {
+    convertRow({"MOV", "move a double word", "6.3.1, l.1269", "Result := Operand.", "|--[N_ON]--{MOV 7000 #25}"},
+               "data-move", "word", "int", lowerMove, kMove),
+    convertRow({"MVN", "move the complement of a double word", "6.3.1, l.1281",
+                "Result := NOT Operand, bit by bit. A constant is hexadecimal.", "|--[N_ON]--{MVN 7000 #$FF}"},
+               "data-move", "word", "hex", lowerMove, kMoveComplement),
+    convertRow({"MOVF", "move a double", "6.3.2, l.1294", "Result and the word after it := Operand, as a bit pattern.",
+                "|--[N_ON]--{MOVF 7000 *3.5}"},
+               "data-move", "double", "float", lowerMoveDouble, 0),
+
+    timerRow({"TOND", "on-delay", "6.4.1, l.1391",
+              "The output turns TRUE when the input has been TRUE for the set time. The register counts down to 0 from "
+              "the rising edge of the "
+              "input, and holds the set value again while the input is FALSE.",
+              "|--[START]--{TOND 7000 #500 #0}--(STARTED)"},
+             kOnDelay),
+    timerRow({"TOFFD", "off-delay", "6.4.2, l.1407",
+              "The output is TRUE with the input and stays TRUE for the set time after it. The register counts down "
+              "from the falling edge.",
+              "|--[RUN]--{TOFFD 7000 #5 #1}--(FAN)"},
+             kOffDelay),
+    timerRow({"TPULSE", "pulse of programmable width", "6.4.3, l.1423",
+              "The output turns TRUE with the input and FALSE after the set time, or at once when the input turns "
+              "FALSE before.",
+              "|--[LUBE]--{TPULSE 7000 #3 #1}--(PUMP)"},
+             kTimedPulse),
+
+    counterRow({"CNT", "counter", "6.5.1, l.1507",
+                "Each rising edge of CK counts up or down by 1 until the content equals the ending value; there it "
+                "stops until R loads the "
+                "starting value. The output is TRUE while the content equals the compare value.",
+                "|--[PART]--{CNT 7000 #0 #10 #10}--(FULL)"},
+               kStopping),
+    counterRow({"CNTR", "ring counter", "6.5.2, l.1543",
+                "As CNT, but counting up at the ending value leads to the starting value, counting down at the "
+                "starting value to the ending one. "
+                "A start above the end sets FL_ER and nothing is counted.",
+                "|--[STEP]--{CNTR 7000 #1 #8 #1}--(HOME)"},
+               kRing),
+
+    {.info = {.mnemonic = "ROT",
+              .title = "rotation control",
+              .group = "rotation",
+              .pins = {P{"EN", "calculates on its rising edge", true}, P{"BID", "TRUE: the shorter way"},
+                       P{"DIR", "without BID: 0 positive, 1 negative"},
+                       P{"INC", "FALSE position, TRUE number of steps"},
+                       P{"PRE", "TRUE: one position before the goal"}},
+              .operands = {O{"Position to Go", "word", Access::Write, "the result"},
+                           O{"Current Position", "word", Access::Read, ""},
+                           O{"Goal Position", "word", Access::Read, ""},
+                           O{"Starting Value", "dec", Access::Read, "lowest position", 0, INT32_MAX},
+                           O{"Ending Value", "dec", Access::Read, "highest position", 0, INT32_MAX}},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "6.6, l.1571",
+              .doc = "Finds the way of a turret or magazine from the current position to the goal: the direction "
+                     "(output, TRUE negative) and the "
+                     "position or number of steps to go.",
+              .example = "|--[@M6]--{ROT TOGO POS GOAL #1 #12}--(NEGATIVE)"},
+     .lower = lowerRotation},
+
+    {.info = {.mnemonic = "SHTR",
+              .title = "shift register",
+              .group = "shift",
+              .pins = {P{"CK", "shifts on its rising edge", true}, P{"L/R", "FALSE left, TRUE right"},
+                       P{"D", "the bit that enters"}},
+              .operands = {O{"Address of Shift Register", "word", Access::ReadWrite, "the 32 bits"}},
+              .output = Output::Always,
+              .stateful = true,
+              .ref = "6.7.1, l.1683",
+              .doc = "Shifts a word by one bit; the output is the bit that left it last.",
+              .example = "|--[STEP]--{SHTR 7000}--(OUT)"},
+     .lower = lowerShiftRegister},
+    arrayRow({"ASHL", "shift an array left", "6.7.2, l.1735",
+              "Shifts the bits of a run of words towards higher words; zeros enter.",
+              "|--[@STEP]--{ASHL 7000 7003 #4}"},
+             "Shift Value", kShiftLeft),
+    arrayRow({"ASHR", "shift an array right", "6.7.2, l.1735",
+              "Shifts the bits of a run of words towards lower words; zeros enter.", "|--[@STEP]--{ASHR 7000 7003 #4}"},
+             "Shift Value", kShiftRight),
+    arrayRow({"ARTL", "rotate an array left", "6.7.3, l.1802",
+              "Rotates the bits of a run of words towards higher words.", "|--[@STEP]--{ARTL 7000 7003 #4}"},
+             "Rotation Value", kRotateLeft),
+    arrayRow({"ARTR", "rotate an array right", "6.7.3, l.1802",
+              "Rotates the bits of a run of words towards lower words.", "|--[@STEP]--{ARTR 7000 7003 #4}"},
+             "Rotation Value", kRotateRight),
+
+    convertRow({"NEG", "complement", "6.8.1, l.1868",
+                "Result := NOT Operand, bit by bit: the one's complement, as MVN.", "|--[N_ON]--{NEG 7000 7001}"},
+               "logic", "word", "hex", lowerMove, kMoveComplement),
+    binaryRow({"AND", "32 bit AND", "6.8.2, l.1900", "Result := 1st AND 2nd, bit by bit. A constant is hexadecimal.",
+               "|--[N_ON]--{AND 7000 7001 #$FF}"},
+              "logic", "hex", lowerLogic, kAnd),
+    binaryRow({"OR", "32 bit OR", "6.8.2, l.1900", "Result := 1st OR 2nd, bit by bit. A constant is hexadecimal.",
+               "|--[N_ON]--{OR 7000 7001 #$FF}"},
+              "logic", "hex", lowerLogic, kOr),
+    binaryRow({"XOR", "32 bit exclusive OR", "6.8.2, l.1900",
+               "Result := 1st XOR 2nd, bit by bit. A constant is hexadecimal.", "|--[N_ON]--{XOR 7000 7001 #$FF}"},
+              "logic", "hex", lowerLogic, kXor),
+
+    binaryRow({"ADD", "signed addition", "6.9.1, l.2021",
+               "Result := 1st + 2nd modulo 2^32. FL_CY is the unsigned carry; FL_OF: two non-negative numbers gave a "
+               "negative one; FL_UF: two "
+               "negative ones a non-negative one.",
+               "|--[@PART]--{ADD PARTS PARTS #1}"},
+              "integer", "int", lowerAddSub, kAdd),
+    binaryRow({"SUB", "signed subtraction", "6.9.2, l.2043",
+               "Result := 1st - 2nd modulo 2^32. FL_CY is the unsigned borrow; FL_OF: non-negative minus negative gave "
+               "a negative number; FL_UF: "
+               "negative minus non-negative a non-negative one.",
+               "|--[@PART]--{SUB LEFT LEFT #1}"},
+              "integer", "int", lowerAddSub, kSub),
+    binaryRow({"MUL", "signed multiplication", "6.9.3, l.2067",
+               "Result := low 32 bits of 1st * 2nd. FL_OF: the product does not fit.", "|--[N_ON]--{MUL 7000 7001 #3}"},
+              "integer", "int", lowerMul, 0),
+    binaryRow({"DIV", "signed division", "6.9.4, l.2095",
+               "Result := 1st / 2nd, rounded toward zero. By 0: the result is 0, FL_ER is set and the output is FALSE. "
+               "-2147483648 / -1 sets FL_OF.",
+               "|--[N_ON]--{DIV 7000 7001 #3}"},
+              "integer", "int", lowerDiv, 0),
+};
+
+} // namespace rung::nct

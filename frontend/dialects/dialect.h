@@ -3,6 +3,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +48,9 @@ struct Dialect {
   // Null when there were errors; every error of all files has been reported. The module passes the verifier.
   std::unique_ptr<ir::Module> (*compile)(SourceManager& sources, std::span<const FileId> files,
                                          const CompileOptions& options, Diagnostics& diagnostics);
+  // A file in the one style of its form: only blanks, blank lines and the case of mnemonics of a list differ. It needs
+  // no other file and knows no names. Nothing where there are mistakes in how it is written; they have been reported.
+  std::optional<std::string> (*format)(SourceManager& sources, FileId file, Diagnostics& diagnostics);
   // Sections of the reference page behind the instructions, in Markdown; null when there are none.
   std::string (*reference)() = nullptr;
   // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be

@@ -2,6 +2,7 @@
 #include "frontend/dialects/gsk/gsk.h"
 
 #include "frontend/dialects/gsk/config.h"
+#include "frontend/dialects/gsk/format.h"
 #include "frontend/dialects/gsk/lower.h"
 #include "frontend/dialects/gsk/messages.h"
 #include "frontend/dialects/gsk/reading.h"
@@ -56,6 +57,7 @@ const frontend::Dialect kGsk = {
     .operandKinds = operandKindInfos(),
     .isBuilt = isBuilt,
     .compile = &compile,
+    .format = &format,
     .reference = &referenceSections,
     .explain = &explainSignal,
 };

@@ -386,13 +386,14 @@ void LadderReader::readRung(const ladder::Rung& rung) {
 
 } // namespace
 
+std::optional<std::span<const std::string_view>> furtherPinsOfBox(std::string_view mnemonic) {
+  const Row* row = findFunction(mnemonic);
+  if (row == nullptr) return std::nullopt;
+  return furtherPinsOf(*row);
+}
+
 ladder::LadderFile parseLadderFile(Context& context, FileId file) {
-  return ladder::parseLadder(context.sources, file, context.diagnostics,
-                             [](std::string_view mnemonic) -> std::optional<std::span<const std::string_view>> {
-                               const Row* row = findFunction(mnemonic);
-                               if (row == nullptr) return std::nullopt;
-                               return furtherPinsOf(*row);
-                             });
+  return ladder::parseLadder(context.sources, file, context.diagnostics, furtherPinsOfBox);
 }
 
 void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {

@@ -6,6 +6,8 @@
 
 namespace rung::gsk {
 
+// As ladder::FurtherPins.
+std::optional<std::span<const std::string_view>> furtherPinsOfBox(std::string_view mnemonic);
 ladder::LadderFile parseLadderFile(Context& context, FileId file);
 void readLadderDeclarations(Context& context, const ladder::LadderFile& file);
 void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler& units);

@@ -11,6 +11,7 @@
 #include "frontend/dialects/nct/message_texts.h"
 #include "frontend/dialects/nct/reference.h"
 #include "frontend/dialects/nct/structure.h"
+#include "frontend/ladder/format.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/messages.h"
 
@@ -187,6 +188,11 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   return compiler.build(files, options.marks);
 }
 
+std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  const PinNames pins;
+  return ladder::format(sources, file, std::cref(pins), diagnostics);
+}
+
 constexpr std::string_view kExtensions[] = {".nct"};
 
 } // namespace
@@ -206,6 +212,7 @@ const frontend::Dialect kNct = {
     .operandKinds = operandKinds(),
     .isBuilt = isBuilt,
     .compile = compile,
+    .format = format,
     .reference = referenceSections,
     .explain = explainWord,
 };

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/technol/assemble.h"
 #include "frontend/dialects/technol/encoding.h"
+#include "frontend/dialects/technol/format.h"
 #include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/reader.h"
 #include "frontend/dialects/technol/reference.h"
@@ -79,6 +80,7 @@ const Dialect kTechnol = {
     .operandKinds = technol::operandKindInfos(),
     .isBuilt = isBuilt,
     .compile = compile,
+    .format = technol::format,
     .reference = technol::reference,
     .explain = technol::explainWord,
     .listing = technol::listing,

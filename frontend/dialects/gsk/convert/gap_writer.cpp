@@ -20,7 +20,7 @@ std::string commandText(Command command, std::string_view operand) {
 }
 
 void Page::declaration(const Item& item) {
-  lines_.row(kNames, {item.kind == Kind::Symbol ? "symbol" : "const", item.text, item.value}, behind(item.comment));
+  lines_.row(kNames, {item.kind == Kind::Symbol ? "symbol" : "const", item.text, item.value}, remark(item.comment));
 }
 
 void Page::gap(const Gap& gap) {

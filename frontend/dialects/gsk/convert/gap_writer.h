@@ -19,14 +19,14 @@ std::string commandText(Command command, std::string_view operand);
 class Page {
 public:
   explicit Page(Form form) : form_(form), lines_({}, form == Form::List ? kCommentColumn : 0) {}
-  void line(std::string_view text, std::string_view comment = {}) { lines_.line(std::string(text), behind(comment)); }
+  void line(std::string_view text, std::string_view comment = {}) { lines_.line(std::string(text), remark(comment)); }
   void comment(std::string_view text) { lines_.comment(text.empty() ? ";" : std::string("; ").append(text)); }
   void blank() { lines_.blank(); }
   void gap(const Gap& gap);
   std::string take() { return lines_.take(); }
 
 private:
-  static std::string behind(std::string_view comment) {
+  static std::string remark(std::string_view comment) {
     return comment.empty() ? std::string() : std::string("; ").append(comment);
   }
   void declaration(const Item& item);

@@ -124,10 +124,24 @@ class Format(unittest.TestCase):
                 source.write_text(source.read_text() + "\n\n")
             named = {"folder": [project], "rung.toml": [project / "rung.toml"], "inside": []}[where]
             out, _ = self.format(*named, cwd=project if where == "inside" else None)
-            self.assertIn("main.plc\n", out)
-            self.assertNotIn("centre.inc", out, "a project does not list what its files include")
+            base = "" if where == "inside" else f"{project}/"
+            self.assertEqual(out, f"formatted {base}main.plc\nformatted {base}centre.inc\n")
             self.assertEqual(self.format("--check", *named, cwd=project if where == "inside" else None), ("", ""))
-            self.assertEqual(self.format(project / "centre.inc")[0], f"formatted {project}/centre.inc\n")
+
+    def test_included_file_by_its_name(self):
+        self.file("rung.toml", 'dialect = "technol"\nfiles = ["a.plc"]\n')
+        self.file("a.plc", MNEMONIC)
+        part = self.file("part.inc", " EQUI A,1\n")
+        self.assertEqual(self.format(part)[0], f"formatted {part}\n")
+        self.assertEqual(part.read_text(), "        EQUI A,1\n")
+        self.assertEqual((self.folder / "a.plc").read_text(), MNEMONIC)
+
+    def test_what_a_project_includes_from_elsewhere_stays(self):
+        self.file("shared/other.inc", " EQUI A,1\n")
+        self.file("mine/rung.toml", 'dialect = "technol"\nfiles = ["a.plc"]\n')
+        self.file("mine/own.inc", " EQUI B,1\n")
+        self.file("mine/a.plc", "        T_INCLUDE own.inc\n        T_INCLUDE ../shared/other.inc\n")
+        self.assertEqual(self.format(self.folder / "mine")[0], f"formatted {self.folder}/mine/own.inc\n")
 
     def test_examples_are_laid_out(self):
         for project in sorted(Path("examples").glob("*/rung.toml")):

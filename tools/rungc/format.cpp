@@ -1,6 +1,8 @@
 // rungc format: source files in the one style of their language.
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 
 #include "rtlib/host/file.h"
@@ -22,6 +24,22 @@ bool isProject(const std::string& name) {
   return fs::is_directory(name, error) || fs::path(name).filename() == project::kFileName;
 }
 
+bool isIn(const std::string& name, const std::string& folder) {
+  const fs::path relative = fs::path(name).lexically_normal().lexically_relative(folder.empty() ? "." : folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+// What the files of a project include from its folder; what lies elsewhere may be other people's.
+std::vector<std::string> includedFiles(const project::Project& project) {
+  const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
+  SourceManager sources;
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, project.files);
+  if (dialect.included == nullptr || !files.ok()) return {}; // a file that cannot be read is reported later
+  std::vector<std::string> names = dialect.included(sources, files.value(), {.includePaths = project.includePaths});
+  std::erase_if(names, [&](const std::string& name) { return !isIn(name, project.folder); });
+  return names;
+}
+
 // The files of a project that is named, or found where nothing is; else those that are named, and no others.
 int takeFiles(SourceOptions& options) {
   const std::vector<std::string>& files = options.files;
@@ -30,6 +48,7 @@ int takeFiles(SourceOptions& options) {
   const auto project = openProject(files.empty() ? "" : files[0], options, status);
   if (!project) return status;
   options.files = project->files;
+  std::ranges::copy(includedFiles(*project), std::back_inserter(options.files));
   options.dialect = project->dialect;
   return status;
 }
@@ -96,7 +115,8 @@ void addFormat(CommandLine& app, int& status) {
   Command command = app.add("format", "Lay out source files in the one style of their language");
   auto options = std::make_shared<FormatOptions>();
   command.option("FILE", options->source.files,
-                 "Source files, also those that others include, or the folder of a project; - reads standard input and "
+                 "Source files, also those that others include, or the folder of a project, all of whose files are "
+                 "meant; - reads standard input and "
                  "writes standard output; without any, the project (rung.toml) of the working directory or of a folder "
                  "above it");
   Option check = command.flag("--check", options->check,

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -47,7 +50,20 @@ struct Drawing {
     return std::span(tokens).subspan(line.tokens.first, line.tokens.count);
   }
   bool isPinLine(uint32_t element) const { return headOf[element] != kNone; }
+  std::span<const Word> operandsOf(const Element& element) const {
+    return std::span(operands).subspan(element.operands.first, element.operands.count);
+  }
 };
+
+/// Whether a line that begins with this character, after blanks, is one of a drawing.
+constexpr bool beginsDrawing(char c) { return std::string_view("|+-[({").find(c) != std::string_view::npos; }
+
+/// An element in its brackets, as it is written without needless blanks.
+std::string elementText(const Element& element, std::span<const Word> operands);
+
+/// The lines of a drawing without errors in new columns: elements joined by `--`, branches as long as the longest
+/// one that joins them. Nothing where that takes too long to find.
+std::optional<std::vector<std::string>> layOut(const Drawing& drawing);
 
 /// The drawing of a rung of this file that is not bad, once more, with its pin lines found.
 Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox);

@@ -2,40 +2,29 @@
 
 #include <fmt/format.h>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/drawing.h"
 #include "ir/support/put.h"
 
 namespace rung::ladder {
-namespace {
 
-void operands(std::string& out, const Rung& rung, const Element& element) {
-  for (const Word& word : rung.operandsOf(element)) {
+std::string elementText(const Element& element, std::span<const Word> operands) {
+  const std::string_view edge(&element.edge, element.edge != 0 ? 1 : 0);
+  switch (element.kind) {
+  case ElementKind::Contact: return fmt::format("[{}{}{}]", element.negated ? "/" : "", edge, operands[0].text);
+  case ElementKind::Coil: {
+    constexpr std::string_view kKinds[] = {"", "/", "S ", "R "};
+    return fmt::format("({}{}{})", kKinds[static_cast<size_t>(element.coil)], edge, operands[0].text);
+  }
+  case ElementKind::Error: return "unread";
+  case ElementKind::Box: break;
+  }
+  std::string out = fmt::format("{{{}", element.mnemonic);
+  for (const Word& word : operands) {
     const std::string_view quote = word.quoted ? "\"" : "";
     put(out, " {}{}{}", quote, word.text, quote);
   }
+  return out + '}';
 }
-
-void symbol(std::string& out, const Rung& rung, const Element& element) {
-  const std::string_view edge(&element.edge, element.edge != 0 ? 1 : 0);
-  switch (element.kind) {
-  case ElementKind::Contact:
-    put(out, "[{}{}{}]", element.negated ? "/" : "", edge, rung.operandOf(element).text);
-    return;
-  case ElementKind::Coil: {
-    constexpr std::string_view kKinds[] = {"", "/", "S ", "R "};
-    put(out, "({}{}{})", kKinds[static_cast<size_t>(element.coil)], edge, rung.operandOf(element).text);
-    return;
-  }
-  case ElementKind::Box:
-    put(out, "{{{}", element.mnemonic);
-    operands(out, rung, element);
-    put(out, "}}");
-    return;
-  case ElementKind::Error: put(out, "unread"); return;
-  }
-}
-
-} // namespace
 
 std::string dumpRung(const Rung& rung) {
   std::string out;
@@ -44,7 +33,7 @@ std::string dumpRung(const Rung& rung) {
   for (size_t i = 0; i < rung.elements.size(); ++i) {
     const Element& element = rung.elements[i];
     put(out, "e{} ", i);
-    symbol(out, rung, element);
+    out += elementText(element, rung.operandsOf(element));
     for (const Pin& pin : rung.pinsOf(element)) {
       put(out, " {}{}n{}", pin.name, pin.name.empty() ? "" : "=", pin.input.index);
     }

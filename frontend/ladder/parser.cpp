@@ -83,7 +83,7 @@ void Parser::line(const SourceLine& source) {
   }
   const char c = source.text[first];
   if (c == ';') return; // between drawing lines, too: a comment is no blank line
-  if (std::string_view("|+-[({").find(c) == std::string_view::npos) {
+  if (!beginsDrawing(c)) {
     closeRung();
     statement(source);
   } else if (tab != std::string_view::npos) {

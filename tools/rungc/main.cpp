@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   addKey(app, status);
   addEmit(app, status);
   addConvert(app, status);
+  addFormat(app, status);
   addView(app, status);
   addXref(app, status);
   addDiff(app, status);

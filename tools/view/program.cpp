@@ -390,7 +390,7 @@ void Reader::readLine(const LadderFile& file, const SourceLine& line) {
     const bool inside = nextRung_ > 0 && line.number < file.rungs[nextRung_ - 1].lastLine;
     if (!inside) return comment(words);
     if (!converted() || !gsk::parseBlocksHint(words)) program_.figures.back().comments.emplace_back(words);
-  } else if (std::string_view("|+-[({").find(text[0]) == std::string_view::npos) {
+  } else if (!ladder::beginsDrawing(text[0])) {
     const size_t rungs = program_.figures.size();
     readStatement(file, line);
     if (program_.figures.size() > rungs) ++nextRung_;

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/gsk/check/analyse.h"
 #include "frontend/dialects/gsk/config.h"
+#include "frontend/dialects/gsk/format.h"
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/dialects/gsk/read/messages.h"
 #include "frontend/dialects/gsk/read/reading.h"
@@ -87,6 +88,7 @@ const frontend::Dialect kGsk = {
     .isBuilt = isBuilt,
     .findBox = findBox,
     .check = &check,
+    .format = &format,
     .reference = &referenceSections,
     .explain = &explainSignal,
 };

@@ -11,6 +11,7 @@
 #include "frontend/dialects/nct/check/structure.h"
 #include "frontend/dialects/nct/lower/build_module.h"
 #include "frontend/dialects/nct/reference.h"
+#include "frontend/ladder/format.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/messages.h"
 
@@ -181,6 +182,10 @@ std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::spa
   return program;
 }
 
+std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  return ladder::format(sources, file, findBoxInfo, diagnostics);
+}
+
 constexpr std::string_view kExtensions[] = {".nct"};
 
 } // namespace
@@ -202,6 +207,7 @@ const frontend::Dialect kNct = {
     .isBuilt = isBuilt,
     .findBox = findBoxInfo,
     .check = check,
+    .format = format,
     .reference = referenceSections,
     .explain = explainWord,
 };

@@ -7,16 +7,11 @@
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
-namespace {
-
-constexpr char kEndOfFile = 0x1A; // DOS editors close a text with it
-
 std::string_view withoutEndMark(std::string_view text) {
+  constexpr char kEndOfFile = 0x1A;
   const size_t last = text.find_last_not_of("\r\n");
   return last != std::string_view::npos && text[last] == kEndOfFile ? text.substr(0, last) : text;
 }
-
-} // namespace
 
 Encoding encodingNamed(std::string_view name) {
   if (text::equalsIgnoringCase(name, "UTF-8")) return Encoding::Utf8;

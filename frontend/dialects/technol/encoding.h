@@ -19,6 +19,9 @@ Encoding encodingNamed(std::string_view name);
 // The file itself, or a decoded copy of the same name. Nothing after a report (bad-encoding).
 std::optional<FileId> readable(SourceManager& sources, FileId file, Encoding encoding, Diagnostics& diagnostics);
 
+// Without the mark that DOS editors close a text with, and line ends after it.
+std::string_view withoutEndMark(std::string_view text);
+
 // The byte of a text of one character; nothing when it is no single character of Windows-1250.
 std::optional<uint8_t> characterByte(std::string_view text);
 

@@ -17,10 +17,11 @@ public:
       : program_(program), file_(file), structure_(program, file), structures_(program, structure_, file),
         declarations_(program, structure_, structures_, file), macros_(program, file) {}
   void read();
+  // Whether a line is a T_INCLUDE.
+  static bool isInclude(std::string_view text);
 
 private:
   void readLines(FileId id, uint32_t depth);
-  static bool isInclude(std::string_view text);
   struct IncludedFile {
     std::string path;
     std::optional<FileId> id;

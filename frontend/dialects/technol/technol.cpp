@@ -1,8 +1,11 @@
 // The dialect's entry: source files to a module.
 #include "frontend/dialects/technol/technol.h"
 
+#include <set>
+
 #include "frontend/dialects/technol/assemble.h"
 #include "frontend/dialects/technol/encoding.h"
+#include "frontend/dialects/technol/format.h"
 #include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/reader.h"
 #include "frontend/dialects/technol/reference.h"
@@ -95,6 +98,21 @@ std::unique_ptr<CheckedProgram> check(SourceManager& sources, std::span<const Fi
   return program;
 }
 
+// Each once, in the order of the files.
+std::vector<std::string> included(SourceManager& sources, std::span<const FileId> files,
+                                  const CompileOptions& options) {
+  std::set<std::string_view> seen;
+  for (const FileId file : files) seen.insert(sources.name(file));
+  Diagnostics unheard;
+  technol::Program program(sources, unheard);
+  program.includePaths = options.includePaths;
+  technol::readProgram(program, files); // adds the files that it reads
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < sources.fileCount(); ++i)
+    if (const std::string_view name = sources.name(FileId{i}); seen.insert(name).second) names.emplace_back(name);
+  return names;
+}
+
 } // namespace
 
 static bool isBuilt(const InstructionInfo& info) {
@@ -113,6 +131,8 @@ const Dialect kTechnol = {
     .signals = nc::technolSignals,
     .isBuilt = isBuilt,
     .check = check,
+    .format = technol::format,
+    .included = included,
     .reference = technol::reference,
     .explain = technol::explainWord,
     .listing = technol::listing,

@@ -9,6 +9,7 @@
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/dialects/gsk/read/title.h"
+#include "frontend/ladder/drawing.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 
@@ -167,7 +168,7 @@ void LadderCollector::read(const SourceLine& line) {
     out_.blank();
   else if (isComment)
     comment(line, trimmed(text.substr(1)));
-  else if (std::string_view("|+-[({").find(text[0]) != std::string_view::npos)
+  else if (ladder::beginsDrawing(text[0]))
     drawn(line);
   else
     statement(line);

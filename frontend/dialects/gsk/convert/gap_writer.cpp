@@ -11,59 +11,28 @@ namespace rung::gsk::convert {
 namespace {
 
 using Kind = Item::Kind;
-constexpr size_t kCommentColumn = 18; // of a list
-
-bool isDeclaration(const Item& item) { return item.kind == Kind::Symbol || item.kind == Kind::Const; }
+constexpr Table kNames; // symbol, const
 
 } // namespace
 
-void Page::line(std::string_view text, std::string_view comment) {
-  blank_ = false;
-  text_ += text;
-  if (!comment.empty()) {
-    const size_t column = form_ == Form::List ? kCommentColumn : 0;
-    text_.append(text.size() + 2 < column ? column - text.size() : 2, ' ');
-    text_.append("; ").append(comment);
-  }
-  text_ += '\n';
+std::string commandText(Command command, std::string_view operand) {
+  return operand.empty() ? std::string(nameOf(command)) : fmt::format("{:<4} {}", nameOf(command), operand);
 }
 
-void Page::blank() {
-  if (!blank_) text_ += '\n';
-  blank_ = true;
-}
-
-// A run of them, in columns.
-size_t Page::declarations(const Gap& gap, size_t first) {
-  size_t end = first;
-  size_t name = 0;
-  size_t value = 0;
-  for (; end < gap.size() && isDeclaration(gap[end]); ++end) {
-    name = std::max(name, gap[end].text.size());
-    value = std::max(value, gap[end].value.size());
-  }
-  for (size_t i = first; i < end; ++i) {
-    const Item& item = gap[i];
-    blank_ = false;
-    text_ += fmt::format("{:<6} {:<{}} ", item.kind == Kind::Symbol ? "symbol" : "const", item.text, name);
-    text_ += item.comment.empty() ? item.value : fmt::format("{:<{}} ; {}", item.value, value, item.comment);
-    text_ += '\n';
-  }
-  return end;
+void Page::declaration(const Item& item) {
+  lines_.row(kNames, {item.kind == Kind::Symbol ? "symbol" : "const", item.text, item.value}, remark(item.comment));
 }
 
 void Page::gap(const Gap& gap) {
-  for (size_t i = 0; i < gap.size();) {
-    const Item& item = gap[i];
+  for (const Item& item : gap) {
     switch (item.kind) {
     case Kind::Comment: comment(item.text); break;
     case Kind::Blank: blank(); break;
     case Kind::Dialect: line("dialect gsk", item.comment); break;
     case Kind::Section: line(fmt::format("{}section \"{}\"", form_ == Form::List ? "; " : "", item.text)); break;
     case Kind::Symbol:
-    case Kind::Const: i = declarations(gap, i); continue;
+    case Kind::Const: declaration(item); break;
     }
-    ++i;
   }
 }
 

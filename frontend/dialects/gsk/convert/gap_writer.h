@@ -5,27 +5,34 @@
 #include <string_view>
 
 #include "frontend/dialects/gsk/convert/source_model.h"
+#include "frontend/syntax/page.h"
 
 namespace rung::gsk::convert {
 
 enum class Form : uint8_t { List, Ladder };
 
-// Appends `text` as lines; blank lines stand where the form or the author wants them, never two of them.
+inline constexpr size_t kCommentColumn = 18; // of a list
+// A command of a list with its operand, which may be empty.
+std::string commandText(Command command, std::string_view operand);
+
+// The text of a program, laid out as `rungc format` does.
 class Page {
 public:
-  explicit Page(Form form) : form_(form) {}
-  void line(std::string_view text, std::string_view comment = {});
-  void comment(std::string_view text) { line(text.empty() ? ";" : std::string("; ").append(text)); }
-  void blank();
+  explicit Page(Form form) : form_(form), lines_({}, form == Form::List ? kCommentColumn : 0) {}
+  void line(std::string_view text, std::string_view comment = {}) { lines_.line(std::string(text), remark(comment)); }
+  void comment(std::string_view text) { lines_.comment(text.empty() ? ";" : std::string("; ").append(text)); }
+  void blank() { lines_.blank(); }
   void gap(const Gap& gap);
-  std::string take() { return std::move(text_); }
+  std::string take() { return lines_.take(); }
 
 private:
-  size_t declarations(const Gap& gap, size_t first);
+  static std::string remark(std::string_view comment) {
+    return comment.empty() ? std::string() : std::string("; ").append(comment);
+  }
+  void declaration(const Item& item);
 
   Form form_;
-  std::string text_;
-  bool blank_ = true; // the last line is blank, or there is none
+  rung::Page lines_;
 };
 
 // Blank lines at both ends gone, others single, sections apart.

@@ -30,10 +30,7 @@ private:
 
 void ListWriter::command(const SourceCommand& command) {
   for (const std::string& text : command.before) page_.comment(text);
-  if (command.operand.empty())
-    page_.line(nameOf(command.command), command.comment);
-  else
-    page_.line(fmt::format("{:<4} {}", nameOf(command.command), command.operand), command.comment);
+  page_.line(commandText(command.command, command.operand), command.comment);
 }
 
 void ListWriter::network(const SourceNetwork& network) {

@@ -1,49 +1,12 @@
 // Lines of a command list to calls of the network builder.
 #include "frontend/dialects/gsk/read/list_reader.h"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "frontend/dialects/gsk/read/network_builder.h"
 #include "frontend/dialects/gsk/read/title.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
-
-std::string_view wantedOperand(Command command) {
-  switch (command) {
-  case Command::Func: return "the number or name of a function";
-  case Command::Prm: return "a parameter";
-  case Command::Table: return "a constant";
-  case Command::Dialect: return "the name of the dialect";
-  case Command::Symbol: return "a name and an address";
-  case Command::Const: return "a name and a constant";
-  case Command::Orb:
-  case Command::Anb: return "";
-  case Command::Ld:
-  case Command::Ldi:
-  case Command::And:
-  case Command::Ani:
-  case Command::Or:
-  case Command::Ori:
-  case Command::Out:
-  case Command::Outi:
-  case Command::Set:
-  case Command::Rst: return "a bit";
-  }
-  return "";
-}
-
-bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
-
-size_t operandCount(Command command) {
-  return command == Command::Orb || command == Command::Anb ? 0 : isDeclaration(command) ? 2 : 1;
-}
-
-// Only these may stand outside comments.
-bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
 
 class ListReader {
 public:
@@ -67,8 +30,6 @@ public:
 private:
   void comment();
   void readStatement(std::span<const Word> words);
-  bool checkCharacters(std::span<const Word> words);
-  bool checkOperands(Command command, std::span<const Word> words);
   void lostOperand(Command command, const Word& name, Place at);
   void dispatch(Command command, std::span<const Word> words, Place at);
   const Row* functionOf(const Word& word);
@@ -91,46 +52,10 @@ void ListReader::comment() {
   builder_.title(title_.title());
 }
 
-// Outside comments only printable ASCII may stand: the manual's scan has look-alikes of other alphabets.
-bool ListReader::checkCharacters(std::span<const Word> words) {
-  for (const Word& word : words) {
-    const auto bad = std::find_if_not(word.text.begin(), word.text.end(), isPlain);
-    if (bad == word.text.end()) continue;
-    const auto offset = static_cast<uint32_t>(bad - word.text.begin());
-    size_t length = 1;
-    while (offset + length < word.text.size() &&
-           (static_cast<unsigned char>(word.text[offset + length]) & 0xC0) == 0x80)
-      ++length;
-    const SourcePos begin{word.range.begin.value + offset};
-    const SourceRange range{begin, {begin.value + static_cast<uint32_t>(length)}};
-    if (static_cast<unsigned char>(*bad) < 0x80)
-      context_.diagnostics.report(Diag::BadCharacter, range)
-          << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
-    else
-      context_.diagnostics.report(Diag::BadCharacter, range) << fmt::format("'{}'", word.text.substr(offset, length));
-    return false;
-  }
-  return true;
-}
-
-bool ListReader::checkOperands(Command command, std::span<const Word> words) {
-  const size_t wanted = operandCount(command);
-  if (words.size() - 1 == wanted) return true;
-  if (words.size() - 1 < wanted)
-    context_.diagnostics.report(Diag::BadOperand, words[0].range)
-        << words[0].text << fmt::format("complete statement: {} is missing", wantedOperand(command));
-  else
-    context_.diagnostics.report(Diag::BadOperand, words[wanted + 1].range)
-        << words[wanted + 1].text
-        << fmt::format("part of this statement: {} takes {}", words[0].text,
-                       wanted == 0 ? "nothing" : wantedOperand(command));
-  return false;
-}
-
 void ListReader::readStatement(std::span<const Word> words) {
   title_.statement();
   const Place at{join(words.front().range, words.back().range), line_.number};
-  const bool readable = checkCharacters(words);
+  const bool readable = checkCharacters(context_.diagnostics, words);
   const auto command = findCommand(words[0].text);
   if (!command) {
     if (readable) reportUnknownCommand(context_, words[0], kCommandNames);
@@ -138,7 +63,7 @@ void ListReader::readStatement(std::span<const Word> words) {
   }
   if (*command >= Command::Dialect) builder_.title({});
   if (isDeclaration(*command)) return; // readListSymbols
-  if (!readable || !checkOperands(*command, words)) return lostOperand(*command, words[0], at);
+  if (!readable || !checkOperands(context_.diagnostics, *command, words)) return lostOperand(*command, words[0], at);
   if (*command == Command::Dialect) return checkDialect(words[1]);
   dispatch(*command, words, at);
 }
@@ -194,20 +119,6 @@ void ListReader::dispatch(Command command, std::span<const Word> words, Place at
 
 } // namespace
 
-std::optional<Command> findCommand(std::string_view text) {
-  const auto at = std::find_if(kCommandNames.begin(), kCommandNames.end(),
-                               [&](std::string_view name) { return text::equalsIgnoringCase(name, text); });
-  if (at == kCommandNames.end()) return std::nullopt;
-  return static_cast<Command>(at - kCommandNames.begin());
-}
-
-// The words behind the step number (the S/N column).
-std::span<const Word> statementOf(const LineWords& line) {
-  std::span<const Word> words(line.words);
-  if (!words.empty() && parseDigits(words[0].text)) words = words.subspan(1);
-  return words;
-}
-
 void readListSymbols(Context& context, FileId file) {
   LineReader lines(context.sources, file);
   SourceLine line;
@@ -217,16 +128,9 @@ void readListSymbols(Context& context, FileId file) {
     const auto statement = statementOf(words);
     const auto command = statement.empty() ? std::nullopt : findCommand(statement[0].text);
     if (!command || !isDeclaration(*command)) continue;
-    const bool readable = std::all_of(statement.begin(), statement.end(), [](const Word& word) {
-      return std::all_of(word.text.begin(), word.text.end(), isPlain);
-    });
-    if (!readable) continue; // the reader of the list tells
-    if (statement.size() != 3)
-      context.diagnostics.report(Diag::BadOperand, statement[0].range)
-          << statement[0].text
-          << (*command == Command::Symbol ? "complete statement: `symbol NAME ADDRESS`"
-                                          : "complete statement: `const NAME VALUE`");
-    else if (*command == Command::Symbol)
+    if (!isReadable(statement)) continue; // the reader of the list tells
+    if (!checkOperands(context.diagnostics, *command, statement)) continue;
+    if (*command == Command::Symbol)
       context.names.addSymbol(context, statement[1], statement[2], words.comment);
     else
       context.names.addConstant(context, statement[1], statement[2]);

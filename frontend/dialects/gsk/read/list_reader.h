@@ -4,15 +4,10 @@
 #include <span>
 
 #include "frontend/dialects/gsk/read/context.h"
+#include "frontend/dialects/gsk/read/list_syntax.h"
 #include "frontend/dialects/gsk/read/units.h"
 
 namespace rung::gsk {
-
-// Comments begin with ';', there are no quoted texts.
-inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
-std::optional<Command> findCommand(std::string_view name);
-// The words behind the step number.
-std::span<const Word> statementOf(const LineWords& line);
 
 // The `symbol` and `const` statements of a file; they hold for the whole program, so they are read before all networks.
 void readListSymbols(Context& context, FileId file);

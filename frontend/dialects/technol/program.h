@@ -6,8 +6,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "frontend/dialects/technol/encoding.h"
-#include "frontend/dialects/technol/symbols.h"
+#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/symbols.h"
 #include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/dialects/technol/instructions.h"
-#include "frontend/dialects/technol/lexer.h"
+#include "frontend/dialects/technol/read/lexer.h"
+#include "frontend/dialects/technol/rows/instructions.h"
 #include "ir/core/builder.h"
 #include "ir/core/module.h"
 

@@ -1,10 +1,10 @@
 // The dialect's entry: source files to a module.
 #include "frontend/dialects/technol/technol.h"
 
-#include "frontend/dialects/technol/assemble.h"
-#include "frontend/dialects/technol/encoding.h"
 #include "frontend/dialects/technol/listing.h"
-#include "frontend/dialects/technol/reader.h"
+#include "frontend/dialects/technol/lower/assemble.h"
+#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/reference.h"
 
 namespace rung::frontend {

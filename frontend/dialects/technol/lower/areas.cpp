@@ -1,0 +1,151 @@
+// Memory areas (see areas.h).
+#include "frontend/dialects/technol/lower/areas.h"
+
+#include <algorithm>
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+constexpr uint32_t kChunk = 8;
+
+namespace {
+
+ValueId least(ir::RungBuilder& b, ValueId x, ValueId y) { return b.select(b.ltU(x, y), x, y); }
+
+} // namespace
+
+Area fixedArea(Lowering& l, ir::SpaceId space, uint32_t bytes, uint32_t first) {
+  return {.space = space, .bytes = bytes, .fixed = true, .first = first, .at = l.b().i32(first)};
+}
+
+Area areaOf(Lowering& l, const Operand& operand) {
+  const Access access = l.reach(operand);
+  const uint32_t bytes = l.bytesOf(operand.place.space);
+  if (!access.indexed) return fixedArea(l, access.place.space, bytes, access.place.byte);
+  return {.space = operand.place.space, .bytes = bytes, .fixed = false, .first = 0, .at = access.index};
+}
+
+ValueId loadByte(Lowering& l, const Area& area, ValueId i, Type type) {
+  const ir::Window window{.space = area.space, .byte = 0, .count = area.bytes - ir::byteWidth(type) + 1};
+  return l.b().loadAt(type, window, l.b().add(area.at, i));
+}
+
+void storeByte(Lowering& l, const Area& area, ValueId i, ValueId value) {
+  const uint32_t width = ir::byteWidth(l.b().typeOf(value));
+  const ir::Window window{.space = area.space, .byte = 0, .count = area.bytes - width + 1};
+  l.b().storeAt(window, l.b().add(area.at, i), value);
+}
+
+Area shifted(Lowering& l, Area area, ValueId by) {
+  area.at = l.b().add(area.at, by);
+  area.fixed = false;
+  return area;
+}
+
+Length fixedCount(Lowering& l, uint32_t count) { return {.fixed = true, .most = count, .value = l.b().i32(count)}; }
+
+Length countOf(Lowering& l, const Operand& operand) {
+  if (operand.isConstant()) return fixedCount(l, static_cast<uint32_t>(operand.value));
+  const uint32_t most = operand.type == Type::I8 ? 0xFF : 0xFFFF;
+  return {.fixed = false, .most = most, .value = l.b().zextOrTrunc(Type::I32, l.value(operand))};
+}
+
+Length smaller(Lowering& l, const Length& a, const Length& b) {
+  if (a.fixed && b.fixed) return a.most < b.most ? a : b;
+  return {.fixed = false, .most = std::min(a.most, b.most), .value = least(l.b(), a.value, b.value)};
+}
+
+namespace {
+
+// One pass copies or clears `type` at i * its width + `offset`, from the last one on if `backward`.
+void copyPasses(Lowering& l, const Area& to, const Area& from, uint32_t passes, Type type, uint32_t offset,
+                bool backward) {
+  if (passes == 0) return;
+  ir::RungBuilder& b = l.b();
+  ValueId i = b.loop(passes)[0];
+  if (backward) i = b.sub(b.i32(passes - 1), i);
+  i = b.add(b.mul(i, b.i32(ir::byteWidth(type))), b.i32(offset));
+  storeByte(l, to, i, loadByte(l, from, i, type));
+  b.endLoop();
+}
+
+void clearPasses(Lowering& l, const Area& area, uint32_t passes, Type type, uint32_t offset) {
+  if (passes == 0) return;
+  ir::RungBuilder& b = l.b();
+  const ValueId i = b.loop(passes)[0];
+  storeByte(l, area, b.add(b.mul(i, b.i32(ir::byteWidth(type))), b.i32(offset)), b.constant(type, 0));
+  b.endLoop();
+}
+
+// Areas and count are constants: eight bytes a pass.
+void copyFixed(Lowering& l, const Area& to, const Area& from, uint32_t count) {
+  const bool backward = to.space == from.space && to.first > from.first;
+  const uint32_t chunks = count / kChunk, rest = count % kChunk;
+  if (!backward) copyPasses(l, to, from, chunks, Type::I64, 0, false);
+  copyPasses(l, to, from, rest, Type::I8, chunks * kChunk, backward);
+  if (backward) copyPasses(l, to, from, chunks, Type::I64, 0, true);
+}
+
+// body(i) for each i below a count that the program knows.
+void eachBelow(Lowering& l, const Length& count, auto body) {
+  ir::RungBuilder& b = l.b();
+  const bool blocks = count.most > 2 * kBlock;
+  ValueId start;
+  if (blocks) {
+    start = b.mul(b.loop((count.most + kBlock - 1) / kBlock)[0], b.i32(kBlock));
+    b.if_(b.ltU(start, count.value));
+  }
+  ValueId i = b.loop(blocks ? kBlock : count.most)[0];
+  if (blocks) i = b.add(start, i);
+  b.if_(b.ltU(i, count.value));
+  body(i);
+  b.endIf();
+  b.endLoop();
+  if (!blocks) return;
+  b.endIf();
+  b.endLoop();
+}
+
+} // namespace
+
+void copy(Lowering& l, const Area& to, const Area& from, const Length& count) {
+  if (count.most == 0) return;
+  if (count.fixed && to.fixed && from.fixed) return copyFixed(l, to, from, count.most);
+  ir::RungBuilder& b = l.b();
+  const ValueId backward = to.space == from.space ? b.ltU(from.at, to.at) : b.bit(false);
+  const ValueId last = b.sub(count.value, b.i32(1));
+  eachBelow(l, count, [&](ValueId pass) {
+    const ValueId i = b.select(backward, b.sub(last, pass), pass);
+    storeByte(l, to, i, loadByte(l, from, i));
+  });
+}
+
+void clear(Lowering& l, const Area& area, const Length& count) {
+  if (count.most == 0) return;
+  if (count.fixed) {
+    clearPasses(l, area, count.most / kChunk, Type::I64, 0);
+    clearPasses(l, area, count.most % kChunk, Type::I8, count.most / kChunk * kChunk);
+    return;
+  }
+  eachBelow(l, count, [&](ValueId i) { storeByte(l, area, i, l.b().constant(Type::I8, 0)); });
+}
+
+Length inside(Lowering& l, const Operand& operand, const Area& area, const Length& count, bool written) {
+  if (area.fixed && count.fixed) {
+    const uint32_t exist = area.bytes - area.first;
+    if (count.most <= exist) return count;
+    l.program()
+            .diagnostics.report(Diag::AddressOutOfRange, operand.range)
+            .severity(written ? Severity::Error : Severity::Warning)
+        << OperandParser::spell(operand) + "+" + std::to_string(count.most - 1)
+        << (area.space == kInterfaceSpace ? "the interface" : "the program's data");
+    return fixedCount(l, exist);
+  }
+  ir::RungBuilder& b = l.b();
+  l.protect(b.ltU(b.i32(area.bytes), b.add(area.at, count.value)));
+  return count;
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,48 @@
+// Memory areas of instructions that move bytes (man. ch. 3.15, 3.18): loops whose bounds are known when the program is
+// compiled.
+#pragma once
+
+#include "frontend/dialects/technol/lower/lowering.h"
+
+namespace rung::frontend::technol {
+
+// A rung makes a limited number of passes; longer work gets a rung of its own.
+inline constexpr uint32_t kManyPasses = 4096;
+// Passes that are left out together where the work ends early.
+inline constexpr uint32_t kBlock = 32;
+
+// Bytes of a space from `at` on; where `fixed`, that is the constant `first`.
+struct Area {
+  ir::SpaceId space;
+  uint32_t bytes = 0; // of the whole space
+  bool fixed = true;
+  uint32_t first = 0;
+  ir::ValueId at;
+};
+
+// A number of bytes: a constant, or a cell with at most `most`.
+struct Length {
+  bool fixed = true;
+  uint32_t most = 0;
+  ir::ValueId value;
+};
+
+Area fixedArea(Lowering& l, ir::SpaceId space, uint32_t bytes, uint32_t first);
+Area areaOf(Lowering& l, const Operand& operand);
+// The area from `by` bytes on.
+Area shifted(Lowering& l, Area area, ir::ValueId by);
+Length fixedCount(Lowering& l, uint32_t count);
+Length countOf(Lowering& l, const Operand& operand);
+Length smaller(Lowering& l, const Length& a, const Length& b);
+
+ir::ValueId loadByte(Lowering& l, const Area& area, ir::ValueId i, ir::Type type = ir::Type::I8);
+void storeByte(Lowering& l, const Area& area, ir::ValueId i, ir::ValueId value);
+// Copies as if all of the source were read first. The caller has checked both areas.
+void copy(Lowering& l, const Area& to, const Area& from, const Length& count);
+void clear(Lowering& l, const Area& area, const Length& count);
+// The bytes of `count` that lie in the space. Where area and count are constants the rest is reported: an error where
+// it would be written; read, it is 0 (an example of the manual reads behind its variable, l.13543). Else it is checked
+// when the program runs.
+Length inside(Lowering& l, const Operand& operand, const Area& area, const Length& count, bool written);
+
+} // namespace rung::frontend::technol

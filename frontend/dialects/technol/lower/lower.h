@@ -1,0 +1,89 @@
+// The lowering functions of the rows, by family. `variant` tells the members of a family apart.
+#pragma once
+
+#include <span>
+
+#include "frontend/dialects/technol/check/operand.h"
+
+namespace rung::frontend::technol {
+
+class Lowering;
+
+enum BitJoin { kAnd, kOr, kXor };
+enum Condition { kAlways, kIfRlo, kIfNotRlo };
+enum Arithmetic { kAdd, kSubtract, kMultiply, kDivide };
+enum Compare { kEqual, kEqualIfRlo, kLess, kGreater, kLessEqual, kGreaterEqual };
+enum Unary { kIncrement, kDecrement, kNegate, kAbsolute };
+enum Count { kCountUp, kCountDown, kCountUpBcd };
+
+// lower_bits.cpp
+void lowerLoadBit(Lowering& l, std::span<const Operand> o, int);
+void lowerLicence(Lowering& l, std::span<const Operand> o, int);
+void lowerJoin(Lowering& l, std::span<const Operand> o, int join);
+void lowerComplement(Lowering& l, std::span<const Operand> o, int);
+void lowerEdge(Lowering& l, std::span<const Operand> o, int rising);
+void lowerWrite(Lowering& l, std::span<const Operand> o, int);
+void lowerFlag(Lowering& l, std::span<const Operand> o, int condition);
+void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition);
+void lowerCheck(Lowering& l, std::span<const Operand> o, int);
+void lowerJump(Lowering& l, std::span<const Operand> o, int condition);
+
+// lower_data.cpp
+void lowerLoad(Lowering& l, std::span<const Operand> o, int);
+void lowerStore(Lowering& l, std::span<const Operand> o, int condition);
+void lowerMove(Lowering& l, std::span<const Operand> o, int condition);
+void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation);
+void lowerBitwise(Lowering& l, std::span<const Operand> o, int join);
+void lowerCompare(Lowering& l, std::span<const Operand> o, int relation);
+void lowerUnary(Lowering& l, std::span<const Operand> o, int operation);
+void lowerIncrementBcd(Lowering& l, std::span<const Operand> o, int);
+void lowerBin(Lowering& l, std::span<const Operand> o, int);
+void lowerBcd(Lowering& l, std::span<const Operand> o, int);
+void lowerShift(Lowering& l, std::span<const Operand> o, int right);
+void lowerToReal(Lowering& l, std::span<const Operand> o, int);
+void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int);
+void lowerRloToDr(Lowering& l, std::span<const Operand> o, int);
+void lowerMovBx(Lowering& l, std::span<const Operand> o, int);
+
+// lower_text.cpp
+void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int);
+void lowerClear(Lowering& l, std::span<const Operand> o, int);
+void lowerCopyText(Lowering& l, std::span<const Operand> o, int);
+void lowerAddText(Lowering& l, std::span<const Operand> o, int);
+void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd);
+void lowerCompareText(Lowering& l, std::span<const Operand> o, int);
+void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int);
+void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int);
+
+// lower_count.cpp
+void lowerTimer(Lowering& l, std::span<const Operand> o, int);
+void lowerCounter(Lowering& l, std::span<const Operand> o, int kind);
+
+// lower_mechanism.cpp
+void lowerMechInit(Lowering& l, std::span<const Operand> o, int);
+void lowerEx(Lowering& l, std::span<const Operand> o, int);
+void lowerBex(Lowering& l, std::span<const Operand> o, int);
+void lowerExWhile(Lowering& l, std::span<const Operand> o, int level); // EX0: 0, EX1: 1
+void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level);
+void lowerWait(Lowering& l, std::span<const Operand> o, int);
+
+// lower_calls.cpp
+void lowerCall(Lowering& l, std::span<const Operand> o, int);
+void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
+
+// lower_message.cpp
+void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
+void lowerBitMessage(Lowering& l, std::span<const Operand> o, int);
+
+// lower_exchange.cpp; `kind` is a nc::ExchangeKind
+void lowerDefine(Lowering& l, std::span<const Operand> o, int kind);
+void lowerUpdate(Lowering& l, std::span<const Operand> o, int);
+
+// lower_share.cpp
+void lowerShareVariable(Lowering& l, std::span<const Operand> o, int);
+void lowerShareBit(Lowering& l, std::span<const Operand> o, int);
+
+// lower_config.cpp
+void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind);
+
+} // namespace rung::frontend::technol

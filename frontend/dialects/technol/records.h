@@ -58,15 +58,9 @@ struct Mechanism {
   bool open = false;
 };
 
-struct Call {
-  uint32_t callee = kNone; // in procedures
-  SourceRange range;
-};
-
 struct Procedure {
   std::string_view name;
   uint32_t unit = kNone;
-  std::vector<Call> calls;
 };
 
 // A module's text in one file.
@@ -121,7 +115,14 @@ struct Symbol {
 };
 
 // What it is, for messages: "a WORD".
+std::string_view describe(ir::Type type);
 std::string_view describe(const Symbol& symbol);
+
+// A name in the source, and the symbol that it is.
+struct NameUse {
+  SourceRange range;
+  uint32_t symbol = kNone;
+};
 
 struct SourceFile {
   FileId id;

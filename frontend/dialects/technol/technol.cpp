@@ -1,11 +1,13 @@
 // The dialect's entry: source files to a module.
 #include "frontend/dialects/technol/technol.h"
 
+#include "frontend/dialects/technol/check/check_program.h"
 #include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/lower/assemble.h"
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/reference.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 
 namespace rung::frontend {
 namespace {
@@ -32,12 +34,6 @@ technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnos
   return encoding;
 }
 
-std::string baseName(std::string_view path) {
-  const size_t slash = path.find_last_of("/\\");
-  if (slash != std::string_view::npos) path = path.substr(slash + 1);
-  return std::string(path.substr(0, path.rfind('.')));
-}
-
 std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const FileId> files,
                                     const CompileOptions& options, Diagnostics& diagnostics) {
   technol::Program program(sources, diagnostics);
@@ -46,16 +42,16 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   program.includePaths = options.includePaths;
   program.encoding = encodingOf(options, diagnostics);
   technol::readProgram(program, files);
-  if (program.files.empty()) return nullptr;
+  const uint32_t period = periodOf(options, diagnostics);
+  const technol::TypedProgram typed = technol::checkProgram(program);
+  if (diagnostics.hasErrors()) return nullptr;
   auto module = std::make_unique<ir::Module>();
-  module->name = baseName(sources.name(files[0]));
+  module->name = sources.name(files[0]);
   module->dialect = "technol";
   for (const FileId file : files) module->files.emplace_back(sources.name(file));
   technol::addSpaces(program, *module);
-  const uint32_t period = periodOf(options, diagnostics);
-  technol::Lowering lowering(program, *module, period, options.marks);
+  technol::Lowering lowering(program, typed, *module, period, options.marks);
   lowering.run();
-  if (diagnostics.hasErrors()) return nullptr;
   technol::addTasks(lowering, *module, period);
   technol::addSymbols(program, *module);
   technol::numberRungs(*module);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/technol/check/operand.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "tests/unit/technol/program.h"
 
 namespace rung::technol_test {

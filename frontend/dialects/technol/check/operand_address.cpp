@@ -2,7 +2,7 @@
 // inventory).
 #include <algorithm>
 
-#include "frontend/dialects/technol/check/operand.h"
+#include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/encoding.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
@@ -111,7 +111,7 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
 }
 
 bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
-  const uint32_t index = program_.symbols.require(name, file_);
+  const uint32_t index = require(name);
   if (index == kNone) return false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
@@ -161,6 +161,7 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
     out.type = one ? ir::intOfBytes(m.bytes) : ir::Type::None;
     if (m.bytes == 8) out.type = ir::Type::None; // a QWORD or a REAL
     out.own = m.structure;
+    note(member, program_.symbols.find(member.text, file_));
     return true;
   }
   return false;
@@ -169,17 +170,18 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
 // A member of an interface structure brings its type, too; after any other address a member is a constant offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
   if (out.own != kNone && addOwnMember(member, out)) return true;
-  if (const Symbol* inside = program_.symbols.findMember(out.structure, member.text)) {
-    out.byte += inside->byte;
-    out.type = inside->type;
-    out.isBit = inside->kind == SymbolKind::Bit;
-    out.isText = inside->kind == SymbolKind::Text;
+  if (const uint32_t found = program_.symbols.findMember(out.structure, member.text); found != kNone) {
+    const Symbol& inside = program_.symbols[note(member, found)];
+    out.byte += inside.byte;
+    out.type = inside.type;
+    out.isBit = inside.kind == SymbolKind::Bit;
+    out.isText = inside.kind == SymbolKind::Text;
     out.begin = out.byte;
-    out.end = out.byte + inside->size;
-    out.structure = inside->structure;
+    out.end = out.byte + inside.size;
+    out.structure = inside.structure;
     return true;
   }
-  const uint32_t index = program_.symbols.find(member.text, file_);
+  const uint32_t index = note(member, program_.symbols.find(member.text, file_));
   if (index == kNone) return program_.symbols.reportUndefined(member, file_, out.structure), false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
@@ -197,7 +199,7 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
   out.indexed = address.indexed;
   // An index is checked when it is used; only what no index reaches is wrong now.
   const int64_t slack = address.indexed ? 0xFFFF : 0;
-  if (byte < -slack || byte + bytes > spaceBytes_[address.space.index] + slack) {
+  if (byte < -slack || byte + bytes > program_.bytesOf(address.space) + slack) {
     program_.diagnostics.report(Diag::AddressOutOfRange, out.range)
         << spell(out) << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
     return false;
@@ -250,7 +252,7 @@ bool OperandParser::flag(const Token& number, Operand& out) {
 
 uint32_t OperandParser::bitSymbol(const Token& name) {
   const uint32_t index = program_.symbols.findWeight(name.text, file_);
-  return index != kNone ? index : program_.symbols.require(name, file_);
+  return index != kNone ? note(name, index) : require(name);
 }
 
 bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out) {
@@ -278,10 +280,10 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   const bool hasBase =
       own ? where.size() == 1 || this->address(where.subspan(1), address) : this->address(where, address);
   if (!hasBase) return false;
-  const Symbol* member = address.hasBase ? program_.symbols.findMember(address.structure, name.text) : nullptr;
-  const uint32_t index = member ? kNone : program_.symbols.findWeight(name.text, file_);
-  if (!member && index == kNone) return program_.symbols.reportUndefined(name, file_, address.structure), false;
-  const Symbol& symbol = member ? *member : program_.symbols[index];
+  const uint32_t member = address.hasBase ? program_.symbols.findMember(address.structure, name.text) : kNone;
+  const uint32_t index = note(name, member != kNone ? member : program_.symbols.findWeight(name.text, file_));
+  if (index == kNone) return program_.symbols.reportUndefined(name, file_, address.structure), false;
+  const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) {
     program_.diagnostics.report(Diag::WrongOperandKind, name.range()) << name.text << describe(symbol) << "a bit";
@@ -294,7 +296,7 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
     address.protection = symbol.protection;
     address.byte += symbol.byte;
   }
-  if (member) address.byte += member->byte;
+  if (member != kNone) address.byte += symbol.byte;
   out.form = Operand::Form::Bit;
   out.place.bit = symbol.bit;
   if (!setPlace(address, address.byte, 1, out)) return false;
@@ -330,7 +332,7 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
     return false;
   }
   if (!checkWrite(info, Protection::Error, spell(out), out.range)) return false;
-  const uint32_t blockBytes = spaceBytes_[kBlockSpace.index] / kQueuedBlocks;
+  const uint32_t blockBytes = program_.bytesOf(kBlockSpace) / kQueuedBlocks;
   Address address;
   address.space = kBlockSpace;
   address.indexed = byRegister;

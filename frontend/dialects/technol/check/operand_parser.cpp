@@ -1,5 +1,5 @@
-// Operands other than addresses (see operand.h).
-#include "frontend/dialects/technol/check/operand.h"
+// Operands other than addresses (see operand_parser.h).
+#include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "ir/support/check.h"
 #include "ir/support/similar.h"
@@ -91,15 +91,15 @@ bool OperandParser::syntax(std::string_view expected, std::span<const Token> tok
   return false;
 }
 
-std::string OperandParser::spell(const Operand& operand) {
+std::string spell(const Operand& operand) {
   std::string text;
   for (const Token& token : operand.tokens)
     text += token.kind == TokenKind::Text ? "'" + std::string(token.text) + "'" : std::string(token.text);
   return text;
 }
 
-bool OperandParser::wrongKind(Program& program, const Operand& operand, std::string_view is, std::string_view wanted) {
-  program.diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
+bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::string_view is, std::string_view wanted) {
+  diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
   return false;
 }
 
@@ -115,8 +115,13 @@ bool OperandParser::countFits(const Statement& statement, size_t found) {
   return false;
 }
 
+uint32_t OperandParser::note(const Token& name, uint32_t symbol) {
+  if (symbol != kNone) names_.push_back({name.range(), symbol});
+  return symbol;
+}
+
 bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out) {
-  out.clear();
+  const size_t first = out.size();
   statement_ = &statement;
   file_ = statement.file;
   const auto operands = splitOperands(program_.operandTokens(statement));
@@ -130,13 +135,16 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
     Operand& operand = out.emplace_back();
     operand.range = rangeOf(program_.sources, operands[i], statement.range());
     operand.tokens = operands[i];
+    operand.access = info.access;
+    operand.firstName = static_cast<uint32_t>(names_.size());
     ok = one(info, *kind, operands[i], operand) && ok;
+    operand.nameCount = static_cast<uint32_t>(names_.size()) - operand.firstName;
     // The type of a count holds for the time, too (man. l.2133).
     inherited_ = i == 0 && (statement.row->effects & kWaits) && operand.prefixed ? naturalPrefix(operand.type) : 0;
   }
   inherited_ = 0;
-  while (out.size() < infos.size()) out.emplace_back().range = statement.range();
-  if (ok && infos.size() >= 2 && infos[0].kind == "timer cell") ok = waitOperands(out);
+  while (out.size() - first < infos.size()) out.emplace_back().range = statement.range();
+  if (ok && infos.size() >= 2 && infos[0].kind == "timer cell") ok = waitOperands(std::span(out).subspan(first));
   return ok;
 }
 
@@ -303,7 +311,7 @@ bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens
       return wrongKind(out, "a number", "a " + std::string(kind.info.kind));
     return syntax("the name of a " + std::string(kind.info.kind), tokens);
   }
-  const uint32_t index = program_.symbols.require(tokens[0], file_);
+  const uint32_t index = require(tokens[0]);
   if (index == kNone) return false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
@@ -339,7 +347,7 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
     return false;
   }
   if (!kind.constant) return syntax(kind.info.doc.substr(0, kind.info.doc.find(';')), tokens);
-  const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range());
+  const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range(), &names_);
   if (!number) return false;
   out.form = Operand::Form::Integer;
   out.value = *number;
@@ -368,9 +376,9 @@ bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> toke
 bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (takeKeyword(kind.keywords, tokens, out)) return true;
   if (kind.structure != nullptr && tokens.size() == 1 && tokens[0].kind == TokenKind::Name)
-    if (const Symbol* member = program_.symbols.findMember(kind.structure, tokens[0].text)) {
+    if (const uint32_t member = program_.symbols.findMember(kind.structure, tokens[0].text); member != kNone) {
       out.form = Operand::Form::Keyword;
-      out.value = member->byte;
+      out.value = program_.symbols[note(tokens[0], member)].byte;
       return true;
     }
   const std::string wanted(kind.info.kind);

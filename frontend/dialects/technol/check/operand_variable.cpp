@@ -1,5 +1,5 @@
-// Operands that name variables of MAP_* and DEF_*, and bits for their numbers (see operand.h).
-#include "frontend/dialects/technol/check/operand.h"
+// Operands that name variables of MAP_* and DEF_*, and bits for their numbers (see operand_parser.h).
+#include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
 
 namespace rung::frontend::technol {
@@ -13,7 +13,7 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
   const bool indexed = tokens.size() > 3 && tokens[1].is('[') && tokens.back().is(']');
   if (tokens.size() != 1 && !(indexed && kind.constant)) return syntax("a name alone", tokens);
   const bool byNumber = kind.info.kind == kBitName;
-  const uint32_t index = byNumber ? bitSymbol(tokens[0]) : program_.symbols.require(tokens[0], file_);
+  const uint32_t index = byNumber ? bitSymbol(tokens[0]) : require(tokens[0]);
   if (index == kNone) return false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
@@ -25,7 +25,8 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
   }
   out.value = -1;
   if (indexed && kind.info.kind == kLogicalInput) {
-    const auto number = constantValue(program_, file_, tokens.subspan(2, tokens.size() - 3), statement_->range());
+    const auto number =
+        constantValue(program_, file_, tokens.subspan(2, tokens.size() - 3), statement_->range(), &names_);
     if (!number) return false;
     out.value = *number;
   }

@@ -132,17 +132,9 @@ void clear(Lowering& l, const Area& area, const Length& count) {
   eachBelow(l, count, [&](ValueId i) { storeByte(l, area, i, l.b().constant(Type::I8, 0)); });
 }
 
-Length inside(Lowering& l, const Operand& operand, const Area& area, const Length& count, bool written) {
-  if (area.fixed && count.fixed) {
-    const uint32_t exist = area.bytes - area.first;
-    if (count.most <= exist) return count;
-    l.program()
-            .diagnostics.report(Diag::AddressOutOfRange, operand.range)
-            .severity(written ? Severity::Error : Severity::Warning)
-        << OperandParser::spell(operand) + "+" + std::to_string(count.most - 1)
-        << (area.space == kInterfaceSpace ? "the interface" : "the program's data");
-    return fixedCount(l, exist);
-  }
+Length inside(Lowering& l, const Area& area, const Length& count) {
+  if (area.fixed && count.fixed)
+    return count.most <= area.bytes - area.first ? count : fixedCount(l, area.bytes - area.first);
   ir::RungBuilder& b = l.b();
   l.protect(b.ltU(b.i32(area.bytes), b.add(area.at, count.value)));
   return count;

@@ -40,9 +40,7 @@ void storeByte(Lowering& l, const Area& area, ir::ValueId i, ir::ValueId value);
 // Copies as if all of the source were read first. The caller has checked both areas.
 void copy(Lowering& l, const Area& to, const Area& from, const Length& count);
 void clear(Lowering& l, const Area& area, const Length& count);
-// The bytes of `count` that lie in the space. Where area and count are constants the rest is reported: an error where
-// it would be written; read, it is 0 (an example of the manual reads behind its variable, l.13543). Else it is checked
-// when the program runs.
-Length inside(Lowering& l, const Operand& operand, const Area& area, const Length& count, bool written);
+// The bytes of `count` that lie in the space. Where area or count are not constants the program stops if they do not.
+Length inside(Lowering& l, const Area& area, const Length& count);
 
 } // namespace rung::frontend::technol

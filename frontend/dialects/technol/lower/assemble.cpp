@@ -94,15 +94,15 @@ bool isVisible(const Symbol& symbol) {
 
 void addSpaces(const Program& program, ir::Module& module) {
   const nc::SignalTable& signals = nc::technolSignals();
-  const auto add = [&](std::string name, uint32_t bytes, uint32_t flags) {
-    module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = std::max(1u, bytes), .flags = flags});
+  const auto add = [&](std::string name, ir::SpaceId space, uint32_t flags) {
+    module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = program.bytesOf(space), .flags = flags});
   };
-  add("NCI", nc::areaBytes(signals, "I"), 0);
-  add("DATA", program.dataBytes, RUNG_SPACE_ALLOCATED);
-  add("MECH", static_cast<uint32_t>(program.mechanisms.size()) * kMechanismBytes, RUNG_SPACE_ALLOCATED);
-  add("@REG", kRegisterBytes, RUNG_SPACE_HIDDEN);
-  add("BLK", nc::areaBytes(signals, "BLK") * kQueuedBlocks, RUNG_SPACE_INPUT);
-  add("IO", program.exchangedBytes, RUNG_SPACE_ALLOCATED);
+  add("NCI", kInterfaceSpace, 0);
+  add("DATA", kDataSpace, RUNG_SPACE_ALLOCATED);
+  add("MECH", kMechanismSpace, RUNG_SPACE_ALLOCATED);
+  add("@REG", kRegisterSpace, RUNG_SPACE_HIDDEN);
+  add("BLK", kBlockSpace, RUNG_SPACE_INPUT);
+  add("IO", kExchangeSpace, RUNG_SPACE_ALLOCATED);
   module.inits = program.inits;
   addPresets(signals, module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).

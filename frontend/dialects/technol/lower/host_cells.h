@@ -29,7 +29,6 @@ struct HostCellInfo {
   uint32_t byte;
 };
 const HostCellInfo& hostCell(HostCell cell);
-inline constexpr uint32_t kRegisterBytes = 64;
 inline constexpr int kHostCells = 9;
 
 } // namespace rung::frontend::technol

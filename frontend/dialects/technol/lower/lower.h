@@ -3,11 +3,10 @@
 
 #include <span>
 
-#include "frontend/dialects/technol/check/operand.h"
-
 namespace rung::frontend::technol {
 
 class Lowering;
+struct Operand;
 
 enum BitJoin { kAnd, kOr, kXor };
 enum Condition { kAlways, kIfRlo, kIfNotRlo };
@@ -25,7 +24,7 @@ void lowerEdge(Lowering& l, std::span<const Operand> o, int rising);
 void lowerWrite(Lowering& l, std::span<const Operand> o, int);
 void lowerFlag(Lowering& l, std::span<const Operand> o, int condition);
 void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition);
-void lowerCheck(Lowering& l, std::span<const Operand> o, int);
+void lowerNothing(Lowering& l, std::span<const Operand> o, int);
 void lowerJump(Lowering& l, std::span<const Operand> o, int condition);
 
 // lower_data.cpp

@@ -11,7 +11,7 @@ Access Lowering::reach(const Operand& operand, ValueId guard) {
   Access access{.place = operand.place, .indexed = operand.indexed, .window = {}, .index = {}};
   if (!operand.indexed) return access;
   ir::RungBuilder& builder = b();
-  const uint32_t bytes = spaceBytes_[operand.place.space.index];
+  const uint32_t bytes = bytesOf(operand.place.space);
   const uint32_t width = operand.type == Type::Bit || operand.type == Type::None ? 1 : ir::byteWidth(operand.type);
   ValueId index = r().bx();
   if (operand.scale != 1) index = builder.mul(index, builder.i32(operand.scale));

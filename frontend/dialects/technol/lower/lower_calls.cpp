@@ -7,7 +7,7 @@ namespace rung::frontend::technol {
 using ir::Type;
 using ir::ValueId;
 
-void lowerCall(Lowering& l, std::span<const Operand> o, int) { l.callProcedure(o[0].index, o[0].range); }
+void lowerCall(Lowering& l, std::span<const Operand> o, int) { l.callProcedure(o[0].index); }
 
 void Lowering::saveRegisters() {
   if (saved_.empty())

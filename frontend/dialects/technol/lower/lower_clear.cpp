@@ -23,19 +23,11 @@ void clearRange(Lowering& l, ir::SpaceId space, uint32_t first, uint32_t end) {
 
 // From the first address up to the second, which is not cleared.
 void lowerClear(Lowering& l, std::span<const Operand> o, int) {
-  const bool keywords[] = {o[0].form == Operand::Form::Keyword, o[1].form == Operand::Form::Keyword};
-  if (keywords[0] && keywords[1]) return l.clearAll(o[0].value == 0);
-  const auto wrong = [&](const Operand& operand, std::string_view is, std::string_view wanted) {
-    OperandParser::wrongKind(l.program(), operand, is, wanted);
-  };
-  if (keywords[0]) return wrong(o[1], "an address", "ALL");
-  if (keywords[1]) return wrong(o[1], "a keyword", "an address");
-  if (o[0].place.space != o[1].place.space) return wrong(o[1], "in another memory", "an address after the first");
+  if (o[0].form == Operand::Form::Keyword) return l.clearAll(o[0].value == 0);
   l.out().cut();
   const Area begin = areaOf(l, o[0]), end = areaOf(l, o[1]);
   ir::RungBuilder& b = l.b();
   if (begin.fixed && end.fixed) {
-    if (end.first < begin.first) return wrong(o[1], "before the first", "an address after the first");
     clearRange(l, begin.space, begin.first, end.first);
   } else {
     l.protect(b.ltU(end.at, begin.at));

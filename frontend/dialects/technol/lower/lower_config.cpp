@@ -107,13 +107,9 @@ void putDefault(Lowering& l, const Text& target, const Text& source) {
 }
 
 void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
-  const Operand& otherwise = o[2];
-  Text target, source;
-  if (!textOf(l, o[0], target)) return;
+  const Text target = textOf(l, o[0]);
   const Words id = identifierWords(l, o[1], kWords);
-  if (otherwise.given() && !textOf(l, otherwise, source)) return;
-  if (source.literal && target.area.fixed && source.most > target.most)
-    l.program().diagnostics.report(Diag::StringTooLong, otherwise.range) << source.most << target.most;
+  const Text source = o[2].given() ? textOf(l, o[2]) : Text{};
   ir::RungBuilder& b = l.b();
   const ValueId ticket = request(l, kind, b.constant(Type::I64, 0), id);
   const ValueId found = answersYes(b, ticket, 0);
@@ -121,7 +117,7 @@ void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
   l.r().setRlo(found);
   b.if_(found);
   putParts(l, target, kind, id, length);
-  if (otherwise.given()) {
+  if (o[2].given()) {
     b.else_();
     putDefault(l, target, source);
   }

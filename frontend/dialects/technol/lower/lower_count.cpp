@@ -8,22 +8,8 @@ using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
-namespace {
-
-// Also in a mechanism inside the block.
-bool standsInTimed(Lowering& l) {
-  const std::vector<Unit>& units = l.program().units;
-  uint32_t at = l.statement().unit;
-  while (at != kNone && units[at].kind == UnitKind::Mechanism) at = units[at].parent;
-  return at != kNone && units[at].kind == UnitKind::Timed;
-}
-
-} // namespace
-
 // RLO = 0 clears the count; else it counts up to the preset in DR, and RLO tells that it is there (man. l.884-916).
 void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
-  if (!standsInTimed(l))
-    l.program().diagnostics.report(Diag::TmOutsideDftm, l.statement().range()) << l.statement().row->info.mnemonic;
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
   const ValueId rlo = l.r().rlo();

@@ -8,7 +8,6 @@ namespace rung::frontend::technol {
 using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
-using Note = Lowering::Arithmetic;
 
 namespace {
 
@@ -33,7 +32,6 @@ ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
 
 void realArithmetic(Lowering& l, const Operand& operand, int operation) {
   constexpr OpCode kOps[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
-  l.note(Note::Real);
   const ValueId right = l.value(operand);
   const ValueId result = l.b().op(kOps[operation], Type::F64, {l.r().real(), right});
   l.r().setReal(checkedReal(l, result, operation == kDivide ? right : ValueId{}));
@@ -96,7 +94,6 @@ void storeIf(Lowering& l, ValueId guard, const Access& access, ValueId value) {
 } // namespace
 
 void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
-  l.note(o[0].isReal() ? Note::LoadReal : Note::LoadInteger);
   ir::RungBuilder& b = l.b();
   const ValueId value = l.value(o[0]);
   if (o[0].isReal())
@@ -108,30 +105,12 @@ void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
 }
 
 void lowerStore(Lowering& l, std::span<const Operand> o, int condition) {
-  if (o[0].isReal()) l.note(Note::Real);
   const ValueId guard = guardOf(l, condition);
   const ValueId value = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
   storeIf(l, guard, l.reach(o[0], guard), value);
 }
 
 void lowerMove(Lowering& l, std::span<const Operand> o, int condition) {
-  if (o[0].type != o[1].type) {
-    const auto name = [](Type type) -> std::string_view {
-      switch (type) {
-      case Type::I8: return "a BYTE";
-      case Type::I16: return "a WORD";
-      case Type::I32: return "a DWORD";
-      case Type::I64: return "a QWORD";
-      case Type::F64: return "a REAL";
-      case Type::None:
-      case Type::Bit: return "a bit";
-      }
-      return "";
-    };
-    l.program().diagnostics.report(Diag::TypeMismatch, l.statement().range())
-        << l.statement().row->info.mnemonic << name(o[0].type) << name(o[1].type);
-    return;
-  }
   // A REAL is moved as its 64 bits.
   const Type type = o[0].isReal() ? Type::I64 : o[0].type;
   const ValueId guard = guardOf(l, condition);
@@ -141,7 +120,6 @@ void lowerMove(Lowering& l, std::span<const Operand> o, int condition) {
 
 void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation) {
   if (o[0].isReal()) return realArithmetic(l, o[0], operation);
-  l.note(Note::Integer);
   if (operation == kMultiply) return multiply(l, o[0]);
   if (operation == kDivide) return divide(l, o[0]);
   const ValueId right = l.value(o[0]);
@@ -158,7 +136,6 @@ void lowerBitwise(Lowering& l, std::span<const Operand> o, int kind) {
 void lowerCompare(Lowering& l, std::span<const Operand> o, int relation) {
   const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
   const ValueId right = l.value(o[0], rlo);
-  if (o[0].isReal()) l.note(Note::Real);
   const ValueId result = o[0].isReal() ? compareReals(l.b(), relation, l.r().real(), right)
                                        : compareIntegers(l.b(), relation, l.r().dr(o[0].type), right);
   l.r().setRlo(rlo.valid() ? l.b().and_(rlo, result) : result);
@@ -168,7 +145,6 @@ void lowerUnary(Lowering& l, std::span<const Operand> o, int operation) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
   if (type == Type::F64) {
-    l.note(Note::Real);
     const ValueId x = l.r().real();
     switch (operation) {
     case kIncrement: return l.r().setReal(b.op(OpCode::FAdd, type, {x, b.real(1)}));
@@ -217,7 +193,6 @@ void lowerShift(Lowering& l, std::span<const Operand> o, int right) {
 
 // The integer is sign-extended to 64 bits first and stays in DR (man. l.1511).
 void lowerToReal(Lowering& l, std::span<const Operand> o, int) {
-  l.note(Note::LoadReal);
   const ValueId whole = l.b().sextOrTrunc(Type::I64, l.r().dr(widthOf(o[0])));
   l.r().setReal(l.b().op(OpCode::IntToF, Type::F64, {whole}));
   l.r().setDr(whole);
@@ -235,7 +210,6 @@ void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int) {
 
 // FFFFh or FFFFFFFFh for 1; the bits above follow the sign.
 void lowerRloToDr(Lowering& l, std::span<const Operand>, int) {
-  l.note(Note::LoadInteger);
   l.r().setDr(l.b().op(OpCode::SExt, Type::I64, {l.r().rlo()}));
 }
 

@@ -17,33 +17,6 @@ using nc::ExchangeType;
 
 namespace {
 
-bool inRange(Lowering& l, const Operand& given, int64_t least, int64_t most) {
-  if (given.value >= least && given.value <= most) return true;
-  l.program().diagnostics.report(Diag::OperandRange, given.range)
-      << given.value << std::to_string(least) + " to " + std::to_string(most);
-  return false;
-}
-
-// Whether the default is a constant of the variable's type. The default of a mapped real has its decimal point (man.
-// l.5880).
-bool defaultFits(Lowering& l, const Exchanged& variable, const Operand& given) {
-  using Form = Operand::Form;
-  if (variable.type == ExchangeType::Text)
-    return given.form == Form::Text || OperandParser::wrongKind(l.program(), given, "no text", "a text");
-  if (variable.type == ExchangeType::Binary)
-    return OperandParser::wrongKind(l.program(), given, "a default", "none with TYPE_BIN");
-  if (given.form == Form::Text) return OperandParser::wrongKind(l.program(), given, "a text", "a number");
-  if (variable.type == ExchangeType::Real) {
-    const bool mapped = nc::isMapped(variable.kind);
-    return given.form == Form::Real || !mapped ||
-           OperandParser::wrongKind(l.program(), given, "an integer", "a real with its decimal point");
-  }
-  if (given.form == Form::Real) return OperandParser::wrongKind(l.program(), given, "a real", "an integer");
-  if (variable.type == ExchangeType::Bit) return inRange(l, given, 0, 1);
-  const uint32_t bits = nc::bytesOf(variable.type) * 8;
-  return bits == 64 || inRange(l, given, -(int64_t{1} << (bits - 1)), (int64_t{1} << bits) - 1);
-}
-
 ValueId defaultOf(ir::RungBuilder& b, const Operand& given, Type type) {
   if (type == Type::F64)
     return b.real(given.form == Operand::Form::Real ? given.real : static_cast<double>(given.value));
@@ -72,13 +45,8 @@ void fill(ir::RungBuilder& b, const Operand& target, uint32_t count, ValueId val
 
 void fillText(Lowering& l, const Operand& target, const Operand& given) {
   ir::RungBuilder& b = l.b();
-  std::string_view text = given.text;
-  if (text.size() > target.size - 1) {
-    l.program().diagnostics.report(Diag::StringTooLong, given.range) << text.size() << target.size - 1;
-    text = text.substr(0, target.size - 1);
-  }
   ir::Place at = target.place;
-  for (const char c : text) {
+  for (const char c : given.text.substr(0, target.size - 1)) {
     b.store(at, b.constant(Type::I8, static_cast<uint8_t>(c)));
     ++at.byte;
   }
@@ -112,8 +80,6 @@ void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
   const bool mapped = nc::isMapped(variable.kind);
   const Operand& given = o[mapped ? 2 : 3];
   const ExchangePeriod period = periodOf(variable.kind, o[mapped ? 3 : 4]);
-  const bool fits = !given.given() || defaultFits(l, variable, given);
-  if (!identifierFits(l, o[1], true) || !fits) return;
   ir::RungBuilder& b = l.b();
   const auto word = [&](int64_t value) { return b.constant(Type::I64, value); };
   const ir::Place at = o[0].place;
@@ -142,10 +108,6 @@ void takeElement(Lowering& l, const Operand& target, uint32_t offset) {
 // UPDATE_IN input or input[i]: also the outputs of this program that are connected to it, as they are now.
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
-  if (nc::isText(variable.type)) {
-    OperandParser::wrongKind(l.program(), o[0], "a text", "a bit or a number");
-    return;
-  }
   const uint32_t bytes = nc::bytesOf(variable.type);
   const auto first = static_cast<uint32_t>(std::max<int64_t>(o[0].value, 0));
   const uint32_t end = o[0].value < 0 ? variable.count : first + 1;

@@ -38,8 +38,7 @@ std::vector<ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t wo
   ir::RungBuilder& b = l.b();
   std::vector<ValueId> made;
   const bool quoted = id.form == Operand::Form::Text;
-  Text text;
-  if (!quoted && !textOf(l, id, text)) return std::vector<ValueId>(words, b.constant(Type::I64, 0));
+  const Text text = quoted ? Text{} : textOf(l, id);
   for (uint32_t first = 0; first < words * 8; first += 8) {
     if (quoted)
       made.push_back(quotedWord(b, id.text.substr(std::min<size_t>(first, id.text.size()))));
@@ -49,21 +48,6 @@ std::vector<ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t wo
       made.push_back(b.constant(Type::I64, 0));
   }
   return made;
-}
-
-bool identifierFits(Lowering& l, const Operand& id, bool defined) {
-  if (id.form != Operand::Form::Text) return true;
-  if (id.text.empty() || id.text.size() > nc::kDefineBytes) {
-    l.program().diagnostics.report(Diag::OperandRange, id.range)
-        << std::to_string(id.text.size()) + " characters" << "1 to " + std::to_string(nc::kDefineBytes);
-    return false;
-  }
-  const size_t bracket = id.text.rfind('[');
-  const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
-  if (!defined || !index || id.text.find_first_not_of('0', bracket + 1) == id.text.size() - 1) return true;
-  l.program().diagnostics.report(Diag::WrongOperandKind, id.range)
-      << id.text << "an identifier with an index at its end" << "an identifier without one";
-  return false;
 }
 
 ValueId defineRequest(Lowering& l, std::span<const ValueId> head, const Operand& id) {

@@ -1,5 +1,5 @@
-// What a program tells and asks its control by identifiers: these as words of eight characters, their check, requests
-// that the control answers at once.
+// What a program tells and asks its control by identifiers: these as words of eight characters, requests that the
+// control answers at once.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,6 @@ namespace rung::frontend::technol {
 // The characters of an operand of kind "text or literal", filled up with zeros. Of a text in memory, bytes up to its
 // end; the control ends it at its terminator.
 std::vector<ir::ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t words);
-// An identifier that is written has 1 to kDefineBytes characters; one that is `defined` ends without an index (man.
-// l.12690). False after a report.
-bool identifierFits(Lowering& l, const Operand& id, bool defined);
 // Tells the control of a variable; `head` are the arguments in front of the identifier. A ticket.
 ir::ValueId defineRequest(Lowering& l, std::span<const ir::ValueId> head, const Operand& id);
 // Whether a result is not 0; 0 where nobody answers.

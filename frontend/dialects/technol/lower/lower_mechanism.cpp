@@ -31,72 +31,67 @@ void showLineIf(Lowering& l, const Sequence& sequence, ValueId cond) {
 void lowerMechInit(Lowering& l, std::span<const Operand> o, int) { l.initMechanism(o[0].index); }
 
 void lowerEx(Lowering& l, std::span<const Operand>, int) {
-  Sequence* s = l.sequence();
-  if (s == nullptr) return;
-  const uint32_t next = l.newState(*s);
-  l.storeCont(*s, l.b().i32(next));
-  l.storeLine(*s, l.statement().line);
-  l.out().jump(s->leave);
-  l.out().bind(s->states[next]);
+  Sequence& s = l.sequence();
+  const uint32_t next = l.newState(s);
+  l.storeCont(s, l.b().i32(next));
+  l.storeLine(s, l.statement().line);
+  l.out().jump(s.leave);
+  l.out().bind(s.states[next]);
 }
 
 void lowerBex(Lowering& l, std::span<const Operand>, int) {
-  Sequence* s = l.sequence();
-  if (s == nullptr) return;
-  const uint32_t next = l.newState(*s);
-  l.storeCont(*s, l.b().i32(next));
-  l.out().bind(s->states[next]);
+  Sequence& s = l.sequence();
+  const uint32_t next = l.newState(s);
+  l.storeCont(s, l.b().i32(next));
+  l.out().bind(s.states[next]);
 }
 
 void lowerExWhile(Lowering& l, std::span<const Operand>, int level) {
-  Sequence* s = l.sequence();
-  if (s == nullptr) return;
-  const uint32_t next = l.newState(*s);
+  Sequence& s = l.sequence();
+  const uint32_t next = l.newState(s);
   const ValueId wait = waits(l, level);
   l.b().if_(wait);
-  l.storeLine(*s, l.statement().line);
+  l.storeLine(s, l.statement().line);
   l.b().else_();
-  l.storeCont(*s, l.b().i32(next));
+  l.storeCont(s, l.b().i32(next));
   l.b().endIf();
-  l.out().jump(s->leave, wait);
-  l.out().bind(s->states[next]);
+  l.out().jump(s.leave, wait);
+  l.out().bind(s.states[next]);
 }
 
 // TEX: at the t-th failure control goes to the error label, with the code in DR if there is one (man. l.2107-2131).
 void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
-  Sequence* s = l.sequence();
+  Sequence& s = l.sequence();
   const uint32_t error = l.jumpTarget(o[2]);
-  if (s == nullptr || error == kNone) return;
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
-  if (!cell.access.indexed) s->cells.push_back(cell);
-  const uint32_t next = l.newState(*s);
-  const uint32_t errorState = l.stateOf(*s, error);
+  if (!cell.access.indexed) s.cells.push_back(cell);
+  const uint32_t next = l.newState(s);
+  const uint32_t errorState = l.stateOf(s, error);
   const ValueId wait = waits(l, level);
   const ValueId count = b.add(l.loadCount(cell), b.constant(cell.type, 1));
   const ValueId time = timeFor(l, cell, o[1]);
   const ValueId late = b.and_(wait, b.leU(time, b.zextOrTrunc(Type::I32, count)));
   const ValueId stays = b.and_(wait, b.not_(late));
   l.storeCount(cell, b.select(stays, count, b.constant(cell.type, 0)));
-  l.storeCont(*s, b.select(stays, l.loadCont(*s), b.select(late, b.i32(errorState), b.i32(next))));
+  l.storeCont(s, b.select(stays, l.loadCont(s), b.select(late, b.i32(errorState), b.i32(next))));
   if (o[3].given()) l.r().setDr(b.select(late, b.constant(Type::I64, o[3].value), l.r().dr(Type::I64)));
-  showLineIf(l, *s, stays);
-  l.out().select(b.select(stays, b.i32(1), b.select(late, b.i32(2), b.i32(0))), {s->states[next], s->leave, error});
-  l.out().bind(s->states[next]);
+  showLineIf(l, s, stays);
+  l.out().select(b.select(stays, b.i32(1), b.select(late, b.i32(2), b.i32(0))), {s.states[next], s.leave, error});
+  l.out().bind(s.states[next]);
 }
 
 // TIM: the continuation is the instruction itself while the time runs (§11.2).
 void lowerWait(Lowering& l, std::span<const Operand> o, int) {
-  Sequence* s = l.sequence();
-  if (s == nullptr) return;
+  Sequence& s = l.sequence();
   const CountCell arriving = l.countCell(o[0]);
-  if (!arriving.access.indexed) s->cells.push_back(arriving);
-  const uint32_t waiting = l.newState(*s, "waiting"), next = l.newState(*s, "next");
+  if (!arriving.access.indexed) s.cells.push_back(arriving);
+  const uint32_t waiting = l.newState(s, "waiting"), next = l.newState(s, "next");
   l.storeCount(arriving, l.b().constant(arriving.type, 0));
-  l.storeCont(*s, l.b().i32(waiting));
-  l.storeLine(*s, l.statement().line);
-  l.out().jump(s->leave);
-  l.out().bind(s->states[waiting]);
+  l.storeCont(s, l.b().i32(waiting));
+  l.storeLine(s, l.statement().line);
+  l.out().jump(s.leave);
+  l.out().bind(s.states[waiting]);
 
   ir::RungBuilder& b = l.b();
   CountCell cell = arriving;
@@ -105,10 +100,10 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   const ValueId time = timeFor(l, cell, o[1]);
   const ValueId runs = b.ltU(b.zextOrTrunc(Type::I32, count), time);
   l.storeCount(cell, b.select(runs, count, b.constant(cell.type, 0)));
-  l.storeCont(*s, b.select(runs, b.i32(waiting), b.i32(next)));
-  showLineIf(l, *s, runs);
-  l.out().jump(s->leave, runs);
-  l.out().bind(s->states[next]);
+  l.storeCont(s, b.select(runs, b.i32(waiting), b.i32(next)));
+  showLineIf(l, s, runs);
+  l.out().jump(s.leave, runs);
+  l.out().bind(s.states[next]);
 }
 
 } // namespace rung::frontend::technol

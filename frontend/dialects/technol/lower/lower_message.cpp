@@ -68,7 +68,7 @@ void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   if (rlo.valid()) b.endIf();
   if (!calls) return;
   l.r().setDr(b.zextOrTrunc(Type::I64, number));
-  l.callProcedure(l.onMessage(), l.statement().range(), comesUp);
+  l.callProcedure(l.onMessage(), comesUp);
   l.restoreRegisters();
 }
 
@@ -114,9 +114,6 @@ private:
   const BitMessage& message_;
 };
 
-// The edges of `mode` in two bits each.
-bool edgesAreKnown(uint32_t mode) { return (mode & 3) <= kFalling && mode >> 2 <= kFalling; }
-
 } // namespace
 
 // EDEF [val],bit,error,[subid],mod,[par1],[par2],[par3] (man. l.5192-5260). Carried out again it is the same message
@@ -125,20 +122,12 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
   BitMessage message;
   message.statement = &l.statement();
   message.mode = static_cast<uint32_t>(o[4].value);
-  if (!edgesAreKnown(message.mode)) {
-    l.program().diagnostics.report(Diag::OperandRange, o[4].range)
-        << OperandParser::spell(o[4]) << "00b, 01b or 10b in bits 0, 1 and in bits 2, 3";
-    return;
-  }
   message.bit = o[1];
   if (o[0].given()) {
     message.bit = o[0];
     message.bit.form = Operand::Form::Bit;
     message.bit.type = Type::Bit;
     message.bit.place.bit = o[1].place.bit;
-  } else if (!o[1].place.space.valid()) {
-    OperandParser::wrongKind(l.program(), o[1], "a bit number", "a bit, or its byte before it");
-    return;
   }
   bool varies = !o[2].isConstant() || (o[3].given() && !o[3].isConstant()) || message.bit.indexed;
   for (size_t i = 0; i < message.pars.size(); ++i) {

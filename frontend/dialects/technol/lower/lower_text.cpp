@@ -60,8 +60,8 @@ void compare(Lowering& l, const Side& left, const Side& right, const Length& cou
 }
 
 // Copies what is there and clears what is not.
-void copyInside(Lowering& l, const Operand& source, const Area& to, const Area& from, const Length& count) {
-  const Length exist = inside(l, source, from, count, false);
+void copyInside(Lowering& l, const Area& to, const Area& from, const Length& count) {
+  const Length exist = inside(l, from, count);
   copy(l, to, from, exist);
   if (exist.most < count.most) clear(l, shifted(l, to, exist.value), fixedCount(l, count.most - exist.most));
 }
@@ -74,8 +74,7 @@ void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
   if (isLong) l.out().cut();
   const Length count = countOf(l, o[2]);
   const Area from = areaOf(l, o[0]), to = areaOf(l, o[1]);
-  const Length written = inside(l, o[1], to, count, true);
-  copyInside(l, o[0], to, from, written);
+  copyInside(l, to, from, inside(l, to, count));
   if (isLong) l.out().cut();
 }
 
@@ -83,8 +82,7 @@ void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
 // l.1720-1744). A source without a terminator has as many characters as it holds.
 void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
-    Text to, from;
-    if (!textOf(l, o[0], to) || !textOf(l, o[1], from)) return;
+    const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
     const Length length = lengthOf(l, from);
     Length copied = smaller(l, length, roomOf(to));
@@ -102,8 +100,7 @@ void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
 // The joined text is cut where the target is full (man. l.1746).
 void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
-    Text to, from;
-    if (!textOf(l, o[0], to) || !textOf(l, o[1], from)) return;
+    const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
     const Length used = lengthOf(l, to), length = lengthOf(l, from);
     const Length room{.fixed = false, .most = to.most, .value = b.sub(to.room, used.value)};
@@ -115,14 +112,7 @@ void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
 
 // As many digits as the text has characters, the last ones of the number (man. l.1826).
 void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
-  constexpr uint32_t kMostDigits = 10;
-  Text text;
-  if (!textOf(l, o[0], text)) return;
-  if (o[0].indexed || text.most < 1 || text.most > kMostDigits) {
-    l.program().diagnostics.report(Diag::OperandRange, o[0].range)
-        << (o[0].indexed ? std::string("+BX") : std::to_string(text.most) + " characters") << "1 to 10 characters";
-    return;
-  }
+  const Text text = textOf(l, o[0]);
   ir::RungBuilder& b = l.b();
   ValueId rest = b.zextOrTrunc(Type::I64, l.r().dr(o[1].given() ? Type::I32 : Type::I16));
   const ValueId base = b.constant(Type::I64, bcd ? 16 : 10);
@@ -137,8 +127,7 @@ void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
 // Up to a difference, a common terminator or `num` characters; the second text with its terminator (man. l.1860-1870).
 void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
-    Text left, right;
-    if (!textOf(l, o[0], left) || !textOf(l, o[1], right)) return;
+    const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length whole = fixedCount(l, right.most + 1);
     const Length count = o[2].given() ? smaller(l, whole, countOf(l, o[2])) : whole;
     compare(l, {left.area, left.room}, {right.area, right.room}, count, true);
@@ -148,20 +137,18 @@ void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
 // Terminators are bytes as any other; without `num` until the target is full (man. l.1911-1925).
 void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
-    Text to, from;
-    if (!textOf(l, o[0], to) || !textOf(l, o[1], from)) return;
+    const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     const Length count = o[2].given() ? smaller(l, roomOf(to), countOf(l, o[2])) : roomOf(to);
-    copyInside(l, o[1], to.area, from.area, count);
+    copyInside(l, to.area, from.area, count);
   });
 }
 
 // Without `num` as many bytes as the second text holds (man. l.1943-1953).
 void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
-    Text left, right;
-    if (!textOf(l, o[0], left) || !textOf(l, o[1], right)) return;
+    const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length count = o[2].given() ? countOf(l, o[2]) : roomOf(right);
-    const Length there = inside(l, o[0], left.area, count, false), here = inside(l, o[1], right.area, count, false);
+    const Length there = inside(l, left.area, count), here = inside(l, right.area, count);
     compare(l, {left.area, there.value}, {right.area, here.value}, count, false);
   });
 }

@@ -33,7 +33,6 @@ void Lowering::findTimed() {
       clock_ = {static_cast<uint32_t>(module_.slots.size()) - 1};
     }
     const Row* row = findRow(unit.name);
-    if (row == nullptr) continue;
     for (const bool fast : {false, true})
       if (inProcedure || (!runsOnce(around->module) && isFast(around->module) == fast))
         timedUsed_[fast ? 1 : 0][static_cast<size_t>(row->variant)] = true;
@@ -107,8 +106,7 @@ ir::SlotId Lowering::dueSlot(bool fast, TimedKind kind) {
 }
 
 ValueId Lowering::isDue(TimedKind kind) {
-  if (procedure_ == kNone || !clock_.valid()) // without one the procedure is in error
-    return runsOnce(kind_) ? b().bit(false) : b().slotLoad(dueSlot(isFast(kind_), kind));
+  if (procedure_ == kNone) return runsOnce(kind_) ? b().bit(false) : b().slotLoad(dueSlot(isFast(kind_), kind));
   const ValueId clock = b().slotLoad(clock_);
   const ValueId inMain = b().and_(b().eq(clock, b().i32(kMainClock)), b().slotLoad(dueSlot(false, kind)));
   const ValueId inFast = b().and_(b().eq(clock, b().i32(kFastClock)), b().slotLoad(dueSlot(true, kind)));
@@ -116,15 +114,10 @@ ValueId Lowering::isDue(TimedKind kind) {
 }
 
 void Lowering::beginTimed() {
-  if (!parser_.parse(*statement_, operands_)) return;
-  const Unit& unit = program_.units[statement_->unit];
-  if (program_.labels[operands_[0].index].unit != unit.parent) return; // reported while reading
-  const auto kind = static_cast<TimedKind>(statement_->row->variant);
+  const uint32_t end = jumpTarget(typedProgram_.operandsOf(*typed_)[0]);
   out_->cut();
   out_->statement(sourceOf(*statement_));
-  const ValueId due = isDue(kind);
-  if (codeLabels_[operands_[0].index] == kNone) codeLabels_[operands_[0].index] = out_->newLabel();
-  out_->jump(codeLabels_[operands_[0].index], b().not_(due));
+  out_->jump(end, b().not_(isDue(static_cast<TimedKind>(statement_->row->variant))));
 }
 
 } // namespace rung::frontend::technol

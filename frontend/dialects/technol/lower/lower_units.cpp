@@ -12,32 +12,7 @@ using ir::ValueId;
 
 // ---- jumps ----------------------------------------------------------------------------------------------------------
 
-namespace {
-
-std::string describeUnit(const Program& program, uint32_t index) {
-  const Unit& unit = program.units[index];
-  switch (unit.kind) {
-  case UnitKind::Module: return std::string(unit.name);
-  case UnitKind::Mechanism: return "mechanism " + std::string(unit.name);
-  case UnitKind::Procedure: return "procedure " + std::string(unit.name);
-  case UnitKind::Timed: return "a block of " + std::string(unit.name);
-  }
-  return {};
-}
-
-} // namespace
-
 uint32_t Lowering::jumpTarget(const Operand& operand) {
-  const Label& label = program_.labels[operand.index];
-  const Unit& unit = program_.units[statement_->unit];
-  // A jump to the end label of its own timed block is inside.
-  const bool ownEnd = unit.kind == UnitKind::Timed && label.unit == unit.parent &&
-                      symbolKey(program_.tokens[unit.endLabel].text) == symbolKey(label.name);
-  if (label.unit != statement_->unit && !ownEnd) {
-    const uint32_t crossed = unit.kind == UnitKind::Module && label.unit != kNone ? label.unit : statement_->unit;
-    program_.diagnostics.report(Diag::JumpCrossesUnit, operand.range) << label.name << describeUnit(program_, crossed);
-    return kNone;
-  }
   if (codeLabels_[operand.index] == kNone) codeLabels_[operand.index] = out_->newLabel();
   return codeLabels_[operand.index];
 }
@@ -90,7 +65,6 @@ void Lowering::endSequence() {
 
 void Lowering::beginMechanism() {
   const uint32_t mechanism = program_.units[statement_->unit].index;
-  endEquation(statement_->range(), "MECH_BEGIN");
   out_->cut();
   out_->statement(sourceOf(*statement_));
   const uint32_t byte = mechanism * kMechanismBytes;
@@ -102,21 +76,16 @@ void Lowering::beginMechanism() {
   out_->jump(leave, inactive);
   beginSequence(mechanism, statement_->unit);
   sequences_.back().leave = leave;
-  rloLost_ = drLost_ = false;
 }
 
 void Lowering::endMechanism() {
-  endEquation(statement_->range(), "MECH_END");
-  // Without its beginning (an error) there is nothing to end.
-  if (sequences_.empty() || sequences_.back().mechanism == kNone || sequences_.back().routine != out_->routine())
-    return;
   out_->cut();
   out_->statement(sourceOf(*statement_));
   endSequence();
-  rloLost_ = drLost_ = false;
 }
 
-Sequence* Lowering::sequence() {
+// The unit that the statement is in, if it is one that waits; null in a procedure inside it.
+Sequence* Lowering::ownSequence() {
   if (sequences_.empty()) return nullptr;
   Sequence& innermost = sequences_.back();
   return program_.owner(statement_->unit) == innermost.unit && innermost.routine == out_->routine() ? &innermost
@@ -183,19 +152,15 @@ void Lowering::initMechanism(uint32_t mechanism) {
 
 // The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
 void Lowering::beginProcedure() {
-  endEquation(statement_->range(), "PROC_BEGIN");
   out_->cut();
   outer_.push_back(std::move(out_));
   outerProcedures_.push_back(procedure_);
   procedure_ = program_.units[statement_->unit].index;
   out_ = newBuilder(procedureRoutines_[procedure_]);
   out_->statement(sourceOf(*statement_));
-  rloLost_ = drLost_ = false;
 }
 
 void Lowering::endProcedure() {
-  endEquation(statement_->range(), "PROC_END");
-  if (outer_.empty()) return;
   out_->finish();
   out_ = std::move(outer_.back());
   outer_.pop_back();
@@ -203,61 +168,16 @@ void Lowering::endProcedure() {
   outerProcedures_.pop_back();
 }
 
-uint32_t Lowering::procedureNamed(std::string_view name) const {
-  for (uint32_t i = 0; i < program_.procedures.size(); ++i)
-    if (symbolKey(program_.procedures[i].name) == name) return i;
-  return kNone;
-}
-
-void Lowering::callProcedure(uint32_t procedure, SourceRange at, ValueId cond) {
-  if (procedure_ != kNone) program_.procedures[procedure_].calls.push_back({procedure, at});
+void Lowering::callProcedure(uint32_t procedure, ValueId cond) {
   // The stack of the equation in which the call stands stays as it is.
   std::vector<ir::SlotId> kept;
-  for (uint32_t level = 0; level < depth_; ++level) {
+  for (uint32_t level = 0; level < typed_->stack.depth; ++level) {
     kept.push_back({static_cast<uint32_t>(module_.slots.size())});
     module_.slots.push_back({.type = Type::Bit, .transient = true, .key = "CALL." + std::to_string(kept[level].index)});
     b().slotStore(kept[level], r().stack(level));
   }
   out_->call(procedureRoutines_[procedure], cond);
   for (uint32_t level = 0; level < kept.size(); ++level) r().setStack(level, b().slotLoad(kept[level]));
-}
-
-// Circles in the graph of calls, found by a walk that needs no deep stack; the call that closes a circle is reported.
-void Lowering::checkRecursion() {
-  constexpr uint32_t kMaxDepth = RUNG_STACK_DEPTH - 8;
-  enum : uint8_t { Unseen, Open, Done };
-  std::vector<Procedure>& procedures = program_.procedures;
-  std::vector<uint8_t> state(procedures.size(), Unseen);
-  std::vector<uint32_t> depth(procedures.size(), 1); // of the calls below
-  std::vector<std::pair<uint32_t, size_t>> path;
-  for (uint32_t root = 0; root < procedures.size(); ++root) {
-    if (state[root] != Unseen) continue;
-    state[root] = Open;
-    path.push_back({root, 0});
-    while (!path.empty()) {
-      const uint32_t at = path.back().first;
-      if (path.back().second == procedures[at].calls.size()) {
-        state[at] = Done;
-        path.pop_back();
-        continue;
-      }
-      const Call& call = procedures[at].calls[path.back().second];
-      if (state[call.callee] == Unseen) { // this call is looked at again when the callee is done
-        state[call.callee] = Open;
-        path.push_back({call.callee, 0});
-        continue;
-      }
-      ++path.back().second;
-      if (state[call.callee] == Open) {
-        const std::string by = at == call.callee ? "" : ", by way of " + std::string(procedures[at].name);
-        program_.diagnostics.report(Diag::RecursiveProcedure, call.range) << procedures[call.callee].name << by;
-        continue;
-      }
-      depth[at] = std::max(depth[at], depth[call.callee] + 1);
-      if (depth[at] == kMaxDepth)
-        program_.diagnostics.report(Diag::TooDeep, call.range) << "procedure calls" << kMaxDepth;
-    }
-  }
 }
 
 } // namespace rung::frontend::technol

@@ -36,19 +36,14 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
 constexpr std::string_view kPresets[] = {"MPXPI", "MPYPI", "MPZPI", "VAZBA_X", "VAZBA_Y", "VAZBA_Z"};
 constexpr std::string_view kNumberedPresets[] = {"MP#PI", "VAZBA_#"};
 
-std::vector<uint32_t> bytesOfSpaces(const ir::Module& module) {
-  std::vector<uint32_t> bytes;
-  for (const ir::Space& space : module.spaces) bytes.push_back(space.units * space.unitBytes);
-  return bytes;
-}
-
 } // namespace
 
 const HostCellInfo& hostCell(HostCell cell) { return kHostCellInfos[static_cast<size_t>(cell)]; }
 
-Lowering::Lowering(Program& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks)
-    : program_(program), module_(module), periodUs_(periodUs), marks_(marks), slots_(makeRegisterSlots(module)),
-      spaceBytes_(bytesOfSpaces(module)), parser_(program, spaceBytes_) {
+Lowering::Lowering(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs,
+                   ir::Marks* marks)
+    : program_(program), typedProgram_(typed), module_(module), periodUs_(periodUs), marks_(marks),
+      slots_(makeRegisterSlots(module)) {
   codeLabels_.assign(program.labels.size(), kNone);
   for (const Mechanism& mechanism : program.mechanisms) {
     const uint32_t index = static_cast<uint32_t>(module.slots.size());
@@ -104,9 +99,8 @@ void Lowering::run() {
   start_ = newRoutine("@START");
   findTimed();
   fault(nc::kTechnolRequested); // by the control (man. l.5361)
-  onMessage_ = procedureNamed("_ON_ESET");
+  onMessage_ = program_.procedureNamed(kOnMessage);
   for (int i = 1; i < kModuleKinds; ++i) lowerModule(static_cast<ModuleKind>(i));
-  checkRecursion();
   finishProcedures();
   makeClears();
   makeResets();
@@ -164,19 +158,9 @@ void Lowering::lowerPart(const ModulePart& part, ModuleKind kind) {
   enterPart(part, kind);
   const bool sequential = kind == ModuleKind::BlockInit || kind == ModuleKind::BlockDone;
   if (sequential) beginSequence(kNone, part.unit);
-  equationOpen_ = rloLost_ = drLost_ = false;
-  mixed_ = Mixed::No;
-  depth_ = 0;
-  macroStates_.clear();
   for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
     lowerStatement(program_.statements[i], i);
-  while (procedure_ != kNone) endProcedure(); // not closed: an error
-  if (!part.cut) endEquation(part.end, std::string(moduleName(kind)));
-  if (sequential) {
-    sequences_.erase(sequences_.begin() + 1, sequences_.end()); // mechanisms without end: an error
-    endSequence();
-  }
-  sequences_.clear();
+  if (sequential) endSequence();
 }
 
 // ---- statements -----------------------------------------------------------------------------------------------------
@@ -186,88 +170,37 @@ void Lowering::bindLabels(const Statement& statement, uint32_t index) {
     if (codeLabels_[i] == kNone) codeLabels_[i] = out_->newLabel();
     out_->bind(codeLabels_[i]);
   }
-  rloLost_ = drLost_ = false;
-  mixed_ = Mixed::No;
 }
 
 void Lowering::lowerStatement(const Statement& statement, uint32_t index) {
   statement_ = &statement;
+  typed_ = &typedProgram_.statements[index];
   if (statement.label != kNone) bindLabels(statement, index);
-  if (statement.row == nullptr) { // reported already; it may have been what ends the equation
-    spoiled_ = true;
-    return;
-  }
-  if (Sequence* s = sequence()) {
+  if (Sequence* s = ownSequence()) {
     s->section = hashBytes(instructionKey(statement.row->info.mnemonic), s->sectionEnds ? 0 : s->section);
     s->sectionEnds = false;
   }
   switch (statement.row->role) {
-  case Role::Code:
-  case Role::NotBuiltService: lowerCode(); return;
-  case Role::MechBegin: beginMechanism(); return;
-  case Role::MechEnd: endMechanism(); return;
-  case Role::ProcBegin: beginProcedure(); return;
-  case Role::ProcEnd: endProcedure(); return;
-  case Role::Timed: beginTimed(); return;
-  case Role::MacroBegin: beginMacro(static_cast<MacroStack>(statement.row->variant)); return;
-  case Role::MacroEnd: endMacro(static_cast<MacroStack>(statement.row->variant)); return;
-  case Role::NoCode:
-  case Role::Macro:
-  case Role::NotBuilt:
-  case Role::Module:
-  case Role::ModuleEnd:
-  case Role::Local:
-  case Role::LocalEnd:
-  case Role::Stop:
-  case Role::Dfm:
-  case Role::Ds:
-  case Role::Str:
-  case Role::Equi:
-  case Role::MemberSize: return;
-  }
-}
-
-// The flags of a macro override what its statements did (man. l.20536). One that pushes does so before them, as
-// LDR before its load.
-void Lowering::beginMacro(MacroStack stack) {
-  macroStates_.push_back({depth_, equationOpen_, program_.diagnostics.errorCount()});
-  if (stack != MacroStack::Push) return;
-  if (equationOpen_)
-    pushRlo();
-  else
-    equation_ = statement_->range();
-  equationOpen_ = false;
-}
-
-void Lowering::endMacro(MacroStack stack) {
-  if (macroStates_.empty()) return;
-  const auto [depth, open, errors] = macroStates_.back();
-  macroStates_.pop_back();
-  switch (stack) {
-  case MacroStack::Normal: return;
-  case MacroStack::Begin: depth_ = 0; return;
-  case MacroStack::End: depth_ = depth, equationOpen_ = false; return;
-  case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), equationOpen_ = true; return;
-  case MacroStack::Pop:
-    if (depth == 0 && program_.diagnostics.errorCount() == errors)
-      program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << statement_->row->info.mnemonic;
-    depth_ = depth == 0 ? 0 : depth - 1, equationOpen_ = open;
-    return;
+  case Role::Code: return lowerCode();
+  case Role::MechBegin: return beginMechanism();
+  case Role::MechEnd: return endMechanism();
+  case Role::ProcBegin: return beginProcedure();
+  case Role::ProcEnd: return endProcedure();
+  case Role::Timed: return beginTimed();
+  case Role::MacroBegin: return applyStack(typed_->stack);
+  default: return; // nothing that runs
   }
 }
 
 void Lowering::lowerCode() {
   const Row& row = *statement_->row;
-  const bool parsed = parser_.parse(*statement_, operands_);
-  checkPreserved(row);
   beginRungFor(row);
   out_->statement(sourceOf(*statement_));
-  applyStack(row);
+  applyStack(typed_->stack);
   if (marks_ != nullptr) markDecision(row);
   const uint32_t rung = out_->openRung();
-  if (parsed && row.lower != nullptr) row.lower(*this, operands_, row.variant);
+  row.lower(*this, typedProgram_.operandsOf(*typed_), row.variant);
   if (marks_ != nullptr) markResult(row, rung);
-  settle(row);
 }
 
 // ---- marks ----------------------------------------------------------------------------------------------------------
@@ -313,101 +246,13 @@ void Lowering::markResult(const Row& row, uint32_t rung) {
 // An equation begins its own rung; long runs of data instructions are cut where a value is loaded.
 void Lowering::beginRungFor(const Row& row) {
   const bool loads = (row.effects & kPushes) != 0 || row.info.mnemonic == "LOD";
-  const bool begins = (row.effects & kPushes) != 0 && !equationOpen_ && out_->length() > 0;
+  const bool begins = typed_->stack.begins && out_->length() > 0;
   if (begins || (loads && out_->length() >= kLongRung) || out_->length() >= kLongestRung) out_->cut();
 }
 
-// Values beyond the stack's end are lost; that is reported once, also where they are taken off.
-void Lowering::pushRlo() {
-  if (depth_ < kStackDepth) {
-    r().setStack(depth_++, r().rlo());
-  } else if (lost_++ == 0) {
-    program_.diagnostics.report(Diag::StackOverflow, statement_->range()) << kStackDepth;
-  }
-}
-
-// Pushing and popping are decided in the order of the source (man. l.225-275).
-void Lowering::applyStack(const Row& row) {
-  popped_ = {};
-  if (row.effects & kPushes) {
-    if (equationOpen_) {
-      pushRlo();
-    } else {
-      equation_ = statement_->range();
-      spoiled_ = false;
-    }
-    equationOpen_ = true;
-  }
-  if ((row.effects & kJoins) && statement_->tokenCount == 0) {
-    if (depth_ == 0) {
-      if (lost_ > 0)
-        --lost_;
-      else
-        program_.diagnostics.report(Diag::StackUnderflow, statement_->range()) << row.info.mnemonic;
-      popped_ = r().rlo();
-    } else {
-      popped_ = r().stack(--depth_);
-    }
-  }
-}
-
-void Lowering::checkPreserved(const Row& row) {
-  const auto report = [&](bool& lost, std::string_view name) {
-    program_.diagnostics.report(Diag::ValueNotPreserved, statement_->range()) << name;
-    lost = false;
-  };
-  const bool joins = (row.effects & kJoins) != 0;
-  if (rloLost_ && (row.effects & kReadsRlo))
-    report(rloLost_, "RLO");
-  else if (rloLost_ && joins)
-    report(rloLost_, "RLO");
-  if (drLost_ && (row.effects & kReadsDr)) report(drLost_, "DR");
-}
-
-void Lowering::settle(const Row& row) {
-  if (row.info.terminating) equationOpen_ = false;
-  if ((row.effects & kWaits) && program_.mayWait(statement_->unit)) {
-    rloLost_ = true;
-    drLost_ = (row.effects & kKeepsDr) == 0;
-  }
-  if (row.effects & kSetsRlo) rloLost_ = false;
-  if (row.effects & kSetsDr) drLost_ = false;
-}
-
-void Lowering::checkBalance(SourceRange at, std::string_view where) {
-  if (depth_ != 0)
-    program_.diagnostics.report(Diag::UnbalancedStack, at) << std::to_string(depth_) +
-                                                                  (depth_ == 1 ? " value is" : " values are") +
-                                                                  " left on the stack at " + std::string(where);
-  else if (equationOpen_ && !spoiled_)
-    program_.diagnostics.report(Diag::UnterminatedEquation, equation_).note(at, "it is still open here");
-  depth_ = 0;
-  lost_ = 0;
-}
-
-void Lowering::endEquation(SourceRange at, std::string_view where) {
-  checkBalance(at, where);
-  equationOpen_ = false;
-}
-
-void Lowering::note(Arithmetic kind) {
-  switch (kind) {
-  case Arithmetic::LoadInteger: mixed_ = Mixed::No; return;
-  case Arithmetic::LoadReal: mixed_ = Mixed::Real; return;
-  case Arithmetic::Integer:
-    if (mixed_ != Mixed::Real) return;
-    mixed_ = Mixed::IntegerOnReal;
-    mixedAt_ = statement_->range();
-    mixedBy_ = statement_->row->info.mnemonic;
-    return;
-  case Arithmetic::Real:
-    if (mixed_ == Mixed::IntegerOnReal)
-      program_.diagnostics.report(Diag::MixedRealInteger, mixedAt_)
-              .note(statement_->range(), "this works on the real value again")
-          << mixedBy_;
-    mixed_ = Mixed::Real;
-    return;
-  }
+void Lowering::applyStack(const StackUse& use) {
+  if (use.pushed != kNone) r().setStack(use.pushed, r().rlo());
+  popped_ = use.popped == kNone ? ValueId{} : r().stack(use.popped);
 }
 
 // ---- the compiler's own routines
@@ -458,7 +303,7 @@ void Lowering::makeStart() {
 // Tasks for the procedures that the control calls (man. l.1614-1644): RLO and DR come from the host.
 void Lowering::makeEvents() {
   for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"}) {
-    const uint32_t procedure = procedureNamed(name);
+    const uint32_t procedure = program_.procedureNamed(name);
     if (procedure == kNone) continue;
     const ir::RoutineId routine = newRoutine("@" + std::string(name));
     out_ = newBuilder(routine);

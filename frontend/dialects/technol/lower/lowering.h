@@ -1,6 +1,5 @@
-// Statements to IR. Lowering walks the modules in the order of the source and keeps what the language decides
-// statically: the depth of the stack, whether an equation is open, which registers are lost behind a wait. The lowering
-// functions of the rows (lower_*.cpp) use its public part only.
+// Checked statements to IR. Lowering walks the modules; the lowering functions of the rows (lower_*.cpp) use its public
+// part only.
 #pragma once
 
 #include <array>
@@ -10,11 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "frontend/dialects/technol/check/operand.h"
+#include "frontend/dialects/technol/check/typed.h"
 #include "frontend/dialects/technol/lower/host_cells.h"
 #include "frontend/dialects/technol/lower/routine_builder.h"
 #include "frontend/dialects/technol/program.h"
-#include "frontend/dialects/technol/read/macros.h"
 #include "ir/core/marks.h"
 
 namespace rung::frontend::technol {
@@ -72,8 +70,8 @@ struct LoweredModule {
 
 class Lowering {
 public:
-  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` may be null.
-  Lowering(Program& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks);
+  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` may be null. The program has no errors.
+  Lowering(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks);
   void run();
   const std::vector<LoweredModule>& modules() const { return modules_; }
   // Procedures that the control calls by their reserved names (man. l.1609).
@@ -85,7 +83,7 @@ public:
   ir::ServiceId service(std::string_view signature);
 
   // ---- for the lowering functions --------------------------------------------------------------------------------
-  Program& program() { return program_; }
+  const Program& program() const { return program_; }
   ir::RungBuilder& b() { return out_->b(); }
   Registers& r() { return out_->registers(); }
   RoutineBuilder& out() { return *out_; }
@@ -104,7 +102,7 @@ public:
   // A constant or a cell; `guard` as for reach.
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
-  uint32_t bytesOf(ir::SpaceId space) const { return spaceBytes_[space.index]; }
+  uint32_t bytesOf(ir::SpaceId space) const { return program_.bytesOf(space); }
   // Stops the program where `bad` is 1: an access outside the memory.
   void protect(ir::ValueId bad);
   // A hidden space that holds the bytes.
@@ -124,10 +122,10 @@ public:
   ir::ValueId loadCount(const CountCell& cell);
   void storeCount(const CountCell& cell, ir::ValueId value);
 
-  // Code label of a program's label after the check that the jump may go there; kNone after a report.
+  // Code label of a program's label.
   uint32_t jumpTarget(const Operand& label);
-  // The unit that waits where the statement waits; null where it may not wait (reported while reading).
-  Sequence* sequence();
+  // The unit that waits where the statement waits.
+  Sequence& sequence() { return sequences_.back(); }
   // `role` tells the states of one instruction apart.
   uint32_t newState(Sequence& sequence, std::string_view role = {});
   void addPoint(Sequence& sequence, std::string_view role);
@@ -137,7 +135,7 @@ public:
   // The line number of the state in which a mechanism waits.
   void storeLine(const Sequence& sequence, uint32_t line);
   void initMechanism(uint32_t mechanism);
-  void callProcedure(uint32_t procedure, SourceRange at, ir::ValueId cond = {});
+  void callProcedure(uint32_t procedure, ir::ValueId cond = {});
   // _ON_ESET, or kNone.
   uint32_t onMessage() const { return onMessage_; }
   // The procedure that is being lowered, or kNone.
@@ -146,13 +144,6 @@ public:
   void saveRegisters();
   void restoreRegisters();
   void addBitMessage(BitMessage message, ir::ValueId number, ir::ValueId subId);
-
-  // The rules on mixing real and integer arithmetic (man. l.1551).
-  enum class Arithmetic : uint8_t { LoadInteger, LoadReal, Integer, Real };
-  void note(Arithmetic kind);
-  // Where the stack must be empty: CHECK, and the borders of units, which end the equation too.
-  void checkBalance(SourceRange at, std::string_view where);
-  void endEquation(SourceRange at, std::string_view where);
 
 private:
   void lowerModule(ModuleKind kind);
@@ -170,13 +161,9 @@ private:
   void lowerStatement(const Statement& statement, uint32_t index);
   void bindLabels(const Statement& statement, uint32_t index);
   void lowerCode();
-  void beginMacro(MacroStack stack);
-  void endMacro(MacroStack stack);
+  Sequence* ownSequence();
   void beginRungFor(const Row& row);
-  void pushRlo();
-  void applyStack(const Row& row);
-  void checkPreserved(const Row& row);
-  void settle(const Row& row);
+  void applyStack(const StackUse& use);
   void mark(ir::MarkKind kind, ir::ValueId value);
   void markDecision(const Row& row);
   void markResult(const Row& row, uint32_t rung);
@@ -199,51 +186,29 @@ private:
   void makeEvents();
   void makeBitMessages();
   void forgetBitMessages();
-  void checkRecursion();
-  uint32_t procedureNamed(std::string_view name) const;
   ir::RoutineId newRoutine(std::string name);
   std::unique_ptr<RoutineBuilder> newBuilder(ir::RoutineId routine);
   RungSource sourceOf(const Statement& statement) const;
 
-  Program& program_;
+  const Program& program_;
+  const TypedProgram& typedProgram_;
   ir::Module& module_;
   uint32_t periodUs_;
   ir::Marks* marks_;
   RegisterSlots slots_;
-  std::vector<uint32_t> spaceBytes_;
-  OperandParser parser_;
-  std::vector<Operand> operands_;
 
   std::unique_ptr<RoutineBuilder> out_;
   std::vector<std::unique_ptr<RoutineBuilder>> outer_; // interrupted by procedures
   std::vector<uint32_t> outerProcedures_;
   const Statement* statement_ = nullptr;
+  const Typed* typed_ = nullptr;
   ModuleKind kind_ = ModuleKind::Main;
   uint32_t procedure_ = kNone;
   uint32_t onMessage_ = kNone;
   std::vector<Sequence> sequences_;
   std::vector<uint32_t> codeLabels_; // by program label
 
-  // The static state of the equation (man. l.225-238).
-  bool equationOpen_ = false;
-  SourceRange equation_;
-  bool spoiled_ = false; // an unknown statement stands in it
-  uint32_t depth_ = 0;
-  uint32_t lost_ = 0; // values that the stack did not hold
   ir::ValueId popped_;
-  // In front of a macro with an effect of its own.
-  struct MacroState {
-    uint32_t depth = 0;
-    bool open = false;
-    size_t errors = 0;
-  };
-  std::vector<MacroState> macroStates_;
-  bool rloLost_ = false;
-  bool drLost_ = false;
-  enum class Mixed : uint8_t { No, Real, IntegerOnReal } mixed_ = Mixed::No;
-  SourceRange mixedAt_;
-  std::string_view mixedBy_;
-
   std::vector<LoweredModule> modules_;
   std::vector<LoweredModule> events_;
   std::vector<std::string> eventNames_;

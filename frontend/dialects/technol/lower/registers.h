@@ -7,11 +7,10 @@
 
 #include <array>
 
+#include "frontend/dialects/technol/check/typed.h"
 #include "ir/core/builder.h"
 
 namespace rung::frontend::technol {
-
-inline constexpr uint32_t kStackDepth = 8; // man. l.62
 
 // The slots behind the registers, one set a module.
 struct RegisterSlots {

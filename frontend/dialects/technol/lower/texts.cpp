@@ -8,38 +8,28 @@ namespace rung::frontend::technol {
 using ir::Type;
 using ir::ValueId;
 
-constexpr uint32_t kLongestText = 0xFFFF;
-
-bool textOf(Lowering& l, const Operand& operand, Text& text) {
+Text textOf(Lowering& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
+  Text text;
   if (operand.form == Operand::Form::Text) {
     text.literal = true;
     text.most = static_cast<uint32_t>(operand.text.size());
     text.room = b.i32(text.most);
     text.area = text.most == 0 ? Area{.space = {}, .bytes = 0, .fixed = true, .first = 0, .at = b.i32(0)}
                                : fixedArea(l, l.constantBytes(operand.text), text.most, 0);
-    return true;
-  }
-  if (operand.end - operand.begin > kLongestText + 1) {
-    l.program().diagnostics.report(Diag::TooLarge, operand.range) << "characters in a text" << kLongestText;
-    return false;
-  }
-  if (!operand.indexed && (operand.size == 0 || operand.place.byte < operand.begin)) {
-    l.program().diagnostics.report(Diag::AddressOutOfRange, operand.range)
-        << OperandParser::spell(operand) << "the text";
-    return false;
+    return text;
   }
   text.area = areaOf(l, operand);
   if (!operand.indexed) {
     text.most = operand.size - 1;
     text.room = b.i32(text.most);
-    return true;
+    return text;
   }
   text.most = static_cast<uint32_t>(operand.end - 1 - operand.begin);
   const ValueId at = b.sub(text.area.at, b.i32(operand.begin));
   l.protect(b.ltU(b.i32(text.most), at));
   text.room = b.sub(b.i32(text.most), at);
-  return true;
+  return text;
 }
 
 namespace {

@@ -14,9 +14,8 @@ struct Text {
 };
 
 inline Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
-// False after a report: a text whose address lies outside it is the program's mistake; with BX it shows when the
-// program runs.
-bool textOf(Lowering& l, const Operand& operand, Text& text);
+// An index that leads outside the text stops the program.
+Text textOf(Lowering& l, const Operand& operand);
 // Characters in front of the terminator; a text without one has as many as it holds.
 Length lengthOf(Lowering& l, const Text& text);
 void storeTerminator(Lowering& l, const Area& area, ir::ValueId at, ir::ValueId cond);

@@ -426,50 +426,8 @@ void readProgram(Program& program, std::span<const FileId> files) {
   placeData(program);
 }
 
-std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens) {
-  std::vector<std::span<const Token>> operands;
-  if (tokens.empty()) return operands;
-  int depth = 0;
-  size_t first = 0;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].is('(') || tokens[i].is('[') || tokens[i].is('<')) ++depth;
-    if (tokens[i].is(')') || tokens[i].is(']') || tokens[i].is('>')) --depth;
-    if (!tokens[i].is(',') || depth > 0) continue;
-    operands.push_back(tokens.subspan(first, i - first));
-    first = i + 1;
-  }
-  operands.push_back(tokens.subspan(first));
-  return operands;
-}
-
-SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens, SourceRange otherwise) {
-  if (tokens.empty()) return otherwise;
-  const SourceRange first = tokens.front().range(), last = tokens.back().range();
-  const bool inOrder = first.begin <= last.begin && first.end <= last.end;
-  return inOrder && sources.fileOf(first.begin) == sources.fileOf(last.begin) ? join(first, last) : first;
-}
-
-bool isOneWord(std::span<const Token> tokens) {
-  if (tokens.empty() || tokens[0].kind == TokenKind::Punct) return false;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    if (tokens[i].kind == TokenKind::Text) return false;
-    if (i > 0 && tokens[i - 1].range().end != tokens[i].pos) return false;
-  }
-  return true;
-}
-
-std::string spelled(std::span<const Token> tokens) {
-  std::string text;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    if (i > 0 && tokens[i - 1].range().end < tokens[i].pos) text += ' ';
-    const bool quoted = tokens[i].kind == TokenKind::Text;
-    text.append(quoted ? "'" : "").append(tokens[i].text).append(quoted ? "'" : "");
-  }
-  return text;
-}
-
 std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
-                                     SourceRange otherwise) {
+                                     SourceRange otherwise, std::vector<NameUse>* names) {
   const auto fail = [&](Diag code, const Token& token) -> std::optional<int64_t> {
     program.diagnostics.report(code, token.range()) << token.text;
     return std::nullopt;
@@ -510,6 +468,7 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
         return std::nullopt;
       }
       term = program.symbols[symbol].value;
+      if (names != nullptr) names->push_back({token.range(), symbol});
     }
     sum = static_cast<int64_t>(static_cast<uint64_t>(sum) + static_cast<uint64_t>(sign) * static_cast<uint64_t>(term));
     sign = 1;

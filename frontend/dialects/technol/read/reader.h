@@ -10,8 +10,8 @@ namespace rung::frontend::technol {
 void readProgram(Program& program, std::span<const FileId> files);
 
 // Value of a constant expression: number, character, constant, member, with + and - between. Reports and returns
-// nothing when it is none.
+// nothing when it is none. `names`: where its names are noted; may be null.
 std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
-                                     SourceRange otherwise);
+                                     SourceRange otherwise, std::vector<NameUse>* names = nullptr);
 
 } // namespace rung::frontend::technol

@@ -216,6 +216,19 @@ static bool looksLikeNumber(std::string_view word) {
   return (hex || word.find_first_of("0123456789") != std::string_view::npos) && parseNumber("0" + std::string(word));
 }
 
+std::string_view describe(ir::Type type) {
+  switch (type) {
+  case ir::Type::Bit: return "a bit";
+  case ir::Type::I8: return "a BYTE";
+  case ir::Type::I16: return "a WORD";
+  case ir::Type::I32: return "a DWORD";
+  case ir::Type::I64: return "a QWORD";
+  case ir::Type::F64: return "a REAL";
+  case ir::Type::None: break;
+  }
+  return "a cell of several bytes";
+}
+
 std::string_view describe(const Symbol& symbol) {
   switch (symbol.kind) {
   case SymbolKind::Constant: return "a constant";
@@ -228,13 +241,7 @@ std::string_view describe(const Symbol& symbol) {
   case SymbolKind::Mechanism: return "a mechanism";
   case SymbolKind::Cell: break;
   }
-  switch (symbol.type) {
-  case ir::Type::I8: return "a BYTE";
-  case ir::Type::I16: return "a WORD";
-  case ir::Type::I32: return "a DWRD";
-  case ir::Type::F64: return "a REAL";
-  default: return "a cell of several bytes";
-  }
+  return describe(symbol.type);
 }
 
 void SymbolTable::reportUndefined(const Token& name, uint32_t file, const char* structure) {
@@ -288,8 +295,8 @@ uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {
   return added;
 }
 
-const Symbol* SymbolTable::findMember(const char* structure, std::string_view member) {
-  if (*structure == 0) return nullptr;
+uint32_t SymbolTable::findMember(const char* structure, std::string_view member) {
+  if (*structure == 0) return kNone;
   const std::string full = std::string(structure) + "." + std::string(member);
   const auto [entry, isNew] = members_.emplace(text::upper(full), kNone);
   if (isNew) {
@@ -298,7 +305,7 @@ const Symbol* SymbolTable::findMember(const char* structure, std::string_view me
       symbols_.push_back(fromSignal(*signal));
     }
   }
-  return entry->second == kNone ? nullptr : &symbols_[entry->second];
+  return entry->second;
 }
 
 } // namespace rung::frontend::technol

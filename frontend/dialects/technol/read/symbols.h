@@ -22,6 +22,7 @@ inline constexpr ir::SpaceId kBlockSpace{4};     // "BLK": the queue of command 
 inline constexpr ir::SpaceId kExchangeSpace{5};  // "IO": variables of MAP_* and DEF_*
 inline constexpr uint32_t kQueuedBlocks = 16;
 inline constexpr uint32_t kMechanismBytes = 3;
+inline constexpr uint32_t kRegisterBytes = 64;
 inline constexpr size_t kSignificant = 31;
 
 // Behind a name that is local to one use of a macro; no program can write it.
@@ -53,8 +54,8 @@ public:
   void reportUndefined(const Token& name, uint32_t file, const char* structure);
   // A bit name that may stand behind an address only.
   uint32_t findWeight(std::string_view name, uint32_t file);
-  // Where a member of an interface structure lies; null when it has none of this name.
-  const Symbol* findMember(const char* structure, std::string_view member);
+  // A member of an interface structure; kNone when it has none of this name.
+  uint32_t findMember(const char* structure, std::string_view member);
 
   Symbol& operator[](uint32_t index) { return symbols_[index]; }
   const Symbol& operator[](uint32_t index) const { return symbols_[index]; }

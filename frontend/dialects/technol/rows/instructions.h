@@ -1,6 +1,7 @@
 // The table of TECHNOL: a row is the reference's InstructionInfo, what the statement is to the structure of a program
-// (Role), what it does to the registers as far as it shows without its operands (Effect), and its lowering function.
-// A new instruction is one row, one lowering function (often shared, told apart by `variant`), one scenario.
+// (Role), what it does to the registers as far as it shows without its operands (Effect), what is checked beyond the
+// kinds of its operands, and its lowering function. A new instruction is one row, one lowering function (often shared,
+// told apart by `variant`), one scenario.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 namespace rung::frontend::technol {
 
 class Lowering;
+struct CheckContext;
 struct Operand;
 
 enum class Role : uint8_t {
@@ -55,12 +57,14 @@ enum Effect : uint16_t {
   kDeclares = 4096, // its first operand names a variable that it declares; variant: nc::ExchangeKind
 };
 
+using CheckFn = void (*)(const CheckContext& context, std::span<const Operand> operands, int variant);
 using LowerFn = void (*)(Lowering& lowering, std::span<const Operand> operands, int variant);
 
 struct Row {
   InstructionInfo info;
   Role role = Role::Code;
   uint16_t effects = 0;
+  CheckFn check = nullptr; // of operands that are right each by itself
   LowerFn lower = nullptr;
   int variant = 0;
 };

@@ -1,7 +1,8 @@
 // The classes of operands: what may be written for each, for the parser, the reference and generated tests.
+#include "frontend/dialects/technol/rows/operand_kinds.h"
+
 #include <array>
 
-#include "frontend/dialects/technol/check/operand.h"
 #include "rtlib/nc/technol/exchange.h"
 #include "rtlib/nc/technol/licences.h"
 

@@ -1,5 +1,6 @@
 // Rows: bit logic and jumps (man. ch. 3.5-3.8). Included by instructions.cpp only.
 #pragma once
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/instructions.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
@@ -90,7 +91,8 @@ inline constexpr Row kBitRows[] = {
               .ref = "3.6, l.232",
               .doc = "The compiler checks here that nothing is left on the stack.",
               .example = "LDR  GO\nLA   DOOR\nWR   PUMP\nCHECK"},
-     .lower = lowerCheck},
+     .check = checkEmptyStack,
+     .lower = lowerNothing},
     {.info = {.mnemonic = "WR",
               .title = "write",
               .group = "bit write",
@@ -161,6 +163,7 @@ inline constexpr Row kBitRows[] = {
               .doc = "Control goes to the label, which is in the same unit.",
               .example = "      JUM  NEXT\n      FL   1,LAMP\nNEXT: LOD  COUNT"},
      .effects = kJumps,
+     .check = checkJump,
      .lower = lowerJump,
      .variant = kAlways},
     {.info = {.mnemonic = "JL0",
@@ -173,6 +176,7 @@ inline constexpr Row kBitRows[] = {
               .doc = "Control goes to the label when RLO is 0.",
               .example = "      LDR  GO\n      JL0  NEXT\n      FL   1,LAMP\nNEXT: LOD  COUNT"},
      .effects = kJumps | kReadsRlo,
+     .check = checkJump,
      .lower = lowerJump,
      .variant = kIfNotRlo},
     {.info = {.mnemonic = "JL1",
@@ -184,6 +188,7 @@ inline constexpr Row kBitRows[] = {
               .doc = "Control goes to the label when RLO is 1.",
               .example = "      LDR  GO\n      JL1  NEXT\n      FL   0,LAMP\nNEXT: LOD  COUNT"},
      .effects = kJumps | kReadsRlo,
+     .check = checkJump,
      .lower = lowerJump,
      .variant = kIfRlo},
 };

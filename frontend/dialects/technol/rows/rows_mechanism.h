@@ -1,5 +1,6 @@
 // Rows: mechanisms and their states (man. ch. 4). Included by instructions.cpp only.
 #pragma once
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
 
@@ -94,6 +95,7 @@ inline constexpr Row kMechanismRows[] = {
               .doc = "As EX0, but at most for the time; then control goes to the label with the code in DR.",
               .example = "LDR  CHAIN_STOPPED\nTEX0 -,250,ERROR,4"},
      .effects = kWaits | kKeepsDr | kReadsRlo,
+     .check = checkTimedEx,
      .lower = lowerTimedEx,
      .variant = 0},
     {.info = {.mnemonic = "TEX1",
@@ -107,6 +109,7 @@ inline constexpr Row kMechanismRows[] = {
               .doc = "As EX1, but at most for the time; then control goes to the label with the code in DR.",
               .example = "LDR  DOOR\nTEX1 -,250,ERROR,5"},
      .effects = kWaits | kKeepsDr | kReadsRlo,
+     .check = checkTimedEx,
      .lower = lowerTimedEx,
      .variant = 1},
     {.info = {.mnemonic = "TIM",

@@ -1,5 +1,6 @@
 // Rows: messages (man. ch. 14). Included by instructions.cpp only.
 #pragma once
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
 
@@ -29,6 +30,7 @@ inline constexpr Row kMessageRows[] = {
               .doc = "Generates a message each time it is executed.",
               .example = "ESET 12,-,-,BYTE.SPEED"},
      .effects = kReadsDr,
+     .check = checkMessage,
      .lower = lowerMessage,
      .variant = kAlways},
     {.info = {.mnemonic = "ESET1",
@@ -40,6 +42,7 @@ inline constexpr Row kMessageRows[] = {
               .doc = "As ESET, but only while RLO is 1.",
               .example = "LDR  DOOR\nESET1 12"},
      .effects = kReadsDr | kReadsRlo,
+     .check = checkMessage,
      .lower = lowerMessage,
      .variant = kIfRlo},
     {.info = {.mnemonic = "EDEF",
@@ -63,6 +66,7 @@ inline constexpr Row kMessageRows[] = {
                      "when the message comes up.",
               .example = "EDEF CELL1,BIT0,1004,-,1001b,CELL4"},
      .effects = kInitOnly,
+     .check = checkBitMessage,
      .lower = lowerBitMessage},
 };
 

@@ -1,7 +1,9 @@
 // Rows: inputs and outputs, sharing, configuration, constants (man. ch. 10, 16, 18, 27). Included by instructions.cpp
 // only.
 #pragma once
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/exchange.h"
@@ -51,6 +53,7 @@ inline constexpr Row kNcRows[] = {
                      "configuration's. Shared by itself.",
               .example = "MAP_IN LIMIT_X,'inLimX',0,FAST"},
      .effects = kInitOnly | kDeclares,
+     .check = checkDefine,
      .lower = lowerDefine,
      .variant = static_cast<int>(nc::ExchangeKind::MapIn)},
     {.info = {.mnemonic = "MAP_OUT",
@@ -65,6 +68,7 @@ inline constexpr Row kNcRows[] = {
                      "Shared by itself.",
               .example = "MAP_OUT ENABLE_X,'outXEn'"},
      .effects = kInitOnly | kDeclares,
+     .check = checkDefine,
      .lower = lowerDefine,
      .variant = static_cast<int>(nc::ExchangeKind::MapOut)},
     {.info = {.mnemonic = "MAP_AIN",
@@ -78,6 +82,7 @@ inline constexpr Row kNcRows[] = {
                      "variable takes the default, which else is the configuration's. Shared by itself.",
               .example = "MAP_AIN VOLTAGE,'PlasmaVoltage',120.0"},
      .effects = kInitOnly | kDeclares,
+     .check = checkDefine,
      .lower = lowerDefine,
      .variant = static_cast<int>(nc::ExchangeKind::MapAin)},
     {.info = {.mnemonic = "MAP_AOUT",
@@ -91,6 +96,7 @@ inline constexpr Row kNcRows[] = {
                      "default, which else is the configuration's. Shared by itself.",
               .example = "MAP_AOUT FLOW,'CutFlow',30.0"},
      .effects = kInitOnly | kDeclares,
+     .check = checkDefine,
      .lower = lowerDefine,
      .variant = static_cast<int>(nc::ExchangeKind::MapAout)},
     {.info = {.mnemonic = "DEF_IN",
@@ -105,6 +111,7 @@ inline constexpr Row kNcRows[] = {
                      "one. Shared by itself.",
               .example = "DEF_IN FEED,'Feed',TYPE_DWORD,222,ONDEMAND"},
      .effects = kInitOnly | kDeclares,
+     .check = checkDefine,
      .lower = lowerDefine,
      .variant = static_cast<int>(nc::ExchangeKind::DefIn)},
     {.info = {.mnemonic = "DEF_OUT",
@@ -119,6 +126,7 @@ inline constexpr Row kNcRows[] = {
                      "default, if there is one. Shared by itself.",
               .example = "DEF_OUT TORQUE[8],'Torque',TYPE_REAL"},
      .effects = kInitOnly | kDeclares,
+     .check = checkDefine,
      .lower = lowerDefine,
      .variant = static_cast<int>(nc::ExchangeKind::DefOut)},
     {.info = {.mnemonic = "UPDATE_IN",
@@ -131,6 +139,7 @@ inline constexpr Row kNcRows[] = {
                      "connected it stays.",
               .example = "UPDATE_IN INPUT1"},
      .effects = 0,
+     .check = checkUpdate,
      .lower = lowerUpdate},
     {.info = {.mnemonic = "SHARE_VAR",
               .title = "gives a variable a public name",
@@ -142,6 +151,7 @@ inline constexpr Row kNcRows[] = {
                      "RLO becomes 1 where it is shared, 0 where the name has another meaning already.",
               .example = "SHARE_VAR POS,'PRESSURE',TYPE_DWORD,RATIO,RATIO"},
      .effects = kInitOnly | kSetsRlo,
+     .check = checkShareVariable,
      .lower = lowerShareVariable},
     {.info = {.mnemonic = "SHARE_BIT",
               .title = "gives a bit a public name",
@@ -153,6 +163,7 @@ inline constexpr Row kNcRows[] = {
                      "already.",
               .example = "SHARE_BIT CELL1,'LIMIT',LAMP"},
      .effects = kInitOnly | kSetsRlo,
+     .check = checkShareBit,
      .lower = lowerShareBit},
     {.info = {.mnemonic = "CNF_GET_INT",
               .title = "integer of the configuration",
@@ -163,6 +174,7 @@ inline constexpr Row kNcRows[] = {
                      "the default is stored, if there is one.",
               .example = "CNF_GET_INT POS,'TIM_WATER',6"},
      .effects = kSetsRlo,
+     .check = checkConfiguration,
      .lower = lowerConfiguration,
      .variant = static_cast<int>(nc::ConfigurationKind::Integer)},
     {.info = {.mnemonic = "CNF_GET_REAL",
@@ -174,6 +186,7 @@ inline constexpr Row kNcRows[] = {
                      "default is stored, if there is one.",
               .example = "CNF_GET_REAL RATIO,'GAIN',CNST.0.2"},
      .effects = kSetsRlo,
+     .check = checkConfiguration,
      .lower = lowerConfiguration,
      .variant = static_cast<int>(nc::ConfigurationKind::Real)},
     {.info = {.mnemonic = "CNF_GET_STR",
@@ -185,6 +198,7 @@ inline constexpr Row kNcRows[] = {
                      "else 0, and the default is stored, if there is one.",
               .example = "CNF_GET_STR TEXT1,'TITLE','Ready'"},
      .effects = kSetsRlo,
+     .check = checkConfiguration,
      .lower = lowerConfiguration,
      .variant = static_cast<int>(nc::ConfigurationKind::Text)},
     {.info = {.mnemonic = "CNF_GET_BIN",
@@ -196,6 +210,7 @@ inline constexpr Row kNcRows[] = {
                      "and the default is stored, if there is one.",
               .example = "CNF_GET_BIN TEXT1,'MASK'"},
      .effects = kSetsRlo,
+     .check = checkConfiguration,
      .lower = lowerConfiguration,
      .variant = static_cast<int>(nc::ConfigurationKind::Binary)},
     {.info = {.mnemonic = "CNF_GET_BIT",
@@ -207,6 +222,7 @@ inline constexpr Row kNcRows[] = {
                      "else 0, and the default is stored, if there is one.",
               .example = "CNF_GET_BIT LAMP,'LIM_SWITCH',0"},
      .effects = kSetsRlo,
+     .check = checkConfiguration,
      .lower = lowerConfiguration,
      .variant = static_cast<int>(nc::ConfigurationKind::Bit)},
     {.info = {.mnemonic = "CONST_GET",
@@ -218,6 +234,7 @@ inline constexpr Row kNcRows[] = {
                      "DR become 0 and the cell stays.",
               .example = "CONST_GET POS,'PUMP_START'"},
      .effects = kSetsRlo | kSetsDr,
+     .check = checkConfiguration,
      .lower = lowerConfiguration,
      .variant = static_cast<int>(nc::ConfigurationKind::Constant)},
 };

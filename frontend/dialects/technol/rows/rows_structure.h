@@ -1,8 +1,9 @@
 // Rows: modules, declarations, procedures, macros, the ends of start and shutdown (man. ch. 3.4, 3.17, 5, 7, 22).
 // Included by instructions.cpp only.
 #pragma once
-#include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/host_cells.h"
+#include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
 
 namespace rung::frontend::technol {
@@ -123,6 +124,7 @@ inline constexpr Row kStructureRows[] = {
               .doc = "Runs a procedure and continues after the call; RLO and DR go in and come out.",
               .example = "PROC_CALL TOGGLE"},
      .effects = kSetsRlo | kSetsDr,
+     .check = checkCall,
      .lower = lowerCall},
     {.info = {.mnemonic = "MODULE_INIT_FINISHED",
               .title = "start is complete",

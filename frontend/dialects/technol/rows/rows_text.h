@@ -1,5 +1,6 @@
 // Rows: memory and texts (man. ch. 3.15, 3.18). Included by instructions.cpp only.
 #pragma once
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/instructions.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
@@ -21,6 +22,7 @@ inline constexpr Row kTextRows[] = {
               .doc = "Copies bytes from the first address to the second, also where the areas overlap. RLO and DR "
                      "stay.",
               .example = "MV   TABLE,ARRAY+8,8"},
+     .check = checkMoveMemory,
      .lower = lowerMoveMemory},
     {.info = {.mnemonic = "CLEAR",
               .title = "clear memory",
@@ -33,6 +35,7 @@ inline constexpr Row kTextRows[] = {
                   "global data, mechanisms and timers into the state after power-up; INTERNAL,ALL clears the data of "
                   "DATA_LOCAL and the cells that instructions made for themselves. RLO and DR stay.",
               .example = "CLEAR ARRAY,ARRAY+16\nCLEAR GLOBAL,ALL"},
+     .check = checkClear,
      .lower = lowerClear},
     // ---- texts (man. ch. 3.18) ------------------------------------------------------------------------------------
     {.info = {.mnemonic = "STRCPY",
@@ -43,6 +46,7 @@ inline constexpr Row kTextRows[] = {
               .doc = "Copies characters from the second text to the first: with the terminator after the last one, "
                      "until the first text is full, or, without a terminator, as many as the third operand says.",
               .example = "STRCPY TEXT1,'READY'\nSTRCPY TEXT1+2,'AB',2"},
+     .check = checkTexts,
      .lower = lowerCopyText},
     {.info = {.mnemonic = "STRADD",
               .title = "join texts",
@@ -51,6 +55,7 @@ inline constexpr Row kTextRows[] = {
               .ref = "3.18, l.1701",
               .doc = "Appends the second text to the first, as far as that holds it.",
               .example = "STRADD TEXT1,' MM'"},
+     .check = checkTexts,
      .lower = lowerAddText},
     {.info = {.mnemonic = "BINSTR",
               .title = "number to text",
@@ -62,6 +67,7 @@ inline constexpr Row kTextRows[] = {
                   "sign, with DWRD 32. Digits before those are lost.",
               .example = "LOD    COUNT\nBINSTR TEXT1"},
      .effects = kReadsDr,
+     .check = checkNumberToText,
      .lower = lowerNumberToText,
      .variant = 0},
     {.info = {.mnemonic = "BCDSTR",
@@ -72,6 +78,7 @@ inline constexpr Row kTextRows[] = {
               .doc = "As BINSTR, for a number of 4 or, with DWRD, 8 BCD digits.",
               .example = "LOD    COUNT\nBCD\nBCDSTR TEXT1"},
      .effects = kReadsDr,
+     .check = checkNumberToText,
      .lower = lowerNumberToText,
      .variant = 1},
     {.info = {.mnemonic = "STRCMP",
@@ -84,6 +91,7 @@ inline constexpr Row kTextRows[] = {
                      "characters as the third operand says.",
               .example = "STRCMP TEXT1,'READY'\nWR   LAMP"},
      .effects = kSetsRlo,
+     .check = checkTexts,
      .lower = lowerCompareText},
     {.info = {.mnemonic = "MEMCPY",
               .title = "copy bytes of texts",
@@ -93,6 +101,7 @@ inline constexpr Row kTextRows[] = {
               .doc = "Copies bytes from the second text to the first, a terminator as any other, until the first is "
                      "full or as many as the third operand says.",
               .example = "MEMCPY TEXT1,TEXT1+4,2"},
+     .check = checkCopyBytes,
      .lower = lowerCopyBytes},
     {.info = {.mnemonic = "MEMCMP",
               .title = "compare bytes of texts",
@@ -104,6 +113,7 @@ inline constexpr Row kTextRows[] = {
                      "says; a terminator is a byte as any other.",
               .example = "MEMCMP TEXT1,TEXT1+4,2\nWR   LAMP"},
      .effects = kSetsRlo,
+     .check = checkCompareBytes,
      .lower = lowerCompareBytes},
 };
 

@@ -1,5 +1,6 @@
 // Rows: timed blocks, timers, counters (man. ch. 3.11). Included by instructions.cpp only.
 #pragma once
+#include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
 
@@ -60,6 +61,7 @@ inline constexpr Row kTimingRows[] = {
               .example =
                   "       DFTM01 NEXT\n       LDR  GO\n       LOD  50\n       TM   COUNT\n       WR   PUMP\nNEXT:"},
      .effects = kReadsRlo | kSetsRlo | kReadsDr,
+     .check = checkTimer,
      .lower = lowerTimer},
     {.info = {.mnemonic = "CU",
               .title = "counter up",

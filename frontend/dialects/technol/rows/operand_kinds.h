@@ -1,0 +1,45 @@
+// Kinds of operands: what a row may ask for.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "frontend/dialects/technol/records.h"
+
+namespace rung::frontend::technol {
+
+// Which type prefixes a kind takes.
+enum Prefix : uint8_t { kByte = 1, kWord = 2, kDword = 4, kQword = 8, kHigh = 16, kReal = 32, kCnst = 64 };
+
+enum class OperandClass : uint8_t { Bit, Value, Label, Name, Keyword, Text, Variable };
+
+struct OperandKind {
+  OperandKindInfo info;
+  OperandClass parse = OperandClass::Value;
+  uint8_t prefixes = 0;
+  bool sign = false;                   // `-` in front
+  bool cell = true;                    // a cell may stand there
+  bool constant = false;               // a constant may
+  bool notGiven = false;               // `-` or NIL may
+  bool empty = false;                  // nothing may, between commas
+  bool text = false;                   // a text may
+  bool weight = false;                 // a bit number without an address may: its place has no space
+  uint8_t types = 0xFF;                // ir::TypeSet of cells
+  SymbolKind name = SymbolKind::Label; // class Name
+  std::string_view keywords = {};      // parted by blanks; beside what else may stand there
+  const char* structure = nullptr;     // of the control: class Keyword, one of its members
+};
+
+std::span<const OperandKind> operandKinds();
+std::span<const OperandKindInfo> operandKindInfos();
+// By its name; null when there is none.
+const OperandKind* findOperandKind(std::string_view kind);
+
+// The classes that name variables of MAP_* and DEF_*, and a bit for its number.
+inline constexpr std::string_view kNewBit = "new bit";
+inline constexpr std::string_view kNewReal = "new real";
+inline constexpr std::string_view kNewVariable = "new variable";
+inline constexpr std::string_view kLogicalInput = "logical input";
+inline constexpr std::string_view kBitName = "name of a bit";
+
+} // namespace rung::frontend::technol

@@ -88,6 +88,7 @@ TypedProgram checkProgram(Program& program) {
   for (const ModulePart& part : program.parts)
     if (part.kind != ModuleKind::Data) PartChecker(program, typed, parser, calls).check(part);
   calls.check(program);
+  program.symbols.reportUndefined();
   return typed;
 }
 

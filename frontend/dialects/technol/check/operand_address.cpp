@@ -182,7 +182,7 @@ bool OperandParser::addMember(const Token& member, Address& out) {
     return true;
   }
   const uint32_t index = note(member, program_.symbols.find(member.text, file_));
-  if (index == kNone) return program_.symbols.reportUndefined(member, file_, out.structure), false;
+  if (index == kNone) return program_.symbols.noteUndefined(member, file_, {.structure = out.structure}), false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Constant) {
@@ -282,7 +282,7 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   if (!hasBase) return false;
   const uint32_t member = address.hasBase ? program_.symbols.findMember(address.structure, name.text) : kNone;
   const uint32_t index = note(name, member != kNone ? member : program_.symbols.findWeight(name.text, file_));
-  if (index == kNone) return program_.symbols.reportUndefined(name, file_, address.structure), false;
+  if (index == kNone) return program_.symbols.noteUndefined(name, file_, {.structure = address.structure}), false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) {
@@ -319,7 +319,7 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   }
   if (rest.empty() || rest[0].kind != TokenKind::Name) return syntax("an element of a block", rest);
   const nc::Signal* element = nc::findSignal(nc::technolSignals(), "BLK[]." + std::string(rest[0].text), "BLK");
-  if (!element) return program_.symbols.reportUndefined(rest[0], file_, "BLK"), false;
+  if (!element) return program_.symbols.noteUndefined(rest[0], file_, {.structure = "BLK"}), false;
   if ((element->type == nc::SignalType::Bit) != wantsBit)
     return wrongKind(out, wantsBit ? "a value" : "a bit", wantsBit ? "a bit" : "a value");
   int64_t k = 0;

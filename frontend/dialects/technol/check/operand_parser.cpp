@@ -1,6 +1,7 @@
 // Operands other than addresses (see operand_parser.h).
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
+#include "frontend/dialects/technol/rows/operand_count.h"
 #include "ir/support/check.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/code_page.h"
@@ -38,15 +39,6 @@ uint8_t naturalPrefix(ir::Type type) {
   for (const PrefixName& p : kPrefixes)
     if (p.type == type) return p.prefix;
   return 0;
-}
-
-std::string operandsText(size_t least, size_t most, bool repeated) {
-  if (most == 0) return "no operands";
-  if (repeated) return std::to_string(least) + " or more operands";
-  std::string text = least == most ? std::to_string(least)
-                                   : (least == 0 ? "no" : std::to_string(least)) +
-                                         (most == least + 1 ? " or " : " to ") + std::to_string(most);
-  return text + (most == 1 ? " operand" : " operands");
 }
 
 std::string widthsOf(ir::TypeSet types) {
@@ -103,18 +95,6 @@ bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::stri
   return false;
 }
 
-bool OperandParser::countFits(const Statement& statement, size_t found) {
-  const InstructionInfo& info = statement.row->info;
-  size_t least = 0;
-  for (const OperandInfo& operand : info.operands.all()) least += operand.optional ? 0 : 1;
-  const size_t most = info.operands.size();
-  const bool repeated = most > 0 && info.operands[most - 1].repeated;
-  if (found >= least && (found <= most || repeated)) return true;
-  program_.diagnostics.report(Diag::OperandCount, statement.range())
-      << info.mnemonic << operandsText(least, most, repeated) << found;
-  return false;
-}
-
 uint32_t OperandParser::note(const Token& name, uint32_t symbol) {
   if (symbol != kNone) names_.push_back({name.range(), symbol});
   return symbol;
@@ -125,7 +105,7 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
   statement_ = &statement;
   file_ = statement.file;
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (!countFits(statement, operands.size())) return false;
+  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return false;
   const auto infos = statement.row->info.operands.all();
   bool ok = true;
   for (size_t i = 0; i < operands.size(); ++i) {
@@ -218,9 +198,7 @@ bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   offer(true);
   if (meant.best().empty()) offer(false);
   if (meant.best().empty()) return false;
-  program_.diagnostics.report(Diag::UndefinedSymbol, tokens[0].range())
-          .note("did you mean " + std::string(meant.best()) + "?")
-      << tokens[0].text;
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
   return true;
 }
 
@@ -387,9 +365,7 @@ bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> token
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
   forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
-  DiagBuilder report = program_.diagnostics.report(Diag::UndefinedSymbol, tokens[0].range());
-  report << tokens[0].text;
-  if (!meant.best().empty()) report.note("did you mean " + std::string(meant.best()) + "?");
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
   return false;
 }
 

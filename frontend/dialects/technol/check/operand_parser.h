@@ -36,7 +36,6 @@ private:
     uint32_t own = kNone; // the program's own structure that it is, in Program::structures
   };
 
-  bool countFits(const Statement& statement, size_t found);
   bool one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool waitOperands(std::span<Operand> operands);
   bool bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);

@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/read/declare.h"
 
 #include "frontend/dialects/technol/read/reader.h"
+#include "frontend/dialects/technol/rows/operand_count.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
@@ -77,10 +78,7 @@ void Declarations::noName(std::span<const Token> tokens, std::string_view expect
 
 void Declarations::constant(const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (operands.size() != 2) {
-    program_.diagnostics.report(Diag::OperandCount, statement.range()) << "EQUI" << "2 operands" << operands.size();
-    return;
-  }
+  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return;
   const std::span<const Token> name = operands[0];
   if (name.size() != 1 || name[0].kind != TokenKind::Name) {
     noName(name, "the name of a constant", statement);
@@ -226,10 +224,7 @@ void Placer::placeBits(DataItem& item) {
 
 void Placer::placeArray(DataItem& item, const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (operands.size() != 1) {
-    program_.diagnostics.report(Diag::OperandCount, statement.range()) << "DS" << "1 operand" << operands.size();
-    return;
-  }
+  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return;
   const int64_t bytes = size(operands[0], statement).value_or(1);
   const uint32_t at = take(item, bytes, statement);
   if (item.cell == kNone) return;
@@ -289,10 +284,7 @@ void Placer::fillText(const Symbol& text, const Token& token) {
 
 void Placer::placeText(DataItem& item, const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (operands.empty() || operands.size() > 2) {
-    program_.diagnostics.report(Diag::OperandCount, statement.range()) << "STR" << "1 or 2 operands" << operands.size();
-    return;
-  }
+  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return;
   const int64_t characters = size(operands[0], statement).value_or(1);
   if (item.cell == kNone) return;
   Symbol& text = program_.symbols[item.cell];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "frontend/dialects/technol/rows/operand_count.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
@@ -106,10 +107,7 @@ void MacroSet::abandon() {
 void MacroSet::append(std::span<const Token> operands, SourceRange at) {
   const auto parts = splitOperands(operands);
   const auto isName = [](std::span<const Token> part) { return part.size() == 1 && part[0].kind == TokenKind::Name; };
-  if (parts.size() < 2) {
-    program_.diagnostics.report(Diag::OperandCount, at) << "APPEND_T_MACRO" << "2 or more operands" << parts.size();
-    return;
-  }
+  if (!countFits(findRow("APPEND_T_MACRO")->info, parts.size(), at, program_.diagnostics)) return;
   if (!isName(parts[0]) || !isName(parts[1])) {
     program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, parts[isName(parts[0]) ? 1 : 0], at))
         << "the name of a macro" << "something else";
@@ -128,11 +126,7 @@ void MacroSet::append(std::span<const Token> operands, SourceRange at) {
 }
 
 void MacroSet::control(std::span<const Token> operands, SourceRange at) {
-  const size_t count = splitOperands(operands).size();
-  if (count != 1) {
-    program_.diagnostics.report(Diag::OperandCount, at) << "CONTROL_T_MACRO" << "1 operand" << count;
-    return;
-  }
+  if (!countFits(findRow("CONTROL_T_MACRO")->info, splitOperands(operands).size(), at, program_.diagnostics)) return;
   const bool one = operands.size() == 1 && operands[0].kind == TokenKind::Name;
   if (one && text::equalsIgnoringCase(operands[0].text, "PRE"))
     first_ = true;

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
+#include "frontend/dialects/technol/rows/operand_count.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 
@@ -77,39 +78,45 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   return true;
 }
 
-// With what was meant, or the way to say it in this language. Two words may be one name whose `_` is lost.
-void FileReader::reportUnknown(std::span<const Token> tokens) {
+// With what was meant, or the way to say it in this language. Two words may be one name whose `_` is lost. The row of a
+// statement that opens, closes or declares something is taken where that fits, so that what follows is understood.
+const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
+  const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const Token& token = tokens[0];
   if (isAssembler(token.text)) {
     DiagBuilder report = program_.diagnostics.report(Diag::UnsupportedAssembler, token.range());
     report << token.text;
     if (const std::string_view other = insteadOf(token.text); !other.empty())
       report.note("in this language: " + std::string(other));
-    return;
+    return nullptr;
   }
   std::string word(token.text);
   if (tokens.size() > 1 && tokens[1].kind == TokenKind::Name)
     if (const std::string both = word + (word.ends_with('_') ? "" : "_") + std::string(tokens[1].text); findRow(both))
       word = both;
+  const bool parted = word != token.text;
   Similar similar(word);
   for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
   macros_.offer(similar);
   DiagBuilder report = program_.diagnostics.report(Diag::UnknownInstruction, token.range());
   report << token.text;
-  if (!similar.best().empty()) report.note("did you mean " + std::string(similar.best()) + "?");
+  if (similar.best().empty()) return nullptr;
+  report.note("did you mean " + std::string(similar.best()) + "?")
+      .fix(rangeOf(program_.sources, tokens.first(parted ? 2 : 1), token.range()), similar.best());
+  const Row* row = findRow(similar.best());
+  if (row == nullptr || !structure_.fits(*row)) return nullptr;
+  if (parted) ++first, --count;
+  return row;
 }
 
-const Row* FileReader::instruction(std::span<const Token> tokens) {
-  const Token& token = tokens[0];
+const Row* FileReader::instruction(uint32_t& first, uint32_t& count) {
+  const Token& token = program_.tokens[first];
   if (token.kind != TokenKind::Name) {
     program_.diagnostics.report(Diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
     return nullptr;
   }
   const Row* row = findRow(token.text);
-  if (row == nullptr) {
-    reportUnknown(tokens);
-    return nullptr;
-  }
+  if (row == nullptr) return unknown(first, count);
   if (!text::equalsIgnoringCase(row->info.mnemonic, token.text))
     program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
   return row;
@@ -142,7 +149,8 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
     return;
   }
   if (macroLine(first, count, line) || instance(first, count, line)) return;
-  statement(instruction(std::span<const Token>(program_.tokens).subspan(first, count)), first, count, line);
+  const Row* row = instruction(first, count);
+  statement(row, first, count, line);
 }
 
 void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint32_t line) {
@@ -227,11 +235,8 @@ const Token* FileReader::oneName(const Statement& statement) {
   if (found == 1 && isOneWord(tokens))
     program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range()))
         << spelled(tokens);
-  else if (found == 1)
+  else if (countFits(statement.row->info, found, statement.range(), program_.diagnostics))
     program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
-  else
-    program_.diagnostics.report(Diag::OperandCount, statement.range())
-        << statement.row->info.mnemonic << "1 operand" << found;
   return nullptr;
 }
 
@@ -270,20 +275,17 @@ void FileReader::checkNoOperands(const Statement& statement) {
   if (role == Role::NotBuilt || role == Role::NotBuiltService) return; // their operands are not described yet
   if (!statement.row->info.operands.all().empty() || statement.tokenCount == 0) return;
   const std::span<const Token> tokens = program_.operandTokens(statement);
-  program_.diagnostics.report(Diag::OperandCount, rangeOf(program_.sources, tokens, statement.range()))
-      << statement.row->info.mnemonic << "no operands" << splitOperands(tokens).size();
+  countFits(statement.row->info, splitOperands(tokens).size(), rangeOf(program_.sources, tokens, statement.range()),
+            program_.diagnostics);
 }
 
 // DEBUG [ON|OFF]
 void FileReader::checkSwitch(const Statement& statement) {
   if (statement.tokenCount == 0 || statement.row->info.operands.all().empty()) return;
   const std::span<const Token> tokens = program_.operandTokens(statement);
-  const size_t found = splitOperands(tokens).size();
-  if (found > 1)
-    program_.diagnostics.report(Diag::OperandCount, statement.range())
-        << statement.row->info.mnemonic << "at most 1 operand" << found;
-  else if (tokens.size() > 1 ||
-           !(text::equalsIgnoringCase(tokens[0].text, "ON") || text::equalsIgnoringCase(tokens[0].text, "OFF")))
+  if (!countFits(statement.row->info, splitOperands(tokens).size(), statement.range(), program_.diagnostics)) return;
+  if (tokens.size() > 1 ||
+      !(text::equalsIgnoringCase(tokens[0].text, "ON") || text::equalsIgnoringCase(tokens[0].text, "OFF")))
     program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
 }
 

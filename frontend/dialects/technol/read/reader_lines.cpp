@@ -4,6 +4,7 @@
 
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
+#include "frontend/dialects/technol/rows/operand_count.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
@@ -162,8 +163,7 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   const bool quoted = name.size() > 1 && name.front() == '\'' && name.back() == '\'';
   if (quoted) name = name.substr(1, name.size() - 2);
   if (name.empty()) {
-    program_.diagnostics.report(Diag::OperandCount, at) << kInclude << "1 operand" << 0;
-    return true;
+    return !countFits(findRow(kInclude)->info, 0, at, program_.diagnostics);
   }
   const IncludedFile file = findIncluded(name, quoted, line.begin);
   if (std::find(including_.begin(), including_.end(), file.path) != including_.end()) {
@@ -245,7 +245,7 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
     else if (name == "CONTROL_T_MACRO")
       macros_.control(operands, head.range());
     else if (name == kInclude)
-      program_.diagnostics.report(Diag::OperandCount, head.range()) << name << "1 operand" << 0;
+      countFits(row->info, 0, head.range(), program_.diagnostics);
     else
       program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
     return true;

@@ -172,50 +172,39 @@ void Structure::beginMechanism(const Statement& statement, const Token& name) {
   program_.mechanisms.push_back({.name = name.text, .unit = unit_, .byte = index * kMechanismBytes});
 }
 
-bool Structure::endMechanism(const Statement& statement, const Token& name) {
-  // A procedure that was left open inside ends here, too.
+uint32_t Structure::innermost(UnitKind kind) const {
   uint32_t at = unit_;
-  while (at != kNone && program_.units[at].kind != UnitKind::Mechanism) at = program_.units[at].parent;
+  while (at != kNone && program_.units[at].kind != kind) at = program_.units[at].parent;
+  return at;
+}
+
+// What was left open inside ends here, too.
+bool Structure::endUnit(const Statement& statement, const Token& name, UnitKind kind) {
+  const bool mechanism = kind == UnitKind::Mechanism;
+  const Diag mismatch = mechanism ? Diag::MechNameMismatch : Diag::ProcNameMismatch;
+  const uint32_t at = innermost(kind);
   if (at == kNone) {
-    program_.diagnostics.report(Diag::MechNameMismatch, statement.range()) << name.text << "no mechanism";
+    program_.diagnostics.report(mismatch, statement.range())
+        << name.text << (mechanism ? "no mechanism" : "no procedure");
     return false;
   }
   while (unit_ != at) closeUnit(statement.range());
   const Unit& unit = program_.units[unit_];
   if (symbolKey(unit.name) != symbolKey(name.text))
-    program_.diagnostics.report(Diag::MechNameMismatch, name.range()).note(unit.begin, "it begins here")
-        << name.text << unit.name;
+    program_.diagnostics.report(mismatch, name.range()).note(unit.begin, "it begins here")
+        << name.text << "'" + std::string(unit.name) + "'";
   unit_ = unit.parent;
   return true;
 }
 
 void Structure::beginProcedure(const Statement& statement, const Token& name) {
-  for (uint32_t at = unit_; at != kNone; at = program_.units[at].parent)
-    if (program_.units[at].kind == UnitKind::Procedure) {
-      program_.diagnostics.report(Diag::NestedProcedure, statement.range())
-              .note(program_.units[at].begin, "it begins here")
-          << program_.units[at].name;
-      break;
-    }
+  if (const uint32_t outer = innermost(UnitKind::Procedure); outer != kNone)
+    program_.diagnostics.report(Diag::NestedProcedure, statement.range())
+            .note(program_.units[outer].begin, "it begins here")
+        << program_.units[outer].name;
   const auto index = static_cast<uint32_t>(program_.procedures.size());
   push({.kind = UnitKind::Procedure, .index = index, .name = name.text, .begin = statement.range()});
   program_.procedures.push_back({.name = name.text, .unit = unit_});
-}
-
-bool Structure::endProcedure(const Statement& statement, const Token& name) {
-  uint32_t at = unit_;
-  while (at != kNone && program_.units[at].kind != UnitKind::Procedure) at = program_.units[at].parent;
-  if (at == kNone) {
-    program_.diagnostics.report(Diag::ProcNameMismatch, statement.range()) << name.text << "no procedure";
-    return false;
-  }
-  while (unit_ != at) closeUnit(statement.range());
-  const Unit& unit = program_.units[unit_];
-  if (symbolKey(unit.name) != symbolKey(name.text))
-    program_.diagnostics.report(Diag::ProcNameMismatch, name.range()).note(unit.begin, "it begins here")
-        << name.text << unit.name;
-  unit_ = unit.parent;
-  return true;
 }
 
 void Structure::beginTimed(const Statement& statement, const Token& endLabel) {
@@ -244,6 +233,26 @@ void Structure::passLabel(std::string_view name) {
   unit_ = program_.units[found].parent;
 }
 
+bool Structure::fits(const Row& row) const {
+  const bool inCode = inModule() && !inData();
+  switch (row.role) {
+  case Role::Module: return !inModule() && !localOpen_;
+  case Role::ModuleEnd: return inModule() && kind() == static_cast<ModuleKind>(row.variant);
+  case Role::Stop: return !inModule();
+  case Role::Local: return !localOpen_;
+  case Role::LocalEnd: return localOpen_;
+  case Role::Dfm:
+  case Role::Ds:
+  case Role::Str: return localOpen_ || inData();
+  case Role::Equi: return true;
+  case Role::MechBegin:
+  case Role::ProcBegin: return inCode;
+  case Role::MechEnd: return innermost(UnitKind::Mechanism) != kNone;
+  case Role::ProcEnd: return innermost(UnitKind::Procedure) != kNone;
+  default: return false;
+  }
+}
+
 bool Structure::allowsCode(const Statement& statement) {
   if (localOpen_ && !inData()) closeLocal(statement.range());
   if (inModule() && !inData()) return true;
@@ -263,12 +272,16 @@ void Structure::checkMissing() {
   const SourceFile& file = program_.files[file_];
   Diagnostics& diagnostics = program_.diagnostics;
   if (!seen_[0] && !dataReported_) diagnostics.report(Diag::DataNotFirst, file.lastLine);
+  std::string missing;
+  size_t count = 0;
   for (int i = 1; i < kModuleKinds; ++i) {
     const auto kind = static_cast<ModuleKind>(i);
     const bool needed = file.main ? isMandatory(kind) : kind == ModuleKind::Main;
-    if (needed && !seen_[static_cast<size_t>(i)])
-      diagnostics.report(Diag::MissingModule, file.lastLine) << moduleName(kind);
+    if (!needed || seen_[static_cast<size_t>(i)]) continue;
+    missing.append(count++ == 0 ? "" : ", ").append(moduleName(kind));
   }
+  if (count != 0)
+    diagnostics.report(Diag::MissingModule, file.lastLine) << (count == 1 ? "a module is" : "modules are") << missing;
   if (file.main && !stopped_) diagnostics.report(Diag::MissingStop, file.lastLine);
 }
 
@@ -288,7 +301,7 @@ void Structure::finish(uint32_t statementCount) {
                        block.label.pos < program_.symbols[symbol].declared.begin;
     if (symbol != kNone && program_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
     if (symbol == kNone)
-      program_.symbols.reportUndefined(block.label, file_, nullptr);
+      program_.symbols.noteUndefined(block.label, file_, {});
     else if (!later)
       program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
     else

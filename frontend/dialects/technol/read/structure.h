@@ -21,16 +21,22 @@ public:
   void endLocal(const Statement& statement);
   void stop(const Statement& statement, uint32_t index);
   void beginMechanism(const Statement& statement, const Token& name);
-  // False when no mechanism was open.
-  bool endMechanism(const Statement& statement, const Token& name);
+  // False when none was open.
+  bool endMechanism(const Statement& statement, const Token& name) {
+    return endUnit(statement, name, UnitKind::Mechanism);
+  }
   void beginProcedure(const Statement& statement, const Token& name);
-  bool endProcedure(const Statement& statement, const Token& name);
+  bool endProcedure(const Statement& statement, const Token& name) {
+    return endUnit(statement, name, UnitKind::Procedure);
+  }
   void beginTimed(const Statement& statement, const Token& endLabel);
   // A label ends the timed blocks that name it.
   void passLabel(std::string_view name);
   // What is missing at the end of the file.
   void finish(uint32_t statementCount);
 
+  // Whether a statement that opens, closes or declares something is right here, as far as that shows.
+  bool fits(const Row& row) const;
   // Whether an executable statement may stand here; reports where not.
   bool allowsCode(const Statement& statement);
   // Whether a declaration may stand here; reports where not.
@@ -49,6 +55,8 @@ private:
   void closeModule(SourceRange at, uint32_t line, uint32_t index);
   void closeUnits(SourceRange at);
   void closeUnit(SourceRange at);
+  uint32_t innermost(UnitKind kind) const;
+  bool endUnit(const Statement& statement, const Token& name, UnitKind kind);
   void closeLocal(SourceRange at);
   void push(Unit unit);
   void reportUnclosed(SourceRange at);

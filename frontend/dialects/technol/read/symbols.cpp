@@ -205,11 +205,10 @@ uint32_t SymbolTable::find(std::string_view name, uint32_t file) {
 uint32_t SymbolTable::require(const Token& name, uint32_t file) {
   const uint32_t index = find(name.text, file);
   if (index != kNone) return index;
-  reportUndefined(name, file, nullptr);
+  noteUndefined(name, file, {});
   return kNone;
 }
 
-// Each statement that uses the name is wrong; what was meant is told at the first.
 // A number without the 0 before its first letter.
 static bool looksLikeNumber(std::string_view word) {
   const bool hex = word.ends_with('h') || word.ends_with('H');
@@ -244,24 +243,41 @@ std::string_view describe(const Symbol& symbol) {
   return describe(symbol.type);
 }
 
-void SymbolTable::reportUndefined(const Token& name, uint32_t file, const char* structure) {
-  undefined_.resize(locals_.size());
-  const auto [last, isNew] = undefined_[file].emplace(symbolKey(name.text), name.pos);
-  if (!isNew && last->second == name.pos) return; // the body of a macro, or asked for again
-  last->second = name.pos;
-  const std::string meant =
-      isNew && suggestions_++ < kMostSuggestions ? similar(name.text, file, structure) : std::string();
-  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, name.range());
-  report << name.text;
+void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
+  undefined_[symbolKey(name.text)].push_back({name, file, std::move(hint)});
+}
+
+void SymbolTable::reportUndefined() {
+  for (auto& [key, uses] : undefined_) reportUndefined(uses);
+  undefined_.clear();
+}
+
+void SymbolTable::reportUndefined(std::vector<Use>& uses) {
+  const auto place = [](const Use& use) { return use.name.pos; };
+  std::ranges::stable_sort(uses, {}, place);
+  const auto same = std::ranges::unique(uses, {}, place); // the body of a macro, or asked for again
+  uses.erase(same.begin(), same.end());
+  const Use& first = uses.front();
+  std::string meant = first.hint.meant;
+  if (meant.empty() && suggestions_++ < kMostSuggestions) meant = similar(first);
+  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, first.name.range());
+  report << first.name.text;
   if (!meant.empty())
     report.note("did you mean " + meant + "?");
-  else if (isNew && looksLikeNumber(name.text))
-    report.note("as a number: 0" + std::string(name.text));
+  else if (looksLikeNumber(first.name.text))
+    report.note("as a number: 0" + std::string(first.name.text));
+  const size_t further = uses.size() - 1;
+  if (further == 1)
+    report.note(uses[1].name.range(), "it is used once more, here");
+  else if (further > 1)
+    report.note(uses[1].name.range(), "and " + std::to_string(further) + " further uses; the next is here");
 }
 
 // The name in sight that is most like a misspelt one; "" when none is close. Members of the structure come first, then
 // the program's own names, then those of the control, bits of bytes among them.
-std::string SymbolTable::similar(std::string_view name, uint32_t file, const char* structure) const {
+std::string SymbolTable::similar(const Use& use) const {
+  const std::string_view name = use.name.text;
+  const char* structure = use.hint.structure;
   if (structure != nullptr && *structure != 0) {
     const std::string_view type(structure), prefix = type == "BLK" ? "BLK[]" : type;
     Similar member(name);
@@ -271,7 +287,7 @@ std::string SymbolTable::similar(std::string_view name, uint32_t file, const cha
   }
   Similar own(name);
   for (const Symbol& symbol : symbols_)
-    if (!symbol.predeclared && (!symbol.local || symbol.file == file)) own.offer(symbol.name);
+    if (!symbol.predeclared && (!symbol.local || symbol.file == use.file)) own.offer(symbol.name);
   if (!own.best().empty()) return std::string(own.best());
   Similar interface(name);
   for (const nc::Signal& signal : nc::technolSignals())

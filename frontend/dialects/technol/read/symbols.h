@@ -3,6 +3,7 @@
 // interface and the predefined constants, which are entered at their first use.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -48,10 +49,16 @@ public:
   uint32_t declare(Symbol symbol);
   // kNone where there is none.
   uint32_t find(std::string_view name, uint32_t file);
-  // As find; where there is none, reports undefined-symbol.
+  // As find; where there is none, the name is noted as undefined.
   uint32_t require(const Token& name, uint32_t file);
-  // `structure`: of the control, where a member is looked for; else null.
-  void reportUndefined(const Token& name, uint32_t file, const char* structure);
+  // What is known of a name that is not declared.
+  struct Hint {
+    const char* structure = nullptr; // of the control, where it is looked for as a member
+    std::string meant;               // what it may have been; empty: to be looked for
+  };
+  void noteUndefined(const Token& name, uint32_t file, Hint hint);
+  // Reports undefined-symbol, once for each name, at its first use.
+  void reportUndefined();
   // A bit name that may stand behind an address only.
   uint32_t findWeight(std::string_view name, uint32_t file);
   // A member of an interface structure; kNone when it has none of this name.
@@ -68,7 +75,13 @@ private:
   bool merge(uint32_t earlier, Symbol& symbol);
   void checkName(const Symbol& symbol);
   uint32_t predeclared(std::string_view name, const std::string& key);
-  std::string similar(std::string_view name, uint32_t file, const char* structure) const;
+  struct Use {
+    Token name;
+    uint32_t file = 0;
+    Hint hint;
+  };
+  void reportUndefined(std::vector<Use>& uses);
+  std::string similar(const Use& use) const;
 
   Diagnostics& diagnostics_;
   std::vector<Symbol> symbols_;
@@ -76,8 +89,8 @@ private:
   Scope predeclared_; // interface and constants in use, and names known to be none of these
   Scope members_;
   std::vector<Scope> locals_;
-  std::vector<std::unordered_map<std::string, SourcePos>> undefined_; // by file: where a name was reported last
-  static constexpr uint32_t kMostSuggestions = 100;                   // each looks at all names
+  std::map<std::string, std::vector<Use>> undefined_; // by key
+  static constexpr uint32_t kMostSuggestions = 100;   // each looks at all names
   uint32_t suggestions_ = 0;
 };
 

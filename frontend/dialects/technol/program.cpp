@@ -41,6 +41,13 @@ bool Program::mayWait(uint32_t unit) const {
   return u.kind == UnitKind::Mechanism;
 }
 
+int64_t Program::filesWith(bool SourceFile::* statement) const {
+  uint64_t mask = 0;
+  for (size_t i = 0; i < files.size(); ++i)
+    if (files[i].*statement) mask |= uint64_t{1} << i;
+  return static_cast<int64_t>(mask);
+}
+
 uint32_t Program::procedureNamed(std::string_view name) const {
   for (uint32_t i = 0; i < procedures.size(); ++i)
     if (symbolKey(procedures[i].name) == name) return i;

@@ -78,6 +78,8 @@ struct Program {
   bool inMechanism(uint32_t unit) const;
   // Whether statements that wait are allowed in this unit (man. l.2166-2171).
   bool mayWait(uint32_t unit) const;
+  // A bit for each file that has such a statement.
+  int64_t filesWith(bool SourceFile::* statement) const;
   // By its key; kNone where there is none.
   uint32_t procedureNamed(std::string_view name) const;
 };

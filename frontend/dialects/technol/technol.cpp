@@ -50,9 +50,9 @@ std::unique_ptr<ir::Module> compile(SourceManager& sources, std::span<const File
   module->dialect = "technol";
   for (const FileId file : files) module->files.emplace_back(sources.name(file));
   technol::addSpaces(program, *module);
-  technol::Lowering lowering(program, typed, *module, period, options.marks);
-  lowering.run();
-  technol::addTasks(lowering, *module, period);
+  technol::Walk walk(program, typed, *module, period, options.marks);
+  const technol::LoweredProgram lowered = walk.run();
+  technol::addTasks(program, lowered, walk.emitter(), period);
   technol::addSymbols(program, *module);
   technol::numberRungs(*module);
   return module;

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "frontend/dialects/technol/lower/presets.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
@@ -18,31 +19,6 @@ namespace {
 constexpr uint32_t kFastPeriodUs = 1000; // man. l.2660
 constexpr uint32_t kScanBudget = 1'000'000;
 constexpr uint32_t kFastBudget = 100'000;
-
-// What the control presets when it is switched on; MODULE_INIT presets more (see Lowering::makeStart).
-struct Preset {
-  std::string_view signal;
-  uint16_t value;
-};
-constexpr Preset kPresets[] = {
-    {"EN_AUTMAN", 1},               // man. l.6372, l.10879
-    {"FEED_OVR_MULTIPLIER", 1000},  // man. l.6555
-    {"SPEED_OVR_MULTIPLIER", 1000}, // man. l.6592
-    {"NLCSERVOENABLE", 0xFFFF},     // man. l.6667
-    {"SHIFT_ENABLE", 0x3F},         // man. l.11122
-};
-
-void addPresets(const nc::SignalTable& signals, ir::Module& module) {
-  for (const Preset& preset : kPresets) {
-    const nc::Signal* signal = nc::findSignal(signals, preset.signal, "I");
-    if (signal == nullptr) continue;
-    const uint32_t value = static_cast<uint32_t>(preset.value)
-                           << (signal->type == nc::SignalType::Bit ? signal->bit : 0);
-    std::vector<uint8_t> data{static_cast<uint8_t>(value)};
-    if (signal->type == nc::SignalType::Word) data.push_back(static_cast<uint8_t>(value >> 8));
-    module.inits.push_back({.space = kInterfaceSpace, .byte = signal->byteOffset, .data = std::move(data)});
-  }
-}
 
 // DS 8 holds a QWORD or a REAL, DS n is bytes; a text has room for its terminator.
 ir::Symbol madeSymbol(const Symbol& symbol) {
@@ -104,7 +80,7 @@ void addSpaces(const Program& program, ir::Module& module) {
   add("BLK", kBlockSpace, RUNG_SPACE_INPUT);
   add("IO", kExchangeSpace, RUNG_SPACE_ALLOCATED);
   module.inits = program.inits;
-  addPresets(signals, module);
+  addPowerOnPresets(module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).
   if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
     module.retains.push_back({.space = kInterfaceSpace, .byte = backup->byteOffset, .size = backup->count});
@@ -170,8 +146,8 @@ namespace {
 
 class TaskMaker {
 public:
-  TaskMaker(Lowering& lowering, ir::Module& module, uint32_t periodUs)
-      : lowering_(lowering), module_(module), periodUs_(periodUs) {}
+  TaskMaker(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs)
+      : program_(program), lowered_(lowered), emitter_(emitter), module_(emitter.module()), periodUs_(periodUs) {}
   void make();
 
 private:
@@ -185,7 +161,9 @@ private:
     steps.push_back({.op = op, .task = {RUNG_NONE}, .arg = arg});
   }
 
-  Lowering& lowering_;
+  const Program& program_;
+  const LoweredProgram& lowered_;
+  Emitter& emitter_;
   ir::Module& module_;
   uint32_t periodUs_;
   std::array<ir::TaskId, kModuleKinds> ids_{};
@@ -203,7 +181,7 @@ ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weig
                            .entry = routine,
                            .periodUs = period,
                            .budget = static_cast<uint32_t>(std::min<uint64_t>(budget, UINT32_MAX)),
-                           .budgetFault = lowering_.fault(fault)});
+                           .budgetFault = emitter_.fault(fault)});
   return {static_cast<uint32_t>(module_.tasks.size()) - 1};
 }
 
@@ -215,7 +193,7 @@ void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t time
 // l.13455-13482).
 void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
   const bool others = of(ModuleKind::Cyclic).valid() || of(ModuleKind::Fastest).valid();
-  const bool exchanges = lowering_.program().exchangesFast;
+  const bool exchanges = program_.exchangesFast;
   if (!others && !exchanges) return run(steps, ModuleKind::Fast, times);
   const auto exchange = [&](ModuleKind kind, uint32_t hook) {
     if (exchanges && of(kind).valid()) step(steps, RUNG_STEP_HOOK, hook);
@@ -232,9 +210,8 @@ void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
 }
 
 void TaskMaker::make() {
-  for (const LoweredModule& lowered : lowering_.modules()) {
-    const bool fast =
-        lowered.kind == ModuleKind::Fast || lowered.kind == ModuleKind::Fastest || lowered.kind == ModuleKind::Cyclic;
+  for (const LoweredModule& lowered : lowered_.modules) {
+    const bool fast = isFast(lowered.kind);
     const bool cyclic =
         lowered.kind == ModuleKind::Input || lowered.kind == ModuleKind::Main || lowered.kind == ModuleKind::Cont;
     const std::string_view name = moduleName(lowered.kind).substr(std::string_view("MODULE_").size());
@@ -244,12 +221,11 @@ void TaskMaker::make() {
                                                            : 0,
                                                   fast);
   }
-  for (size_t i = 0; i < lowering_.events().size(); ++i)
-    add(lowering_.eventNames()[i], lowering_.events()[i].routine, 1, 0, false);
+  for (const Event& event : lowered_.events) add(std::string(event.name), event.routine, 1, 0, false);
   module_.mainTask = of(ModuleKind::Main);
   module_.fastTask = of(ModuleKind::Fast);
-  if (const LoweredModule& messages = lowering_.bitMessages(); messages.routine.valid())
-    bitMessages_ = add("EDEF", messages.routine, messages.weight, periodUs_, false);
+  if (lowered_.bitMessages.valid())
+    bitMessages_ = add("EDEF", lowered_.bitMessages, lowered_.bitMessagesWeight, periodUs_, false);
   fastSteps(module_.fast, 1);
   makeScan();
 }
@@ -282,8 +258,8 @@ void TaskMaker::pass(std::vector<ir::Step>& steps, uint32_t us, uint32_t fastRun
 
 } // namespace
 
-void addTasks(Lowering& lowering, ir::Module& module, uint32_t periodUs) {
-  TaskMaker(lowering, module, periodUs).make();
+void addTasks(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs) {
+  TaskMaker(program, lowered, emitter, periodUs).make();
 }
 
 } // namespace rung::frontend::technol

@@ -1,7 +1,7 @@
 // What surrounds the code of a module: spaces, symbols, tasks, the schedule of a scan.
 #pragma once
 
-#include "frontend/dialects/technol/lower/lowering.h"
+#include "frontend/dialects/technol/lower/walk.h"
 
 namespace rung::frontend::technol {
 
@@ -14,6 +14,6 @@ void addSymbols(const Program& program, ir::Module& module);
 // Numbers the rungs by their first lines, in the order of the files; rungs that begin on one line share a number.
 void numberRungs(ir::Module& module);
 // Tasks are named as their modules without MODULE_, event procedures by their names.
-void addTasks(Lowering& lowering, ir::Module& module, uint32_t periodUs);
+void addTasks(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs);
 
 } // namespace rung::frontend::technol

@@ -23,7 +23,7 @@ constexpr uint32_t kBytes = nc::kConfigurationBytes;
 // The identifier, eight characters a word.
 using Words = std::vector<ValueId>;
 
-ValueId request(Lowering& l, Kind kind, ValueId part, const Words& id) {
+ValueId request(StatementContext& l, Kind kind, ValueId part, const Words& id) {
   std::array<ValueId, kHead + kWords> args;
   args[0] = l.b().constant(Type::I64, static_cast<int64_t>(kind));
   args[1] = part;
@@ -38,7 +38,7 @@ ValueId asReal(ir::RungBuilder& b, const Operand& operand, ValueId value) {
   return operand.negated ? b.op(ir::OpCode::FNeg, Type::F64, {value}) : value;
 }
 
-ValueId defaultOf(Lowering& l, Kind kind, const Operand& operand, Type type) {
+ValueId defaultOf(StatementContext& l, Kind kind, const Operand& operand, Type type) {
   ir::RungBuilder& b = l.b();
   switch (kind) {
   case Kind::Real: return asReal(b, operand, l.value(operand));
@@ -57,9 +57,9 @@ ValueId resultOf(ir::RungBuilder& b, Kind kind, ValueId ticket, Type type) {
   return b.zextOrTrunc(type, word);
 }
 
-void getValue(Lowering& l, std::span<const Operand> o, Kind kind) {
+void getValue(StatementContext& l, std::span<const Operand> o, Kind kind) {
   ir::RungBuilder& b = l.b();
-  const Access target = l.reach(o[0]);
+  const MemoryAccess target = l.reach(o[0]);
   const Words id = identifierWords(l, o[1], kWords);
   const bool hasDefault = o.size() > 2 && o[2].given();
   const ValueId otherwise = hasDefault ? defaultOf(l, kind, o[2], o[0].type) : ValueId{};
@@ -78,7 +78,7 @@ void getValue(Lowering& l, std::span<const Operand> o, Kind kind) {
 // ---- texts ----------------------------------------------------------------------------------------------------------
 
 // Parts of the text, one request each; what the target has no room for is cut off.
-void putParts(Lowering& l, const Text& target, Kind kind, const Words& id, ValueId found) {
+void putParts(StatementContext& l, const Text& target, Kind kind, const Words& id, ValueId found) {
   ir::RungBuilder& b = l.b();
   const Length length{.fixed = false, .most = UINT32_MAX, .value = found};
   const ValueId count = smaller(l, length, roomOf(target)).value;
@@ -100,13 +100,13 @@ void putParts(Lowering& l, const Text& target, Kind kind, const Words& id, Value
   if (kind != Kind::Binary) storeTerminator(l, target.area, count, b.bit(true));
 }
 
-void putDefault(Lowering& l, const Text& target, const Text& source) {
+void putDefault(StatementContext& l, const Text& target, const Text& source) {
   const Length count = smaller(l, lengthOf(l, source), roomOf(target));
   copy(l, target.area, source.area, count);
   storeTerminator(l, target.area, count.value, l.b().bit(true));
 }
 
-void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
+void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
   const Text target = textOf(l, o[0]);
   const Words id = identifierWords(l, o[1], kWords);
   const Text source = o[2].given() ? textOf(l, o[2]) : Text{};
@@ -127,7 +127,7 @@ void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
 } // namespace
 
 // CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO tells whether it was found.
-void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind) {
+void lowerConfiguration(StatementContext& l, std::span<const Operand> o, int kind) {
   const auto wanted = static_cast<Kind>(kind);
   if (wanted != Kind::Text && wanted != Kind::Binary) return getValue(l, o, wanted);
   const bool isLong = anyIsLong(o);

@@ -1,6 +1,6 @@
 // Data instructions (man. ch. 3.9-3.16).
+#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
-#include "frontend/dialects/technol/lower/lowering.h"
 #include "rtlib/nc/faults.h"
 
 namespace rung::frontend::technol {
@@ -22,7 +22,7 @@ ValueId bitwise(ir::RungBuilder& b, int kind, ValueId x, ValueId y) {
 }
 
 // A result that is no number, or a division by zero, is the coprocessor's error.
-ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
+ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = l.b();
   ValueId bad = b.not_(b.op(OpCode::FEq, Type::F64, {result, result}));
   if (divisor.valid()) bad = b.or_(bad, b.op(OpCode::FEq, Type::F64, {divisor, b.real(0)}));
@@ -30,7 +30,7 @@ ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
   return result;
 }
 
-void realArithmetic(Lowering& l, const Operand& operand, int operation) {
+void realArithmetic(StatementContext& l, const Operand& operand, int operation) {
   constexpr OpCode kOps[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   const ValueId right = l.value(operand);
   const ValueId result = l.b().op(kOps[operation], Type::F64, {l.r().real(), right});
@@ -40,7 +40,7 @@ void realArithmetic(Lowering& l, const Operand& operand, int operation) {
 // Twice as wide, up to 64 bits: what a product or a dividend takes (man. l.1091-1132).
 Type doubled(Type type) { return type == Type::I8 ? Type::I16 : type == Type::I16 ? Type::I32 : Type::I64; }
 
-void multiply(Lowering& l, const Operand& operand) {
+void multiply(StatementContext& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
   const ValueId right = l.value(operand);
   const Type wide = doubled(operand.type);
@@ -49,7 +49,7 @@ void multiply(Lowering& l, const Operand& operand) {
 }
 
 // 8, 16 and 32 bit divisors divide 16, 32 and 64 bits of DR; the quotient must fit 32 bits (man. l.1110-1132, l.5354).
-void divide(Lowering& l, const Operand& operand) {
+void divide(StatementContext& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
   const ValueId right = b.sextOrTrunc(Type::I64, l.value(operand));
   const ValueId left = b.sextOrTrunc(Type::I64, l.r().dr(doubled(operand.type)));
@@ -80,12 +80,12 @@ ValueId compareReals(ir::RungBuilder& b, int relation, ValueId x, ValueId y) {
   }
 }
 
-ValueId guardOf(Lowering& l, int condition) {
+ValueId guardOf(StatementContext& l, int condition) {
   if (condition == kAlways) return {};
   return condition == kIfRlo ? l.r().rlo() : l.b().not_(l.r().rlo());
 }
 
-void storeIf(Lowering& l, ValueId guard, const Access& access, ValueId value) {
+void storeIf(StatementContext& l, ValueId guard, const MemoryAccess& access, ValueId value) {
   if (guard.valid()) l.b().if_(guard);
   l.store(access, value);
   if (guard.valid()) l.b().endIf();
@@ -93,7 +93,7 @@ void storeIf(Lowering& l, ValueId guard, const Access& access, ValueId value) {
 
 } // namespace
 
-void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
+void lowerLoad(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const ValueId value = l.value(o[0]);
   if (o[0].isReal())
@@ -104,21 +104,21 @@ void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
     l.r().setDr(b.op(OpCode::Neg, Type::I64, {b.sextOrTrunc(Type::I64, value)}));
 }
 
-void lowerStore(Lowering& l, std::span<const Operand> o, int condition) {
+void lowerStore(StatementContext& l, std::span<const Operand> o, int condition) {
   const ValueId guard = guardOf(l, condition);
   const ValueId value = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
   storeIf(l, guard, l.reach(o[0], guard), value);
 }
 
-void lowerMove(Lowering& l, std::span<const Operand> o, int condition) {
+void lowerMove(StatementContext& l, std::span<const Operand> o, int condition) {
   // A REAL is moved as its 64 bits.
   const Type type = o[0].isReal() ? Type::I64 : o[0].type;
   const ValueId guard = guardOf(l, condition);
-  const Access from = l.reach(o[1], guard), to = l.reach(o[0], guard);
+  const MemoryAccess from = l.reach(o[1], guard), to = l.reach(o[0], guard);
   storeIf(l, guard, to, l.load(from, type));
 }
 
-void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation) {
+void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operation) {
   if (o[0].isReal()) return realArithmetic(l, o[0], operation);
   if (operation == kMultiply) return multiply(l, o[0]);
   if (operation == kDivide) return divide(l, o[0]);
@@ -127,13 +127,13 @@ void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation) {
   l.r().setDrPart(operation == kAdd ? l.b().add(left, right) : l.b().sub(left, right));
 }
 
-void lowerBitwise(Lowering& l, std::span<const Operand> o, int kind) {
+void lowerBitwise(StatementContext& l, std::span<const Operand> o, int kind) {
   const ValueId right = l.value(o[0]);
   l.r().setDrPart(bitwise(l.b(), kind, l.r().dr(o[0].type), right));
 }
 
 // EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).
-void lowerCompare(Lowering& l, std::span<const Operand> o, int relation) {
+void lowerCompare(StatementContext& l, std::span<const Operand> o, int relation) {
   const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
   const ValueId right = l.value(o[0], rlo);
   const ValueId result = o[0].isReal() ? compareReals(l.b(), relation, l.r().real(), right)
@@ -141,7 +141,7 @@ void lowerCompare(Lowering& l, std::span<const Operand> o, int relation) {
   l.r().setRlo(rlo.valid() ? l.b().and_(rlo, result) : result);
 }
 
-void lowerUnary(Lowering& l, std::span<const Operand> o, int operation) {
+void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
   if (type == Type::F64) {
@@ -163,14 +163,14 @@ void lowerUnary(Lowering& l, std::span<const Operand> o, int operation) {
 }
 
 // 0..9999 in 16 bits; behind 9999 comes 0 (man. l.1225).
-void lowerIncrementBcd(Lowering& l, std::span<const Operand>, int) {
+void lowerIncrementBcd(StatementContext& l, std::span<const Operand>, int) {
   ir::RungBuilder& b = l.b();
   const ValueId next = b.add(b.op(OpCode::BcdDecode, Type::I16, {l.r().dr(Type::I16)}), b.constant(Type::I16, 1));
   l.r().setDrPart(b.op(OpCode::BcdEncode, Type::I16, {next}));
 }
 
 // With DWRD bit 31 marks a negative number, the other bits are its magnitude (man. l.1250).
-void lowerBin(Lowering& l, std::span<const Operand> o, int) {
+void lowerBin(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
   const ValueId x = l.r().dr(type);
@@ -179,12 +179,12 @@ void lowerBin(Lowering& l, std::span<const Operand> o, int) {
   l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.op(OpCode::Neg, type, {magnitude}), magnitude));
 }
 
-void lowerBcd(Lowering& l, std::span<const Operand> o, int) {
+void lowerBcd(StatementContext& l, std::span<const Operand> o, int) {
   const Type type = widthOf(o[0]);
   l.r().setDrPart(l.b().op(OpCode::BcdEncode, type, {l.r().dr(type)}));
 }
 
-void lowerShift(Lowering& l, std::span<const Operand> o, int right) {
+void lowerShift(StatementContext& l, std::span<const Operand> o, int right) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[1]);
   const ValueId count = b.zextOrTrunc(Type::I32, l.value(o[0]));
@@ -192,13 +192,13 @@ void lowerShift(Lowering& l, std::span<const Operand> o, int right) {
 }
 
 // The integer is sign-extended to 64 bits first and stays in DR (man. l.1511).
-void lowerToReal(Lowering& l, std::span<const Operand> o, int) {
+void lowerToReal(StatementContext& l, std::span<const Operand> o, int) {
   const ValueId whole = l.b().sextOrTrunc(Type::I64, l.r().dr(widthOf(o[0])));
   l.r().setReal(l.b().op(OpCode::IntToF, Type::F64, {whole}));
   l.r().setDr(whole);
 }
 
-void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int) {
+void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   if (o[0].form == Operand::Form::Integer) {
     const ValueId shifted = b.op(OpCode::ShrU, Type::I32, {l.r().dr(Type::I32), b.i32(o[0].value)});
@@ -209,11 +209,11 @@ void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int) {
 }
 
 // FFFFh or FFFFFFFFh for 1; the bits above follow the sign.
-void lowerRloToDr(Lowering& l, std::span<const Operand>, int) {
+void lowerRloToDr(StatementContext& l, std::span<const Operand>, int) {
   l.r().setDr(l.b().op(OpCode::SExt, Type::I64, {l.r().rlo()}));
 }
 
-void lowerMovBx(Lowering& l, std::span<const Operand>, int) {
+void lowerMovBx(StatementContext& l, std::span<const Operand>, int) {
   l.r().setBx(l.b().zextOrTrunc(Type::I32, l.r().dr(Type::I16)));
 }
 

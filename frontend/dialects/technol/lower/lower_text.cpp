@@ -1,4 +1,5 @@
-// MV and texts (man. ch. 3.15, 3.18).
+// MV, CLEAR and texts (man. ch. 3.15, 3.18).
+#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/lower/texts.h"
 
@@ -10,7 +11,7 @@ using ir::ValueId;
 
 namespace {
 
-void inOwnRung(Lowering& l, std::span<const Operand> o, auto body) {
+void inOwnRung(StatementContext& l, std::span<const Operand> o, auto body) {
   const bool isLong = anyIsLong(o);
   if (isLong) l.out().cut();
   body();
@@ -23,7 +24,7 @@ struct Side {
   ValueId room;
 };
 
-ValueId byteOf(Lowering& l, const Side& side, ValueId i) {
+ValueId byteOf(StatementContext& l, const Side& side, ValueId i) {
   ir::RungBuilder& b = l.b();
   const ValueId zero = b.constant(Type::I8, 0);
   if (side.area.bytes == 0) return zero;
@@ -32,8 +33,8 @@ ValueId byteOf(Lowering& l, const Side& side, ValueId i) {
 }
 
 // `state`: equal so far, not ended.
-std::vector<ValueId> comparePasses(Lowering& l, const Side& left, const Side& right, const Length& count, bool texts,
-                                   uint32_t passes, ValueId start, std::span<const ValueId> state) {
+std::vector<ValueId> comparePasses(StatementContext& l, const Side& left, const Side& right, const Length& count,
+                                   bool texts, uint32_t passes, ValueId start, std::span<const ValueId> state) {
   ir::RungBuilder& b = l.b();
   const auto pass = b.loop(passes, state);
   const ValueId i = b.add(start, pass[0]);
@@ -46,7 +47,7 @@ std::vector<ValueId> comparePasses(Lowering& l, const Side& left, const Side& ri
 }
 
 // Two areas compared byte by byte. A common 0 ends texts.
-void compare(Lowering& l, const Side& left, const Side& right, const Length& count, bool texts) {
+void compare(StatementContext& l, const Side& left, const Side& right, const Length& count, bool texts) {
   ir::RungBuilder& b = l.b();
   if (count.most == 0) return l.r().setRlo(b.bit(true));
   const ValueId begin[] = {b.bit(true), b.bit(true)};
@@ -60,7 +61,7 @@ void compare(Lowering& l, const Side& left, const Side& right, const Length& cou
 }
 
 // Copies what is there and clears what is not.
-void copyInside(Lowering& l, const Area& to, const Area& from, const Length& count) {
+void copyInside(StatementContext& l, const Area& to, const Area& from, const Length& count) {
   const Length exist = inside(l, from, count);
   copy(l, to, from, exist);
   if (exist.most < count.most) clear(l, shifted(l, to, exist.value), fixedCount(l, count.most - exist.most));
@@ -69,7 +70,7 @@ void copyInside(Lowering& l, const Area& to, const Area& from, const Length& cou
 } // namespace
 
 // The source comes first (man. l.1484, l.13540; one example has it the other way round).
-void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
+void lowerMoveMemory(StatementContext& l, std::span<const Operand> o, int) {
   const bool isLong = !o[2].isConstant() || o[2].value > kManyPasses;
   if (isLong) l.out().cut();
   const Length count = countOf(l, o[2]);
@@ -78,9 +79,24 @@ void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
   if (isLong) l.out().cut();
 }
 
+// From the first address up to the second, which is not cleared.
+void lowerClear(StatementContext& l, std::span<const Operand> o, int) {
+  if (o[0].form == Operand::Form::Keyword) return l.clears.call(o[0].value == 0);
+  l.out().cut();
+  const Area begin = areaOf(l, o[0]), end = areaOf(l, o[1]);
+  ir::RungBuilder& b = l.b();
+  if (begin.fixed && end.fixed) {
+    clearRange(l, begin.space, begin.first, end.first);
+  } else {
+    l.protect(b.ltU(end.at, begin.at));
+    clear(l, begin, {.fixed = false, .most = begin.bytes, .value = b.sub(end.at, begin.at)});
+  }
+  l.out().cut();
+}
+
 // Ends with the terminator, which is copied too, where the target is full, or behind `num` characters (man.
 // l.1720-1744). A source without a terminator has as many characters as it holds.
-void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
+void lowerCopyText(StatementContext& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
@@ -98,7 +114,7 @@ void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
 }
 
 // The joined text is cut where the target is full (man. l.1746).
-void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
+void lowerAddText(StatementContext& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
@@ -111,7 +127,7 @@ void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
 }
 
 // As many digits as the text has characters, the last ones of the number (man. l.1826).
-void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
+void lowerNumberToText(StatementContext& l, std::span<const Operand> o, int bcd) {
   const Text text = textOf(l, o[0]);
   ir::RungBuilder& b = l.b();
   ValueId rest = b.zextOrTrunc(Type::I64, l.r().dr(o[1].given() ? Type::I32 : Type::I16));
@@ -125,7 +141,7 @@ void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
 }
 
 // Up to a difference, a common terminator or `num` characters; the second text with its terminator (man. l.1860-1870).
-void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
+void lowerCompareText(StatementContext& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
     const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length whole = fixedCount(l, right.most + 1);
@@ -135,7 +151,7 @@ void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
 }
 
 // Terminators are bytes as any other; without `num` until the target is full (man. l.1911-1925).
-void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int) {
+void lowerCopyBytes(StatementContext& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     const Length count = o[2].given() ? smaller(l, roomOf(to), countOf(l, o[2])) : roomOf(to);
@@ -144,7 +160,7 @@ void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int) {
 }
 
 // Without `num` as many bytes as the second text holds (man. l.1943-1953).
-void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int) {
+void lowerCompareBytes(StatementContext& l, std::span<const Operand> o, int) {
   inOwnRung(l, o, [&] {
     const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length count = o[2].given() ? countOf(l, o[2]) : roomOf(right);

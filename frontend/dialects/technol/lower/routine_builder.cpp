@@ -10,7 +10,6 @@
 namespace rung::frontend::technol {
 namespace {
 
-constexpr uint32_t kUnbound = UINT32_MAX;
 constexpr uint32_t kMaxSourceLines = 100; // of one rung; beyond that its text is left out
 
 std::string_view trimmed(std::string_view text) {
@@ -20,6 +19,18 @@ std::string_view trimmed(std::string_view text) {
 }
 
 } // namespace
+
+// A statement of a macro has its own text elsewhere; it counts in the line of the use.
+RungSource sourceOf(const Program& program, const Statement& statement) {
+  const FileId own = program.files[statement.file].id;
+  const LineCol at = program.sources.lineCol(statement.pos);
+  const bool here = program.sources.fileOf(statement.pos) == own && at.line == statement.line;
+  return {.sources = &program.sources,
+          .file = own,
+          .index = {statement.file},
+          .line = statement.line,
+          .column = here ? at.column : 1};
+}
 
 ir::RungBuilder& RoutineBuilder::b() {
   if (builder_) return *builder_;
@@ -42,13 +53,12 @@ void RoutineBuilder::statement(const RungSource& source) {
 }
 
 uint32_t RoutineBuilder::newLabel() {
-  labels_.push_back(kUnbound);
+  labels_.push_back(UINT32_MAX);
   return static_cast<uint32_t>(labels_.size()) - 1;
 }
 
 void RoutineBuilder::bind(uint32_t label) {
   cut();
-  if (label >= labels_.size()) return; // of another routine: a program with errors
   labels_[label] = static_cast<uint32_t>(module_.routines[routine_.index].rungs.size());
   endIsLabelled_ = true;
 }
@@ -120,12 +130,10 @@ void RoutineBuilder::finish() {
   cut();
   ir::Routine& routine = module_.routines[routine_.index];
   if (endIsLabelled_ || routine.rungs.empty()) routine.rungs.push_back({.lastLine = 0});
-  const auto last = static_cast<uint32_t>(routine.rungs.size()) - 1;
   for (const Fixup& fixup : fixups_) {
     ir::Transfer& transfer = routine.rungs[fixup.rung].transfer;
     for (const uint32_t label : fixup.labels) {
-      // A label is unbound or another routine's only where the program has errors.
-      const uint32_t rung = label >= labels_.size() || labels_[label] == kUnbound ? last : labels_[label];
+      const uint32_t rung = labels_[label];
       if (transfer.kind == ir::TransferKind::Goto)
         transfer.target = rung;
       else

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/lower/registers.h"
+#include "frontend/dialects/technol/program.h"
 #include "ir/support/source.h"
 
 namespace rung::frontend::technol {
@@ -19,6 +20,8 @@ struct RungSource {
   uint32_t line = 0;
   uint32_t column = 0;
 };
+
+RungSource sourceOf(const Program& program, const Statement& statement);
 
 class RoutineBuilder {
 public:

@@ -15,10 +15,10 @@ struct Text {
 
 inline Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
 // An index that leads outside the text stops the program.
-Text textOf(Lowering& l, const Operand& operand);
+Text textOf(Memory& m, const Operand& operand);
 // Characters in front of the terminator; a text without one has as many as it holds.
-Length lengthOf(Lowering& l, const Text& text);
-void storeTerminator(Lowering& l, const Area& area, ir::ValueId at, ir::ValueId cond);
+Length lengthOf(Memory& m, const Text& text);
+void storeTerminator(Memory& m, const Area& area, ir::ValueId at, ir::ValueId cond);
 // Whether one of the operands is a long text: what works on it has a rung of its own.
 bool anyIsLong(std::span<const Operand> operands);
 

@@ -12,7 +12,7 @@
 
 namespace rung::frontend::technol {
 
-class Lowering;
+class StatementContext;
 struct CheckContext;
 struct Operand;
 
@@ -58,7 +58,7 @@ enum Effect : uint16_t {
 };
 
 using CheckFn = void (*)(const CheckContext& context, std::span<const Operand> operands, int variant);
-using LowerFn = void (*)(Lowering& lowering, std::span<const Operand> operands, int variant);
+using LowerFn = void (*)(StatementContext& context, std::span<const Operand> operands, int variant);
 
 struct Row {
   InstructionInfo info;
@@ -99,6 +99,10 @@ enum class ModuleKind : uint8_t {
   Cyclic,
 };
 inline constexpr int kModuleKinds = 13;
+// Those that run every millisecond.
+constexpr bool isFast(ModuleKind kind) {
+  return kind == ModuleKind::Fast || kind == ModuleKind::Fastest || kind == ModuleKind::Cyclic;
+}
 // "MODULE_MAIN"
 std::string_view moduleName(ModuleKind kind);
 

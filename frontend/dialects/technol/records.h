@@ -114,6 +114,17 @@ struct Symbol {
   SourceRange declared;
 };
 
+// A symbol with its place; the rest is for the caller.
+inline Symbol namedSymbol(const Token& name, SymbolKind kind, uint32_t file, bool local) {
+  Symbol symbol;
+  symbol.name = name.text;
+  symbol.kind = kind;
+  symbol.local = local;
+  symbol.file = file;
+  symbol.declared = name.range();
+  return symbol;
+}
+
 // What it is, for messages: "a WORD".
 std::string_view describe(ir::Type type);
 std::string_view describe(const Symbol& symbol);

@@ -47,26 +47,14 @@ std::string widthsOf(ir::TypeSet types) {
   return byte && word ? "8 or 16 bits" : byte ? "8 bits" : "16 bits";
 }
 
-// Words that are parted by blanks.
-template <class Visit>
-void forEachWord(std::string_view words, Visit visit) {
-  for (int64_t at = 0; !words.empty(); ++at) {
-    const size_t end = std::min(words.find(' '), words.size());
-    visit(words.substr(0, end), at);
-    words.remove_prefix(std::min(end + 1, words.size()));
-  }
-}
-
 // One of the words that a kind takes by itself or in the place of an address.
 bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
   if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
-  const std::string_view name = tokens[0].text;
-  forEachWord(words, [&](std::string_view word, int64_t at) {
-    if (!text::equalsIgnoringCase(name, word)) return;
-    out.form = Operand::Form::Keyword;
-    out.value = at;
-  });
-  return out.form == Operand::Form::Keyword;
+  const int64_t number = numberOfWord(words, tokens[0].text);
+  if (number < 0) return false;
+  out.form = Operand::Form::Keyword;
+  out.value = number;
+  return true;
 }
 
 bool isNotGiven(std::span<const Token> tokens) {

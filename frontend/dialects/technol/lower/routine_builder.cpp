@@ -12,12 +12,6 @@ namespace {
 
 constexpr uint32_t kMaxSourceLines = 100; // of one rung; beyond that its text is left out
 
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 } // namespace
 
 // A statement of a macro has its own text elsewhere; it counts in the line of the use.

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/rows/operand_count.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
@@ -10,13 +11,7 @@
 
 namespace rung::frontend::technol {
 Symbol Declarations::made(const Token& name, SymbolKind kind) const {
-  Symbol symbol;
-  symbol.name = name.text;
-  symbol.kind = kind;
-  symbol.local = structure_.isLocal();
-  symbol.file = file_;
-  symbol.declared = name.range();
-  return symbol;
+  return namedSymbol(name, kind, file_, structure_.isLocal());
 }
 
 void Declarations::data(const Statement& statement, const Token* name, uint32_t index, bool badName) {
@@ -97,16 +92,6 @@ void Declarations::constant(const Statement& statement) {
 
 namespace {
 
-// The number of a word in a list of words parted by blanks; -1: none.
-int64_t wordNumber(std::string_view words, std::string_view wanted) {
-  for (int64_t number = 0; !words.empty(); ++number) {
-    const size_t end = std::min(words.find(' '), words.size());
-    if (text::equalsIgnoringCase(wanted, words.substr(0, end))) return number;
-    words.remove_prefix(std::min(end + 1, words.size()));
-  }
-  return -1;
-}
-
 std::string_view onlyName(std::span<const Token> operand) {
   return operand.size() == 1 && operand[0].kind == TokenKind::Name ? operand[0].text : std::string_view();
 }
@@ -123,7 +108,7 @@ void Declarations::exchanged(const Statement& statement, uint32_t index) {
   const bool mapped = made.kind != ExchangeKind::DefIn && made.kind != ExchangeKind::DefOut;
   int64_t word = 0;
   if (made.kind == ExchangeKind::MapAin || made.kind == ExchangeKind::MapAout) made.type = ExchangeType::Real;
-  if (!mapped) word = operands.size() > 2 ? wordNumber(nc::kExchangeTypeWords, onlyName(operands[2])) : -1;
+  if (!mapped) word = operands.size() > 2 ? numberOfWord(nc::kExchangeTypeWords, onlyName(operands[2])) : -1;
   if (!mapped && word >= 0) made.type = nc::exchangeTypeOf(word);
   const size_t periodAt = mapped ? 3 : 4;
   const std::string_view period = operands.size() > periodAt ? onlyName(operands[periodAt]) : std::string_view();

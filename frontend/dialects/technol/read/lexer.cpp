@@ -68,6 +68,12 @@ size_t commentOf(std::string_view line) {
   return std::string_view::npos;
 }
 
+std::string_view trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
 bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diagnostics) {
   const std::string_view text = line.text;
   for (size_t i = 0; i < text.size();) {

@@ -50,15 +50,9 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
 }
 
 void MacroSet::declare(const Token& name, uint32_t macro) {
-  Symbol symbol;
-  symbol.name = name.text;
-  symbol.kind = SymbolKind::Macro;
-  symbol.local = true;
-  symbol.file = file_;
-  symbol.declared = name.range();
   // A macro may bear the name of an instruction: at its uses CONTROL_T_MACRO tells which of them is meant (man.
   // l.20572).
-  if (findRow(name.text) == nullptr) program_.symbols.declare(symbol);
+  if (findRow(name.text) == nullptr) program_.symbols.declare(namedSymbol(name, SymbolKind::Macro, file_, true));
   names_.emplace(symbolKey(name.text), macro);
 }
 

@@ -215,13 +215,8 @@ void FileReader::attachLabels(Statement& statement, uint32_t index) {
     const auto label = static_cast<uint32_t>(program_.labels.size());
     if (statement.label == kNone) statement.label = label;
     program_.labels.push_back({.name = name.text, .unit = structure_.unit(), .statement = index, .passed = passed_});
-    Symbol symbol;
-    symbol.name = name.text;
-    symbol.kind = SymbolKind::Label;
-    symbol.local = true;
+    Symbol symbol = namedSymbol(name, SymbolKind::Label, file_, true);
     symbol.index = label;
-    symbol.file = file_;
-    symbol.declared = name.range();
     program_.symbols.declare(symbol);
   }
   pendingLabels_.clear();
@@ -241,12 +236,8 @@ const Token* FileReader::oneName(const Statement& statement) {
 }
 
 void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index) {
-  Symbol symbol;
-  symbol.name = name.text;
-  symbol.kind = kind;
+  Symbol symbol = namedSymbol(name, kind, file_, false);
   symbol.index = index;
-  symbol.file = file_;
-  symbol.declared = name.range();
   if (kind == SymbolKind::Mechanism) {
     symbol.space = kMechanismSpace;
     symbol.byte = index * kMechanismBytes;
@@ -305,24 +296,19 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::LocalEnd: structure_.endLocal(statement); return;
   case Role::Stop: structure_.stop(statement, index); return;
   case Role::Equi: declarations_.constant(statement); return;
-  case Role::Macro: return;
   case Role::NotBuilt: notBuilt(statement, Diag::NotBuiltYet); return;
   case Role::NotBuiltService: notBuilt(statement, Diag::ServiceNotBuilt); return;
   case Role::MemberSize:
     program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
     return;
   case Role::NoCode: checkSwitch(statement); return;
-  case Role::MacroBegin:
-  case Role::MacroEnd: return;
-  case Role::Dfm:
-  case Role::Ds:
-  case Role::Str: return;
   case Role::Code:
   case Role::MechBegin:
   case Role::MechEnd:
   case Role::ProcBegin:
   case Role::ProcEnd:
   case Role::Timed: code(statement, index); return;
+  default: return; // read elsewhere
   }
 }
 

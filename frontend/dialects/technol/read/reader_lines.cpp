@@ -120,12 +120,6 @@ bool startsWith(std::string_view text, std::string_view word) {
   return text[word.size()] == ' ' || text[word.size()] == '\t';
 }
 
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 // The file that `path` names when the case of its last part, `name`, does not count; "" when there is none.
 std::string inAnyCase(const SourceManager& sources, const std::string& path, std::string_view name) {
   std::string found = path.substr(0, path.size() - name.size());

@@ -103,12 +103,7 @@ void Structures::end(const Token& name) {
   uint64_t contents = hashBytes({reinterpret_cast<const char*>(made_.image.data()), made_.image.size()});
   for (const StructureMember& m : made_.members)
     contents = hashBytes(m.key + "," + std::to_string(m.offset) + "," + std::to_string(contents));
-  Symbol symbol;
-  symbol.name = name_.text;
-  symbol.kind = SymbolKind::Structure;
-  symbol.local = structure_.isLocal();
-  symbol.file = file_;
-  symbol.declared = name_.range();
+  Symbol symbol = namedSymbol(name_, SymbolKind::Structure, file_, structure_.isLocal());
   symbol.value = static_cast<int64_t>(contents);
   symbol.index = static_cast<uint32_t>(program_.structures.size());
   program_.structures.push_back(std::move(made_));
@@ -125,12 +120,7 @@ void Structures::member(const Token* name, const Token& keyword, Element element
   made.elementBytes = element.bytes;
   if (name != nullptr) {
     made.key = symbolKey(name->text);
-    Symbol symbol;
-    symbol.name = name->text;
-    symbol.kind = SymbolKind::Constant;
-    symbol.local = structure_.isLocal();
-    symbol.file = file_;
-    symbol.declared = name->range();
+    Symbol symbol = namedSymbol(*name, SymbolKind::Constant, file_, structure_.isLocal());
     symbol.value = made.offset;
     program_.symbols.declare(symbol);
   }

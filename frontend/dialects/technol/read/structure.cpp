@@ -1,48 +1,21 @@
 // Modules and units of a file (see structure.h).
 #include "frontend/dialects/technol/read/structure.h"
 
+#include <algorithm>
+
 namespace rung::frontend::technol {
 namespace {
 
 std::string endName(ModuleKind kind) { return std::string(moduleName(kind)) + "_END"; }
 
 // §12.1: what the main file must hold, and what further files must not.
-constexpr bool isMandatory(ModuleKind kind) {
-  switch (kind) {
-  case ModuleKind::Data:
-  case ModuleKind::Input:
-  case ModuleKind::BlockInit:
-  case ModuleKind::BlockDone:
-  case ModuleKind::Main:
-  case ModuleKind::Init:
-  case ModuleKind::Clear:
-  case ModuleKind::Halt: return true;
-  case ModuleKind::Done:
-  case ModuleKind::Fast:
-  case ModuleKind::Cont:
-  case ModuleKind::Fastest:
-  case ModuleKind::Cyclic: return false;
-  }
-  return false;
-}
+constexpr ModuleKind kMandatory[] = {ModuleKind::Data, ModuleKind::Input, ModuleKind::BlockInit, ModuleKind::BlockDone,
+                                     ModuleKind::Main, ModuleKind::Init,  ModuleKind::Clear,     ModuleKind::Halt};
+constexpr ModuleKind kMainOnly[] = {ModuleKind::Input, ModuleKind::BlockInit, ModuleKind::BlockDone, ModuleKind::Halt,
+                                    ModuleKind::Cont};
 
-constexpr bool isMainOnly(ModuleKind kind) {
-  switch (kind) {
-  case ModuleKind::Input:
-  case ModuleKind::BlockInit:
-  case ModuleKind::BlockDone:
-  case ModuleKind::Halt:
-  case ModuleKind::Cont: return true;
-  case ModuleKind::Data:
-  case ModuleKind::Main:
-  case ModuleKind::Init:
-  case ModuleKind::Clear:
-  case ModuleKind::Done:
-  case ModuleKind::Fast:
-  case ModuleKind::Fastest:
-  case ModuleKind::Cyclic: return false;
-  }
-  return false;
+bool isOneOf(ModuleKind kind, std::span<const ModuleKind> kinds) {
+  return std::ranges::find(kinds, kind) != kinds.end();
 }
 
 } // namespace
@@ -61,7 +34,7 @@ void Structure::checkPlace(const Statement& statement, ModuleKind kind) {
     diagnostics.report(Diag::DataNotFirst, statement.range());
   }
   if (seen) diagnostics.report(Diag::DuplicateModule, statement.range()) << moduleName(kind);
-  if (isMainOnly(kind) && !program_.files[file_].main)
+  if (isOneOf(kind, kMainOnly) && !program_.files[file_].main)
     diagnostics.report(Diag::ModuleNotAllowed, statement.range()) << moduleName(kind);
   seen = true;
 }
@@ -276,7 +249,7 @@ void Structure::checkMissing() {
   size_t count = 0;
   for (int i = 1; i < kModuleKinds; ++i) {
     const auto kind = static_cast<ModuleKind>(i);
-    const bool needed = file.main ? isMandatory(kind) : kind == ModuleKind::Main;
+    const bool needed = file.main ? isOneOf(kind, kMandatory) : kind == ModuleKind::Main;
     if (!needed || seen_[static_cast<size_t>(i)]) continue;
     missing.append(count++ == 0 ? "" : ", ").append(moduleName(kind));
   }

@@ -1,6 +1,7 @@
 // Kinds of operands: what a row may ask for.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -34,6 +35,18 @@ std::span<const OperandKind> operandKinds();
 std::span<const OperandKindInfo> operandKindInfos();
 // By its name; null when there is none.
 const OperandKind* findOperandKind(std::string_view kind);
+
+// Calls visit(word, number) for the words of a list, which are parted by blanks.
+template <class Visit>
+void forEachWord(std::string_view words, Visit visit) {
+  for (int64_t number = 0; !words.empty(); ++number) {
+    const size_t end = std::min(words.find(' '), words.size());
+    visit(words.substr(0, end), number);
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+}
+// The number of a word in a list, in any case; -1: it is not there.
+int64_t numberOfWord(std::string_view words, std::string_view wanted);
 
 // The classes that name variables of MAP_* and DEF_*, and a bit for its number.
 inline constexpr std::string_view kNewBit = "new bit";

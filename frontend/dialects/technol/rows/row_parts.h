@@ -6,8 +6,22 @@
 
 namespace rung::frontend::technol {
 
+using OperandList = decltype(InstructionInfo::operands);
+
 // Bytes that one instruction may move: a rung makes so many passes.
 inline constexpr int64_t kMostBytes = int64_t{1} << 20;
+
+// A row of a family, whose rows share a shape and differ in their texts and their variant.
+constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title, std::string_view ref,
+                    std::string_view doc, std::string_view example, int variant = 0) {
+  shape.info.mnemonic = mnemonic;
+  shape.info.title = title;
+  shape.info.ref = ref;
+  shape.info.doc = doc;
+  shape.info.example = example;
+  shape.variant = variant;
+  return shape;
+}
 
 constexpr OperandInfo in(std::string_view name, std::string_view kind, std::string_view doc) {
   return {.name = name, .kind = kind, .doc = doc};
@@ -17,6 +31,11 @@ constexpr OperandInfo out(std::string_view name, std::string_view kind, std::str
 }
 constexpr OperandInfo inout(std::string_view name, std::string_view kind, std::string_view doc) {
   return {.name = name, .kind = kind, .access = Access::ReadWrite, .doc = doc};
+}
+constexpr OperandInfo ranged(OperandInfo operand, int64_t min, int64_t max) {
+  operand.min = min;
+  operand.max = max;
+  return operand;
 }
 constexpr OperandInfo optional(OperandInfo operand) {
   operand.optional = true;

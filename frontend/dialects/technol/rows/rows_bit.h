@@ -9,6 +9,16 @@ namespace rung::frontend::technol {
 
 inline constexpr OperandInfo kFlagValue = {.name = "value", .kind = "flag", .doc = "0 or 1", .min = 0, .max = 1};
 
+inline constexpr Row kJoinShape = {
+    .info = {.group = "bit logic",
+             .operands = {optional(in("bit", "bit", "joined with RLO; without it the value stored last"))}},
+    .effects = kJoins | kSetsRlo | kReadsRlo,
+    .lower = lowerJoin};
+inline constexpr Row kEdgeShape = {
+    .info = {.group = "bit logic", .operands = {in("bit", "plain bit", "the bit that is watched")}, .stateful = true},
+    .effects = kSetsRlo,
+    .lower = lowerEdge};
+
 inline constexpr Row kBitRows[] = {
     // ---- bit logic (man. ch. 3.5-3.7) -----------------------------------------------------------------------------
     {.info = {.mnemonic = "LDR",
@@ -20,39 +30,17 @@ inline constexpr Row kBitRows[] = {
               .example = "LDR  A1\nLA   -B1\nWR   OUT1"},
      .effects = kPushes | kSetsRlo,
      .lower = lowerLoadBit},
-    {.info = {.mnemonic = "LA",
-              .title = "and",
-              .group = "bit logic",
-              .operands = {optional(in("bit", "bit", "joined with RLO; without it the value stored last"))},
-              .ref = "3.6, l.250",
-              .doc = "RLO becomes RLO AND the bit. Without an operand it takes the value stored last off the stack and "
-                     "joins that.",
-              .example = "LA  A2"},
-     .effects = kJoins | kSetsRlo | kReadsRlo,
-     .lower = lowerJoin,
-     .variant = kAnd},
-    {.info = {.mnemonic = "LO",
-              .title = "or",
-              .group = "bit logic",
-              .operands = {optional(in("bit", "bit", "joined with RLO; without it the value stored last"))},
-              .ref = "3.6, l.251",
-              .doc = "RLO becomes RLO OR the bit. Without an operand it takes the value stored last off the stack and "
-                     "joins that.",
-              .example = "LO  A2"},
-     .effects = kJoins | kSetsRlo | kReadsRlo,
-     .lower = lowerJoin,
-     .variant = kOr},
-    {.info = {.mnemonic = "LX",
-              .title = "exclusive or",
-              .group = "bit logic",
-              .operands = {optional(in("bit", "bit", "joined with RLO; without it the value stored last"))},
-              .ref = "3.6, l.252",
-              .doc = "RLO becomes RLO EXCLUSIVE OR the bit. Without an operand it takes the value stored last off the "
-                     "stack and joins that.",
-              .example = "LX  A2"},
-     .effects = kJoins | kSetsRlo | kReadsRlo,
-     .lower = lowerJoin,
-     .variant = kXor},
+    rowOf(
+        kJoinShape, "LA", "and", "3.6, l.250",
+        "RLO becomes RLO AND the bit. Without an operand it takes the value stored last off the stack and joins that.",
+        "LA  A2", kAnd),
+    rowOf(kJoinShape, "LO", "or", "3.6, l.251",
+          "RLO becomes RLO OR the bit. Without an operand it takes the value stored last off the stack and joins that.",
+          "LO  A2", kOr),
+    rowOf(kJoinShape, "LX", "exclusive or", "3.6, l.252",
+          "RLO becomes RLO EXCLUSIVE OR the bit. Without an operand it takes the value stored last off the stack and "
+          "joins that.",
+          "LX  A2", kXor),
     {.info = {.mnemonic = "CA",
               .title = "complement",
               .group = "bit logic",
@@ -61,30 +49,14 @@ inline constexpr Row kBitRows[] = {
               .example = "LDR  DOOR\nCA\nWR   LAMP"},
      .effects = kReadsRlo | kSetsRlo,
      .lower = lowerComplement},
-    {.info = {.mnemonic = "EDGE_H",
-              .title = "rising edge",
-              .group = "bit logic",
-              .operands = {in("bit", "plain bit", "the bit that is watched")},
-              .stateful = true,
-              .ref = "3.6, l.288",
-              .doc = "RLO is 1 in the run in which the bit goes from 0 to 1, else 0. The first run after a start only "
-                     "records the bit.",
-              .example = "EDGE_H GO\nFL1  1,PUMP"},
-     .effects = kSetsRlo,
-     .lower = lowerEdge,
-     .variant = 1},
-    {.info = {.mnemonic = "EDGE_L",
-              .title = "falling edge",
-              .group = "bit logic",
-              .operands = {in("bit", "plain bit", "the bit that is watched")},
-              .stateful = true,
-              .ref = "3.6, l.289",
-              .doc = "RLO is 1 in the run in which the bit goes from 1 to 0, else 0. The first run after a start only "
-                     "records the bit.",
-              .example = "EDGE_L GO\nFL1  0,PUMP"},
-     .effects = kSetsRlo,
-     .lower = lowerEdge,
-     .variant = 0},
+    rowOf(kEdgeShape, "EDGE_H", "rising edge", "3.6, l.288",
+          "RLO is 1 in the run in which the bit goes from 0 to 1, else 0. The first run after a start only records the "
+          "bit.",
+          "EDGE_H GO\nFL1  1,PUMP", 1),
+    rowOf(kEdgeShape, "EDGE_L", "falling edge", "3.6, l.289",
+          "RLO is 1 in the run in which the bit goes from 1 to 0, else 0. The first run after a start only records the "
+          "bit.",
+          "EDGE_L GO\nFL1  0,PUMP", 0),
     {.info = {.mnemonic = "CHECK",
               .title = "check of the stack",
               .group = "bit logic",

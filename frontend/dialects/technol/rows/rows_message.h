@@ -6,16 +6,10 @@
 
 namespace rung::frontend::technol {
 
-constexpr OperandInfo bounded(OperandInfo operand, int64_t most) {
-  operand.min = 0;
-  operand.max = most;
-  return operand;
-}
-
-inline constexpr decltype(InstructionInfo::operands) kMessageOperands = {
-    optional(bounded(in("error", "message value", "number; in DR without it"), 65535)),
+inline constexpr OperandList kMessageOperands = {
+    optional(ranged(in("error", "message value", "number; in DR without it"), 0, 65535)),
     optional(in("subid", "message value", "additional number")),
-    optional(bounded(in("set", "message switch", "of a persistent message: 1 shows, 0 removes"), 1)),
+    optional(ranged(in("set", "message switch", "of a persistent message: 1 shows, 0 removes"), 0, 1)),
     optional(in("par1", "message value", "value in the text")),
     optional(in("par2", "message value", "value in the text")),
     optional(in("par3", "message value", "value in the text"))};
@@ -50,12 +44,12 @@ inline constexpr Row kMessageRows[] = {
               .group = "message",
               .operands = {in("val", "status byte", "byte of the bit; not given: the bit has its own place"),
                            in("bit", "status bit", "state that makes the message"),
-                           bounded(in("error", "message number", "number"), 65535),
+                           ranged(in("error", "message number", "number"), 0, 65535),
                            in("subid", "message value", "additional number"),
-                           bounded(in("mod", "constant",
-                                      "bits 0, 1: beginning, bits 2, 3: end; 01 rising, 10 falling "
-                                      "edge, 00 never"),
-                                   10),
+                           ranged(in("mod", "constant",
+                                     "bits 0, 1: beginning, bits 2, 3: end; 01 rising, 10 falling "
+                                     "edge, 00 never"),
+                                  0, 10),
                            optional(in("par1", "message value", "value in the text, read when the message comes up")),
                            optional(in("par2", "message value", "value in the text")),
                            optional(in("par3", "message value", "value in the text"))},

@@ -40,95 +40,60 @@ inline constexpr OperandInfo kLeast = optional(in("min", "limit or length", "lea
 inline constexpr OperandInfo kMost = optional(in("max", "real cell", "greatest value"));
 inline constexpr OperandInfo kBit = in("bit", kBitName, "which bit of the byte");
 
+constexpr Row definitionShape(OperandList operands) {
+  return {.info = {.group = "inputs and outputs", .operands = operands},
+          .effects = kInitOnly | kDeclares,
+          .check = checkDefine,
+          .lower = lowerDefine};
+}
+inline constexpr Row kMappedBitShape = definitionShape({kNewInput, kIdentifier, kDefaultBit, kFast});
+inline constexpr Row kMappedRealShape = definitionShape({kNewCell, kIdentifier, kDefaultReal, kFast});
+inline constexpr Row kLogicalShape = definitionShape({kNewName, kIdentifier, kExchangeType, kDefaultValue, kPeriod});
+
+constexpr Row configurationShape(OperandList operands, uint16_t effects = kSetsRlo) {
+  return {.info = {.group = "configuration", .operands = operands},
+          .effects = effects,
+          .check = checkConfiguration,
+          .lower = lowerConfiguration};
+}
+
 inline constexpr Row kNcRows[] = {
-    {.info = {.mnemonic = "MAP_IN",
-              .title = "declares a mapped input",
-              .group = "inputs and outputs",
-              .operands = {kNewInput, kIdentifier, kDefaultBit, kFast},
-              .ref = "10.4, l.5767",
-              .doc = "Declares a bit that is copied from the input port its configuration names, inverted where "
-                     "that says so, before each cycle, with FAST each millisecond. The variable is declared "
-                     "by this instruction alone, without DFM or DS, and is known in all files. Where the "
-                     "identifier has no configuration, the variable takes the default, which else is the "
-                     "configuration's. Shared by itself.",
-              .example = "MAP_IN LIMIT_X,'inLimX',0,FAST"},
-     .effects = kInitOnly | kDeclares,
-     .check = checkDefine,
-     .lower = lowerDefine,
-     .variant = static_cast<int>(nc::ExchangeKind::MapIn)},
-    {.info = {.mnemonic = "MAP_OUT",
-              .title = "declares a mapped output",
-              .group = "inputs and outputs",
-              .operands = {kNewInput, kIdentifier, kDefaultBit, kFast},
-              .ref = "10.4, l.5768",
-              .doc = "Declares a bit that is copied to the output port its configuration names after each cycle, "
-                     "with FAST each millisecond. Several outputs on one bit are ORed. The variable is declared by "
-                     "this instruction alone, without DFM or DS, and is known in all files. Where the identifier "
-                     "has no configuration, the variable takes the default, which else is the configuration's. "
-                     "Shared by itself.",
-              .example = "MAP_OUT ENABLE_X,'outXEn'"},
-     .effects = kInitOnly | kDeclares,
-     .check = checkDefine,
-     .lower = lowerDefine,
-     .variant = static_cast<int>(nc::ExchangeKind::MapOut)},
-    {.info = {.mnemonic = "MAP_AIN",
-              .title = "declares a mapped analogue input",
-              .group = "inputs and outputs",
-              .operands = {kNewCell, kIdentifier, kDefaultReal, kFast},
-              .ref = "10.5, l.5850",
-              .doc = "Declares a real that follows a physical analogue input: its voltage plus Offset, times "
-                     "Scale, held between MinVal and MaxVal. The variable is declared by this instruction alone, "
-                     "without DFM or DS, and is known in all files. Where the identifier has no configuration, the "
-                     "variable takes the default, which else is the configuration's. Shared by itself.",
-              .example = "MAP_AIN VOLTAGE,'PlasmaVoltage',120.0"},
-     .effects = kInitOnly | kDeclares,
-     .check = checkDefine,
-     .lower = lowerDefine,
-     .variant = static_cast<int>(nc::ExchangeKind::MapAin)},
-    {.info = {.mnemonic = "MAP_AOUT",
-              .title = "declares a mapped analogue output",
-              .group = "inputs and outputs",
-              .operands = {kNewCell, kIdentifier, kDefaultReal, kFast},
-              .ref = "10.5, l.5851",
-              .doc = "Declares a real that sets a physical analogue output: held between MinVal and MaxVal, times "
-                     "Scale, plus Offset. The variable is declared by this instruction alone, without DFM or DS, "
-                     "and is known in all files. Where the identifier has no configuration, the variable takes the "
-                     "default, which else is the configuration's. Shared by itself.",
-              .example = "MAP_AOUT FLOW,'CutFlow',30.0"},
-     .effects = kInitOnly | kDeclares,
-     .check = checkDefine,
-     .lower = lowerDefine,
-     .variant = static_cast<int>(nc::ExchangeKind::MapAout)},
-    {.info = {.mnemonic = "DEF_IN",
-              .title = "declares a logical input",
-              .group = "inputs and outputs",
-              .operands = {kNewName, kIdentifier, kExchangeType, kDefaultValue, kPeriod},
-              .ref = "27.6, l.13299",
-              .doc = "Declares a variable of the type, or with `[n]` an array of n elements (of TYPE_STR a text of "
-                     "n characters, of TYPE_BIN n bytes), which a connection may set, as PLC.Input.ID. Elements "
-                     "lie one after the other, a bit in each byte of an array of bits. The name is known in all "
-                     "files; DFM and DS declare it no second time. The variable takes the default, if there is "
-                     "one. Shared by itself.",
-              .example = "DEF_IN FEED,'Feed',TYPE_DWORD,222,ONDEMAND"},
-     .effects = kInitOnly | kDeclares,
-     .check = checkDefine,
-     .lower = lowerDefine,
-     .variant = static_cast<int>(nc::ExchangeKind::DefIn)},
-    {.info = {.mnemonic = "DEF_OUT",
-              .title = "declares a logical output",
-              .group = "inputs and outputs",
-              .operands = {kNewName, kIdentifier, kExchangeType, kDefaultValue, kPeriod},
-              .ref = "27.6, l.13300",
-              .doc = "Declares a variable of the type, or with `[n]` an array of n elements (of TYPE_STR a text of "
-                     "n characters, of TYPE_BIN n bytes), from which connections may take their values, as "
-                     "PLC.Output.ID. Elements lie one after the other, a bit in each byte of an array of bits. "
-                     "The name is known in all files; DFM and DS declare it no second time. The variable takes the "
-                     "default, if there is one. Shared by itself.",
-              .example = "DEF_OUT TORQUE[8],'Torque',TYPE_REAL"},
-     .effects = kInitOnly | kDeclares,
-     .check = checkDefine,
-     .lower = lowerDefine,
-     .variant = static_cast<int>(nc::ExchangeKind::DefOut)},
+    rowOf(kMappedBitShape, "MAP_IN", "declares a mapped input", "10.4, l.5767",
+          "Declares a bit that is copied from the input port its configuration names, inverted where that says so, "
+          "before each cycle, with FAST each millisecond. The variable is declared by this instruction alone, without "
+          "DFM or DS, and is known in all files. Where the identifier has no configuration, the variable takes the "
+          "default, which else is the configuration's. Shared by itself.",
+          "MAP_IN LIMIT_X,'inLimX',0,FAST", static_cast<int>(nc::ExchangeKind::MapIn)),
+    rowOf(kMappedBitShape, "MAP_OUT", "declares a mapped output", "10.4, l.5768",
+          "Declares a bit that is copied to the output port its configuration names after each cycle, with FAST each "
+          "millisecond. Several outputs on one bit are ORed. The variable is declared by this instruction alone, "
+          "without DFM or DS, and is known in all files. Where the identifier has no configuration, the variable takes "
+          "the default, which else is the configuration's. Shared by itself.",
+          "MAP_OUT ENABLE_X,'outXEn'", static_cast<int>(nc::ExchangeKind::MapOut)),
+    rowOf(kMappedRealShape, "MAP_AIN", "declares a mapped analogue input", "10.5, l.5850",
+          "Declares a real that follows a physical analogue input: its voltage plus Offset, times Scale, held between "
+          "MinVal and MaxVal. The variable is declared by this instruction alone, without DFM or DS, and is known in "
+          "all files. Where the identifier has no configuration, the variable takes the default, which else is the "
+          "configuration's. Shared by itself.",
+          "MAP_AIN VOLTAGE,'PlasmaVoltage',120.0", static_cast<int>(nc::ExchangeKind::MapAin)),
+    rowOf(kMappedRealShape, "MAP_AOUT", "declares a mapped analogue output", "10.5, l.5851",
+          "Declares a real that sets a physical analogue output: held between MinVal and MaxVal, times Scale, plus "
+          "Offset. The variable is declared by this instruction alone, without DFM or DS, and is known in all files. "
+          "Where the identifier has no configuration, the variable takes the default, which else is the "
+          "configuration's. Shared by itself.",
+          "MAP_AOUT FLOW,'CutFlow',30.0", static_cast<int>(nc::ExchangeKind::MapAout)),
+    rowOf(kLogicalShape, "DEF_IN", "declares a logical input", "27.6, l.13299",
+          "Declares a variable of the type, or with `[n]` an array of n elements (of TYPE_STR a text of n characters, "
+          "of TYPE_BIN n bytes), which a connection may set, as PLC.Input.ID. Elements lie one after the other, a bit "
+          "in each byte of an array of bits. The name is known in all files; DFM and DS declare it no second time. The "
+          "variable takes the default, if there is one. Shared by itself.",
+          "DEF_IN FEED,'Feed',TYPE_DWORD,222,ONDEMAND", static_cast<int>(nc::ExchangeKind::DefIn)),
+    rowOf(kLogicalShape, "DEF_OUT", "declares a logical output", "27.6, l.13300",
+          "Declares a variable of the type, or with `[n]` an array of n elements (of TYPE_STR a text of n characters, "
+          "of TYPE_BIN n bytes), from which connections may take their values, as PLC.Output.ID. Elements lie one "
+          "after the other, a bit in each byte of an array of bits. The name is known in all files; DFM and DS declare "
+          "it no second time. The variable takes the default, if there is one. Shared by itself.",
+          "DEF_OUT TORQUE[8],'Torque',TYPE_REAL", static_cast<int>(nc::ExchangeKind::DefOut)),
     {.info = {.mnemonic = "UPDATE_IN",
               .title = "takes over a logical input at once",
               .group = "inputs and outputs",
@@ -165,78 +130,36 @@ inline constexpr Row kNcRows[] = {
      .effects = kInitOnly | kSetsRlo,
      .check = checkShareBit,
      .lower = lowerShareBit},
-    {.info = {.mnemonic = "CNF_GET_INT",
-              .title = "integer of the configuration",
-              .group = "configuration",
-              .operands = {out("val", "integer cell", "is read"), kIdentifier, defaultOf("bitwise value")},
-              .ref = "16.1, l.16111",
-              .doc = "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and "
-                     "the default is stored, if there is one.",
-              .example = "CNF_GET_INT POS,'TIM_WATER',6"},
-     .effects = kSetsRlo,
-     .check = checkConfiguration,
-     .lower = lowerConfiguration,
-     .variant = static_cast<int>(nc::ConfigurationKind::Integer)},
-    {.info = {.mnemonic = "CNF_GET_REAL",
-              .title = "real of the configuration",
-              .group = "configuration",
-              .operands = {out("val", "real cell", "is read"), kIdentifier, defaultOf("real value")},
-              .ref = "16.1, l.16112",
-              .doc = "Reads a real parameter of the configuration. RLO becomes 1 where it is found; else 0, and the "
-                     "default is stored, if there is one.",
-              .example = "CNF_GET_REAL RATIO,'GAIN',CNST.0.2"},
-     .effects = kSetsRlo,
-     .check = checkConfiguration,
-     .lower = lowerConfiguration,
-     .variant = static_cast<int>(nc::ConfigurationKind::Real)},
-    {.info = {.mnemonic = "CNF_GET_STR",
-              .title = "text of the configuration",
-              .group = "configuration",
-              .operands = {out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")},
-              .ref = "16.1, l.16113",
-              .doc = "Reads a text of the configuration, as far as there is room. RLO becomes 1 where it is found; "
-                     "else 0, and the default is stored, if there is one.",
-              .example = "CNF_GET_STR TEXT1,'TITLE','Ready'"},
-     .effects = kSetsRlo,
-     .check = checkConfiguration,
-     .lower = lowerConfiguration,
-     .variant = static_cast<int>(nc::ConfigurationKind::Text)},
-    {.info = {.mnemonic = "CNF_GET_BIN",
-              .title = "bytes of the configuration",
-              .group = "configuration",
-              .operands = {out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")},
-              .ref = "16.1, l.16114",
-              .doc = "Reads bytes of the configuration, without a terminator. RLO becomes 1 where it is found; else 0, "
-                     "and the default is stored, if there is one.",
-              .example = "CNF_GET_BIN TEXT1,'MASK'"},
-     .effects = kSetsRlo,
-     .check = checkConfiguration,
-     .lower = lowerConfiguration,
-     .variant = static_cast<int>(nc::ConfigurationKind::Binary)},
-    {.info = {.mnemonic = "CNF_GET_BIT",
-              .title = "bit of the configuration",
-              .group = "configuration",
-              .operands = {out("bit", "plain bit", "is read"), kIdentifier, defaultOf("bit or flag")},
-              .ref = "16.1, l.16115",
-              .doc = "Reads a bit of the configuration: 1 unless the integer is 0. RLO becomes 1 where it is found; "
-                     "else 0, and the default is stored, if there is one.",
-              .example = "CNF_GET_BIT LAMP,'LIM_SWITCH',0"},
-     .effects = kSetsRlo,
-     .check = checkConfiguration,
-     .lower = lowerConfiguration,
-     .variant = static_cast<int>(nc::ConfigurationKind::Bit)},
-    {.info = {.mnemonic = "CONST_GET",
-              .title = "constant of the PLC",
-              .group = "configuration",
-              .operands = {out("val", "integer cell", "is read"), kIdentifier},
-              .ref = "16.2, l.16355",
-              .doc = "Reads a constant of the PLC into the cell and DR. RLO becomes 1 where it is found; else RLO and "
-                     "DR become 0 and the cell stays.",
-              .example = "CONST_GET POS,'PUMP_START'"},
-     .effects = kSetsRlo | kSetsDr,
-     .check = checkConfiguration,
-     .lower = lowerConfiguration,
-     .variant = static_cast<int>(nc::ConfigurationKind::Constant)},
+    rowOf(configurationShape({out("val", "integer cell", "is read"), kIdentifier, defaultOf("bitwise value")}),
+          "CNF_GET_INT", "integer of the configuration", "16.1, l.16111",
+          "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default "
+          "is stored, if there is one.",
+          "CNF_GET_INT POS,'TIM_WATER',6", static_cast<int>(nc::ConfigurationKind::Integer)),
+    rowOf(configurationShape({out("val", "real cell", "is read"), kIdentifier, defaultOf("real value")}),
+          "CNF_GET_REAL", "real of the configuration", "16.1, l.16112",
+          "Reads a real parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default is "
+          "stored, if there is one.",
+          "CNF_GET_REAL RATIO,'GAIN',CNST.0.2", static_cast<int>(nc::ConfigurationKind::Real)),
+    rowOf(configurationShape({out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")}),
+          "CNF_GET_STR", "text of the configuration", "16.1, l.16113",
+          "Reads a text of the configuration, as far as there is room. RLO becomes 1 where it is found; else 0, and "
+          "the default is stored, if there is one.",
+          "CNF_GET_STR TEXT1,'TITLE','Ready'", static_cast<int>(nc::ConfigurationKind::Text)),
+    rowOf(configurationShape({out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")}),
+          "CNF_GET_BIN", "bytes of the configuration", "16.1, l.16114",
+          "Reads bytes of the configuration, without a terminator. RLO becomes 1 where it is found; else 0, and the "
+          "default is stored, if there is one.",
+          "CNF_GET_BIN TEXT1,'MASK'", static_cast<int>(nc::ConfigurationKind::Binary)),
+    rowOf(configurationShape({out("bit", "plain bit", "is read"), kIdentifier, defaultOf("bit or flag")}),
+          "CNF_GET_BIT", "bit of the configuration", "16.1, l.16115",
+          "Reads a bit of the configuration: 1 unless the integer is 0. RLO becomes 1 where it is found; else 0, and "
+          "the default is stored, if there is one.",
+          "CNF_GET_BIT LAMP,'LIM_SWITCH',0", static_cast<int>(nc::ConfigurationKind::Bit)),
+    rowOf(configurationShape({out("val", "integer cell", "is read"), kIdentifier}, kSetsRlo | kSetsDr), "CONST_GET",
+          "constant of the PLC", "16.2, l.16355",
+          "Reads a constant of the PLC into the cell and DR. RLO becomes 1 where it is found; else RLO and DR become 0 "
+          "and the cell stays.",
+          "CONST_GET POS,'PUMP_START'", static_cast<int>(nc::ConfigurationKind::Constant)),
 };
 
 } // namespace rung::frontend::technol

@@ -5,8 +5,6 @@
 
 namespace rung::frontend::technol {
 
-using OperandList = decltype(InstructionInfo::operands);
-
 constexpr Row serviceRow(std::string_view mnemonic, std::string_view group, OperandList operands, std::string_view ref,
                          std::string_view doc, uint16_t effects = 0) {
   return {.info = {.mnemonic = mnemonic,
@@ -25,11 +23,6 @@ constexpr Row pollingRow(std::string_view mnemonic, std::string_view group, Oper
   row.info.terminating = true;
   row.info.tasks = kSequentialUnits;
   return row;
-}
-constexpr OperandInfo ranged(OperandInfo operand, int64_t min, int64_t max) {
-  operand.min = min;
-  operand.max = max;
-  return operand;
 }
 constexpr OperandInfo byteNumber(std::string_view name, std::string_view doc) {
   return ranged(in(name, "number", doc), 0, 0xFF);

@@ -11,6 +11,12 @@ inline constexpr OperandInfo kTarget = out("text1", "text", "the target");
 inline constexpr OperandInfo kSource = in("text2", "text or literal", "the source");
 inline constexpr OperandInfo kCharacters = lengthOf("num", "at most so many characters", true);
 
+inline constexpr Row kNumberTextShape = {
+    .info = {.group = "text", .operands = {out("text1", "text", "of 1 to 10 characters"), widthOf("double width")}},
+    .effects = kReadsDr,
+    .check = checkNumberToText,
+    .lower = lowerNumberToText};
+
 inline constexpr Row kTextRows[] = {
     // ---- memory (man. ch. 3.15) -----------------------------------------------------------------------------------
     {.info = {.mnemonic = "MV",
@@ -57,30 +63,12 @@ inline constexpr Row kTextRows[] = {
               .example = "STRADD TEXT1,' MM'"},
      .check = checkTexts,
      .lower = lowerAddText},
-    {.info = {.mnemonic = "BINSTR",
-              .title = "number to text",
-              .group = "text",
-              .operands = {out("text1", "text", "of 1 to 10 characters"), widthOf("double width")},
-              .ref = "3.18, l.1808",
-              .doc =
-                  "DR becomes decimal digits, as many as the text has characters, with leading zeros: 16 bits without "
-                  "sign, with DWRD 32. Digits before those are lost.",
-              .example = "LOD    COUNT\nBINSTR TEXT1"},
-     .effects = kReadsDr,
-     .check = checkNumberToText,
-     .lower = lowerNumberToText,
-     .variant = 0},
-    {.info = {.mnemonic = "BCDSTR",
-              .title = "BCD number to text",
-              .group = "text",
-              .operands = {out("text1", "text", "of 1 to 10 characters"), widthOf("double width")},
-              .ref = "3.18, l.1809",
-              .doc = "As BINSTR, for a number of 4 or, with DWRD, 8 BCD digits.",
-              .example = "LOD    COUNT\nBCD\nBCDSTR TEXT1"},
-     .effects = kReadsDr,
-     .check = checkNumberToText,
-     .lower = lowerNumberToText,
-     .variant = 1},
+    rowOf(kNumberTextShape, "BINSTR", "number to text", "3.18, l.1808",
+          "DR becomes decimal digits, as many as the text has characters, with leading zeros: 16 bits without sign, "
+          "with DWRD 32. Digits before those are lost.",
+          "LOD    COUNT\nBINSTR TEXT1", 0),
+    rowOf(kNumberTextShape, "BCDSTR", "BCD number to text", "3.18, l.1809",
+          "As BINSTR, for a number of 4 or, with DWRD, 8 BCD digits.", "LOD    COUNT\nBCD\nBCDSTR TEXT1", 1),
     {.info = {.mnemonic = "STRCMP",
               .title = "compare texts",
               .group = "text",

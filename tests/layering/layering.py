@@ -84,6 +84,10 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+[<"]([^>"]+)[>"]', re.MULTILIN
 DIALECT_NAME = re.compile(r"(?<![A-Za-z])(?:gsk|nct|technol)(?![a-z])|(?:Gsk|Nct|Technol)(?![a-z])"
                           r"|(?<![A-Z])(?:GSK|NCT|TECHNOL)(?![A-Z])")
 
+# Lowerings of programs without errors, which report nothing.
+CHECKED_BEFORE = ("frontend/dialects/technol/lower",)
+REPORT = re.compile(r"\bDiag::\w+|\b[dD]iagnostics\b")
+
 
 def within(path, folder):
     return path == folder or path.startswith(folder + "/")
@@ -142,8 +146,19 @@ def check_dialect_names(root):
     return found
 
 
+def check_lowerings(root):
+    """What is wrong with a program is reported before it is lowered."""
+    found = []
+    for file in sorted(file for folder in CHECKED_BEFORE for file in (root / folder).rglob("*")):
+        text = file.read_text(encoding="utf-8")
+        for match in REPORT.finditer(text):
+            line = text.count("\n", 0, match.start()) + 1
+            found.append(f"{file.relative_to(root).as_posix()}:{line}: reports ({match.group()}): belongs in the check")
+    return found
+
+
 def check(root):
-    found = check_hosts(root) + check_dialect_names(root)
+    found = check_hosts(root) + check_dialect_names(root) + check_lowerings(root)
     for top in ("frontend", "ir", "codegen", "rtlib"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in SUFFIXES:

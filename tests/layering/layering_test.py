@@ -56,6 +56,7 @@ BAD = {
     "the signal tables in the names": ("rtlib/nc/names/x.cpp", '#include "rtlib/nc/signal.h"'),
     "a library includes a tool": ("codegen/cpp/x.cpp", '#include "tools/rungc/main.cpp"'),
     "an include without its folder": ("ir/core/x.cpp", '#include "module.h"'),
+    "a lowering reports": ("frontend/dialects/technol/lower/x.cpp", "program.diagnostics.report(id, at);"),
     "an unknown module": ("ir/extra/x.cpp", "#include <vector>"),
 }
 

@@ -2,8 +2,8 @@
 // between words of an operand stay, as one.
 #include "frontend/dialects/technol/format.h"
 
-#include "frontend/dialects/technol/encoding.h"
-#include "frontend/dialects/technol/file_reader.h"
+#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/file_reader.h"
 #include "frontend/syntax/page.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"

@@ -6,8 +6,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "frontend/dialects/technol/encoding.h"
-#include "frontend/dialects/technol/symbols.h"
+#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/symbols.h"
 #include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {
@@ -34,6 +34,9 @@ struct Exchanged {
   uint32_t symbol = kNone;
   uint32_t count = 1; // elements; bytes of a text
 };
+
+// A procedure that the control has called when a message comes up (man. l.1609).
+inline constexpr std::string_view kOnMessage = "_ON_ESET";
 
 struct Program {
   Program(SourceManager& sourceManager, Diagnostics& sink) : sources(sourceManager), diagnostics(sink), symbols(sink) {}
@@ -66,23 +69,19 @@ struct Program {
   std::span<const Token> operandTokens(const Statement& statement) const {
     return std::span(tokens).subspan(statement.firstToken, statement.tokenCount);
   }
+  // The size of one of the module's spaces.
+  uint32_t bytesOf(ir::SpaceId space) const;
   // The nearest unit that is not a timed block.
-  uint32_t owner(uint32_t unit) const {
-    while (unit != kNone && units[unit].kind == UnitKind::Timed) unit = units[unit].parent;
-    return unit;
-  }
-  bool inMechanism(uint32_t unit) const {
-    const uint32_t at = owner(unit);
-    return at != kNone && units[at].kind == UnitKind::Mechanism;
-  }
-  // Whether statements that wait may stand in this unit (man. l.2166-2171).
-  bool mayWait(uint32_t unit) const {
-    const uint32_t at = owner(unit);
-    if (at == kNone) return false;
-    const Unit& u = units[at];
-    if (u.kind == UnitKind::Module) return u.module == ModuleKind::BlockInit || u.module == ModuleKind::BlockDone;
-    return u.kind == UnitKind::Mechanism;
-  }
+  uint32_t owner(uint32_t unit) const;
+  // The procedure that the unit is or lies in; kNone where that is none.
+  uint32_t procedureOf(uint32_t unit) const;
+  bool inMechanism(uint32_t unit) const;
+  // Whether statements that wait are allowed in this unit (man. l.2166-2171).
+  bool mayWait(uint32_t unit) const;
+  // A bit for each file that has such a statement.
+  int64_t filesWith(bool SourceFile::* statement) const;
+  // By its key; kNone where there is none.
+  uint32_t procedureNamed(std::string_view name) const;
 };
 
 // Splits at the commas that stand outside brackets, those of structures too; an operand may be empty. No tokens: no

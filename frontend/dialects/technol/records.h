@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/dialects/technol/instructions.h"
-#include "frontend/dialects/technol/lexer.h"
+#include "frontend/dialects/technol/read/lexer.h"
+#include "frontend/dialects/technol/rows/instructions.h"
 #include "ir/core/builder.h"
 #include "ir/core/module.h"
 
@@ -58,15 +58,9 @@ struct Mechanism {
   bool open = false;
 };
 
-struct Call {
-  uint32_t callee = kNone; // in procedures
-  SourceRange range;
-};
-
 struct Procedure {
   std::string_view name;
   uint32_t unit = kNone;
-  std::vector<Call> calls;
 };
 
 // A module's text in one file.
@@ -120,8 +114,26 @@ struct Symbol {
   SourceRange declared;
 };
 
+// A symbol with its place; the rest is for the caller.
+inline Symbol namedSymbol(const Token& name, SymbolKind kind, uint32_t file, bool local) {
+  Symbol symbol;
+  symbol.name = name.text;
+  symbol.kind = kind;
+  symbol.local = local;
+  symbol.file = file;
+  symbol.declared = name.range();
+  return symbol;
+}
+
 // What it is, for messages: "a WORD".
+std::string_view describe(ir::Type type);
 std::string_view describe(const Symbol& symbol);
+
+// A name in the source, and the symbol that it is.
+struct NameUse {
+  SourceRange range;
+  uint32_t symbol = kNone;
+};
 
 struct SourceFile {
   FileId id;

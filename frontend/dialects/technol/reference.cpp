@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "frontend/dialects/technol/symbols.h"
+#include "frontend/dialects/technol/read/symbols.h"
 #include "frontend/table/markdown.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"

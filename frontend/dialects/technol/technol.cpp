@@ -3,12 +3,15 @@
 
 #include <set>
 
-#include "frontend/dialects/technol/assemble.h"
-#include "frontend/dialects/technol/encoding.h"
+#include "frontend/dialects/technol/check/analysis.h"
+#include "frontend/dialects/technol/check/check_program.h"
 #include "frontend/dialects/technol/format.h"
 #include "frontend/dialects/technol/listing.h"
-#include "frontend/dialects/technol/reader.h"
+#include "frontend/dialects/technol/lower/assemble.h"
+#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/reference.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend {
@@ -36,60 +39,47 @@ technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnos
   return encoding;
 }
 
-std::string baseName(std::string_view path) {
-  const size_t slash = path.find_last_of("/\\");
-  if (slash != std::string_view::npos) path = path.substr(slash + 1);
-  return std::string(path.substr(0, path.rfind('.')));
-}
-
 class TechnolProgram : public CheckedProgram {
 public:
   TechnolProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
                  Diagnostics& diagnostics)
-      : files_(files.begin(), files.end()), options_(options), diagnostics_(diagnostics),
-        program_(sources, diagnostics) {}
+      : files_(files.begin(), files.end()), options_(options), program_(sources, diagnostics) {}
 
   void check() {
     if (const auto folder = options_.config.find("system_folder"); folder != options_.config.end())
       program_.systemFolder = folder->second;
     program_.includePaths = options_.includePaths;
-    program_.encoding = encodingOf(options_, diagnostics_);
+    program_.encoding = encodingOf(options_, program_.diagnostics);
     technol::readProgram(program_, files_);
-    if (program_.files.empty()) return;
-    lower();
+    period_ = periodOf(options_, program_.diagnostics);
+    typed_ = technol::checkProgram(program_);
+    analysis_ = technol::analysisOf(program_, typed_);
   }
 
   const Analysis& analysis() const override { return analysis_; }
 
-  std::unique_ptr<ir::Module> build() override { return std::move(module_); }
+  std::unique_ptr<ir::Module> build() override {
+    auto module = std::make_unique<ir::Module>();
+    module->name = program_.sources.name(files_[0]);
+    module->dialect = "technol";
+    for (const FileId file : files_) module->files.emplace_back(program_.sources.name(file));
+    technol::addSpaces(program_, *module);
+    technol::Walk walk(program_, typed_, *module, period_, options_.marks);
+    const technol::LoweredProgram lowered = walk.run();
+    technol::addTasks(program_, lowered, walk.emitter(), period_);
+    technol::addSymbols(program_, *module);
+    technol::numberRungs(*module);
+    return module;
+  }
 
 private:
-  void lower();
-
   const std::vector<FileId> files_;
   const CompileOptions& options_;
-  Diagnostics& diagnostics_;
   technol::Program program_;
+  uint32_t period_ = technol::kDefaultPeriodUs;
+  technol::TypedProgram typed_;
   Analysis analysis_;
-  std::unique_ptr<ir::Module> module_;
 };
-
-// Operands are checked on the way.
-void TechnolProgram::lower() {
-  auto module = std::make_unique<ir::Module>();
-  module->name = baseName(program_.sources.name(files_[0]));
-  module->dialect = "technol";
-  for (const FileId file : files_) module->files.emplace_back(program_.sources.name(file));
-  technol::addSpaces(program_, *module);
-  const uint32_t period = periodOf(options_, diagnostics_);
-  technol::Lowering lowering(program_, *module, period, options_.marks);
-  lowering.run();
-  if (diagnostics_.hasErrors()) return;
-  technol::addTasks(lowering, *module, period);
-  technol::addSymbols(program_, *module);
-  technol::numberRungs(*module);
-  module_ = std::move(module);
-}
 
 std::unique_ptr<CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
                                       const CompileOptions& options, Diagnostics& diagnostics) {

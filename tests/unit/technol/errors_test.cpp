@@ -29,7 +29,7 @@ const Case kCases[] = {
     {"Underflow", "DFM A\n", " LDR A\n LA\n WR A\n", {"0:8 stack-underflow"}, {}},
     {"Overflow", "DFM A\n", " LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LDR A\n LO\n LO\n LO\n LO\n LO\n LO\n LO\n LO\n WR A\n", {"0:16 stack-overflow"}, {}},
     {"UnterminatedEquation", "DFM A\n", " LDR A\n LA A\n", {}, {"0:7 unterminated-equation"}},
-    {"UndefinedBit", "DFM A\n", " LDR A\n LA X\n WR A\n LDR X\n WR A\n", {"0:8 undefined-symbol", "0:10 undefined-symbol"}, {}},
+    {"UndefinedBit", "DFM A\n", " LDR A\n LA X\n WR A\n LDR X\n WR A\n", {"0:8 undefined-symbol"}, {}},
     {"UndefinedCell", "", " LOD X\n STO Y\n", {"0:6 undefined-symbol", "0:7 undefined-symbol"}, {}},
     {"UndefinedLabel", "", " JUM L\n", {"0:6 undefined-symbol"}, {}},
     {"UndefinedMechanism", "", " MECH_INIT M\n", {"0:6 undefined-symbol"}, {}},
@@ -51,6 +51,11 @@ const Case kCases[] = {
     {"BadString", "S: STR 5,'abc\n", "", {"0:2 bad-string"}, {}},
     {"SyntaxError", "A: DS 1\n", " 5\n LOD (A+1\n : LOD A\n LOD A,\n", {"0:7 syntax-error", "0:8 syntax-error", "0:9 syntax-error", "0:10 operand-count"}, {}},
     {"UnknownInstruction", "", " LODE 5\n", {"0:6 unknown-instruction"}, {}},
+    {"UnknownBeginning", "DFM A\n", " MECH_BEGINN CLAMP\n EX\n LDR A\n EX0\n MECH_END CLAMP\n MECH_INIT CLAMP\n", {"0:7 unknown-instruction"}, {}},
+    {"UnknownEnd", "DFM A\n", " MECH_BEGIN M\n EX\n MECH END M\n PROC_BEGIN P\n PROCEND P\n FL 1,A\n", {"0:9 unknown-instruction", "0:11 unknown-instruction"}, {}},
+    {"UnknownThatFitsNowhere", "DFM A\n", " MECH_EN M\n STOPP\n DFMM B\n FL 1,A\n", {"0:7 unknown-instruction", "0:8 unknown-instruction", "0:9 unknown-instruction"}, {}},
+    {"UnknownDeclaration", "DFMM A,B\nX: DSS 4\n", " FL 1,A,B\n LOD X\n", {"0:2 unknown-instruction", "0:3 unknown-instruction"}, {}},
+    {"UndefinedInAMacro", "DEF_T_MACRO TWICE\n LDR NONE\n WR NONE\nEND_T_MACRO\n", " TWICE\n TWICE\n", {"0:3 undefined-symbol"}, {}},
     {"UnknownInEquation", "DFM A\n", " LDR A\n EX2\n WR A\n LDR A\n EX2\n", {"0:8 unknown-instruction", "0:11 unknown-instruction"}, {}},
     {"UnsupportedAssembler", "", " PUSH AX\n MOV BX, DX\n", {"0:6 unsupported-assembler", "0:7 unsupported-assembler"}, {}},
     {"OperandCount", "DFM A\n", " LDR\n LA A,A\n WR\n FL 1\n CA A\n JUM\n", {"0:7 operand-count", "0:8 operand-count", "0:9 operand-count", "0:10 operand-count", "0:11 operand-count", "0:12 operand-count"}, {}},
@@ -139,7 +144,14 @@ TEST(TechnolHints, NameWhatWasMeant) {
                {"STRCPY W,\"abc", "a text is written between apostrophes"},
                {"MECH BEGIN M", "did you mean MECH_BEGIN?"},
                {"CAN_ SEND 1,W", "did you mean CAN_SEND?"},
-               {"FLD W", "in this language: LOD REAL."}};
+               {"FLD W", "in this language: LOD REAL."},
+               {"MECH_INIT", "its operands in order: mech\n"},
+               {"FL 1", "its operands in order: value, bit, ..."},
+               {"RL", "its operands in order: n, [width]; those in brackets may be left out"},
+               {"ESET 1,2,3,4,5,6,7", "ESET takes at most 6 operands, not 7"},
+               {"LOD A1\n LOD A1", "it is used once more, here"},
+               {"LOD A1\n LOD A1\n LOD A1\n STO A1", "and 3 further uses; the next is here"},
+               {"MECH_END M", "MECH_END names 'M', but no mechanism is open"}};
   for (const auto& c : cases) {
     const std::string text = compileMain(" " + std::string(c.statement) + "\n", "W: DS 2\nSPEED: DS 2\n").text();
     EXPECT_NE(text.find(c.hint), std::string::npos) << c.statement << '\n' << text;
@@ -148,6 +160,18 @@ TEST(TechnolHints, NameWhatWasMeant) {
 
 TEST(TechnolHints, NoNumberForALetter) {
   EXPECT_EQ(compileMain(" LOD BYTE.W.B\n", "W: DS 2\n").text().find("as a number"), std::string::npos);
+}
+
+// The word that was meant, in the place of what was written.
+TEST(TechnolHints, UnknownInstructionsHaveAFix) {
+  for (const char* word : {"MECH_BEGINN", "MECH BEGIN"}) {
+    const Compilation c = compileMain(" " + std::string(word) + " M\n MECH_END M\n");
+    ASSERT_EQ(c.diagnostics->reported().size(), 1u) << c.text();
+    const std::vector<DiagFix>& fixes = c.diagnostics->reported()[0].fixes;
+    ASSERT_EQ(fixes.size(), 1u) << c.text();
+    EXPECT_EQ(c.sources->text(fixes[0].range), word);
+    EXPECT_EQ(fixes[0].replacement, "MECH_BEGIN");
+  }
 }
 
 TEST(TechnolStructure, AnEmptyFileIsToldAtItsFirstLine) {
@@ -163,6 +187,12 @@ TEST(TechnolStructure, DataComesFirst) {
 
 TEST(TechnolStructure, MissingModulesAndStop) {
   EXPECT_EQ(errorsOf({std::string(kFirst) + kRest}), (Lines{"0:14 missing-module", "0:14 missing-stop"}));
+  const Compilation several = compile({std::string(kFirst) + kMain});
+  EXPECT_EQ(several.errors(), (Lines{"0:6 missing-module", "0:6 missing-stop"}));
+  EXPECT_NE(several.text().find("modules are missing: MODULE_BLOCK_INIT, MODULE_BLOCK_DONE, MODULE_INIT, MODULE_CLEAR, "
+                                "MODULE_HALT [missing-module]"),
+            std::string::npos)
+      << several.text();
 }
 
 TEST(TechnolStructure, DuplicateModule) {

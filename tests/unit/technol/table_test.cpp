@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/technol/operand.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "tests/unit/technol/program.h"
 
 namespace rung::technol_test {
@@ -58,7 +58,7 @@ void agree(const Row& row, const std::vector<std::string>& csv) {
 }
 
 TEST(TechnolTable, AgreesWithTheInventory) {
-  std::ifstream file("frontend/dialects/technol/instructions.csv");
+  std::ifstream file("frontend/dialects/technol/rows/instructions.csv");
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::map<std::string_view, const Row*> rows;
   for (const Row& row : allRows())

@@ -1,0 +1,11 @@
+// What the names and operands of a checked program mean, for tools.
+#pragma once
+
+#include "frontend/dialects/technol/check/typed.h"
+#include "frontend/sema/analysis.h"
+
+namespace rung::frontend::technol {
+
+Analysis analysisOf(const Program& program, const TypedProgram& typed);
+
+} // namespace rung::frontend::technol

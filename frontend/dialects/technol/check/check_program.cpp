@@ -1,0 +1,95 @@
+// The walk over the code of a program (see check_program.h).
+#include "frontend/dialects/technol/check/check_program.h"
+
+#include "frontend/dialects/technol/check/check_context.h"
+#include "frontend/dialects/technol/check/operand_parser.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+// Of a module in one file: nothing is open where it begins.
+class PartChecker {
+public:
+  PartChecker(Program& program, TypedProgram& typed, OperandParser& parser, CallGraph& calls)
+      : program_(program), typed_(typed), parser_(parser), calls_(calls), equation_(program.diagnostics),
+        lost_(program.diagnostics), mixing_(program.diagnostics) {}
+
+  void check(const ModulePart& part) {
+    for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
+      check(program_.statements[i], typed_.statements[i]);
+    if (!part.cut) equation_.end(part.end, moduleName(part.kind));
+  }
+
+private:
+  void check(const Statement& statement, Typed& typed);
+  void unitBorder(const Statement& statement);
+  bool parse(const Statement& statement, Typed& typed);
+  void code(const Statement& statement, Typed& typed);
+
+  Program& program_;
+  TypedProgram& typed_;
+  OperandParser& parser_;
+  CallGraph& calls_;
+  Equation equation_;
+  LostRegisters lost_;
+  Mixing mixing_;
+};
+
+void PartChecker::check(const Statement& statement, Typed& typed) {
+  if (statement.label != kNone) { // control may come from elsewhere
+    lost_.forget();
+    mixing_.forget();
+  }
+  if (statement.row == nullptr) return equation_.unknown();
+  switch (statement.row->role) {
+  case Role::Code:
+  case Role::NotBuiltService: return code(statement, typed);
+  case Role::MechBegin:
+  case Role::MechEnd:
+  case Role::ProcBegin:
+  case Role::ProcEnd: return unitBorder(statement);
+  case Role::Timed: parse(statement, typed); return;
+  case Role::MacroBegin: typed.stack = equation_.beginMacro(statement); return;
+  case Role::MacroEnd: return equation_.endMacro(statement);
+  default: return; // nothing that runs
+  }
+}
+
+void PartChecker::unitBorder(const Statement& statement) {
+  equation_.end(statement.range(), statement.row->info.mnemonic);
+  if (statement.row->role != Role::ProcEnd) lost_.forget();
+}
+
+bool PartChecker::parse(const Statement& statement, Typed& typed) {
+  typed.firstOperand = static_cast<uint32_t>(typed_.operands.size());
+  const bool parsed = parser_.parse(statement, typed_.operands);
+  typed.operandCount = static_cast<uint32_t>(typed_.operands.size()) - typed.firstOperand;
+  return parsed;
+}
+
+void PartChecker::code(const Statement& statement, Typed& typed) {
+  const Row& row = *statement.row;
+  const bool parsed = parse(statement, typed);
+  lost_.begin(statement);
+  typed.stack = equation_.begin(statement);
+  if (parsed && row.check != nullptr)
+    row.check({program_, statement, equation_, mixing_, calls_}, typed_.operandsOf(typed), row.variant);
+  equation_.finish(row);
+  lost_.finish(row, (row.effects & kWaits) != 0 && program_.mayWait(statement.unit));
+}
+
+} // namespace
+
+TypedProgram checkProgram(Program& program) {
+  TypedProgram typed;
+  typed.statements.resize(program.statements.size());
+  OperandParser parser(program, typed.names);
+  CallGraph calls(program);
+  for (const ModulePart& part : program.parts)
+    if (part.kind != ModuleKind::Data) PartChecker(program, typed, parser, calls).check(part);
+  calls.check(program);
+  program.symbols.reportUndefined();
+  return typed;
+}
+
+} // namespace rung::frontend::technol

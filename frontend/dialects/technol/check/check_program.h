@@ -1,0 +1,13 @@
+// Checks the code of a program that has been read.
+#pragma once
+
+#include "frontend/dialects/technol/check/typed.h"
+
+namespace rung::frontend::technol {
+
+// Reads the operands of all statements of code, and reports everything that is wrong with them and with the logic: the
+// stack, registers lost at a wait, jumps, calls. Of a program with errors, also those found while it was read, the
+// result is what could be understood; such a program is not lowered.
+TypedProgram checkProgram(Program& program);
+
+} // namespace rung::frontend::technol

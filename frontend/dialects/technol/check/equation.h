@@ -1,0 +1,48 @@
+// The logic equation and its stack as far as the language decides them statically, in the order of the source (man.
+// l.225-275).
+#pragma once
+
+#include <vector>
+
+#include "frontend/dialects/technol/check/typed.h"
+#include "frontend/dialects/technol/read/macros.h"
+
+namespace rung::frontend::technol {
+
+class Equation {
+public:
+  explicit Equation(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  // Before and after the work of a statement.
+  StackUse begin(const Statement& statement);
+  void finish(const Row& row) { open_ = open_ && !row.info.terminating; }
+  // A statement that nobody knows: it may be the one that ends the equation.
+  void unknown() { hasUnknown_ = true; }
+  // The flags of a macro override what its statements did (man. l.20536).
+  StackUse beginMacro(const Statement& statement);
+  void endMacro(const Statement& statement);
+  // Where the stack must be empty: CHECK, and the borders of units, which end the equation too.
+  void checkBalance(SourceRange at, std::string_view where);
+  void end(SourceRange at, std::string_view where);
+
+private:
+  // Before a macro with an effect of its own.
+  struct MacroState {
+    uint32_t depth = 0;
+    bool open = false;
+    size_t errors = 0;
+  };
+
+  void loadRlo(SourceRange at, StackUse& use);
+  uint32_t pop(const Statement& statement);
+
+  Diagnostics& diagnostics_;
+  bool open_ = false;
+  bool hasUnknown_ = false;
+  SourceRange begin_; // of the open equation
+  uint32_t depth_ = 0;
+  uint32_t lost_ = 0; // values that the stack did not hold
+  std::vector<MacroState> macros_;
+};
+
+} // namespace rung::frontend::technol

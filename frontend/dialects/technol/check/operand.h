@@ -1,0 +1,59 @@
+// An operand of a statement as it is understood.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "frontend/dialects/technol/program.h"
+
+namespace rung::frontend::technol {
+
+struct Operand {
+  enum class Form : uint8_t {
+    NotGiven,
+    Bit,
+    Cell,
+    Text,
+    Integer,
+    Real,
+    Label,
+    Mechanism,
+    Procedure,
+    Width,
+    Register,
+    Keyword // value: its place among OperandKind::keywords
+  };
+
+  Form form = Form::NotGiven;
+  bool negated = false;           // a bit or a value with `-`
+  bool indexed = false;           // register BX is added to the address
+  bool prefixed = false;          // the type was written
+  uint32_t scale = 1;             // bytes that BX counts
+  ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
+  ir::Place place;
+  // Of a text or an array at an address: bytes from there to its end, with a text's terminator; 0 past the end. Where
+  // indexed, from `value` on: BX takes off more.
+  uint32_t size = 0;
+  int64_t begin = 0; // of that text or array, in its space
+  int64_t end = 0;
+  int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
+  double real = 0;
+  uint32_t index = kNone; // label, mechanism, procedure, variable of MAP_* or DEF_*
+  std::string_view text;  // of a quoted text, as the memory holds it (Windows-1250)
+  std::span<const Token> tokens;
+  SourceRange range;
+  Access access = Access::Read; // what the instruction does with it
+  uint32_t firstName = 0;       // what its names are, in TypedProgram::names
+  uint32_t nameCount = 0;
+
+  bool given() const { return form != Form::NotGiven; }
+  bool isConstant() const { return form == Form::Integer || form == Form::Real; }
+  bool isReal() const { return type == ir::Type::F64; }
+};
+
+// The operand as written, without blanks.
+std::string spell(const Operand& operand);
+// False: the report is wrong-operand-kind.
+bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::string_view is, std::string_view wanted);
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,410 @@
+// Operands other than addresses (see operand_parser.h).
+#include "frontend/dialects/technol/check/operand_parser.h"
+#include "frontend/dialects/technol/read/reader.h"
+#include "frontend/dialects/technol/rows/operand_count.h"
+#include "ir/support/check.h"
+#include "ir/support/similar.h"
+#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
+
+#include <algorithm>
+
+namespace rung::frontend::technol {
+namespace {
+
+struct PrefixName {
+  std::string_view name;
+  uint8_t prefix;
+  ir::Type type;
+};
+constexpr PrefixName kPrefixes[] = {
+    {"BYTE", kByte, ir::Type::I8},   {"WORD", kWord, ir::Type::I16}, {"DWRD", kDword, ir::Type::I32},
+    {"QWRD", kQword, ir::Type::I64}, {"HIGH", kHigh, ir::Type::I8},  {"REAL", kReal, ir::Type::F64},
+    {"CNST", kCnst, ir::Type::I32},
+};
+
+const PrefixName* prefixNamed(std::string_view name) {
+  for (const PrefixName& p : kPrefixes)
+    if (text::equalsIgnoringCase(name, p.name)) return &p;
+  return nullptr;
+}
+
+const PrefixName& prefixOf(uint8_t prefix) {
+  for (const PrefixName& p : kPrefixes)
+    if (p.prefix == prefix) return p;
+  return kPrefixes[0];
+}
+
+uint8_t naturalPrefix(ir::Type type) {
+  for (const PrefixName& p : kPrefixes)
+    if (p.type == type) return p.prefix;
+  return 0;
+}
+
+std::string widthsOf(ir::TypeSet types) {
+  const bool byte = ir::contains(types, ir::Type::I8), word = ir::contains(types, ir::Type::I16);
+  if (ir::contains(types, ir::Type::I32)) return byte ? "at most 32 bits" : "32 bits";
+  return byte && word ? "8 or 16 bits" : byte ? "8 bits" : "16 bits";
+}
+
+// One of the words that a kind takes by itself or in the place of an address.
+bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
+  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
+  const int64_t number = numberOfWord(words, tokens[0].text);
+  if (number < 0) return false;
+  out.form = Operand::Form::Keyword;
+  out.value = number;
+  return true;
+}
+
+bool isNotGiven(std::span<const Token> tokens) {
+  return tokens.size() == 1 &&
+         (tokens[0].is('-') || (tokens[0].kind == TokenKind::Name && text::equalsIgnoringCase(tokens[0].text, "NIL")));
+}
+
+} // namespace
+
+bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens) {
+  const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
+  program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range()))
+      << expected << found;
+  return false;
+}
+
+std::string spell(const Operand& operand) {
+  std::string text;
+  for (const Token& token : operand.tokens)
+    text += token.kind == TokenKind::Text ? "'" + std::string(token.text) + "'" : std::string(token.text);
+  return text;
+}
+
+bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::string_view is, std::string_view wanted) {
+  diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
+  return false;
+}
+
+uint32_t OperandParser::note(const Token& name, uint32_t symbol) {
+  if (symbol != kNone) names_.push_back({name.range(), symbol});
+  return symbol;
+}
+
+bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out) {
+  const size_t first = out.size();
+  statement_ = &statement;
+  file_ = statement.file;
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return false;
+  const auto infos = statement.row->info.operands.all();
+  bool ok = true;
+  for (size_t i = 0; i < operands.size(); ++i) {
+    const OperandInfo& info = infos[std::min(i, infos.size() - 1)];
+    const OperandKind* kind = findOperandKind(info.kind);
+    RUNG_CHECK(kind != nullptr, "a row names an unknown class of operands");
+    Operand& operand = out.emplace_back();
+    operand.range = rangeOf(program_.sources, operands[i], statement.range());
+    operand.tokens = operands[i];
+    operand.access = info.access;
+    operand.firstName = static_cast<uint32_t>(names_.size());
+    ok = one(info, *kind, operands[i], operand) && ok;
+    operand.nameCount = static_cast<uint32_t>(names_.size()) - operand.firstName;
+    // The type of a count holds for the time, too (man. l.2133).
+    inherited_ = i == 0 && (statement.row->effects & kWaits) && operand.prefixed ? naturalPrefix(operand.type) : 0;
+  }
+  inherited_ = 0;
+  while (out.size() - first < infos.size()) out.emplace_back().range = statement.range();
+  if (ok && infos.size() >= 2 && infos[0].kind == "timer cell") ok = waitOperands(std::span(out).subspan(first));
+  return ok;
+}
+
+bool OperandParser::one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (tokens.empty()) return (info.optional && kind.notGiven) || kind.empty || syntax("an operand", tokens);
+  if (kind.notGiven && isNotGiven(tokens)) return true;
+  switch (kind.parse) {
+  case OperandClass::Bit: return bit(info, kind, tokens, out);
+  case OperandClass::Value:
+    if (kind.text && tokens.size() == 1 && tokens[0].kind == TokenKind::Text) return text(info, kind, tokens, out);
+    return value(info, kind, tokens, out);
+  case OperandClass::Label:
+  case OperandClass::Name: return named(kind, tokens, out);
+  case OperandClass::Keyword: return keyword(info, kind, tokens, out);
+  case OperandClass::Text: return text(info, kind, tokens, out);
+  case OperandClass::Variable: return variable(kind, tokens, out);
+  }
+  return false;
+}
+
+// TIM and TEX: a written type holds for count and time, so the time is a cell then (man. l.2133); a constant time fits
+// the count.
+bool OperandParser::waitOperands(std::span<Operand> operands) {
+  const Operand& count = operands[0];
+  Operand& time = operands[1];
+  if (count.prefixed && time.isConstant()) {
+    const std::string prefix = std::string(prefixOf(naturalPrefix(count.type)).name) + ".";
+    program_.diagnostics.report(Diag::InvalidTypePrefix, count.range) << prefix << "a constant time";
+    return false;
+  }
+  const int64_t most = count.type == ir::Type::I8 ? 0xFF : 0xFFFF;
+  if (time.isConstant() && (time.value < 0 || time.value > most)) {
+    program_.diagnostics.report(Diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
+    return false;
+  }
+  return true;
+}
+
+bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, std::string_view name,
+                               SourceRange range) {
+  const bool writes = info.access == Access::Write || info.access == Access::ReadWrite;
+  if (!writes || protection == Protection::None) return true;
+  const bool error = protection == Protection::Error;
+  program_.diagnostics.report(Diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning)
+      << name;
+  return !error;
+}
+
+uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
+  if (tokens.size() < 2 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return 0;
+  if (text::equalsIgnoringCase(tokens[0].text, "CNTS")) {
+    program_.diagnostics.report(Diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
+    tokens = tokens.subspan(2);
+    return kCnst;
+  }
+  const PrefixName* prefix = prefixNamed(tokens[0].text);
+  if (prefix == nullptr) return 0;
+  tokens = tokens.subspan(2);
+  return prefix->prefix;
+}
+
+// WRD.CELL, DWORD.CELL: nothing has this name, but a prefix has nearly.
+bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
+  if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
+  if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
+  Similar meant(tokens[0].text);
+  const auto offer = [&](bool sameLetter) {
+    for (const PrefixName& p : kPrefixes)
+      if ((p.name[0] == text::upper(tokens[0].text[0])) == sameLetter) meant.offer(p.name);
+  };
+  offer(true);
+  if (meant.best().empty()) offer(false);
+  if (meant.best().empty()) return false;
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
+  return true;
+}
+
+bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                          Operand& out) {
+  if (kind.sign && tokens[0].is('-')) {
+    out.negated = true;
+    tokens = tokens.subspan(1);
+  }
+  if (tokens.size() > 1 && text::equalsIgnoringCase(tokens[0].text, "BLK") && tokens[1].is('['))
+    return block(info, tokens, false, out);
+  if (ownWord(kind, tokens, out)) return true;
+  const uint8_t prefix = takePrefix(tokens);
+  if (prefix != 0 && (kind.prefixes & prefix) == 0) {
+    wrongPrefix(prefix, out);
+    // STO CNST.5 is a store to a constant, too: without the prefix it would stay wrong.
+    return prefix == kCnst && info.access != Access::Read && wrongKind(out, "a constant", "a variable");
+  }
+  if (prefix == 0 && misspeltPrefix(tokens)) return false;
+  Address address;
+  if (tokens.empty()) return syntax("a value", tokens);
+  if (!this->address(tokens, address)) return false;
+  if (prefix == kCnst && address.hasBase) return wrongKind(out, "no constant", "a constant");
+  return address.hasBase ? cell(info, kind, address, prefix != 0 ? prefix : inherited_, out)
+                         : constant(info, kind, address, prefix, out);
+}
+
+bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix,
+                             Operand& out) {
+  if (!kind.constant) return wrongKind(out, "a constant", "a variable");
+  if (prefix == kQword || prefix == kReal || prefix == kHigh) {
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
+        << std::string(prefixOf(prefix).name) + "." << "a constant";
+    return false;
+  }
+  if (address.isReal) {
+    if ((kind.prefixes & kReal) == 0 || (prefix != 0 && prefix != kCnst)) return wrongKind(out, "a real", "an integer");
+    out.form = Operand::Form::Real;
+    out.type = ir::Type::F64;
+    out.real = out.negated ? -address.real : address.real;
+    out.negated = false;
+    return true;
+  }
+  out.form = Operand::Form::Integer;
+  out.prefixed = prefix != 0 && prefix != kCnst;
+  out.type = prefix == 0 ? ir::Type::I32 : prefixOf(prefix).type;
+  // A sign in front of digits is theirs; in front of a type or a name the loaded value is negated (man. l.703).
+  const bool digits = out.negated && out.tokens[1].kind == TokenKind::Number;
+  out.value = digits ? -address.byte : address.byte;
+  out.negated = out.negated && !digits;
+  const uint32_t width = ir::bitWidth(out.type);
+  const bool ranged = info.min <= info.max;
+  const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));
+  const int64_t most = ranged ? info.max : (int64_t{1} << width) - 1;
+  if (out.value >= least && out.value <= most) return true;
+  program_.diagnostics.report(Diag::OperandRange, out.range)
+      << out.value << std::to_string(least) + " to " + std::to_string(most);
+  return false;
+}
+
+bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix,
+                         Operand& out) {
+  if (address.isBit) return wrongKind(out, "a bit", "a variable");
+  if (!kind.cell) return wrongKind(out, "a variable", "a constant");
+  out.form = Operand::Form::Cell;
+  out.prefixed = prefix != 0;
+  out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
+  // Where only a real may stand, 8 bytes are one.
+  const bool real = (kind.prefixes & ~kCnst) == kReal && address.end - address.byte >= 8;
+  if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
+  if (out.type == ir::Type::None) {
+    if (address.isText) return wrongKind(out, "a text", "a cell");
+    program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
+    return false;
+  }
+  if (!ir::contains(kind.types, out.type))
+    return wrongKind(out, "of another width", "a cell of " + widthsOf(kind.types));
+  const uint8_t natural = naturalPrefix(out.type);
+  if (kind.prefixes != 0 && prefix == 0 && (kind.prefixes & natural) == 0) return wrongPrefix(natural, out);
+  const int64_t byte = address.byte + (prefix == kHigh ? 1 : 0);
+  return setPlace(address, byte, ir::byteWidth(out.type), out) &&
+         checkWrite(info, address.protection, address.name, out.range);
+}
+
+bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) {
+    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
+      return wrongKind(out, "a number", "a " + std::string(kind.info.kind));
+    return syntax("the name of a " + std::string(kind.info.kind), tokens);
+  }
+  const uint32_t index = require(tokens[0]);
+  if (index == kNone) return false;
+  const Symbol& symbol = program_.symbols[index];
+  if (symbol.broken) return false;
+  const bool shared = kind.name == SymbolKind::Mechanism && symbol.mechanism != kNone;
+  if (symbol.kind != kind.name && !shared) return wrongKind(out, describe(symbol), "a " + std::string(kind.info.kind));
+  out.index = shared ? symbol.mechanism : symbol.index;
+  out.form = kind.name == SymbolKind::Label       ? Operand::Form::Label
+             : kind.name == SymbolKind::Mechanism ? Operand::Form::Mechanism
+                                                  : Operand::Form::Procedure;
+  return true;
+}
+
+bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                            Operand& out) {
+  if (kind.info.kind == "register") {
+    if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
+      return out.form = Operand::Form::Register, true;
+    program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
+        << statement_->row->info.mnemonic;
+    return false;
+  }
+  if (!kind.keywords.empty() || kind.structure != nullptr) return chosen(kind, tokens, out);
+  const PrefixName* width =
+      tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
+  if (width && (kind.prefixes & width->prefix)) {
+    out.form = Operand::Form::Width;
+    out.type = width->type;
+    return true;
+  }
+  if (width) {
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range).note(kind.info.doc)
+        << width->name << statement_->row->info.mnemonic;
+    return false;
+  }
+  if (!kind.constant) return syntax(kind.info.doc.substr(0, kind.info.doc.find(';')), tokens);
+  const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range(), &names_);
+  if (!number) return false;
+  out.form = Operand::Form::Integer;
+  out.value = *number;
+  if (*number >= info.min && *number <= info.max) return true;
+  program_.diagnostics.report(Diag::OperandRange, out.range)
+      << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
+  return false;
+}
+
+bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
+  program_.diagnostics.report(Diag::InvalidTypePrefix, operand.range)
+      << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
+  return false;
+}
+
+// A word of the kind that is no number's name in the program.
+bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
+  const uint32_t found = program_.symbols.find(tokens[0].text, file_);
+  const bool fits = found != kNone && (program_.symbols[found].kind == SymbolKind::Cell ||
+                                       program_.symbols[found].kind == SymbolKind::Constant);
+  return !fits && takeKeyword(kind.keywords, tokens, out);
+}
+
+// One of a kind's own words; other names are known and of another kind, or unknown.
+bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (takeKeyword(kind.keywords, tokens, out)) return true;
+  if (kind.structure != nullptr && tokens.size() == 1 && tokens[0].kind == TokenKind::Name)
+    if (const uint32_t member = program_.symbols.findMember(kind.structure, tokens[0].text); member != kNone) {
+      out.form = Operand::Form::Keyword;
+      out.value = program_.symbols[note(tokens[0], member)].byte;
+      return true;
+    }
+  const std::string wanted(kind.info.kind);
+  if (tokens.size() != 1) return syntax("a " + wanted, tokens);
+  const bool unknown = tokens[0].kind == TokenKind::Name && program_.symbols.find(tokens[0].text, file_) == kNone;
+  if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
+  Similar meant(tokens[0].text);
+  forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
+  return false;
+}
+
+namespace {
+
+// TEXT+BX, TEXT+2+BX: the tokens without `+BX`, in `plain`. False when there is none.
+bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
+  const auto isBx = [&](size_t i) {
+    return i + 1 < tokens.size() && tokens[i].is('+') && text::equalsIgnoringCase(tokens[i + 1].text, "BX") &&
+           (i + 2 == tokens.size() || tokens[i + 2].is('+') || tokens[i + 2].is('-') || tokens[i + 2].is(')'));
+  };
+  size_t at = 1;
+  while (at < tokens.size() && !isBx(at)) ++at;
+  if (at >= tokens.size()) return false;
+  plain.assign(tokens.begin(), tokens.end());
+  plain.erase(plain.begin() + static_cast<std::ptrdiff_t>(at), plain.begin() + static_cast<std::ptrdiff_t>(at) + 2);
+  return true;
+}
+
+} // namespace
+
+bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
+                         Operand& out) {
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
+    if (!kind.text) return wrongKind(out, "a text", "a variable");
+    out.form = Operand::Form::Text;
+    out.text = program_.madeTexts.emplace_back(nc::memoryText(tokens[0].text));
+    return true;
+  }
+  if (takeKeyword(kind.keywords, tokens, out)) return true;
+  if (const uint8_t prefix = takePrefix(tokens); prefix != 0) {
+    if ((kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
+    out.prefixed = true;
+    out.type = prefixOf(prefix).type;
+  }
+  if (tokens.empty()) return syntax("a variable", tokens);
+  std::vector<Token> plain;
+  const bool indexed = withoutIndex(tokens, plain);
+  Address address;
+  if (!this->address(indexed ? plain : tokens, address)) return false;
+  if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
+  const bool wantsText = kind.info.kind.starts_with("text");
+  if (address.isBit || (wantsText && !address.isText))
+    return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
+  address.indexed = address.indexed || indexed;
+  out.form = Operand::Form::Cell;
+  out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
+  out.begin = address.begin;
+  out.end = address.end;
+  const uint32_t bytes = kind.info.kind == "end" && !address.indexed ? 0 : 1; // an end lies behind its memory
+  return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
+}
+
+} // namespace rung::frontend::technol

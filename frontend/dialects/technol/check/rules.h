@@ -1,0 +1,44 @@
+// The checks of rows that look at several operands at once or at the place of the statement, by family. They run when
+// each operand by itself is right.
+#pragma once
+
+#include <span>
+
+namespace rung::frontend::technol {
+
+struct CheckContext;
+struct Operand;
+
+// rules_data.cpp
+void checkLoad(const CheckContext& c, std::span<const Operand> o, int);
+void checkArithmetic(const CheckContext& c, std::span<const Operand> o, int);
+void checkRealUse(const CheckContext& c, std::span<const Operand> o, int);
+void checkToReal(const CheckContext& c, std::span<const Operand> o, int);
+void checkToInteger(const CheckContext& c, std::span<const Operand> o, int);
+void checkMove(const CheckContext& c, std::span<const Operand> o, int);
+
+// rules_flow.cpp
+void checkEmptyStack(const CheckContext& c, std::span<const Operand> o, int);
+void checkJump(const CheckContext& c, std::span<const Operand> o, int);
+void checkTimedEx(const CheckContext& c, std::span<const Operand> o, int);
+void checkTimer(const CheckContext& c, std::span<const Operand> o, int);
+void checkCall(const CheckContext& c, std::span<const Operand> o, int);
+
+// rules_text.cpp
+void checkMoveMemory(const CheckContext& c, std::span<const Operand> o, int);
+void checkClear(const CheckContext& c, std::span<const Operand> o, int);
+void checkTexts(const CheckContext& c, std::span<const Operand> o, int);
+void checkNumberToText(const CheckContext& c, std::span<const Operand> o, int);
+void checkCopyBytes(const CheckContext& c, std::span<const Operand> o, int);
+void checkCompareBytes(const CheckContext& c, std::span<const Operand> o, int);
+
+// rules_control.cpp
+void checkMessage(const CheckContext& c, std::span<const Operand> o, int);
+void checkBitMessage(const CheckContext& c, std::span<const Operand> o, int);
+void checkDefine(const CheckContext& c, std::span<const Operand> o, int);
+void checkUpdate(const CheckContext& c, std::span<const Operand> o, int);
+void checkShareVariable(const CheckContext& c, std::span<const Operand> o, int);
+void checkShareBit(const CheckContext& c, std::span<const Operand> o, int);
+void checkConfiguration(const CheckContext& c, std::span<const Operand> o, int kind);
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,53 @@
+// Checks of where control goes, and of what depends on where a statement is.
+#include "frontend/dialects/technol/check/check_context.h"
+#include "frontend/dialects/technol/check/rules.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+std::string describeUnit(const Unit& unit) {
+  switch (unit.kind) {
+  case UnitKind::Module: return std::string(unit.name);
+  case UnitKind::Mechanism: return "mechanism " + std::string(unit.name);
+  case UnitKind::Procedure: return "procedure " + std::string(unit.name);
+  case UnitKind::Timed: return "a block of " + std::string(unit.name);
+  }
+  return {};
+}
+
+// Jumps stay inside their unit; the end label of a timed block counts as inside it.
+void checkTarget(const CheckContext& c, const Operand& operand) {
+  const Program& program = c.program;
+  const Label& label = program.labels[operand.index];
+  const Unit& unit = program.units[c.statement.unit];
+  const bool ownEnd = unit.kind == UnitKind::Timed && label.unit == unit.parent &&
+                      symbolKey(program.tokens[unit.endLabel].text) == symbolKey(label.name);
+  if (label.unit == c.statement.unit || ownEnd) return;
+  const bool leadsInto = unit.kind == UnitKind::Module && label.unit != kNone;
+  c.report(Diag::JumpCrossesUnit, operand.range)
+      << label.name << describeUnit(leadsInto ? program.units[label.unit] : unit);
+}
+
+} // namespace
+
+void checkJump(const CheckContext& c, std::span<const Operand> o, int) { checkTarget(c, o[0]); }
+void checkTimedEx(const CheckContext& c, std::span<const Operand> o, int) { checkTarget(c, o[2]); }
+
+void checkEmptyStack(const CheckContext& c, std::span<const Operand>, int) {
+  c.equation.checkBalance(c.statement.range(), "CHECK");
+}
+
+// A mechanism inside a timed block is in that block, too.
+void checkTimer(const CheckContext& c, std::span<const Operand>, int) {
+  const std::vector<Unit>& units = c.program.units;
+  uint32_t at = c.statement.unit;
+  while (at != kNone && units[at].kind == UnitKind::Mechanism) at = units[at].parent;
+  if (at == kNone || units[at].kind != UnitKind::Timed)
+    c.report(Diag::TmOutsideDftm, c.statement.range()) << c.statement.row->info.mnemonic;
+}
+
+void checkCall(const CheckContext& c, std::span<const Operand> o, int) {
+  c.calls.add(c.program.procedureOf(c.statement.unit), o[0].index, o[0].range);
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,49 @@
+// Memory areas of instructions that move bytes (man. ch. 3.15, 3.18): loops whose bounds are known when the program is
+// compiled.
+#pragma once
+
+#include "frontend/dialects/technol/lower/memory.h"
+
+namespace rung::frontend::technol {
+
+// A rung makes a limited number of passes; longer work gets a rung of its own.
+inline constexpr uint32_t kManyPasses = 4096;
+inline constexpr uint32_t kMostCleared = 1u << 20; // bytes in one rung
+// Passes that are left out together where the work ends early.
+inline constexpr uint32_t kBlock = 32;
+
+// Bytes of a space from `at` on; where `fixed`, that is the constant `first`.
+struct Area {
+  ir::SpaceId space;
+  uint32_t bytes = 0; // of the whole space
+  bool fixed = true;
+  uint32_t first = 0;
+  ir::ValueId at;
+};
+
+// A number of bytes: a constant, or a cell with at most `most`.
+struct Length {
+  bool fixed = true;
+  uint32_t most = 0;
+  ir::ValueId value;
+};
+
+Area fixedArea(Memory& m, ir::SpaceId space, uint32_t bytes, uint32_t first);
+Area areaOf(Memory& m, const Operand& operand);
+// The area from `by` bytes on.
+Area shifted(Memory& m, Area area, ir::ValueId by);
+Length fixedCount(Memory& m, uint32_t count);
+Length countOf(Memory& m, const Operand& operand);
+Length smaller(Memory& m, const Length& a, const Length& b);
+
+ir::ValueId loadByte(Memory& m, const Area& area, ir::ValueId i, ir::Type type = ir::Type::I8);
+void storeByte(Memory& m, const Area& area, ir::ValueId i, ir::ValueId value);
+// Copies as if all of the source were read first. The caller has checked both areas.
+void copy(Memory& m, const Area& to, const Area& from, const Length& count);
+void clear(Memory& m, const Area& area, const Length& count);
+// From `first` up to `end`, in rungs of their own.
+void clearRange(Memory& m, ir::SpaceId space, uint32_t first, uint32_t end);
+// The bytes of `count` that lie in the space. Where area or count are not constants the program stops if they do not.
+Length inside(Memory& m, const Area& area, const Length& count);
+
+} // namespace rung::frontend::technol

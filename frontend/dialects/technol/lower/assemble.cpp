@@ -1,0 +1,265 @@
+// Spaces, symbols, tasks (see assemble.h).
+#include "frontend/dialects/technol/lower/assemble.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "frontend/dialects/technol/lower/presets.h"
+#include "rtlib/nc/faults.h"
+#include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+
+namespace {
+
+constexpr uint32_t kFastPeriodUs = 1000; // man. l.2660
+constexpr uint32_t kScanBudget = 1'000'000;
+constexpr uint32_t kFastBudget = 100'000;
+
+// DS 8 holds a QWORD or a REAL, DS n is bytes; a text has room for its terminator.
+ir::Symbol madeSymbol(const Symbol& symbol) {
+  ir::Symbol made;
+  made.name = text::upper(symbol.name);
+  made.space = symbol.space;
+  made.byte = symbol.byte;
+  made.bit = symbol.bit;
+  made.type = ir::abiType(symbol.type);
+  switch (symbol.kind) {
+  case SymbolKind::Text:
+    made.type = RUNG_TYPE_TEXT;
+    made.count = symbol.size;
+    break;
+  case SymbolKind::Cell:
+    if (symbol.type == Type::None && symbol.size == 8 && symbol.index == kNone)
+      made.type = RUNG_TYPE_I64;
+    else
+      made.count = std::max(1u, symbol.size / std::max(1u, ir::byteWidth(symbol.type)));
+    break;
+  case SymbolKind::Constant:
+    made.flags = RUNG_SYMBOL_CONST;
+    made.type = RUNG_TYPE_I64;
+    made.value = symbol.value;
+    break;
+  default: break;
+  }
+  if (symbol.protection != Protection::None) made.flags |= RUNG_SYMBOL_READONLY;
+  return made;
+}
+
+bool isVisible(const Symbol& symbol) {
+  if (symbol.broken || symbol.name.find(kUseMark) != std::string_view::npos) return false;
+  switch (symbol.kind) {
+  case SymbolKind::Bit:
+  case SymbolKind::Cell:
+  case SymbolKind::Text:
+  case SymbolKind::Mechanism: return symbol.space.valid();
+  case SymbolKind::Constant: return !symbol.predeclared;
+  case SymbolKind::Label:
+  case SymbolKind::Procedure:
+  case SymbolKind::Macro:
+  case SymbolKind::Structure: return false;
+  }
+  return false;
+}
+
+} // namespace
+
+void addSpaces(const Program& program, ir::Module& module) {
+  const nc::SignalTable& signals = nc::technolSignals();
+  const auto add = [&](std::string name, ir::SpaceId space, uint32_t flags) {
+    module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = program.bytesOf(space), .flags = flags});
+  };
+  add("NCI", kInterfaceSpace, 0);
+  add("DATA", kDataSpace, RUNG_SPACE_ALLOCATED);
+  add("MECH", kMechanismSpace, RUNG_SPACE_ALLOCATED);
+  add("@REG", kRegisterSpace, RUNG_SPACE_HIDDEN);
+  add("BLK", kBlockSpace, RUNG_SPACE_INPUT);
+  add("IO", kExchangeSpace, RUNG_SPACE_ALLOCATED);
+  module.inits = program.inits;
+  addPowerOnPresets(module);
+  // Saved at a regular shutdown, loaded at the start (man. l.7549).
+  if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
+    module.retains.push_back({.space = kInterfaceSpace, .byte = backup->byteOffset, .size = backup->count});
+}
+
+namespace {
+
+// Elements of an array of bits, a byte each: NAME[0], NAME[1]...
+void addElements(const Program& program, ir::Module& module) {
+  for (const Exchanged& variable : program.exchanged) {
+    if (variable.type != nc::ExchangeType::Bit || variable.count == 1) continue;
+    ir::Symbol made = madeSymbol(program.symbols[variable.symbol]);
+    const std::string name = made.name;
+    for (uint32_t i = 0; i < variable.count; ++i) {
+      made.name = name + "[" + std::to_string(i) + "]";
+      module.symbols.push_back(made);
+      ++made.byte;
+    }
+  }
+}
+
+} // namespace
+
+void addSymbols(const Program& program, ir::Module& module) {
+  std::unordered_map<std::string, uint32_t> global, local;
+  for (const Symbol& symbol : program.symbols.all())
+    if (isVisible(symbol)) ++(symbol.local ? local : global)[madeSymbol(symbol).name];
+  // A local name is public where no other file has it. A cell that shares its name with a mechanism is the cell; the
+  // mechanism is found in the control's own view.
+  for (const Symbol& symbol : program.symbols.all()) {
+    if (!isVisible(symbol)) continue;
+    ir::Symbol made = madeSymbol(symbol);
+    const bool other = symbol.local && (local[made.name] > 1 || global.contains(made.name));
+    if (!other && (symbol.local || global[made.name] == 1)) module.symbols.push_back(std::move(made));
+  }
+  addElements(program, module);
+  for (int i = 0; i < kHostCells; ++i) {
+    const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
+    module.symbols.push_back({.name = std::string(cell.name),
+                              .space = kRegisterSpace,
+                              .byte = cell.byte,
+                              .type = ir::abiType(cell.type),
+                              .flags = RUNG_SYMBOL_HIDDEN});
+  }
+  std::sort(module.symbols.begin(), module.symbols.end(),
+            [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+}
+
+void numberRungs(ir::Module& module) {
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers; // by file and line
+  const auto forRungs = [&](auto act) {
+    for (ir::Routine& routine : module.routines)
+      for (ir::Rung& rung : routine.rungs)
+        if (rung.begin.line != 0) act(rung, std::pair(rung.begin.file.index, rung.begin.line));
+  };
+  forRungs([&](const ir::Rung&, auto place) { numbers.emplace(place, 0); });
+  uint32_t count = 0;
+  for (auto& [place, number] : numbers) number = ++count;
+  forRungs([&](ir::Rung& rung, auto place) { rung.number = numbers.at(place); });
+}
+
+namespace {
+
+class TaskMaker {
+public:
+  TaskMaker(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs)
+      : program_(program), lowered_(lowered), emitter_(emitter), module_(emitter.module()), periodUs_(periodUs) {}
+  void make();
+
+private:
+  ir::TaskId add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast);
+  ir::TaskId of(ModuleKind kind) const { return ids_[static_cast<size_t>(kind)]; }
+  void run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t times = 1) const;
+  void fastSteps(std::vector<ir::Step>& steps, uint32_t times) const;
+  void makeScan();
+  void pass(std::vector<ir::Step>& steps, uint32_t us, uint32_t fastRuns) const;
+  static void step(std::vector<ir::Step>& steps, uint32_t op, uint32_t arg) {
+    steps.push_back({.op = op, .task = {RUNG_NONE}, .arg = arg});
+  }
+
+  const Program& program_;
+  const LoweredProgram& lowered_;
+  Emitter& emitter_;
+  ir::Module& module_;
+  uint32_t periodUs_;
+  std::array<ir::TaskId, kModuleKinds> ids_{};
+  ir::TaskId bitMessages_;
+};
+
+// A long program without a loop must not run into the watchdog.
+ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast) {
+  const uint64_t budget = std::max<uint64_t>(fast ? kFastBudget : kScanBudget, weight * 4);
+  std::string_view where = module_.at(routine).name;
+  if (where.starts_with('@')) where.remove_prefix(1); // the routine around an event procedure
+  const std::string fault =
+      fast ? std::string(nc::kTechnolFastOverrun) : std::string(nc::kTechnolWatchdog) + std::string(where);
+  module_.tasks.push_back({.name = std::move(name),
+                           .entry = routine,
+                           .periodUs = period,
+                           .budget = static_cast<uint32_t>(std::min<uint64_t>(budget, UINT32_MAX)),
+                           .budgetFault = emitter_.fault(fault)});
+  return {static_cast<uint32_t>(module_.tasks.size()) - 1};
+}
+
+void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t times) const {
+  if (of(kind).valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = of(kind), .arg = times});
+}
+
+// Fast connections run in front of MODULE_CYCLICOPERATION and MODULE_FAST, the fastest around MODULE_FASTEST (man.
+// l.13455-13482).
+void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
+  const bool others = of(ModuleKind::Cyclic).valid() || of(ModuleKind::Fastest).valid();
+  const bool exchanges = program_.exchangesFast;
+  if (!others && !exchanges) return run(steps, ModuleKind::Fast, times);
+  const auto exchange = [&](ModuleKind kind, uint32_t hook) {
+    if (exchanges && of(kind).valid()) step(steps, RUNG_STEP_HOOK, hook);
+  };
+  for (uint32_t i = 0; i < times; ++i) {
+    exchange(ModuleKind::Cyclic, nc::kHookFast);
+    run(steps, ModuleKind::Cyclic);
+    exchange(ModuleKind::Fastest, nc::kHookFastest);
+    run(steps, ModuleKind::Fastest);
+    exchange(ModuleKind::Fastest, nc::kHookFastest);
+    exchange(ModuleKind::Fast, nc::kHookFast);
+    run(steps, ModuleKind::Fast);
+  }
+}
+
+void TaskMaker::make() {
+  for (const LoweredModule& lowered : lowered_.modules) {
+    const bool fast = isFast(lowered.kind);
+    const bool cyclic =
+        lowered.kind == ModuleKind::Input || lowered.kind == ModuleKind::Main || lowered.kind == ModuleKind::Cont;
+    const std::string_view name = moduleName(lowered.kind).substr(std::string_view("MODULE_").size());
+    ids_[static_cast<size_t>(lowered.kind)] = add(std::string(name), lowered.routine, lowered.weight,
+                                                  fast     ? kFastPeriodUs
+                                                  : cyclic ? periodUs_
+                                                           : 0,
+                                                  fast);
+  }
+  for (const Event& event : lowered_.events) add(std::string(event.name), event.routine, 1, 0, false);
+  module_.mainTask = of(ModuleKind::Main);
+  module_.fastTask = of(ModuleKind::Fast);
+  if (lowered_.bitMessages.valid())
+    bitMessages_ = add("EDEF", lowered_.bitMessages, lowered_.bitMessagesWeight, periodUs_, false);
+  fastSteps(module_.fast, 1);
+  makeScan();
+}
+
+// A pass of the modules with the period. On the virtual clock all fast runs of a period lie between MODULE_INPUT and
+// MODULE_MAIN (technol.md 12.2). On a real one MODULE_FAST runs every millisecond (man. l.2660-2669): the first time in
+// that place, then alone.
+void TaskMaker::makeScan() {
+  const uint32_t fastRuns = std::max(1u, periodUs_ / kFastPeriodUs);
+  pass(module_.scan, periodUs_, fastRuns);
+  if (module_.fast.empty() || fastRuns == 1) return;
+  pass(module_.slices, periodUs_ - (fastRuns - 1) * kFastPeriodUs, 1);
+  for (uint32_t i = 1; i < fastRuns; ++i) {
+    step(module_.slices, RUNG_STEP_ADVANCE, kFastPeriodUs);
+    fastSteps(module_.slices, 1);
+  }
+}
+
+void TaskMaker::pass(std::vector<ir::Step>& steps, uint32_t us, uint32_t fastRuns) const {
+  step(steps, RUNG_STEP_ADVANCE, us);
+  step(steps, RUNG_STEP_HOOK, nc::kHookBeforeInput);
+  run(steps, ModuleKind::Input);
+  fastSteps(steps, fastRuns);
+  step(steps, RUNG_STEP_HOOK, nc::kHookAfterInput);
+  run(steps, ModuleKind::Main);
+  step(steps, RUNG_STEP_HOOK, nc::kHookAfterMain);
+  run(steps, ModuleKind::Cont);
+  if (bitMessages_.valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = bitMessages_, .arg = 1});
+}
+
+} // namespace
+
+void addTasks(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs) {
+  TaskMaker(program, lowered, emitter, periodUs).make();
+}
+
+} // namespace rung::frontend::technol

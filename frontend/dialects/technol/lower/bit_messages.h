@@ -1,0 +1,42 @@
+// Bits that make messages, as EDEF ties them (man. ch. 14.3).
+#pragma once
+
+#include <array>
+
+#include "frontend/dialects/technol/lower/state.h"
+
+namespace rung::frontend::technol {
+
+// A bit that makes a message. Each execution of the statement that differs in number or index is an entry in the hidden
+// space @EDEF, which outlives CLEAR.
+struct BitMessage {
+  const Statement* statement = nullptr;
+  Operand bit;
+  std::array<Operand, 3> pars;
+  std::array<ir::Window, 4> windows; // of bit and pars where they are indexed
+  uint32_t mode = 0;
+  uint32_t capacity = 1;
+  uint32_t table = 0; // first byte in @EDEF: the number of entries, then these
+};
+
+class BitMessages {
+public:
+  BitMessages(Memory& memory, State& state) : m_(memory), state_(state) {}
+
+  // Ties the bit, where a statement is carried out; `number` and `subId`, i32, are taken then.
+  void add(BitMessage message, ir::ValueId number, ir::ValueId subId);
+  // At each start the bits are tied anew.
+  void forget();
+  // The routine that looks at all bits, and its weight; invalid where there are none.
+  ir::RoutineId makeTask(uint64_t& weight);
+
+private:
+  void reserve(BitMessage& message);
+
+  Memory& m_;
+  State& state_;
+  std::vector<BitMessage> messages_;
+  ir::SpaceId space_;
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,41 @@
+// Timed blocks and the clocks that they go by (man. l.857-882): one of the 20 ms task, one of the fast task.
+#pragma once
+
+#include <array>
+#include <map>
+
+#include "frontend/dialects/technol/lower/state.h"
+
+namespace rung::frontend::technol {
+
+class Clocks {
+public:
+  Clocks(Memory& memory, State& state, uint32_t periodUs);
+
+  // Around a module: its clock, and the time that has passed.
+  void enter(ModuleKind kind);
+  void leave(ModuleKind kind);
+  // An event comes between two cycles.
+  void callEvent(ir::RoutineId procedure);
+  // Whether a timed block runs, in a module or in a procedure.
+  ir::ValueId isDue(TimedKind kind, ModuleKind module, bool inProcedure);
+  // Cycles of each period that have passed.
+  std::span<const ir::SlotId> phases() const { return phases_; }
+
+private:
+  void find(const Unit& timed);
+  ModuleKind firstFast() const;
+  void set(int32_t clock);
+  void advance(bool fast);
+  ir::SlotId dueSlot(bool fast, TimedKind kind);
+
+  Memory& m_;
+  State& state_;
+  uint32_t periodUs_;
+  std::array<std::array<bool, 4>, 2> used_{}; // of the 20 ms task and of the fast one; by TimedKind
+  std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
+  std::vector<ir::SlotId> phases_;
+  ir::SlotId clock_; // of the running module, where procedures have timed blocks
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,30 @@
+// The statement at hand (see context.h).
+#include "frontend/dialects/technol/lower/context.h"
+
+namespace rung::frontend::technol {
+
+using ir::ValueId;
+
+void StatementContext::enter(const Statement& statement, const Typed& typed) {
+  statement_ = &statement;
+  typed_ = &typed;
+}
+
+void StatementContext::useStack() {
+  const StackUse& use = typed_->stack;
+  if (use.pushed != kNone) r().setStack(use.pushed, r().rlo());
+  popped_ = use.popped == kNone ? ValueId{} : r().stack(use.popped);
+}
+
+uint32_t StatementContext::labelOf(uint32_t label) {
+  if (labels_[label] == kNone) labels_[label] = out().newLabel();
+  return labels_[label];
+}
+
+ValueId StatementContext::contact(const Operand& operand) {
+  const ValueId value = bit(operand);
+  marking.contact(*statement_, value);
+  return value;
+}
+
+} // namespace rung::frontend::technol

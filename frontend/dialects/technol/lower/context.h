@@ -1,0 +1,52 @@
+// What the lowering function of a row sees: the emitter with the program's memory, the statement at hand, and the parts
+// that statements share.
+#pragma once
+
+#include "frontend/dialects/technol/check/typed.h"
+#include "frontend/dialects/technol/lower/marking.h"
+#include "frontend/dialects/technol/lower/system_routines.h"
+
+namespace rung::frontend::technol {
+
+class StatementContext : public Memory {
+public:
+  StatementContext(const Program& program, ir::Module& module, ir::Marks* marks)
+      : Memory(program, module), state(*this), sequences(*this, state), procedures(*this),
+        clears(*this, state, sequences), bitMessages(*this, state), marking(*this, marks),
+        labels_(program.labels.size(), kNone) {}
+
+  // The next statement.
+  void enter(const Statement& statement, const Typed& typed);
+  // What it does to the stack; then `popped` is what LA, LO, LX without operand took off it.
+  void useStack();
+
+  const Statement& statement() const { return *statement_; }
+  std::string_view mnemonic() const { return statement_->row->info.mnemonic; }
+  ir::ValueId popped() const { return popped_; }
+  // The label of the code at a program's label, in Program::labels.
+  uint32_t labelOf(uint32_t label);
+  uint32_t jumpTarget(const Operand& label) { return labelOf(label.index); }
+  // The bit that LDR, LA, LO and LX ask.
+  ir::ValueId contact(const Operand& operand);
+  // State of this statement alone.
+  ir::SlotId ownSlot(ir::Type type) { return state.newSlot(type, *statement_, mnemonic()); }
+  CountCell countCell(const Operand& operand) { return state.countCell(operand, *statement_); }
+  void callProcedure(uint32_t procedure, ir::ValueId cond = {}) {
+    procedures.call(procedure, typed_->stack.depth, cond);
+  }
+
+  State state;
+  Sequences sequences;
+  Procedures procedures;
+  Clears clears;
+  BitMessages bitMessages;
+  Marking marking;
+
+private:
+  const Statement* statement_ = nullptr;
+  const Typed* typed_ = nullptr;
+  ir::ValueId popped_;
+  std::vector<uint32_t> labels_; // by program label
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,34 @@
+// Cells in the hidden space @REG that host and program share.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "ir/core/type.h"
+
+namespace rung::frontend::technol {
+
+// @DR, @RLO: registers at the start of INIT, DONE and of event procedures. @BLOCK_x.CONT: state of a block module, 0 at
+// its beginning; @BLOCK_x.DONE: it has run through (the host clears it). @INIT.PENDING, @DONE.PENDING: a bit for each
+// file that has still to execute MODULE_INIT_FINISHED or MODULE_DONE_FINISHED. @LICENCES: a bit for each licence of the
+// hardware key (rtlib/nc/technol/licences.h).
+enum class HostCell : uint8_t {
+  Dr,
+  Rlo,
+  BlockInitCont,
+  BlockInitDone,
+  BlockDoneCont,
+  BlockDoneDone,
+  InitOwed,
+  DoneOwed,
+  Licences,
+};
+struct HostCellInfo {
+  std::string_view name;
+  ir::Type type;
+  uint32_t byte;
+};
+const HostCellInfo& hostCell(HostCell cell);
+inline constexpr int kHostCells = 9;
+
+} // namespace rung::frontend::technol

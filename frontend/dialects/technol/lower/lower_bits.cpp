@@ -1,0 +1,103 @@
+// Bit logic and jumps (man. ch. 3.5-3.8).
+#include <array>
+
+#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lower.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+// Runs `body` always, or only while RLO is 1 (or 0).
+template <class Body>
+void conditionally(StatementContext& l, int condition, Body body) {
+  if (condition == kAlways) return body();
+  const ValueId rlo = l.r().rlo();
+  l.b().if_(condition == kIfRlo ? rlo : l.b().not_(rlo));
+  body();
+  l.b().endIf();
+}
+
+ValueId join(StatementContext& l, int kind, ValueId a, ValueId b) {
+  switch (kind) {
+  case kAnd: return l.b().and_(a, b);
+  case kOr: return l.b().or_(a, b);
+  default: return l.b().xor_(a, b);
+  }
+}
+
+// What an address needs is computed in front of a condition's region.
+std::vector<MemoryAccess> reachAll(StatementContext& l, std::span<const Operand> bits, ValueId guard) {
+  std::vector<MemoryAccess> places;
+  for (const Operand& bit : bits) places.push_back(l.reach(bit, guard));
+  return places;
+}
+
+} // namespace
+
+void lowerLoadBit(StatementContext& l, std::span<const Operand> o, int) { l.r().setRlo(l.contact(o[0])); }
+
+void lowerLicence(StatementContext& l, std::span<const Operand> o, int) {
+  ir::Place at = place(HostCell::Licences);
+  at.byte += static_cast<uint32_t>(o[0].value) / 8;
+  at.bit = static_cast<uint8_t>(o[0].value % 8);
+  l.r().setRlo(l.b().load(Type::Bit, at));
+}
+
+void lowerJoin(StatementContext& l, std::span<const Operand> o, int kind) {
+  const ValueId rlo = l.r().rlo();
+  l.r().setRlo(o[0].given() ? join(l, kind, rlo, l.contact(o[0])) : join(l, kind, l.popped(), rlo));
+}
+
+void lowerComplement(StatementContext& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }
+
+// The former value: 0 before the first execution after a start, then 2 or 3. The first execution reports no edge (man.
+// l.300).
+void lowerEdge(StatementContext& l, std::span<const Operand> o, int rising) {
+  constexpr int kWasLow = 2, kWasHigh = 3;
+  const ir::SlotId former = l.ownSlot(Type::I8);
+  l.state.forgetAtStart(former);
+  ir::RungBuilder& b = l.b();
+  const ValueId bit = l.bit(o[0]);
+  const ValueId was = b.eq(b.slotLoad(former), b.constant(Type::I8, rising ? kWasLow : kWasHigh));
+  b.slotStore(former, b.select(bit, b.constant(Type::I8, kWasHigh), b.constant(Type::I8, kWasLow)));
+  l.r().setRlo(b.and_(was, rising ? bit : b.not_(bit)));
+}
+
+void lowerWrite(StatementContext& l, std::span<const Operand> o, int) {
+  const ValueId rlo = l.r().rlo();
+  for (const Operand& bit : o) l.store(l.reach(bit), rlo);
+}
+
+void lowerFlag(StatementContext& l, std::span<const Operand> o, int condition) {
+  const ValueId guard = condition == kAlways ? ValueId{} : l.r().rlo();
+  const std::vector<MemoryAccess> places = reachAll(l, o.subspan(1), guard);
+  conditionally(l, condition, [&] {
+    const ValueId flag = l.b().bit(o[0].value != 0);
+    for (const MemoryAccess& place : places) l.store(place, flag);
+  });
+}
+
+void lowerMoveBit(StatementContext& l, std::span<const Operand> o, int condition) {
+  const ValueId guard = condition == kAlways ? ValueId{} : l.r().rlo();
+  const std::vector<MemoryAccess> places = reachAll(l, o, guard);
+  conditionally(l, condition, [&] {
+    const ValueId bit = l.load(places[1], Type::Bit);
+    l.store(places[0], o[1].negated ? l.b().not_(bit) : bit);
+  });
+}
+
+// CHECK is for the compiler.
+void lowerNothing(StatementContext&, std::span<const Operand>, int) {}
+
+void lowerJump(StatementContext& l, std::span<const Operand> o, int condition) {
+  const uint32_t target = l.jumpTarget(o[0]);
+  if (condition == kAlways) return l.out().jump(target);
+  const ValueId rlo = l.r().rlo();
+  l.out().jump(target, condition == kIfRlo ? rlo : l.b().not_(rlo));
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,139 @@
+// Configuration and constants of the machine (man. ch. 16).
+#include <algorithm>
+#include <array>
+
+#include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lower_identifier.h"
+#include "frontend/dialects/technol/lower/texts.h"
+
+#include "rtlib/nc/technol/configuration.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+using Kind = nc::ConfigurationKind;
+
+namespace {
+
+constexpr uint32_t kHead = nc::kConfigurationHead;
+constexpr uint32_t kWords = nc::kConfigurationWords;
+constexpr uint32_t kBytes = nc::kConfigurationBytes;
+
+// The identifier, eight characters a word.
+using Words = std::vector<ValueId>;
+
+ValueId request(StatementContext& l, Kind kind, ValueId part, const Words& id) {
+  std::array<ValueId, kHead + kWords> args;
+  args[0] = l.b().constant(Type::I64, static_cast<int64_t>(kind));
+  args[1] = part;
+  std::copy(id.begin(), id.end(), args.begin() + kHead);
+  return l.b().serviceRequest(l.service(nc::kConfigurationService), args);
+}
+
+// ---- numbers and bits -----------------------------------------------------------------------------------------------
+
+ValueId asReal(ir::RungBuilder& b, const Operand& operand, ValueId value) {
+  if (operand.form == Operand::Form::Integer) return b.real(static_cast<double>(operand.value));
+  return operand.negated ? b.op(ir::OpCode::FNeg, Type::F64, {value}) : value;
+}
+
+ValueId defaultOf(StatementContext& l, Kind kind, const Operand& operand, Type type) {
+  ir::RungBuilder& b = l.b();
+  switch (kind) {
+  case Kind::Real: return asReal(b, operand, l.value(operand));
+  case Kind::Bit: return operand.isConstant() ? b.bit(operand.value != 0) : l.bit(operand);
+  case Kind::Integer:
+  case Kind::Constant:
+  case Kind::Text:
+  case Kind::Binary: return b.sextOrTrunc(type, l.value(operand));
+  }
+  return {};
+}
+
+ValueId resultOf(ir::RungBuilder& b, Kind kind, ValueId ticket, Type type) {
+  const ValueId word = b.serviceResult(ticket, kHead);
+  if (kind == Kind::Real) return b.op(ir::OpCode::BitsToF, Type::F64, {word});
+  return b.zextOrTrunc(type, word);
+}
+
+void getValue(StatementContext& l, std::span<const Operand> o, Kind kind) {
+  ir::RungBuilder& b = l.b();
+  const MemoryAccess target = l.reach(o[0]);
+  const Words id = identifierWords(l, o[1], kWords);
+  const bool hasDefault = o.size() > 2 && o[2].given();
+  const ValueId otherwise = hasDefault ? defaultOf(l, kind, o[2], o[0].type) : ValueId{};
+  const ValueId ticket = request(l, kind, b.constant(Type::I64, 0), id);
+  const ValueId found = answersYes(b, ticket, 0);
+  const ValueId value = resultOf(b, kind, ticket, o[0].type);
+  l.r().setRlo(found);
+  if (kind == Kind::Constant)
+    l.r().setDr(b.select(found, b.zextOrTrunc(Type::I32, b.serviceResult(ticket, kHead)), b.i32(0)));
+  if (hasDefault) return l.store(target, b.select(found, value, otherwise));
+  b.if_(found);
+  l.store(target, value);
+  b.endIf();
+}
+
+// ---- texts ----------------------------------------------------------------------------------------------------------
+
+// Parts of the text, one request each; what the target has no room for is cut off.
+void putParts(StatementContext& l, const Text& target, Kind kind, const Words& id, ValueId found) {
+  ir::RungBuilder& b = l.b();
+  const Length length{.fixed = false, .most = UINT32_MAX, .value = found};
+  const ValueId count = smaller(l, length, roomOf(target)).value;
+  const uint32_t parts = target.most / kBytes + 1;
+  const ValueId part = b.loop(parts)[0];
+  const ValueId ticket = request(l, kind, b.zextOrTrunc(Type::I64, part), id);
+  const uint32_t words = parts > 1 ? kWords : target.most / 8 + 1;
+  for (uint32_t w = 0; w < words; ++w) {
+    const ValueId word = b.serviceResult(ticket, kHead + w);
+    const ValueId first = b.add(b.mul(part, b.i32(kBytes)), b.i32(int64_t{w} * 8));
+    const auto in = b.loop(8, std::array{word});
+    const ValueId number = b.add(first, in[0]);
+    b.if_(b.ltU(number, count));
+    storeByte(l, target.area, number, b.zextOrTrunc(Type::I8, in[1]));
+    b.endIf();
+    b.endLoop(std::array{b.op(ir::OpCode::ShrU, Type::I64, {in[1], b.i32(8)})});
+  }
+  b.endLoop();
+  if (kind != Kind::Binary) storeTerminator(l, target.area, count, b.bit(true));
+}
+
+void putDefault(StatementContext& l, const Text& target, const Text& source) {
+  const Length count = smaller(l, lengthOf(l, source), roomOf(target));
+  copy(l, target.area, source.area, count);
+  storeTerminator(l, target.area, count.value, l.b().bit(true));
+}
+
+void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
+  const Text target = textOf(l, o[0]);
+  const Words id = identifierWords(l, o[1], kWords);
+  const Text source = o[2].given() ? textOf(l, o[2]) : Text{};
+  ir::RungBuilder& b = l.b();
+  const ValueId ticket = request(l, kind, b.constant(Type::I64, 0), id);
+  const ValueId found = answersYes(b, ticket, 0);
+  const ValueId length = b.zextOrTrunc(Type::I32, b.serviceResult(ticket, 1));
+  l.r().setRlo(found);
+  b.if_(found);
+  putParts(l, target, kind, id, length);
+  if (o[2].given()) {
+    b.else_();
+    putDefault(l, target, source);
+  }
+  b.endIf();
+}
+
+} // namespace
+
+// CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO tells whether it was found.
+void lowerConfiguration(StatementContext& l, std::span<const Operand> o, int kind) {
+  const auto wanted = static_cast<Kind>(kind);
+  if (wanted != Kind::Text && wanted != Kind::Binary) return getValue(l, o, wanted);
+  const bool isLong = anyIsLong(o);
+  if (isLong) l.out().cut();
+  getText(l, o, wanted);
+  if (isLong) l.out().cut();
+}
+
+} // namespace rung::frontend::technol

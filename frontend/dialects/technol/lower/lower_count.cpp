@@ -1,0 +1,42 @@
+// Timers and counters (man. ch. 3.11).
+#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lower.h"
+
+namespace rung::frontend::technol {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+// RLO = 0 clears the count; else it counts up to the preset in DR, and RLO tells that it is there (man. l.884-916).
+void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const CountCell cell = l.countCell(o[0]);
+  const ValueId rlo = l.r().rlo();
+  const ValueId count = l.state.load(cell);
+  const ValueId reached = b.leU(l.r().dr(cell.type), count);
+  const ValueId counted = b.select(reached, count, b.add(count, b.constant(cell.type, 1)));
+  l.state.store(cell, b.select(rlo, counted, b.constant(cell.type, 0)));
+  l.r().setRlo(b.and_(rlo, reached));
+}
+
+// Counts on 0 -> 1 of RLO; then RLO tells whether the count is the preset in DR, and DR is the count (man. l.955-977).
+void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind) {
+  ir::RungBuilder& b = l.b();
+  const CountCell cell = l.countCell(o[0]);
+  const ir::SlotId former = l.ownSlot(Type::Bit);
+  const ValueId rlo = l.r().rlo();
+  const ValueId rises = b.and_(rlo, b.not_(b.slotLoad(former)));
+  b.slotStore(former, rlo);
+  const ValueId count = l.state.load(cell);
+  const ValueId one = b.constant(cell.type, 1);
+  ValueId next = kind == kCountDown ? b.sub(count, one) : b.add(count, one);
+  if (kind == kCountUpBcd)
+    next = b.op(OpCode::BcdEncode, cell.type, {b.add(b.op(OpCode::BcdDecode, cell.type, {count}), one)});
+  const ValueId now = b.select(rises, next, count);
+  l.state.store(cell, now);
+  l.r().setRlo(b.eq(now, l.r().dr(cell.type)));
+  l.r().setDr(b.zextOrTrunc(Type::I64, now));
+}
+
+} // namespace rung::frontend::technol

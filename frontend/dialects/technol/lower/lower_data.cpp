@@ -1,0 +1,220 @@
+// Data instructions (man. ch. 3.9-3.16).
+#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lower.h"
+#include "rtlib/nc/faults.h"
+
+namespace rung::frontend::technol {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
+
+ValueId bitwise(ir::RungBuilder& b, int kind, ValueId x, ValueId y) {
+  switch (kind) {
+  case kAnd: return b.and_(x, y);
+  case kOr: return b.or_(x, y);
+  default: return b.xor_(x, y);
+  }
+}
+
+// A result that is no number, or a division by zero, is the coprocessor's error.
+ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
+  ir::RungBuilder& b = l.b();
+  ValueId bad = b.not_(b.op(OpCode::FEq, Type::F64, {result, result}));
+  if (divisor.valid()) bad = b.or_(bad, b.op(OpCode::FEq, Type::F64, {divisor, b.real(0)}));
+  b.trap(bad, l.fault(nc::kTechnolReal));
+  return result;
+}
+
+void realArithmetic(StatementContext& l, const Operand& operand, int operation) {
+  constexpr OpCode kOps[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
+  const ValueId right = l.value(operand);
+  const ValueId result = l.b().op(kOps[operation], Type::F64, {l.r().real(), right});
+  l.r().setReal(checkedReal(l, result, operation == kDivide ? right : ValueId{}));
+}
+
+// Twice as wide, up to 64 bits: what a product or a dividend takes (man. l.1091-1132).
+Type doubled(Type type) { return type == Type::I8 ? Type::I16 : type == Type::I16 ? Type::I32 : Type::I64; }
+
+void multiply(StatementContext& l, const Operand& operand) {
+  ir::RungBuilder& b = l.b();
+  const ValueId right = l.value(operand);
+  const Type wide = doubled(operand.type);
+  const ValueId left = l.r().dr(operand.type);
+  l.r().setDr(b.mul(b.sextOrTrunc(wide, left), b.sextOrTrunc(wide, right)));
+}
+
+// 8, 16 and 32 bit divisors divide 16, 32 and 64 bits of DR; the quotient must fit 32 bits (man. l.1110-1132, l.5354).
+void divide(StatementContext& l, const Operand& operand) {
+  ir::RungBuilder& b = l.b();
+  const ValueId right = b.sextOrTrunc(Type::I64, l.value(operand));
+  const ValueId left = b.sextOrTrunc(Type::I64, l.r().dr(doubled(operand.type)));
+  const ValueId quotient = b.binary(OpCode::DivS, left, right);
+  const ValueId fits = b.eq(b.sextOrTrunc(Type::I64, b.sextOrTrunc(Type::I32, quotient)), quotient);
+  b.trap(b.or_(b.eq(right, b.constant(Type::I64, 0)), b.not_(fits)), l.fault(nc::kTechnolDivision));
+  l.r().setDr(quotient);
+}
+
+ValueId compareIntegers(ir::RungBuilder& b, int relation, ValueId x, ValueId y) {
+  switch (relation) {
+  case kLess: return b.ltS(x, y);
+  case kGreater: return b.ltS(y, x);
+  case kLessEqual: return b.leS(x, y);
+  case kGreaterEqual: return b.leS(y, x);
+  default: return b.eq(x, y);
+  }
+}
+
+ValueId compareReals(ir::RungBuilder& b, int relation, ValueId x, ValueId y) {
+  const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
+  switch (relation) {
+  case kLess: return test(OpCode::FLt, x, y);
+  case kGreater: return test(OpCode::FLt, y, x);
+  case kLessEqual: return test(OpCode::FLe, x, y);
+  case kGreaterEqual: return test(OpCode::FLe, y, x);
+  default: return test(OpCode::FEq, x, y);
+  }
+}
+
+ValueId guardOf(StatementContext& l, int condition) {
+  if (condition == kAlways) return {};
+  return condition == kIfRlo ? l.r().rlo() : l.b().not_(l.r().rlo());
+}
+
+void storeIf(StatementContext& l, ValueId guard, const MemoryAccess& access, ValueId value) {
+  if (guard.valid()) l.b().if_(guard);
+  l.store(access, value);
+  if (guard.valid()) l.b().endIf();
+}
+
+} // namespace
+
+void lowerLoad(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const ValueId value = l.value(o[0]);
+  if (o[0].isReal())
+    l.r().setReal(o[0].negated ? b.op(OpCode::FNeg, Type::F64, {value}) : value);
+  else if (!o[0].negated)
+    l.r().setDr(value);
+  else
+    l.r().setDr(b.op(OpCode::Neg, Type::I64, {b.sextOrTrunc(Type::I64, value)}));
+}
+
+void lowerStore(StatementContext& l, std::span<const Operand> o, int condition) {
+  const ValueId guard = guardOf(l, condition);
+  const ValueId value = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
+  storeIf(l, guard, l.reach(o[0], guard), value);
+}
+
+void lowerMove(StatementContext& l, std::span<const Operand> o, int condition) {
+  // A REAL is moved as its 64 bits.
+  const Type type = o[0].isReal() ? Type::I64 : o[0].type;
+  const ValueId guard = guardOf(l, condition);
+  const MemoryAccess from = l.reach(o[1], guard), to = l.reach(o[0], guard);
+  storeIf(l, guard, to, l.load(from, type));
+}
+
+void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operation) {
+  if (o[0].isReal()) return realArithmetic(l, o[0], operation);
+  if (operation == kMultiply) return multiply(l, o[0]);
+  if (operation == kDivide) return divide(l, o[0]);
+  const ValueId right = l.value(o[0]);
+  const ValueId left = l.r().dr(o[0].type);
+  l.r().setDrPart(operation == kAdd ? l.b().add(left, right) : l.b().sub(left, right));
+}
+
+void lowerBitwise(StatementContext& l, std::span<const Operand> o, int kind) {
+  const ValueId right = l.value(o[0]);
+  l.r().setDrPart(bitwise(l.b(), kind, l.r().dr(o[0].type), right));
+}
+
+// EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).
+void lowerCompare(StatementContext& l, std::span<const Operand> o, int relation) {
+  const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
+  const ValueId right = l.value(o[0], rlo);
+  const ValueId result = o[0].isReal() ? compareReals(l.b(), relation, l.r().real(), right)
+                                       : compareIntegers(l.b(), relation, l.r().dr(o[0].type), right);
+  l.r().setRlo(rlo.valid() ? l.b().and_(rlo, result) : result);
+}
+
+void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation) {
+  ir::RungBuilder& b = l.b();
+  const Type type = widthOf(o[0]);
+  if (type == Type::F64) {
+    const ValueId x = l.r().real();
+    switch (operation) {
+    case kIncrement: return l.r().setReal(b.op(OpCode::FAdd, type, {x, b.real(1)}));
+    case kDecrement: return l.r().setReal(b.op(OpCode::FSub, type, {x, b.real(1)}));
+    case kNegate: return l.r().setReal(b.op(OpCode::FNeg, type, {x}));
+    default: return l.r().setReal(b.op(OpCode::FAbs, type, {x}));
+    }
+  }
+  const ValueId x = l.r().dr(type);
+  switch (operation) {
+  case kIncrement: return l.r().setDrPart(b.add(x, b.constant(type, 1)));
+  case kDecrement: return l.r().setDrPart(b.sub(x, b.constant(type, 1)));
+  case kNegate: return l.r().setDrPart(b.op(OpCode::Neg, type, {x}));
+  default: return l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.op(OpCode::Neg, type, {x}), x));
+  }
+}
+
+// 0..9999 in 16 bits; behind 9999 comes 0 (man. l.1225).
+void lowerIncrementBcd(StatementContext& l, std::span<const Operand>, int) {
+  ir::RungBuilder& b = l.b();
+  const ValueId next = b.add(b.op(OpCode::BcdDecode, Type::I16, {l.r().dr(Type::I16)}), b.constant(Type::I16, 1));
+  l.r().setDrPart(b.op(OpCode::BcdEncode, Type::I16, {next}));
+}
+
+// With DWRD bit 31 marks a negative number, the other bits are its magnitude (man. l.1250).
+void lowerBin(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Type type = widthOf(o[0]);
+  const ValueId x = l.r().dr(type);
+  if (type == Type::I16) return l.r().setDrPart(b.op(OpCode::BcdDecode, type, {x}));
+  const ValueId magnitude = b.op(OpCode::BcdDecode, type, {b.and_(x, b.constant(type, 0x7FFFFFFF))});
+  l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.op(OpCode::Neg, type, {magnitude}), magnitude));
+}
+
+void lowerBcd(StatementContext& l, std::span<const Operand> o, int) {
+  const Type type = widthOf(o[0]);
+  l.r().setDrPart(l.b().op(OpCode::BcdEncode, type, {l.r().dr(type)}));
+}
+
+void lowerShift(StatementContext& l, std::span<const Operand> o, int right) {
+  ir::RungBuilder& b = l.b();
+  const Type type = widthOf(o[1]);
+  const ValueId count = b.zextOrTrunc(Type::I32, l.value(o[0]));
+  l.r().setDrPart(b.op(right ? OpCode::ShrU : OpCode::Shl, type, {l.r().dr(type), count}));
+}
+
+// The integer is sign-extended to 64 bits first and stays in DR (man. l.1511).
+void lowerToReal(StatementContext& l, std::span<const Operand> o, int) {
+  const ValueId whole = l.b().sextOrTrunc(Type::I64, l.r().dr(widthOf(o[0])));
+  l.r().setReal(l.b().op(OpCode::IntToF, Type::F64, {whole}));
+  l.r().setDr(whole);
+}
+
+void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  if (o[0].form == Operand::Form::Integer) {
+    const ValueId shifted = b.op(OpCode::ShrU, Type::I32, {l.r().dr(Type::I32), b.i32(o[0].value)});
+    return l.r().setRlo(b.op(OpCode::Trunc, Type::Bit, {shifted}));
+  }
+  const Type type = widthOf(o[0]);
+  l.r().setRlo(b.ne(l.r().dr(type), b.constant(type, 0)));
+}
+
+// FFFFh or FFFFFFFFh for 1; the bits above follow the sign.
+void lowerRloToDr(StatementContext& l, std::span<const Operand>, int) {
+  l.r().setDr(l.b().op(OpCode::SExt, Type::I64, {l.r().rlo()}));
+}
+
+void lowerMovBx(StatementContext& l, std::span<const Operand>, int) {
+  l.r().setBx(l.b().zextOrTrunc(Type::I32, l.r().dr(Type::I16)));
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,65 @@
+// Identifiers as words (see lower_identifier.h).
+#include "frontend/dialects/technol/lower/lower_identifier.h"
+
+#include <algorithm>
+#include <array>
+
+#include "frontend/dialects/technol/lower/texts.h"
+#include "rtlib/nc/technol/exchange.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+ValueId quotedWord(ir::RungBuilder& b, std::string_view text) {
+  uint64_t bits = 0;
+  for (size_t i = 0; i < 8 && i < text.size(); ++i) bits |= uint64_t{static_cast<uint8_t>(text[i])} << i * 8;
+  return b.constant(Type::I64, static_cast<int64_t>(bits));
+}
+
+// Characters `first` to `first` + `count`.
+ValueId loadedWord(StatementContext& l, const Text& text, uint32_t first, uint32_t count) {
+  ir::RungBuilder& b = l.b();
+  const auto in = b.loop(count, std::array{b.constant(Type::I64, 0)});
+  const ValueId number = b.add(in[0], b.i32(first));
+  b.if_(b.ltU(number, text.room));
+  const ValueId byte = b.zextOrTrunc(Type::I64, loadByte(l, text.area, number));
+  const ValueId moved = b.op(ir::OpCode::Shl, Type::I64, {byte, b.mul(in[0], b.i32(8))});
+  b.else_(std::array{b.or_(in[1], moved)});
+  return b.endLoop(b.endIf(std::array{in[1]}))[0];
+}
+
+} // namespace
+
+std::vector<ValueId> identifierWords(StatementContext& l, const Operand& id, uint32_t words) {
+  ir::RungBuilder& b = l.b();
+  std::vector<ValueId> made;
+  const bool quoted = id.form == Operand::Form::Text;
+  const Text text = quoted ? Text{} : textOf(l, id);
+  for (uint32_t first = 0; first < words * 8; first += 8) {
+    if (quoted)
+      made.push_back(quotedWord(b, id.text.substr(std::min<size_t>(first, id.text.size()))));
+    else if (first < text.most)
+      made.push_back(loadedWord(l, text, first, std::min(8u, text.most - first)));
+    else
+      made.push_back(b.constant(Type::I64, 0));
+  }
+  return made;
+}
+
+ValueId defineRequest(StatementContext& l, std::span<const ValueId> head, const Operand& id) {
+  std::vector<ValueId> args(head.begin(), head.end());
+  const auto words = identifierWords(l, id, nc::kDefineWords);
+  args.insert(args.end(), words.begin(), words.end());
+  return l.b().serviceRequest(l.service(nc::kDefineService), args);
+}
+
+ValueId answersYes(ir::RungBuilder& b, ValueId ticket, uint32_t result) {
+  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
+  return b.and_(answered, b.ne(b.serviceResult(ticket, result), b.constant(Type::I64, 0)));
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,87 @@
+// Messages: ESET, ESET1, EDEF (man. ch. 14.3).
+#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/message_parts.h"
+#include "rtlib/nc/technol/messages.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+MessageParts partsOf(Memory& m, ValueId number, const Operand& subId, std::span<const Operand> pars) {
+  const ValueId par1 = valueOr0(m, pars[0], Type::I32), par2 = valueOr0(m, pars[1], Type::I32);
+  const ValueId both = bothPars(m.b(), par1, par2);
+  return {number, valueOr0(m, subId, Type::I32), valueOr0(m, pars[2], Type::I32), both};
+}
+
+// `set` 1 shows and 0 removes; without it the message is shown.
+void showOrRemove(ir::RungBuilder& b, const MessageParts& m, ValueId set) {
+  if (!set.valid()) return send(b, m, RUNG_MESSAGE_SHOW_LOG, 0);
+  b.if_(set);
+  send(b, m, RUNG_MESSAGE_SHOW_LOG, nc::technol::kPersistentWanted);
+  b.else_();
+  send(b, m, RUNG_MESSAGE_CLEAR, nc::technol::kPersistentWanted);
+  b.endIf();
+}
+
+} // namespace
+
+// ESET [error],[subid],[set],[par1],[par2],[par3]; the number is in DR where it is not given (man. l.5086-5130).
+// _ON_ESET is called with the number in DR when a message comes up, not when one is removed (man. l.1609, l.5132).
+void lowerMessage(StatementContext& l, std::span<const Operand> o, int condition) {
+  ir::RungBuilder& b = l.b();
+  const ValueId word = o[0].given() ? b.zextOrTrunc(Type::I16, l.value(o[0])) : l.r().dr(Type::I16);
+  const ValueId number = b.zextOrTrunc(Type::I32, word);
+  ValueId set;
+  if (o[2].given()) {
+    const ValueId value = valueOr0(l, o[2], Type::I32);
+    set = b.ne(value, b.i32(0));
+  }
+  const MessageParts message = partsOf(l, number, o[1], o.subspan(3, 3));
+  const ValueId rlo = condition == kIfRlo ? l.r().rlo() : ValueId{};
+  const bool calls =
+      l.procedures.onMessage() != kNone && l.program().procedureOf(l.statement().unit) != l.procedures.onMessage();
+  const ValueId comesUp = !set.valid() ? rlo : !rlo.valid() ? set : b.and_(rlo, set);
+  if (calls) l.procedures.saveRegisters();
+  if (rlo.valid()) b.if_(rlo);
+  showOrRemove(b, message, set);
+  if (rlo.valid()) b.endIf();
+  if (!calls) return;
+  l.r().setDr(b.zextOrTrunc(Type::I64, number));
+  l.callProcedure(l.procedures.onMessage(), comesUp);
+  l.procedures.restoreRegisters();
+}
+
+namespace {
+
+constexpr uint32_t kMostEntries = 64; // of one EDEF
+
+} // namespace
+
+// EDEF [val],bit,error,[subid],mod,[par1],[par2],[par3] (man. l.5192-5260). Carried out again it is the same message
+// while number and addresses are the same, else one more.
+void lowerBitMessage(StatementContext& l, std::span<const Operand> o, int) {
+  BitMessage message;
+  message.statement = &l.statement();
+  message.mode = static_cast<uint32_t>(o[4].value);
+  message.bit = o[1];
+  if (o[0].given()) {
+    message.bit = o[0];
+    message.bit.form = Operand::Form::Bit;
+    message.bit.type = Type::Bit;
+    message.bit.place.bit = o[1].place.bit;
+  }
+  bool varies = !o[2].isConstant() || (o[3].given() && !o[3].isConstant()) || message.bit.indexed;
+  for (size_t i = 0; i < message.pars.size(); ++i) {
+    message.pars[i] = o[5 + i];
+    varies = varies || o[5 + i].indexed;
+  }
+  message.capacity = varies ? kMostEntries : 1;
+  const ValueId word = l.b().zextOrTrunc(Type::I16, l.value(o[2]));
+  l.bitMessages.add(message, l.b().zextOrTrunc(Type::I32, word), valueOr0(l, o[3], Type::I32));
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,39 @@
+// Marks of contacts and coils (see marking.h).
+#include "frontend/dialects/technol/lower/marking.h"
+
+#include "frontend/dialects/technol/lower/lower.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+// What only joins values of the equation: LA, LO and LX, whose bits are contacts, and CA.
+bool isLogic(const Row& row) {
+  constexpr uint16_t kBoth = kReadsRlo | kSetsRlo;
+  return (row.effects & kJoins) != 0 || (row.info.group == "bit logic" && (row.effects & kBoth) == kBoth);
+}
+
+} // namespace
+
+void Marking::note(ir::MarkKind kind, const Statement& statement, ir::ValueId value) {
+  if (marks_ == nullptr) return;
+  const RungSource at = sourceOf(m_.program(), statement);
+  std::string text(statement.row->info.mnemonic);
+  if (statement.tokenCount != 0) text.append(" ").append(spelled(m_.program().operandTokens(statement)));
+  marks_->add(m_.out().routine(), m_.out().openRung(), {kind, value, at.line, at.column, std::move(text)});
+}
+
+void Marking::decision(const Statement& statement) {
+  const Row& row = *statement.row;
+  if (marks_ == nullptr || (row.effects & kReadsRlo) == 0 || isLogic(row)) return;
+  const bool coil = row.info.group == "bit write";
+  note(coil ? ir::MarkKind::Coil : ir::MarkKind::Input, statement, m_.r().rlo());
+}
+
+void Marking::result(const Statement& statement, uint32_t rung) {
+  const Row& row = *statement.row;
+  const bool asksBit = row.lower == &lowerLoadBit;
+  if (marks_ == nullptr || (row.effects & kSetsRlo) == 0 || isLogic(row) || asksBit) return;
+  if (m_.out().isOpen() && m_.out().openRung() == rung) note(ir::MarkKind::Result, statement, m_.r().rlo());
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,38 @@
+// How operations reach the memory that operands name: cells and bits, also by the index register BX.
+#pragma once
+
+#include "frontend/dialects/technol/check/operand.h"
+#include "frontend/dialects/technol/lower/emitter.h"
+
+namespace rung::frontend::technol {
+
+// A place in memory as an operation reaches it: fixed, or by a checked index.
+struct MemoryAccess {
+  ir::Place place;
+  bool indexed = false;
+  ir::Window window;
+  ir::ValueId index;
+};
+
+// An emitter that knows the program's memory.
+class Memory : public Emitter {
+public:
+  Memory(const Program& program, ir::Module& module) : Emitter(module), program_(program) {}
+
+  const Program& program() const { return program_; }
+  uint32_t bytesOf(ir::SpaceId space) const { return program_.bytesOf(space); }
+
+  // Where a cell or bit lies; an index outside its space stops the program (where `guard` is 1, if there is one).
+  MemoryAccess reach(const Operand& operand, ir::ValueId guard = {});
+  ir::ValueId load(const MemoryAccess& access, ir::Type type);
+  void store(const MemoryAccess& access, ir::ValueId value);
+  // A bit with its sign.
+  ir::ValueId bit(const Operand& operand);
+  // A constant or a cell; `guard` as for reach.
+  ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
+
+private:
+  const Program& program_;
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,28 @@
+// Procedures (man. ch. 3.17), and those that the control calls (man. l.1609).
+#pragma once
+
+#include "frontend/dialects/technol/lower/memory.h"
+
+namespace rung::frontend::technol {
+
+class Procedures {
+public:
+  explicit Procedures(Memory& memory);
+
+  ir::RoutineId routine(uint32_t procedure) const { return routines_[procedure]; }
+  // `depth`: values on the stack of the equation in which the call stands; they stay as they are.
+  void call(uint32_t procedure, uint32_t depth, ir::ValueId cond = {});
+  // Of messages, or kNone.
+  uint32_t onMessage() const { return onMessage_; }
+  // RLO, DR, DR_REAL and BX around a call that the program does not see.
+  void saveRegisters();
+  void restoreRegisters();
+
+private:
+  Memory& m_;
+  std::vector<ir::RoutineId> routines_;
+  uint32_t onMessage_ = kNone;
+  std::vector<ir::SlotId> saved_;
+};
+
+} // namespace rung::frontend::technol

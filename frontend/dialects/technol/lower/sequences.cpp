@@ -1,0 +1,158 @@
+// Units that wait (see sequences.h).
+#include "frontend/dialects/technol/lower/sequences.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ir/support/hash.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+ir::Place bitOf(uint32_t mechanism) { return {.space = kMechanismSpace, .byte = mechanism * kMechanismBytes}; }
+ir::Place lineOf(uint32_t mechanism) { return {.space = kMechanismSpace, .byte = mechanism * kMechanismBytes + 1}; }
+
+} // namespace
+
+Sequences::Sequences(Memory& memory, State& state) : m_(memory), state_(state) {
+  for (const Mechanism& mechanism : memory.program().mechanisms) {
+    const auto number = static_cast<uint32_t>(mechanisms_.size());
+    const std::string name = symbolKey(mechanism.name);
+    mechanisms_.push_back({.state = memory.newSlot(Type::I32, "MECH." + name + ".CONT"), .reset = {}, .cells = {}});
+    state.nameCells("@MECH." + name, kMechanismSpace, bitOf(number).byte, Type::Bit);
+    state.nameCells("@MECH." + name + ".LINE", kMechanismSpace, lineOf(number).byte, Type::I16);
+  }
+}
+
+void Sequences::begin(Sequence sequence) {
+  RoutineBuilder& out = m_.out();
+  sequence.routine = out.routine();
+  sequence.continuation.points = {"beginning"};
+  if (sequence.leave == kNone) sequence.leave = out.newLabel();
+  sequence.dispatch = out.selectLater(loadState(sequence));
+  sequence.states.push_back(out.newLabel());
+  out.bind(sequence.states[0]);
+  open_.push_back(std::move(sequence));
+}
+
+void Sequences::beginModule(ModuleKind kind, uint32_t unit) {
+  const bool init = kind == ModuleKind::BlockInit;
+  const HostCell cell = init ? HostCell::BlockInitCont : HostCell::BlockDoneCont;
+  Sequence sequence{
+      .unit = unit, .routine = {}, .moduleDone = init ? HostCell::BlockInitDone : HostCell::BlockDoneDone};
+  sequence.moduleCont = place(cell);
+  sequence.continuation.key = hostCell(cell).name;
+  sequence.continuation.space = sequence.moduleCont.space;
+  sequence.continuation.byte = sequence.moduleCont.byte;
+  begin(std::move(sequence));
+}
+
+void Sequences::beginMechanism(uint32_t mechanism, uint32_t unit) {
+  ir::RungBuilder& b = m_.b();
+  const ValueId inactive = b.not_(b.load(Type::Bit, bitOf(mechanism)));
+  b.if_(inactive);
+  b.store(lineOf(mechanism), b.constant(Type::I16, 0));
+  b.endIf();
+  Sequence sequence{.unit = unit, .routine = {}, .mechanism = mechanism, .leave = m_.out().newLabel()};
+  m_.out().jump(sequence.leave, inactive);
+  sequence.continuation.slot = mechanisms_[mechanism].state;
+  sequence.continuation.key = m_.module().at(sequence.continuation.slot).key;
+  begin(std::move(sequence));
+}
+
+void Sequences::end() {
+  Sequence& sequence = open_.back();
+  if (sequence.mechanism == kNone)
+    m_.b().store(place(sequence.moduleDone), m_.b().bit(true));
+  else
+    m_.b().store(bitOf(sequence.mechanism), m_.b().bit(false));
+  storeState(sequence, m_.b().i32(0));
+  storeLine(sequence, 0);
+  for (const CountCell& cell : sequence.cells) state_.store(cell, m_.b().constant(cell.type, 0));
+  m_.out().cut();
+  m_.out().setLabels(sequence.dispatch, sequence.states);
+  m_.out().bind(sequence.leave);
+  if (sequence.mechanism != kNone) mechanisms_[sequence.mechanism].cells = std::move(sequence.cells);
+  m_.module().continuations.push_back(std::move(sequence.continuation));
+  open_.pop_back();
+}
+
+// Only what the unit itself consists of counts, not a procedure inside it.
+void Sequences::pass(const Statement& statement) {
+  if (open_.empty()) return;
+  Sequence& s = open_.back();
+  if (m_.program().owner(statement.unit) != s.unit || s.routine != m_.out().routine()) return;
+  s.instruction = instructionKey(m_.program(), statement, statement.row->info.mnemonic);
+  s.section = hashBytes(s.instruction, s.sectionEnds ? 0 : s.section);
+  s.sectionEnds = false;
+}
+
+uint32_t Sequences::newState(Sequence& sequence, std::string_view role) {
+  addPoint(sequence, role);
+  sequence.states.push_back(m_.out().newLabel());
+  return static_cast<uint32_t>(sequence.states.size()) - 1;
+}
+
+// A point is known by what leads to it: waiting there continues in a new program as long as that is the same.
+void Sequences::addPoint(Sequence& sequence, std::string_view role) {
+  std::string key = fmt::format("{}@{:016x}", sequence.instruction, sequence.section);
+  sequence.sectionEnds = true;
+  if (const uint32_t number = sequence.alike[key + std::string(role)]++; number != 0)
+    key += "#" + std::to_string(number);
+  if (!role.empty()) (key += '/') += role;
+  sequence.continuation.points.push_back(std::move(key));
+}
+
+uint32_t Sequences::stateOf(Sequence& sequence, uint32_t label) {
+  const auto [entry, isNew] = sequence.stateOfLabel.emplace(label, static_cast<uint32_t>(sequence.states.size()));
+  if (isNew) {
+    addPoint(sequence, "error");
+    sequence.states.push_back(label);
+  }
+  return entry->second;
+}
+
+void Sequences::storeState(const Sequence& sequence, ValueId state) {
+  if (sequence.mechanism == kNone)
+    m_.b().store(sequence.moduleCont, state);
+  else
+    m_.b().slotStore(mechanisms_[sequence.mechanism].state, state);
+}
+
+ValueId Sequences::loadState(const Sequence& sequence) {
+  if (sequence.mechanism == kNone) return m_.b().load(Type::I32, sequence.moduleCont);
+  return m_.b().slotLoad(mechanisms_[sequence.mechanism].state);
+}
+
+void Sequences::storeLine(const Sequence& sequence, uint32_t line) {
+  if (sequence.mechanism == kNone) return;
+  m_.b().store(lineOf(sequence.mechanism), m_.b().constant(Type::I16, std::min<uint32_t>(line, UINT16_MAX)));
+}
+
+void Sequences::initialise(uint32_t mechanism) {
+  ir::RungBuilder& b = m_.b();
+  b.store(bitOf(mechanism), b.bit(false));
+  b.store(lineOf(mechanism), b.constant(Type::I16, 0));
+  Kept& kept = mechanisms_[mechanism];
+  b.slotStore(kept.state, b.i32(0));
+  const Mechanism& info = m_.program().mechanisms[mechanism];
+  if (!info.hasTimers) return;
+  if (!kept.reset.valid()) kept.reset = m_.newRoutine("@MECH_INIT " + symbolKey(info.name));
+  m_.out().call(kept.reset);
+}
+
+void Sequences::makeResets() {
+  for (const Kept& kept : mechanisms_) {
+    if (!kept.reset.valid()) continue;
+    m_.open(kept.reset);
+    for (const CountCell& cell : kept.cells) state_.store(cell, m_.b().constant(cell.type, 0));
+    m_.close();
+  }
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,70 @@
+// Units that wait: mechanisms, MODULE_BLOCK_INIT and MODULE_BLOCK_DONE (man. ch. 4; §11.2 of the inventory). Where one
+// continues is the number of a state; it begins with a switch over them.
+#pragma once
+
+#include "frontend/dialects/technol/lower/state.h"
+
+namespace rung::frontend::technol {
+
+// A unit while it is lowered.
+struct Sequence {
+  uint32_t unit = kNone;
+  ir::RoutineId routine;
+  uint32_t mechanism = kNone;                      // kNone: a module
+  HostCell moduleDone = HostCell::BlockInitDone;   // of a module: set when it has run through
+  ir::Place moduleCont;                            // of a module: i32 for the host
+  uint32_t leave = kNone;                          // label after its end
+  uint32_t dispatch = kNone;                       // handle of the switch at its beginning
+  std::vector<uint32_t> states;                    // labels by number; 0 is the beginning
+  ir::Continuation continuation;                   // has a point for each of them
+  std::string instruction;                         // key of the one at hand
+  uint64_t section = 0;                            // hash of the instructions from the last point to this one
+  bool sectionEnds = false;                        // this one has a point
+  std::unordered_map<std::string, uint32_t> alike; // points so far, by their keys
+  std::unordered_map<uint32_t, uint32_t> stateOfLabel;
+  std::vector<CountCell> cells; // cleared when the unit ends or is initialised
+};
+
+class Sequences {
+public:
+  Sequences(Memory& memory, State& state);
+
+  void beginModule(ModuleKind kind, uint32_t unit);
+  // `leave`: a label after the end, where a mechanism that is not active goes.
+  void beginMechanism(uint32_t mechanism, uint32_t unit);
+  // The unit has run through: it starts at its beginning the next time.
+  void end();
+  // Before each statement.
+  void pass(const Statement& statement);
+
+  // The unit that waits where a statement waits.
+  Sequence& current() { return open_.back(); }
+  // A state of the instruction at hand; `role` tells several apart.
+  uint32_t newState(Sequence& sequence, std::string_view role = {});
+  // The state in which the unit continues at a label.
+  uint32_t stateOf(Sequence& sequence, uint32_t label);
+  void storeState(const Sequence& sequence, ir::ValueId state);
+  ir::ValueId loadState(const Sequence& sequence);
+  // The line number of the state in which a mechanism waits.
+  void storeLine(const Sequence& sequence, uint32_t line);
+  // MECH_INIT
+  void initialise(uint32_t mechanism);
+  // What MECH_INIT calls: clears the counts of a mechanism.
+  void makeResets();
+
+private:
+  void begin(Sequence sequence);
+  void addPoint(Sequence& sequence, std::string_view role);
+
+  Memory& m_;
+  State& state_;
+  std::vector<Sequence> open_; // the innermost last
+  struct Kept {                // of a mechanism
+    ir::SlotId state;
+    ir::RoutineId reset; // invalid where not called
+    std::vector<CountCell> cells;
+  };
+  std::vector<Kept> mechanisms_;
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,104 @@
+// Routines that the compiler makes (see system_routines.h).
+#include "frontend/dialects/technol/lower/system_routines.h"
+
+#include "frontend/dialects/technol/lower/areas.h"
+#include "frontend/dialects/technol/lower/presets.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+
+// ---- CLEAR ----------------------------------------------------------------------------------------------------------
+
+void Clears::call(bool global) {
+  ir::RoutineId& routine = routines_[global ? 0 : 1];
+  if (!routine.valid()) routine = m_.newRoutine(global ? "@CLEAR GLOBAL" : "@CLEAR INTERNAL");
+  m_.out().call(routine);
+}
+
+// What lies together is cleared together.
+void Clears::clearData(bool local) {
+  uint32_t first = 0, end = 0;
+  for (const DataItem& item : m_.program().items) {
+    if (item.local != local || item.bytes == 0) continue;
+    if (item.byte != end) {
+      clearRange(m_, kDataSpace, first, end);
+      first = item.byte;
+    }
+    end = item.byte + item.bytes;
+  }
+  clearRange(m_, kDataSpace, first, end);
+}
+
+// Texts and structures get the contents again that they have when the machine is switched on (man. l.1533-1536).
+void Clears::fillData() {
+  const Program& program = m_.program();
+  size_t item = 0;
+  for (const ir::Init& init : program.inits) {
+    if (init.space != kDataSpace) continue;
+    while (item + 1 < program.items.size() && program.items[item].byte + program.items[item].bytes <= init.byte) ++item;
+    if (program.items[item].local) continue;
+    const std::string_view bytes(reinterpret_cast<const char*>(init.data.data()), init.data.size());
+    for (size_t at = 0; at < bytes.size(); at += kMostCleared) {
+      const std::string_view part = bytes.substr(at, kMostCleared);
+      const auto size = static_cast<uint32_t>(part.size());
+      copy(m_, fixedArea(m_, kDataSpace, program.dataBytes, init.byte + static_cast<uint32_t>(at)),
+           fixedArea(m_, m_.constantBytes(part), size, 0), fixedCount(m_, size));
+      m_.out().cut();
+    }
+  }
+}
+
+// GLOBAL: the data of all files, mechanisms and timers. INTERNAL: the data of DATA_LOCAL and the cells that
+// instructions made for themselves (man. l.1533-1539).
+void Clears::make() {
+  constexpr uint32_t kMechanismsPerRung = 16;
+  for (const bool global : {true, false}) {
+    if (!routines_[global ? 0 : 1].valid()) continue;
+    m_.open(routines_[global ? 0 : 1]);
+    clearData(!global);
+    if (global) {
+      fillData();
+      for (uint32_t i = 0; i < m_.program().mechanisms.size(); ++i) {
+        sequences_.initialise(i);
+        if (i % kMechanismsPerRung == kMechanismsPerRung - 1) m_.out().cut();
+      }
+    }
+    m_.clearSlots(global ? state_.timers() : state_.automatic());
+    m_.close();
+  }
+}
+
+// ---- start and events -----------------------------------------------------------------------------------------------
+
+void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages) {
+  memory.open(routine);
+  ir::RungBuilder& b = memory.b();
+  b.store(place(HostCell::InitOwed), b.constant(Type::I64, memory.program().filesWith(&SourceFile::finishesInit)));
+  b.store(place(HostCell::DoneOwed), b.constant(Type::I64, 0));
+  storeStartPresets(b);
+  memory.clearSlots(state.forgotten());
+  memory.clearSlots(clocks.phases());
+  messages.forget();
+  memory.close();
+}
+
+// RLO and DR come from the host.
+std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks) {
+  std::vector<Event> events;
+  for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"}) {
+    const uint32_t procedure = memory.program().procedureNamed(name);
+    if (procedure == kNone) continue;
+    const ir::RoutineId routine = memory.newRoutine("@" + std::string(name));
+    memory.open(routine);
+    memory.r().clear();
+    memory.r().setRlo(memory.b().load(Type::Bit, place(HostCell::Rlo)));
+    memory.r().setDr(memory.b().load(Type::I64, place(HostCell::Dr)));
+    clocks.callEvent(procedures.routine(procedure));
+    memory.close();
+    events.push_back({name, routine});
+  }
+  return events;
+}
+
+} // namespace rung::frontend::technol

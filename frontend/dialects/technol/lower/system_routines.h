@@ -1,0 +1,41 @@
+// Routines that the compiler makes: what runs before MODULE_INIT, CLEAR of all data, procedures that the control calls.
+#pragma once
+
+#include "frontend/dialects/technol/lower/bit_messages.h"
+#include "frontend/dialects/technol/lower/clocks.h"
+#include "frontend/dialects/technol/lower/procedures.h"
+#include "frontend/dialects/technol/lower/sequences.h"
+
+namespace rung::frontend::technol {
+
+// CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
+class Clears {
+public:
+  Clears(Memory& memory, State& state, Sequences& sequences) : m_(memory), state_(state), sequences_(sequences) {}
+
+  void call(bool global);
+  // Those that are called.
+  void make();
+
+private:
+  void clearData(bool local);
+  void fillData();
+
+  Memory& m_;
+  State& state_;
+  Sequences& sequences_;
+  ir::RoutineId routines_[2]; // GLOBAL, INTERNAL; invalid where not called
+};
+
+// Runs before MODULE_INIT: edges are recorded anew (man. l.300), the periods of timed blocks begin, EDEF ties its bits
+// anew, presets of the interface. Call when all code is lowered.
+void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages);
+
+// A procedure that the control calls (man. l.1614-1644).
+struct Event {
+  std::string_view name;
+  ir::RoutineId routine;
+};
+std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks);
+
+} // namespace rung::frontend::technol

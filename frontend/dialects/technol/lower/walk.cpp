@@ -1,0 +1,153 @@
+// The walk over a program's modules (see walk.h).
+#include "frontend/dialects/technol/lower/walk.h"
+
+#include "rtlib/nc/faults.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+
+namespace {
+
+// A rung of data instructions is cut at the next load when it has grown to this many statements.
+constexpr uint32_t kLongRung = 12;
+constexpr uint32_t kLongestRung = 48;
+
+bool isSequential(ModuleKind kind) { return kind == ModuleKind::BlockInit || kind == ModuleKind::BlockDone; }
+
+} // namespace
+
+Walk::Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks)
+    : program_(program), typed_(typed), l_(program, module, marks), start_(l_.newRoutine("@START")),
+      clocks_(l_, l_.state, periodUs) {
+  l_.fault(nc::kTechnolRequested); // by the control (man. l.5361)
+}
+
+LoweredProgram Walk::run() {
+  for (int i = 1; i < kModuleKinds; ++i) module(static_cast<ModuleKind>(i));
+  l_.clears.make();
+  l_.sequences.makeResets();
+  made_.bitMessages = l_.bitMessages.makeTask(made_.bitMessagesWeight);
+  makeStart(l_, start_, l_.state, clocks_, l_.bitMessages);
+  made_.events = makeEvents(l_, l_.procedures, clocks_);
+  return std::move(made_);
+}
+
+// ---- modules --------------------------------------------------------------------------------------------------------
+
+void Walk::module(ModuleKind kind) {
+  kind_ = kind;
+  // The end of the shutdown may be pending in a program without MODULE_DONE.
+  bool present = kind == ModuleKind::Done && program_.filesWith(&SourceFile::finishesDone) != 0;
+  for (const ModulePart& p : program_.parts) present = present || p.kind == kind;
+  if (!present) return;
+  const ir::RoutineId routine = l_.newRoutine(std::string(moduleName(kind)));
+  l_.open(routine);
+  prologue(kind);
+  for (const ModulePart& p : program_.parts)
+    if (p.kind == kind) part(p);
+  clocks_.leave(kind);
+  const uint64_t weight = l_.close();
+  made_.modules.push_back({kind, routine, weight});
+}
+
+// What the compiler adds before a module.
+void Walk::prologue(ModuleKind kind) {
+  if (kind == ModuleKind::Init) l_.out().call(start_);
+  if (kind == ModuleKind::Done) {
+    l_.b().store(place(HostCell::DoneOwed), l_.b().constant(Type::I64, program_.filesWith(&SourceFile::finishesDone)));
+    l_.out().cut();
+  }
+  clocks_.enter(kind);
+}
+
+// RLO and DR are 0 where the manual leaves them open; INIT and DONE learn in DR why they run (man. l.2567, l.2613).
+void Walk::enterPart(const ModulePart& part) {
+  Statement begin{.pos = program_.units[part.unit].begin.begin, .file = part.file};
+  begin.line = program_.sources.lineCol(begin.pos).line;
+  beginAt(begin);
+  l_.r().clear();
+  if (part.kind == ModuleKind::Init || part.kind == ModuleKind::Done)
+    l_.r().setDr(l_.b().load(Type::I64, place(HostCell::Dr)));
+}
+
+void Walk::part(const ModulePart& part) {
+  enterPart(part);
+  if (isSequential(part.kind)) l_.sequences.beginModule(part.kind, part.unit);
+  for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i) statement(i);
+  if (isSequential(part.kind)) l_.sequences.end();
+}
+
+// ---- statements -----------------------------------------------------------------------------------------------------
+
+void Walk::bindLabels(uint32_t index) {
+  const uint32_t first = program_.statements[index].label;
+  for (uint32_t i = first; i < program_.labels.size() && program_.labels[i].statement == index; ++i)
+    l_.out().bind(l_.labelOf(i));
+}
+
+void Walk::statement(uint32_t index) {
+  const Statement& statement = program_.statements[index];
+  const Typed& typed = typed_.statements[index];
+  l_.enter(statement, typed);
+  if (statement.label != kNone) bindLabels(index);
+  l_.sequences.pass(statement);
+  switch (statement.row->role) {
+  case Role::Code: return code(typed);
+  case Role::MechBegin: return beginMechanism(statement);
+  case Role::MechEnd: beginAt(statement); return l_.sequences.end();
+  case Role::ProcBegin: return beginProcedure(statement);
+  case Role::ProcEnd: l_.close(); return;
+  case Role::Timed: return beginTimed(statement, typed);
+  case Role::MacroBegin: return l_.useStack();
+  default: return; // nothing that runs
+  }
+}
+
+void Walk::code(const Typed& typed) {
+  const Statement& statement = l_.statement();
+  beginRungFor(typed);
+  l_.out().statement(sourceOf(program_, statement));
+  l_.useStack();
+  l_.marking.decision(statement);
+  const uint32_t rung = l_.out().openRung();
+  statement.row->lower(l_, typed_.operandsOf(typed), statement.row->variant);
+  l_.marking.result(statement, rung);
+}
+
+// An equation begins its own rung; long runs of data instructions are cut where a value is loaded.
+void Walk::beginRungFor(const Typed& typed) {
+  const uint32_t length = l_.out().length();
+  const bool loads = (l_.statement().row->effects & kPushes) != 0 || l_.mnemonic() == "LOD";
+  const bool begins = typed.stack.begins && length > 0;
+  if (begins || (loads && length >= kLongRung) || length >= kLongestRung) l_.out().cut();
+}
+
+// ---- units ----------------------------------------------------------------------------------------------------------
+
+void Walk::beginAt(const Statement& statement) {
+  l_.out().cut();
+  l_.out().statement(sourceOf(program_, statement));
+}
+
+void Walk::beginMechanism(const Statement& statement) {
+  beginAt(statement);
+  l_.sequences.beginMechanism(program_.units[statement.unit].index, statement.unit);
+}
+
+// The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
+void Walk::beginProcedure(const Statement& statement) {
+  l_.out().cut();
+  l_.open(l_.procedures.routine(program_.units[statement.unit].index));
+  l_.out().statement(sourceOf(program_, statement));
+}
+
+void Walk::beginTimed(const Statement& statement, const Typed& typed) {
+  const uint32_t end = l_.jumpTarget(typed_.operandsOf(typed)[0]);
+  beginAt(statement);
+  const bool inProcedure = program_.procedureOf(statement.unit) != kNone;
+  const auto kind = static_cast<TimedKind>(statement.row->variant);
+  l_.out().jump(end, l_.b().not_(clocks_.isDue(kind, kind_, inProcedure)));
+}
+
+} // namespace rung::frontend::technol

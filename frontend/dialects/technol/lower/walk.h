@@ -1,0 +1,54 @@
+// The walk over the modules of a program: typed statements in, rungs out.
+#pragma once
+
+#include "frontend/dialects/technol/lower/context.h"
+
+namespace rung::frontend::technol {
+
+struct LoweredModule {
+  ModuleKind kind;
+  ir::RoutineId routine;
+  uint64_t weight = 0;
+};
+
+// Which routines there are to run.
+struct LoweredProgram {
+  std::vector<LoweredModule> modules;
+  std::vector<Event> events;
+  // Makes the messages of EDEF, at the end of each scan; no routine where there are none.
+  ir::RoutineId bitMessages;
+  uint64_t bitMessagesWeight = 0;
+};
+
+class Walk {
+public:
+  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` may be null. The program has no errors.
+  Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks);
+
+  LoweredProgram run();
+  Emitter& emitter() { return l_; }
+
+private:
+  void module(ModuleKind kind);
+  void prologue(ModuleKind kind);
+  void part(const ModulePart& part);
+  void enterPart(const ModulePart& part);
+  void statement(uint32_t index);
+  void bindLabels(uint32_t index);
+  void code(const Typed& typed);
+  void beginRungFor(const Typed& typed);
+  void beginAt(const Statement& statement);
+  void beginMechanism(const Statement& statement);
+  void beginProcedure(const Statement& statement);
+  void beginTimed(const Statement& statement, const Typed& typed);
+
+  const Program& program_;
+  const TypedProgram& typed_;
+  StatementContext l_;
+  ir::RoutineId start_;
+  Clocks clocks_;
+  ModuleKind kind_ = ModuleKind::Main;
+  LoweredProgram made_;
+};
+
+} // namespace rung::frontend::technol

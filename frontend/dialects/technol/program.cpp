@@ -1,0 +1,99 @@
+// Questions about a program as it has been read (see program.h).
+#include "frontend/dialects/technol/program.h"
+
+#include <algorithm>
+
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::frontend::technol {
+
+uint32_t Program::bytesOf(ir::SpaceId space) const {
+  uint32_t bytes = 0;
+  if (space == kInterfaceSpace) bytes = nc::areaBytes(nc::technolSignals(), "I");
+  if (space == kDataSpace) bytes = dataBytes;
+  if (space == kMechanismSpace) bytes = static_cast<uint32_t>(mechanisms.size()) * kMechanismBytes;
+  if (space == kRegisterSpace) bytes = kRegisterBytes;
+  if (space == kBlockSpace) bytes = nc::areaBytes(nc::technolSignals(), "BLK") * kQueuedBlocks;
+  if (space == kExchangeSpace) bytes = exchangedBytes;
+  return std::max(1u, bytes);
+}
+
+uint32_t Program::owner(uint32_t unit) const {
+  while (unit != kNone && units[unit].kind == UnitKind::Timed) unit = units[unit].parent;
+  return unit;
+}
+
+uint32_t Program::procedureOf(uint32_t unit) const {
+  while (unit != kNone && units[unit].kind != UnitKind::Procedure) unit = units[unit].parent;
+  return unit == kNone ? kNone : units[unit].index;
+}
+
+bool Program::inMechanism(uint32_t unit) const {
+  const uint32_t at = owner(unit);
+  return at != kNone && units[at].kind == UnitKind::Mechanism;
+}
+
+bool Program::mayWait(uint32_t unit) const {
+  const uint32_t at = owner(unit);
+  if (at == kNone) return false;
+  const Unit& u = units[at];
+  if (u.kind == UnitKind::Module) return u.module == ModuleKind::BlockInit || u.module == ModuleKind::BlockDone;
+  return u.kind == UnitKind::Mechanism;
+}
+
+int64_t Program::filesWith(bool SourceFile::* statement) const {
+  uint64_t mask = 0;
+  for (size_t i = 0; i < files.size(); ++i)
+    if (files[i].*statement) mask |= uint64_t{1} << i;
+  return static_cast<int64_t>(mask);
+}
+
+uint32_t Program::procedureNamed(std::string_view name) const {
+  for (uint32_t i = 0; i < procedures.size(); ++i)
+    if (symbolKey(procedures[i].name) == name) return i;
+  return kNone;
+}
+
+std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens) {
+  std::vector<std::span<const Token>> operands;
+  if (tokens.empty()) return operands;
+  int depth = 0;
+  size_t first = 0;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].is('(') || tokens[i].is('[') || tokens[i].is('<')) ++depth;
+    if (tokens[i].is(')') || tokens[i].is(']') || tokens[i].is('>')) --depth;
+    if (!tokens[i].is(',') || depth > 0) continue;
+    operands.push_back(tokens.subspan(first, i - first));
+    first = i + 1;
+  }
+  operands.push_back(tokens.subspan(first));
+  return operands;
+}
+
+SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens, SourceRange otherwise) {
+  if (tokens.empty()) return otherwise;
+  const SourceRange first = tokens.front().range(), last = tokens.back().range();
+  const bool inOrder = first.begin <= last.begin && first.end <= last.end;
+  return inOrder && sources.fileOf(first.begin) == sources.fileOf(last.begin) ? join(first, last) : first;
+}
+
+bool isOneWord(std::span<const Token> tokens) {
+  if (tokens.empty() || tokens[0].kind == TokenKind::Punct) return false;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i].kind == TokenKind::Text) return false;
+    if (i > 0 && tokens[i - 1].range().end != tokens[i].pos) return false;
+  }
+  return true;
+}
+
+std::string spelled(std::span<const Token> tokens) {
+  std::string text;
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    if (i > 0 && tokens[i - 1].range().end < tokens[i].pos) text += ' ';
+    const bool quoted = tokens[i].kind == TokenKind::Text;
+    text.append(quoted ? "'" : "").append(tokens[i].text).append(quoted ? "'" : "");
+  }
+  return text;
+}
+
+} // namespace rung::frontend::technol

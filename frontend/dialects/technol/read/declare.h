@@ -1,0 +1,39 @@
+// Declarations: DFM, DS, STR, EQUI and instances of structures (man. ch. 3.4, 3.18).
+#pragma once
+
+#include "frontend/dialects/technol/read/struc.h"
+
+namespace rung::frontend::technol {
+
+class Declarations {
+public:
+  Declarations(Program& program, Structure& structure, Structures& structures, uint32_t file)
+      : program_(program), structure_(structure), structures_(structures), file_(file) {}
+
+  // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
+  // `badName`: it has one that is no name, which is told already.
+  void data(const Statement& statement, const Token* name, uint32_t index, bool badName);
+  // Another name in front of the declaration that was the last one.
+  void alsoNamed(const Token& name);
+  void constant(const Statement& statement);
+  // Data in the form of a structure; the operands are the value.
+  void instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type);
+  // The variable of MAP_* or DEF_*; global in all files.
+  void exchanged(const Statement& statement, uint32_t index);
+
+private:
+  void noName(std::span<const Token> tokens, std::string_view expected, const Statement& statement);
+  void bits(const Statement& statement, DataItem& item);
+  Symbol made(const Token& name, SymbolKind kind) const;
+  Symbol exchangedSymbol(const Token& name, nc::ExchangeType type) const;
+
+  Program& program_;
+  Structure& structure_;
+  Structures& structures_;
+  uint32_t file_;
+};
+
+// Gives the declared data their places and sizes, in the order of the source.
+void placeData(Program& program);
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,140 @@
+// The lexer of TECHNOL (see lexer.h).
+#include "frontend/dialects/technol/read/lexer.h"
+
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '?' || c == '@'; }
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
+bool isPunct(char c) { return std::string_view(":,.+-()[]$<>").find(c) != std::string_view::npos; }
+
+// End of the number that begins at `first`.
+size_t numberEnd(std::string_view text, size_t first) {
+  size_t i = first;
+  while (i < text.size() && isDigit(text[i])) ++i;
+  const bool point = i + 1 < text.size() && text[i] == '.' && isDigit(text[i + 1]);
+  if (!point) {
+    while (i < text.size() && isNameChar(text[i])) ++i;
+    return i;
+  }
+  ++i;
+  while (i < text.size() && isDigit(text[i])) ++i;
+  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+    size_t e = i + 1;
+    if (e < text.size() && (text[e] == '+' || text[e] == '-')) ++e;
+    if (e < text.size() && isDigit(text[e])) {
+      i = e;
+      while (i < text.size() && isDigit(text[i])) ++i;
+    }
+  }
+  // 1.5X and 1.2.3 are one bad number each.
+  while (i < text.size() && (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && isDigit(text[i + 1]))))
+    ++i;
+  return i;
+}
+
+// A run of characters that are neither blank nor punctuation nor begin a text or a comment.
+size_t wordEnd(std::string_view text, size_t first) {
+  size_t i = first;
+  while (i < text.size() && !isBlank(text[i]) && !isPunct(text[i]) && text[i] != ';' && text[i] != '\'') ++i;
+  return i;
+}
+
+void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& diagnostics) {
+  const std::string_view word = line.text.substr(first, last - first);
+  for (char c : word)
+    if (isNameChar(c)) {
+      DiagBuilder report = diagnostics.report(Diag::BadIdentifier, line.range(first, last));
+      report << word;
+      if (word.starts_with('"')) report.note("a text is written between apostrophes: 'abc'");
+      return;
+    }
+  diagnostics.report(Diag::BadCharacter, line.range(first, last)) << word;
+}
+
+} // namespace
+
+size_t commentOf(std::string_view line) {
+  bool quoted = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '\'') quoted = !quoted;
+    if (line[i] == ';' && !quoted) return i;
+  }
+  return std::string_view::npos;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diagnostics) {
+  const std::string_view text = line.text;
+  for (size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (isBlank(c)) {
+      ++i;
+      continue;
+    }
+    if (c == ';') return true;
+    if (c == '\'') {
+      const size_t close = text.find('\'', i + 1);
+      if (close == std::string_view::npos) {
+        diagnostics.report(Diag::BadString, line.range(i, text.size()));
+        return false;
+      }
+      out.push_back({text.substr(i + 1, close - i - 1), line.at(i), TokenKind::Text});
+      i = close + 1;
+      continue;
+    }
+    if (isPunct(c)) {
+      out.push_back({text.substr(i, 1), line.at(i), TokenKind::Punct});
+      ++i;
+      continue;
+    }
+    size_t end = i;
+    if (isDigit(c)) {
+      end = numberEnd(text, i);
+    } else {
+      while (end < text.size() && isNameChar(text[end])) ++end;
+    }
+    const size_t word = wordEnd(text, i);
+    if (end < word && (end == i || !isPunct(text[end]))) {
+      reportWord(line, i, word, diagnostics);
+      return false;
+    }
+    out.push_back({text.substr(i, end - i), line.at(i), isDigit(c) ? TokenKind::Number : TokenKind::Name});
+    i = end;
+  }
+  return true;
+}
+
+namespace {
+
+std::optional<Number> parseRadix(std::string_view digits, int radix) {
+  const auto value = text::numberIn<uint64_t>(digits, radix);
+  if (!value) return std::nullopt;
+  return Number{.value = static_cast<int64_t>(*value)};
+}
+
+} // namespace
+
+std::optional<Number> parseNumber(std::string_view text) {
+  if (text.empty() || !isDigit(text[0])) return std::nullopt;
+  if (text.find('.') != std::string_view::npos) {
+    const auto real = text::numberIn<double>(text);
+    return real ? std::optional(Number{.isReal = true, .real = *real}) : std::nullopt;
+  }
+  const char last = text::upper(text.back());
+  if (last == 'H') return parseRadix(text.substr(0, text.size() - 1), 16);
+  if (last == 'B') return parseRadix(text.substr(0, text.size() - 1), 2);
+  return parseRadix(text, 10);
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,49 @@
+// Tokens of a TECHNOL line. Names keep their spelling; everything compares them without case (see symbols.h).
+// A name is letters, digits and `_ ? @` (man. l.18-27); a number begins with a digit and runs over letters, so that
+// 0F8H is one token; it contains a point only between decimal digits, so that BUN+3.ALFA keeps its point.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "frontend/syntax/word_lexer.h"
+
+namespace rung::frontend::technol {
+
+enum class TokenKind : uint8_t { Name, Number, Text, Punct };
+
+struct Token {
+  std::string_view text; // of a Text without its apostrophes
+  SourcePos pos;
+  TokenKind kind = TokenKind::Name;
+  uint32_t written = 0; // characters in the source, where that is not the text
+
+  bool is(char c) const { return kind == TokenKind::Punct && text[0] == c; }
+  SourceRange range() const {
+    const uint32_t quotes = kind == TokenKind::Text ? 2 : 0;
+    const uint32_t length = written != 0 ? written : static_cast<uint32_t>(text.size()) + quotes;
+    return {pos, {pos.value + length}};
+  }
+};
+
+// Appends the tokens of a line without its comment. False after a report (bad-character, bad-identifier, bad-string).
+bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diagnostics);
+
+// Offset of the comment's `;` in a line, or npos.
+size_t commentOf(std::string_view line);
+
+// Without the blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
+struct Number {
+  bool isReal = false;
+  int64_t value = 0;
+  double real = 0;
+};
+
+// Decimal, 0F8H, 0101b or a real; nothing when the text is none of them or exceeds 64 bits.
+std::optional<Number> parseNumber(std::string_view text);
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,472 @@
+// Reads files into statements (see reader.h).
+#include "frontend/dialects/technol/read/reader.h"
+
+#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/file_reader.h"
+#include "frontend/dialects/technol/rows/operand_count.h"
+#include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
+
+#include <algorithm>
+
+namespace rung::frontend::technol {
+namespace {
+
+constexpr size_t kMaxFiles = 64; // man. l.2721
+
+std::string describe(std::span<const Token> tokens) {
+  if (tokens.empty()) return "the end of the line";
+  return "'" + std::string(tokens[0].text) + "'";
+}
+
+} // namespace
+
+// `A-B:` is a label that is not a name; a colon has no other meaning.
+bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
+  const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
+  const auto colon = std::find_if(tokens.begin(), tokens.end(), [](const Token& token) { return token.is(':'); });
+  if (colon == tokens.end() || colon - tokens.begin() < 2 || tokens[0].kind == TokenKind::Punct) return false;
+  if (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr) return false;
+  const auto label = tokens.first(static_cast<size_t>(colon - tokens.begin()));
+  program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range()))
+      << spelled(label);
+  first += static_cast<uint32_t>(label.size()) + 1;
+  count -= static_cast<uint32_t>(label.size()) + 1;
+  return true;
+}
+
+// Takes `name :` off the front; the token of the name, or kNone.
+uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
+  if (splitLabel(first, count)) return kNone;
+  if (count < 2 || !program_.tokens[first + 1].is(':')) return kNone;
+  const Token name = program_.tokens[first];
+  uint32_t label = first;
+  if (name.kind == TokenKind::Number) {
+    program_.diagnostics.report(Diag::BadIdentifier, name.range()) << name.text;
+    label = kNone;
+  } else if (name.kind != TokenKind::Name) {
+    return kNone;
+  }
+  first += 2;
+  count -= 2;
+  return label;
+}
+
+// `V NAME <1,2>` or `V: NAME <1,2>` where NAME is a structure.
+bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
+  const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
+  const bool named = count > 1 && tokens[0].kind == TokenKind::Name &&
+                     (findRow(tokens[0].text) == nullptr || reservedWord(tokens[0].text) != Reserved::Yes) &&
+                     structures_.find(tokens[1]) != kNone;
+  const uint32_t type = structures_.find(tokens[named ? 1 : 0]);
+  if (type == kNone) return false;
+  const Token word = tokens[named ? 1 : 0];
+  const Statement made{.row = findRow("STRUC"),
+                       .pos = word.pos,
+                       .length = static_cast<uint32_t>(word.text.size()),
+                       .line = line,
+                       .firstToken = first + (named ? 2 : 1),
+                       .tokenCount = count - (named ? 2 : 1),
+                       .unit = structure_.unit(),
+                       .file = file_};
+  if (named) pendingLabels_.push_back(first);
+  const Token name = pendingLabels_.empty() ? Token() : program_.tokens[pendingLabels_.back()];
+  const auto index = static_cast<uint32_t>(program_.statements.size());
+  declarations_.instance(made, pendingLabels_.empty() ? nullptr : &name, index, type);
+  takeDataLabels();
+  program_.statements.push_back(made);
+  return true;
+}
+
+// With what was meant, or the way to say it in this language. Two words may be one name whose `_` is lost. The row of a
+// statement that opens, closes or declares something is taken where that fits, so that what follows is understood.
+const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
+  const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
+  const Token& token = tokens[0];
+  if (isAssembler(token.text)) {
+    DiagBuilder report = program_.diagnostics.report(Diag::UnsupportedAssembler, token.range());
+    report << token.text;
+    if (const std::string_view other = insteadOf(token.text); !other.empty())
+      report.note("in this language: " + std::string(other));
+    return nullptr;
+  }
+  std::string word(token.text);
+  if (tokens.size() > 1 && tokens[1].kind == TokenKind::Name)
+    if (const std::string both = word + (word.ends_with('_') ? "" : "_") + std::string(tokens[1].text); findRow(both))
+      word = both;
+  const bool parted = word != token.text;
+  Similar similar(word);
+  for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
+  macros_.offer(similar);
+  DiagBuilder report = program_.diagnostics.report(Diag::UnknownInstruction, token.range());
+  report << token.text;
+  if (similar.best().empty()) return nullptr;
+  report.note("did you mean " + std::string(similar.best()) + "?")
+      .fix(rangeOf(program_.sources, tokens.first(parted ? 2 : 1), token.range()), similar.best());
+  const Row* row = findRow(similar.best());
+  if (row == nullptr || !structure_.fits(*row)) return nullptr;
+  if (parted) ++first, --count;
+  return row;
+}
+
+const Row* FileReader::instruction(uint32_t& first, uint32_t& count) {
+  const Token& token = program_.tokens[first];
+  if (token.kind != TokenKind::Name) {
+    program_.diagnostics.report(Diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
+    return nullptr;
+  }
+  const Row* row = findRow(token.text);
+  if (row == nullptr) return unknown(first, count);
+  if (!text::equalsIgnoringCase(row->info.mnemonic, token.text))
+    program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
+  return row;
+}
+
+// No macro reaches over the border of a module or another macro's beginning.
+bool FileReader::endsMacros(const Token& head) {
+  const Row* row = head.kind == TokenKind::Name ? findRow(head.text) : nullptr;
+  if (row == nullptr) return false;
+  return row->role == Role::Module || row->role == Role::ModuleEnd || row->role == Role::Stop ||
+         row->info.mnemonic == "DEF_T_MACRO";
+}
+
+void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
+  if (macros_.defining() && endsMacros(program_.tokens[first])) macros_.abandon();
+  if (macros_.defining()) {
+    macros_.take(std::vector<Token>(program_.tokens.begin() + first, program_.tokens.begin() + first + count), line);
+    return;
+  }
+  if (structures_.line(std::span(program_.tokens).subspan(first, count))) return;
+  const uint32_t begin = first;
+  const bool colonFirst = program_.tokens[first].is(':');
+  const uint32_t label = readLabel(first, count);
+  const bool labelled = first != begin && !colonFirst;
+  if (label != kNone) pendingLabels_.push_back(label);
+  badLabel_ = labelled && label == kNone;
+  if (count == 0) return;
+  if (program_.tokens[first].is(':')) {
+    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
+    return;
+  }
+  if (macroLine(first, count, line) || instance(first, count, line)) return;
+  const Row* row = instruction(first, count);
+  statement(row, first, count, line);
+}
+
+void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint32_t line) {
+  const Token& mnemonic = program_.tokens[first];
+  Statement made{.row = row,
+                 .pos = mnemonic.pos,
+                 .length = static_cast<uint32_t>(mnemonic.text.size()),
+                 .line = line,
+                 .firstToken = first + 1,
+                 .tokenCount = count - 1,
+                 .unit = structure_.unit(),
+                 .file = file_};
+  const auto index = static_cast<uint32_t>(program_.statements.size());
+  const bool isData = row && (row->role == Role::Dfm || row->role == Role::Ds || row->role == Role::Str);
+  if (row != nullptr && !allowedInInclude(made)) {
+    pendingLabels_.clear();
+    return;
+  }
+  if (isData && row->role == Role::Dfm && !expanding_.empty()) checkEightBits(made);
+  if (isData) {
+    const Token* name = pendingLabels_.empty() ? nullptr : &program_.tokens[pendingLabels_.back()];
+    declarations_.data(made, name, index, badLabel_);
+    takeDataLabels();
+    program_.statements.push_back(made);
+    return;
+  }
+  const bool keepsLabels = row && (row->role == Role::Equi || row->role == Role::Module || row->role == Role::Local);
+  if (!keepsLabels) attachLabels(made, index);
+  if (row != nullptr) structural(made, index);
+  program_.statements.push_back(made);
+}
+
+// Labels in lines of their own belong to the next declaration, too (man. l.27-29); the last one is its name already.
+// Between instructions they are labels of code.
+void FileReader::takeDataLabels() {
+  if (!structure_.inData() && !structure_.localOpen()) {
+    if (!pendingLabels_.empty()) pendingLabels_.pop_back();
+    return;
+  }
+  for (size_t i = 0; i + 1 < pendingLabels_.size(); ++i) {
+    const Token name = program_.tokens[pendingLabels_[i]];
+    declarations_.alsoNamed(name);
+  }
+  pendingLabels_.clear();
+}
+
+// Inside macros a DFM names all eight bits (man. l.20454).
+void FileReader::checkEightBits(const Statement& statement) {
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  const bool all =
+      operands.size() >= 8 && std::none_of(operands.begin(), operands.end(), [](const auto& o) { return o.empty(); });
+  if (!all) program_.diagnostics.report(Diag::DfmNeedsEight, statement.range());
+}
+
+// Labels are this file's alone; they belong to the unit that is open here.
+void FileReader::attachLabels(Statement& statement, uint32_t index) {
+  pendingLabels_.insert(pendingLabels_.begin(), codeLabels_.begin(), codeLabels_.end());
+  codeLabels_.clear();
+  for (const uint32_t token : pendingLabels_) {
+    const Token& name = program_.tokens[token];
+    structure_.passLabel(name.text);
+    const auto label = static_cast<uint32_t>(program_.labels.size());
+    if (statement.label == kNone) statement.label = label;
+    program_.labels.push_back({.name = name.text, .unit = structure_.unit(), .statement = index, .passed = passed_});
+    Symbol symbol = namedSymbol(name, SymbolKind::Label, file_, true);
+    symbol.index = label;
+    program_.symbols.declare(symbol);
+  }
+  pendingLabels_.clear();
+  statement.unit = structure_.unit();
+}
+
+const Token* FileReader::oneName(const Statement& statement) {
+  const std::span<const Token> tokens = program_.operandTokens(statement);
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return &tokens[0];
+  const size_t found = splitOperands(tokens).size();
+  if (found == 1 && isOneWord(tokens))
+    program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range()))
+        << spelled(tokens);
+  else if (countFits(statement.row->info, found, statement.range(), program_.diagnostics))
+    program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
+  return nullptr;
+}
+
+void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index) {
+  Symbol symbol = namedSymbol(name, kind, file_, false);
+  symbol.index = index;
+  if (kind == SymbolKind::Mechanism) {
+    symbol.space = kMechanismSpace;
+    symbol.byte = index * kMechanismBytes;
+    symbol.type = ir::Type::Bit;
+  }
+  const size_t errors = program_.diagnostics.errorCount();
+  program_.symbols.declare(symbol);
+  // Of a longer name nothing is left that distinguishes it from the mechanism.
+  if (kind != SymbolKind::Mechanism || name.text.size() >= kSignificant) return;
+  if (program_.diagnostics.errorCount() > errors) return;
+  // name_LINE, a WORD (man. l.2210)
+  program_.madeTexts.push_back(std::string(name.text) + "_LINE");
+  symbol.name = program_.madeTexts.back();
+  symbol.kind = SymbolKind::Cell;
+  symbol.type = ir::Type::I16;
+  symbol.byte += 1;
+  symbol.size = 2;
+  symbol.index = kNone;
+  program_.symbols.declare(symbol);
+}
+
+// What has no operands at all, and no lowering that would count them.
+void FileReader::checkNoOperands(const Statement& statement) {
+  const Role role = statement.row->role;
+  if (role == Role::Code || role == Role::MacroBegin || role == Role::MacroEnd) return;
+  if (role == Role::NotBuilt || role == Role::NotBuiltService) return; // their operands are not described yet
+  if (!statement.row->info.operands.all().empty() || statement.tokenCount == 0) return;
+  const std::span<const Token> tokens = program_.operandTokens(statement);
+  countFits(statement.row->info, splitOperands(tokens).size(), rangeOf(program_.sources, tokens, statement.range()),
+            program_.diagnostics);
+}
+
+// DEBUG [ON|OFF]
+void FileReader::checkSwitch(const Statement& statement) {
+  if (statement.tokenCount == 0 || statement.row->info.operands.all().empty()) return;
+  const std::span<const Token> tokens = program_.operandTokens(statement);
+  if (!countFits(statement.row->info, splitOperands(tokens).size(), statement.range(), program_.diagnostics)) return;
+  if (tokens.size() > 1 ||
+      !(text::equalsIgnoringCase(tokens[0].text, "ON") || text::equalsIgnoringCase(tokens[0].text, "OFF")))
+    program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
+}
+
+void FileReader::structural(Statement& statement, uint32_t index) {
+  checkNoOperands(statement);
+  const auto kind = static_cast<ModuleKind>(statement.row->variant);
+  switch (statement.row->role) {
+  case Role::Module:
+    structure_.beginModule(statement, kind, index + 1);
+    attachLabels(statement, index);
+    return;
+  case Role::ModuleEnd: structure_.endModule(statement, kind, index + 1); return;
+  case Role::Local:
+    if (!structure_.inData()) codeLabels_.swap(pendingLabels_);
+    structure_.beginLocal(statement);
+    return;
+  case Role::LocalEnd: structure_.endLocal(statement); return;
+  case Role::Stop: structure_.stop(statement, index); return;
+  case Role::Equi: declarations_.constant(statement); return;
+  case Role::NotBuilt: notBuilt(statement, Diag::NotBuiltYet); return;
+  case Role::NotBuiltService: notBuilt(statement, Diag::ServiceNotBuilt); return;
+  case Role::MemberSize:
+    program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+    return;
+  case Role::NoCode: checkSwitch(statement); return;
+  case Role::Code:
+  case Role::MechBegin:
+  case Role::MechEnd:
+  case Role::ProcBegin:
+  case Role::ProcEnd:
+  case Role::Timed: code(statement, index); return;
+  default: return; // read elsewhere
+  }
+}
+
+// Some instructions are for MODULE_INIT and procedures, which it may call (man. l.5222).
+bool FileReader::mayStandThere(const Statement& statement) const {
+  const uint32_t owner = program_.owner(statement.unit);
+  if ((statement.row->effects & kInitOnly) == 0 || owner == kNone) return true;
+  const Unit& unit = program_.units[owner];
+  return unit.kind == UnitKind::Procedure || (unit.kind == UnitKind::Module && unit.module == ModuleKind::Init);
+}
+
+// What is in the wrong place is reported first: it would stay wrong.
+void FileReader::notBuilt(Statement& statement, Diag code) {
+  if (!structure_.allowsCode(statement)) {
+    statement.row = nullptr;
+    return;
+  }
+  const uint16_t effects = statement.row->effects;
+  if (effects & kWaits) ++passed_;
+  if (!mayStandThere(statement)) code = Diag::InitOnlyInstruction;
+  if ((effects & kWaits) && !program_.mayWait(statement.unit)) code = Diag::ExOutsideMechanism;
+  program_.diagnostics.report(code, statement.range()) << statement.row->info.mnemonic;
+}
+
+void FileReader::code(Statement& statement, uint32_t index) {
+  if (!structure_.allowsCode(statement)) {
+    statement.row = nullptr;
+    return;
+  }
+  if (statement.row->effects & kDeclares) declarations_.exchanged(statement, index);
+  if (!mayStandThere(statement)) {
+    program_.diagnostics.report(Diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
+    statement.row = nullptr;
+    return;
+  }
+  const Role role = statement.row->role;
+  const uint16_t effects = statement.row->effects;
+  if (effects & kEndsInit) program_.files[file_].finishesInit = true;
+  if (effects & kEndsDone) program_.files[file_].finishesDone = true;
+  if (role == Role::Code) {
+    if (effects & kWaits) checkWait(statement);
+    if (effects & kJumps) checkLoop(statement);
+    if (effects & (kWaits | kJumps)) ++passed_;
+    return;
+  }
+  const Token* name = oneName(statement);
+  if (name == nullptr) {
+    statement.row = nullptr;
+    return;
+  }
+  bool ok = true;
+  if (role == Role::MechBegin) {
+    structure_.beginMechanism(statement, *name);
+    declareUnit(*name, SymbolKind::Mechanism, static_cast<uint32_t>(program_.mechanisms.size()) - 1);
+  } else if (role == Role::MechEnd) {
+    ok = structure_.endMechanism(statement, *name);
+  } else if (role == Role::ProcBegin) {
+    structure_.beginProcedure(statement, *name);
+    declareUnit(*name, SymbolKind::Procedure, static_cast<uint32_t>(program_.procedures.size()) - 1);
+  } else if (role == Role::ProcEnd) {
+    ok = structure_.endProcedure(statement, *name);
+  } else {
+    structure_.beginTimed(statement, *name);
+  }
+  if (!ok) statement.row = nullptr;
+  // What opens or closes a unit knows it: the unit of the statement is the one it is about.
+  if (role == Role::MechBegin || role == Role::ProcBegin || role == Role::Timed) statement.unit = structure_.unit();
+}
+
+void FileReader::checkWait(const Statement& statement) {
+  if (!program_.mayWait(statement.unit))
+    program_.diagnostics.report(Diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
+  else if (program_.inMechanism(statement.unit) && statement.tokenCount > 0)
+    program_.mechanisms[program_.units[program_.owner(statement.unit)].index].hasTimers = true;
+}
+
+// A loop back without anything that waits or may leave it would run for ever (man. l.2207).
+void FileReader::checkLoop(const Statement& statement) {
+  if (statement.row->info.mnemonic != "JUM" || !program_.inMechanism(statement.unit) || statement.tokenCount != 1)
+    return;
+  const uint32_t symbol = program_.symbols.find(program_.tokens[statement.firstToken].text, file_);
+  if (symbol == kNone || program_.symbols[symbol].kind != SymbolKind::Label) return;
+  const Label& label = program_.labels[program_.symbols[symbol].index];
+  if (label.unit == statement.unit && label.passed == passed_)
+    program_.diagnostics.report(Diag::MechLoopWithoutEx, statement.range())
+        .note(program_.symbols[symbol].declared, "the loop begins here");
+}
+
+void readProgram(Program& program, std::span<const FileId> files) {
+  if (files.size() > kMaxFiles) {
+    program.diagnostics.report(Diag::TooManyFiles, program.sources.range(files[kMaxFiles], 0, 0)) << kMaxFiles;
+    return;
+  }
+  for (uint32_t i = 0; i < files.size(); ++i) {
+    program.files.push_back({.id = files[i], .main = i == 0});
+    program.symbols.addFile();
+  }
+  for (uint32_t i = 0; i < files.size(); ++i)
+    if (const auto file = readable(program.sources, files[i], program.encoding, program.diagnostics)) {
+      program.files[i].id = *file;
+      FileReader(program, i).read();
+    }
+  placeData(program);
+}
+
+std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
+                                     SourceRange otherwise, std::vector<NameUse>* names) {
+  const auto fail = [&](Diag code, const Token& token) -> std::optional<int64_t> {
+    program.diagnostics.report(code, token.range()) << token.text;
+    return std::nullopt;
+  };
+  if (tokens.empty()) {
+    program.diagnostics.report(Diag::SyntaxError, otherwise) << "a constant" << "nothing";
+    return std::nullopt;
+  }
+  int64_t sum = 0;
+  int sign = 1;
+  bool wantsTerm = true;
+  for (const Token& token : tokens) {
+    if (token.is('+') || token.is('-')) {
+      sign = token.is('-') ? (wantsTerm ? -sign : -1) : (wantsTerm ? sign : 1);
+      wantsTerm = true;
+      continue;
+    }
+    if (!wantsTerm || token.kind == TokenKind::Punct) {
+      program.diagnostics.report(Diag::SyntaxError, token.range())
+          << "a constant" << "'" + std::string(token.text) + "'";
+      return std::nullopt;
+    }
+    int64_t term = 0;
+    if (token.kind == TokenKind::Number) {
+      const std::optional<Number> number = parseNumber(token.text);
+      if (!number || number->isReal) return fail(Diag::BadNumber, token);
+      term = number->value;
+    } else if (token.kind == TokenKind::Text) {
+      const std::optional<uint8_t> character = characterByte(token.text);
+      if (!character) return fail(Diag::BadNumber, token);
+      term = *character;
+    } else {
+      const uint32_t symbol = program.symbols.require(token, file);
+      if (symbol == kNone || program.symbols[symbol].broken) return std::nullopt;
+      if (program.symbols[symbol].kind != SymbolKind::Constant) {
+        program.diagnostics.report(Diag::WrongOperandKind, token.range())
+            << token.text << "no constant" << "a constant";
+        return std::nullopt;
+      }
+      term = program.symbols[symbol].value;
+      if (names != nullptr) names->push_back({token.range(), symbol});
+    }
+    sum = static_cast<int64_t>(static_cast<uint64_t>(sum) + static_cast<uint64_t>(sign) * static_cast<uint64_t>(term));
+    sign = 1;
+    wantsTerm = false;
+  }
+  if (wantsTerm) {
+    program.diagnostics.report(Diag::SyntaxError, tokens.back().range()) << "a constant" << "the end of the operand";
+    return std::nullopt;
+  }
+  return sum;
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,286 @@
+// Modules and units of a file (see structure.h).
+#include "frontend/dialects/technol/read/structure.h"
+
+#include <algorithm>
+
+namespace rung::frontend::technol {
+namespace {
+
+std::string endName(ModuleKind kind) { return std::string(moduleName(kind)) + "_END"; }
+
+// §12.1: what the main file must hold, and what further files must not.
+constexpr ModuleKind kMandatory[] = {ModuleKind::Data, ModuleKind::Input, ModuleKind::BlockInit, ModuleKind::BlockDone,
+                                     ModuleKind::Main, ModuleKind::Init,  ModuleKind::Clear,     ModuleKind::Halt};
+constexpr ModuleKind kMainOnly[] = {ModuleKind::Input, ModuleKind::BlockInit, ModuleKind::BlockDone, ModuleKind::Halt,
+                                    ModuleKind::Cont};
+
+bool isOneOf(ModuleKind kind, std::span<const ModuleKind> kinds) {
+  return std::ranges::find(kinds, kind) != kinds.end();
+}
+
+} // namespace
+
+void Structure::push(Unit unit) {
+  unit.parent = unit_;
+  unit_ = static_cast<uint32_t>(program_.units.size());
+  program_.units.push_back(unit);
+}
+
+void Structure::checkPlace(const Statement& statement, ModuleKind kind) {
+  Diagnostics& diagnostics = program_.diagnostics;
+  bool& seen = seen_[static_cast<size_t>(kind)];
+  if (kind != ModuleKind::Data && !seen_[0] && !dataReported_) {
+    dataReported_ = true;
+    diagnostics.report(Diag::DataNotFirst, statement.range());
+  }
+  if (seen) diagnostics.report(Diag::DuplicateModule, statement.range()) << moduleName(kind);
+  if (isOneOf(kind, kMainOnly) && !program_.files[file_].main)
+    diagnostics.report(Diag::ModuleNotAllowed, statement.range()) << moduleName(kind);
+  seen = true;
+}
+
+void Structure::beginModule(const Statement& statement, ModuleKind kind, uint32_t index) {
+  nested_ = inModule();
+  if (nested_) {
+    outer_ = this->kind();
+    reportUnclosed(statement.range());
+    closeModule(statement.range(), statement.line, index);
+  }
+  closeLocal(statement.range());
+  outsideReported_ = false;
+  checkPlace(statement, kind);
+  push({.kind = UnitKind::Module, .module = kind, .name = moduleName(kind), .begin = statement.range()});
+  part_ = static_cast<uint32_t>(program_.parts.size());
+  program_.parts.push_back({.kind = kind, .file = file_, .unit = unit_, .firstStatement = index});
+}
+
+void Structure::reportUnclosed(SourceRange at) {
+  const Unit& module = program_.units[program_.parts[part_].unit];
+  program_.diagnostics.report(Diag::ModuleNotClosed, at).note(module.begin, "it begins here")
+      << moduleName(kind()) << endName(kind());
+}
+
+void Structure::endModule(const Statement& statement, ModuleKind kind_, uint32_t index) {
+  if (!inModule()) {
+    if (nested_ && kind_ != outer_) outsideReported_ = false;
+    allowsCode(statement);
+    return;
+  }
+  if (kind() != kind_) reportUnclosed(statement.range());
+  closeModule(statement.range(), statement.line, index);
+  outsideReported_ = nested_; // what follows belongs to the module around it
+}
+
+void Structure::closeModule(SourceRange at, uint32_t line, uint32_t index) {
+  closeLocal(at);
+  closeUnits(at);
+  ModulePart& part = program_.parts[part_];
+  part.end = at;
+  part.endLine = line;
+  part.endStatement = index;
+  part_ = kNone;
+  unit_ = kNone;
+}
+
+// All units inside the module, innermost first; only the innermost that lacks its end is reported.
+void Structure::closeUnits(SourceRange at) {
+  bool reported = false;
+  while (program_.units[unit_].kind != UnitKind::Module) {
+    if (!reported || program_.units[unit_].kind == UnitKind::Timed)
+      closeUnit(at);
+    else
+      unit_ = program_.units[unit_].parent;
+    reported = true;
+  }
+}
+
+void Structure::closeUnit(SourceRange at) {
+  const Unit& unit = program_.units[unit_];
+  switch (unit.kind) {
+  case UnitKind::Mechanism:
+    program_.diagnostics.report(Diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name;
+    break;
+  case UnitKind::Procedure:
+    program_.diagnostics.report(Diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name;
+    break;
+  case UnitKind::Timed: lostBlocks_.push_back({program_.tokens[unit.endLabel], unit_}); break;
+  case UnitKind::Module: break;
+  }
+  unit_ = unit.parent;
+}
+
+void Structure::beginLocal(const Statement& statement) {
+  closeLocal(statement.range());
+  localOpen_ = true;
+}
+
+void Structure::endLocal(const Statement& statement) {
+  if (!localOpen_)
+    program_.diagnostics.report(Diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
+  localOpen_ = false;
+}
+
+void Structure::closeLocal(SourceRange at) {
+  if (localOpen_) program_.diagnostics.report(Diag::ModuleNotClosed, at) << "DATA_LOCAL" << "DATA_LOCAL_END";
+  localOpen_ = false;
+}
+
+void Structure::stop(const Statement& statement, uint32_t index) {
+  if (inModule()) {
+    reportUnclosed(statement.range());
+    closeModule(statement.range(), statement.line, index);
+  }
+  closeLocal(statement.range());
+  stopped_ = true;
+}
+
+void Structure::beginMechanism(const Statement& statement, const Token& name) {
+  const uint32_t outer = program_.owner(unit_);
+  if (program_.inMechanism(unit_))
+    program_.diagnostics.report(Diag::NestedMechanism, statement.range())
+            .note(program_.units[outer].begin, "it begins here")
+        << program_.units[outer].name;
+  const auto index = static_cast<uint32_t>(program_.mechanisms.size());
+  push({.kind = UnitKind::Mechanism, .index = index, .name = name.text, .begin = statement.range()});
+  program_.mechanisms.push_back({.name = name.text, .unit = unit_, .byte = index * kMechanismBytes});
+}
+
+uint32_t Structure::innermost(UnitKind kind) const {
+  uint32_t at = unit_;
+  while (at != kNone && program_.units[at].kind != kind) at = program_.units[at].parent;
+  return at;
+}
+
+// What was left open inside ends here, too.
+bool Structure::endUnit(const Statement& statement, const Token& name, UnitKind kind) {
+  const bool mechanism = kind == UnitKind::Mechanism;
+  const Diag mismatch = mechanism ? Diag::MechNameMismatch : Diag::ProcNameMismatch;
+  const uint32_t at = innermost(kind);
+  if (at == kNone) {
+    program_.diagnostics.report(mismatch, statement.range())
+        << name.text << (mechanism ? "no mechanism" : "no procedure");
+    return false;
+  }
+  while (unit_ != at) closeUnit(statement.range());
+  const Unit& unit = program_.units[unit_];
+  if (symbolKey(unit.name) != symbolKey(name.text))
+    program_.diagnostics.report(mismatch, name.range()).note(unit.begin, "it begins here")
+        << name.text << "'" + std::string(unit.name) + "'";
+  unit_ = unit.parent;
+  return true;
+}
+
+void Structure::beginProcedure(const Statement& statement, const Token& name) {
+  if (const uint32_t outer = innermost(UnitKind::Procedure); outer != kNone)
+    program_.diagnostics.report(Diag::NestedProcedure, statement.range())
+            .note(program_.units[outer].begin, "it begins here")
+        << program_.units[outer].name;
+  const auto index = static_cast<uint32_t>(program_.procedures.size());
+  push({.kind = UnitKind::Procedure, .index = index, .name = name.text, .begin = statement.range()});
+  program_.procedures.push_back({.name = name.text, .unit = unit_});
+}
+
+void Structure::beginTimed(const Statement& statement, const Token& endLabel) {
+  if (unit_ != kNone && program_.units[unit_].kind == UnitKind::Timed)
+    innerBlocks_.push_back({unit_, statement.range()});
+  push({.kind = UnitKind::Timed,
+        .name = statement.row->info.mnemonic,
+        .endLabel = static_cast<uint32_t>(&endLabel - program_.tokens.data()),
+        .begin = statement.range()});
+}
+
+void Structure::passLabel(std::string_view name) {
+  const std::string key = symbolKey(name);
+  uint32_t found = kNone;
+  for (uint32_t at = unit_; at != kNone && program_.units[at].kind == UnitKind::Timed; at = program_.units[at].parent)
+    if (symbolKey(program_.tokens[program_.units[at].endLabel].text) == key) found = at;
+  if (found == kNone) return;
+  while (unit_ != found) closeUnit({});
+  // Blocks inside a block are told when it is certain that it has an end; else its missing end is the mistake.
+  std::erase_if(innerBlocks_, [&](const InnerBlock& inner) {
+    if (inner.outer != found) return false;
+    program_.diagnostics.report(Diag::SyntaxError, inner.at).note(program_.units[found].begin, "it begins here")
+        << "label '" + std::string(name) + "', which ends the timed block," << "a timed block inside it";
+    return true;
+  });
+  unit_ = program_.units[found].parent;
+}
+
+bool Structure::fits(const Row& row) const {
+  const bool inCode = inModule() && !inData();
+  switch (row.role) {
+  case Role::Module: return !inModule() && !localOpen_;
+  case Role::ModuleEnd: return inModule() && kind() == static_cast<ModuleKind>(row.variant);
+  case Role::Stop: return !inModule();
+  case Role::Local: return !localOpen_;
+  case Role::LocalEnd: return localOpen_;
+  case Role::Dfm:
+  case Role::Ds:
+  case Role::Str: return localOpen_ || inData();
+  case Role::Equi: return true;
+  case Role::MechBegin:
+  case Role::ProcBegin: return inCode;
+  case Role::MechEnd: return innermost(UnitKind::Mechanism) != kNone;
+  case Role::ProcEnd: return innermost(UnitKind::Procedure) != kNone;
+  default: return false;
+  }
+}
+
+bool Structure::allowsCode(const Statement& statement) {
+  if (localOpen_ && !inData()) closeLocal(statement.range());
+  if (inModule() && !inData()) return true;
+  if (!outsideReported_)
+    program_.diagnostics.report(Diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
+  outsideReported_ = true;
+  return false;
+}
+
+bool Structure::allowsData(const Statement& statement) {
+  if (localOpen_ || inData()) return true;
+  program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+  return false;
+}
+
+void Structure::checkMissing() {
+  const SourceFile& file = program_.files[file_];
+  Diagnostics& diagnostics = program_.diagnostics;
+  if (!seen_[0] && !dataReported_) diagnostics.report(Diag::DataNotFirst, file.lastLine);
+  std::string missing;
+  size_t count = 0;
+  for (int i = 1; i < kModuleKinds; ++i) {
+    const auto kind = static_cast<ModuleKind>(i);
+    const bool needed = file.main ? isOneOf(kind, kMandatory) : kind == ModuleKind::Main;
+    if (!needed || seen_[static_cast<size_t>(i)]) continue;
+    missing.append(count++ == 0 ? "" : ", ").append(moduleName(kind));
+  }
+  if (count != 0)
+    diagnostics.report(Diag::MissingModule, file.lastLine) << (count == 1 ? "a module is" : "modules are") << missing;
+  if (file.main && !stopped_) diagnostics.report(Diag::MissingStop, file.lastLine);
+}
+
+void Structure::finish(uint32_t statementCount) {
+  const SourceRange last = program_.files[file_].lastLine;
+  if (inModule()) {
+    reportUnclosed(last);
+    program_.parts[part_].cut = true;
+    closeModule(last, program_.files[file_].lineCount, statementCount);
+  }
+  closeLocal(last);
+  checkMissing();
+  // A block whose label stands elsewhere leads out of its unit; one without label or with an earlier one has no end.
+  for (const OpenBlock& block : lostBlocks_) {
+    const uint32_t symbol = program_.symbols.find(block.label.text, file_);
+    const bool later = symbol != kNone && program_.symbols[symbol].kind == SymbolKind::Label &&
+                       block.label.pos < program_.symbols[symbol].declared.begin;
+    if (symbol != kNone && program_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
+    if (symbol == kNone)
+      program_.symbols.noteUndefined(block.label, file_, {});
+    else if (!later)
+      program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
+    else
+      program_.diagnostics.report(Diag::JumpCrossesUnit, block.label.range())
+          << block.label.text << "the unit of this timed block";
+  }
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,89 @@
+// The structure of a file while it is read: which module, mechanism, procedure and timed block is open (man. ch. 5). It
+// reports what does not fit and goes on with the most likely meaning, so that one mistake gives one report.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "frontend/dialects/technol/program.h"
+
+namespace rung::frontend::technol {
+
+class Structure {
+public:
+  Structure(Program& program, uint32_t file) : program_(program), file_(file) {}
+
+  // Statements that open and close; `index` is the statement's number.
+  void beginModule(const Statement& statement, ModuleKind kind, uint32_t index);
+  void endModule(const Statement& statement, ModuleKind kind, uint32_t index);
+  void beginLocal(const Statement& statement);
+  void endLocal(const Statement& statement);
+  void stop(const Statement& statement, uint32_t index);
+  void beginMechanism(const Statement& statement, const Token& name);
+  // False when none was open.
+  bool endMechanism(const Statement& statement, const Token& name) {
+    return endUnit(statement, name, UnitKind::Mechanism);
+  }
+  void beginProcedure(const Statement& statement, const Token& name);
+  bool endProcedure(const Statement& statement, const Token& name) {
+    return endUnit(statement, name, UnitKind::Procedure);
+  }
+  void beginTimed(const Statement& statement, const Token& endLabel);
+  // A label ends the timed blocks that name it.
+  void passLabel(std::string_view name);
+  // What is missing at the end of the file.
+  void finish(uint32_t statementCount);
+
+  // Whether a statement that opens, closes or declares something is right here, as far as that shows.
+  bool fits(const Row& row) const;
+  // Whether an executable statement may stand here; reports where not.
+  bool allowsCode(const Statement& statement);
+  // Whether a declaration may stand here; reports where not.
+  bool allowsData(const Statement& statement);
+
+  uint32_t unit() const { return unit_; }
+  bool stopped() const { return stopped_; }
+  bool inModule() const { return part_ != kNone; }
+  bool localOpen() const { return localOpen_; }
+  bool inData() const { return inModule() && kind() == ModuleKind::Data; }
+  // Whether names declared here are this file's alone.
+  bool isLocal() const { return localOpen_ || !inData(); }
+
+private:
+  ModuleKind kind() const { return program_.parts[part_].kind; }
+  void closeModule(SourceRange at, uint32_t line, uint32_t index);
+  void closeUnits(SourceRange at);
+  void closeUnit(SourceRange at);
+  uint32_t innermost(UnitKind kind) const;
+  bool endUnit(const Statement& statement, const Token& name, UnitKind kind);
+  void closeLocal(SourceRange at);
+  void push(Unit unit);
+  void reportUnclosed(SourceRange at);
+  void checkPlace(const Statement& statement, ModuleKind kind);
+  void checkMissing();
+
+  Program& program_;
+  uint32_t file_;
+  uint32_t part_ = kNone; // the open one
+  uint32_t unit_ = kNone;
+  bool localOpen_ = false;
+  bool stopped_ = false;
+  bool outsideReported_ = false;
+  bool nested_ = false; // the module stands inside another one, outer_
+  ModuleKind outer_ = ModuleKind::Data;
+  bool dataReported_ = false;
+  std::array<bool, kModuleKinds> seen_{};
+  struct OpenBlock {
+    Token label;
+    uint32_t unit = kNone;
+  };
+  struct InnerBlock {
+    uint32_t outer = kNone; // unit
+    SourceRange at;
+  };
+  std::vector<InnerBlock> innerBlocks_; // timed blocks inside one
+  std::vector<OpenBlock> lostBlocks_;   // timed blocks whose label did not come in time
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,329 @@
+// Names of a program (see symbols.h).
+#include "frontend/dialects/technol/read/symbols.h"
+
+#include <algorithm>
+
+#include "ir/support/similar.h"
+#include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+// §24 of the inventory; values of PLCEVENT_* are this project's.
+constexpr Predefined kPredefined[] = {
+    {"BLOCK_IDLE", 0},
+    {"BLOCK_INIT", 1},
+    {"BLOCK_MOVE", 2},
+    {"BLOCK_DELAY", 3},
+    {"BLOCK_DONE", 4}, // man. l.6626
+    {"PLCEVENT_STOP_REQ", 1},
+    {"PLCEVENT_STOP_EMERGENCY_REQ", 2},
+    {"PLCEVENT_STOP", 3},
+    {"PLCEVENT_START", 4}, // l.1638
+    {"PLCEVENT_START_REQ", 5},
+    {"CAN_ERR_OK", 0},
+    {"CAN_ERR_XMTFULL", 1},
+    {"CAN_ERR_RCVEMPTY", 2}, // l.3696
+    {"PLC_COM_ERROR", 1},
+    {"PLC_COM_REQ", 2},
+    {"PLC_COM_SEND_OVER", 4},
+    {"PLC_COM_RECV_OVER", 8}, // l.21193
+    {"ECAT_INIT", 1},
+    {"ECAT_PREOPERATIONAL", 2},
+    {"ECAT_BOOTSTRAP", 3},
+    {"ECAT_SAFEOPERATIONAL", 4}, // l.17946
+    {"ECAT_OPERATIONAL", 8},
+    {"ECATCMD_MASTER_INIT", 1},
+    {"ECATCMD_MASTER_PREOPERATIONAL", 2},
+    {"ECATCMD_MASTER_BOOTSTRAP", 3}, // l.18210
+    {"ECATCMD_MASTER_SAFEOPERATIONAL", 4},
+    {"ECATCMD_MASTER_OPERATIONAL", 8},
+    {"ECATCMD_SLAVE_INIT", 11},
+    {"ECATCMD_SLAVE_PREOPERATIONAL", 12},
+    {"ECATCMD_SLAVE_BOOTSTRAP", 13},
+    {"ECATCMD_SLAVE_SAFEOPERATIONAL", 14},
+    {"ECATCMD_SLAVE_OPERATIONAL", 18},
+    {"ECATCMD_MASTER_STATE", 20},
+    {"ECATCMD_SLAVE_STATE", 21},
+    {"PLCTABTYPE_INT", 1},
+    {"PLCTABTYPE_REAL", 2},
+    {"PLCTABTYPE_STR", 3},
+    {"PLCTABTYPE_BIN", 4}, // l.18893
+    {"PLCTITEMCHANGED", 1},
+    {"PLCTSELLLINECHANGED", 2}, // l.19010
+};
+
+const Predefined* findPredefined(std::string_view key) {
+  for (const Predefined& p : kPredefined)
+    if (p.name == key) return &p;
+  return nullptr;
+}
+
+ir::Type cellType(nc::SignalType type) {
+  switch (type) {
+  case nc::SignalType::Bit: return ir::Type::Bit;
+  case nc::SignalType::Byte: return ir::Type::I8;
+  case nc::SignalType::Word: return ir::Type::I16;
+  case nc::SignalType::Dword: return ir::Type::I32;
+  case nc::SignalType::Qword: return ir::Type::I64;
+  case nc::SignalType::Real: return ir::Type::F64;
+  case nc::SignalType::Struct:
+  case nc::SignalType::String: return ir::Type::None;
+  }
+  return ir::Type::None;
+}
+
+// Cells of chapter 8 that the PLC may only read are protected (man. l.6238, l.6493, l.6517); an example writes one of
+// another chapter (l.5921), so that those only warn. Names of weights are no cells.
+Protection protectionOf(const nc::Signal& signal) {
+  if (signal.direction != nc::Direction::In) return Protection::None;
+  return std::string_view(signal.group).starts_with("8.") ? Protection::Error : Protection::Warn;
+}
+
+Symbol fromSignal(const nc::Signal& signal) {
+  Symbol symbol;
+  symbol.name = signal.symbol;
+  symbol.predeclared = true;
+  symbol.kind = signal.type == nc::SignalType::Bit      ? SymbolKind::Bit
+                : signal.type == nc::SignalType::String ? SymbolKind::Text
+                                                        : SymbolKind::Cell;
+  symbol.type = cellType(signal.type);
+  symbol.space = kInterfaceSpace;
+  symbol.byte = signal.byteOffset;
+  symbol.bit = signal.bit;
+  symbol.size = signal.count * signal.strideBytes;
+  symbol.structure = signal.structure;
+  symbol.protection = protectionOf(signal);
+  return symbol;
+}
+
+} // namespace
+
+std::span<const Predefined> predefinedConstants() { return kPredefined; }
+
+std::string symbolKey(std::string_view name) {
+  const size_t mark = std::min(name.find(kUseMark), name.size());
+  return text::upper(name.substr(0, std::min(mark, kSignificant))).append(name.substr(mark));
+}
+
+void SymbolTable::checkName(const Symbol& symbol) {
+  if (std::min(symbol.name.find(kUseMark), symbol.name.size()) > kSignificant)
+    diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
+  switch (reservedWord(symbol.name)) {
+  case Reserved::No: break;
+  case Reserved::Warn:
+    diagnostics_.report(Diag::ReservedWord, symbol.declared).severity(Severity::Warning) << symbol.name;
+    break;
+  case Reserved::Yes: diagnostics_.report(Diag::ReservedWord, symbol.declared) << symbol.name; break;
+  }
+}
+
+// The entry that a name of this file would collide with; null when there is none.
+uint32_t* SymbolTable::inOwnFile(const std::string& key, const Symbol& symbol) {
+  Scope& own = locals_[symbol.file];
+  if (auto local = own.find(key); local != own.end()) return &local->second;
+  const auto global = globals_.find(key);
+  if (global == globals_.end()) return nullptr;
+  return !symbol.local || symbols_[global->second].file == symbol.file ? &global->second : nullptr;
+}
+
+// Whether both declarations may stand: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
+bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
+  Symbol& first = symbols_[earlier];
+  if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
+    return true;
+  if (first.kind == SymbolKind::Structure && symbol.kind == SymbolKind::Structure && first.value == symbol.value)
+    return true;
+  if (first.kind == SymbolKind::Cell && symbol.kind == SymbolKind::Mechanism && first.mechanism == kNone) {
+    first.mechanism = symbol.index;
+  } else if (first.kind == SymbolKind::Mechanism && symbol.kind == SymbolKind::Cell) {
+    symbol.mechanism = first.index;
+  } else {
+    return false;
+  }
+  diagnostics_.report(Diag::SharedName, symbol.declared).note(first.declared, "also declared here") << symbol.name;
+  return true;
+}
+
+uint32_t SymbolTable::declare(Symbol symbol) {
+  checkName(symbol);
+  const std::string key = symbolKey(symbol.name);
+  const auto index = static_cast<uint32_t>(symbols_.size());
+  if (uint32_t* earlier = inOwnFile(key, symbol)) {
+    if (merge(*earlier, symbol)) {
+      if (symbol.kind == SymbolKind::Constant || symbol.kind == SymbolKind::Structure) return *earlier;
+      if (symbol.kind == SymbolKind::Cell) *earlier = index; // the cell carries both meanings
+    } else {
+      const SourceRange first = symbols_[*earlier].declared;
+      const bool sameLine = first == symbol.declared;
+      diagnostics_.report(Diag::DuplicateSymbol, symbol.declared)
+              .note(first, sameLine ? "by the macro's first use; T_LOCAL gives each use a name of its own"
+                                    : "first declared here")
+          << symbol.name;
+    }
+    symbols_.push_back(symbol);
+    return index;
+  }
+  const Predefined* constant = findPredefined(key);
+  const bool sameConstant = constant && symbol.kind == SymbolKind::Constant && symbol.value == constant->value;
+  const nc::Signal* signal = nc::findSignal(nc::technolSignals(), key, "I");
+  if (signal || (constant && !sameConstant))
+    diagnostics_.report(Diag::DuplicateSymbol, symbol.declared).note("it is predefined by the control") << symbol.name;
+  (symbol.local ? locals_[symbol.file] : globals_).emplace(key, index);
+  symbols_.push_back(symbol);
+  return index;
+}
+
+uint32_t SymbolTable::predeclared(std::string_view name, const std::string& key) {
+  if (const auto found = predeclared_.find(key); found != predeclared_.end()) return found->second;
+  uint32_t index = kNone;
+  if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I")) {
+    index = static_cast<uint32_t>(symbols_.size());
+    symbols_.push_back(fromSignal(*signal));
+  } else if (const Predefined* constant = findPredefined(key)) {
+    index = static_cast<uint32_t>(symbols_.size());
+    Symbol symbol;
+    symbol.name = constant->name;
+    symbol.kind = SymbolKind::Constant;
+    symbol.predeclared = true;
+    symbol.value = constant->value;
+    symbols_.push_back(symbol);
+  }
+  predeclared_.emplace(key, index);
+  return index;
+}
+
+uint32_t SymbolTable::find(std::string_view name, uint32_t file) {
+  const std::string key = symbolKey(name);
+  const Scope& own = locals_[file];
+  if (const auto local = own.find(key); local != own.end()) return local->second;
+  if (const auto global = globals_.find(key); global != globals_.end()) return global->second;
+  return predeclared(name, key);
+}
+
+uint32_t SymbolTable::require(const Token& name, uint32_t file) {
+  const uint32_t index = find(name.text, file);
+  if (index == kNone)
+    noteUndefined(name, file, {});
+  else
+    uses_.push_back({name.range(), index});
+  return index;
+}
+
+// A number without the 0 before its first letter.
+static bool looksLikeNumber(std::string_view word) {
+  const bool hex = word.ends_with('h') || word.ends_with('H');
+  return (hex || word.find_first_of("0123456789") != std::string_view::npos) && parseNumber("0" + std::string(word));
+}
+
+std::string_view describe(ir::Type type) {
+  switch (type) {
+  case ir::Type::Bit: return "a bit";
+  case ir::Type::I8: return "a BYTE";
+  case ir::Type::I16: return "a WORD";
+  case ir::Type::I32: return "a DWORD";
+  case ir::Type::I64: return "a QWORD";
+  case ir::Type::F64: return "a REAL";
+  case ir::Type::None: break;
+  }
+  return "a cell of several bytes";
+}
+
+std::string_view describe(const Symbol& symbol) {
+  switch (symbol.kind) {
+  case SymbolKind::Constant: return "a constant";
+  case SymbolKind::Label: return "a label";
+  case SymbolKind::Procedure: return "a procedure";
+  case SymbolKind::Macro: return "a macro";
+  case SymbolKind::Structure: return "a structure";
+  case SymbolKind::Bit: return "a bit";
+  case SymbolKind::Text: return "a text";
+  case SymbolKind::Mechanism: return "a mechanism";
+  case SymbolKind::Cell: break;
+  }
+  return describe(symbol.type);
+}
+
+void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
+  undefined_[symbolKey(name.text)].push_back({name, file, std::move(hint)});
+}
+
+void SymbolTable::reportUndefined() {
+  for (auto& [key, uses] : undefined_) reportUndefined(uses);
+  undefined_.clear();
+}
+
+void SymbolTable::reportUndefined(std::vector<Use>& uses) {
+  const auto place = [](const Use& use) { return use.name.pos; };
+  std::ranges::stable_sort(uses, {}, place);
+  const auto same = std::ranges::unique(uses, {}, place); // the body of a macro, or asked for again
+  uses.erase(same.begin(), same.end());
+  const Use& first = uses.front();
+  std::string meant = first.hint.meant;
+  if (meant.empty() && suggestions_++ < kMostSuggestions) meant = similar(first);
+  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, first.name.range());
+  report << first.name.text;
+  if (!meant.empty())
+    report.note("did you mean " + meant + "?");
+  else if (looksLikeNumber(first.name.text))
+    report.note("as a number: 0" + std::string(first.name.text));
+  const size_t further = uses.size() - 1;
+  if (further == 1)
+    report.note(uses[1].name.range(), "it is used once more, here");
+  else if (further > 1)
+    report.note(uses[1].name.range(), "and " + std::to_string(further) + " further uses; the next is here");
+}
+
+// The name in sight that is most like a misspelt one; "" when none is close. Members of the structure come first, then
+// the program's own names, then those of the control, bits of bytes among them.
+std::string SymbolTable::similar(const Use& use) const {
+  const std::string_view name = use.name.text;
+  const char* structure = use.hint.structure;
+  if (structure != nullptr && *structure != 0) {
+    const std::string_view type(structure), prefix = type == "BLK" ? "BLK[]" : type;
+    Similar member(name);
+    for (const nc::Signal& signal : nc::technolSignals())
+      if (type == signal.area) member.offer(std::string_view(signal.symbol).substr(prefix.size() + 1));
+    if (!member.best().empty()) return std::string(member.best());
+  }
+  Similar own(name);
+  for (const Symbol& symbol : symbols_)
+    if (!symbol.predeclared && (!symbol.local || symbol.file == use.file)) own.offer(symbol.name);
+  if (!own.best().empty()) return std::string(own.best());
+  Similar interface(name);
+  for (const nc::Signal& signal : nc::technolSignals())
+    if (std::string_view(signal.area) == "I" || std::string_view(signal.area) == "W") interface.offer(signal.symbol);
+  for (const Predefined& constant : kPredefined) interface.offer(constant.name);
+  return std::string(interface.best());
+}
+
+uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {
+  const uint32_t index = find(name, file);
+  if (index != kNone) return index;
+  const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "W");
+  if (!signal) return kNone;
+  // A weight is only a bit number; the program adds the byte itself (man. l.9359).
+  const auto added = static_cast<uint32_t>(symbols_.size());
+  Symbol symbol = fromSignal(*signal);
+  symbol.protection = Protection::None;
+  symbol.space = {};
+  symbols_.push_back(symbol);
+  predeclared_[symbolKey(name)] = added;
+  return added;
+}
+
+uint32_t SymbolTable::findMember(const char* structure, std::string_view member) {
+  if (*structure == 0) return kNone;
+  const std::string full = std::string(structure) + "." + std::string(member);
+  const auto [entry, isNew] = members_.emplace(text::upper(full), kNone);
+  if (isNew) {
+    if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), full, structure)) {
+      entry->second = static_cast<uint32_t>(symbols_.size());
+      symbols_.push_back(fromSignal(*signal));
+    }
+  }
+  return entry->second;
+}
+
+} // namespace rung::frontend::technol

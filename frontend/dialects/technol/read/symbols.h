@@ -1,0 +1,100 @@
+// Names of a program. Symbols of any case are one name, compared on 31 characters (man. l.75). Each file sees its own
+// local names first (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC
+// interface and the predefined constants, which are entered at their first use.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "frontend/dialects/technol/records.h"
+#include "ir/support/diagnostics.h"
+
+namespace rung::frontend::technol {
+
+// The module's spaces, always in this order.
+inline constexpr ir::SpaceId kInterfaceSpace{0}; // "NCI"
+inline constexpr ir::SpaceId kDataSpace{1};      // "DATA"
+inline constexpr ir::SpaceId kMechanismSpace{2}; // "MECH": a byte with the activation bit, a word with the line
+inline constexpr ir::SpaceId kRegisterSpace{3};  // "@REG": what the host gives and takes
+inline constexpr ir::SpaceId kBlockSpace{4};     // "BLK": the queue of command blocks
+inline constexpr ir::SpaceId kExchangeSpace{5};  // "IO": variables of MAP_* and DEF_*
+inline constexpr uint32_t kQueuedBlocks = 16;
+inline constexpr uint32_t kMechanismBytes = 3;
+inline constexpr uint32_t kRegisterBytes = 64;
+inline constexpr size_t kSignificant = 31;
+
+// Behind a name that is local to one use of a macro; no program can write it.
+inline constexpr char kUseMark = '#';
+
+// Upper case, cut to what counts.
+std::string symbolKey(std::string_view name);
+
+// A constant of the control; the name in upper case.
+struct Predefined {
+  std::string_view name;
+  int64_t value;
+};
+std::span<const Predefined> predefinedConstants();
+
+class SymbolTable {
+public:
+  explicit SymbolTable(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void addFile() { locals_.emplace_back(); }
+  // Enters a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and
+  // name-too-long; a duplicate gets a symbol of its own that no name leads to.
+  uint32_t declare(Symbol symbol);
+  // kNone where there is none.
+  uint32_t find(std::string_view name, uint32_t file);
+  // As find, and a use of it; where there is none, the name is noted as undefined.
+  uint32_t require(const Token& name, uint32_t file);
+  // What is known of a name that is not declared.
+  struct Hint {
+    const char* structure = nullptr; // of the control, where it is looked for as a member
+    std::string meant;               // what it may have been; empty: to be looked for
+  };
+  void noteUndefined(const Token& name, uint32_t file, Hint hint);
+  // Reports undefined-symbol, once for each name, at its first use.
+  void reportUndefined();
+  // A bit name that may stand behind an address only.
+  uint32_t findWeight(std::string_view name, uint32_t file);
+  // A member of an interface structure; kNone when it has none of this name.
+  uint32_t findMember(const char* structure, std::string_view member);
+
+  Symbol& operator[](uint32_t index) { return symbols_[index]; }
+  const Symbol& operator[](uint32_t index) const { return symbols_[index]; }
+  const std::vector<Symbol>& all() const { return symbols_; }
+  // Of names that were required, in the order of asking.
+  const std::vector<NameUse>& uses() const { return uses_; }
+
+private:
+  using Scope = std::unordered_map<std::string, uint32_t>;
+
+  uint32_t* inOwnFile(const std::string& key, const Symbol& symbol);
+  bool merge(uint32_t earlier, Symbol& symbol);
+  void checkName(const Symbol& symbol);
+  uint32_t predeclared(std::string_view name, const std::string& key);
+  struct Use {
+    Token name;
+    uint32_t file = 0;
+    Hint hint;
+  };
+  void reportUndefined(std::vector<Use>& uses);
+  std::string similar(const Use& use) const;
+
+  Diagnostics& diagnostics_;
+  std::vector<Symbol> symbols_;
+  std::vector<NameUse> uses_;
+  Scope globals_;
+  Scope predeclared_; // interface and constants in use, and names known to be none of these
+  Scope members_;
+  std::vector<Scope> locals_;
+  std::map<std::string, std::vector<Use>> undefined_; // by key
+  static constexpr uint32_t kMostSuggestions = 100;   // each looks at all names
+  uint32_t suggestions_ = 0;
+};
+
+} // namespace rung::frontend::technol

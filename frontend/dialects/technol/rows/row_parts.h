@@ -1,0 +1,58 @@
+// What the rows of the table are made of: operands that several rows have. Included by the rows_*.h only.
+#pragma once
+#include <string_view>
+
+#include "frontend/dialects/technol/rows/instructions.h"
+
+namespace rung::frontend::technol {
+
+using OperandList = decltype(InstructionInfo::operands);
+
+// Bytes that one instruction may move: a rung makes so many passes.
+inline constexpr int64_t kMostBytes = int64_t{1} << 20;
+
+// A row of a family, whose rows share a shape and differ in their texts and their variant.
+constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title, std::string_view ref,
+                    std::string_view doc, std::string_view example, int variant = 0) {
+  shape.info.mnemonic = mnemonic;
+  shape.info.title = title;
+  shape.info.ref = ref;
+  shape.info.doc = doc;
+  shape.info.example = example;
+  shape.variant = variant;
+  return shape;
+}
+
+constexpr OperandInfo in(std::string_view name, std::string_view kind, std::string_view doc) {
+  return {.name = name, .kind = kind, .doc = doc};
+}
+constexpr OperandInfo out(std::string_view name, std::string_view kind, std::string_view doc) {
+  return {.name = name, .kind = kind, .access = Access::Write, .doc = doc};
+}
+constexpr OperandInfo inout(std::string_view name, std::string_view kind, std::string_view doc) {
+  return {.name = name, .kind = kind, .access = Access::ReadWrite, .doc = doc};
+}
+constexpr OperandInfo ranged(OperandInfo operand, int64_t min, int64_t max) {
+  operand.min = min;
+  operand.max = max;
+  return operand;
+}
+constexpr OperandInfo optional(OperandInfo operand) {
+  operand.optional = true;
+  return operand;
+}
+constexpr OperandInfo repeated(OperandInfo operand) {
+  operand.repeated = true;
+  return operand;
+}
+constexpr OperandInfo lengthOf(std::string_view name, std::string_view doc, bool optional) {
+  return {.name = name, .kind = "length", .doc = doc, .min = 0, .max = kMostBytes, .optional = optional};
+}
+// Where instructions of EX kind stand (man. l.2166-2171).
+inline constexpr std::string_view kSequentialUnits = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE";
+// Which part of DR the instruction works on.
+constexpr OperandInfo widthOf(std::string_view kind) {
+  return optional(in("width", kind, "the part of DR; without it 16 bits"));
+}
+
+} // namespace rung::frontend::technol

@@ -1,4 +1,4 @@
-// A program as it has been read. The reader fills it, the lowering reads it.
+// A program as it has been read. The reader fills it; check and lowering read it.
 #pragma once
 
 #include <deque>

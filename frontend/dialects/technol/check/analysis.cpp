@@ -1,23 +1,26 @@
 // Symbols and typed operands as the analysis has them (see analysis.h).
 #include "frontend/dialects/technol/check/analysis.h"
 
+#include <algorithm>
+
 namespace rung::frontend::technol {
 namespace {
 
 // In the order of the spaces of a module (symbols.h).
 constexpr std::string_view kSpaces[] = {"NCI", "DATA", "MECH", "@REG", "BLK", "IO"};
 
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-// The comment after a declaration, as written.
-std::string_view commentAt(const SourceManager& sources, SourceRange declared) {
-  const std::string_view line = sources.lineText(declared.begin);
-  const size_t mark = commentOf(line);
-  return mark == std::string_view::npos ? std::string_view() : trimmed(line.substr(mark + 1));
+// What follows a name on the line of its declaration: the rest of the declaration, and its comment.
+struct Declared {
+  std::string_view rest;
+  std::string_view comment;
+};
+Declared declaredAt(const SourceManager& sources, SourceRange name) {
+  const std::string_view line = sources.lineText(name.begin);
+  const size_t mark = std::min(commentOf(line), line.size());
+  const size_t end = sources.offsetOf(name.end) - sources.lineStart(name.begin).offset;
+  const std::string_view rest = line.substr(std::min(end, mark), mark - std::min(end, mark));
+  const size_t value = std::min(rest.find_first_not_of(", \t"), rest.size());
+  return {trimmed(rest.substr(value)), trimmed(line.substr(std::min(mark + 1, line.size())))};
 }
 
 // Constants, labels and the like have none.
@@ -33,9 +36,10 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   Definition definition{.name = symbol.name};
   definition.place = placeOf(symbol);
   if (symbol.predeclared || !symbol.declared.valid()) return definition;
+  const Declared declared = declaredAt(sources, symbol.declared);
   definition.range = symbol.declared;
-  definition.comment = commentAt(sources, symbol.declared);
-  if (symbol.kind == SymbolKind::Constant) definition.value = symbol.name;
+  definition.comment = declared.comment;
+  if (symbol.kind == SymbolKind::Constant) definition.value = declared.rest;
   return definition;
 }
 

@@ -259,7 +259,7 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
   program_.symbols.declare(symbol);
 }
 
-// What has no operands at all, and no lowering that would count them.
+// What has no operands at all, and no check that would count them.
 void FileReader::checkNoOperands(const Statement& statement) {
   const Role role = statement.row->role;
   if (role == Role::Code || role == Role::MacroBegin || role == Role::MacroEnd) return;

@@ -1,5 +1,5 @@
 // Reads the files of a program into statements. It resolves what decides the structure (modules, units, labels, names,
-// constants); operands of executable statements stay tokens until they are lowered.
+// constants); operands of executable statements stay tokens until they are checked.
 #pragma once
 
 #include "frontend/dialects/technol/program.h"

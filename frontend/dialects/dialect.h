@@ -57,7 +57,7 @@ struct Dialect {
   std::span<const InstructionInfo* const> instructions;
   std::span<const OperandKindInfo> operandKinds;
   const nc::SignalTable& (*signals)();                // of the control's interface
-  std::span<const std::string_view> shownSpaces = {}; // that the control shows to the operator
+  std::span<const std::string_view> shownSpaces = {}; // whose cells the control shows or passes on
   // Whether a row of `instructions` can be compiled; the others give the diagnostic not-built-yet or service-not-built.
   bool (*isBuilt)(const InstructionInfo& row);
   // Of a dialect with ladders: the row of a box, see ladder::FindBox.

@@ -11,6 +11,12 @@ SourcePos beginOf(const Use& use) {
   return use.range.begin;
 }
 
+template <class Use>
+const Use* useAt(const std::vector<Use>& uses, SourceRange range) {
+  const auto at = std::ranges::lower_bound(uses, range.begin, {}, beginOf<Use>);
+  return at != uses.end() && at->range == range ? &*at : nullptr;
+}
+
 } // namespace
 
 uint32_t Analysis::define(const Definition& definition) {
@@ -21,18 +27,17 @@ uint32_t Analysis::define(const Definition& definition) {
 void Analysis::settle() {
   std::ranges::stable_sort(names_, {}, beginOf<NameUse>);
   std::ranges::stable_sort(operands_, {}, beginOf<OperandUse>);
+  std::ranges::stable_sort(targets_, {}, beginOf<TargetUse>);
   const auto again = std::ranges::unique(names_, {}, &NameUse::range); // of operands that a check reads twice
   names_.erase(again.begin(), again.end());
 }
 
-const OperandUse* Analysis::operandAt(SourceRange range) const {
-  const auto at = std::ranges::lower_bound(operands_, range.begin, {}, beginOf<OperandUse>);
-  return at != operands_.end() && at->range == range ? &*at : nullptr;
-}
+const OperandUse* Analysis::operandAt(SourceRange range) const { return useAt(operands_, range); }
+const TargetUse* Analysis::targetAt(SourceRange range) const { return useAt(targets_, range); }
 
 const Definition* Analysis::nameAt(SourceRange range) const {
-  const auto at = std::ranges::lower_bound(names_, range.begin, {}, beginOf<NameUse>);
-  return at != names_.end() && at->range == range ? &definitions_[at->definition] : nullptr;
+  const NameUse* use = useAt(names_, range);
+  return use == nullptr ? nullptr : &definitions_[use->definition];
 }
 
 } // namespace rung::frontend

@@ -46,7 +46,15 @@ struct OperandUse {
   Access access = Access::Read;
 };
 
-// All texts are in the sources or in tables of the compiler, and live as long as these.
+// An operand that is a place in the program: a label, a subprogram.
+struct TargetUse {
+  SourceRange range;
+  std::string_view scope; // that its number belongs to, with its kind; the same for all uses of one target
+  uint32_t number = 0;
+  bool defines = false; // this is the place; else control goes there
+};
+
+// All texts live as long as the sources and the program that was checked.
 class Analysis {
 public:
   // While the program is read, in any order.
@@ -54,6 +62,7 @@ public:
   Definition& definition(uint32_t index) { return definitions_[index]; }
   void use(SourceRange name, uint32_t definition) { names_.push_back({name, definition}); }
   void use(const OperandUse& operand) { operands_.push_back(operand); }
+  void use(const TargetUse& target) { targets_.push_back(target); }
   // Once, when it is complete: puts uses in the order of the sources.
   void settle();
 
@@ -61,8 +70,10 @@ public:
   std::span<const Definition> definitions() const { return definitions_; }
   std::span<const NameUse> names() const { return names_; }
   std::span<const OperandUse> operands() const { return operands_; }
-  // The operand that is written there, exactly; null when that names no place.
+  std::span<const TargetUse> targets() const { return targets_; }
+  // The operand that is written there, exactly; null when that names no place, of memory or of the program.
   const OperandUse* operandAt(SourceRange range) const;
+  const TargetUse* targetAt(SourceRange range) const;
   // What the name that is written there, exactly, means; null when that is no name.
   const Definition* nameAt(SourceRange range) const;
 
@@ -70,6 +81,7 @@ private:
   std::vector<Definition> definitions_;
   std::vector<NameUse> names_;
   std::vector<OperandUse> operands_;
+  std::vector<TargetUse> targets_;
 };
 
 } // namespace rung::frontend

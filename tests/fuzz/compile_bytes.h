@@ -1,7 +1,6 @@
 // What the fuzz targets of dialects share: any bytes as a program of one or several files. What compiles is valid and
 // prints as a text that parses back.
 #pragma once
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include "ir/support/diag_render.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
+#include "tests/fuzz/split_files.h"
 
 namespace rung::fuzz {
 
@@ -24,12 +24,8 @@ inline void compileBytes(const frontend::Dialect& dialect, std::string_view exte
   SourceManager sources;
   Diagnostics diagnostics;
   std::vector<FileId> files;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(border, begin), text.size());
-    files.push_back(sources.addBuffer("fuzz" + std::to_string(files.size()) + std::string(extension),
-                                      text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const auto& [name, content] : splitFiles(text, extension, border))
+    files.push_back(sources.addBuffer(name, content));
   const auto module = dialect.compile(sources, files, {}, diagnostics);
   renderText(diagnostics, sources);
   RUNG_CHECK((module == nullptr) == diagnostics.hasErrors(), "no module without a reason");

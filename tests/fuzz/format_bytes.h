@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "ir/support/check.h"
+#include "tests/fuzz/split_files.h"
 #include "tests/support/formatting.h"
 
 namespace rung::fuzz {
@@ -25,10 +26,7 @@ inline void formatBytes(const frontend::Dialect& dialect, std::string_view exten
   if (text.find("\r\r") != std::string::npos) return; // what is one too many goes, though it could be part of a title
   SourceManager sources, formattedSources;
   std::vector<FileId> files, formattedFiles;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(border, begin), text.size());
-    const std::string original = text.substr(begin, end - begin);
-    const std::string name = "fuzz" + std::to_string(files.size()) + std::string(extension);
+  for (const auto& [name, original] : splitFiles(text, extension, border)) {
     const auto formatted = formatText(dialect, name, original);
     if (!formatted) return;
     RUNG_CHECK(formatText(dialect, name, *formatted) == formatted, "what is laid out is laid out");
@@ -36,7 +34,6 @@ inline void formatBytes(const frontend::Dialect& dialect, std::string_view exten
     RUNG_CHECK(lines.has_value(), "a line stays a line");
     files.push_back(sources.addBuffer(name, original));
     formattedFiles.push_back(formattedSources.addBuffer(name, *lines));
-    begin = end + 1;
   }
   const test::Meaning meaning = test::meaningOf(dialect, sources, files, {});
   test::Meaning formatted = test::meaningOf(dialect, formattedSources, formattedFiles, {});

@@ -187,7 +187,7 @@ namespace {
 // The runtime's sentence, for a caller of this library.
 int32_t failAsRuntime(int32_t status) { return fail(static_cast<rung_status>(status), "%s", rung_error_text()); }
 
-int32_t serve(rung_image* image, std::shared_ptr<const Program> program, EngineKind kind,
+int32_t serve(rung_image* image, const std::shared_ptr<const Program>& program, EngineKind kind,
               const EngineOptions& options) {
   const auto compiled = [program]() -> Result<const Compiled*> { return &*program->compiled; };
   const int32_t status = serveImage(image, compiled, kind, options);

@@ -72,10 +72,10 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.options = request.options;
   frontend::CompileOptions options = request.options;
   if (request.marks) options.marks = &out.marks;
-  const auto program = out.dialect->check(sources, files, options, diagnostics);
+  auto program = out.dialect->check(sources, files, options, diagnostics);
   if (!diagnostics.hasErrors()) out.module = program->build();
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
-  if (request.analysis) out.analysis = program->analysis();
+  if (request.keepSource) out.source = std::move(program);
   for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
   ir::orderOperations(*out.module, options.marks);
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();

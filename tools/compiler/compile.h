@@ -30,7 +30,7 @@ struct CompileRequest {
   bool optimise = true;
   bool activity = false;  // hosts may leave out chunks that would change nothing
   bool keepBuilt = false; // for those who make its code again (recompiler.h)
-  bool analysis = false;  // keep what the front end knows of names and operands
+  bool keepSource = false; // keep what the front end knows of the text
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
 };
@@ -45,7 +45,8 @@ struct Compiled {
   ir::Marks marks;                  // where they were asked for
   frontend::CompileOptions options; // of the request
   std::unique_ptr<ir::Uses> uses;   // of the module as the dialect made it
-  frontend::Analysis analysis;      // where it was asked for
+  // Where it was asked for: for its analysis alone, as it has been built.
+  std::unique_ptr<const frontend::CheckedProgram> source;
   uint64_t codeHash = 0;            // of the IR's text
   size_t warnings = 0;              // that were reported on the way
 };

@@ -11,7 +11,7 @@ namespace {
 void checkNames(const compiler::Compiled& compiled, const SourceManager& sources, Diagnostics& diagnostics) {
   const ir::ProgramImage image(*compiled.layout, compiled.codeHash);
   const xref::CrossReference reference(image.program(), *compiled.uses, compiled.dialect->shownSpaces);
-  xref::reportOddNames(sources, compiled.analysis, reference, diagnostics);
+  xref::reportOddNames(sources, compiled.source->analysis(), reference, diagnostics);
 }
 
 } // namespace
@@ -22,7 +22,7 @@ void addCheck(CommandLine& app, int& status) {
   addSourceOptions(command, *options);
   command.onRun([options, &status] {
     SourceManager sources;
-    const auto compiled = compileSources(sources, *options, {.analysis = true}, status, checkNames);
+    const auto compiled = compileSources(sources, *options, {.keepSource = true}, status, checkNames);
     if (compiled) printSummary(*compiled, *options, "");
   });
 }

@@ -9,6 +9,7 @@
 #include "rtlib/text/letters.h"
 #include "tools/compiler/reference.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/explain_place.h"
 #include "tools/rungc/plain_text.h"
 
 namespace rung::rungc {
@@ -65,6 +66,16 @@ int explainWord(const std::string& word) {
   return kOk;
 }
 
+// An operand, a name, or what the reference says of the word.
+int explainAt(const SourcePlace& place) {
+  int status = kOk;
+  const std::optional<Explained> explained = explainPlace(place, status);
+  if (!explained) return status;
+  if (explained->text.empty()) return explainWord(explained->word);
+  std::cout << explained->text;
+  return kOk;
+}
+
 } // namespace
 
 void addExplain(CommandLine& app, int& status) {
@@ -72,10 +83,13 @@ void addExplain(CommandLine& app, int& status) {
   auto word = std::make_shared<std::string>();
   command.option("WORD", *word,
                  "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF or F7.0, a fault such "
-                 "as dead-loop, a key such as slot_steps, or a part of a word; without it the topics are listed");
+                 "as dead-loop, a key such as slot_steps, a part of a word, or FILE:LINE:COLUMN: what is written "
+                 "there; without it the topics are listed");
   command.onRun([word, &status] {
     if (word->empty())
       std::cout << plainText(compiler::explainTopics());
+    else if (const auto place = sourcePlace(*word))
+      status = explainAt(*place);
     else
       status = explainWord(*word);
   });

@@ -28,6 +28,8 @@ public:
 
   // Of an operand of the text, and of a name where it is declared.
   Named find(const Word& operand);
+  // The label or subprogram that an operand is; null when it is none.
+  const frontend::TargetUse* targetAt(const Word& operand) const { return analysis_.targetAt(operand.range); }
   // What a constant means: its value as declared, otherwise the text itself.
   std::string_view valueOf(const Word& operand) const;
 

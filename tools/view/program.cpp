@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/ladder/drawing.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
@@ -128,7 +128,7 @@ private:
   void comment(std::string_view text);
   void flushComments(const Place& place);
   Link onUse(const OperandUse& use) override;
-  Link onTarget(TargetRole role, std::string_view operand, uint32_t row) override;
+  Link onTarget(const frontend::TargetUse& target, uint32_t row) override;
   void beginModule(const ladder::Module& module, std::string_view remark, const Place& place);
   void titleFromSection(Block& block, const ladder::Module& module);
   void splitUses();
@@ -166,7 +166,6 @@ private:
   std::vector<std::pair<uint32_t, uint32_t>> subprograms_; // GSK: block, target
   std::vector<Sides> sides_;                               // by entry of uses_
   std::vector<uint32_t> rowIds_;                           // by entry of uses_
-  std::string module_;                                     // that labels are counted in
   std::vector<NameRow> declared_;
   std::map<size_t, std::optional<ir::BitRange>> places_; // of those with a name
 
@@ -303,10 +302,10 @@ Link Reader::onUse(const OperandUse& use) {
   return {Link::To::Name, entry};
 }
 
-Link Reader::onTarget(TargetRole role, std::string_view operand, uint32_t row) {
+Link Reader::onTarget(const frontend::TargetUse& use, uint32_t row) {
   const uint32_t number = program_.figures.back().number;
-  const uint32_t target = targets_.idOf(module_, operand);
-  if (role == TargetRole::Asks) {
+  const uint32_t target = targets_.idOf(use);
+  if (!use.defines) {
     targets_.ask(target, number);
     return {Link::To::Rung, target};
   }
@@ -351,11 +350,10 @@ void Reader::beginModule(const ladder::Module& module, std::string_view remark, 
   Block block{.kind = Block::Kind::Module, .text = name, .comment = std::string(remark), .place = place};
   titleFromSection(block, module);
   if (!isGsk_) {
-    module_ = name;
     block.text = "Module " + name;
-  } else if (module.name.size() == 2) {
-    block.text = fmt::format("Subprogram {}", module.name[1].text);
-    subprograms_.emplace_back(program_.blocks.size(), targets_.idOf("", module.name[1].text));
+  } else if (const frontend::TargetUse* subprogram = names_.targetAt(module.name.back())) {
+    block.text = fmt::format("Subprogram {}", module.name.back().text);
+    subprograms_.emplace_back(program_.blocks.size(), targets_.idOf(*subprogram));
   } else {
     block.text = name.ends_with('1') ? "Level 1" : "Level 2";
   }

@@ -247,9 +247,8 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
                                                     : nullptr;
     Operand operand = operandOf(word, table ? nullptr : of, cell.firstRow);
     ++place;
-    const TargetRole role = of == nullptr ? TargetRole::None : roleOf(*info, *of);
-    const Link target =
-        role == TargetRole::None ? Link{} : listener_.onTarget(role, context_.names.valueOf(word), cell.firstRow);
+    const frontend::TargetUse* asked = context_.names.targetAt(word);
+    const Link target = asked == nullptr ? Link{} : listener_.onTarget(*asked, cell.firstRow);
     if (target.to != Link::To::Nothing) cell.link = operand.link = target;
     // Values of a table follow each other.
     if (table && operand.address.empty() && cell.operands.back().name.size() < 28 &&

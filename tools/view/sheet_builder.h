@@ -26,7 +26,7 @@ class SheetListener {
 public:
   virtual ~SheetListener() = default;
   virtual Link onUse(const OperandUse& use) = 0;
-  virtual Link onTarget(TargetRole role, std::string_view operand, uint32_t row) = 0;
+  virtual Link onTarget(const frontend::TargetUse& target, uint32_t row) = 0;
 };
 
 // Texts of messages by number (NCT) or bit (GSK).

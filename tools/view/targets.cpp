@@ -1,26 +1,10 @@
 // See targets.h.
 #include "tools/view/targets.h"
 
-#include "rtlib/text/letters.h"
-
 namespace rung::view {
 
-TargetRole roleOf(const frontend::InstructionInfo& row, const frontend::OperandInfo& operand) {
-  if (operand.kind != "label" && operand.kind != "subprogram") return TargetRole::None;
-  // The rows that mark a place; all others go there.
-  constexpr std::string_view kMarks[] = {"LBL", "JME", "SBN"};
-  for (std::string_view mark : kMarks)
-    if (row.mnemonic == mark) return TargetRole::Defines;
-  return TargetRole::Asks;
-}
-
-uint32_t Targets::idOf(std::string_view module, std::string_view operand) {
-  std::string key = std::string(module) + '\n';
-  size_t at = 0;
-  for (; at < operand.size() && (operand[at] < '0' || operand[at] > '9'); ++at) key += text::upper(operand[at]);
-  while (at + 1 < operand.size() && operand[at] == '0') ++at;
-  key += operand.substr(at);
-  const auto [found, fresh] = ids_.emplace(std::move(key), static_cast<uint32_t>(targets_.size()));
+uint32_t Targets::idOf(const frontend::TargetUse& use) {
+  const auto [found, fresh] = ids_.emplace(std::pair(use.scope, use.number), static_cast<uint32_t>(targets_.size()));
   if (fresh) targets_.emplace_back();
   return found->second;
 }

@@ -33,7 +33,7 @@ struct Entry {
 
 class CrossReference {
 public:
-  // All must outlive it. `shown`: spaces whose cells the control shows to the operator (frontend::Dialect).
+  // All must outlive it. `shown`: spaces whose cells the control shows or passes on (frontend::Dialect).
   CrossReference(const rung_program& program, const ir::Uses& uses, std::span<const std::string_view> shown);
 
   // Places that rungs use and places of symbols, each once, in the order of addresses.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -34,7 +36,7 @@ public:
           Diagnostics& diagnostics)
       : sources_(sources), analysis_(analysis), reference_(reference), diagnostics_(diagnostics),
         used_(analysis.definitions().size()) {
-    for (const frontend::NameUse& name : analysis.names()) used_[name.definition] = true;
+    for (const frontend::NameUse& name : analysis.names()) use(name.definition);
     for (const OperandUse& operand : analysis.operands())
       if (const auto place = placeOf(operand.place)) operands_.push_back({*place, &operand});
     std::ranges::stable_sort(operands_, {}, [](const Placed& one) { return orderOf(one.place); });
@@ -62,17 +64,30 @@ private:
     return std::nullopt;
   }
 
+  // A file that several others include declares its names in each of them.
+  using Place = std::tuple<std::string_view, uint32_t, uint32_t>; // file, line, column
+  Place placeOf(const Definition& definition) const {
+    const LineCol at = sources_.lineCol(definition.range.begin);
+    return {at.file, at.line, at.column};
+  }
+  void use(uint32_t index) {
+    used_[index] = true;
+    const Definition& definition = analysis_.definitions()[index];
+    if (definition.range.valid()) settled_.insert(placeOf(definition));
+  }
   void check(const Definition& definition, bool used);
   Sides operandsAt(const ir::BitRange& place) const;
   bool isIn(SourceRange operand, uint32_t rung) const;
   void addImplicit(const ir::BitRange& place, Sides& sides) const;
+  void reportUnused(const Definition& definition);
   void report(Diag code, const Definition& definition, SourceRange operand = {});
 
   const SourceManager& sources_;
   const Analysis& analysis_;
   const CrossReference& reference_;
   Diagnostics& diagnostics_;
-  std::vector<bool> used_; // by definition
+  std::vector<bool> used_;  // by definition
+  std::set<Place> settled_; // of definitions that are used, or have been reported as unused
   std::vector<Placed> operands_;
   uint32_t longest_ = 1; // bits of an operand's place
 };
@@ -107,6 +122,10 @@ void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
   for (const xref::Access& access : reference_.perhaps(refAt(place))) sides.add(access.reads, access.writes);
 }
 
+void Checker::reportUnused(const Definition& definition) {
+  if (settled_.insert(placeOf(definition)).second) report(Diag::UnusedName, definition);
+}
+
 void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
   if (definition.comment.find(fmt::format("allow({})", diagInfo(code).code)) != std::string_view::npos) return;
   DiagBuilder report = diagnostics_.report(code, definition.range);
@@ -117,14 +136,14 @@ void Checker::report(Diag code, const Definition& definition, SourceRange operan
 void Checker::check(const Definition& definition, bool used) {
   const std::optional<ir::BitRange> place = placeOf(definition.place);
   if (!place) {
-    if (!used && definition.isConstant()) report(Diag::UnusedName, definition);
+    if (!used && definition.isConstant()) reportUnused(definition);
     return;
   }
   Sides sides = operandsAt(*place);
   const bool unused = !used && sides.operands.empty();
   if (!unused && sides.read == sides.written) return;
   addImplicit(*place, sides);
-  if (unused && !sides.read && !sides.written) return report(Diag::UnusedName, definition);
+  if (unused && !sides.read && !sides.written) return reportUnused(definition);
   if (sides.read == sides.written || reference_.uses().isRetained(*place)) return;
   const Entry entry = reference_.of(refAt(*place));
   const SourceRange operand = sides.operands.empty() ? SourceRange{} : sides.operands.front();

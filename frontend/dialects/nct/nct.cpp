@@ -140,8 +140,7 @@ private:
       switch (statement.kind) {
       case ladder::StatementKind::Module:
         module = &open(file, file.modules[statement.index]);
-        checker.emplace(symbols_, claims_, analysis_, diagnostics_,
-                        file.modules[statement.index].name[0].text != "MAIN");
+        checker.emplace(symbols_, claims_, analysis_, diagnostics_, file.modules[statement.index].name[0].text);
         break;
       case ladder::StatementKind::Rung:
         if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;

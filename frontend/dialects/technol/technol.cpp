@@ -18,6 +18,7 @@ namespace rung::frontend {
 namespace {
 
 constexpr std::string_view kExtensions[] = {".plc"};
+constexpr std::string_view kShownSpaces[] = {"IO"}; // variables of MAP_* and DEF_*
 
 uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   const auto found = options.config.find("period_us");
@@ -119,6 +120,7 @@ const Dialect kTechnol = {
     .instructions = technol::instructionInfos(),
     .operandKinds = technol::operandKindInfos(),
     .signals = nc::technolSignals,
+    .shownSpaces = kShownSpaces,
     .isBuilt = isBuilt,
     .check = check,
     .format = technol::format,

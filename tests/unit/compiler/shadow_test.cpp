@@ -25,7 +25,7 @@ struct Answering final : ScheduleHooks {
     ++requests;
     if (request.ticket % 3 != 0) return false;
     reply.resultCount = 2;
-    reply.results[0] = reply.results[1] = request.ticket * 7;
+    reply.results[0] = reply.results[1] = int64_t{request.ticket} * 7;
     return true;
   }
   Shadow* shadow = nullptr;

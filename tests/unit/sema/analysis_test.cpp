@@ -1,4 +1,4 @@
-// Programs beside what their operands name: NAME.lad or NAME.pmc with NAME.EXTENSION.names. A person has checked each
+// Programs beside what their operands name: NAME.EXTENSION with NAME.EXTENSION.names. A person has checked each
 // line against the source; a place too many is as wrong as one that is missing.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,6 +28,7 @@ public:
   std::string run() {
     for (const Definition& definition : analysis_.definitions()) add(definition);
     for (const OperandUse& operand : analysis_.operands()) add(operand);
+    for (const TargetUse& target : analysis_.targets()) add(target);
     for (const NameUse& name : analysis_.names()) add(name);
     return std::move(out_);
   }
@@ -54,6 +55,10 @@ private:
         operand.computed.empty() ? "" : fmt::format(" and '{}'", operand.computed), nameOf(operand.access),
         operand.base == kNoDefinition ? "" : fmt::format(", from {}", analysis_.definitions()[operand.base].name));
   }
+  void add(const TargetUse& target) {
+    put(out_, "{} {} {} {} of {}\n", whereIs(target.range), sources_.text(target.range),
+        target.defines ? "is number" : "leads to number", target.number, target.scope);
+  }
   void add(const NameUse& name) {
     put(out_, "{} uses {}\n", whereIs(name.range), analysis_.definitions()[name.definition].name);
   }
@@ -64,7 +69,7 @@ private:
 };
 
 TEST(SemaGolden, Names) {
-  test::Golden golden("tests/golden/sema", {".lad", ".pmc"});
+  test::Golden golden("tests/golden/sema", {".lad", ".plc", ".pmc"});
   for (const std::filesystem::path& input : golden.inputs()) {
     SourceManager sources;
     Diagnostics diagnostics;

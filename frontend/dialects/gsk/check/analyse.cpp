@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/check/analyse.h"
+#include "frontend/sema/call_graph.h"
 
 namespace rung::gsk {
 namespace {
@@ -140,16 +141,10 @@ public:
   }
 
 private:
-  struct Call {
-    uint32_t callee;
-    SourceRange range;
-  };
-
   void collect();
   void addLabel(uint32_t unit, uint32_t network);
   void resolveCalls();
   bool findCircles();
-  bool visitCalls(uint32_t unit, std::vector<uint8_t>& state);
   void checkDepth();
   void spread();
   void reach(uint32_t unit, bool Unit::* mark);
@@ -170,8 +165,8 @@ private:
   bool garbled_;
   std::map<uint32_t, Label> labels_;
   std::map<uint32_t, uint32_t> subprograms_;
-  std::vector<std::vector<Call>> calls_; // by unit
-  std::vector<uint32_t> order_;          // callees in front of their callers
+  frontend::CallGraph calls_;   // of units
+  std::vector<uint32_t> order_; // callees in front of their callers
   std::vector<bool> called_;
   bool labelLost_ = false; // one with a wrong operand: the others may be meant
   bool jumpLost_ = false;
@@ -218,34 +213,19 @@ void Analysis::resolveCalls() {
     }
     network.callee = at->second;
     called_[at->second] = true;
-    calls_[u].push_back({at->second, network.function.range});
+    calls_.add(u, at->second, network.function.range);
   });
 }
 
 // False when there is a circle.
 bool Analysis::findCircles() {
-  std::vector<uint8_t> state(program_.units.size(), 0); // 0 new, 1 under way, 2 done
-  bool good = true;
-  for (uint32_t u = 0; u < program_.units.size(); ++u)
-    if (state[u] == 0) good = visitCalls(u, state) && good;
-  return good;
-}
-
-// At most 513 deep: there are no more numbers of subprograms.
-bool Analysis::visitCalls(uint32_t unit, std::vector<uint8_t>& state) {
-  state[unit] = 1;
-  bool good = true;
-  for (const Call& call : calls_[unit]) {
-    if (state[call.callee] == 0) good = visitCalls(call.callee, state) && good;
-    if (state[call.callee] != 1) continue;
-    const std::string name = nameOf(program_.units[call.callee]);
-    const std::string through = call.callee == unit ? "" : " through " + nameOf(program_.units[unit]);
-    diagnostics_.report(Diag::RecursiveCall, call.range) << name << through;
-    good = false;
-  }
-  state[unit] = 2;
-  order_.push_back(unit);
-  return good;
+  frontend::CallGraph::Order order = calls_.order();
+  order_ = std::move(order.calleesFirst);
+  const auto nameOfUnit = [&](uint32_t unit) { return nameOf(program_.units[unit]); };
+  for (const frontend::CallGraph::Circle& circle : order.circles)
+    diagnostics_.report(Diag::RecursiveCall, circle.call.range)
+        << nameOfUnit(circle.call.callee) << frontend::CallGraph::throughText(circle, nameOfUnit);
+  return order.circles.empty();
 }
 
 void Analysis::checkDepth() {
@@ -254,7 +234,7 @@ void Analysis::checkDepth() {
   runs[kLevel1] = runs[kLevel2] = true;
   for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
     if (!runs[*at]) continue;
-    for (const Call& call : calls_[*at]) {
+    for (const frontend::CallGraph::Call& call : calls_.of(*at)) {
       runs[call.callee] = true;
       depth[call.callee] = std::max(depth[call.callee], depth[*at] + 1);
       if (depth[*at] == kMaxCallDepth) diagnostics_.report(Diag::NestingTooDeep, call.range) << kMaxCallDepth;
@@ -265,7 +245,7 @@ void Analysis::checkDepth() {
 void Analysis::reach(uint32_t unit, bool Unit::* mark) {
   if (program_.units[unit].*mark) return;
   program_.units[unit].*mark = true;
-  for (const Call& call : calls_[unit]) reach(call.callee, mark);
+  for (const frontend::CallGraph::Call& call : calls_.of(unit)) reach(call.callee, mark);
 }
 
 // Which levels run a unit, and which units a JMPC can leave.
@@ -278,7 +258,7 @@ void Analysis::spread() {
     unit.leaves =
         std::any_of(unit.networks.begin(), unit.networks.end(),
                     [](const Network& n) { return controlOf(n) == Control::Jmpc; }) ||
-        std::any_of(calls_[u].begin(), calls_[u].end(), [&](const Call& c) { return program_.units[c.callee].leaves; });
+        std::ranges::any_of(calls_.of(u), [&](const auto& call) { return program_.units[call.callee].leaves; });
   }
 }
 

@@ -153,6 +153,11 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
     return false;
   }
   if (param.value == 0) context_.diagnostics.report(Diag::LabelZero, word.range) << info.doc;
+  const Control control = function_.row->control;
+  context_.analysis.use({.range = word.range,
+                         .scope = letter == 'L' ? "L" : "P",
+                         .number = static_cast<uint32_t>(param.value),
+                         .defines = control == Control::Lbl || control == Control::Sp});
   return true;
 }
 

@@ -93,9 +93,10 @@ void OutputClaims::add(Claim claim, const Operand& operand) {
 // --- rungs
 // --------------------------------------------------------------------------------------------------------------
 RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis,
-                         Diagnostics& diagnostics, bool inInt0)
-    : symbols_(symbols), claims_(claims), analysis_(analysis), diagnostics_(diagnostics), inInt0_(inInt0),
-      handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")), fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
+                         Diagnostics& diagnostics, std::string_view module)
+    : symbols_(symbols), claims_(claims), analysis_(analysis), diagnostics_(diagnostics), module_(module),
+      inInt0_(module != "MAIN"), handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")),
+      fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
 
 TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung& rung) {
   TypedRung typed;
@@ -228,6 +229,15 @@ bool RungChecker::checkCount(const ladder::Rung& rung, const ladder::Element& el
   return false;
 }
 
+// Jumps and subroutines of a module share one set of numbers (l.2942, l.2996).
+bool RungChecker::readLabel(TypedElement& element, const Word& word) {
+  element.label = parseLabel(word, symbols_, diagnostics_);
+  if (!element.label) return false;
+  const bool defines = element.row->flow == Flow::Label || element.row->flow == Flow::Subroutine;
+  analysis_.use({.range = word.range, .scope = module_, .number = *element.label, .defines = defines});
+  return true;
+}
+
 bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   const ladder::Element& element = *typedElement.element;
   const NctInstruction& row = *typedElement.row;
@@ -236,10 +246,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   bool ok = true;
   for (size_t i = 0; i < words.size(); ++i) {
     switch (classOf(row.info.operands[i].kind)) {
-    case Class::Label:
-      typedElement.label = parseLabel(words[i], symbols_, diagnostics_);
-      ok = typedElement.label.has_value() && ok;
-      continue;
+    case Class::Label: ok = readLabel(typedElement, words[i]) && ok; continue;
     case Class::Scope:
       typed.operands.push_back(parseScopeSymbol(words[i], diagnostics_));
       ++typedElement.operandCount;

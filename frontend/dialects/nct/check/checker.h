@@ -24,7 +24,7 @@ private:
 class RungChecker {
 public:
   RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis, Diagnostics& diagnostics,
-              bool inInt0);
+              std::string_view module);
   TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
 
 private:
@@ -36,6 +36,7 @@ private:
   bool checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkCount(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool readOperands(TypedRung& typed, TypedElement& element);
+  bool readLabel(TypedElement& element, const Word& word);
   bool checkOperand(const NctInstruction& row, size_t index, const Operand& operand);
   bool checkRegister(const NctInstruction& row, size_t index, const Operand& operand);
   bool checkConstant(const NctInstruction& row, size_t index, const Operand& operand);
@@ -48,6 +49,7 @@ private:
   OutputClaims& claims_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
+  std::string_view module_; // its name, as written
   bool inInt0_;
   const nc::Signal* handwheel_; // HWMOVE
   const nc::Signal* fastClock_; // N_P2MS

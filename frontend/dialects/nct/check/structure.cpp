@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/sema/call_graph.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -207,35 +208,14 @@ private:
     }
   }
 
-  // Depth-first over at most 101 bodies; a call to a body that is still open closes a circle.
   void checkRecursion() {
-    std::vector<std::vector<const Reference*>> callsOf(module_.bodies.size());
+    frontend::CallGraph graph(module_.bodies.size());
     for (const Reference& call : calls_)
-      if (module_.subroutines[call.number]) callsOf[bodyOf(call.rung)].push_back(&call);
-    enum class State : uint8_t { New, Open, Done };
-    std::vector<State> states(module_.bodies.size(), State::New);
-    std::vector<uint32_t> path;
-    const auto walk = [&](const auto& self, uint32_t body) -> void {
-      states[body] = State::Open;
-      path.push_back(body);
-      for (const Reference* call : callsOf[body]) {
-        const uint32_t callee = *module_.subroutines[call->number];
-        if (states[callee] == State::Open) reportCircle(path, callee, *call);
-        if (states[callee] == State::New) self(self, callee);
-      }
-      path.pop_back();
-      states[body] = State::Done;
-    };
-    for (uint32_t body = 0; body < module_.bodies.size(); ++body)
-      if (states[body] == State::New) walk(walk, body);
-  }
-
-  void reportCircle(const std::vector<uint32_t>& path, uint32_t callee, const Reference& call) {
-    std::string through;
-    for (auto body = std::ranges::find(path, callee) + 1; body != path.end(); ++body)
-      through += fmt::format("{}{}", through.empty() ? " through " : ", ", numberOf(module_.bodies[*body]));
-    diagnostics_.report(Diag::RecursiveCall, call.range)
-        << fmt::format("subroutine {}", numberOf(module_.bodies[callee])) << through;
+      if (const auto& callee = module_.subroutines[call.number]) graph.add(bodyOf(call.rung), *callee, call.range);
+    const auto nameOf = [&](uint32_t body) { return fmt::format("{}", numberOf(module_.bodies[body])); };
+    for (const frontend::CallGraph::Circle& circle : graph.order().circles)
+      diagnostics_.report(Diag::RecursiveCall, circle.call.range)
+          << "subroutine " + nameOf(circle.call.callee) << frontend::CallGraph::throughText(circle, nameOf);
   }
 
   // Of a body that is called: the main part, which has none, is not.

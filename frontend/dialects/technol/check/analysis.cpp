@@ -35,7 +35,9 @@ NamedPlace placeOf(const Symbol& symbol) {
 Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   Definition definition{.name = symbol.name};
   definition.place = placeOf(symbol);
-  if (symbol.predeclared || !symbol.declared.valid()) return definition;
+  // Of a mechanism the compiler declares the line, and of a macro's use its own names: no source has them.
+  const bool written = symbol.declared.valid() && sources.text(symbol.declared) == symbol.name;
+  if (symbol.predeclared || !written) return definition;
   const Declared declared = declaredAt(sources, symbol.declared);
   definition.range = symbol.declared;
   definition.comment = declared.comment;
@@ -47,7 +49,7 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
 NamedPlace placeOf(const Operand& operand) {
   if (!operand.place.space.valid()) return {};
   const std::string_view space = kSpaces[operand.place.space.index];
-  const uint32_t byte = operand.place.byte * 8;
+  const uint32_t byte = (operand.indexed ? static_cast<uint32_t>(operand.value) : operand.place.byte) * 8;
   switch (operand.form) {
   case Operand::Form::Bit: return {space, byte + operand.place.bit, 1};
   case Operand::Form::Cell:

@@ -12,7 +12,7 @@ struct CheckContext {
   const Statement& statement;
   Equation& equation;
   Mixing& mixing;
-  CallGraph& calls;
+  ProcedureCalls& calls;
 
   DiagBuilder report(Diag id, SourceRange at) const { return program.diagnostics.report(id, at); }
   // False: the report is wrong-operand-kind.

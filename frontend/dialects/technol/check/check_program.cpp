@@ -10,7 +10,7 @@ namespace {
 // Of a module in one file: nothing is open where it begins.
 class PartChecker {
 public:
-  PartChecker(Program& program, TypedProgram& typed, OperandParser& parser, CallGraph& calls)
+  PartChecker(Program& program, TypedProgram& typed, OperandParser& parser, ProcedureCalls& calls)
       : program_(program), typed_(typed), parser_(parser), calls_(calls), equation_(program.diagnostics),
         lost_(program.diagnostics), mixing_(program.diagnostics) {}
 
@@ -29,7 +29,7 @@ private:
   Program& program_;
   TypedProgram& typed_;
   OperandParser& parser_;
-  CallGraph& calls_;
+  ProcedureCalls& calls_;
   Equation equation_;
   LostRegisters lost_;
   Mixing mixing_;
@@ -84,7 +84,7 @@ TypedProgram checkProgram(Program& program) {
   TypedProgram typed;
   typed.statements.resize(program.statements.size());
   OperandParser parser(program, typed.names);
-  CallGraph calls(program);
+  ProcedureCalls calls(program);
   for (const ModulePart& part : program.parts)
     if (part.kind != ModuleKind::Data) PartChecker(program, typed, parser, calls).check(part);
   calls.check(program);

@@ -1,0 +1,42 @@
+// Which routines of a program call which; they are numbered as the dialect wants.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ir/support/source.h"
+
+namespace rung::frontend {
+
+class CallGraph {
+public:
+  struct Call {
+    uint32_t callee = 0;
+    SourceRange range;
+  };
+  explicit CallGraph(size_t routines) : calls_(routines) {}
+  void add(uint32_t caller, uint32_t callee, SourceRange at) { calls_[caller].push_back({callee, at}); }
+  std::span<const Call> of(uint32_t caller) const { return calls_[caller]; }
+
+  // Calls that lead back to where they come from: `call` closes the circle, `through` are the routines between its
+  // callee and itself, in the order of their calls.
+  struct Circle {
+    Call call;
+    std::vector<uint32_t> through;
+  };
+  struct Order {
+    std::vector<Circle> circles;
+    std::vector<uint32_t> calleesFirst; // all routines; with circles not all of them before their callers
+  };
+  Order order() const;
+
+  // " through A, B" for a message; "" where a routine calls itself.
+  static std::string throughText(const Circle& circle, const std::function<std::string(uint32_t)>& nameOf);
+
+private:
+  std::vector<std::vector<Call>> calls_; // by caller
+};
+
+} // namespace rung::frontend

@@ -1,0 +1,9 @@
+// libFuzzer target: any bytes as NCT text, for what tools ask of its names; a byte 0x0C begins the next file of the
+// program.
+#include "frontend/dialects/nct/nct.h"
+#include "tests/fuzz/names_bytes.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  rung::fuzz::nameBytes(rung::nct::kNct, ".lad", '\f', std::string(reinterpret_cast<const char*>(data), size));
+  return 0;
+}

@@ -196,7 +196,7 @@ class Attacks(SourceHost):
                      "/dev/zero", "../../../../etc/shadow"):
             answer = self.including(path)
             self.assertEqual(answer["state"], "errors", answer)
-            self.assertIn(f"main.plc:2:11: error: ", answer["report"])
+            self.assertIn(f"main.plc:2:19: error: ", answer["report"])
             self.assertIn("[include-not-found]", answer["report"])
             self.assertNotIn("EQUI", answer["report"])
         self.assertScans()
@@ -221,7 +221,7 @@ class Attacks(SourceHost):
                               extra_groups=[], capture_output=True, text=True, timeout=60,
                               env={**os.environ, "RUNG_COMPILE": str(folder / "rung-compile"), "RUNG_SOCKETS": "/tmp/none"})
         self.assertEqual(done.returncode, ENVIRONMENT)
-        self.assertIn("main.plc:2:11: error: ", done.stderr)
+        self.assertIn("main.plc:2:19: error: ", done.stderr)
         self.assertNotIn("SECRET", done.stderr)
 
     def test_a_gigabyte_of_source(self):

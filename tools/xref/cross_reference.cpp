@@ -14,14 +14,15 @@ using ir::BitRange;
 
 auto orderOf(const BitRange& place) { return std::tuple(place.space.index, place.first, place.count); }
 
-// A rung and a place have one entry, for reads and writes.
+// A rung and a place have one entry, for reads and writes. Accesses come by place, and of one place by rung.
 void addAccess(std::vector<Access>& accesses, const Access& access) {
-  const auto same = std::ranges::find_if(accesses, [&](const Access& a) {
-    return a.rung == access.rung && a.as == access.as && a.indexed == access.indexed;
-  });
-  if (same == accesses.end()) return accesses.push_back(access);
-  same->reads |= access.reads;
-  same->writes |= access.writes;
+  for (auto at = accesses.rbegin(); at != accesses.rend() && at->rung == access.rung && at->as == access.as; ++at) {
+    if (at->indexed != access.indexed) continue;
+    at->reads |= access.reads;
+    at->writes |= access.writes;
+    return;
+  }
+  accesses.push_back(access);
 }
 
 } // namespace

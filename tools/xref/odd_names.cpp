@@ -71,13 +71,16 @@ private:
     return {at.file, at.line, at.column};
   }
   void use(uint32_t index) {
+    if (used_[index]) return;
     used_[index] = true;
     const Definition& definition = analysis_.definitions()[index];
     if (definition.range.valid()) settled_.insert(placeOf(definition));
   }
   void check(const Definition& definition, bool used);
   Sides operandsAt(const ir::BitRange& place) const;
-  bool isIn(SourceRange operand, uint32_t rung) const;
+  using Line = std::pair<std::string_view, uint32_t>;
+  std::vector<Line> linesOf(const std::vector<SourceRange>& operands) const;
+  bool isIn(const std::vector<Line>& lines, uint32_t rung) const; // some of them
   void addImplicit(const ir::BitRange& place, Sides& sides) const;
   void reportUnused(const Definition& definition);
   void report(Diag code, const Definition& definition, SourceRange operand = {});
@@ -106,19 +109,32 @@ Sides Checker::operandsAt(const ir::BitRange& place) const {
   return sides;
 }
 
-bool Checker::isIn(SourceRange operand, uint32_t rung) const {
+// File and line of each, sorted.
+std::vector<Checker::Line> Checker::linesOf(const std::vector<SourceRange>& operands) const {
+  std::vector<Line> lines;
+  for (const SourceRange operand : operands) {
+    const LineCol at = sources_.lineCol(operand.begin);
+    lines.emplace_back(at.file, at.line);
+  }
+  std::ranges::sort(lines);
+  return lines;
+}
+
+bool Checker::isIn(const std::vector<Line>& lines, uint32_t rung) const {
   const rung_program& program = reference_.program();
   const rung_rung_info& info = program.rungs[rung];
-  const LineCol at = sources_.lineCol(operand.begin);
-  return info.file != RUNG_NONE && at.file == program.files[info.file] && at.line >= info.first_line &&
-         at.line <= info.last_line;
+  if (info.file == RUNG_NONE) return false;
+  const std::string_view file = program.files[info.file];
+  const auto at = std::ranges::lower_bound(lines, Line(file, info.first_line));
+  return at != lines.end() && at->first == file && at->second <= info.last_line;
 }
 
 // What no operand says. A rung that has an operand there does what that says: a coil that sets a bit also reads it.
 void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
+  const std::vector<Line> lines = linesOf(sides.operands);
   for (const xref::Access& access : reference_.accessesOf(place))
-    if (std::ranges::none_of(sides.operands, [&](SourceRange operand) { return isIn(operand, access.rung); }))
-      sides.add(access.reads, access.writes);
+    if (!isIn(lines, access.rung)) sides.add(access.reads, access.writes);
+  if (sides.read && sides.written) return;
   for (const xref::Access& access : reference_.perhaps(refAt(place))) sides.add(access.reads, access.writes);
 }
 

@@ -54,7 +54,7 @@ TEST_F(Collecting, SaysWhatIsMissing) {
   for (const char* name : {"main.plc", "pump.plc"}) fs::copy_file(fs::path(kTemplate) / name, folder_ / name);
   const Collected collected = collect({path("main.plc"), path("pump.plc")});
   EXPECT_FALSE(collected.sources);
-  EXPECT_THAT(collected.report, HasSubstr(path("main.plc") + ":2:11: error: "));
+  EXPECT_THAT(collected.report, HasSubstr(path("main.plc") + ":2:19: error: "));
   EXPECT_THAT(collected.diagnostics, HasSubstr("\"include-not-found\""));
 }
 

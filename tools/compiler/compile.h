@@ -28,8 +28,8 @@ struct CompileRequest {
   bool instrument = false;          // count and time rungs
   bool marks = false;               // note contacts and coils; the module stays as it was built
   bool optimise = true;
-  bool activity = false;  // hosts may leave out chunks that would change nothing
-  bool keepBuilt = false; // for those who make its code again (recompiler.h)
+  bool activity = false;   // hosts may leave out chunks that would change nothing
+  bool keepBuilt = false;  // for those who make its code again (recompiler.h)
   bool keepSource = false; // keep what the front end knows of the text
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
@@ -47,8 +47,8 @@ struct Compiled {
   std::unique_ptr<ir::Uses> uses;   // of the module as the dialect made it
   // Where it was asked for: for its analysis alone, as it has been built.
   std::unique_ptr<const frontend::CheckedProgram> source;
-  uint64_t codeHash = 0;            // of the IR's text
-  size_t warnings = 0;              // that were reported on the way
+  uint64_t codeHash = 0; // of the IR's text
+  size_t warnings = 0;   // that were reported on the way
 };
 
 // Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.

@@ -37,7 +37,7 @@ struct CompileOptions {
   }
 };
 
-// A program after its check. The sources and the options that it was made of must outlive it.
+// A program after its check. The sources that it was made of must outlive it.
 class CheckedProgram {
 public:
   virtual ~CheckedProgram() = default;

@@ -51,7 +51,7 @@ public:
 
 private:
   const std::vector<FileId> files_;
-  const frontend::CompileOptions& options_;
+  const frontend::CompileOptions options_;
   Context context_;
   Program program_;
   std::vector<ir::MessageText> texts_;

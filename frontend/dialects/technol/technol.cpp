@@ -75,7 +75,7 @@ public:
 
 private:
   const std::vector<FileId> files_;
-  const CompileOptions& options_;
+  const CompileOptions options_;
   technol::Program program_;
   uint32_t period_ = technol::kDefaultPeriodUs;
   technol::TypedProgram typed_;

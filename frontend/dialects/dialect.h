@@ -69,7 +69,8 @@ struct Dialect {
   // A file in the one style of its form: only blanks, blank lines and the case of mnemonics of a list differ. It needs
   // no other file and knows no names. Nothing where there are mistakes in how it is written; they have been reported.
   std::optional<std::string> (*format)(SourceManager& sources, FileId file, Diagnostics& diagnostics);
-  // The names of the files that a program's files include, as far as they are found. Null where there is no such thing.
+  // The names of the files that a program's files include, as far as they are found. Null when the dialect has no such
+  // thing.
   std::vector<std::string> (*included)(SourceManager& sources, std::span<const FileId> files,
                                        const CompileOptions& options) = nullptr;
   // Sections of the reference page behind the instructions, in Markdown; null when there are none.

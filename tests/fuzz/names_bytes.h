@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include "ir/layout/program_image.h"
 #include "ir/support/check.h"
 #include "tests/fuzz/split_files.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
+#include "tools/xref/module_reference.h"
 #include "tools/xref/odd_names.h"
 
 namespace rung::fuzz {
@@ -40,10 +40,8 @@ inline void nameBytes(const frontend::Dialect& dialect, std::string_view extensi
   if (diagnostics.hasErrors()) return;
   const auto module = program->build();
   if (module == nullptr) return;
-  const ir::Layout layout(*module, {});
-  const ir::ProgramImage image(layout, 0);
-  const ir::Uses uses(*module);
-  const xref::CrossReference reference(image.program(), uses, dialect.shownSpaces);
+  const xref::ModuleReference whole(*module, dialect.shownSpaces);
+  const xref::CrossReference& reference = whole.get();
   for (const xref::Entry& entry : reference.all()) xref::oddity(entry);
   xref::reportOddNames(sources, program->analysis(), reference, diagnostics);
   if (!view::hasDrawing(dialect)) return;

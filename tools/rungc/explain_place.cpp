@@ -5,11 +5,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "ir/layout/program_image.h"
 #include "ir/support/put.h"
 #include "rtlib/text/number.h"
 #include "tools/rungc/commands.h"
-#include "tools/xref/cross_reference.h"
+#include "tools/xref/module_reference.h"
 #include "tools/xref/place_names.h"
 
 namespace rung::rungc {
@@ -77,12 +76,8 @@ private:
   }
   void uses(const frontend::NamedPlace& place) {
     if (reference_ == nullptr) return;
-    const rung_program& program = reference_->program();
-    for (uint32_t i = 0; i < program.space_count && place.bits != 0; ++i) {
-      if (place.space != program.spaces[i].name) continue;
-      const auto entry = reference_->of(xref::refAt({ir::SpaceId{i}, place.firstBit, place.bits}));
-      put(out_, "\n{}", xref::shownAsText(*reference_, {entry}, true));
-    }
+    const auto bits = xref::rangeOf(reference_->program(), place);
+    if (bits) put(out_, "\n{}", xref::shownAsText(*reference_, {reference_->of(xref::refAt(*bits))}, true));
   }
   void targets(const frontend::TargetUse& here) {
     put(out_, "{}: {}\n", sources_.text(here.range), here.defines ? "a place in the program" : "control goes there");
@@ -135,11 +130,8 @@ std::string explainIn(const SourceManager& sources, const frontend::Dialect& dia
   Explainer explainer(sources, program.analysis(), at);
   const auto module = diagnostics.hasErrors() ? nullptr : program.build();
   if (module == nullptr) return explainer.run(nullptr);
-  const ir::Layout layout(*module, {});
-  const ir::ProgramImage image(layout, 0);
-  const ir::Uses uses(*module);
-  const xref::CrossReference reference(image.program(), uses, dialect.shownSpaces);
-  return explainer.run(&reference);
+  const xref::ModuleReference reference(*module, dialect.shownSpaces);
+  return explainer.run(&reference.get());
 }
 
 } // namespace

@@ -1,8 +1,10 @@
 // Compiles a program for what its drawing says of names and uses (see drawn_program.h).
 #include "tools/view/drawn_program.h"
 
+#include <algorithm>
+
 #include "frontend/dialects/gsk/gsk.h"
-#include "ir/layout/program_image.h"
+#include "tools/xref/module_reference.h"
 
 namespace rung::view {
 namespace {
@@ -21,20 +23,19 @@ bool hasDrawing(const frontend::Dialect& dialect) { return dialect.findBox != nu
 std::optional<Program> drawnProgram(SourceManager& sources, std::span<const FileId> files,
                                     const frontend::Dialect& dialect, const frontend::CompileOptions& options,
                                     Diagnostics& diagnostics) {
-  const auto module = dialect.compile(sources, files, options, diagnostics);
+  const size_t before = diagnostics.errorCount();
+  auto program = dialect.check(sources, files, options, diagnostics);
+  const auto module = diagnostics.errorCount() == before ? program->build() : nullptr;
   if (module == nullptr) return std::nullopt;
   const auto ladders = laddersOf(dialect, sources, files, options, diagnostics);
   if (!ladders) return std::nullopt;
   Diagnostics unheard; // the same program: reported already
-  const auto drawn = dialect.check(sources, ladders->files, options, unheard);
-  const ir::Layout layout(*module, {});
-  const ir::ProgramImage image(layout, 0);
-  const ir::Uses uses(*module);
-  const xref::CrossReference reference(image.program(), uses, dialect.shownSpaces);
+  if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, unheard);
+  const xref::ModuleReference reference(*module, dialect.shownSpaces);
   return readProgram(sources, {.dialect = &dialect,
                                .files = ladders->files,
-                               .analysis = &drawn->analysis(),
-                               .reference = &reference,
+                               .analysis = &program->analysis(),
+                               .reference = &reference.get(),
                                .messages = module->messages,
                                .origins = {ladders->networks, ladders->elements},
                                .authors = {files.begin(), files.end()}});

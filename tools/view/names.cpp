@@ -10,8 +10,6 @@ namespace rung::view {
 Names::Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis,
              const xref::CrossReference& reference)
     : analysis_(analysis), reference_(reference) {
-  const rung_program& program = reference.program();
-  for (uint32_t i = 0; i < program.space_count; ++i) spaces_.emplace(program.spaces[i].name, i);
   addDefinitions();
   addSignals(dialect);
 }
@@ -39,9 +37,7 @@ void Names::addSignals(const frontend::Dialect& dialect) {
 }
 
 std::optional<ir::BitRange> Names::placeOf(const frontend::NamedPlace& place) const {
-  const auto space = spaces_.find(place.space);
-  if (space == spaces_.end() || place.bits == 0) return std::nullopt;
-  return ir::BitRange{ir::SpaceId{space->second}, place.firstBit, place.bits};
+  return xref::rangeOf(reference_.program(), place);
 }
 
 std::string Names::textOf(const ir::BitRange& place) const {

@@ -47,7 +47,6 @@ private:
 
   const frontend::Analysis& analysis_;
   const xref::CrossReference& reference_;
-  std::map<std::string_view, uint32_t> spaces_;
   std::map<std::string, Known> byAddress_; // the first name of a place; declared ones come first
   std::map<SourcePos, uint32_t> declared_; // where: the definition
   std::map<std::string, Named> places_;    // that were asked for, by address and length

@@ -2,28 +2,23 @@
 #include "tools/view/use_index.h"
 
 #include <algorithm>
-#include <tuple>
+
+#include "tools/xref/place_search.h"
 
 namespace rung::view {
-namespace {
-
-auto orderOf(const ir::BitRange& place) { return std::tuple(place.space.index, place.first); }
-
-} // namespace
 
 void UseIndex::settle() {
   if (longest_ != 0) return;
   longest_ = 1;
   for (const Drawn& drawn : drawn_) longest_ = std::max(longest_, drawn.place.count);
-  std::ranges::stable_sort(drawn_, {}, [](const Drawn& drawn) { return orderOf(drawn.place); });
+  std::ranges::stable_sort(drawn_, {}, [](const Drawn& drawn) { return xref::startOf(drawn.place); });
 }
 
 std::vector<Use> UseIndex::drawnAt(const ir::BitRange& place) const {
   std::vector<Use> uses;
-  const auto earliest = std::tuple(place.space.index, place.first - std::min(place.first, longest_));
-  for (auto at = std::ranges::lower_bound(drawn_, earliest, {}, [](const Drawn& d) { return orderOf(d.place); });
-       at != drawn_.end() && orderOf(at->place) < std::tuple(place.space.index, place.first + place.count); ++at)
-    if (overlap(at->place, place)) uses.push_back(at->use);
+  xref::forEachAt(
+      place, drawn_, longest_, [](const Drawn& drawn) { return drawn.place; },
+      [&](const Drawn& drawn) { uses.push_back(drawn.use); });
   return uses;
 }
 

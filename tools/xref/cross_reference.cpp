@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "tools/xref/place_names.h"
+#include "tools/xref/place_search.h"
 
 namespace rung::xref {
 namespace {
@@ -71,12 +72,9 @@ std::vector<Entry> CrossReference::all() const {
 
 std::vector<Access> CrossReference::accessesOf(const BitRange& bits) const {
   std::vector<Access> accesses;
-  const BitRange earliest{bits.space, bits.first - std::min(bits.first, longest_), 0};
-  const auto element = [](const Use& use) { return orderOf(use.access.as); };
-  for (auto use = std::ranges::lower_bound(sorted_, orderOf(earliest), {}, element);
-       use != sorted_.end() && use->access.as.space == bits.space && use->access.as.first < bits.first + bits.count;
-       ++use)
-    if (overlap(use->access.as, bits)) addAccess(accesses, use->access);
+  forEachAt(
+      bits, sorted_, longest_, [](const Use& use) { return use.access.as; },
+      [&](const Use& use) { addAccess(accesses, use.access); });
   std::ranges::stable_sort(accesses, {}, &Access::rung);
   return accesses;
 }

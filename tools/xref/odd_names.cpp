@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tools/xref/place_names.h"
+#include "tools/xref/place_search.h"
 
 namespace rung::xref {
 namespace {
@@ -38,8 +39,8 @@ public:
         used_(analysis.definitions().size()) {
     for (const frontend::NameUse& name : analysis.names()) use(name.definition);
     for (const OperandUse& operand : analysis.operands())
-      if (const auto place = placeOf(operand.place)) operands_.push_back({*place, &operand});
-    std::ranges::stable_sort(operands_, {}, [](const Placed& one) { return orderOf(one.place); });
+      if (const auto place = rangeOf(reference.program(), operand.place)) operands_.push_back({*place, &operand});
+    std::ranges::stable_sort(operands_, {}, [](const Placed& one) { return startOf(one.place); });
     for (const Placed& one : operands_) longest_ = std::max(longest_, one.place.count);
   }
 
@@ -55,14 +56,6 @@ private:
     ir::BitRange place;
     const OperandUse* operand;
   };
-  static std::pair<uint32_t, uint32_t> orderOf(const ir::BitRange& place) { return {place.space.index, place.first}; }
-
-  std::optional<ir::BitRange> placeOf(const frontend::NamedPlace& place) const {
-    const rung_program& program = reference_.program();
-    for (uint32_t i = 0; i < program.space_count && place.bits != 0; ++i)
-      if (place.space == program.spaces[i].name) return ir::BitRange{ir::SpaceId{i}, place.firstBit, place.bits};
-    return std::nullopt;
-  }
 
   // A file that several others include declares its names in each of them.
   using Place = std::tuple<std::string_view, uint32_t, uint32_t>; // file, line, column
@@ -97,15 +90,12 @@ private:
 
 Sides Checker::operandsAt(const ir::BitRange& place) const {
   Sides sides;
-  const std::pair earliest{place.space.index, place.first - std::min(place.first, longest_)};
-  for (auto at =
-           std::ranges::lower_bound(operands_, earliest, {}, [](const Placed& one) { return orderOf(one.place); });
-       at != operands_.end() && orderOf(at->place) < std::pair(place.space.index, place.first + place.count); ++at) {
-    if (!overlap(at->place, place)) continue;
-    const Access access = at->operand->access;
+  const auto add = [&](const Placed& one) {
+    const Access access = one.operand->access;
     sides.add(access == Access::Read || access == Access::ReadWrite, access != Access::Read);
-    sides.operands.push_back(at->operand->range);
-  }
+    sides.operands.push_back(one.operand->range);
+  };
+  forEachAt(place, operands_, longest_, [](const Placed& one) { return one.place; }, add);
   return sides;
 }
 
@@ -150,7 +140,7 @@ void Checker::report(Diag code, const Definition& definition, SourceRange operan
 }
 
 void Checker::check(const Definition& definition, bool used) {
-  const std::optional<ir::BitRange> place = placeOf(definition.place);
+  const std::optional<ir::BitRange> place = rangeOf(reference_.program(), definition.place);
   if (!place) {
     if (!used && definition.isConstant()) reportUnused(definition);
     return;

@@ -32,6 +32,12 @@ ir::BitRange bitsOf(const Ref& place) {
   return {ir::SpaceId{place.space}, place.byte * 8, place.width * place.count};
 }
 
+std::optional<ir::BitRange> rangeOf(const rung_program& program, const frontend::NamedPlace& place) {
+  for (uint32_t i = 0; i < program.space_count && place.bits != 0; ++i)
+    if (place.space == program.spaces[i].name) return ir::BitRange{ir::SpaceId{i}, place.firstBit, place.bits};
+  return std::nullopt;
+}
+
 std::optional<ir::BitRange> knownPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
   const auto isHidden = [&](const ir::BitRange& range) {
     return (program.spaces[range.space.index].flags & RUNG_SPACE_HIDDEN) != 0;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "frontend/sema/analysis.h"
 #include "ir/uses/uses.h"
 #include "rtlib/host/instance.h"
 
@@ -13,6 +14,8 @@ host::Ref refOf(const ir::Use& use);
 // A bit, or whole bytes.
 host::Ref refAt(const ir::BitRange& bits);
 ir::BitRange bitsOf(const host::Ref& place);
+// What the front end calls a place. Nothing for none, and for a space that the program lacks.
+std::optional<ir::BitRange> rangeOf(const rung_program& program, const frontend::NamedPlace& place);
 
 // Where a user would look for it: a latch that the compiler made is what it was copied from. Nothing for what has no
 // name.

@@ -166,7 +166,7 @@ private:
   std::map<uint32_t, Label> labels_;
   std::map<uint32_t, uint32_t> subprograms_;
   frontend::CallGraph calls_;   // of units
-  std::vector<uint32_t> order_; // callees in front of their callers
+  std::vector<uint32_t> order_; // callees before their callers
   std::vector<bool> called_;
   bool labelLost_ = false; // one with a wrong operand: the others may be meant
   bool jumpLost_ = false;

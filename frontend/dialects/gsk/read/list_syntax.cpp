@@ -51,7 +51,7 @@ std::optional<Command> findCommand(std::string_view text) {
   return static_cast<Command>(at - kCommandNames.begin());
 }
 
-// The words behind the step number (the S/N column).
+// The words after the step number (the S/N column).
 std::span<const Word> statementOf(const LineWords& line) {
   std::span<const Word> words(line.words);
   if (!words.empty() && parseDigits(words[0].text)) words = words.subspan(1);

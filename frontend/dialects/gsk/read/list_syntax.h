@@ -15,7 +15,7 @@ inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separato
 // In any case; nullopt when there is none.
 std::optional<Command> findCommand(std::string_view name);
 constexpr bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
-// The words behind the step number.
+// The words after the step number.
 std::span<const Word> statementOf(const LineWords& line);
 
 // Whether all characters may be outside comments; one that may not is reported by checkCharacters.

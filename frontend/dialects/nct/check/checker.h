@@ -1,4 +1,4 @@
-// Checks the rungs of a program one by one: what each element is, where it stands, what its operands are.
+// Checks the rungs of a program one by one: what each element is, where it may be, what its operands are.
 #pragma once
 #include <unordered_map>
 

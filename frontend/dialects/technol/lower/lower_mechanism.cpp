@@ -9,7 +9,7 @@ using ir::ValueId;
 
 namespace {
 
-// While the condition fails the unit is left without moving its continuation; the line shows where it stands.
+// While the condition fails the unit is left without moving its continuation; the line shows which step it has reached.
 ValueId waits(StatementContext& l, int level) { return level == 0 ? l.b().not_(l.r().rlo()) : l.r().rlo(); }
 
 // The time in the width of the count: the wait ends at the latest when the count can go no further.

@@ -10,7 +10,7 @@ public:
   explicit Procedures(Memory& memory);
 
   ir::RoutineId routine(uint32_t procedure) const { return routines_[procedure]; }
-  // `depth`: values on the stack of the equation in which the call stands; they stay as they are.
+  // `depth`: values on the stack of the equation that contains the call; they are kept.
   void call(uint32_t procedure, uint32_t depth, ir::ValueId cond = {});
   // Of messages, or kNone.
   uint32_t onMessage() const { return onMessage_; }

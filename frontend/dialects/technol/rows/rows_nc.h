@@ -19,14 +19,9 @@ inline constexpr OperandInfo kNewInput = out("bit", kNewBit, "is declared");
 inline constexpr OperandInfo kNewCell = out("val", kNewReal, "is declared");
 inline constexpr OperandInfo kNewName = out("val", kNewVariable, "is declared");
 inline constexpr OperandInfo kExchangeType = in("type", "type", "of the variable");
-inline constexpr OperandInfo kDefaultBit = {.name = "def",
-                                            .kind = "default bit",
-                                            .doc = "value where there is no configuration",
-                                            .min = 0,
-                                            .max = 1,
-                                            .optional = true};
-inline constexpr OperandInfo kDefaultReal =
-    optional(in("def", "default real", "value where there is no configuration"));
+inline constexpr OperandInfo kDefaultBit = {
+    .name = "def", .kind = "default bit", .doc = "value without configuration", .min = 0, .max = 1, .optional = true};
+inline constexpr OperandInfo kDefaultReal = optional(in("def", "default real", "value without configuration"));
 inline constexpr OperandInfo kDefaultValue = {.name = "def",
                                               .kind = "default value",
                                               .doc = "value where nothing is connected",

@@ -235,16 +235,16 @@ def single():
     pins(lamp_single=True)
     command.program_open(os.path.abspath("single.ngc"))
     command.wait_complete(PATIENCE)
-    seen = []
-    for _ in range(12):
+    seen = [round(position(0), 3)]
+    while seen[-1] != 3 and len(seen) < 12:
         start()
-        time.sleep(0.3)
+        wait("the end of the block", lambda: polled().inpos)
         seen.append(round(position(0), 3))
-        if polled().interp_state == linuxcnc.INTERP_IDLE:
-            break
-    check([x for i, x in enumerate(seen) if i == 0 or seen[i - 1] != x][-3:] == [1, 2, 3], f"single blocks: {seen}")
+    check(seen == sorted(seen) and set(seen) == {0, 1, 2, 3}, f"single blocks: {seen}")
     press("single")
     pins(lamp_single=False)
+    start()
+    wait("the end", lambda: polled().interp_state == linuxcnc.INTERP_IDLE)
 
 
 def alarm():

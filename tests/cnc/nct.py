@@ -152,7 +152,7 @@ def functions():
 
 def part():
     """A part program from the panel: start, stop, single block, feed switch, optional stop."""
-    load("M3 S600\nM8\nG1 X-30 F1200\nG1 X-5\nM9\nM1\nM5\nM30\n")
+    load("M3 S600\nM8\nG1 X-30 F1200\nG0 X-5\nM9\nM1\nM5\nM30\n")
     press("key-start")
     pins(started=True, lamp_start=True)
     wait("x cuts", lambda: position("x") < -7)

@@ -57,6 +57,8 @@ def prepare(bench, options):
     for name, (source, map_file, _, _) in MACHINES.items():
         for end in ("", "-again"):
             bench.programs.add(compiled(bench.rungc, ROOT / source, bench.home / f"{name}{end}.so"))
+        for texts in (ROOT / source).glob("*.PlcErrors"):  # the map names them in the folder above its own
+            shutil.copy(texts, bench.home.parent)
         text = (ROOT / map_file).read_text(encoding="utf-8")
         bench.file(name + ".map", text if "[rungctl]" in text else text + ALLOW)
     bench.programs.add(compiled(bench.rungc, bench.file("bits.pmc", ladders.gsk(RUNGS)), bench.home / "bits.so"))

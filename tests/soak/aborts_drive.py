@@ -105,7 +105,7 @@ def check_quiet(kind):
     end = time.monotonic() + 0.05
     while time.monotonic() < end:
         check(quiet(), f"not quiet any more: {levels()}")
-        check(tuple(status.position[:3]) == before, "an axis moves")
+        check(tuple(status.position[:3]) == before, f"an axis moves from {before} to {status.position[:3]}")
 
 
 def recover(kind):

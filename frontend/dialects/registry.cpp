@@ -5,7 +5,7 @@
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/nct/nct.h"
 #include "frontend/dialects/technol/technol.h"
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend {

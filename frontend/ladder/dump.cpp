@@ -1,8 +1,7 @@
 // The text form of a rung's elements and nets, for tests and for looking at.
-
 #include <fmt/format.h>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/rung.h"
 #include "ir/support/put.h"
 
 namespace rung::ladder {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <queue>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/rung.h"
 
 namespace rung::ladder {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "ir/support/diag_render.h"
 
 namespace {

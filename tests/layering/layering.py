@@ -11,7 +11,7 @@ FRONTEND = {"ir/support", "ir/core", "ir/idioms", "rtlib/abi", "rtlib/nc"}
 IR = {"ir/support", "ir/core", "rtlib/abi"}
 ALL_IR = IR | {"ir/idioms", "ir/text", "ir/verify", "ir/passes", "ir/layout", "ir/interp"}
 DIALECT = FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
-                      "frontend/mnemonic", "frontend/dialects"}
+                      "frontend/ladder/text", "frontend/dialects"}
 DIALECTS = {f"frontend/dialects/{name}" for name in ("gsk", "nct", "technol")}
 EVERYBODYS = "rtlib/text"  # header files that include nothing of ours
 MODULES = {
@@ -36,8 +36,8 @@ MODULES = {
     "ir/random": IR,
     "frontend/syntax": FRONTEND,
     "frontend/table": FRONTEND | {"frontend/syntax"},
-    "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},
-    "frontend/mnemonic": FRONTEND | {"frontend/syntax", "frontend/table"},
+    "frontend/ladder": FRONTEND | {"frontend/syntax"},
+    "frontend/ladder/text": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/ladder"},
     "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
     "frontend/lower": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema"},
     "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects

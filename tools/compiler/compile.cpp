@@ -6,7 +6,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "ir/passes/passes.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"

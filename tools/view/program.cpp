@@ -10,7 +10,7 @@
 
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/read/canonical.h"
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 #include "tools/view/names.h"

@@ -8,7 +8,7 @@
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/convert/convert.h"
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "tools/view/sheet.h"
 #include "tools/xref/cross_reference.h"
 

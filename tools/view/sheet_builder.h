@@ -5,7 +5,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "tools/view/names.h"
 #include "tools/view/sheet.h"
 #include "tools/view/targets.h"

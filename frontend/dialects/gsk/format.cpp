@@ -10,7 +10,7 @@
 #include "frontend/dialects/gsk/read/ladder_reader.h"
 #include "frontend/dialects/gsk/read/list_reader.h"
 #include "frontend/dialects/gsk/read/reading.h"
-#include "frontend/ladder/format.h"
+#include "frontend/ladder/text/format.h"
 #include "frontend/syntax/page.h"
 #include "rtlib/text/letters.h"
 

@@ -11,7 +11,7 @@
 #include "frontend/dialects/nct/check/structure.h"
 #include "frontend/dialects/nct/lower/build_module.h"
 #include "frontend/dialects/nct/reference.h"
-#include "frontend/ladder/format.h"
+#include "frontend/ladder/text/format.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/messages.h"
 

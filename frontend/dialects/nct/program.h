@@ -7,7 +7,7 @@
 
 #include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/dialects/nct/rows/instructions.h"
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 namespace rung::nct {
 

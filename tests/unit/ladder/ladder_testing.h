@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 namespace rung::ladder {
 

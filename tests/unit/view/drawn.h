@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "tools/view/layout.h"
 #include "tools/view/program.h"
 

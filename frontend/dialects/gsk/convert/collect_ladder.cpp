@@ -9,7 +9,7 @@
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/dialects/gsk/read/title.h"
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 

@@ -8,7 +8,7 @@
 #include "frontend/dialects/gsk/convert/source_model.h"
 #include "frontend/dialects/gsk/read/context.h"
 #include "frontend/dialects/gsk/read/title.h"
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 namespace rung::gsk::convert {
 

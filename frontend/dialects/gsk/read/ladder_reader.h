@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/gsk/read/context.h"
 #include "frontend/dialects/gsk/read/units.h"
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 namespace rung::gsk {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/rung.h"
 
 namespace rung::gsk {
 

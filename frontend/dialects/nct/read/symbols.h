@@ -8,7 +8,7 @@
 
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/read/operand.h"
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "frontend/sema/analysis.h"
 #include "rtlib/nc/nct/signals.h"
 

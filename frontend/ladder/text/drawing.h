@@ -1,5 +1,5 @@
-// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring, the order of evaluation, and who
-// draws a rung again (readDrawing); all else is internal to frontend/ladder.
+// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring, and who
+// draws a rung again (readDrawing); all else is internal to frontend/ladder/text.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 namespace rung::ladder {
 
@@ -58,9 +58,6 @@ struct Drawing {
 /// Whether a line that begins with this character, after blanks, is one of a drawing.
 constexpr bool beginsDrawing(char c) { return std::string_view("|+-[({").find(c) != std::string_view::npos; }
 
-/// An element in its brackets, as it is written without needless blanks.
-std::string elementText(const Element& element, std::span<const Word> operands);
-
 /// The lines of a drawing without errors in new columns: elements joined by `--`, branches as long as the longest
 /// one that joins them. Nothing where that takes too long to find.
 std::optional<std::vector<std::string>> layOut(const Drawing& drawing);
@@ -80,12 +77,6 @@ void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics);
 
 /// Joins the wires: fills the rung's elements (in the order of the text), pins and nets, also of a bad drawing.
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics);
-
-/// Fills the drivers and consumers of all nets, which must be numbered.
-void linkNets(Rung& rung);
-
-/// Puts the elements into the order of evaluation. The nets must be linked.
-void orderElements(Rung& rung, Diagnostics& diagnostics);
 
 /// Reports a character that is neither printable ASCII nor part of a text or comment.
 void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diagnostics);

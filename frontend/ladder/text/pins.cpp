@@ -1,7 +1,7 @@
 // Which boxes are the pin lines of the box above them.
 #include <algorithm>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::ladder {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "ir/support/utf8.h"
 
 namespace rung::ladder {

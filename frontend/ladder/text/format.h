@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 namespace rung::ladder {
 

@@ -1,26 +1,24 @@
-// Ladder text as data: what stands in a `*.lad` file, whatever the dialect.
-// The drawing is turned into nets and elements; names, operands and mnemonics stay text and are the dialect's business,
-// and so is every rule that needs its instruction table. All texts are views into the SourceManager's buffers.
+// A rung as a graph: contacts, coils and boxes, and the nets between them, whatever the dialect and wherever it comes
+// from (frontend/ladder/text reads drawings). Names, operands and mnemonics stay text, which lives as long as its
+// source, and are the dialect's business, and so is every rule that needs its instruction table.
 //
 // Nets. Everything that wires join is one net. Net 0 of a rung is the left rail. A net has power when one of the
 // elements that drive it passes power. Net ids and element ids are counted per rung. Elements stand in the order of
-// evaluation: an element comes behind all elements that drive its inputs; among those that are ready the upper line
-// goes first, then the left one. There are no loops (power-loop is an error). A rung with an error in its drawing has
-// bad == true and was reported. It keeps the elements that could be read, in the order of the text, and an Error where
-// one could not; of its nets nothing holds.
+// evaluation: an element comes after all elements that drive its inputs; among those that are ready the first in the
+// source goes first. There are no loops (power-loop is an error). A rung with an error in its wires has bad == true and
+// was reported. It keeps the elements that could be read, in the order of the source, and an Error where one could not;
+// of its nets nothing holds.
+//
+// Who makes one: elements with their operands and pins, and nets without links; then linkNets, checkPower, checkClosed,
+// orderElements.
 #pragma once
-
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "frontend/syntax/word_lexer.h"
-#include "frontend/table/instruction.h"
-#include "ir/support/check.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/ids.h"
 #include "ir/support/source.h"
@@ -79,7 +77,7 @@ struct Rung {
   SourceRange range;            ///< from the word `rung` to the end of the last drawing line
   uint32_t firstLine = 0;       ///< the line of the word `rung`
   uint32_t lastLine = 0;        ///< the last line of the drawing
-  uint32_t module = UINT32_MAX; ///< index into LadderFile::modules; UINT32_MAX outside (reported)
+  uint32_t module = UINT32_MAX; ///< of its source; UINT32_MAX outside of any (reported)
 
   std::vector<Element> elements; ///< in order of evaluation
   std::vector<Net> nets;         ///< nets[0] is the left rail, also when nothing touches it
@@ -105,61 +103,22 @@ private:
   std::span<const ElementId> links(Slice s) const { return std::span(linkPool).subspan(s.first, s.count); }
 };
 
-/// `module WORDS`, e.g. "MAIN" or "SUB" "P1".
-struct Module {
-  std::vector<Word> name; ///< at least one word
-  SourceRange range;
-};
+/// Fills the drivers and consumers of all nets, which must be numbered.
+void linkNets(Rung& rung);
 
-enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button };
+/// Power comes from the left rail: reports elements that feed themselves or the rail and nets that nothing drives.
+/// False where there are some. The nets must be linked.
+bool checkPower(const Rung& rung, Diagnostics& diagnostics);
 
-/// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`.
-struct Declaration {
-  DeclarationKind kind = DeclarationKind::Symbol;
-  Word name;  ///< the number of a message or button
-  Word value; ///< quoted for messages and buttons, never for the others
-  std::string_view comment;
-  SourceRange range;
-};
+/// Reports nets that lead to nothing. False where there are some. The nets must be linked.
+bool checkClosed(const Rung& rung, Diagnostics& diagnostics);
 
-struct Section {
-  Word title;
-  SourceRange range;
-};
+/// Puts the elements into the order of evaluation; sets Rung::bad and reports where they are a loop. The nets must be
+/// linked.
+void orderElements(Rung& rung, Diagnostics& diagnostics);
 
-enum class StatementKind : uint8_t { Module, Declaration, Section, Rung };
-
-/// The statements behind `dialect` in the order of the file; index is the place in the vector of their kind.
-struct Statement {
-  StatementKind kind;
-  uint32_t index;
-};
-
-struct LadderFile {
-  FileId file;
-  std::string_view dialect; ///< empty when the statement is missing (reported)
-  SourceRange dialectRange;
-  std::vector<Statement> statements;
-  std::vector<Module> modules;
-  std::vector<Declaration> declarations;
-  std::vector<Word> badNames; ///< of declarations that were reported: uses of them should stay silent
-  std::vector<Section> sections;
-  std::vector<Rung> rungs;
-};
-
-/// The row of a box's mnemonic in the dialect's table; null for one that the dialect does not have. The drawing alone
-/// cannot tell `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
-using FindBox = const frontend::InstructionInfo* (*)(std::string_view mnemonic);
-
-/// Parses a file. Mistakes are reported, and parsing goes on with the next statement. Without findBox (or for a
-/// mnemonic that it does not know) every box of one word that is exactly below a box is a pin of that box.
-LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox = nullptr);
-
-/// The first word of each box in the text of an Error: what it might have been.
-std::vector<std::string_view> boxWords(std::string_view drawing);
-
-/// The name behind `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
-std::string_view peekDialect(const SourceManager& sources, FileId file);
+/// An element in its brackets, as it is written without needless blanks.
+std::string elementText(const Element& element, std::span<const Word> operands);
 
 /// One line an element: `e2 [/STOP] n1 -> n2`, pins behind the first as `R=n3`, `.` for no output.
 std::string dumpRung(const Rung& rung);

@@ -1,5 +1,5 @@
 // The lines of a rung that was parsed before, as tokens again.
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "ir/support/check.h"
 
 namespace rung::ladder {

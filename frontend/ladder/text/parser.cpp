@@ -1,11 +1,11 @@
 // Statements of ladder text; the drawings go to the scanner and the wiring.
-#include "frontend/ladder/ladder.h"
+#include "frontend/ladder/text/ladder_file.h"
 
 #include <algorithm>
 #include <iterator>
 #include <string>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "ir/support/similar.h"
 
 namespace rung::ladder {

@@ -1,9 +1,9 @@
 // Lines of a file that was parsed, written anew; see the header.
-#include "frontend/ladder/format.h"
+#include "frontend/ladder/text/format.h"
 
 #include <algorithm>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "frontend/syntax/page.h"
 #include "ir/support/check.h"
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <optional>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 
 namespace rung::ladder {
 namespace {
@@ -62,7 +62,6 @@ private:
   void makeElements();
   void addPin(uint32_t drawnElement, std::string_view name);
   void checkNets();
-  void checkElement(const Element& element);
   void checkOpenEnds();
   bool onlyCoilsDrive(NetId net) const;
 
@@ -297,19 +296,6 @@ void Wiring::makeElements() {
   }
 }
 
-void Wiring::checkElement(const Element& element) {
-  for (const Pin& pin : rung_.pinsOf(element)) {
-    if (!element.output.valid() || pin.input != element.output) continue;
-    diagnostics_.report(Diag::ShortCircuit, element.range);
-    drawing_.bad = true;
-    return;
-  }
-  if (element.output == kRail) {
-    diagnostics_.report(Diag::PowerLoop, element.range);
-    drawing_.bad = true;
-  }
-}
-
 bool Wiring::onlyCoilsDrive(NetId net) const {
   for (const ElementId id : rung_.driversOf(net)) {
     if (rung_.element(id).kind != ElementKind::Coil) return false;
@@ -363,24 +349,10 @@ std::optional<Wiring::Join> Wiring::nearestJoin(const OpenEnd& end) const {
 }
 
 void Wiring::checkNets() {
-  for (const Element& element : rung_.elements) checkElement(element);
-  if (drawing_.bad) return;
-  for (uint32_t i = 1; i < rung_.nets.size(); ++i) {
-    if (!rung_.driversOf(NetId{i}).empty()) continue;
-    diagnostics_.report(Diag::DanglingWire, rung_.nets[i].range) << "nothing leads to this from the left rail";
-    drawing_.bad = true;
-  }
+  drawing_.bad = !checkPower(rung_, diagnostics_);
   if (drawing_.bad) return;
   checkOpenEnds();
-  if (!openEnds_.empty()) {
-    drawing_.bad = true;
-    return;
-  }
-  for (uint32_t i = 1; i < rung_.nets.size(); ++i) {
-    if (!rung_.consumersOf(NetId{i}).empty()) continue;
-    diagnostics_.report(Diag::MissingClosingElement, rung_.nets[i].range) << "a wire";
-    drawing_.bad = true;
-  }
+  drawing_.bad = !openEnds_.empty() || !checkClosed(rung_, diagnostics_);
 }
 
 } // namespace

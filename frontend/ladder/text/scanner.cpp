@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "frontend/ladder/drawing.h"
+#include "frontend/ladder/text/drawing.h"
 #include "ir/support/utf8.h"
 
 namespace rung::ladder {

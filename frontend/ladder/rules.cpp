@@ -1,0 +1,45 @@
+// What holds of the nets of every rung: power comes from the left rail and leads to an element.
+#include <algorithm>
+
+#include "frontend/ladder/rung.h"
+
+namespace rung::ladder {
+namespace {
+
+bool checkElement(const Rung& rung, const Element& element, Diagnostics& diagnostics) {
+  const auto isOutput = [&](const Pin& pin) { return element.output.valid() && pin.input == element.output; };
+  if (std::ranges::any_of(rung.pinsOf(element), isOutput)) {
+    diagnostics.report(Diag::ShortCircuit, element.range);
+  } else if (element.output == kRail) {
+    diagnostics.report(Diag::PowerLoop, element.range);
+  } else {
+    return true;
+  }
+  return false;
+}
+
+} // namespace
+
+bool checkPower(const Rung& rung, Diagnostics& diagnostics) {
+  bool good = true;
+  for (const Element& element : rung.elements) good &= checkElement(rung, element, diagnostics);
+  if (!good) return false;
+  for (uint32_t net = 1; net < rung.nets.size(); ++net) {
+    if (!rung.driversOf(NetId{net}).empty()) continue;
+    diagnostics.report(Diag::DanglingWire, rung.nets[net].range) << "nothing leads to this from the left rail";
+    good = false;
+  }
+  return good;
+}
+
+bool checkClosed(const Rung& rung, Diagnostics& diagnostics) {
+  bool good = true;
+  for (uint32_t net = 1; net < rung.nets.size(); ++net) {
+    if (!rung.consumersOf(NetId{net}).empty()) continue;
+    diagnostics.report(Diag::MissingClosingElement, rung.nets[net].range) << "a wire";
+    good = false;
+  }
+  return good;
+}
+
+} // namespace rung::ladder

@@ -1,0 +1,70 @@
+// Ladder text as data: what a `*.lad` file says, whatever the dialect. Its drawings are rungs (frontend/ladder/rung.h),
+// whose elements are in the order of the text, the upper line first, then the left one. All texts are views into the
+// SourceManager's buffers.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "frontend/ladder/rung.h"
+#include "frontend/table/instruction.h"
+
+namespace rung::ladder {
+
+/// `module WORDS`, e.g. "MAIN" or "SUB" "P1".
+struct Module {
+  std::vector<Word> name; ///< at least one word
+  SourceRange range;
+};
+
+enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button };
+
+/// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`.
+struct Declaration {
+  DeclarationKind kind = DeclarationKind::Symbol;
+  Word name;  ///< the number of a message or button
+  Word value; ///< quoted for messages and buttons, never for the others
+  std::string_view comment;
+  SourceRange range;
+};
+
+struct Section {
+  Word title;
+  SourceRange range;
+};
+
+enum class StatementKind : uint8_t { Module, Declaration, Section, Rung };
+
+/// The statements behind `dialect` in the order of the file; index is the place in the vector of their kind.
+struct Statement {
+  StatementKind kind;
+  uint32_t index;
+};
+
+struct LadderFile {
+  FileId file;
+  std::string_view dialect; ///< empty when the statement is missing (reported)
+  SourceRange dialectRange;
+  std::vector<Statement> statements;
+  std::vector<Module> modules;
+  std::vector<Declaration> declarations;
+  std::vector<Word> badNames; ///< of declarations that were reported: uses of them should stay silent
+  std::vector<Section> sections;
+  std::vector<Rung> rungs;
+};
+
+/// The row of a box's mnemonic in the dialect's table; null for one that the dialect does not have. The drawing alone
+/// cannot tell `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
+using FindBox = const frontend::InstructionInfo* (*)(std::string_view mnemonic);
+
+/// Parses a file. Mistakes are reported, and parsing goes on with the next statement. Without findBox (or for a
+/// mnemonic that it does not know) every box of one word that is exactly below a box is a pin of that box.
+LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox = nullptr);
+
+/// The first word of each box in the text of an Error: what it might have been.
+std::vector<std::string_view> boxWords(std::string_view drawing);
+
+/// The name behind `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
+std::string_view peekDialect(const SourceManager& sources, FileId file);
+
+} // namespace rung::ladder

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/passes/pipeline.h"
-#include "ir/random/random.h"
+#include "tests/random/random.h"
 #include "tests/support/differential.h"
 
 namespace rung {

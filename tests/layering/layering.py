@@ -33,7 +33,6 @@ MODULES = {
     "ir/passes": IR | {"ir/idioms", "ir/text", "ir/verify"},
     "ir/layout": IR,
     "ir/interp": IR | {"ir/layout", "ir/passes", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
-    "ir/random": IR,
     "frontend/syntax": FRONTEND,
     "frontend/table": FRONTEND | {"frontend/syntax"},
     "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},

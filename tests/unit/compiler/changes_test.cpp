@@ -8,11 +8,11 @@
 #include <random>
 #include <thread>
 
-#include "ir/random/random.h"
 #include "ir/support/hash.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/replacement.h"
+#include "tests/random/random.h"
 #include "tests/support/differential.h"
 #include "tools/compiler/recompiler.h"
 #include "tools/compiler/tiered.h"

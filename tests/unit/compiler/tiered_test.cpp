@@ -9,11 +9,11 @@
 #include <random>
 #include <unistd.h>
 
-#include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/support/differential.h"
 #include "tools/compiler/recompiler.h"
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/parts.h"
-#include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/unit/ir_interp/machine.h"
 
 namespace rung::ir {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ir/interp/interp.h"
-#include "ir/random/random.h"
 #include "rtlib/host/instance.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "ir/core/builder.h"
 #include "ir/interp/interp.h"
-#include "ir/random/random.h"
-#include "ir/random/random_source.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
+#include "tests/random/random_source.h"
 
 namespace rung::ir {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "ir/random/random.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {

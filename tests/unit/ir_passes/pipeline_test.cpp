@@ -9,12 +9,12 @@
 #include "ir/interp/interp.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/pipeline.h"
-#include "ir/random/random.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/unit/ir_passes/passes_testing.h"
 
 namespace rung::ir {

@@ -12,8 +12,8 @@
 
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/interp/interp.h"
-#include "ir/random/random.h"
 #include "rtlib/host/file.h"
+#include "tests/random/random.h"
 #include "tests/unit/llvm/mini_host.h"
 
 namespace rung::codegen {

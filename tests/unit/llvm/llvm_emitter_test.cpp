@@ -12,12 +12,12 @@
 #include <stdexcept>
 #include <unistd.h>
 
-#include "ir/random/random.h"
 #include "ir/support/check.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/unit/llvm/sample_module.h"
 
 namespace rung::codegen {

@@ -3,7 +3,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/core/eval.h"
-#include "ir/random/random.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {
